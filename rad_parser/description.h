@@ -1,0 +1,88 @@
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rad {
+
+// Where a thing stands: a file of Description::files and a line in it, from 1. Piped input counts its own lines.
+struct Place {
+  uint32_t file = 0;
+  uint32_t line = 0;
+};
+
+// Every primitive type of the scene language (RADIANCE reference manual, "Scene description"). The order is ours.
+enum class Type : uint8_t {
+  // surfaces
+  source, sphere, bubble, polygon, cone, cup, cylinder, tube, ring, instance, mesh,
+  // materials
+  light, illum, glow, spotlight, mirror, prism1, prism2, mist, plastic, metal, trans, plastic2, metal2, trans2,
+  ashik2, dielectric, interface, glass, plasfunc, metfunc, transfunc, brtdfunc, plasdata, metdata, transdata, bsdf,
+  absdf, wgmdfunc, antimatter,
+  // textures
+  texfunc, texdata,
+  // patterns
+  colorfunc, brightfunc, specfunc, colordata, brightdata, specdata, colorpict, brighttext, colortext, spectrum,
+  specfile, specpict,
+  // mixtures
+  mixfunc, mixdata, mixpict, mixtext,
+  // another name for a modifier
+  alias,
+};
+inline constexpr int kTypes = static_cast<int>(Type::alias) + 1;
+
+// The name as scene files spell it ("BRTDfunc").
+std::string_view typeName(Type type);
+
+bool isSurface(Type type);   // polygon .. mesh, and source
+bool isMaterial(Type type);  // light .. antimatter
+bool isTexture(Type type);
+bool isPattern(Type type);
+bool isMixture(Type type);
+
+inline constexpr int32_t kVoid = -1;  // the modifier that is none
+
+// One primitive as the file has it. Arguments are kept as written: their number and meaning are checked by who uses
+// them (a primitive that no surface uses is never looked at).
+struct Primitive {
+  Type type = Type::alias;
+  int32_t modifier = kVoid;  // index in Description::primitives, always less than the primitive's own; kVoid for void
+  int32_t aliased = kVoid;   // type alias only: index of the primitive that this one is another name for
+  Place place;               // of the primitive's first word
+  uint32_t name = 0;         // index in Description::words
+  uint32_t firstString = 0, strings = 0;  // range in Description::stringArgs
+  uint32_t reals = 0;                     // number of real arguments
+  uint64_t firstReal = 0;                 // their begin in Description::realArgs
+};
+
+// A file (or command) that was read. name: as messages print it ("room.rad", "!genbox w b 1 2 3"). from: the place that
+// named it, where a file did; else fromFile is kNoFile.
+struct SourceFile {
+  static constexpr uint32_t kNoFile = std::numeric_limits<uint32_t>::max();
+  std::string name;
+  Place from{kNoFile, 0};
+};
+
+// A scene as its files say it, in their order: plain values, nothing looked up outside, nothing computed but the
+// transforms of in-process xform commands, which are applied to the arguments.
+struct Description {
+  std::vector<SourceFile> files;
+  std::vector<Primitive> primitives;
+  std::vector<std::string> words;     // each distinct word once: names and string arguments
+  std::vector<uint32_t> stringArgs;   // indices in words
+  std::vector<double> realArgs;
+
+  std::string_view name(const Primitive& p) const { return words[p.name]; }
+  std::string_view string(const Primitive& p, size_t i) const { return words[stringArgs[p.firstString + i]]; }
+  std::span<const double> reals(const Primitive& p) const {
+    return std::span<const double>(realArgs).subspan(p.firstReal, p.reals);
+  }
+
+  // "room.rad:12", with the chain of files that led there where there is one: "desk.rad:3 (from room.rad:12)".
+  std::string at(Place place) const;
+};
+
+}  // namespace rad
