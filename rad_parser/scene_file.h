@@ -1,6 +1,7 @@
 #pragma once
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "rad_parser/description.h"
 #include "rad_parser/error.h"
@@ -12,11 +13,29 @@ struct ReadOptions {
   Warn warn;
 };
 
-// Reads scene text, in the order given, into one description; a later file may use modifiers of an earlier one.
-// A name that begins with '!' is a command whose output is read. Names are found as they stand, or along RAYPATH
-// (see file_path.h) unless they begin with '/', './', '../' or '~'.
-// Throws Error with its place: a file that cannot be opened (Status::system), anything the language does not allow.
-// Source: RADIANCE reference manual, "Scene description"; oconv(1), xform(1).
+// Files and commands within each other beyond this are refused: a file that reads itself would never end.
+inline constexpr int kDeepestNesting = 100;
+
+// Reads scene text, in the order given, into one description; a later file may use modifiers of an earlier
+// one. A name that begins with '!' is a command whose output is read. Names are found as they stand, or along
+// RAYPATH (see file_path.h) unless they begin with '/', '.' or '~'.
+//
+// Commands. A plain xform command (no shell syntax, files named) is carried out here, with its files' own
+// commands in turn: their arguments keep all digits where the program would round them to 12 (absorption to
+// 6). Files are looked for along RAYPATH, and commands in them run in their file's directory unless -c is
+// given. Every other command runs in /bin/sh with an empty standard input; its output is scene text, whose
+// places name the command and count its own lines. A command that ends badly (or is not found by the shell),
+// and a file or command without any primitive, are warnings, as oconv(1) has them; an xform that cannot be
+// carried out is an error, where oconv would go on without it.
+//
+// Throws Error with its place: a file that cannot be read or a command that cannot be started
+// (Status::system), anything the language does not allow, commands where options forbid them, nesting beyond
+// kDeepestNesting, NUL bytes, words of more than 65536 bytes. A modifier must be defined before its use; the
+// last definition counts. Integer arguments must be 0 in number: no type has any. Memory is in proportion to
+// the text read. Source: RADIANCE reference manual, "Scene description"; oconv(1), xform(1).
 Description readScene(std::span<const std::string> names, const ReadOptions& options = {});
+
+// The same for one text in memory. name: as messages print it.
+Description readSceneText(std::string_view text, std::string_view name, const ReadOptions& options = {});
 
 }  // namespace rad

@@ -1,0 +1,55 @@
+#include "rad_parser/description_builder.h"
+
+#include <fmt/format.h>
+
+namespace rad {
+
+uint32_t DescriptionBuilder::addFile(std::string_view name, Place from) {
+  description_.files.push_back({std::string(name), from});
+  return static_cast<uint32_t>(description_.files.size() - 1);
+}
+
+int32_t DescriptionBuilder::modifier(std::string_view name) const {
+  const uint32_t word = words_.find(name);
+  return word < inForce_.size() ? inForce_[word] : kVoid;
+}
+
+Primitive DescriptionBuilder::begin(Type type, Place place, uint32_t name, int32_t modifier) const {
+  Primitive p;
+  p.type = type;
+  p.modifier = modifier;
+  p.place = place;
+  p.name = name;
+  p.firstString = static_cast<uint32_t>(description_.stringArgs.size());
+  p.firstReal = description_.realArgs.size();
+  return p;
+}
+
+void DescriptionBuilder::addString(Primitive& p, std::string_view word) {
+  if (description_.stringArgs.size() == std::numeric_limits<uint32_t>::max())
+    throw error(p.place, "more string arguments than can be numbered");
+  description_.stringArgs.push_back(words_.intern(word));
+  ++p.strings;
+}
+
+void DescriptionBuilder::resolveAlias(Primitive& p, int32_t reference, bool inherit) const {
+  const Primitive& r = description_.primitives[reference];
+  p.aliased = r.type == Type::alias ? r.aliased : reference;
+  if (inherit) p.modifier = r.modifier;
+}
+
+void DescriptionBuilder::add(const Primitive& p) {
+  if (description_.primitives.size() == std::numeric_limits<int32_t>::max())
+    throw error(p.place, "more primitives than can be numbered");
+  const auto index = static_cast<int32_t>(description_.primitives.size());
+  description_.primitives.push_back(p);
+  if (isSurface(p.type)) return;
+  if (p.name >= inForce_.size()) inForce_.resize(std::max<size_t>(p.name + 1, 2 * inForce_.size()), kVoid);
+  inForce_[p.name] = index;
+}
+
+Error DescriptionBuilder::error(Place place, std::string_view text, Status status) const {
+  return Error(fmt::format("{}: {}", description_.at(place), text), status);
+}
+
+}  // namespace rad

@@ -1,0 +1,75 @@
+#include "rad_parser/file_path.h"
+
+#include <pwd.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <vector>
+
+namespace rad {
+namespace {
+
+// "~/a" or "~user/a" with the home directory in place; empty where there is no such user.
+std::optional<std::string> inHome(std::string_view name) {
+  const size_t slash = std::min(name.find('/'), name.size());
+  const std::string user(name.substr(1, slash - 1));
+  const std::string rest(name.substr(slash));
+  if (const char* home = std::getenv("HOME"); user.empty() && home) return home + rest;
+  std::vector<char> buffer(1 << 14);
+  passwd entry, *found = nullptr;
+  if (user.empty())
+    getpwuid_r(getuid(), &entry, buffer.data(), buffer.size(), &found);
+  else
+    getpwnam_r(user.c_str(), &entry, buffer.data(), buffer.size(), &found);
+  if (!found) return {};
+  return found->pw_dir + rest;
+}
+
+bool readable(const std::string& path) { return access(path.c_str(), R_OK) == 0; }
+
+bool isDirectory(const std::string& path) {
+  struct stat status;
+  return stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode);
+}
+
+}  // namespace
+
+std::string libraryPath() {
+  const char* path = std::getenv("RAYPATH");
+  return path ? path : ".:/usr/local/lib/ray";
+}
+
+std::string joinPath(std::string_view base, std::string_view name) {
+  if (base.empty() || name.starts_with('/')) return std::string(name);
+  std::string path(base);
+  if (path.back() != '/') path += '/';
+  return path += name;
+}
+
+std::string directoryOf(std::string_view path) {
+  const size_t slash = path.rfind('/');
+  if (slash == path.npos) return {};
+  return std::string(path.substr(0, slash == 0 ? 1 : slash));
+}
+
+std::optional<std::string> findFile(std::string_view name, std::string_view searchPath,
+                                    std::string_view base) {
+  if (name.empty() || name.find('\0') != name.npos) return {};
+  if (name[0] == '/' || name[0] == '.' || name[0] == '~') {
+    std::optional<std::string> path = name[0] == '~' ? inHome(name) : joinPath(base, name);
+    if (path && !readable(*path)) path.reset();
+    return path;
+  }
+  for (;;) {
+    const size_t colon = std::min(searchPath.find(':'), searchPath.size());
+    std::string_view directory = searchPath.substr(0, colon);
+    if (directory == ".") directory = {};  // "desk.rad" is a better name in messages than "./desk.rad"
+    std::string path = joinPath(base, joinPath(directory, name));
+    if (readable(path) && !isDirectory(path)) return path;
+    if (colon == searchPath.size()) return {};
+    searchPath.remove_prefix(colon + 1);
+  }
+}
+
+}  // namespace rad

@@ -1,0 +1,297 @@
+#include "rad_parser/scene_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include "rad_parser/description_builder.h"
+#include "rad_parser/file_path.h"
+#include "rad_parser/shell_command.h"
+#include "rad_parser/text_source.h"
+#include "rad_parser/xform.h"
+
+namespace rad {
+namespace {
+
+// What holds for the text that is being read, and for what it reads in turn.
+struct Context {
+  std::string directory;  // where its commands run; empty: the current one
+  const Transform* transform = nullptr;
+  int depth = 0;
+};
+
+class OpenFile {
+ public:
+  explicit OpenFile(const std::string& path) : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+  ~OpenFile() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  int descriptor() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
+// One line, for messages.
+std::string shownCommand(std::string_view command) {
+  std::string text = "!";
+  for (size_t i = 0; i < command.size(); ++i) {
+    const bool continued = command[i] == '\\' && i + 1 < command.size() && command[i + 1] == '\n';
+    text += continued ? ' ' : command[i];
+    i += continued;
+  }
+  return text;
+}
+
+class Reader {
+ public:
+  explicit Reader(const ReadOptions& options) : options_(options) {}
+
+  void file(const std::string& name) {
+    if (name.starts_with('!')) return command(name.substr(1), {SourceFile::kNoFile, 0}, {});
+    const std::optional<std::string> found =
+        access(name.c_str(), F_OK) == 0 ? name : findFile(name, libraryPath());
+    const uint32_t file = builder_.addFile(found.value_or(name));
+    const OpenFile input(found.value_or(name));
+    if (input.descriptor() < 0)
+      throw Error(fmt::format("{}: cannot open scene file: {}", printable(name, 4096), std::strerror(errno)),
+                  Status::system);
+    TextSource text(input.descriptor(), file, builder_);
+    all(text, {}, file);
+  }
+
+  void memory(std::string_view text, std::string_view name) {
+    const uint32_t file = builder_.addFile(name);
+    TextSource source(text, file, builder_);
+    all(source, {}, file);
+  }
+
+  Description take() { return builder_.take(); }
+
+ private:
+  // A whole text. quiet: an empty one is no news.
+  void all(TextSource& text, const Context& context, uint32_t file, bool quiet = false) {
+    const size_t before = builder_.description().primitives.size();
+    for (int c; (c = text.peek()) >= 0;) {
+      if (c == '#') {
+        text.skipLine();
+      } else if (c == '!') {
+        const Place place = text.place();
+        command(text.line().substr(1), place, context);
+      } else {
+        primitive(text, context);
+      }
+    }
+    if (!quiet && builder_.description().primitives.size() == before) warn({file, 1}, "empty file");
+  }
+
+  // from: the line that has it; kNoFile where it was given as a scene's name.
+  void command(const std::string& line, Place from, const Context& context) {
+    const std::string shown = shownCommand(line);
+    const Place place = from.file == SourceFile::kNoFile ? Place{builder_.addFile(shown), 1} : from;
+    if (context.depth == kDeepestNesting)
+      throw builder_.error(
+          place,
+          fmt::format("{} files and commands within each other: does one read itself?", kDeepestNesting));
+    const auto words = plainWords(line);
+    if (words && !words->empty() && words->front() == "xform") return xform(*words, place, context);
+    if (!options_.commands)
+      throw builder_.error(place, fmt::format("commands are not allowed: \"{}\"", printable(shown)));
+    const uint32_t file = from.file == SourceFile::kNoFile ? place.file : builder_.addFile(shown, from);
+    shell(line, shown, file, place, context);
+  }
+
+  void shell(const std::string& line, const std::string& shown, uint32_t file, Place place,
+             const Context& context) {
+    Context inner = context;
+    ++inner.depth;
+    std::optional<ShellCommand> running;
+    try {
+      running.emplace(line, context.directory);
+    } catch (const std::system_error& fault) {
+      throw builder_.error(place,
+                           fmt::format("cannot execute command: {}", std::strerror(fault.code().value())),
+                           Status::system);
+    }
+    TextSource text(running->output(), file, builder_);
+    const size_t before = builder_.description().primitives.size();
+    all(text, inner, file, true);
+    const std::string fault = running->finish();
+    if (!fault.empty()) warn(place, fmt::format("bad status from \"{}\": {}", printable(shown), fault));
+    if (builder_.description().primitives.size() == before)
+      warn(place, fmt::format("\"{}\" gives nothing", printable(shown)));
+  }
+
+  void xform(const std::vector<std::string>& words, Place place, const Context& context) {
+    std::vector<std::pair<std::string, uint32_t>>
+        seen;  // files by path: an array reads the same ones again and again
+    try {
+      forEachPass(words, context.directory, [&](const XformPass& pass) {
+        const Transform nested =
+            context.transform ? within(*context.transform, pass.transform) : pass.transform;
+        for (const std::string& name : pass.files) {
+          const auto path = findFile(name, libraryPath(), context.directory);
+          if (!path)
+            throw builder_.error(place, fmt::format("xform: cannot find file \"{}\"", printable(name, 4096)),
+                                 Status::system);
+          auto known =
+              std::find_if(seen.begin(), seen.end(), [&](const auto& s) { return s.first == *path; });
+          const bool again = known != seen.end();
+          if (!again) known = seen.insert(known, {*path, builder_.addFile(*path, place)});
+          const OpenFile input(*path);
+          if (input.descriptor() < 0)
+            throw builder_.error(place,
+                                 fmt::format("xform: cannot open file \"{}\": {}", printable(name, 4096),
+                                             std::strerror(errno)),
+                                 Status::system);
+          TextSource text(input.descriptor(), known->second, builder_);
+          const Context inner{pass.changesDirectory ? directoryOf(*path) : context.directory, &nested,
+                              context.depth + 1};
+          all(text, inner, known->second, again);
+        }
+      });
+    } catch (const XformFault& fault) {
+      throw builder_.error(place, fault.what(), fault.status());
+    }
+  }
+
+  void primitive(TextSource& text, const Context& context) {
+    const Transform* transform = context.transform;
+    std::string_view word;
+    text.word(word);
+    const Place place = text.place();
+    modifier_ = word;
+    int32_t modifier = builder_.modifier(modifier_);
+    const bool isVoid = modifier_ == "void", inherits = modifier_ == "inherit";
+    const auto undefined = [&] {
+      return builder_.error(place, fmt::format("undefined modifier \"{}\"", printable(modifier_)));
+    };
+
+    Type type;
+    const bool hasType = text.word(word);
+    if (!hasType || !findType(word, type)) {
+      if (modifier == kVoid && !isVoid && !inherits) throw undefined();
+      if (!hasType) throw builder_.error(place, fmt::format("text ends behind \"{}\"", printable(modifier_)));
+      throw builder_.error(text.place(), fmt::format("unknown type \"{}\"", printable(word)));
+    }
+    if (transform && transform->modifier && isSurface(type)) {
+      modifier_ = *transform->modifier;
+      modifier = builder_.modifier(modifier_);
+    }
+    if (modifier_ == "void") {
+      modifier = kVoid;
+    } else if (modifier_ == "inherit") {
+      if (type != Type::alias) throw builder_.error(place, "\"inherit\" is for aliases only");
+    } else if (modifier == kVoid) {
+      throw undefined();
+    }
+
+    if (!text.word(word)) throw ends(place, type, "");
+    if (word.find('\t') != word.npos)
+      throw builder_.error(text.place(), fmt::format("tab in name \"{}\"", printable(word)));
+    if (!isSurface(type) && (word == "void" || word == "inherit"))
+      throw builder_.error(text.place(), fmt::format("no modifier can be named \"{}\"", word));
+    if (transform) {
+      word = transform->nameOf(type, word, name_);
+      type = transform->typeOf(type);
+    }
+    Primitive p = builder_.begin(type, place, builder_.intern(word), modifier);
+    if (type == Type::alias)
+      alias(text, p, inherits);
+    else
+      arguments(text, p);
+    if (transform) transform->apply(p, builder_);
+    builder_.add(p);
+  }
+
+  void alias(TextSource& text, Primitive& p, bool inherits) {
+    std::string_view word;
+    if (!text.word(word)) throw ends(p);
+    const int32_t reference = builder_.modifier(word);
+    if (reference == kVoid)
+      throw builder_.error(text.place(),
+                           fmt::format("alias \"{}\": undefined modifier \"{}\"",
+                                       printable(builder_.description().name(p)), printable(word)));
+    builder_.addString(p, word);
+    builder_.resolveAlias(p, reference, inherits);
+  }
+
+  void arguments(TextSource& text, Primitive& p) {
+    const int64_t strings = count(text, p, "string");
+    std::string_view word;
+    for (int64_t i = 0; i < strings; ++i) {
+      if (!text.word(word)) throw ends(p);
+      builder_.addString(p, word);
+    }
+    if (const int64_t integers = count(text, p, "integer"); integers != 0)
+      throw fault(text, p, fmt::format("{} integer arguments, but no type has any", integers));
+    const int64_t reals = count(text, p, "real");
+    double value = 0;
+    for (int64_t i = 0; i < reals; ++i) {
+      if (!text.real(value)) {
+        if (text.lastWord().empty() && text.peek() < 0) throw ends(p);
+        throw fault(text, p,
+                    fmt::format("expected {} numbers, but number {} is \"{}\"", reals, i + 1,
+                                printable(text.lastWord())));
+      }
+      builder_.addReal(p, value);
+    }
+  }
+
+  int64_t count(TextSource& text, const Primitive& p, const char* what) {
+    int64_t n = 0;
+    if (!text.integer(n)) {
+      if (text.lastWord().empty() && text.peek() < 0) throw ends(p);
+      throw fault(
+          text, p,
+          fmt::format("expected the number of {} arguments, not \"{}\"", what, printable(text.lastWord())));
+    }
+    if (n < 0 || n > kMostArguments) throw fault(text, p, fmt::format("{} {} arguments", n, what));
+    return n;
+  }
+
+  Error fault(const TextSource& text, const Primitive& p, std::string_view why) const {
+    return builder_.error(text.place(), fmt::format("{} \"{}\": {}", typeName(p.type),
+                                                    printable(builder_.description().name(p)), why));
+  }
+
+  Error ends(const Primitive& p) const { return ends(p.place, p.type, builder_.description().name(p)); }
+
+  Error ends(Place place, Type type, std::string_view name) const {
+    return builder_.error(place, fmt::format("text ends within {} \"{}\"", typeName(type), printable(name)));
+  }
+
+  void warn(Place place, std::string_view text) const {
+    if (options_.warn) options_.warn(fmt::format("{}: {}", builder_.description().at(place), text));
+  }
+
+  static constexpr int64_t kMostArguments = 0x7fffffff;  // of one kind, for one primitive
+
+  const ReadOptions& options_;
+  DescriptionBuilder builder_;
+  std::string modifier_, name_;  // of the primitive at hand; kept for their memory
+};
+
+}  // namespace
+
+Description readScene(std::span<const std::string> names, const ReadOptions& options) {
+  Reader reader(options);
+  for (const std::string& name : names) reader.file(name);
+  return reader.take();
+}
+
+Description readSceneText(std::string_view text, std::string_view name, const ReadOptions& options) {
+  Reader reader(options);
+  reader.memory(text, name);
+  return reader.take();
+}
+
+}  // namespace rad

@@ -1,0 +1,201 @@
+#include "rad_parser/text_source.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+
+#include "rad_parser/number.h"
+
+namespace rad {
+namespace {
+
+// One block holds the longest word and is small enough to stay in the second-level cache.
+constexpr size_t kBlock = 1 << 18;
+static_assert(kBlock > 2 * TextSource::kLongestWord);
+
+enum Kind : uint8_t { plain, space, quote, nul };
+
+constexpr auto kKinds = [] {
+  std::array<Kind, 256> kinds{};
+  for (unsigned char c : {' ', '\t', '\n', '\v', '\f', '\r'}) kinds[c] = space;
+  kinds['"'] = kinds['\''] = quote;
+  kinds[0] = nul;
+  return kinds;
+}();
+
+Kind kindOf(char c) { return kKinds[static_cast<unsigned char>(c)]; }
+
+}  // namespace
+
+TextSource::TextSource(int descriptor, uint32_t file, const DescriptionBuilder& builder)
+    : descriptor_(descriptor), file_(file), builder_(builder), block_(new char[kBlock]) {
+  next_ = end_ = block_.get();
+}
+
+TextSource::TextSource(std::string_view text, uint32_t file, const DescriptionBuilder& builder)
+    : file_(file), builder_(builder), next_(text.data()), end_(text.data() + text.size()) {}
+
+// Reads more behind what begins at keep, which moves to the front of the block. False, and nothing moved, at
+// the end.
+bool TextSource::refill(const char*& keep) {
+  if (descriptor_ < 0) return false;
+  const size_t kept = static_cast<size_t>(end_ - keep);
+  std::memmove(block_.get(), keep, kept);
+  next_ -= keep - block_.get();
+  keep = block_.get();
+  end_ = keep + kept;
+  ssize_t got;
+  do {
+    got = read(descriptor_, block_.get() + kept, kBlock - kept);
+  } while (got < 0 && errno == EINTR);
+  if (got < 0)
+    throw builder_.error({file_, line_}, fmt::format("cannot read: {}", std::strerror(errno)),
+                         Status::system);
+  if (got == 0) descriptor_ = -1;
+  end_ += got;
+  return got > 0;
+}
+
+void TextSource::nulByte() const { throw builder_.error({file_, line_}, "NUL byte: this is not scene text"); }
+
+int TextSource::peek() {
+  for (;;) {
+    while (next_ != end_ && kindOf(*next_) == space) line_ += *next_++ == '\n';
+    wordLine_ = line_;
+    if (next_ != end_) return static_cast<unsigned char>(*next_);
+    const char* keep = next_;
+    if (!refill(keep)) return -1;
+  }
+}
+
+void TextSource::skipLine() {
+  for (;;) {
+    const void* found = next_ == end_ ? nullptr : std::memchr(next_, '\n', static_cast<size_t>(end_ - next_));
+    if (found) {
+      next_ = static_cast<const char*>(found) + 1;
+      ++line_;
+      return;
+    }
+    next_ = end_;
+    const char* keep = next_;
+    if (!refill(keep)) return;
+  }
+}
+
+std::string TextSource::line() {
+  constexpr size_t kLongestLine = 1 << 20;
+  std::string text;
+  bool sawReturn = false;  // "\r" ends the line, and a "\n" behind it belongs to the same end
+  for (;;) {
+    if (next_ == end_) {
+      const char* keep = next_;
+      if (!refill(keep)) return text;
+    }
+    char c = *next_;
+    if (sawReturn && c != '\n') {
+      sawReturn = false;
+      if (!text.ends_with('\\')) return text;
+      text += '\n';
+    }
+    ++next_;
+    if (c == '\0') nulByte();
+    if (c == '\r') {
+      sawReturn = true;
+      continue;
+    }
+    sawReturn = false;
+    if (c == '\n') {
+      ++line_;
+      if (!text.ends_with('\\')) return text;
+    }
+    text += c;
+    if (text.size() > kLongestLine)
+      throw builder_.error(place(), fmt::format("command of more than {} bytes", kLongestLine));
+  }
+}
+
+bool TextSource::word(std::string_view& word) {
+  if (peek() < 0) return false;
+  const char* start = next_;
+  for (;;) {
+    while (next_ != end_ && kindOf(*next_) == plain) ++next_;
+    const auto length = static_cast<size_t>(next_ - start);
+    if (length > kLongestWord)
+      throw builder_.error(place(), fmt::format("word of more than {} bytes: \"{}\"", kLongestWord,
+                                                printable({start, length}, 20)));
+    if (next_ != end_) {
+      if (*next_ == '\0') nulByte();
+      if (kindOf(*next_) == quote) return quotedWord(word, start);
+    } else if (refill(start)) {
+      continue;
+    }
+    word = {start, length};
+    return true;
+  }
+}
+
+// The rest of a word in which a quote was met, at next_. Its first part begins at start.
+bool TextSource::quotedWord(std::string_view& word, const char* start) {
+  unquoted_.assign(start, next_);
+  char open = '\0';
+  for (;;) {
+    if (next_ == end_) {
+      const char* keep = next_;
+      if (!refill(keep)) {
+        if (open != '\0') throw builder_.error(place(), fmt::format("quote that is not closed: {}", open));
+        break;
+      }
+    }
+    const char c = *next_;
+    if (c == '\0') nulByte();
+    if (open == '\0' && kindOf(c) == space) break;
+    ++next_;
+    line_ += c == '\n';
+    if (c == open) {
+      open = '\0';
+    } else if (open == '\0' && kindOf(c) == quote) {
+      open = c;
+    } else {
+      unquoted_ += c;
+      if (unquoted_.size() > kLongestWord)
+        throw builder_.error(place(), fmt::format("word of more than {} bytes: \"{}\"", kLongestWord,
+                                                  printable(unquoted_, 20)));
+    }
+  }
+  word = unquoted_;
+  return true;
+}
+
+bool TextSource::real(double& value) {
+  // Almost every number ends within the block, and can be read without looking for its end first.
+  if (peek() >= 0) {
+    const char* digits = next_ + (*next_ == '+');
+    const char* first = digits + (digits == next_ && *digits == '-');
+    if (first < end_ && (('0' <= *first && *first <= '9') || *first == '.')) {
+      const auto [last, fault] = std::from_chars(digits, end_, value);
+      if (fault == std::errc() && last != end_ && kindOf(*last) == space) {
+        next_ = last;
+        return true;
+      }
+    }
+  }
+  lastWord_ = {};
+  if (!word(lastWord_)) return false;
+  const auto parsed = parseReal(lastWord_);
+  if (parsed) value = *parsed;
+  return parsed.has_value();
+}
+
+bool TextSource::integer(int64_t& value) {
+  lastWord_ = {};
+  if (!word(lastWord_)) return false;
+  const auto parsed = parseInteger(lastWord_);
+  if (parsed) value = *parsed;
+  return parsed.has_value();
+}
+
+}  // namespace rad
