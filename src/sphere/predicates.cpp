@@ -1,0 +1,184 @@
+#include "sphere/predicates.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace rsphere {
+namespace {
+
+// A sum of doubles that do not overlap, smallest first; its sign is that of the last.
+template <int N>
+struct Expansion {
+  std::array<double, N> part;
+  int size = 0;
+  void append(double x) {
+    if (x != 0) part[size++] = x;
+  }
+  int sign() const { return size == 0 ? 0 : part[size - 1] > 0 ? 1 : -1; }
+};
+
+struct TwoParts {
+  double high, low;
+};
+
+TwoParts sum(double a, double b) {
+  const double s = a + b, fromB = s - a;
+  return {s, (a - (s - fromB)) + (b - fromB)};
+}
+
+// Veltkamp's halves: 26 bits each, so that products of halves are exact.
+TwoParts halves(double a) {
+  const double c = 134217729.0 * a, high = c - (c - a);
+  return {high, a - high};
+}
+
+TwoParts product(double a, double b) {
+  const double p = a * b;
+  const auto [ah, al] = halves(a);
+  const auto [bh, bl] = halves(b);
+  return {p, al * bl - (((p - ah * bh) - al * bh) - ah * bl)};
+}
+
+// Adds one double; the parts stay apart (Shewchuk's grow-expansion with zero elimination).
+template <int N>
+void grow(Expansion<N>& e, double x) {
+  int kept = 0;
+  for (int i = 0; i < e.size; ++i) {
+    const auto [high, low] = sum(x, e.part[i]);
+    if (low != 0) e.part[kept++] = low;
+    x = high;
+  }
+  e.size = kept;
+  e.append(x);
+}
+
+template <int N, int M>
+Expansion<N + M> operator+(const Expansion<N>& a, const Expansion<M>& b) {
+  Expansion<N + M> r;
+  std::copy_n(a.part.begin(), a.size, r.part.begin());
+  r.size = a.size;
+  for (int i = 0; i < b.size; ++i) grow(r, b.part[i]);
+  return r;
+}
+
+template <int N>
+Expansion<2 * N> operator*(const Expansion<N>& a, double b) {
+  Expansion<2 * N> r;
+  for (int i = 0; i < a.size; ++i) {
+    const auto [high, low] = product(a.part[i], b);
+    grow(r, low);
+    grow(r, high);
+  }
+  return r;
+}
+
+template <int N, int M>
+Expansion<2 * N * M> operator*(const Expansion<N>& a, const Expansion<M>& b) {
+  Expansion<2 * N * M> r;
+  for (int i = 0; i < b.size; ++i) {
+    const Expansion<2 * N> row = a * b.part[i];
+    for (int j = 0; j < row.size; ++j) grow(r, row.part[j]);
+  }
+  return r;
+}
+
+template <int N>
+Expansion<N> operator-(Expansion<N> a) {
+  for (int i = 0; i < a.size; ++i) a.part[i] = -a.part[i];
+  return a;
+}
+
+Expansion<2> exactProduct(double a, double b) {
+  const auto [high, low] = product(a, b);
+  Expansion<2> r;
+  r.append(low);
+  r.append(high);
+  return r;
+}
+
+Expansion<4> exactMinor(double a, double b, double c, double d) {
+  return exactProduct(a, d) + -exactProduct(b, c);
+}
+
+// 1 + |p|^2
+Expansion<7> exactWeight(const V3d& p) {
+  Expansion<1> one;
+  one.append(1);
+  return ((exactProduct(p.x, p.x) + exactProduct(p.y, p.y)) + exactProduct(p.z, p.z)) + one;
+}
+
+Expansion<24> exactDeterminant(const V3d& a, const V3d& b, const V3d& c) {
+  return (exactMinor(b.x, b.y, c.x, c.y) * a.z + exactMinor(c.x, c.y, a.x, a.y) * b.z) +
+         exactMinor(a.x, a.y, b.x, b.y) * c.z;
+}
+
+// The determinant of rows (p[i], p[j], 1 + |p|^2).
+int signOfWeighted(const V3d& a, const V3d& b, const V3d& c, int i, int j) {
+  return ((exactMinor(b[i], b[j], c[i], c[j]) * exactWeight(a) +
+           exactMinor(c[i], c[j], a[i], a[j]) * exactWeight(b)) +
+          exactMinor(a[i], a[j], b[i], b[j]) * exactWeight(c))
+      .sign();
+}
+
+// The sign of a determinant of rows (x, y, z, 1 + |p|^2), positive where p lies beyond the plane of a, b, c.
+int exactSide(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
+  return ((exactDeterminant(p, b, c) * exactWeight(a) + exactDeterminant(p, c, a) * exactWeight(b)) +
+          (exactDeterminant(p, a, b) * exactWeight(c) + -(exactDeterminant(a, b, c) * exactWeight(p))))
+      .sign();
+}
+
+// The first derivative of exactSide that is not 0, in the order in which the coordinates are shifted. Only
+// points that are not different have none.
+int shiftedSide(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
+  const std::array<const V3d*, 4> row = {&a, &b, &c, &p};
+  std::array<int, 4> order;
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int i, int j) {
+    const V3d &s = *row[i], &t = *row[j];
+    return s.x != t.x ? s.x > t.x : s.y != t.y ? s.y > t.y : s.z > t.z;
+  });
+  for (int column = 0; column < 4; ++column) {  // the weight, x, y, z
+    for (int i : order) {
+      const V3d &r = *row[i == 0 ? 1 : 0], &s = *row[i <= 1 ? 2 : 1], &t = *row[i <= 2 ? 3 : 2];
+      int minor = 0, column4 = 3;
+      if (column == 0) {
+        minor = exactDeterminant(r, s, t).sign();
+      } else {
+        column4 = column - 1;
+        minor = signOfWeighted(r, s, t, column4 == 0 ? 1 : 0, column4 == 2 ? 1 : 2);
+      }
+      if (minor != 0) return (i + column4) % 2 == 0 ? -minor : minor;
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
+bool circleHolds(const V3d& a, const V3d& b, const V3d& c, const V3d& p, PredicateCounts& counts) {
+  // With u = a - p and |u|^2/2 in place of u's part along p, which for unit vectors is the same:
+  // |u|^2 p.(v x w) + |v|^2 p.(w x u) + |w|^2 p.(u x v) is twice the exact form, whatever the radii are.
+  // Error: 16 roundings' worth of each product of two squared edges (differences 2, cross 2, dot 3, square 4,
+  // sums 3, all relative 2^-53 and |v||w| <= (|v|^2 + |w|^2)/2), and kUnitTolerance^2 times the squared edges
+  // for using the weight (1 + |p|^2)/2 in one form and the chords in the other. 2^-48 covers both factors
+  // twice over.
+  const V3d u = a - p, v = b - p, w = c - p;
+  const double uu = u.dot(u), vv = v.dot(v), ww = w.dot(w);
+  const double side = uu * p.dot(v.cross(w)) + vv * p.dot(w.cross(u)) + ww * p.dot(u.cross(v));
+  const double bound =
+      0x1p-48 * (uu * vv + vv * ww + ww * uu) + 2 * kUnitTolerance * kUnitTolerance * (uu + vv + ww);
+  if (std::abs(side) > bound) {
+    ++counts.lifted;
+    return side > 0;
+  }
+  if (const int sign = exactSide(a, b, c, p); sign != 0) {
+    ++counts.exact;
+    return sign > 0;
+  }
+  ++counts.symbolic;
+  return shiftedSide(a, b, c, p) > 0;
+}
+
+}  // namespace rsphere
