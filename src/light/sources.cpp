@@ -1,0 +1,306 @@
+#include "light/sources.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "shade/scattering.h"
+
+namespace rsphere {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr int kMostParts = 64;  // of a source, as RADIANCE has it: users' -ds are chosen for it
+
+// Below this cosine a plane source is seen edge-on and left out, as RADIANCE does.
+constexpr double kEdgeOn = 1e-4;
+
+// Concentric map of the square [-1, 1]^2 to the unit disk, area-preserving (Shirley and Chiu 1997, JGT 2/3).
+void toDisk(double& a, double& b) {
+  if (a == 0 && b == 0) return;
+  double r, phi;
+  if (std::abs(a) > std::abs(b)) {
+    r = a;
+    phi = kPi / 4 * (b / a);
+  } else {
+    r = b;
+    phi = kPi / 2 - kPi / 4 * (a / b);
+  }
+  a = r * std::cos(phi);
+  b = r * std::sin(phi);
+}
+
+bool isParallelogram(std::span<const V3d> v) {
+  if (v.size() != 4) return false;
+  const V3d gap = v[0] - v[1] + v[2] - v[3];
+  return gap.length() <= 1e-4 * ((v[1] - v[0]).length() + (v[3] - v[0]).length());
+}
+
+bool isConvex(std::span<const V3d> v, const V3d& normal) {
+  for (size_t i = 0; i < v.size(); ++i) {
+    const V3d& a = v[i];
+    const V3d& b = v[(i + 1) % v.size()];
+    const V3d& c = v[(i + 2) % v.size()];
+    if ((b - a).cross(c - b).dot(normal) < 0) return false;
+  }
+  return true;
+}
+
+void setSquare(LightSource& source) {
+  frame(source.normal, source.u, source.v);
+  const double half = std::sqrt(source.area) / 2;
+  source.u *= half;
+  source.v *= half;
+}
+
+void setShape(LightSource& source, const Polygon& polygon, const Scene& scene) {
+  const auto v = std::span(scene.vertices).subspan(polygon.firstVertex, polygon.vertices);
+  source.normal = polygon.normal;
+  source.area = polygon.area;
+  for (const V3d& p : v) source.center += p / static_cast<double>(v.size());
+  for (const V3d& p : v) source.radius = std::max(source.radius, (p - source.center).length());
+  if (isParallelogram(v)) {
+    source.map = LightSource::Map::parallelogram;
+    source.u = (v[1] - v[0]) / 2;
+    source.v = (v[3] - v[0]) / 2;
+    return;
+  }
+  // Not convex: a square of the same area around the centre, of which some samples miss.
+  setSquare(source);
+  if (!isConvex(v, polygon.normal)) return;
+  source.map = LightSource::Map::fan;
+  source.fanVertices.assign(v.begin(), v.end());
+  double sum = 0;
+  for (size_t i = 2; i < v.size(); ++i) {
+    sum += (v[i - 1] - v[0]).cross(v[i] - v[0]).length() / 2;
+    source.fanArea.push_back(sum);
+  }
+  for (double& a : source.fanArea) a /= sum;
+}
+
+void setShape(LightSource& source, const Ring& ring, const Scene&) {
+  source.map = LightSource::Map::disk;
+  source.center = ring.center;
+  source.normal = ring.normal;
+  source.radius = ring.outer;
+  source.area = kPi * ring.outer * ring.outer;
+  frame(ring.normal, source.u, source.v);
+  source.u *= ring.outer;
+  source.v *= ring.outer;
+}
+
+void setShape(LightSource& source, const Sphere& sphere, const Scene&) {
+  source.map = LightSource::Map::ball;
+  source.center = sphere.center;
+  source.radius = sphere.radius;
+}
+
+void setShape(LightSource& source, const Cone& cone, const Scene&) {
+  source.map = LightSource::Map::tube;
+  source.u = cone.length / 2 * cone.axis;
+  source.center = cone.base + source.u;
+  source.radius = std::hypot(cone.length / 2, cone.radius0);
+  source.area = 2 * cone.radius0 * cone.length;
+}
+
+void setShape(LightSource& source, const Distant& distant, const Scene&) {
+  source.map = LightSource::Map::cone;
+  source.distant = true;
+  source.center = distant.direction;
+  source.cosHalfAngle = distant.cosHalfAngle;
+  source.sinHalfAngle = std::sin(distant.halfAngle);
+}
+
+// A part of the unit square on a source.
+struct Part {
+  double s0 = 0, s1 = 1, t0 = 0, t1 = 1;
+};
+
+V3d onFan(const LightSource& source, double s, double t) {
+  const auto triangle = std::upper_bound(source.fanArea.begin(), source.fanArea.end() - 1, s);
+  const size_t i = static_cast<size_t>(triangle - source.fanArea.begin());
+  const double before = i ? source.fanArea[i - 1] : 0;
+  const double root = std::sqrt(std::clamp((s - before) / (source.fanArea[i] - before), 0., 1.));
+  return (1 - root) * source.fanVertices[0] + root * (1 - t) * source.fanVertices[i + 1] +
+         root * t * source.fanVertices[i + 2];
+}
+
+V3d onPlane(const LightSource& source, double s, double t) {
+  double a = 2 * s - 1, b = 2 * t - 1;
+  if (source.map == LightSource::Map::fan) return a == 0 && b == 0 ? source.center : onFan(source, s, t);
+  if (source.map == LightSource::Map::disk) toDisk(a, b);
+  return source.center + a * source.u + b * source.v;
+}
+
+// Splits until every part is small against its distance. size: largest size/distance allowed of a half-extent
+// pair.
+template <class Position, class Use>
+void split(const Part& part, int most, double u, double v, double allowed, const V3d& from,
+           const Position& position, const Use& use) {
+  if (most >= 2) {
+    const double distance = (position((part.s0 + part.s1) / 2, (part.t0 + part.t1) / 2) - from).length();
+    if (distance * allowed < std::max(u, v)) {
+      Part a = part, b = part;
+      if (u > v) {
+        a.s1 = b.s0 = (part.s0 + part.s1) / 2;
+        u /= 2;
+      } else {
+        a.t1 = b.t0 = (part.t0 + part.t1) / 2;
+        v /= 2;
+      }
+      split(a, most / 2, u, v, allowed, from, position, use);
+      split(b, most / 2, u, v, allowed, from, position, use);
+      return;
+    }
+  }
+  use(part);
+}
+
+double jittered(double from, double to, double jitter, Random& random) {
+  const double middle = (from + to) / 2;
+  return jitter > 0 ? middle + jitter * (random.uniform() - .5) * (to - from) : middle;
+}
+
+}  // namespace
+
+LightSources::LightSources(const Scene& scene) : scene_(scene) {
+  for (uint32_t i = 0; i < scene.surfaces.size(); ++i) {
+    const Surface& surface = scene.surfaces[i];
+    if (surface.material == kNone) continue;
+    const Material& material = scene.modifiers[surface.material].content;
+    const std::optional<Rgb> radiance = sourceRadiance(material);
+    if (!radiance || maxChannel(*radiance) <= 0) continue;
+    LightSource source;
+    source.surface = static_cast<int32_t>(i);
+    if (const auto* glow = std::get_if<Glow>(&material)) {
+      if (glow->reach <= 0 || std::holds_alternative<Distant>(surface.shape)) continue;
+      source.reach = glow->reach;
+    }
+    source.spot = std::get_if<Spotlight>(&material);
+    std::visit([&](const auto& shape) { setShape(source, shape, scene); }, surface.shape);
+    sources_.push_back(std::move(source));
+  }
+}
+
+void LightSources::sample(uint32_t index, const V3d& point, double rayWeight, const RayOptions& options,
+                          Random& random, std::vector<SourceSample>& samples) const {
+  const LightSource& source = sources_[index];
+  const double jitter = options.directJitter;
+  const V3d towards = source.distant ? source.center : source.center - point;
+
+  // Adds a sample, where the ray hits the source. omega: what it stands for. length: to the place inside the
+  // source that it is aimed at, which the reach is measured to.
+  const auto add = [&](const V3d& direction, double omega, double length) {
+    SourceSample sample{direction, omega, 1e10, 1, -direction, index};
+    if (!source.distant) {
+      ShapeHit hit;
+      const bool hits = std::visit(
+          [&](const auto& shape) {
+            using S = std::decay_t<decltype(shape)>;
+            if constexpr (std::is_same_v<S, Polygon>)
+              return intersect(shape, scene_.vertices, point, direction, 1e10, hit);
+            else if constexpr (std::is_same_v<S, Distant>)
+              return false;
+            else
+              return intersect(shape, point, direction, 1e10, hit);
+          },
+          scene_.surfaces[source.surface].shape);
+      if (!hits) return;
+      sample.distance = hit.distance;
+      sample.cosine = hit.cosine;
+      sample.normal = hit.normal;
+    }
+    if (source.reach > 0 && length > source.reach) return;
+    if (source.spot && !source.distant) {
+      if (outsideSpot(*source.spot, direction)) return;
+      // The light comes from a focus behind the surface.
+      const double nearer = sample.distance / (sample.distance + source.spot->focalLength);
+      sample.solidAngle *= nearer * nearer;
+    }
+    samples.push_back(sample);
+  };
+
+  const double distance = source.distant ? 1e10 : towards.length();
+  if (source.reach > 0 && distance > source.reach + source.radius) return;
+  // A round source: directions spread as the projected solid angle around its middle, so that one ray at the
+  // middle is exact for a surface that faces it, and jittered rays are for every surface.
+  const auto addRound = [&](const V3d& middle, double sine) {
+    if (jitter <= 0) return add(middle, kPi * sine * sine, distance);
+    const double s = sine * jitter * std::sqrt(random.uniform());
+    const double angle = 2 * kPi * random.uniform();
+    const double c = std::sqrt(std::max(0., 1 - s * s));
+    V3d x, y;
+    frame(middle, x, y);
+    if (c > kEdgeOn)
+      add(s * (std::cos(angle) * x + std::sin(angle) * y) + c * middle, kPi * sine * sine / c, distance);
+  };
+
+  const double allowed =
+      options.sourceSubstructuring > 1e-6 ? options.sourceSubstructuring / (2 * rayWeight) : 0;
+
+  switch (source.map) {
+    case LightSource::Map::cone:
+      if (source.cosHalfAngle <= 0) {
+        // Half the sky or more: spread evenly over the cone instead.
+        const double c = 1 - (1 - source.cosHalfAngle) * (jitter > 0 ? random.uniform() * jitter : 0);
+        const double angle = 2 * kPi * (jitter > 0 ? random.uniform() : 0);
+        const double s = std::sqrt(std::max(0., 1 - c * c));
+        V3d x, y;
+        frame(source.center, x, y);
+        const double omega = 2 * kPi * (1 - source.cosHalfAngle);
+        return add(s * (std::cos(angle) * x + std::sin(angle) * y) + c * source.center,
+                   jitter > 0 ? omega : kPi, distance);
+      }
+      return addRound(source.center, source.sinHalfAngle);
+
+    case LightSource::Map::ball:
+      if (distance <= source.radius) return;
+      return addRound(towards / distance, source.radius / distance);
+
+    case LightSource::Map::tube: {
+      const V3d axis = source.u.normalized();
+      const double halfLength = source.u.length();
+      const double radius = source.area / (4 * halfLength);
+      const double along = towards.dot(axis);
+      const double fromAxis = (towards - along * axis).length();
+      if (fromAxis <= radius) return;  // inside, or looking at an open end
+      const auto at = [&](double s, double) { return source.center + (2 * s - 1) * source.u; };
+      const auto use = [&](const Part& part) {
+        const V3d middle = at(jittered(part.s0, part.s1, jitter, random), 0) - point;
+        const V3d across = axis.cross(middle).normalized();
+        const double side = jitter > 0 ? jitter * (2 * random.uniform() - 1) * radius : 0;
+        const V3d aim = middle + side * across;
+        const double length = aim.length();
+        const double cosine = aim.dot(axis) / length;
+        add(aim / length,
+            source.area * (part.s1 - part.s0) * std::sqrt(std::max(0., 1 - cosine * cosine)) /
+                (length * length),
+            length);
+      };
+      // Too close to be split with profit: its width counts as much as its length.
+      split(Part{}, fromAxis <= 2 * radius ? 1 : kMostParts, allowed > 0 ? halfLength : 0, 0, allowed, point,
+            at, use);
+      return;
+    }
+
+    default: {
+      if (towards.dot(source.normal) >= 0) return;  // behind it
+      const auto at = [&](double s, double t) { return onPlane(source, s, t); };
+      const auto use = [&](const Part& part) {
+        const V3d aim =
+            at(jittered(part.s0, part.s1, jitter, random), jittered(part.t0, part.t1, jitter, random)) -
+            point;
+        const double length = aim.length();
+        if (!(length > 0)) return;
+        const double cosine = -aim.dot(source.normal) / length;
+        if (cosine <= kEdgeOn) return;
+        add(aim / length,
+            source.area * (part.s1 - part.s0) * (part.t1 - part.t0) * cosine / (length * length), length);
+      };
+      split(Part{}, kMostParts, allowed > 0 ? source.u.length() : 0, allowed > 0 ? source.v.length() : 0,
+            allowed, point, at, use);
+    }
+  }
+}
+
+}  // namespace rsphere

@@ -1,0 +1,78 @@
+#pragma once
+// The light sources of a scene and how they are sampled from a point: split into parts that look small from
+// there
+// (-ds), one ray to each part, at its middle or jittered over it (-dj).
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cli/options.h"
+#include "scene/random.h"
+#include "scene/scene.h"
+
+namespace rsphere {
+
+// A surface that lights others by the direct calculation: light, spotlight, illum, and glow within its reach.
+struct LightSource {
+  int32_t surface = kNone;  // index in Scene::surfaces
+  V3d center{0, 0, 0};      // direction to it (unit) where distant
+  double radius = 0;        // of a sphere around it (world units)
+  double reach = 0;         // farther from the sphere it lights nothing directly; 0: no limit
+  bool distant = false;
+  double sinHalfAngle = 0, cosHalfAngle = 1;  // distant only
+  const Spotlight* spot = nullptr;            // lives in the scene
+
+  // How the unit square lies on the source.
+  enum class Map : uint8_t {
+    parallelogram,  // center + (2s-1) u + (2t-1) v
+    disk,           // area-preserving on the disk with radii u, v
+    fan,            // a convex polygon as triangles around its first vertex, by area
+    ball,           // no map: the cone of directions that the sphere fills
+    tube,           // s along the axis (half-length u), t across as seen
+    cone            // distant
+  } map = Map::parallelogram;
+  V3d u{0, 0, 0}, v{0, 0, 0};
+  V3d normal{0, 0, 0};          // of plane sources
+  double area = 0;              // of plane sources; of a tube's length times its diameter
+  std::vector<double> fanArea;  // cumulative shares of the fan's triangles
+  std::vector<V3d> fanVertices;
+};
+
+// One ray towards a source. solidAngle (sr) is what it stands for; the sum over a source's samples estimates
+// the solid angle of the source (exactly for spheres and distant sources as seen by a surface that faces
+// them; for plane ones by area * cosine / distance^2 at the sample).
+struct SourceSample {
+  V3d direction{0, 0, 0};
+  double solidAngle = 0;
+  double distance = 0;  // to where the source is hit, kFarAway for distant ones
+  double cosine = 1;    // of the hit, positive on the front
+  V3d normal{0, 0, 0};
+  uint32_t source = 0;  // index in LightSources
+};
+
+class LightSources {
+ public:
+  // Keeps a reference to the scene. Glow of zero or negative reach and distant glow are no light sources
+  // here.
+  explicit LightSources(const Scene& scene);
+
+  std::span<const LightSource> all() const { return sources_; }
+
+  // Appends the samples of one source for a ray of this weight (1 for a primary one) that ended at point;
+  // none where the source cannot light it: behind it, beyond its reach, outside its spot. At most 64 parts. A
+  // sample that misses the source it was aimed at is left out.
+  void sample(uint32_t source, const V3d& point, double rayWeight, const RayOptions& options, Random& random,
+              std::vector<SourceSample>& samples) const;
+
+ private:
+  const Scene& scene_;
+  std::vector<LightSource> sources_;
+};
+
+// Whether a spotlight's cone leaves out the direction towards it (unit).
+inline bool outsideSpot(const Spotlight& spot, const V3d& towards) {
+  constexpr double kTwoPi = 6.283185307179586;
+  return spot.solidAngle < kTwoPi * (1 + spot.aim.dot(towards));
+}
+
+}  // namespace rsphere

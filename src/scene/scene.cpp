@@ -1,0 +1,353 @@
+#include "scene/scene.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <unordered_map>
+
+namespace rsphere {
+namespace {
+
+using rad::Primitive;
+using rad::Type;
+
+double radians(double degrees) { return degrees * (std::numbers::pi / 180); }
+double coneSolidAngle(double fullAngleDegrees) {
+  // 4 pi sin^2(a/4) is 2 pi (1 - cos(a/2)) without its cancellation for small cones.
+  const double s = std::sin(radians(fullAngleDegrees) / 4);
+  return 4 * std::numbers::pi * s * s;
+}
+
+class Builder {
+ public:
+  Builder(rad::Description description, const rad::Warn& warn) : warn_(warn) {
+    scene_.description = std::move(description);
+  }
+
+  Scene build() {
+    const auto& primitives = scene_.description.primitives;
+    modifierOf_.assign(primitives.size(), kUnknown);
+    for (uint32_t i = 0; i < primitives.size(); ++i)
+      if (rad::isSurface(primitives[i].type)) addSurface(i);
+    return std::move(scene_);
+  }
+
+ private:
+  static constexpr int32_t kUnknown = -2;
+
+  const Primitive& primitive(uint32_t i) const { return scene_.description.primitives[i]; }
+  std::span<const double> reals(uint32_t i) const { return scene_.description.reals(primitive(i)); }
+
+  [[noreturn]] void fail(uint32_t i, std::string_view what) const {
+    throw rad::Error(fmt::format("{}: {}", scene_.place(i), what));
+  }
+  void warn(uint32_t i, std::string_view what) const {
+    if (warn_) warn_(fmt::format("{}: {}", scene_.place(i), what));
+  }
+
+  void needReals(uint32_t i, size_t count) const {
+    if (reals(i).size() != count)
+      fail(i, fmt::format("expected {} real arguments, got {}", count, reals(i).size()));
+  }
+  void needStrings(uint32_t i, size_t most) const {
+    if (primitive(i).strings > most)
+      fail(i, fmt::format("expected at most {} string arguments, got {}", most, primitive(i).strings));
+  }
+  V3d vector(uint32_t i, size_t at) const {
+    const auto r = reals(i);
+    return V3d(r[at], r[at + 1], r[at + 2]);
+  }
+  Rgb color(uint32_t i, size_t at) const {
+    const auto r = reals(i);
+    return Rgb(r[at], r[at + 1], r[at + 2]);
+  }
+
+  // ---- modifiers
+
+  // The latest definition, before primitive i, of the name that its string argument says (alternates of
+  // mirror, illum).
+  Alternate alternate(uint32_t i) {
+    if (primitive(i).strings == 0) return {};
+    const std::string_view name = scene_.description.string(primitive(i), 0);
+    if (name == "void") return {Alternate::Kind::pass, kNone};
+    for (uint32_t j = i; j-- > 0;)
+      if (!rad::isSurface(primitive(j).type) && scene_.description.name(primitive(j)) == name)
+        return {Alternate::Kind::modifier, modifier(static_cast<int32_t>(j))};
+    fail(i, fmt::format("undefined modifier \"{}\"", name));
+  }
+
+  Material material(uint32_t i) {
+    switch (primitive(i).type) {
+      case Type::plastic:
+      case Type::metal:
+        needReals(i, 5);
+        return Opaque{color(i, 0), reals(i)[3], reals(i)[4], primitive(i).type == Type::metal};
+      case Type::trans:
+        needReals(i, 7);
+        return Trans{color(i, 0), reals(i)[3], reals(i)[4], reals(i)[5], reals(i)[6]};
+      case Type::dielectric:
+        needReals(i, 5);
+        if (!(reals(i)[3] > 0)) fail(i, "refractive index must be above 0");
+        return Dielectric{color(i, 0), reals(i)[3], reals(i)[4]};
+      case Type::interface:
+        needReals(i, 8);
+        if (!(reals(i)[3] > 0 && reals(i)[7] > 0)) fail(i, "refractive index must be above 0");
+        return Interface{color(i, 0), reals(i)[3], color(i, 4), reals(i)[7]};
+      case Type::glass:
+        if (reals(i).size() != 3 && reals(i).size() != 4)
+          fail(i, fmt::format("expected 3 or 4 real arguments, got {}", reals(i).size()));
+        if (reals(i).size() == 4 && !(reals(i)[3] >= 1)) fail(i, "refractive index must be at least 1");
+        return Glass{color(i, 0), reals(i).size() == 4 ? reals(i)[3] : Glass{}.refraction};
+      case Type::mirror:
+        needReals(i, 3);
+        needStrings(i, 1);
+        return Mirror{color(i, 0), alternate(i)};
+      case Type::light:
+        needReals(i, 3);
+        return Light{color(i, 0)};
+      case Type::illum:
+        needReals(i, 3);
+        needStrings(i, 1);
+        return Illum{color(i, 0), alternate(i)};
+      case Type::glow:
+        needReals(i, 4);
+        return Glow{color(i, 0), reals(i)[3]};
+      case Type::spotlight: {
+        needReals(i, 7);
+        if (!(reals(i)[3] > 0)) fail(i, "zero angle");
+        const V3d aim = vector(i, 4);
+        const double length = aim.length();
+        if (!(length > 0)) fail(i, "zero focus vector");
+        return Spotlight{color(i, 0), coneSolidAngle(reals(i)[3]), aim / length, length};
+      }
+      default:
+        fail(i, "this type is not supported yet");
+    }
+  }
+
+  // Converts the modifier at this index of the description and those that modify it; the same one only once.
+  int32_t modifier(int32_t described) {
+    if (described == rad::kVoid) return kNone;
+    // The chain from described to void, without recursion: a file may nest as deep as it likes.
+    std::vector<int32_t> chain;
+    int32_t next = described;
+    while (next != rad::kVoid && modifierOf_[next] == kUnknown) {
+      chain.push_back(next);
+      next = primitive(next).modifier;
+    }
+    int32_t converted = next == rad::kVoid ? kNone : modifierOf_[next];
+    while (!chain.empty()) {
+      const int32_t i = chain.back();
+      chain.pop_back();
+      int32_t target = i;
+      while (target != rad::kVoid && primitive(target).type == Type::alias)
+        target = primitive(target).aliased != rad::kVoid ? primitive(target).aliased
+                 : target == i                           ? rad::kVoid
+                                                         : primitive(target).modifier;
+      if (target != rad::kVoid) {  // an alias without a target stands for its own modifier
+        Material content = material(static_cast<uint32_t>(target));
+        scene_.modifiers.push_back({std::move(content), converted, static_cast<uint32_t>(target)});
+        converted = static_cast<int32_t>(scene_.modifiers.size()) - 1;
+      }
+      modifierOf_[i] = converted;
+    }
+    return converted;
+  }
+
+  // ---- surfaces
+
+  void addSurface(uint32_t i) {
+    const Primitive& p = primitive(i);
+    std::optional<Shape> shape = makeShape(i);
+    if (!shape) return;
+    Surface surface{std::move(*shape), i, modifier(p.modifier), kNone};
+    surface.material = surface.modifier;
+    if (surface.material != kNone) checkLight(i, surface);
+    scene_.surfaces.push_back(std::move(surface));
+  }
+
+  // Only shapes with a centre that can be aimed at can be sampled as light sources.
+  void checkLight(uint32_t i, const Surface& surface) const {
+    const Material& material = scene_.modifiers[surface.material].content;
+    const std::optional<Rgb> radiance = sourceRadiance(material);
+    if (!radiance || maxChannel(*radiance) <= 0) return;
+    if (const auto* glow = std::get_if<Glow>(&material); glow && glow->reach <= 0) return;
+    if (const auto* polygon = std::get_if<Polygon>(&surface.shape)) {
+      if (polygon->area == 0) fail(i, "zero source area");
+      V3d center(0, 0, 0);
+      const auto vertices = std::span(scene_.vertices).subspan(polygon->firstVertex, polygon->vertices);
+      for (const V3d& v : vertices) center += v / static_cast<double>(vertices.size());
+      if (!inside(*polygon, scene_.vertices, center)) fail(i, "cannot hit source center");
+    } else if (const auto* ring = std::get_if<Ring>(&surface.shape)) {
+      if (ring->inner > 0) fail(i, "cannot hit source center");
+    } else if (const auto* sphere = std::get_if<Sphere>(&surface.shape)) {
+      if (sphere->inward) fail(i, "a bubble cannot be a light source");
+    } else if (const auto* cone = std::get_if<Cone>(&surface.shape)) {
+      if (cone->inward || cone->radius0 != cone->radius1)
+        fail(i, "only a cylinder of this kind can be a light source");
+      if (cone->radius0 > .2 * cone->length) warn(i, "source aspect too small");
+    }
+  }
+
+  std::optional<Shape> makeShape(uint32_t i) {
+    switch (primitive(i).type) {
+      case Type::polygon:
+        return makePolygonShape(i);
+      case Type::sphere:
+      case Type::bubble:
+        return makeSphere(i);
+      case Type::cone:
+      case Type::cup:
+        return makeCone(i);
+      case Type::cylinder:
+      case Type::tube:
+        return makeCylinder(i);
+      case Type::ring:
+        return makeRing(i);
+      case Type::source:
+        return makeDistant(i);
+      default:
+        fail(i, "this type is not supported yet");
+    }
+  }
+
+  std::optional<Shape> makePolygonShape(uint32_t i) {
+    const auto r = reals(i);
+    if (r.size() < 9 || r.size() % 3)
+      fail(i, fmt::format("expected 9 or more coordinates by threes, got {}", r.size()));
+    size_t count = r.size() / 3;
+    if (count > 3 && (vector(i, 0) - vector(i, r.size() - 3)).length() <= kSamePlace) --count;
+    const auto first = static_cast<uint32_t>(scene_.vertices.size());
+    for (size_t k = 0; k < count; ++k) scene_.vertices.push_back(vector(i, 3 * k));
+    const Polygon polygon = makePolygon(scene_.vertices, first, static_cast<uint32_t>(count));
+    if (polygon.area == 0) {
+      warn(i, "zero area");
+      scene_.vertices.resize(first);
+      return std::nullopt;
+    }
+    const double size = std::sqrt(polygon.area);
+    // A thousandth of the size is what a designer would call bent; single precision files stay far below.
+    if (polygon.thickness > 1e-3 * size) warn(i, "non-planar vertex");
+    return polygon;
+  }
+
+  std::optional<Shape> makeSphere(uint32_t i) {
+    needReals(i, 4);
+    Sphere sphere{vector(i, 0), reals(i)[3], primitive(i).type == Type::bubble};
+    if (sphere.radius < 0) {
+      warn(i, "negative radius");
+      sphere.radius = -sphere.radius;
+      sphere.inward = !sphere.inward;
+    }
+    if (!(sphere.radius > 0)) fail(i, "zero radius");
+    return sphere;
+  }
+
+  std::optional<Shape> makeCylinder(uint32_t i) {
+    needReals(i, 7);
+    Cone cone{vector(i, 0), vector(i, 3) - vector(i, 0),    0, reals(i)[6],
+              reals(i)[6],  primitive(i).type == Type::tube};
+    if (cone.radius0 < 0) {
+      warn(i, "negative radius");
+      cone.radius0 = cone.radius1 = -cone.radius0;
+      cone.inward = !cone.inward;
+    }
+    return finishCone(i, cone);
+  }
+
+  std::optional<Shape> makeCone(uint32_t i) {
+    needReals(i, 8);
+    Cone cone{vector(i, 0), vector(i, 3) - vector(i, 0),   0, reals(i)[6],
+              reals(i)[7],  primitive(i).type == Type::cup};
+    if (cone.radius0 < 0 || cone.radius1 < 0) {
+      if (cone.radius0 > 0 || cone.radius1 > 0) return illegalRadii(i);
+      warn(i, "negative radii");
+      cone.radius0 = -cone.radius0;
+      cone.radius1 = -cone.radius1;
+      cone.inward = !cone.inward;
+    }
+    return finishCone(i, cone);
+  }
+
+  std::optional<Shape> illegalRadii(uint32_t i) const {
+    warn(i, "illegal radii");
+    return std::nullopt;
+  }
+
+  std::optional<Shape> finishCone(uint32_t i, Cone cone) const {
+    if (!(cone.radius0 > 0 || cone.radius1 > 0)) return illegalRadii(i);
+    cone.length = cone.axis.length();
+    if (!(cone.length > 0)) {
+      warn(i, "unknown orientation");
+      return std::nullopt;
+    }
+    cone.axis /= cone.length;
+    return cone;
+  }
+
+  std::optional<Shape> makeRing(uint32_t i) {
+    needReals(i, 8);
+    const auto r = reals(i);
+    const double length = vector(i, 3).length();
+    if (r[6] < 0 || r[7] < 0 || r[6] == r[7]) return illegalRadii(i);
+    if (!(length > 0)) {
+      warn(i, "unknown orientation");
+      return std::nullopt;
+    }
+    return Ring{vector(i, 0), vector(i, 3) / length, std::min(r[6], r[7]), std::max(r[6], r[7])};
+  }
+
+  std::optional<Shape> makeDistant(uint32_t i) {
+    needReals(i, 4);
+    const V3d direction = vector(i, 0);
+    const double length = direction.length();
+    if (!(length > 0)) fail(i, "zero direction");
+    if (!(reals(i)[3] > 0)) fail(i, "zero size");
+    const double half = std::min(radians(reals(i)[3]) / 2, std::numbers::pi);
+    return Distant{direction / length, half, std::cos(half),
+                   coneSolidAngle(2 * half * 180 / std::numbers::pi)};
+  }
+
+  const rad::Warn& warn_;
+  Scene scene_;
+  std::vector<int32_t> modifierOf_;  // by index in the description; kUnknown: not looked at
+};
+
+}  // namespace
+
+std::string_view Scene::modifierName(const Surface& s) const {
+  const int32_t m = description.primitives[s.primitive].modifier;
+  return m == rad::kVoid ? "void" : description.name(description.primitives[m]);
+}
+
+std::string_view Scene::materialName(const Surface& s) const {
+  return s.material == kNone ? "void"
+                             : description.name(description.primitives[modifiers[s.material].primitive]);
+}
+
+std::string Scene::place(uint32_t i) const {
+  const Primitive& p = description.primitives[i];
+  return fmt::format("{}: {} \"{}\"", description.at(p.place), rad::typeName(p.type), description.name(p));
+}
+
+bool isTransparent(const Material& material) {
+  return std::holds_alternative<Trans>(material) || std::holds_alternative<Dielectric>(material) ||
+         std::holds_alternative<Interface>(material) || std::holds_alternative<Glass>(material);
+}
+
+std::optional<Rgb> sourceRadiance(const Material& material) {
+  if (const auto* m = std::get_if<Light>(&material)) return m->radiance;
+  if (const auto* m = std::get_if<Illum>(&material)) return m->radiance;
+  if (const auto* m = std::get_if<Glow>(&material)) return m->radiance;
+  if (const auto* m = std::get_if<Spotlight>(&material)) return m->radiance;
+  return std::nullopt;
+}
+
+bool isLightSource(const Material& material) { return sourceRadiance(material).has_value(); }
+
+Scene buildScene(rad::Description description, const rad::Warn& warn) {
+  return Builder(std::move(description), warn).build();
+}
+
+}  // namespace rsphere

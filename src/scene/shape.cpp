@@ -1,0 +1,208 @@
+#include "scene/shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rsphere {
+namespace {
+
+// Rounding of a coordinate difference, relative to the coordinates: two ulp.
+constexpr double kRounding = 4.5e-16;
+
+// Takes the first root that is neither at the origin nor too far; roots ascend.
+bool within(double t, double farthest) { return t > kSamePlace && t <= farthest; }
+
+}  // namespace
+
+Polygon makePolygon(std::span<const V3d> all, uint32_t first, uint32_t count) {
+  Polygon polygon;
+  polygon.firstVertex = first;
+  polygon.vertices = count;
+  const auto vertices = all.subspan(first, count);
+  // Relative to the first vertex, so that the sum keeps its digits far from the origin.
+  V3d sum(0, 0, 0);
+  for (size_t i = 2; i < vertices.size(); ++i)
+    sum += (vertices[i - 1] - vertices[0]).cross(vertices[i] - vertices[0]);
+  const double length = sum.length();
+  if (!(length > 0)) return polygon;
+  polygon.area = length / 2;
+  polygon.normal = sum / length;
+  double offsets = 0;
+  for (const V3d& v : vertices) offsets += polygon.normal.dot(v - vertices[0]);
+  polygon.offset = polygon.normal.dot(vertices[0]) + offsets / count;
+  for (const V3d& v : vertices)
+    polygon.thickness =
+        std::max(polygon.thickness, std::abs(polygon.normal.dot(v - vertices[0]) - offsets / count));
+  const V3d n(std::abs(polygon.normal.x), std::abs(polygon.normal.y), std::abs(polygon.normal.z));
+  polygon.axis = n.y > n.x ? 1 : 0;
+  if (n.z > n[polygon.axis]) polygon.axis = 2;
+  return polygon;
+}
+
+bool inside(const Polygon& polygon, std::span<const V3d> all, const V3d& point) {
+  const int xi = polygon.axis == 2 ? 0 : polygon.axis + 1;
+  const int yi = xi == 2 ? 0 : xi + 1;
+  const double x = point[xi], y = point[yi];
+  const auto vertices = all.subspan(polygon.firstVertex, polygon.vertices);
+  bool odd = false;
+  const V3d* from = &vertices.back();
+  for (const V3d& to : vertices) {
+    const double y0 = (*from)[yi] - y, y1 = to[yi] - y;
+    const double x0 = (*from)[xi] - x, x1 = to[xi] - x;
+    from = &to;
+    if ((y0 > 0) == (y1 > 0)) {
+      // A point on an edge that lies along x is inside: else two polygons that share it would let a ray
+      // through.
+      if (y0 == 0 && y1 == 0 && (x0 > 0) != (x1 > 0)) return true;
+      continue;
+    }
+    if (x0 > 0 && x1 > 0) {
+      odd = !odd;
+      continue;
+    }
+    const double cross = x0 * y1 - x1 * y0;
+    const double slack =
+        kRounding * (std::abs(x) + std::abs(y)) * (std::abs(x0) + std::abs(x1) + std::abs(y0) + std::abs(y1));
+    if (std::abs(cross) <= slack) return true;
+    if ((cross > 0) == (y1 > y0)) odd = !odd;
+  }
+  return odd;
+}
+
+bool intersect(const Polygon& polygon, std::span<const V3d> vertices, const V3d& origin, const V3d& direction,
+               double farthest, ShapeHit& hit) {
+  const double cosine = -polygon.normal.dot(direction);
+  if (std::abs(cosine) <= kSamePlace) return false;
+  const double t = (polygon.normal.dot(origin) - polygon.offset) / cosine;
+  if (!within(t, farthest) || polygon.area == 0) return false;
+  if (!inside(polygon, vertices, origin + t * direction)) return false;
+  hit = {t, polygon.normal, cosine};
+  return true;
+}
+
+bool intersect(const Sphere& sphere, const V3d& origin, const V3d& direction, double farthest,
+               ShapeHit& hit) {
+  const V3d m = origin - sphere.center;
+  const double b = m.dot(direction);
+  // The distance of the line from the centre, rather than b^2 - c, which loses every digit for a far, small
+  // sphere.
+  const V3d closest = m - b * direction;
+  const double discriminant = sphere.radius * sphere.radius - closest.length2();
+  if (!(discriminant >= 0)) return false;
+  const double half = std::sqrt(discriminant);
+  double t = -b - half;
+  if (t <= kSamePlace) t = -b + half;
+  if (!within(t, farthest)) return false;
+  const V3d outward = (m + t * direction).normalized();
+  hit.distance = t;
+  hit.normal = sphere.inward ? -outward : outward;
+  hit.cosine = -hit.normal.dot(direction);
+  return true;
+}
+
+bool intersect(const Cone& cone, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit) {
+  const V3d m = origin - cone.base;
+  const double mAxis = m.dot(cone.axis), dAxis = direction.dot(cone.axis);
+  V3d mAcross = m - mAxis * cone.axis;
+  const V3d dAcross = direction - dAxis * cone.axis;
+  const double slope = (cone.radius1 - cone.radius0) / cone.length;
+  // |mAcross + t dAcross| = radius0 + slope (mAxis + t dAxis), squared: a t^2 + 2 b t + c = 0
+  const double a = dAcross.length2() - slope * slope * dAxis * dAxis;
+  const double radiusAtOrigin = cone.radius0 + slope * mAxis;
+  double roots[2];
+  int count = 0;
+  if (slope == 0) {
+    if (a <= kRounding) return false;
+    const double b = mAcross.dot(dAcross) / a;
+    const double discriminant = cone.radius0 * cone.radius0 - (mAcross - b * dAcross).length2();
+    if (!(discriminant >= 0)) return false;
+    const double half = std::sqrt(discriminant / a);
+    roots[count++] = -b - half;
+    roots[count++] = -b + half;
+  } else {
+    const double b = mAcross.dot(dAcross) - slope * dAxis * radiusAtOrigin;
+    const double c = mAcross.length2() - radiusAtOrigin * radiusAtOrigin;
+    if (std::abs(a) <= kRounding) {
+      if (b == 0) return false;
+      roots[count++] = -c / (2 * b);
+    } else {
+      const double discriminant = b * b - a * c;
+      if (!(discriminant >= 0)) return false;
+      const double q = -(b + std::copysign(std::sqrt(discriminant), b));
+      roots[count++] = q / a;
+      if (q != 0) roots[count++] = c / q;
+      if (count == 2 && roots[0] > roots[1]) std::swap(roots[0], roots[1]);
+    }
+  }
+  for (int i = 0; i < count; ++i) {
+    const double t = roots[i];
+    if (!within(t, farthest)) continue;
+    const double along = mAxis + t * dAxis;
+    if (along < 0 || along > cone.length) continue;
+    const V3d across = mAcross + t * dAcross;
+    const double distance = across.length();
+    if (!(distance > 0)) continue;  // the tip has no normal
+    V3d outward = across / distance - slope * cone.axis;
+    outward /= std::sqrt(1 + slope * slope);
+    hit.distance = t;
+    hit.normal = cone.inward ? -outward : outward;
+    hit.cosine = -hit.normal.dot(direction);
+    return true;
+  }
+  return false;
+}
+
+bool intersect(const Ring& ring, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit) {
+  const double cosine = -ring.normal.dot(direction);
+  if (std::abs(cosine) <= kSamePlace) return false;
+  const V3d m = origin - ring.center;
+  const double t = ring.normal.dot(m) / cosine;
+  if (!within(t, farthest)) return false;
+  const double r2 = (m + t * direction).length2();
+  if (r2 > ring.outer * ring.outer || r2 < ring.inner * ring.inner) return false;
+  hit = {t, ring.normal, cosine};
+  return true;
+}
+
+Box3d bounds(const Polygon& polygon, std::span<const V3d> vertices) {
+  Box3d box;
+  for (const V3d& v : vertices.subspan(polygon.firstVertex, polygon.vertices)) box.extendBy(v);
+  if (polygon.area > 0) {
+    // Hits lie on the mean plane, which leaves the vertices' box along the dropped axis where they are not in
+    // a plane.
+    const double out = polygon.thickness / std::abs(polygon.normal[polygon.axis]);
+    box.min[polygon.axis] -= out;
+    box.max[polygon.axis] += out;
+  }
+  return box;
+}
+
+Box3d bounds(const Sphere& sphere) {
+  const V3d r(sphere.radius);
+  return Box3d(sphere.center - r, sphere.center + r);
+}
+
+namespace {
+// Half the size of the box around a disk of radius 1 with this normal.
+V3d diskExtent(const V3d& normal) {
+  V3d extent;
+  for (int i = 0; i < 3; ++i) extent[i] = std::sqrt(std::max(0., 1 - normal[i] * normal[i]));
+  return extent;
+}
+}  // namespace
+
+Box3d bounds(const Cone& cone) {
+  const V3d extent = diskExtent(cone.axis);
+  const V3d end = cone.base + cone.length * cone.axis;
+  Box3d box(cone.base - cone.radius0 * extent, cone.base + cone.radius0 * extent);
+  box.extendBy(end - cone.radius1 * extent);
+  box.extendBy(end + cone.radius1 * extent);
+  return box;
+}
+
+Box3d bounds(const Ring& ring) {
+  const V3d extent = ring.outer * diskExtent(ring.normal);
+  return Box3d(ring.center - extent, ring.center + extent);
+}
+
+}  // namespace rsphere

@@ -1,0 +1,93 @@
+#pragma once
+#include <Imath/ImathBox.h>
+#include <Imath/ImathVec.h>
+
+#include <cstdint>
+#include <span>
+#include <variant>
+
+namespace rsphere {
+
+using Imath::Box3d;
+using Imath::V3d;
+
+// Two hits closer than this along a ray are the same place, and no ray hits what is nearer than this to its
+// origin (world units). RADIANCE's own figure: scenes rely on it where surfaces coincide.
+inline constexpr double kSamePlace = 1e-6;
+
+// Where a ray meets a shape. normal: unit, on the front side, whichever side was hit; cosine = -normal .
+// direction, positive where the front was hit.
+struct ShapeHit {
+  double distance = 0;
+  V3d normal{0, 0, 0};
+  double cosine = 0;
+};
+
+// A plane polygon, concave or with holes by a seam. Its inside is where a line to infinity crosses the
+// boundary an odd number of times; its plane is the mean plane of vertices that do not lie in one (RADIANCE
+// reference manual, "polygon").
+struct Polygon {
+  uint32_t firstVertex = 0, vertices = 0;  // range in Shapes::vertices
+  V3d normal{0, 0, 1};                     // unit, by the right-hand rule; Newell's sum over the vertices
+  double offset = 0;                       // normal . p for the points p of the plane
+  double area = 0;                         // 0: the polygon is never hit
+  int axis = 2;                            // the largest component of normal, left out in the inside test
+  double thickness = 0;                    // largest distance of a vertex from the plane
+};
+
+// inward: the front is inside (bubble).
+struct Sphere {
+  V3d center{0, 0, 0};
+  double radius = 1;
+  bool inward = false;
+};
+
+// Cone, cup, cylinder or tube between two planes across its axis. inward: the front is inside (cup, tube).
+struct Cone {
+  V3d base{0, 0, 0};
+  V3d axis{0, 0, 1};  // unit, from base to the other end
+  double length = 1;
+  double radius0 = 1, radius1 = 1;  // at base, at the other end
+  bool inward = false;
+};
+
+// A flat disk, or ring where inner > 0.
+struct Ring {
+  V3d center{0, 0, 0};
+  V3d normal{0, 0, 1};
+  double inner = 0, outer = 1;
+};
+
+// A cone of directions at infinity: "source". Not in the tracer; rays that hit nothing else see it.
+struct Distant {
+  V3d direction{0, 0, 1};  // unit, towards it
+  double halfAngle = 0;    // radians, to pi
+  double cosHalfAngle = 1;
+  double solidAngle = 0;  // sr
+};
+
+using Shape = std::variant<Polygon, Sphere, Cone, Ring, Distant>;
+
+// Each returns whether the ray from origin along the unit vector direction meets the shape farther than
+// kSamePlace and not beyond farthest (the first such place), and fills hit only then. Rounding: distances are
+// right to a few ulp of the largest coordinate that takes part. A ray within kSamePlace of parallel to a
+// plane misses it (as RADIANCE).
+bool intersect(const Polygon& polygon, std::span<const V3d> vertices, const V3d& origin, const V3d& direction,
+               double farthest, ShapeHit& hit);
+bool intersect(const Sphere& sphere, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit);
+bool intersect(const Cone& cone, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit);
+bool intersect(const Ring& ring, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit);
+
+// The smallest box around the shape, up to rounding. Not for Distant.
+Box3d bounds(const Polygon& polygon, std::span<const V3d> vertices);
+Box3d bounds(const Sphere& sphere);
+Box3d bounds(const Cone& cone);
+Box3d bounds(const Ring& ring);
+
+// The polygon's plane, area and axis from its vertices (at least 3). Area 0 where they lie on a line.
+Polygon makePolygon(std::span<const V3d> vertices, uint32_t first, uint32_t count);
+
+// Whether a point of the polygon's plane lies inside; points on the boundary count as inside, to rounding.
+bool inside(const Polygon& polygon, std::span<const V3d> vertices, const V3d& point);
+
+}  // namespace rsphere

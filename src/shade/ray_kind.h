@@ -1,0 +1,24 @@
+#pragma once
+
+namespace rsphere {
+
+// How a ray came about; a ray carries its own kind and, summed up, those of its ancestors.
+enum RayKind : unsigned {
+  kPrimary = 1,
+  kReflectedShadow = 2,  // to a light source on the side that the ray came from
+  kReflected = 4,        // mirrored
+  kRefracted = 8,
+  kTransmitted = 16,        // straight on, or nearly
+  kReflectedAmbient = 32,   // to gather indirect light
+  kReflectedSpecular = 64,  // a sample of a rough reflection
+  kTransmittedShadow = 128,
+  kTransmittedAmbient = 256,
+  kTransmittedSpecular = 512,
+  kShadow = kReflectedShadow | kTransmittedShadow,
+  kAmbient = kReflectedAmbient | kTransmittedAmbient,
+  kSpecular = kReflectedSpecular | kTransmittedSpecular,
+  // the kinds that count as a reflection for -lr
+  kReflections = kReflectedShadow | kReflected | kReflectedAmbient | kReflectedSpecular
+};
+
+}  // namespace rsphere

@@ -1,0 +1,317 @@
+#include "shade/scattering.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace rsphere {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Shares below this, and squared slopes of facets below it, count as none: RADIANCE's own figure decides
+// whether a surface is polished.
+constexpr double kNegligible = 1e-6;
+
+// Ward's exponential stand-in for Fresnel's equations of a polished surface with a refractive index of
+// about 1.5; the constant makes it 0 at right angles. Used where the given specularity is at least that of
+// such a surface.
+double fresnelRise(double cosine) { return std::exp(-5.85 * cosine) - 0.00287989916; }
+constexpr double kFresnelSpecularity = 0.017999;
+
+bool perturbed(const Interaction& at) { return at.perturbation.length2() > kNegligible * kNegligible; }
+
+V3d mirrored(const V3d& direction, const V3d& normal, double cosine) {
+  return direction + 2 * cosine * normal;
+}
+
+// Mirrored at the perturbed normal, or at the true one where that would lead under the surface.
+V3d safelyMirrored(const Interaction& at, const V3d& normal, double cosine) {
+  V3d d = mirrored(at.direction, normal, cosine);
+  if (perturbed(at) && d.dot(at.normal) <= kNegligible) d = mirrored(at.direction, at.normal, at.cosine);
+  return d.normalized();
+}
+
+// What plastic, metal and trans have in common.
+struct Gloss {
+  bool polished = false;
+  double fresnel = 0;   // rise of the specular share
+  double specular = 0;  // with it
+};
+
+Gloss gloss(double specularity, double roughness, double cosine) {
+  Gloss g;
+  g.polished = roughness * roughness <= kNegligible;
+  g.specular = specularity;
+  if (g.polished && specularity >= kFresnelSpecularity) {
+    g.fresnel = fresnelRise(cosine);
+    g.specular += g.fresnel * (1 - specularity);
+  }
+  return g;
+}
+
+void beginScattering(Scattering& s, const Interaction& at, double roughness) {
+  s.normal = at.normal;
+  s.cosine = at.cosine;
+  if (perturbed(at)) s.normal = perturbedNormal(at, s.cosine);
+  s.cosine = std::max(s.cosine, .001);
+  s.alpha2 = roughness * roughness;
+  s.widenReflection = at.flat && !perturbed(at);
+}
+
+void addReflection(Scattering& s, const Interaction& at, const Gloss& g, const Rgb& color,
+                   double specularThreshold) {
+  if (g.specular <= kNegligible) return;
+  if (g.polished) {
+    s.sharp.add({safelyMirrored(at, s.normal, s.cosine), color, kReflected,
+                 s.widenReflection && (at.kinds & kAmbient) != 0});
+  } else {
+    s.specularReflection = color;
+    s.sampleReflection = specularThreshold < g.specular - kNegligible;
+    if (!s.sampleReflection) s.ambientReflection += color;
+  }
+}
+
+// Fresnel's reflectance of unpolarised light. ratio: index on the ray's side over index beyond. Sets the
+// cosine beyond; 1 for total reflection.
+double fresnelReflectance(double cosine, double ratio, double& cosineBeyond) {
+  const double square = 1 - ratio * ratio * (1 - cosine * cosine);
+  if (square < kNegligible) return 1;
+  cosineBeyond = std::sqrt(square);
+  const double s = (cosine - cosineBeyond / ratio) / (cosine + cosineBeyond / ratio);
+  const double p = (cosine / ratio - cosineBeyond) / (cosine / ratio + cosineBeyond);
+  return (s * s + p * p) / 2;
+}
+
+// Extinction per unit length of a transmission per unit length; nothing is quite black, and nothing
+// amplifies.
+Rgb extinctionOf(const Rgb& transmission, const Rgb& pattern) {
+  Rgb e;
+  for (int i = 0; i < 3; ++i) {
+    const double t = transmission[i] * pattern[i];
+    e[i] = t < 1e-40 ? 100 : t >= 1 ? 0 : -std::log(t);
+  }
+  return e;
+}
+
+// Reflection and refraction at a boundary. inner, outer: indices and extinctions beyond the front's back and
+// before it.
+Scattering scatterAtBoundary(const Interaction& at, double inner, const Rgb& innerExtinction, double outer,
+                             const Rgb& outerExtinction) {
+  Scattering s;
+  beginScattering(s, at, 0);
+  s.knowsMedium = true;
+  s.extinction = at.front ? outerExtinction : innerExtinction;
+  const double ratio = at.front ? outer / inner : inner / outer;
+  double cosineBeyond = 0;
+  const double reflectance = fresnelReflectance(s.cosine, ratio, cosineBeyond);
+  const bool image = at.flat && (!perturbed(at) || (at.kinds & kAmbient));
+  if (reflectance < 1) {
+    // Radiance is squeezed into the smaller solid angle: n^2.
+    const double transmittance = (1 - reflectance) * ratio * ratio;
+    const double bend = ratio * s.cosine - cosineBeyond;
+    V3d d = ratio * at.direction + bend * s.normal;
+    if (perturbed(at) && d.dot(at.normal) >= -kNegligible) d = ratio * at.direction + bend * at.normal;
+    s.sharp.add({d.normalized(), Rgb(transmittance, transmittance, transmittance), kRefracted,
+                 image || std::abs(ratio - 1) <= kNegligible, true,
+                 at.front ? innerExtinction : outerExtinction});
+  }
+  if (!(at.kinds & kShadow))
+    s.sharp.add({safelyMirrored(at, s.normal, s.cosine), Rgb(reflectance, reflectance, reflectance),
+                 kReflected, image, true, s.extinction});
+  return s;
+}
+
+}  // namespace
+
+void frame(const V3d& z, V3d& x, V3d& y) {
+  const double sign = std::copysign(1., z.z);
+  const double a = -1 / (sign + z.z);
+  const double b = z.x * z.y * a;
+  x = V3d(1 + sign * z.x * z.x * a, sign * b, -sign * z.x);
+  y = V3d(b, sign + z.y * z.y * a, -z.y);
+}
+
+V3d perturbedNormal(const Interaction& at, double& cosine) {
+  V3d n = at.normal + at.perturbation;
+  const double length = n.length();
+  if (!(length > 0)) {
+    cosine = at.cosine;
+    return at.normal;
+  }
+  n /= length;
+  cosine = -n.dot(at.direction);
+  if (cosine < 0) {  // turned away from the ray: mirror it back across the plane that the ray lies in
+    n += 2 * cosine * at.direction;
+    cosine = -cosine;
+  }
+  return n;
+}
+
+Scattering scatter(const Opaque& material, const Interaction& at, double specularThreshold) {
+  Scattering s;
+  beginScattering(s, at, material.roughness);
+  const Rgb color = material.color * at.pattern;
+  const Gloss g = gloss(material.specularity, material.roughness, s.cosine);
+  s.diffuseReflection = s.ambientReflection = color * (1 - g.specular);
+  s.diffuseFresnel = g.polished && g.specular >= kFresnelSpecularity;
+  Rgb highlight(g.specular, g.specular, g.specular);
+  if (material.metal)
+    highlight = g.fresnel > kNegligible
+                    ? Rgb(g.fresnel, g.fresnel, g.fresnel) + color * (material.specularity * (1 - g.fresnel))
+                    : color * g.specular;
+  addReflection(s, at, g, highlight, specularThreshold);
+  return s;
+}
+
+Scattering scatter(const Trans& material, const Interaction& at, double specularThreshold) {
+  Scattering s;
+  beginScattering(s, at, material.roughness);
+  const Rgb color = material.color * at.pattern;
+  const Gloss g = gloss(material.specularity, material.roughness, s.cosine);
+  const double passes = material.transmissivity * (1 - g.specular);
+  const double straight = passes * material.transmittedSpecular;
+  s.diffuseReflection = s.ambientReflection = color * (1 - passes - g.specular);
+  s.diffuseTransmission = s.ambientTransmission = color * (passes - straight);
+  s.diffuseFresnel = g.polished && g.specular >= kFresnelSpecularity;
+  if (straight > kNegligible) {
+    s.transmitted = at.direction;
+    if (perturbed(at) && !(at.kinds & (kShadow | kAmbient)) && !at.smoothed) {
+      const V3d bent = at.direction - at.perturbation;
+      if (bent.dot(at.normal) < -kNegligible) s.transmitted = bent.normalized();
+    }
+    if (g.polished) {
+      const bool image = straight >= 1 - kNegligible || 2 * straight > 1 - g.specular;
+      s.sharp.add({s.transmitted, color * straight, kTransmitted, image});
+    } else {
+      s.specularTransmission = color * straight;
+      s.sampleTransmission = specularThreshold < straight - kNegligible;
+      if (!s.sampleTransmission) s.ambientTransmission = color * passes;
+    }
+  }
+  if (!(at.kinds & kShadow))
+    addReflection(s, at, g, Rgb(g.specular, g.specular, g.specular), specularThreshold);
+  return s;
+}
+
+Scattering scatter(const Dielectric& material, const Interaction& at, const Rgb& outerExtinction) {
+  // Hartmann's formula at a mean wavelength of 500 nm.
+  return scatterAtBoundary(at, material.refraction + material.hartmann / 500,
+                           extinctionOf(material.transmission, at.pattern), 1, outerExtinction);
+}
+
+Scattering scatter(const Interface& material, const Interaction& at) {
+  return scatterAtBoundary(at, material.innerRefraction, extinctionOf(material.innerTransmission, at.pattern),
+                           material.outerRefraction, extinctionOf(material.outerTransmission, at.pattern));
+}
+
+Scattering scatter(const Glass& material, const Interaction& at) {
+  Scattering s;
+  s.normal = at.normal;
+  s.cosine = at.cosine;
+  if (perturbed(at)) s.normal = perturbedNormal(at, s.cosine);
+  const double n = material.refraction;
+  const double inside = std::sqrt(1 - 1 / (n * n) + s.cosine * s.cosine / (n * n));
+  double reflected[2];  // of a single surface, for the two polarisations
+  reflected[0] = (s.cosine - n * inside) / (s.cosine + n * inside);
+  reflected[1] = (1 / s.cosine - n / inside) / (1 / s.cosine + n / inside);
+  Rgb transmittance(0, 0, 0), reflectance(0, 0, 0);
+  for (const double amplitude : reflected) {
+    const double r = amplitude * amplitude;
+    for (int i = 0; i < 3; ++i) {
+      const double t = material.transmissivity[i] > 0 ? std::pow(material.transmissivity[i], 1 / inside) : 0;
+      const double between = 1 - r * r * t * t;
+      transmittance[i] += .5 * (1 - r) * (1 - r) * t / between;
+      reflectance[i] += .5 * r * (1 + (1 - 2 * r) * t * t) / between;
+    }
+  }
+  transmittance *= at.pattern;
+  if (maxChannel(transmittance) > 0) {
+    V3d d = at.direction;
+    const bool bends = perturbed(at) && !(at.kinds & (kShadow | kAmbient)) && !at.smoothed;
+    if (bends) {
+      d += 2 * (1 - n) * at.perturbation;
+      const double length = d.length();
+      d = length > 0 ? d / length : at.direction;
+    }
+    s.sharp.add({d, transmittance, kTransmitted, !perturbed(at) || (at.kinds & (kShadow | kAmbient)) != 0});
+  }
+  if (!(at.kinds & kShadow))
+    s.sharp.add({mirrored(at.direction, s.normal, s.cosine).normalized(), reflectance, kReflected,
+                 at.flat && (!perturbed(at) || (at.kinds & kAmbient))});
+  return s;
+}
+
+Scattering scatter(const Mirror& material, const Interaction& at) {
+  Scattering s;
+  s.normal = at.normal;
+  s.cosine = at.cosine;
+  const bool bends = perturbed(at) && !(at.kinds & kAmbient);
+  if (bends) s.normal = perturbedNormal(at, s.cosine);
+  s.sharp.add({safelyMirrored(at, s.normal, s.cosine), material.reflectance * at.pattern, kReflected,
+               at.flat && !bends});
+  return s;
+}
+
+Rgb directCoefficient(const Scattering& s, const Interaction& at, const V3d& toSource, double solidAngle,
+                      double sourceJitter) {
+  Rgb sum(0, 0, 0);
+  const double cosine = s.normal.dot(toSource);
+  const double enters = s.diffuseFresnel > 0 ? 1 - fresnelRise(std::abs(cosine)) : 1;
+  if (cosine > kNegligible) {
+    sum += s.diffuseReflection * (enters * cosine * solidAngle / kPi);
+    if (maxChannel(s.specularReflection) > 0) {
+      double alpha2 = s.alpha2;
+      if (s.widenReflection) alpha2 += (1 - sourceJitter) * solidAngle * .25 / kPi;
+      const V3d half = toSource - at.direction;
+      const double along = half.dot(s.normal);
+      const double along2 = along * along, length2 = half.length2();
+      const double tangent2 = (length2 - along2) / along2;
+      const double lobe = std::exp(-tangent2 / alpha2) * length2 / (kPi * along2 * along2 * alpha2);
+      if (lobe > kNegligible) sum += s.specularReflection * (lobe * cosine * solidAngle);
+    }
+  } else if (cosine < -kNegligible) {
+    sum += s.diffuseTransmission * (enters * -cosine * solidAngle / kPi);
+    if (maxChannel(s.specularTransmission) > 0) {
+      const double alpha2 = s.alpha2 + solidAngle / kPi;
+      const double lobe = std::exp((2 * s.transmitted.dot(toSource) - 2) / alpha2) / (kPi * alpha2);
+      if (lobe > kNegligible)
+        sum += s.specularTransmission * (lobe * solidAngle * std::sqrt(-cosine / s.cosine));
+    }
+  }
+  return sum;
+}
+
+namespace {
+// Distance of a lobe's sample from its middle, in the tangent plane: exp(-(d/alpha)^2) inverted.
+double lobeRadius(double alpha2, double spread, double u) {
+  const double v = 1 - std::min(spread, 1.) * u;
+  return v > kNegligible ? std::sqrt(-alpha2 * std::log(v)) : 1;
+}
+}  // namespace
+
+double sampleReflection(const Scattering& s, const Interaction& at, double spread, double u1, double u2,
+                        V3d& direction) {
+  V3d x, y;
+  frame(s.normal, x, y);
+  const double radius = lobeRadius(s.alpha2, spread, u2), angle = 2 * kPi * u1;
+  const V3d half = s.normal + radius * (std::cos(angle) * x + std::sin(angle) * y);
+  direction = at.direction - 2 * half.dot(at.direction) / (1 + radius * radius) * half;
+  const double out = direction.dot(at.normal);
+  if (out <= kNegligible) return 0;
+  direction.normalize();
+  return 2 / (1 + at.cosine / out);
+}
+
+double sampleTransmission(const Scattering& s, const Interaction& at, double spread, double u1, double u2,
+                          V3d& direction) {
+  V3d x, y;
+  frame(s.normal, x, y);
+  const double radius = lobeRadius(s.alpha2, spread, u2), angle = 2 * kPi * u1;
+  direction = s.transmitted + radius * (std::cos(angle) * x + std::sin(angle) * y);
+  if (direction.dot(at.normal) >= -kNegligible) return 0;
+  direction.normalize();
+  return 1;
+}
+
+}  // namespace rsphere

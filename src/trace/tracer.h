@@ -1,0 +1,61 @@
+#pragma once
+// Nearest hits and shadows in a scene, by Embree.
+//
+// Every primitive is one user geometry primitive whose callback works in double precision: RADIANCE's own
+// polygon rules hold, nothing is triangulated, and Embree builds and walks one tree. Embree's own
+// single-precision work only finds candidates: the scene is recentred, bounds are padded by more than its
+// rounding can move a ray, and rays start where they enter the scene. Triangles in single precision, the
+// rival, miss the right primitive on 17% of rays once a scene lies 1e5 units from the origin.
+//
+// Threads: a Tracer is not changed by queries; any number of threads may ask at once.
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace rsphere {
+
+inline constexpr double kFarAway = 1e10;  // RADIANCE's infinity: the length of a ray that hits nothing
+
+struct Hit {
+  int32_t surface = kNone;  // index in Scene::surfaces
+  double distance = kFarAway;
+  V3d normal{0, 0, 0};  // unit, on the surface's front side
+  double cosine = 0;    // -normal . direction: positive where the front was hit
+};
+
+enum class Shadow : uint8_t {
+  clear,    // nothing is between the two
+  blocked,  // something is that lets no ray pass
+  unsure    // nothing opaque, but something that may let light pass: the ray must be followed
+};
+
+class Tracer {
+ public:
+  // Keeps a reference to the scene. backFacesVisible (-bv): whether an opaque material stops rays from
+  // behind. Throws rad::Error (Status::system) where Embree has no memory left.
+  Tracer(const Scene& scene, bool backFacesVisible);
+  ~Tracer();
+  Tracer(Tracer&&) noexcept;
+
+  // The nearest surface farther than kSamePlace and not beyond farthest (world units) along the unit vector
+  // direction, or a Hit of surface kNone. Among surfaces within kSamePlace of one another RADIANCE's choice
+  // is made: one with a material, then one that no ray can pass, then one hit from its front, then the one
+  // with the later modifier.
+  Hit nearest(const V3d& origin, const V3d& direction, double farthest = kFarAway) const;
+
+  // What lies between origin and a light source's surface at the given distance along direction. source:
+  // index of that surface; a distant source is no surface to hit, and distance is kFarAway.
+  Shadow shadow(const V3d& origin, const V3d& direction, double distance, int32_t source) const;
+
+  // Of all surfaces but distant ones; empty where there is none.
+  const Box3d& bounds() const { return bounds_; }
+
+ private:
+  struct Embree;
+  std::unique_ptr<Embree> embree_;
+  Box3d bounds_;
+};
+
+}  // namespace rsphere

@@ -1,0 +1,118 @@
+#pragma once
+// Radiance along a ray: direct light from the sources, sharp reflections and refractions, samples of rough
+// ones, and indirect light.
+//
+// Indirect light is computed without a cache whatever -aa says: -ad directions over the hemisphere,
+// stratified, at the first diffuse surface of a path, one at every later one. Paths end at -ab bounces and by
+// Russian roulette below -lw, so that the mean stays right.
+#include <vector>
+
+#include "cli/answer.h"
+#include "cli/options.h"
+#include "light/sources.h"
+#include "scene/random.h"
+#include "scene/scene.h"
+#include "shade/scattering.h"
+#include "trace/tracer.h"
+#include "transport/ray.h"
+
+namespace rsphere {
+
+// What all threads share; not changed by tracing. Keeps references to the scene.
+class Transport {
+ public:
+  Transport(const Scene& scene, const RayOptions& options, Irradiance irradiance);
+
+  const Scene& scene() const { return scene_; }
+  const Tracer& tracer() const { return tracer_; }
+  const LightSources& lights() const { return lights_; }
+  const RayOptions& options() const { return options_; }
+  Irradiance irradiance() const { return irradiance_; }
+  // Index in LightSources of a surface, or kNone.
+  int32_t lightOf(int32_t surface) const { return lightOf_[surface]; }
+  // Whether indirect light is computed on the surface (-ae, -ai).
+  bool isAmbient(int32_t surface) const { return surface == kNone || ambient_.empty() || ambient_[surface]; }
+  // Surfaces of type source that shine, in the order of the scene.
+  const std::vector<int32_t>& distant() const { return distant_; }
+
+ private:
+  const Scene& scene_;
+  RayOptions options_;
+  Irradiance irradiance_;
+  Tracer tracer_;
+  LightSources lights_;
+  std::vector<int32_t> lightOf_;
+  std::vector<int32_t> distant_;
+  std::vector<bool> ambient_;  // by surface; empty: all of them
+};
+
+// Traces one ray at a time; one a thread. The answer depends on the ray, the seed and Transport alone.
+class PathTracer {
+ public:
+  explicit PathTracer(const Transport& transport) : t_(transport) {}
+
+  // Radiance along a primary ray (W/sr/m2), or irradiance (W/m2) as Transport::irradiance says: at the
+  // surface that is hit, or at origin on a surface that faces direction. direction: unit. farthest: 0 for no
+  // limit (-ld).
+  Ray trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed);
+
+  // Only what is hit, no value.
+  Ray cast(const V3d& origin, const V3d& direction, double farthest);
+
+ private:
+  struct Contribution {
+    V3d direction;
+    Rgb coefficient, value;
+    double brightness;
+    double distance;
+    uint32_t source;
+  };
+
+  bool continueRay(Ray& child, RayKind kind, const Ray& parent, Rgb& coefficient);
+  bool startShadowRay(Ray& child, const Ray& parent, const V3d& direction, uint32_t source);
+  void evaluate(Ray& ray);
+  void findHit(Ray& ray);
+  bool seesDistant(Ray& ray);
+  void shadeHit(Ray& ray);
+  bool shade(Ray& ray, int32_t modifier);
+  void pass(Ray& ray);
+  void finish(Ray& ray);
+
+  bool shadeMaterial(Ray& ray, const Opaque& material);
+  bool shadeMaterial(Ray& ray, const Trans& material);
+  bool shadeMaterial(Ray& ray, const Dielectric& material);
+  bool shadeMaterial(Ray& ray, const Interface& material);
+  bool shadeMaterial(Ray& ray, const Glass& material);
+  bool shadeMaterial(Ray& ray, const Mirror& material);
+  bool shadeMaterial(Ray& ray, const Light& material);
+  bool shadeMaterial(Ray& ray, const Illum& material);
+  bool shadeMaterial(Ray& ray, const Glow& material);
+  bool shadeMaterial(Ray& ray, const Spotlight& material);
+
+  bool countedByDirect(const Ray& ray, const Glow* glow) const;
+  void emit(Ray& ray, const Rgb& radiance, const Glow* glow);
+  bool shadeDiffusing(Ray& ray, const Scattering& scattering, const Interaction& at);
+  bool shadeBoundary(Ray& ray, const Scattering& scattering);
+  bool useAlternate(Ray& ray, const Alternate& alternate);
+  void followSharp(Ray& ray, const Scattering& scattering);
+  void sampleLobes(Ray& ray, const Scattering& scattering, const Interaction& at);
+  void addIndirect(Ray& ray, const V3d& normal, const V3d& trueNormal, RayKind kind, const Rgb& coefficient);
+  void addDirect(Ray& ray, const Scattering& scattering, const Interaction& at);
+  Rgb sourceValue(const Ray& ray, const SourceSample& sample);
+  Interaction interaction(const Ray& ray) const;
+
+  const Transport& t_;
+  Random random_{0};
+  // Scratch of addDirect, which never runs inside itself: shadow rays ask for no direct light.
+  std::vector<SourceSample> samples_;
+  std::vector<Contribution> contributions_;
+  std::vector<double> remaining_;
+};
+
+// What rtrace's output letters say of a traced ray.
+RayAnswer answerOf(const Scene& scene, const Ray& ray);
+
+// Whether the letters need a ray's value, or only what it hits.
+bool needsValue(std::string_view letters);
+
+}  // namespace rsphere

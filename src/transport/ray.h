@@ -1,0 +1,36 @@
+#pragma once
+#include "scene/scene.h"
+#include "shade/ray_kind.h"
+#include "trace/tracer.h"
+
+namespace rsphere {
+
+// A ray, what it hit, and what comes back along it.
+struct Ray {
+  V3d origin{0, 0, 0}, direction{0, 0, 1};  // world; direction unit
+  double farthest = 0;                      // where it ends whatever there is (-ld, world units); 0: nowhere
+  RayKind kind = kPrimary;
+  unsigned kinds = kPrimary;  // its own kind and those of its ancestors
+  double weight = 1;          // most that its radiance can count for in the answer
+  int level = 0;              // reflections that led to it
+  int ambientLevel = 0;       // indirect bounces that led to it
+  double pathLength = 0;      // of its ancestors up to the first reflection, for glow that is seen
+  int32_t aimedAt = kNone;    // light source that a shadow ray goes to
+  Rgb extinction{0, 0, 0};    // of the medium it passes, per unit length
+
+  int32_t surface = kNone;  // hit, index in Scene::surfaces
+  double length = kFarAway;
+  V3d point{0, 0, 0};   // where it hit; its origin where nothing local was hit
+  V3d normal{0, 0, 0};  // on the side that it came from, once shaded
+  double cosine = 1;    // -normal . direction; negative until a hit from behind is turned round
+  bool fromBehind = false;
+  V3d perturbation{0, 0, 0};
+  Rgb pattern{1, 1, 1};
+  double u = 0, v = 0;
+
+  Rgb value{0, 0, 0};     // radiance, W/sr/m2
+  Rgb mirrored{0, 0, 0};  // the part of it that was mirrored
+  double mirroredLength = kFarAway, unmirroredLength = kFarAway;
+};
+
+}  // namespace rsphere
