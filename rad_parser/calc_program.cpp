@@ -1,0 +1,314 @@
+#include "rad_parser/calc_program.h"
+
+#include <fmt/format.h>
+#include <math.h>  // j0 and its kin are POSIX, not in namespace std
+
+#include <algorithm>
+#include <cmath>
+
+#include "rad_parser/calc_math.h"
+#include "rad_parser/error.h"
+
+namespace rad::calc {
+namespace {
+
+// Rounds as the original does: towards zero after adding a half. What is not a number is -1.
+int rounded(double x) { return std::isnan(x) ? -1 : static_cast<int>(std::clamp(x, -1e9, 1e9) + .5); }
+
+double checked(double value, uint32_t& faults) {
+  if (std::isfinite(value)) return value;
+  faults |= std::isnan(value) ? kDomainError : kRangeError;
+  return 0;
+}
+
+double quotient(double a, double b, uint32_t& faults) {
+  if (b != 0) return a / b;
+  faults |= kDivisionByZero;
+  return 0;
+}
+
+double power(double a, double b, uint32_t& faults) {
+  const double value = std::pow(a, b);
+  if (std::isfinite(value)) return value;
+  faults |= kIllegalPower;
+  return 0;
+}
+
+}  // namespace
+
+double apply(Op op, double a, double b, double c, uint32_t& faults) {
+  switch (op) {
+    case Op::negate:
+      return -a;
+    case Op::add:
+      return a + b;
+    case Op::subtract:
+      return a - b;
+    case Op::multiply:
+      return a * b;
+    case Op::divide:
+      return quotient(a, b, faults);
+    case Op::power:
+      return power(a, b, faults);
+    case Op::sin:
+      return checked(std::sin(a), faults);
+    case Op::cos:
+      return checked(std::cos(a), faults);
+    case Op::tan:
+      return checked(std::tan(a), faults);
+    case Op::asin:
+      return checked(std::asin(a), faults);
+    case Op::acos:
+      return checked(std::acos(a), faults);
+    case Op::atan:
+      return checked(std::atan(a), faults);
+    case Op::exp:
+      return checked(std::exp(a), faults);
+    case Op::log:
+      return checked(std::log(a), faults);
+    case Op::log10:
+      return checked(std::log10(a), faults);
+    case Op::sqrt:
+      return checked(std::sqrt(a), faults);
+    case Op::floor:
+      return checked(std::floor(a), faults);
+    case Op::ceil:
+      return checked(std::ceil(a), faults);
+    case Op::random:
+      return checked(randomOf(a), faults);
+    case Op::erf:
+      return checked(std::erf(a), faults);
+    case Op::erfc:
+      return checked(std::erfc(a), faults);
+    case Op::j0:
+      return checked(::j0(a), faults);
+    case Op::j1:
+      return checked(::j1(a), faults);
+    case Op::y0:
+      return checked(::y0(a), faults);
+    case Op::y1:
+      return checked(::y1(a), faults);
+    case Op::atan2:
+      return checked(std::atan2(a, b), faults);
+    // The order is rounded as select's index is; C's recurrences take time in proportion to it.
+    case Op::jn:
+      return std::abs(a) < 1e6 ? checked(::jn(static_cast<int>(a + .5), b), faults) : 0;
+    case Op::yn:
+      return std::abs(a) < 1e6 ? checked(::yn(static_cast<int>(a + .5), b), faults) : 0;
+    case Op::min:
+      return a > b ? b : a;
+    case Op::max:
+      return a < b ? b : a;
+    case Op::noise3:
+      return checked(noise3(a, b, c), faults);
+    case Op::fractalNoise3:
+      return checked(fractalNoise3(a, b, c), faults);
+    case Op::finite:
+      return checked(a, faults);
+    default:
+      return 0;  // no operator
+  }
+}
+
+void Program::evaluate(const Point& point, State& state, std::span<double> out) const {
+  // The frame that runs: where its registers and cells begin. top: the first ones that no activation uses.
+  uint32_t base = 0, cellBase = 0, top = 0, cellTop = 0;
+  double* r = nullptr;
+  const auto enter = [&](const Frame& frame) {
+    base = top;
+    cellBase = cellTop;
+    top += frame.registers;
+    cellTop += frame.cells;
+    if (state.registers_.size() < top) state.registers_.resize(top + top / 2);
+    if (state.cells_.size() < cellTop) state.cells_.resize(cellTop + cellTop / 2);
+    r = state.registers_.data() + base;
+    std::copy_n(constants_.data() + frame.firstConstant, frame.constants, r);
+    State::Cell* cells = state.cells_.data() + cellBase;
+    for (uint32_t i = frame.parameters; i < frame.cells; ++i) {
+      cells[i] = {cellStarts_[frame.firstCell + i], base, cellBase};
+    }
+  };
+  std::vector<State::Return>& returns = state.returns_;
+  returns.clear();
+  enter(frames_[0]);
+
+  uint32_t faults = 0;
+  const Instruction* i = code_.data() + frames_[0].begin;
+  const auto pcAfter = [&] { return static_cast<uint32_t>(i - code_.data()) + 1; };
+  const auto needDepth = [&](const Frame& frame) {
+    if (returns.size() >= kMaxDepth || top > kMaxRegisters) {
+      state.faults |= faults;
+      throw Error(fmt::format("{}: recursion that is too deep or endless", frame.name));
+    }
+  };
+  const auto force = [&](uint32_t cell, uint32_t to) {
+    State::Cell& c = state.cells_[cell];
+    if (c.pc == kDone) return false;
+    if (c.pc == kBusy) throw Error(fmt::format("{}: a value that depends on itself", frames_[0].name));
+    needDepth(frames_[0]);
+    returns.push_back({pcAfter(), base, cellBase, cell, to});
+    base = c.base;
+    cellBase = c.cellBase;
+    r = state.registers_.data() + base;
+    i = code_.data() + c.pc;
+    c.pc = kBusy;
+    return true;
+  };
+
+  while (true) {
+    switch (i->op) {
+      case Op::input:
+        r[i->to] = point.inputs[i->a];
+        break;
+      case Op::argument:
+        r[i->to] = point.arguments[i->a];
+        break;
+      case Op::move:
+        r[i->to] = r[i->a];
+        break;
+      case Op::moveFinite:
+        r[i->to] = checked(r[i->a], faults);
+        break;
+      case Op::negate:
+        r[i->to] = -r[i->a];
+        break;
+      case Op::add:
+        r[i->to] = r[i->a] + r[i->b];
+        break;
+      case Op::subtract:
+        r[i->to] = r[i->a] - r[i->b];
+        break;
+      case Op::multiply:
+        r[i->to] = r[i->a] * r[i->b];
+        break;
+      case Op::divide:
+        r[i->to] = quotient(r[i->a], r[i->b], faults);
+        break;
+      case Op::min:
+        r[i->to] = r[i->a] > r[i->b] ? r[i->b] : r[i->a];
+        break;
+      case Op::max:
+        r[i->to] = r[i->a] < r[i->b] ? r[i->b] : r[i->a];
+        break;
+      case Op::sqrt:
+        r[i->to] = checked(std::sqrt(r[i->a]), faults);
+        break;
+      case Op::floor:
+        r[i->to] = checked(std::floor(r[i->a]), faults);
+        break;
+      case Op::sin:
+        r[i->to] = checked(std::sin(r[i->a]), faults);
+        break;
+      case Op::cos:
+        r[i->to] = checked(std::cos(r[i->a]), faults);
+        break;
+      case Op::noise3:
+        r[i->to] = checked(noise3(r[i->a], r[i->b], r[i->c]), faults);
+        break;
+      case Op::jump:
+        i = code_.data() + i->a;
+        continue;
+      case Op::jumpUnlessPositive:
+        if (!(r[i->a] > 0)) {
+          i = code_.data() + i->b;
+          continue;
+        }
+        break;
+      case Op::choose: {  // the c-th and later entries of the list are the choices'; the first is for none of
+                          // them
+        const double x = r[i->a];
+        int n = rounded(x);
+        const int choices = static_cast<int>(i->c);
+        if (!(x >= -.5) || n >= choices) n = -1;
+        i = code_.data() + lists_[i->b + static_cast<uint32_t>(n + 1)];
+        continue;
+      }
+      case Op::zeroRange:
+        faults |= kDomainError;
+        r[i->to] = 0;
+        break;
+      case Op::realArgument: {
+        const int n = rounded(r[i->a]);
+        if (n > static_cast<int>(point.reals.size())) {
+          throw Error(fmt::format("{}: missing real argument {}", messages_[i->b], n));
+        }
+        r[i->to] = n < 1 ? static_cast<double>(point.reals.size()) : point.reals[static_cast<size_t>(n - 1)];
+        break;
+      }
+      case Op::host: {
+        const HostFunction& host = hosts_[i->a];
+        double arguments[8];
+        const size_t count = std::min<size_t>(i->c, 8);
+        for (size_t k = 0; k < count; ++k) arguments[k] = r[lists_[i->b + k]];
+        r[i->to] = checked(host.call(point, {arguments, count}), faults);
+        break;
+      }
+      case Op::force:
+        if (force(cellBase + i->a, base + i->to)) continue;
+        break;
+      case Op::forceGlobal:
+        if (force(i->a, i->to)) continue;
+        break;
+      case Op::global:
+        r[i->to] = state.registers_[i->a];
+        break;
+      case Op::returnCell: {
+        const double value = r[i->a];
+        const State::Return back = returns.back();
+        returns.pop_back();
+        state.cells_[back.cell].pc = kDone;
+        base = back.base;
+        cellBase = back.cellBase;
+        state.registers_[back.to] = value;
+        r = state.registers_.data() + base;
+        i = code_.data() + back.pc;
+        continue;
+      }
+      case Op::call: {
+        const Frame& callee = frames_[i->a];
+        needDepth(callee);
+        returns.push_back({pcAfter(), base, cellBase, kNoCell, base + i->to});
+        const uint32_t callerBase = base, callerCells = cellBase;
+        const uint32_t* arguments = lists_.data() + i->b;
+        enter(callee);
+        const double* caller = state.registers_.data() + callerBase;
+        for (uint32_t k = 0; k < callee.parameters; ++k, arguments += 3) {
+          // A register that holds the value, or code that computes it in the caller's frame. The value may be
+          // there all the same if the caller has a cell for it.
+          const bool isDone = arguments[1] == kDone || (arguments[2] != kNoCell &&
+                                                        state.cells_[callerCells + arguments[2]].pc == kDone);
+          state.cells_[cellBase + k] = {isDone ? kDone : arguments[1], callerBase, callerCells};
+          if (isDone) r[callee.constants + k] = caller[arguments[0]];
+        }
+        i = code_.data() + callee.begin;
+        continue;
+      }
+      case Op::returnCall: {
+        const double value = r[i->a];
+        const State::Return back = returns.back();
+        returns.pop_back();
+        top = base;
+        cellTop = cellBase;
+        base = back.base;
+        cellBase = back.cellBase;
+        state.registers_[back.to] = value;
+        r = state.registers_.data() + base;
+        i = code_.data() + back.pc;
+        continue;
+      }
+      case Op::fail:
+        state.faults |= faults;
+        throw Error(messages_[i->a]);
+      case Op::halt:
+        for (size_t k = 0; k < outputs_.size(); ++k) out[k] = r[outputs_[k]];
+        state.faults |= faults;
+        return;
+      default:
+        r[i->to] = apply(i->op, r[i->a], r[i->b], r[i->c], faults);
+        break;
+    }
+    ++i;
+  }
+}
+
+}  // namespace rad::calc
