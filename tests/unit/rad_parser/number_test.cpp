@@ -1,0 +1,60 @@
+#include "rad_parser/number.h"
+
+#include <gtest/gtest.h>
+
+#include <clocale>
+#include <cmath>
+#include <string>
+
+namespace {
+
+using rad::parseInteger;
+using rad::parseReal;
+
+TEST(Number, RealsAsTheLanguageSpellsThem) {
+  EXPECT_EQ(parseReal("1."), 1);
+  EXPECT_EQ(parseReal("+.5"), .5);
+  EXPECT_EQ(parseReal("-.5"), -.5);
+  EXPECT_EQ(parseReal("1e3"), 1000);
+  EXPECT_EQ(parseReal("1.E+03"), 1000);
+  EXPECT_EQ(parseReal("-0.1"), -0.1);
+  EXPECT_EQ(parseReal("00012"), 12);
+  EXPECT_EQ(parseReal("3.14159265358979323846264338327950288419716939937510"), 3.141592653589793);
+  EXPECT_EQ(parseReal("4.9e-324"), 4.9e-324);
+}
+
+TEST(Number, TooSmallIsZeroAndTooLargeIsNoNumber) {
+  EXPECT_EQ(parseReal("1e-400"), 0);
+  EXPECT_TRUE(std::signbit(*parseReal("-1e-400")));
+  EXPECT_EQ(parseReal("0." + std::string(400, '0') + "1"), 0);
+  EXPECT_EQ(parseReal("1e-99999999999999999999"), 0);
+  EXPECT_EQ(parseReal("0e999999999999"), 0);
+  EXPECT_FALSE(parseReal("1e400"));
+  EXPECT_FALSE(parseReal("1" + std::string(400, '0')));
+  EXPECT_FALSE(parseReal("1e99999999999999999999"));
+}
+
+TEST(Number, OtherWordsAreNoReals) {
+  for (const char* word : {"",    ".",   "-",    "+",   "+-5",  "-+5",   "1,5", "1e", "1e+", "e5",
+                           ".e5", "inf", "-inf", "nan", "0x10", "1.2.3", "12a", " 1", "1 ",  "1f"})
+    EXPECT_FALSE(parseReal(word)) << word;
+}
+
+TEST(Number, Integers) {
+  EXPECT_EQ(parseInteger("+3"), 3);
+  EXPECT_EQ(parseInteger("-12"), -12);
+  EXPECT_EQ(parseInteger("99999999999"), 99999999999);
+  for (const char* word : {"", "+", "-", "+-3", "1.", "1e3", "3x", "99999999999999999999"})
+    EXPECT_FALSE(parseInteger(word)) << word;
+}
+
+TEST(Number, TheLocaleDoesNotMatter) {
+  const std::string before = std::setlocale(LC_ALL, nullptr);
+  for (const char* comma : {"de_DE.UTF-8", "fr_FR.UTF-8", "de_DE", "fr_FR"})
+    if (std::setlocale(LC_ALL, comma)) break;
+  EXPECT_EQ(parseReal("1.5"), 1.5);
+  EXPECT_FALSE(parseReal("1,5"));
+  std::setlocale(LC_ALL, before.c_str());
+}
+
+}  // namespace
