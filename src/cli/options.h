@@ -9,8 +9,8 @@
 
 namespace rsphere {
 
-// What steers a ray's path: rtrace's options, under the names rtrace(1) explains. Defaults are rtrace's (ray mode);
-// sphere mode has its own, see sphereDefaults().
+// What steers a ray's path: rtrace's options, under the names rtrace(1) explains. Defaults are rtrace's (ray
+// mode); sphere mode has its own, see modeDefaults() of option_table.h.
 struct RayOptions {
   // direct light
   double directThreshold = .03;      // -dt  share of the possible contribution left untested
@@ -21,29 +21,30 @@ struct RayOptions {
   int directPretest = 512;           // -dp
   bool sourcesVisible = true;        // -dv  whether a directly seen source is its radiance, not black
   // specular
-  double specularSampling = 1;       // -ss
-  double specularThreshold = .15;    // -st
+  double specularSampling = 1;     // -ss
+  double specularThreshold = .15;  // -st
   // indirect
-  int ambientBounces = 0;            // -ab
-  double ambientAccuracy = .1;       // -aa
-  int ambientResolution = 256;       // -ar
-  int ambientDivisions = 1024;       // -ad
-  int ambientSuperSamples = 512;     // -as
-  Rgb ambientValue{0, 0, 0};         // -av  W/sr/m2
-  int ambientWeight = 0;             // -aw
-  std::string ambientFile;           // -af
-  std::vector<std::string> ambientExcluded, ambientIncluded;  // -ae -aE, -ai -aI (at most one of the two is not empty)
+  int ambientBounces = 0;         // -ab
+  double ambientAccuracy = .1;    // -aa
+  int ambientResolution = 256;    // -ar
+  int ambientDivisions = 1024;    // -ad
+  int ambientSuperSamples = 512;  // -as
+  Rgb ambientValue{0, 0, 0};      // -av  W/sr/m2
+  int ambientWeight = 0;          // -aw
+  std::string ambientFile;        // -af
+  std::vector<std::string> ambientExcluded,
+      ambientIncluded;  // -ae -aE, -ai -aI (at most one of the two is not empty)
   // limits
-  int reflectionLimit = -10;         // -lr  negative: Russian roulette below -lw, from depth -lr
-  double weightLimit = 1e-4;         // -lw
+  int reflectionLimit = -10;  // -lr  negative: Russian roulette below -lw, from depth -lr
+  double weightLimit = 1e-4;  // -lw
   // medium
-  Rgb mediumExtinction{0, 0, 0};     // -me  per unit length
-  Rgb mediumAlbedo{0, 0, 0};         // -ma
-  double mediumEccentricity = 0;     // -mg
-  double mediumSampling = 0;         // -ms  unit lengths; 0: whole
+  Rgb mediumExtinction{0, 0, 0};  // -me  per unit length
+  Rgb mediumAlbedo{0, 0, 0};      // -ma
+  double mediumEccentricity = 0;  // -mg
+  double mediumSampling = 0;      // -ms  unit lengths; 0: whole
   // others
-  bool backFacesVisible = true;      // -bv
-  bool uncorrelated = true;          // -u
+  bool backFacesVisible = true;  // -bv
+  bool uncorrelated = true;      // -u
 };
 
 enum class Irradiance : uint8_t { none, surface /* -i */, point /* -I */ };
@@ -51,11 +52,11 @@ enum class Irradiance : uint8_t { none, surface /* -i */, point /* -I */ };
 enum class Weights : uint8_t { homogeneous /* h */, voronoi /* v */, silhouettes /* c */ };
 
 struct SphereOptions {
-  bool on = true;             // -S
-  int baseDirections = 2048;  // -Sn  1 to 1,000,000
-  int mostDirections = 4096;  // -Sx
-  double densityFactor = 1;   // -Sk
-  double accuracy = 0;        // -Sa  0: off
+  bool on = true;                          // -S
+  int baseDirections = 2048;               // -Sn  1 to 1,000,000
+  int mostDirections = 4096;               // -Sx
+  double densityFactor = 1;                // -Sk
+  double accuracy = 0;                     // -Sa  0: off
   Weights weights = Weights::silhouettes;  // -Sw
   std::vector<std::string> goals;          // -Sg
   bool basicRadiance = false;              // -Sb
@@ -67,25 +68,33 @@ struct SphereOptions {
 
 enum class NumberFormat : char { ascii = 'a', float32 = 'f', float64 = 'd', rgbe = 'c' };
 
+// What the command line asks for: answers, or something to be printed instead of them.
+enum class Request : uint8_t { answers, version, defaults, help, features };
+
 // Everything the command line says, checked but not acted upon: no file has been opened.
 struct Options {
   RayOptions ray;
   SphereOptions sphere;
-  Irradiance irradiance = Irradiance::none;  // -i -I
+  bool irradianceAtHit = false, irradianceAtPoint = false;  // -i -I as given
+  Irradiance irradiance = Irradiance::none;                 // which of them counts: -I, if both are on
   NumberFormat in = NumberFormat::ascii, out = NumberFormat::ascii;  // -f
-  std::string outputs;          // -o letters; the mode's default where not given
-  int64_t width = 0, height = 0;  // -x -y
-  bool limitDistance = false;   // -ld
-  bool header = true;           // -h
-  bool warnings = true;         // -w
-  int threads = 1;              // -n; 0: all cores
-  double progressSeconds = 0;   // -t; 0: none
-  std::string errorFile;        // -e
-  bool commands = true;         // -Sc
+  std::string outputs;             // -o letters; the mode's default where not given
+  int64_t width = 0, height = 0;   // -x -y
+  bool limitDistance = false;      // -ld
+  bool header = true;              // -h
+  bool warnings = true;            // -w
+  int threads = 1;                 // -n; 0: all cores
+  double progressSeconds = 0;      // -t; 0: none
+  std::string errorFile;           // -e
+  bool commands = true;            // -Sc
   std::vector<std::string> scene;  // octree, .rad files or '!command'
-  std::vector<std::string> words;  // the command line after @file and $VAR were put in place, without the scene: for
-                                   // the header
+  std::vector<std::string> words;  // the command line after @file and $VAR were put in place, without the
+                                   // scene: for the header
   std::string program;             // argv[0] without its folder
+  Request request = Request::answers;
+  std::vector<std::string> features;  // the words after -features
+  std::vector<std::string> remarks;   // what Messages::use() has to warn of
+  double photonRadius = 0;            // -am  accepted and printed by -defaults; photon maps are not read
 };
 
 }  // namespace rsphere

@@ -1,0 +1,44 @@
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "cli/answer.h"
+#include "cli/options.h"
+
+namespace rsphere {
+
+// How many numbers and names one record of the chosen -o letters has: what the header says as NCOMP. '~'
+// counts as none, as in rtrace.
+int componentCount(const Options& options);
+
+// Appends records of the chosen -o letters, in their order and in the output format, to a string of bytes.
+// REQUIRES options from parseOptions(), alive as long as this is.
+class AnswerWriter {
+ public:
+  explicit AnswerWriter(const Options& options) : options_(options) {}
+
+  // One ray, in ray mode and under -Sd, where `record` is the number of the point's record, from 0 (letter
+  // i).
+  void write(std::string& bytes, const RayAnswer& answer, uint64_t record = 0) const;
+
+  // One point, in sphere mode.
+  void write(std::string& bytes, const PointAnswer& answer) const;
+
+ private:
+  const Options& options_;
+};
+
+// The ray that rtrace traces for the six numbers of an input record: direction made a unit vector; under -I
+// the origin is moved 1.1e-4 scene units along it and the direction turned round, and -o prints them so.
+// `length` is that of the given direction (-ld limits the ray to it), 0 where it has none.
+struct InputRay {
+  V3d origin{0, 0, 0}, direction{0, 0, 0};
+  double length = 0;
+};
+InputRay inputRay(const double* numbers, Irradiance irradiance);
+
+// What rtrace writes for a record whose direction is zero: the ray before it (zeros if there is none), seeing
+// nothing.
+RayAnswer bogusAnswer(const InputRay& before);
+
+}  // namespace rsphere

@@ -1,0 +1,343 @@
+#include "cli/batch.h"
+
+#include <fmt/format.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace rsphere {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Records that a thread takes at once: as many as it answers in about this time, so that taking them (a
+// microsecond) does not count and the threads still end together.
+constexpr auto kClaimTime = std::chrono::microseconds(200);
+constexpr size_t kLargestClaim = 256;
+// How many claims a thread may be ahead of the oldest unfinished one.
+constexpr uint64_t kClaimsAhead = 16;
+
+constexpr uint64_t kNoLimit = std::numeric_limits<uint64_t>::max();
+
+// Some records in a row, for one thread.
+struct Claim {
+  uint64_t number = 0;
+  uint64_t firstRecord = 0;
+  size_t records = 0;
+  std::vector<double> numbers;
+  std::vector<double> before;  // the last record with a direction before them
+  bool flush = false;
+  std::exception_ptr error;  // reading failed after them
+};
+
+struct Finished {
+  std::string bytes;
+  size_t records = 0;
+  bool flush = false;
+  bool last = false;  // nothing after this may be written
+  std::exception_ptr error;
+};
+
+// Each thread takes records from the reader (one at a time: input_), answers them, and hands the bytes in
+// (output_); who hands in the oldest writes all that are due. Lock order: input_ before output_.
+class Batch {
+ public:
+  Batch(RecordReader& reader, RecordWriter& writer, const Options& options, const Messages& messages,
+        const StopSignals* signals, const AnswerRecord& answer)
+      : reader_(reader),
+        writer_(writer),
+        options_(options),
+        messages_(messages),
+        signals_(signals),
+        answer_(answer),
+        threads_(threadCount(options)),
+        perRecord_(options.sphere.on ? 3 : 6),
+        interval_(options.height == 0 || options.width <= 1 ? static_cast<uint64_t>(options.width) : 0),
+        untilFlush_(interval_),
+        remaining_(options.height == 0 ? kNoLimit
+                                       : static_cast<uint64_t>(std::max<int64_t>(options.width, 1)) *
+                                             static_cast<uint64_t>(options.height)),
+        before_(static_cast<size_t>(perRecord_), 0.0) {}
+
+  void run();
+
+ private:
+  void work(unsigned worker);
+  bool take(Claim& claim, size_t most);
+  void noteBogus(Claim& claim);
+  void remarkLayout();
+  Finished compute(const Claim& claim, unsigned worker);
+  void handIn(uint64_t number, Finished&& finished);
+  void waitingForInput(bool waiting);
+  void reportProgress();
+  void stop(std::exception_ptr error);
+  void endInput();
+  bool stopping() const { return stopped_ || (signals_ != nullptr && signals_->raised()); }
+  bool isBogus(const double* record) const {
+    return perRecord_ == 6 && record[3] == 0 && record[4] == 0 && record[5] == 0;
+  }
+
+  RecordReader& reader_;
+  RecordWriter& writer_;
+  const Options& options_;
+  const Messages& messages_;
+  const StopSignals* signals_;
+  const AnswerRecord& answer_;
+  const unsigned threads_;
+  const int perRecord_;
+  const uint64_t interval_;  // records between flushes; 0: none
+
+  std::mutex input_;
+  uint64_t untilFlush_, remaining_;
+  uint64_t nextClaim_ = 0, nextRecord_ = 0;
+  std::vector<double> before_;
+  bool inputEnded_ = false, layoutRemarked_ = false;
+
+  std::mutex output_;
+  std::condition_variable written_;
+  std::map<uint64_t, Finished> finished_;
+  uint64_t nextOut_ = 0, recordsOut_ = 0;
+  std::exception_ptr error_;
+  bool outputEnded_ = false;
+  Clock::time_point start_ = Clock::now(), lastReport_ = start_;
+
+  std::atomic<bool> stopped_{false}, waiting_{false};
+  int wakeFd_ = -1;
+};
+
+void Batch::run() {
+  wakeFd_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+  if (wakeFd_ < 0) throw rad::Error("cannot make an event descriptor", rad::Status::system);
+  std::vector<int> wakes{wakeFd_};
+  if (signals_ != nullptr) wakes.push_back(signals_->descriptor());
+  reader_.interruptBy(wakes);
+  reader_.whenWaiting([this](bool waiting) { waitingForInput(waiting); });
+  writer_.holdUntilFlush(interval_ > 1);
+  {
+    std::vector<std::jthread> others;
+    try {
+      for (unsigned i = 1; i < threads_; ++i) others.emplace_back([this, i] { work(i); });
+    } catch (const std::system_error& error) {
+      stop(std::make_exception_ptr(rad::Error(
+          fmt::format("cannot start {} threads: {}", threads_, error.what()), rad::Status::system)));
+    }
+    work(0);
+  }
+  reader_.whenWaiting({});
+  reader_.interruptBy({});
+  close(wakeFd_);
+  writer_.holdUntilFlush(false);
+  try {
+    writer_.flush();
+  } catch (const rad::Error&) {
+    if (!error_) error_ = std::current_exception();  // the first fault is the one to tell
+  }
+  if (error_) std::rethrow_exception(error_);
+  if (signals_ != nullptr && signals_->raised()) throw rad::Error(signals_->name(), rad::Status::signal);
+  if (remaining_ != kNoLimit && remaining_ > 0) messages_.warning("unexpected EOF on input");
+}
+
+void Batch::work(unsigned worker) {
+  try {
+    Claim claim;
+    for (size_t most = 1; take(claim, most);) {
+      const auto start = Clock::now();
+      Finished finished = compute(claim, worker);
+      const auto time = Clock::now() - start;
+      if (time < kClaimTime / 2 && claim.records == most) most = std::min(2 * most, kLargestClaim);
+      if (time > 2 * kClaimTime) most = std::max<size_t>(most / 2, 1);
+      handIn(claim.number, std::move(finished));
+    }
+  } catch (...) {
+    stop(std::current_exception());
+  }
+}
+
+// The next records, at most `most`, as they are at hand; waits for the first. False when there are no more.
+bool Batch::take(Claim& claim, size_t most) {
+  const std::lock_guard input(input_);
+  if (inputEnded_ || stopping()) return false;
+  {
+    std::unique_lock output(output_);
+    written_.wait(output, [&] { return stopped_ || nextClaim_ - nextOut_ < kClaimsAhead * threads_; });
+  }
+  if (stopping()) return false;
+  if (remaining_ == 0) {
+    inputEnded_ = true;
+    return false;
+  }
+  claim.numbers.clear();
+  claim.records = 0;
+  claim.error = nullptr;
+  claim.flush = false;
+  claim.before = before_;
+  claim.firstRecord = nextRecord_;
+  if (interval_ > 0) most = std::min<uint64_t>(most, untilFlush_);
+  most = std::min<uint64_t>(most, remaining_);
+  try {
+    claim.records = reader_.read(claim.numbers, most);
+  } catch (const rad::Error&) {
+    claim.error = std::current_exception();
+  }
+  remarkLayout();
+  if (claim.records == 0) inputEnded_ = true;
+  if (claim.records == 0 && !claim.error) return false;
+  claim.number = nextClaim_++;
+  nextRecord_ += claim.records;
+  if (remaining_ != kNoLimit) remaining_ -= claim.records;
+  untilFlush_ -= interval_ > 0 ? claim.records : 0;
+  noteBogus(claim);
+  if (interval_ > 0 && untilFlush_ == 0) {
+    claim.flush = true;
+    untilFlush_ = interval_;
+  }
+  return true;
+}
+
+void Batch::noteBogus(Claim& claim) {
+  if (perRecord_ != 6) return;
+  for (size_t i = 0; i < claim.records; ++i) {
+    const double* record = claim.numbers.data() + 6 * i;
+    if (!isBogus(record)) {
+      before_.assign(record, record + 6);
+      continue;
+    }
+    claim.flush = true;
+    if (interval_ > 0) untilFlush_ = interval_ - (claim.records - 1 - i);
+  }
+}
+
+void Batch::remarkLayout() {
+  const auto onLine = reader_.numbersOnFirstLine();
+  if (layoutRemarked_ || !onLine) return;
+  layoutRemarked_ = true;
+  if (perRecord_ == 6 && *onLine == 3)
+    messages_.warning("stdin:1: three numbers on a line, but a ray has six: two lines are taken for one ray");
+  if (perRecord_ == 3 && *onLine == 6)
+    messages_.warning("stdin:1: six numbers on a line are taken for two points; -S- takes them for a ray");
+}
+
+Finished Batch::compute(const Claim& claim, unsigned worker) {
+  Finished finished;
+  finished.flush = claim.flush;
+  finished.error = claim.error;
+  const double* before = claim.before.data();
+  const auto length = static_cast<size_t>(perRecord_);
+  try {
+    for (; finished.records < claim.records; ++finished.records) {
+      if (stopping()) {
+        finished.last = true;
+        return finished;
+      }
+      const double* numbers = claim.numbers.data() + length * finished.records;
+      Record record;
+      record.index = claim.firstRecord + finished.records;
+      record.bogus = isBogus(numbers);
+      if (!record.bogus) before = numbers;
+      record.numbers = {before, length};
+      const size_t whole = finished.bytes.size();
+      try {
+        answer_(record, worker, finished.bytes);
+      } catch (...) {
+        finished.bytes.resize(whole);
+        throw;
+      }
+    }
+  } catch (...) {
+    finished.error = std::current_exception();
+  }
+  finished.last = finished.error != nullptr;
+  return finished;
+}
+
+void Batch::handIn(uint64_t number, Finished&& finished) {
+  const std::lock_guard output(output_);
+  finished_.emplace(number, std::move(finished));
+  try {
+    while (!finished_.empty() && finished_.begin()->first == nextOut_ && !outputEnded_) {
+      const Finished due = std::move(finished_.begin()->second);
+      finished_.erase(finished_.begin());
+      ++nextOut_;
+      recordsOut_ += due.records;
+      writer_.write(due.bytes);
+      if (due.flush) writer_.flush();
+      if (due.last) {
+        outputEnded_ = true;
+        error_ = due.error;
+      }
+    }
+    if (waiting_ && interval_ == 0) writer_.flush();
+  } catch (...) {
+    outputEnded_ = true;
+    error_ = std::current_exception();
+  }
+  if (outputEnded_) endInput();
+  reportProgress();
+  written_.notify_all();
+}
+
+// Wakes the thread that waits for input, and those that wait for answers to be written.
+void Batch::endInput() {
+  stopped_ = true;
+  const uint64_t one = 1;
+  [[maybe_unused]] const ssize_t n = ::write(wakeFd_, &one, sizeof one);
+  written_.notify_all();
+}
+
+void Batch::waitingForInput(bool waiting) {
+  waiting_ = waiting;
+  if (!waiting || interval_ != 0) return;
+  const std::lock_guard output(output_);
+  if (outputEnded_) return;
+  try {
+    writer_.flush();
+  } catch (...) {
+    outputEnded_ = true;
+    error_ = std::current_exception();
+    endInput();
+  }
+}
+
+void Batch::reportProgress() {
+  if (options_.progressSeconds <= 0) return;
+  const auto now = Clock::now();
+  if (std::chrono::duration<double>(now - lastReport_).count() < options_.progressSeconds) return;
+  lastReport_ = now;
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  messages_.report(fmt::format("{} records after {:.1f} seconds, {:.4g} a second", recordsOut_, seconds,
+                               static_cast<double>(recordsOut_) / seconds));
+}
+
+void Batch::stop(std::exception_ptr error) {
+  const std::lock_guard output(output_);
+  if (!error_) error_ = error;
+  outputEnded_ = true;
+  endInput();
+}
+
+}  // namespace
+
+unsigned threadCount(const Options& options) {
+  if (options.threads > 0) return static_cast<unsigned>(options.threads);
+  return std::max(1u, std::thread::hardware_concurrency());
+}
+
+void runRecords(RecordReader& reader, RecordWriter& writer, const Options& options, const Messages& messages,
+                StopSignals* signals, const AnswerRecord& answer) {
+  if (signals != nullptr) signals->defer(true);
+  Batch(reader, writer, options, messages, signals, answer).run();
+  if (signals != nullptr) signals->defer(false);
+}
+
+}  // namespace rsphere

@@ -1,0 +1,31 @@
+#pragma once
+#include <ctime>
+#include <span>
+#include <string>
+
+#include "cli/options.h"
+#include "cli/records.h"
+
+namespace rsphere {
+
+// The program's name and version, as -version and SOFTWARE= print them.
+std::string versionLine();
+
+// The command as it can be typed again: program and options, words quoted where they need it, without a line
+// end; the scene only where asked for.
+std::string commandLine(const Options& options, bool withScene);
+
+// Writes the information header that rtrace writes before its records, unless switched off (-h-), and then
+// the resolution line where -x and -y are both given, header or not:
+//   - the lines of the scene's own header (an octree has one: sceneHeader, without line ends), or
+//   "#?RADIANCE"
+//   - the command line; the octree is left out, as rtrace does: its header names it. Scene text has no
+//   header, so its
+//     names are kept
+//   - SOFTWARE=, CAPDATE= (local), GMT=, NCOMP=, BigEndian= for floats and doubles, FORMAT=, an empty line
+// The FORMAT line of floats or doubles is padded with blanks so that the records are aligned, if the output
+// can seek. Source: RADIANCE file formats, "Information header"; rtrace(1).
+void writeHeader(RecordWriter& writer, const Options& options, std::span<const std::string> sceneHeader,
+                 std::time_t now);
+
+}  // namespace rsphere

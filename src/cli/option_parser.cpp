@@ -1,0 +1,289 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "cli/option_table.h"
+#include "cli/option_words.h"
+#include "rad_parser/error.h"
+#include "rad_parser/number.h"
+
+namespace rsphere {
+namespace {
+
+// As in rtrace(1); also ends a file that names itself.
+constexpr size_t kMostExpanded = 4096;
+
+struct Use {
+  const OptionEntry* entry;
+  std::string rest;                // behind the name, in its own word
+  std::vector<std::string> words;  // behind its own word
+};
+
+std::vector<std::string> splitWords(std::istream& in) { return {std::istream_iterator<std::string>(in), {}}; }
+
+// The command line with a place in it, where words are replaced by what they stand for.
+class Words {
+ public:
+  explicit Words(std::span<const std::string> words) : words_(words.begin(), words.end()) {}
+
+  bool atEnd() const { return at_ == words_.size(); }
+  size_t at() const { return at_; }
+  const std::string& word() const { return words_[at_]; }
+  std::string take() { return words_[at_++]; }
+  std::span<const std::string> rest() const { return std::span(words_).subspan(at_); }
+  std::span<const std::string> before() const { return std::span(words_).first(at_); }
+
+  // Replaces @file and $VARIABLE here, and what comes of them.
+  void expand() {
+    while (!atEnd() && !word().empty() && (word()[0] == '@' || word()[0] == '$')) {
+      const std::string name = word();
+      const std::vector<std::string> more = name[0] == '@' ? fromFile(name) : fromEnvironment(name);
+      expanded_ += more.size() + 1;
+      if (expanded_ > kMostExpanded)
+        throw rad::Error(fmt::format("cannot expand '{}': too many words", name));
+      const auto here = words_.begin() + static_cast<std::ptrdiff_t>(at_);
+      words_.insert(words_.erase(here), more.begin(), more.end());
+    }
+  }
+
+ private:
+  static std::vector<std::string> fromFile(const std::string& name) {
+    errno = 0;
+    std::ifstream file(name.substr(1));
+    std::vector<std::string> words;
+    if (file) {
+      // Not all at once: a device without end has more words than may be.
+      for (std::string word; words.size() <= kMostExpanded && file >> word;) words.push_back(word);
+      if (!file.bad()) return words;
+    }
+    throw rad::Error(fmt::format("cannot expand '{}': {}", name, std::strerror(errno)), rad::Status::system);
+  }
+
+  static std::vector<std::string> fromEnvironment(const std::string& name) {
+    const char* text = std::getenv(name.c_str() + 1);
+    if (text == nullptr) throw rad::Error(fmt::format("cannot expand '{}'", name), rad::Status::system);
+    std::istringstream in{std::string(text)};
+    return splitWords(in);
+  }
+
+  std::vector<std::string> words_;
+  size_t at_ = 0, expanded_ = 0;
+};
+
+bool startsWith(std::string_view text, std::string_view head) { return text.substr(0, head.size()) == head; }
+
+// The option a word names, whole first, then as a switch, then as a name with its value behind it. Null:
+// none.
+const OptionEntry* findOption(std::string_view word) {
+  const auto table = optionTable();
+  for (const OptionEntry& entry : table)
+    if (!entry.glued && entry.name == word) return &entry;
+  for (const OptionEntry& entry : table)
+    if (std::holds_alternative<SwitchValue>(entry.value) && startsWith(word, entry.name) &&
+        switched(word.substr(entry.name.size()), false))
+      return &entry;
+  const OptionEntry* found = nullptr;
+  for (const OptionEntry& entry : table)
+    if (entry.glued && startsWith(word, entry.name) &&
+        (found == nullptr || found->name.size() < entry.name.size()))
+      found = &entry;
+  return found;
+}
+
+// A word that rtrace takes as an argument: something that can be seen, and nothing that controls a terminal.
+bool isWord(const std::string& word) {
+  bool seen = false;
+  for (const char c : word) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 32 && c != '\t') return false;
+    seen |= byte > 32 && byte != 127;
+  }
+  return seen;
+}
+
+void checkRange(const OptionEntry& entry, double x) {
+  if (x < entry.range.lowest || x > entry.range.highest)
+    commandLineError(entry.name,
+                     fmt::format("{} is not from {} to {}", x, entry.range.lowest, entry.range.highest));
+}
+
+double realWord(const OptionEntry& entry, const std::string& word) {
+  const auto x = rad::parseReal(word);
+  if (!x) commandLineError(entry.name);
+  checkRange(entry, *x);
+  return *x;
+}
+
+int64_t integerWord(const OptionEntry& entry, const std::string& word) {
+  const auto n = rad::parseInteger(word);
+  if (!n) commandLineError(entry.name);
+  checkRange(entry, static_cast<double>(*n));
+  return *n;
+}
+
+void apply(const Use& use, Options& options) {
+  const OptionEntry& entry = *use.entry;
+  if (entry.support == Support::refused && (entry.harmless == nullptr || !entry.harmless(use.words)))
+    throw rad::Error(fmt::format("option '{}' is not supported: {}", entry.name, entry.reason));
+  struct Set {
+    const Use& use;
+    const OptionEntry& entry;
+    Options& options;
+    void operator()(std::monostate) const {}
+    void operator()(SwitchValue value) const { value(options) = switched(use.rest, value(options)).value(); }
+    void operator()(IntegerValue value) const {
+      const int64_t n = integerWord(entry, use.words[0]);
+      value(options) = static_cast<int>(n);
+    }
+    void operator()(CountValue value) const { value(options) = integerWord(entry, use.words[0]); }
+    void operator()(RealValue value) const { value(options) = realWord(entry, use.words[0]); }
+    void operator()(ColorValue value) const {
+      value(options) =
+          Rgb(realWord(entry, use.words[0]), realWord(entry, use.words[1]), realWord(entry, use.words[2]));
+    }
+    void operator()(WordValue value) const { value(options) = use.words[0]; }
+    void operator()(WordsValue value) const { value(options).push_back(use.words[0]); }
+    void operator()(Custom custom) const { custom.set(options, entry, use.words, use.rest); }
+  };
+  std::visit(Set{use, entry, options}, entry.value);
+}
+
+// -o letters of one mode.
+void checkLetters(const Options& options) {
+  const bool points = options.sphere.on && !options.sphere.everyDirection;
+  const std::string_view known = !options.sphere.on ? "odvVwWlLcpnNsmMrRxX~"
+                                 : points           ? "oveECHuk"
+                                                    : "iodwvlLcpnNsmM~";
+  for (size_t i = 0; i < options.outputs.size(); ++i) {
+    const char letter = options.outputs[i];
+    if (known.find(letter) != std::string_view::npos) continue;
+    if (!options.sphere.on && (letter == 't' || letter == 'T'))
+      throw rad::Error("option '-o' is not supported with t or T: ray trees are not kept");
+    const std::string_view hint = options.sphere.on ? " (sphere mode)" : "";
+    throw rad::Error(fmt::format("unrecognized output option '{}'{}", letter, hint));
+  }
+  const std::string_view colors = points ? "veEC" : options.sphere.on ? "v" : "vrx";
+  if (options.out == NumberFormat::rgbe &&
+      (options.outputs.size() != 1 || colors.find(options.outputs[0]) == std::string_view::npos)) {
+    std::string list;
+    for (const char letter : colors) list += fmt::format("{}-o{}", list.empty() ? "" : ", ", letter);
+    throw rad::Error(fmt::format("color format only with {}", list));
+  }
+}
+
+// What rtrace says about irradiance and the letters of a ray.
+void checkIrradiance(Options& options) {
+  options.irradiance = options.irradianceAtPoint ? Irradiance::point
+                       : options.irradianceAtHit ? Irradiance::surface
+                                                 : Irradiance::none;
+  const auto uses = [&](std::string_view letters) {
+    return options.outputs.find_first_of(letters) != std::string::npos;
+  };
+  if (options.irradiance != Irradiance::none) {
+    if (options.sphere.on)
+      throw rad::Error(
+          fmt::format("{} needs ray mode (-S-); in sphere mode -oE, -oC and -oH give irradiances",
+                      options.irradianceAtPoint ? "-I" : "-i"));
+    if (!uses("vVrRxXlnW")) throw rad::Error("-I+ and -i+ options require some value output");
+  }
+  for (const char letter : options.outputs) {
+    if (options.sphere.on) break;
+    if (letter == 'V' || letter == 'W') options.remarks.push_back("-oVW options require trace mode");
+    if (options.irradiance != Irradiance::none &&
+        std::string_view("rRxX").find(letter) != std::string_view::npos)
+      options.remarks.push_back("-orRxX options incompatible with -I+ and -i+");
+  }
+}
+
+void checkTogether(Options& options, bool mostGiven) {
+  if (options.ray.reflectionLimit <= 0 && options.ray.weightLimit <= 0)
+    throw rad::Error("zero ray weight in Russian roulette: -lw must be positive where -lr is not");
+  if (!options.sphere.on) return;
+  if (options.limitDistance) throw rad::Error("-ld needs ray mode (-S-): points have no direction vector");
+  SphereOptions& sphere = options.sphere;
+  if (!mostGiven) sphere.mostDirections = std::max(sphere.mostDirections, 2 * sphere.baseDirections);
+  if (sphere.mostDirections < sphere.baseDirections)
+    commandLineError("-Sx",
+                     fmt::format("{} is less than -Sn {}", sphere.mostDirections, sphere.baseDirections));
+}
+
+}  // namespace
+
+void commandLineError(std::string_view at, std::string_view why) {
+  throw rad::Error(fmt::format("command line error at '{}'{}{}", at, why.empty() ? "" : ": ", why));
+}
+
+std::optional<bool> switched(std::string_view suffix, bool before) {
+  if (suffix.empty()) return !before;
+  if (suffix.size() != 1) return std::nullopt;
+  if (std::string_view("+1yYtT").find(suffix[0]) != std::string_view::npos) return true;
+  if (std::string_view("-0nNfF").find(suffix[0]) != std::string_view::npos) return false;
+  return std::nullopt;
+}
+
+Options parseOptions(std::span<const std::string> given) {
+  const std::string called = given.empty() ? "rsphere" : given[0];
+  const std::string program = called.substr(called.rfind('/') + 1);
+  Words words(given.subspan(given.empty() ? 0 : 1));
+  if (!words.atEnd() && words.word() == "-features") {
+    Options options;
+    options.program = program;
+    options.request = Request::features;
+    words.take();
+    options.features.assign(words.rest().begin(), words.rest().end());
+    return options;
+  }
+  std::vector<Use> uses;
+  Request request = Request::answers;
+  bool sphereMode = program != "rtrace", mostGiven = false;
+  for (words.expand(); !words.atEnd() && startsWith(words.word(), "-"); words.expand()) {
+    const std::string word = words.take();
+    if (word == "-version") request = Request::version;
+    if (word == "-defaults") request = Request::defaults;
+    if (word == "-help") request = Request::help;
+    if (request != Request::answers) break;
+    const OptionEntry* entry = findOption(word);
+    if (entry == nullptr) commandLineError(word);
+    Use use{entry, word.substr(entry->name.size()), {}};
+    for (int i = 0; i < arity(*entry); ++i) {
+      if (words.atEnd() || !isWord(words.word())) commandLineError(word);
+      use.words.push_back(words.take());
+    }
+    if (entry->name == "-S") sphereMode = switched(use.rest, sphereMode).value();
+    mostGiven |= entry->name == "-Sx";
+    uses.push_back(std::move(use));
+  }
+  Options options = modeDefaults(sphereMode);
+  options.program = program;
+  options.request = request;
+  options.words.assign(words.before().begin(), words.before().end());
+  for (const Use& use : uses)
+    if (use.entry->name != "-S") apply(use, options);
+  if (options.outputs.empty())
+    options.outputs = options.sphere.on && options.sphere.everyDirection ? "odwv" : "v";
+  if (request == Request::answers) {
+    for (const size_t first = words.at(); !words.atEnd(); words.expand()) {
+      if (startsWith(words.word(), "-")) commandLineError(words.before()[first]);
+      options.scene.push_back(words.take());
+    }
+    if (options.scene.empty()) throw rad::Error("missing octree argument");
+  }
+  checkLetters(options);
+  checkIrradiance(options);
+  checkTogether(options, mostGiven);
+  return options;
+}
+
+Options parseOptions(int argc, char** argv) {
+  const std::vector<std::string> words(argv, argv + argc);
+  return parseOptions(words);
+}
+
+}  // namespace rsphere

@@ -1,0 +1,775 @@
+#include "cli/option_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "cli/option_words.h"
+#include "rad_parser/error.h"
+#include "rad_parser/file_path.h"
+#include "rad_parser/number.h"
+
+namespace rsphere {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kLargestInt = std::numeric_limits<int>::max();
+constexpr Range kNotNegative{0, kInfinity};
+constexpr Range kFraction{0, 1};
+constexpr Range kCount{0, kLargestInt};
+
+// The words of a file named on the command line, found along RAYPATH as rtrace does.
+std::vector<std::string> modifierFile(const OptionEntry& entry, const std::string& name) {
+  const auto path = rad::findFile(name, rad::libraryPath());
+  std::ifstream file(path.value_or(name));
+  if (!path || !file)
+    throw rad::Error(
+        fmt::format("cannot open ambient {} file \"{}\"", entry.name == "-aE" ? "exclude" : "include", name),
+        rad::Status::system);
+  return {std::istream_iterator<std::string>(file), {}};
+}
+
+// -ae and -aE name modifiers without indirect light, -ai and -aI the only ones with it: the last kind given
+// counts.
+void setAmbientModifiers(Options& options, const OptionEntry& entry, std::span<const std::string> words,
+                         std::string_view) {
+  const bool exclude = entry.name == "-ae" || entry.name == "-aE";
+  auto& list = exclude ? options.ray.ambientExcluded : options.ray.ambientIncluded;
+  (exclude ? options.ray.ambientIncluded : options.ray.ambientExcluded).clear();
+  if (entry.name == "-ae" || entry.name == "-ai") {
+    list.push_back(words[0]);
+  } else {
+    const auto more = modifierFile(entry, words[0]);
+    list.insert(list.end(), more.begin(), more.end());
+  }
+}
+
+void setFormat(Options& options, const OptionEntry& entry, std::span<const std::string>,
+               std::string_view rest) {
+  const auto isOneOf = [](char c, std::string_view letters) {
+    return letters.find(c) != std::string_view::npos;
+  };
+  if (rest.empty() || rest.size() > 2 || !isOneOf(rest[0], "afd") ||
+      (rest.size() == 2 && !isOneOf(rest[1], "afdc")))
+    commandLineError(fmt::format("{}{}", entry.name, rest));
+  options.in = static_cast<NumberFormat>(rest[0]);
+  options.out = static_cast<NumberFormat>(rest.back());
+}
+
+void setOutputs(Options& options, const OptionEntry&, std::span<const std::string>, std::string_view rest) {
+  if (rest.empty()) throw rad::Error("empty output specification");
+  options.outputs = rest;
+}
+
+void setThreads(Options& options, const OptionEntry& entry, std::span<const std::string> words,
+                std::string_view) {
+  const auto n = rad::parseInteger(words[0]);
+  if (!n) commandLineError(entry.name);
+  constexpr int kMostThreads = 4096;  // beyond any machine; a slip of the finger
+  if (*n < 0 || *n > kMostThreads) throw rad::Error("bad number of processes");
+  options.threads = static_cast<int>(*n);
+}
+
+void setWeights(Options& options, const OptionEntry& entry, std::span<const std::string> words,
+                std::string_view) {
+  if (words[0] == "h")
+    options.sphere.weights = Weights::homogeneous;
+  else if (words[0] == "v")
+    options.sphere.weights = Weights::voronoi;
+  else if (words[0] == "c")
+    options.sphere.weights = Weights::silhouettes;
+  else
+    commandLineError(entry.name, fmt::format("\"{}\" is not h, v or c", words[0]));
+}
+
+void setRotation(Options& options, const OptionEntry& entry, std::span<const std::string> words,
+                 std::string_view) {
+  const auto n = rad::parseInteger(words[0]);
+  if (!n || *n < 0) commandLineError(entry.name);
+  options.sphere.rotation = static_cast<uint64_t>(*n);
+}
+
+// -e takes an expression where its word has '=' or ':', as rtrace tells them apart.
+void setErrorFile(Options& options, const OptionEntry& entry, std::span<const std::string> words,
+                  std::string_view) {
+  if (words[0].find_first_of("=:") != std::string::npos)
+    throw rad::Error(
+        fmt::format("option '{} {}' is not supported: definitions belong in a function file of the scene",
+                    entry.name, words[0]));
+  options.errorFile = words[0];
+}
+
+void ignore(Options&, const OptionEntry&, std::span<const std::string>, std::string_view) {}
+
+void ignoreSwitch(Options&, const OptionEntry& entry, std::span<const std::string>, std::string_view rest) {
+  if (!switched(rest, false)) commandLineError(fmt::format("{}{}", entry.name, rest));
+}
+
+bool allZero(std::span<const std::string> words) {
+  return std::all_of(words.begin(), words.end(), [](const std::string& w) { return rad::parseReal(w) == 0; });
+}
+
+bool threeBands(std::span<const std::string> words) { return rad::parseInteger(words[0]) == 3; }
+
+bool visibleRange(std::span<const std::string> words) {
+  const auto a = rad::parseReal(words[0]), b = rad::parseReal(words[1]);
+  return a && b && std::min(*a, *b) == 380 && std::max(*a, *b) == 780;
+}
+
+// The primaries and white point that RADIANCE calls standard.
+bool standardPrimaries(std::span<const std::string> words) {
+  constexpr std::array<double, 8> kStandard = {.640, .330, .290, .600, .150, .060, 1 / 3., 1 / 3.};
+  for (size_t i = 0; i < kStandard.size(); ++i) {
+    const auto x = rad::parseReal(words[i]);
+    if (!x || std::fabs(*x - kStandard[i]) > .001) return false;
+  }
+  return true;
+}
+
+std::string formatLine(const Options& o) {
+  return fmt::format("-f{}{}\t\t\t\t", static_cast<char>(o.in), static_cast<char>(o.out));
+}
+
+std::string outputsLine(const Options& o) { return fmt::format("-o{:<9}\t\t\t", o.outputs); }
+
+std::string immediateLine(const Options& o) { return o.irradianceAtPoint ? "-I+\t\t\t\t" : ""; }
+
+std::string weightsLine(const Options& o) {
+  constexpr std::string_view kLetters = "hvc";
+  return fmt::format("-Sw {}\t\t\t\t", kLetters[static_cast<size_t>(o.sphere.weights)]);
+}
+
+std::vector<OptionEntry> makeTable() {
+  using O = Options;
+  constexpr std::string_view kPhotons = "photon maps are not read; -ab N -aa 0 computes indirect light";
+  constexpr std::string_view kSpectra = "colors have three channels; rcalc or rmtxop can convert them";
+  constexpr std::string_view kPersist = "a program that waits is kept with a pipe and -x 1";
+  std::vector<OptionEntry> table;
+  const auto add = [&table](OptionEntry entry) { table.push_back(entry); };
+
+  add({.name = "-w",
+       .group = Group::program,
+       .value = +[](O& o) -> bool& { return o.warnings; },
+       .remark = "warning messages on|warning messages off",
+       .paragraph = "Switch for warnings. They tell of what is odd but can be answered."});
+  add({.name = "-I",
+       .group = Group::records,
+       .value = +[](O& o) -> bool& { return o.irradianceAtPoint; },
+       .remark = "immediate irradiance on|immediate irradiance off",
+       .paragraph =
+           "Switch for irradiance (W/m2) on a sensor: the origin of each ray is a point, its direction the "
+           "way in which the sensor looks. As in rtrace, the ray is traced from 1.1e-4 units above the "
+           "point, and -oo "
+           "and -od show this. Ray mode only: in sphere mode -oH, -oC and -oE give irradiances.",
+       .line = immediateLine});
+  add({.name = "-n",
+       .arguments = "N",
+       .group = Group::program,
+       .value = Custom{setThreads},
+       .range = kCount,
+       .unit = "threads",
+       .remark = "number of rendering processes",
+       .paragraph = "Answer records on N threads, 0 for one on each core. The answers do not depend on N.",
+       .line = +[](const O& o) { return fmt::format("-n {:<2}\t\t\t\t", o.threads); }});
+  add({.name = "-x",
+       .arguments = "res",
+       .group = Group::records,
+       .value = +[](O& o) -> int64_t& { return o.width; },
+       .range = kCount,
+       .unit = "records",
+       .remark = "flush interval",
+       .paragraph =
+           "Records in a scanline. Where -y is 0, answers are written out after every res records, and only "
+           "then; with 1, after every record whatever -y is. With 0, whenever input has to be waited for."});
+  add({.name = "-y",
+       .arguments = "res",
+       .group = Group::records,
+       .value = +[](O& o) -> int64_t& { return o.height; },
+       .range = kCount,
+       .unit = "scanlines",
+       .remark = "y resolution",
+       .paragraph =
+           "Stop after res scanlines of -x records (of one where -x is 0); 0 goes on to the end of input. "
+           "With both -x and -y a resolution line precedes the records, header or not."});
+  add({.name = "-ld",
+       .group = Group::records,
+       .value = +[](O& o) -> bool& { return o.limitDistance; },
+       .remark = "limit distance on|limit distance off",
+       .paragraph =
+           "Switch for limited rays: the length of each direction vector is how far its ray goes. Ray mode "
+           "only."});
+  add({.name = "-h",
+       .group = Group::records,
+       .value = +[](O& o) -> bool& { return o.header; },
+       .remark = "output header|no header",
+       .paragraph = "Switch for the information header before the records."});
+  add({.name = "-f",
+       .arguments = "io",
+       .group = Group::records,
+       .value = Custom{setFormat},
+       .remark = "format input/output",
+       .paragraph =
+           "Format of input i and of output o: a for text, f for floats, d for doubles of this machine, and, "
+           "for output only, c for RADIANCE's 4-byte pixels, with a single color letter in -o. One letter "
+           "stands for "
+           "both. No blank precedes io.",
+       .glued = true,
+       .line = formatLine});
+  add({.name = "-o",
+       .arguments = "spec",
+       .group = Group::records,
+       .value = Custom{setOutputs},
+       .remark = "output",
+       .paragraph =
+           "What a record of output has, in the order of the letters in spec; see OUTPUT below. No blank "
+           "precedes spec.",
+       .glued = true,
+       .line = outputsLine});
+  add({.name = "-pRGB",
+       .group = Group::color,
+       .value = Custom{ignore},
+       .remark = "standard RGB color output",
+       .paragraph = "Colors as red, green and blue of RADIANCE's standard primaries.",
+       .support = Support::unused,
+       .line = +[](const O&) { return std::string("-pRGB\t\t\t\t"); }});
+  for (const std::string_view name : {"-pXYZ", "-pY", "-pS", "-pM", "-pA"})
+    add({.name = name,
+         .group = Group::color,
+         .value = Custom{ignore},
+         .remark = "another color space",
+         .paragraph = "Colors in another space.",
+         .support = Support::refused,
+         .reason = kSpectra});
+  add({.name = "-pc",
+       .arguments = "xr yr xg yg xb yb xw yw",
+       .group = Group::color,
+       .value = Custom{ignore},
+       .range = kFraction,
+       .remark = "output primaries and white point",
+       .paragraph = "Colors for other primaries. The standard ones are accepted.",
+       .support = Support::refused,
+       .reason = kSpectra,
+       .harmless = standardPrimaries});
+  add({.name = "-i",
+       .group = Group::records,
+       .value = +[](O& o) -> bool& { return o.irradianceAtHit; },
+       .remark = "irradiance calculation on|irradiance calculation off",
+       .paragraph =
+           "Switch for irradiance (W/m2) of the surface that a ray hits, instead of the radiance (W/sr/m2) "
+           "that it sends back. Glass and its like are passed as if they were not there; light sources keep "
+           "their "
+           "radiance (see -dv). Ray mode only."});
+  add({.name = "-u",
+       .group = Group::program,
+       .value = +[](O& o) -> bool& { return o.ray.uncorrelated; },
+       .remark = "uncorrelated Monte Carlo sampling|correlated quasi-Monte Carlo sampling",
+       .paragraph = "Switch for random samples without any relation; off, they are spread evenly."});
+  add({.name = "-bv",
+       .group = Group::program,
+       .value = +[](O& o) -> bool& { return o.ray.backFacesVisible; },
+       .remark = "back face visibility on|back face visibility off",
+       .paragraph = "Switch for whether rays see the backs of surfaces."});
+  add({.name = "-dt",
+       .arguments = "frac",
+       .group = Group::direct,
+       .value = +[](O& o) -> double& { return o.ray.directThreshold; },
+       .range = kNotNegative,
+       .remark = "direct threshold",
+       .paragraph =
+           "Shadows of the light sources are tested until those left could add less than this fraction of "
+           "what was found; the rest is estimated from how often sources were visible. 0 tests all."});
+  add({.name = "-dc",
+       .arguments = "frac",
+       .group = Group::direct,
+       .value = +[](O& o) -> double& { return o.ray.directCertainty; },
+       .range = kFraction,
+       .remark = "direct certainty",
+       .paragraph =
+           "How sure -dt is: 1 holds the error of the sum below it, 0 only that of any one shadow edge."});
+  add({.name = "-dj",
+       .arguments = "frac",
+       .group = Group::direct,
+       .value = +[](O& o) -> double& { return o.ray.directJitter; },
+       .range = kNotNegative,
+       .remark = "direct jitter",
+       .paragraph =
+           "How much of a source's part the point aimed at is moved about in: 0 its middle, 1 all of it. "
+           "More than 1 is of no use."});
+  add({.name = "-ds",
+       .arguments = "frac",
+       .group = Group::direct,
+       .value = +[](O& o) -> double& { return o.ray.sourceSubstructuring; },
+       .range = kNotNegative,
+       .remark = "direct sampling",
+       .paragraph =
+           "Divide light sources into parts whose size over their distance is below this. 0 leaves them "
+           "whole."});
+  add({.name = "-dr",
+       .arguments = "N",
+       .group = Group::direct,
+       .value = +[](O& o) -> int& { return o.ray.directRelays; },
+       .range = kCount,
+       .unit = "reflections",
+       .remark = "direct relays",
+       .paragraph =
+           "How often light may be passed on by mirrors and other materials that make virtual sources. 0: "
+           "never."});
+  add({.name = "-dp",
+       .arguments = "D",
+       .group = Group::direct,
+       .value = +[](O& o) -> int& { return o.ray.directPretest; },
+       .range = kCount,
+       .unit = "samples/sr",
+       .remark = "direct pretest density",
+       .paragraph =
+           "Density of the rays sent beforehand to learn whether a virtual source can be reached at all. 0: "
+           "none."});
+  add({.name = "-dv",
+       .group = Group::direct,
+       .value = +[](O& o) -> bool& { return o.ray.sourcesVisible; },
+       .remark = "direct visibility on|direct visibility off",
+       .paragraph =
+           "Switch for light sources seen directly; off, they are black there, and light the scene all the "
+           "same."});
+  add({.name = "-ss",
+       .arguments = "samp",
+       .group = Group::specular,
+       .value = +[](O& o) -> double& { return o.ray.specularSampling; },
+       .range = kNotNegative,
+       .remark = "specular sampling",
+       .paragraph =
+           "Samples of a rough highlight: below 1, how much of its width they spread over; above, how many "
+           "rays. 0 makes every highlight sharp."});
+  add({.name = "-st",
+       .arguments = "frac",
+       .group = Group::specular,
+       .value = +[](O& o) -> double& { return o.ray.specularThreshold; },
+       .range = kNotNegative,
+       .remark = "specular threshold",
+       .paragraph =
+           "Specular reflection or transmission below this fraction sends no rays and takes the indirect "
+           "light instead. 0 always sends them, 1 never."});
+  add({.name = "-av",
+       .arguments = "red grn blu",
+       .group = Group::indirect,
+       .value = +[](O& o) -> Rgb& { return o.ray.ambientValue; },
+       .range = kNotNegative,
+       .unit = "W/sr/m2",
+       .remark = "ambient value",
+       .paragraph = "Radiance that stands for the indirect light not computed."});
+  add({.name = "-aw",
+       .arguments = "N",
+       .group = Group::indirect,
+       .value = +[](O& o) -> int& { return o.ray.ambientWeight; },
+       .range = kCount,
+       .remark = "ambient value weight",
+       .paragraph = "Accepted as in rtrace. As no indirect values are kept from one record to the next, the "
+                    "ambient value "
+                    "stays as -av has it."});
+  add({.name = "-ab",
+       .arguments = "N",
+       .group = Group::indirect,
+       .value = +[](O& o) -> int& { return o.ray.ambientBounces; },
+       .range = kCount,
+       .unit = "bounces",
+       .remark = "ambient bounces",
+       .paragraph = "Most diffuse reflections of an indirect path. 0: no indirect light."});
+  add({.name = "-aa",
+       .arguments = "acc",
+       .group = Group::indirect,
+       .value = +[](O& o) -> double& { return o.ray.ambientAccuracy; },
+       .range = kNotNegative,
+       .remark = "ambient accuracy",
+       .paragraph =
+           "Accepted as in rtrace, but indirect light is computed anew at every point, without a cache, "
+           "whatever acc is: as rtrace does with 0. Thus an answer depends neither on those before it nor on "
+           "-n."});
+  add({.name = "-ar",
+       .arguments = "res",
+       .group = Group::indirect,
+       .value = +[](O& o) -> int& { return o.ray.ambientResolution; },
+       .range = kCount,
+       .remark = "ambient resolution",
+       .paragraph = "Accepted as in rtrace; without a cache it changes nothing."});
+  add({.name = "-ad",
+       .arguments = "N",
+       .group = Group::indirect,
+       .value = +[](O& o) -> int& { return o.ray.ambientDivisions; },
+       .range = kCount,
+       .unit = "rays",
+       .remark = "ambient divisions",
+       .paragraph =
+           "Rays over the hemisphere at the first diffuse reflection; fewer where their weight is less. The "
+           "error falls with the square root of their number. 0: no indirect light."});
+  add({.name = "-as",
+       .arguments = "N",
+       .group = Group::indirect,
+       .value = +[](O& o) -> int& { return o.ray.ambientSuperSamples; },
+       .range = kCount,
+       .unit = "rays",
+       .remark = "ambient super-samples",
+       .paragraph = "Rays sent besides those of -ad, where their values change most."});
+  add({.name = "-me",
+       .arguments = "rext gext bext",
+       .group = Group::medium,
+       .value = +[](O& o) -> Rgb& { return o.ray.mediumExtinction; },
+       .range = kNotNegative,
+       .unit = "1/length",
+       .remark = "mist extinction coefficient",
+       .paragraph = "Extinction of a medium that fills the scene.",
+       .support = Support::refused,
+       .reason = "light is not scattered in a medium",
+       .harmless = allZero,
+       .line =
+           +[](const O& o) {
+             const Rgb& c = o.ray.mediumExtinction;
+             return fmt::format("-me {:.2e} {:.2e} {:.2e}\t", c.x, c.y, c.z);
+           }});
+  add({.name = "-ma",
+       .arguments = "ralb galb balb",
+       .group = Group::medium,
+       .value = +[](O& o) -> Rgb& { return o.ray.mediumAlbedo; },
+       .range = kFraction,
+       .remark = "mist scattering albedo",
+       .paragraph = "Share of the extinction that is scattered. Changes nothing without -me.",
+       .support = Support::unused});
+  add({.name = "-mg",
+       .arguments = "gecc",
+       .group = Group::medium,
+       .value = +[](O& o) -> double& { return o.ray.mediumEccentricity; },
+       .range = {-1, 1},
+       .remark = "mist scattering eccentricity",
+       .paragraph = "Eccentricity of Henyey and Greenstein's phase function. Changes nothing without -me.",
+       .support = Support::unused});
+  add({.name = "-ms",
+       .arguments = "sampdist",
+       .group = Group::medium,
+       .value = +[](O& o) -> double& { return o.ray.mediumSampling; },
+       .range = kNotNegative,
+       .unit = "length",
+       .remark = "mist sampling distance",
+       .paragraph = "Distance of samples in a medium. Changes nothing without -me.",
+       .support = Support::unused});
+  add({.name = "-lr",
+       .arguments = "N",
+       .group = Group::limits,
+       .value = +[](O& o) -> int& { return o.ray.reflectionLimit; },
+       .range = {-kLargestInt, kLargestInt},
+       .unit = "reflections",
+       .remark = "limit reflection",
+       .paragraph = "Most reflections of a ray. If N is positive, rays of less weight than -lw end; if it is "
+                    "negative, "
+                    "they live on by Russian roulette, for -N reflections; if 0, for any number. -lw must be "
+                    "positive then."});
+  add({.name = "-lw",
+       .arguments = "frac",
+       .group = Group::limits,
+       .value = +[](O& o) -> double& { return o.ray.weightLimit; },
+       .range = kNotNegative,
+       .remark = "limit weight",
+       .paragraph = "Least weight of a ray; see -lr.",
+       .line = +[](const O& o) { return fmt::format("-lw {:.2e}\t\t\t", o.ray.weightLimit); }});
+  add({.name = "-am",
+       .arguments = "frac",
+       .group = Group::indirect,
+       .value = +[](O& o) -> double& { return o.photonRadius; },
+       .range = kNotNegative,
+       .unit = "length",
+       .remark = "max photon search radius",
+       .paragraph = "Accepted as in rtrace; changes nothing without -ap.",
+       .support = Support::unused,
+       .line = +[](const O& o) { return fmt::format("-am {:.1f}\t\t\t\t", o.photonRadius); }});
+
+  // What rtrace's -defaults does not print.
+  add({.name = "-ap",
+       .arguments = "file",
+       .group = Group::indirect,
+       .value = Custom{ignore},
+       .remark = "photon map",
+       .paragraph = "A photon map, with one or two bandwidths.",
+       .support = Support::refused,
+       .reason = kPhotons});
+  add({.name = "-ac",
+       .arguments = "pagesize",
+       .group = Group::indirect,
+       .value = Custom{ignore},
+       .range = kNotNegative,
+       .remark = "photon cache page size",
+       .paragraph = "Accepted as in rtrace; changes nothing without -ap.",
+       .support = Support::unused});
+  add({.name = "-aC",
+       .arguments = "cachesize",
+       .group = Group::indirect,
+       .value = Custom{ignore},
+       .remark = "photon cache size",
+       .paragraph = "Accepted as in rtrace; changes nothing without -ap.",
+       .support = Support::unused});
+  add({.name = "-af",
+       .arguments = "file",
+       .group = Group::indirect,
+       .value = +[](O& o) -> std::string& { return o.ray.ambientFile; },
+       .remark = "ambient file, unused",
+       .paragraph =
+           "Accepted as in rtrace. There is no cache of indirect light, so the file is neither read nor "
+           "written.",
+       .support = Support::unused});
+  add({.name = "-ae",
+       .arguments = "mod",
+       .group = Group::indirect,
+       .value = Custom{setAmbientModifiers},
+       .remark = "modifier without indirect light",
+       .paragraph =
+           "Surfaces with modifier mod get the ambient value instead of computed indirect light. May be "
+           "repeated; -ai or -aI after it starts anew."});
+  add({.name = "-aE",
+       .arguments = "file",
+       .group = Group::indirect,
+       .value = Custom{setAmbientModifiers},
+       .remark = "modifiers without indirect light",
+       .paragraph =
+           "As -ae, for all modifiers that the file names, between blanks. It is looked for along RAYPATH."});
+  add({.name = "-ai",
+       .arguments = "mod",
+       .group = Group::indirect,
+       .value = Custom{setAmbientModifiers},
+       .remark = "modifier with indirect light",
+       .paragraph =
+           "Only surfaces with modifier mod, and those of other -ai, get computed indirect light; -ae or -aE "
+           "after it starts anew."});
+  add({.name = "-aI",
+       .arguments = "file",
+       .group = Group::indirect,
+       .value = Custom{setAmbientModifiers},
+       .remark = "modifiers with indirect light",
+       .paragraph =
+           "As -ai, for all modifiers that the file names, between blanks. It is looked for along RAYPATH."});
+  add({.name = "-cs",
+       .arguments = "Ns",
+       .group = Group::color,
+       .value = Custom{ignore},
+       .range = kCount,
+       .unit = "bands",
+       .remark = "spectral bands",
+       .paragraph = "Number of spectral bands. Three are accepted.",
+       .support = Support::refused,
+       .reason = kSpectra,
+       .harmless = threeBands});
+  add({.name = "-cw",
+       .arguments = "nmA nmB",
+       .group = Group::color,
+       .value = Custom{ignore},
+       .range = kNotNegative,
+       .unit = "nm",
+       .remark = "spectral limits",
+       .paragraph = "Limits of the spectrum. 380 and 780 are accepted.",
+       .support = Support::refused,
+       .reason = kSpectra,
+       .harmless = visibleRange});
+  add({.name = "-co",
+       .group = Group::color,
+       .value = Custom{ignoreSwitch},
+       .remark = "spectral output",
+       .paragraph = "Switch for spectra in the output, accepted as in rtrace: three bands are no spectrum, "
+                    "and red, green "
+                    "and blue are written.",
+       .support = Support::unused,
+       .glued = true});
+  for (const std::string_view name : {"-te", "-ti"})
+    add({.name = name,
+         .arguments = "mod",
+         .group = Group::trees,
+         .value = Custom{ignore},
+         .remark = "modifier for ray trees",
+         .paragraph = "Accepted as in rtrace; changes nothing without -ot, which is not supported.",
+         .support = Support::unused});
+  for (const std::string_view name : {"-tE", "-tI"})
+    add({.name = name,
+         .arguments = "file",
+         .group = Group::trees,
+         .value = Custom{ignore},
+         .remark = "modifiers for ray trees",
+         .paragraph = "Accepted as in rtrace; changes nothing without -ot, which is not supported.",
+         .support = Support::unused});
+  add({.name = "-f",
+       .arguments = "source",
+       .group = Group::program,
+       .value = Custom{ignore},
+       .remark = "function file",
+       .paragraph = "Definitions for all function files.",
+       .support = Support::refused,
+       .reason = "definitions belong in a function file of the scene"});
+  add({.name = "-e",
+       .arguments = "file",
+       .group = Group::program,
+       .value = Custom{setErrorFile},
+       .remark = "error file",
+       .paragraph =
+           "Append messages to the file instead of writing them to standard error, beginning with the "
+           "process id and the command line. A word with = or : is a definition as in rtrace, and is not "
+           "supported.",
+       .line = +[](const O& o) { return o.errorFile.empty() ? "" : fmt::format("-e {}\t\t", o.errorFile); }});
+  for (const std::string_view name : {"-P", "-PP"})
+    add({.name = name,
+         .arguments = "pfile",
+         .group = Group::program,
+         .value = Custom{ignore},
+         .remark = "persistent mode",
+         .paragraph = "A process that outlives its input.",
+         .support = Support::refused,
+         .reason = kPersist});
+  add({.name = "-t",
+       .arguments = "seconds",
+       .group = Group::program,
+       .value = +[](O& o) -> double& { return o.progressSeconds; },
+       .range = kNotNegative,
+       .unit = "s",
+       .remark = "progress report interval",
+       .paragraph = "Report about every so many seconds how many records were answered, on standard error. "
+                    "0: never."});
+
+  add({.name = "-S",
+       .group = Group::sphere,
+       .value = +[](O& o) -> bool& { return o.sphere.on; },
+       .remark = "sphere mode on|sphere mode off (rays)",
+       .paragraph =
+           "Switch for sphere mode. Off by itself if the program is called by the name rtrace. Wherever it "
+           "stands, the mode decides on the defaults of all other options."});
+  add({.name = "-Sn",
+       .arguments = "N",
+       .group = Group::sphere,
+       .value = +[](O& o) -> int& { return o.sphere.baseDirections; },
+       .range = {1, 1000000},
+       .unit = "directions",
+       .remark = "base directions",
+       .paragraph = "Directions spread evenly over the sphere, the same for every point."});
+  add({.name = "-Sx",
+       .arguments = "N",
+       .group = Group::sphere,
+       .value = +[](O& o) -> int& { return o.sphere.mostDirections; },
+       .range = {1, 4000000},
+       .unit = "directions",
+       .remark = "most directions",
+       .paragraph = "Most directions of one point, those for special objects with them. Not given, it grows "
+                    "with -Sn to "
+                    "twice that."});
+  add({.name = "-Sk",
+       .arguments = "F",
+       .group = Group::sphere,
+       .value = +[](O& o) -> double& { return o.sphere.densityFactor; },
+       .range = kNotNegative,
+       .remark = "density factor",
+       .paragraph =
+           "Multiplies the density of directions (1/sr) that the materials of special objects ask for: "
+           "mirrors, glass and others whose radiance has peaks."});
+  add({.name = "-Sa",
+       .arguments = "acc",
+       .group = Group::sphere,
+       .value = +[](O& o) -> double& { return o.sphere.accuracy; },
+       .range = kFraction,
+       .remark = "accuracy",
+       .paragraph =
+           "Add directions until the estimated standard error of the mean is below acc times the mean, or "
+           "there are as many as -Sx allows. 0: no."});
+  add({.name = "-Sw",
+       .arguments = "letter",
+       .group = Group::sphere,
+       .value = Custom{setWeights},
+       .remark = "weights: h equal, v Voronoi, c Voronoi within silhouettes",
+       .paragraph = "What a direction's radiance is weighted with: h the same for all base directions, and "
+                    "no others; v "
+                    "the solid angle of its spherical Voronoi cell; c the same with cells that keep to the "
+                    "silhouettes of "
+                    "special objects, and light sources integrated by themselves. With h and v a light "
+                    "source is a surface "
+                    "like any other.",
+       .line = weightsLine});
+  add({.name = "-Sg",
+       .arguments = "mod",
+       .group = Group::sphere,
+       .value = +[](O& o) -> std::vector<std::string>& { return o.sphere.goals; },
+       .remark = "goals",
+       .paragraph =
+           "Importance instead of radiance: surfaces with modifier mod emit 1 W/sr/m2 from their front and "
+           "go on reflecting; every other source is dark. May be repeated."});
+  add({.name = "-Sb",
+       .group = Group::sphere,
+       .value = +[](O& o) -> bool& { return o.sphere.basicRadiance; },
+       .remark = "basic radiance on|basic radiance off",
+       .paragraph =
+           "Switch for basic radiance L/n2, which refraction leaves as it is: what importance needs to pass "
+           "through refracting materials."});
+  add({.name = "-Sd",
+       .group = Group::sphere,
+       .value = +[](O& o) -> bool& { return o.sphere.everyDirection; },
+       .remark = "every direction|mean of directions",
+       .paragraph = "Switch for a record of every direction instead of the mean of a point; see OUTPUT."});
+  add({.name = "-Sr",
+       .arguments = "N",
+       .group = Group::sphere,
+       .value = Custom{setRotation},
+       .range = kCount,
+       .remark = "rotation and random numbers",
+       .paragraph =
+           "Another rotation of the base directions and other random numbers for each N, so that repeated "
+           "runs show the spread of the answers.",
+       .line = +[](const O& o) { return fmt::format("-Sr {:<9}\t\t\t", o.sphere.rotation); }});
+  add({.name = "-Sc",
+       .group = Group::sphere,
+       .value = +[](O& o) -> bool& { return o.commands; },
+       .remark = "scene commands on|scene commands off",
+       .paragraph =
+           "Switch for whether commands in scene files (lines with !) may run. xform always works: it needs "
+           "no other program. Holds in ray mode as well."});
+  add({.name = "-Sv",
+       .group = Group::sphere,
+       .value = +[](O& o) -> bool& { return o.sphere.verify; },
+       .remark = "verify weights|weights not verified",
+       .paragraph =
+           "Switch for verifying the weights of each point: that they sum to 4 pi and that no circle through "
+           "three neighbours holds a fourth. Stops with an error where they fail."});
+  add({.name = "-Si",
+       .arguments = "pic",
+       .group = Group::sphere,
+       .value = +[](O& o) -> std::string& { return o.sphere.picture; },
+       .remark = "picture of each point",
+       .paragraph =
+           "Write what each point sees as a picture in the format that its name says; %d in it becomes the "
+           "number of the record, from 0."});
+  return table;
+}
+
+}  // namespace
+
+std::span<const OptionEntry> optionTable() {
+  static const std::vector<OptionEntry> table = makeTable();
+  return table;
+}
+
+int arity(const OptionEntry& entry) {
+  if (entry.glued || entry.arguments.empty()) return 0;
+  return 1 + static_cast<int>(std::count(entry.arguments.begin(), entry.arguments.end(), ' '));
+}
+
+Options modeDefaults(bool sphereMode) {
+  Options options;
+  options.sphere.on = sphereMode;
+  if (!sphereMode) return options;
+  // Thousands of directions are averaged: what one of them lacks in samples is made up for by the others, if
+  // each is unbiased. One indirect path a direction, all sources sampled over their whole size, every
+  // highlight followed.
+  options.ray.ambientDivisions = 1;
+  options.ray.ambientSuperSamples = 0;
+  options.ray.ambientAccuracy = 0;
+  options.ray.directJitter = 1;
+  options.ray.directThreshold = 0;
+  options.ray.specularThreshold = 0;
+  // A tenth of rtrace's; to be measured: the least that the mean of a strongly reflecting room asks for.
+  options.ray.weightLimit = 1e-5;
+  return options;
+}
+
+}  // namespace rsphere

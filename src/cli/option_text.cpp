@@ -1,0 +1,336 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "cli/option_table.h"
+
+namespace rsphere {
+namespace {
+
+std::string_view letterName(char letter, bool sphereRecord) {
+  switch (letter) {
+    case 'o':
+      return sphereRecord ? "point" : "origin";
+    case 'd':
+      return "direction";
+    case 'r':
+      return "reflect_contrib";
+    case 'R':
+      return "reflect_length";
+    case 'x':
+      return "unreflect_contrib";
+    case 'X':
+      return "unreflect_length";
+    case 'v':
+      return sphereRecord ? "mean_radiance" : "value";
+    case 'V':
+      return "contribution";
+    case 'l':
+      return "length";
+    case 'L':
+      return "first_length";
+    case 'p':
+      return "point";
+    case 'n':
+      return "normal";
+    case 'N':
+      return "unperturbed_normal";
+    case 's':
+      return "surface";
+    case 'w':
+      return "weight";
+    case 'W':
+      return "coefficient";
+    case 'm':
+      return "modifier";
+    case 'M':
+      return "material";
+    case '~':
+      return "tilde";
+    case 'i':
+      return "record";
+    case 'e':
+      return "standard_error";
+    case 'E':
+      return "scalar_irradiance";
+    case 'C':
+      return "cylindrical_irradiance";
+    case 'H':
+      return "six_irradiances";
+    case 'u':
+      return "light_vector";
+    case 'k':
+      return "directions";
+    default:
+      return "";  // rtrace has no word for c
+  }
+}
+
+// The remark behind '#', where it depends on the values.
+std::string remarkOf(const OptionEntry& entry, const Options& options) {
+  const size_t bar = entry.remark.find('|');
+  if (const auto* value = std::get_if<SwitchValue>(&entry.value)) {
+    Options copy = options;
+    return std::string((*value)(copy) ? entry.remark.substr(0, bar) : entry.remark.substr(bar + 1));
+  }
+  if (entry.name == "-x" && options.height != 0 && options.width != 0) return "x resolution";
+  if (entry.name == "-lr" && options.ray.reflectionLimit <= 0) return "limit reflection (Russian roulette)";
+  if (entry.name == "-f") {
+    const auto name = [](NumberFormat format) {
+      switch (format) {
+        case NumberFormat::ascii:
+          return "ascii";
+        case NumberFormat::float32:
+          return "float";
+        case NumberFormat::float64:
+          return "double";
+        case NumberFormat::rgbe:
+          return "32-bit_rle_rgbe";
+      }
+      return "unknown";
+    };
+    return fmt::format("{} = {}/{}", entry.remark, name(options.in), name(options.out));
+  }
+  if (entry.name == "-o") {
+    std::string remark(entry.remark);
+    for (const char letter : options.outputs)
+      if (const auto name = letterName(letter, options.sphere.on && !options.sphere.everyDirection);
+          !name.empty())
+        remark += fmt::format(" {}", name);
+    return remark;
+  }
+  return std::string(entry.remark);
+}
+
+// The line of -defaults up to its remark, with rtrace's number formats and tabs.
+std::string lineOf(const OptionEntry& entry, Options& options) {
+  if (entry.line != nullptr) return entry.line(options);
+  if (const auto* value = std::get_if<SwitchValue>(&entry.value))
+    return fmt::format("{}{}\t\t\t\t", entry.name, (*value)(options) ? '+' : '-');
+  if (const auto* value = std::get_if<IntegerValue>(&entry.value))
+    return fmt::format("{} {:<9}\t\t\t", entry.name, (*value)(options));
+  if (const auto* value = std::get_if<CountValue>(&entry.value))
+    return fmt::format("{} {:<9}\t\t\t", entry.name, (*value)(options));
+  if (const auto* value = std::get_if<RealValue>(&entry.value))
+    return fmt::format("{} {:f}\t\t\t", entry.name, (*value)(options));
+  if (const auto* value = std::get_if<ColorValue>(&entry.value)) {
+    const Rgb& c = (*value)(options);
+    return fmt::format("{} {:f} {:f} {:f}\t", entry.name, c.x, c.y, c.z);
+  }
+  if (const auto* value = std::get_if<WordValue>(&entry.value))
+    return (*value)(options).empty() ? "" : fmt::format("{} {}\t\t", entry.name, (*value)(options));
+  if (const auto* value = std::get_if<WordsValue>(&entry.value)) {
+    std::string words;
+    for (const std::string& word : (*value)(options)) words += fmt::format("{} {} ", entry.name, word);
+    return words.empty() ? "" : words + "\t\t";
+  }
+  return "";
+}
+
+std::string_view groupName(Group group) {
+  switch (group) {
+    case Group::records:
+      return "Records";
+    case Group::sphere:
+      return "Sphere mode";
+    case Group::direct:
+      return "Direct light";
+    case Group::specular:
+      return "Highlights";
+    case Group::indirect:
+      return "Indirect light";
+    case Group::limits:
+      return "Limits of a path";
+    case Group::medium:
+      return "Medium";
+    case Group::color:
+      return "Colors";
+    case Group::trees:
+      return "Ray trees";
+    case Group::program:
+      return "Program";
+  }
+  return "";
+}
+
+constexpr std::array kGroups = {Group::records,  Group::sphere, Group::direct, Group::specular,
+                                Group::indirect, Group::limits, Group::medium, Group::color,
+                                Group::trees,    Group::program};
+
+// The value alone, as short as it can be said; empty where there is none to tell.
+std::string valueOf(const OptionEntry& entry, Options& options) {
+  if (entry.support == Support::refused) return "";
+  if (const auto* value = std::get_if<SwitchValue>(&entry.value)) return (*value)(options) ? "on" : "off";
+  if (const auto* value = std::get_if<IntegerValue>(&entry.value))
+    return fmt::format("{}", (*value)(options));
+  if (const auto* value = std::get_if<CountValue>(&entry.value)) return fmt::format("{}", (*value)(options));
+  if (const auto* value = std::get_if<RealValue>(&entry.value)) return fmt::format("{}", (*value)(options));
+  if (const auto* value = std::get_if<ColorValue>(&entry.value)) {
+    const Rgb& c = (*value)(options);
+    return fmt::format("{} {} {}", c.x, c.y, c.z);
+  }
+  if (std::holds_alternative<Custom>(entry.value) && entry.line != nullptr) {
+    const std::string line = entry.line(options);
+    const size_t from = entry.name.size() + (entry.glued ? 0 : 1);
+    if (line.size() <= from) return "";
+    return line.substr(from, line.find_first_of(" \t", from) - from);
+  }
+  return "";
+}
+
+// What the manual says behind the paragraph: unit, range and default.
+std::string facts(const OptionEntry& entry) {
+  std::string text;
+  if (!entry.unit.empty()) text += fmt::format("Unit: {}. ", entry.unit);
+  const bool low =
+      std::isfinite(entry.range.lowest) && entry.range.lowest != -std::numeric_limits<int>::max();
+  const bool high =
+      std::isfinite(entry.range.highest) && entry.range.highest != std::numeric_limits<int>::max();
+  if (low && high) text += fmt::format("From {} to {}. ", entry.range.lowest, entry.range.highest);
+  if (low && !high) text += fmt::format("At least {}. ", entry.range.lowest);
+  Options rays = modeDefaults(false), spheres = modeDefaults(true);
+  const std::string ray = valueOf(entry, rays), sphere = valueOf(entry, spheres);
+  if (entry.name == "-S" || ray.empty()) return text;
+  if (ray == sphere || entry.group == Group::sphere)
+    text += fmt::format("Default: {}. ", sphere);
+  else
+    text += fmt::format("Default: {} in ray mode, {} in sphere mode. ", ray, sphere);
+  return text;
+}
+
+// Text for man(7): no line may begin with a dot or a quote, and a hyphen is a minus.
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '\\')
+      out += "\\e";
+    else if (c == '-')
+      out += "\\-";
+    else
+      out += c;
+  }
+  if (!out.empty() && (out[0] == '.' || out[0] == '\'')) out.insert(0, "\\&");
+  return out;
+}
+
+// The features in rtrace's words that hold here, and one of our own.
+constexpr std::array<std::string_view, 19> kFeatures = {"VirtualSources",
+                                                        "SecondarySources",
+                                                        "SourceSubsampling",
+                                                        "SourceVisibility",
+                                                        "AmbientModifierSelection",
+                                                        "PathTracing",
+                                                        "RussianRoulette",
+                                                        "SpecularSampling",
+                                                        "MaterialMixtures",
+                                                        "Antimatter",
+                                                        "BackFaceVisibility",
+                                                        "Aliases",
+                                                        "Multiprocessing",
+                                                        "IrradianceCalc",
+                                                        "ImmediateIrradiance",
+                                                        "DistanceLimiting",
+                                                        "InputFormats=a,f,d",
+                                                        "OutputFormats=a,f,d,c",
+                                                        "Outputs=o,d,v,V,w,W,l,L,c,p,n,N,s,m,M,r,x,R,X,~"};
+
+bool hasSubfeatures(std::string_view feature, std::string_view wanted) {
+  const size_t equals = feature.find('=');
+  if (equals == std::string_view::npos) return false;
+  const std::string list = fmt::format(",{},", feature.substr(equals + 1));
+  while (!wanted.empty()) {
+    const size_t comma = wanted.find(',');
+    const std::string_view one = wanted.substr(0, comma);
+    if (!one.empty() && list.find(fmt::format(",{},", one)) == std::string::npos) return false;
+    wanted.remove_prefix(comma == std::string_view::npos ? wanted.size() : comma + 1);
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string defaultsText(const Options& options) {
+  Options values = options;
+  std::string text;
+  for (const OptionEntry& entry : optionTable())
+    if (const std::string line = lineOf(entry, values); !line.empty())
+      text += fmt::format("{}# {}\n", line, remarkOf(entry, options));
+  return text;
+}
+
+std::string helpText(const Options& options) {
+  Options values = options;
+  std::string text = fmt::format(
+      "usage: {} [options] scene... < records > answers\n"
+      "A scene is an octree, RADIANCE scene files, or a '!command' that writes one of them.\n",
+      options.program);
+  for (const Group group : kGroups) {
+    text += fmt::format("\n{}:\n", groupName(group));
+    for (const OptionEntry& entry : optionTable()) {
+      if (entry.group != group || entry.support == Support::refused) continue;
+      const bool isSwitch = std::holds_alternative<SwitchValue>(entry.value);
+      const std::string use = fmt::format("{}{}{}", entry.name,
+                                          isSwitch      ? "[+|-]"
+                                          : entry.glued ? ""
+                                                        : " ",
+                                          entry.arguments);
+      const std::string value = valueOf(entry, values);
+      text += fmt::format("  {:<20} {}{}\n", use,
+                          isSwitch ? entry.remark.substr(0, entry.remark.find('|')) : entry.remark,
+                          value.empty() ? "" : fmt::format(" [{}]", value));
+    }
+  }
+  return text +
+         fmt::format("\n-defaults prints all options with their values, -version the version. See {}(1).\n",
+                     "rsphere");
+}
+
+FeatureReport featureReport(std::span<const std::string> wanted) {
+  FeatureReport report;
+  if (wanted.empty())
+    for (const std::string_view feature : kFeatures) report.text += fmt::format("{}\n", feature);
+  for (const std::string& want : wanted) {
+    if (want.empty()) continue;
+    const size_t equals = want.find('=');
+    const std::string_view name = std::string_view(want).substr(0, equals);
+    std::string_view found;
+    for (const std::string_view feature : kFeatures)
+      if (feature.substr(0, feature.find('=')) == name) found = feature;
+    const bool has = !found.empty() && (equals == std::string::npos ||
+                                        hasSubfeatures(found, std::string_view(want).substr(equals + 1)));
+    if (!has) {
+      report.missing = want;
+      return report;
+    }
+    if (equals == std::string::npos && found.find('=') != std::string_view::npos)
+      report.text += fmt::format("{}\n", found);
+  }
+  return report;
+}
+
+std::string manualText() {
+  std::string text;
+  for (const Group group : kGroups) {
+    text += fmt::format(".SS {}\n", groupName(group));
+    for (const OptionEntry& entry : optionTable()) {
+      if (entry.group != group) continue;
+      const bool isSwitch = std::holds_alternative<SwitchValue>(entry.value);
+      text += fmt::format(".TP\n.BI {}{}\n", escaped(entry.name),
+                          isSwitch ? " [+|\\-]"
+                          : entry.arguments.empty()
+                              ? ""
+                              : fmt::format(" \"{}{}\"", entry.glued ? "" : " ", entry.arguments));
+      text += escaped(entry.paragraph);
+      if (entry.support == Support::refused)
+        text += escaped(fmt::format(" Not supported: {}.", entry.reason));
+      if (const std::string more = facts(entry); !more.empty())
+        text += '\n' + escaped(more.substr(0, more.size() - 1));
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+}  // namespace rsphere

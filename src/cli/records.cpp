@@ -1,0 +1,293 @@
+#include "cli/records.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+#include "cli/number_text.h"
+#include "rad_parser/number.h"
+
+namespace rsphere {
+namespace {
+
+// The capacity of a pipe on Linux: more is never at hand at once.
+constexpr size_t kBlock = 65536;
+// A word of text longer than this is no number. The exact decimal digits of any double fit.
+constexpr size_t kLongestWord = 4096;
+// Of a faulty word, this much is shown.
+constexpr size_t kShownWord = 40;
+
+bool isSpace(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+bool isQuote(char c) { return c == '"' || c == '\''; }
+bool startsNumber(char c) { return (c >= '0' && c <= '9') || c == '.'; }
+
+std::string systemText(std::string_view what) {
+  const int error = errno;
+  return fmt::format("{}: {}", what, std::strerror(error));
+}
+
+// The word as a message can show it on one line.
+std::string shown(std::string_view word) {
+  std::string text;
+  for (const char c : word.substr(0, kShownWord))
+    if (const auto byte = static_cast<unsigned char>(c); byte < 32 || byte == 127)
+      text += fmt::format("\\x{:02x}", byte);
+    else
+      text += c;
+  if (word.size() > kShownWord) text += "...";
+  return text;
+}
+
+std::string_view counted(int n) { return n == 1 ? "number" : "numbers"; }
+
+std::optional<double> quotedNumber(std::string_view word) {
+  if (word.size() >= 2 && isQuote(word.front()) && word.back() == word.front())
+    return rad::parseReal(word.substr(1, word.size() - 2));
+  return rad::parseReal(word);
+}
+
+}  // namespace
+
+RecordReader::RecordReader(int fd, NumberFormat format, int numbersPerRecord, std::string name)
+    : fd_(fd), format_(format), perRecord_(numbersPerRecord), name_(std::move(name)), block_(kBlock) {}
+
+size_t RecordReader::read(std::vector<double>& numbers, size_t most) {
+  const size_t count = format_ == NumberFormat::ascii ? readText(numbers, most) : readBinary(numbers, most);
+  records_ += count;
+  return count;
+}
+
+// Makes room and reads what there is, waiting for the first byte. False at the end of input or when
+// interrupted.
+bool RecordReader::refill() {
+  if (atEnd_ || interrupted_) return false;
+  std::memmove(block_.data(), block_.data() + begin_, end_ - begin_);
+  end_ -= begin_;
+  begin_ = 0;
+  std::vector<pollfd> ready{{fd_, POLLIN, 0}};
+  for (const int wake : wakeFds_) ready.push_back({wake, POLLIN, 0});
+  bool told = false;
+  for (int patience = 0;; patience = -1) {
+    const int n = poll(ready.data(), ready.size(), patience);
+    if (n < 0 && errno != EINTR) throw rad::Error(systemText(name_), rad::Status::system);
+    if (n > 0) break;
+    if (!told && waiting_) {
+      waiting_(true);
+      told = true;
+    }
+  }
+  if (told) waiting_(false);
+  for (size_t i = 1; i < ready.size(); ++i)
+    if (ready[i].revents != 0) interrupted_ = true;
+  if (interrupted_) return false;
+  ssize_t got;
+  do got = ::read(fd_, block_.data() + end_, block_.size() - end_);
+  while (got < 0 && (errno == EINTR || errno == EAGAIN));
+  if (got < 0) throw rad::Error(systemText(name_), rad::Status::system);
+  atEnd_ = got == 0;
+  end_ += static_cast<size_t>(got);
+  bytes_ += static_cast<uint64_t>(got);
+  return !atEnd_;
+}
+
+void RecordReader::newLine() {
+  ++line_;
+  if (!firstLine_ && onLine_ > 0) firstLine_ = onLine_;
+  onLine_ = 0;
+}
+
+void RecordReader::malformed(std::string_view word) const {
+  throw rad::Error(fmt::format("{}:{}: expected {} {}, got \"{}\"", name_, line_, perRecord_,
+                               counted(perRecord_), shown(word)));
+}
+
+size_t RecordReader::readText(std::vector<double>& numbers, size_t most) {
+  size_t count = 0;
+  while (count < most) {
+    const char* at = block_.data() + begin_;
+    const char* const stop = block_.data() + end_;
+    for (; at < stop && isSpace(*at); ++at)
+      if (*at == '\n') newLine();
+    begin_ = static_cast<size_t>(at - block_.data());
+    double x = 0;
+    const char* next = at;
+    if (at < stop) {
+      const char* digits = at + (*at == '+');
+      const char* start = digits + (digits == at && *at == '-');
+      if (start < stop && startsNumber(*start)) {
+        const auto [end, error] = std::from_chars(digits, stop, x);
+        if (error == std::errc() && end < stop && isSpace(*end)) next = end;
+      }
+    }
+    if (next == at) {  // not a plain number with its end in sight
+      while (next < stop && !isSpace(*next)) ++next;
+      const std::string_view word(at, static_cast<size_t>(next - at));
+      if (next == stop && !atEnd_ && word.size() <= kLongestWord) {
+        // Records at hand are answered before more is asked for.
+        if (count > 0 || interrupted_) break;
+        refill();
+        if (interrupted_) break;
+        continue;
+      }
+      if (word.empty()) {
+        if (partialCount_ == 0 || count > 0) break;
+        throw rad::Error(fmt::format("{}:{}: expected {} {}, got {}", name_, lastNumberLine_, perRecord_,
+                                     counted(perRecord_), partialCount_));
+      }
+      const std::optional<double> slow = word.size() <= kLongestWord ? quotedNumber(word) : std::nullopt;
+      if (!slow) {
+        if (count > 0) break;
+        malformed(word);
+      }
+      x = *slow;
+    }
+    begin_ = static_cast<size_t>(next - block_.data());
+    partial_[partialCount_++] = x;
+    lastNumberLine_ = line_;
+    ++onLine_;
+    if (partialCount_ == perRecord_) {
+      numbers.insert(numbers.end(), partial_.begin(), partial_.begin() + perRecord_);
+      partialCount_ = 0;
+      ++count;
+    }
+  }
+  return count;
+}
+
+size_t RecordReader::readBinary(std::vector<double>& numbers, size_t most) {
+  const size_t numberSize = format_ == NumberFormat::float32 ? sizeof(float) : sizeof(double);
+  const size_t recordSize = numberSize * static_cast<size_t>(perRecord_);
+  while (end_ - begin_ < recordSize)
+    if (!refill()) break;
+  if (interrupted_) return 0;
+  if (end_ - begin_ < recordSize) {
+    if (begin_ == end_) return 0;
+    throw rad::Error(fmt::format("{}: record {}: expected {} bytes, got {}", name_, records_ + 1, recordSize,
+                                 end_ - begin_));
+  }
+  size_t count = 0;
+  for (; count < most && end_ - begin_ >= recordSize; ++count) {
+    const size_t before = numbers.size();
+    for (int i = 0; i < perRecord_; ++i) {
+      const char* from = block_.data() + begin_ + static_cast<size_t>(i) * numberSize;
+      double x;
+      if (numberSize == sizeof(float)) {
+        float single;
+        std::memcpy(&single, from, sizeof single);
+        x = single;
+      } else {
+        std::memcpy(&x, from, sizeof x);
+      }
+      if (!std::isfinite(x)) {
+        numbers.resize(before);
+        if (count > 0) return count;
+        throw rad::Error(fmt::format("{}: record {}: expected {} {}, got {}", name_, records_ + 1, perRecord_,
+                                     counted(perRecord_), x));
+      }
+      numbers.push_back(x);
+    }
+    begin_ += recordSize;
+  }
+  return count;
+}
+
+void RecordText::number(double x) {
+  switch (format_) {
+    case NumberFormat::ascii:
+      appendScientific(bytes_, x);
+      bytes_ += '\t';
+      break;
+    case NumberFormat::float32: {
+      const auto single = static_cast<float>(x);
+      bytes_.append(reinterpret_cast<const char*>(&single), sizeof single);
+      break;
+    }
+    case NumberFormat::float64:
+    case NumberFormat::rgbe:  // numbers beside a pixel do not occur: parseOptions() allows one colour only
+      bytes_.append(reinterpret_cast<const char*>(&x), sizeof x);
+      break;
+  }
+}
+
+void RecordText::integer(uint64_t n) {
+  if (format_ != NumberFormat::ascii) return number(static_cast<double>(n));
+  char digits[24];
+  bytes_.append(digits, std::to_chars(digits, digits + sizeof digits, n).ptr);
+  bytes_ += '\t';
+}
+
+void RecordText::vector(const V3d& v) {
+  number(v.x);
+  number(v.y);
+  number(v.z);
+}
+
+void RecordText::color(const Rgb& c) {
+  if (format_ != NumberFormat::rgbe) return vector(c);
+  const std::array<uint8_t, 4> pixel = rgbePixel(c);
+  bytes_.append(reinterpret_cast<const char*>(pixel.data()), pixel.size());
+}
+
+void RecordText::name(std::string_view n) {
+  bytes_ += n;
+  bytes_ += '\t';
+}
+
+void RecordText::end() {
+  if (format_ == NumberFormat::ascii) bytes_ += '\n';
+}
+
+std::array<uint8_t, 4> rgbePixel(const Rgb& c) {
+  const auto red = static_cast<float>(c.x), green = static_cast<float>(c.y), blue = static_cast<float>(c.z);
+  const float largest = std::fmax(red, std::fmax(green, blue));
+  if (!(largest > 1e-32)) return {0, 0, 0, 0};
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  constexpr int kExcess = 128;
+  if (!std::isfinite(largest) || exponent + kExcess > 255) return {255, 255, 255, 255};
+  const auto mantissa = [exponent](float x) {
+    return x > 0 ? static_cast<uint8_t>(std::ldexp(static_cast<double>(x), 8 - exponent)) : uint8_t{0};
+  };
+  return {mantissa(red), mantissa(green), mantissa(blue), static_cast<uint8_t>(exponent + kExcess)};
+}
+
+void RecordWriter::write(std::string_view bytes) {
+  pending_ += bytes;
+  if (!hold_ && pending_.size() >= kBlock) flush();
+}
+
+void RecordWriter::flush() {
+  size_t done = 0;
+  while (done < pending_.size()) {
+    const ssize_t n = ::write(fd_, pending_.data() + done, pending_.size() - done);
+    if (n >= 0) {
+      done += static_cast<size_t>(n);
+      continue;
+    }
+    if (errno == EINTR) continue;
+    if (errno == EAGAIN) {
+      pollfd ready{fd_, POLLOUT, 0};
+      poll(&ready, 1, -1);
+      continue;
+    }
+    const bool closed = errno == EPIPE;
+    const std::string text = systemText("write error");
+    pending_.clear();  // a second attempt would write the same bytes twice
+    if (closed) throw ClosedPipe();
+    throw rad::Error(text, rad::Status::system);
+  }
+  pending_.clear();
+}
+
+std::optional<int64_t> RecordWriter::position() const {
+  const off_t at = lseek(fd_, 0, SEEK_CUR);
+  if (at < 0) return std::nullopt;
+  return static_cast<int64_t>(at) + static_cast<int64_t>(pending_.size());
+}
+
+}  // namespace rsphere

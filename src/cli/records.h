@@ -1,0 +1,133 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/options.h"
+#include "cli/rgb.h"
+#include "rad_parser/error.h"
+
+namespace rsphere {
+
+// The other end of the output was closed: nobody wants the rest. Not a fault; no message is due.
+class ClosedPipe : public rad::Error {
+ public:
+  ClosedPipe() : rad::Error("Broken pipe", rad::Status::signal) {}
+};
+
+// Reads records of numbers from a file descriptor: text (numbers between white space, line ends no different
+// from blanks, each number read whole and perhaps in quotes) or native floats or doubles.
+// Never asks for input while a whole record is at hand, and never for more than the next record needs: a
+// program that writes one record and waits for its answer gets it.
+// Holds one block of input (64 KiB). Not thread-safe: one caller at a time.
+class RecordReader {
+ public:
+  static constexpr int kMostNumbers = 6;
+
+  // REQUIRES: format is ascii, float32 or float64; 1 <= numbersPerRecord <= 6. `name` begins the messages.
+  // The descriptor stays the caller's.
+  RecordReader(int fd, NumberFormat format, int numbersPerRecord, std::string name = "stdin");
+
+  // Appends the numbers of at least one record, waiting for it, and of up to `most` if they are at hand
+  // already. Returns how many records; 0 at the end of input, or when interrupted. Throws rad::Error where
+  // the next record is malformed or short, once all before it were returned: 'stdin:3: expected 6 numbers,
+  // got "x"', or with the number of the record, from 1, for binary input. Text is malformed that RADIANCE
+  // does not read as a number (nan, inf, 0x10, "1,5", "#"), and what a double cannot hold; binary numbers
+  // must be finite. Status::system where read(2) fails.
+  size_t read(std::vector<double>& numbers, size_t most);
+
+  // Called with true before the reader waits for input that is not there yet, with false after it.
+  void whenWaiting(std::function<void(bool)> waiting) { waiting_ = std::move(waiting); }
+
+  // Descriptors that end the wait as soon as one of them can be read: read() then returns 0 from now on.
+  void interruptBy(std::vector<int> fds) { wakeFds_ = std::move(fds); }
+  bool interrupted() const { return interrupted_; }
+
+  // Records returned so far, and bytes read from the descriptor.
+  uint64_t records() const { return records_; }
+  uint64_t bytes() const { return bytes_; }
+
+  // How many numbers the first line of text has, once it was read: rays given as points (or points as rays)
+  // can be told from it. Empty for binary input.
+  std::optional<int> numbersOnFirstLine() const { return firstLine_; }
+
+ private:
+  size_t readText(std::vector<double>& numbers, size_t most);
+  size_t readBinary(std::vector<double>& numbers, size_t most);
+  bool refill();
+  void newLine();
+  [[noreturn]] void malformed(std::string_view word) const;
+
+  int fd_;
+  NumberFormat format_;
+  int perRecord_;
+  std::string name_;
+  std::vector<char> block_;
+  size_t begin_ = 0, end_ = 0;  // what of the block is not used yet
+  bool atEnd_ = false, interrupted_ = false;
+  std::vector<int> wakeFds_;
+  std::function<void(bool)> waiting_;
+  uint64_t records_ = 0, bytes_ = 0;
+  // Text: the line of begin_ from 1, and the numbers of a record that is not whole yet.
+  uint64_t line_ = 1, lastNumberLine_ = 1;
+  std::array<double, kMostNumbers> partial_{};
+  int partialCount_ = 0;
+  int onLine_ = 0;
+  std::optional<int> firstLine_;
+};
+
+// The bytes of one number, name or colour after another, as rtrace writes them: in text each followed by a
+// TAB, in binary native floats or doubles; names are text in every format.
+class RecordText {
+ public:
+  // Appends to `bytes`, which must live as long.
+  RecordText(std::string& bytes, NumberFormat format) : bytes_(bytes), format_(format) {}
+
+  void number(double x);
+  void integer(uint64_t n);       // in text: all its digits, where "%e" has only seven
+  void vector(const V3d& v);      // three numbers
+  void color(const Rgb& c);       // three numbers, or one RGBE pixel where the format is rgbe
+  void name(std::string_view n);  // the name and a TAB
+  void end();                     // in text: a line end
+
+ private:
+  std::string& bytes_;
+  NumberFormat format_;
+};
+
+// The 4-byte pixel of a RADIANCE picture: red, green and blue mantissas, shared exponent + 128. Each channel
+// is rounded to float first and then down to a multiple of 2^(e-8), where 2^e is the power of two above the
+// largest channel. At most 1e-32, or nan: all zero. Beyond 2^127: the largest pixel. Negative channels: zero.
+// Source: RADIANCE file formats, "Picture file format"; G. Ward, "Real Pixels", Graphics Gems II.
+std::array<uint8_t, 4> rgbePixel(const Rgb& c);
+
+// Collects bytes and hands them to a file descriptor in blocks of 64 KiB, or at flush() only.
+class RecordWriter {
+ public:
+  // The descriptor stays the caller's. What was not flushed is dropped with the writer.
+  explicit RecordWriter(int fd) : fd_(fd) {}
+
+  // Whether bytes are kept until flush(), however many: for a program that writes a group of records before
+  // it reads the answers, where writing early would block both.
+  void holdUntilFlush(bool hold) { hold_ = hold; }
+
+  // Both throw ClosedPipe where nobody reads any more (SIGPIPE must be ignored), rad::Error with
+  // Status::system where the system refuses (disk full).
+  void write(std::string_view bytes);
+  void flush();
+
+  // Where the next byte comes to stand in the file; empty where the output cannot seek.
+  std::optional<int64_t> position() const;
+
+ private:
+  int fd_;
+  bool hold_ = false;
+  std::string pending_;
+};
+
+}  // namespace rsphere
