@@ -214,8 +214,7 @@ void Program::evaluate(const Point& point, State& state, std::span<double> out) 
           continue;
         }
         break;
-      case Op::choose: {  // the c-th and later entries of the list are the choices'; the first is for none of
-                          // them
+      case Op::choose: {  // lists_[b]: where to go for none of the c choices; then for each
         const double x = r[i->a];
         int n = rounded(x);
         const int choices = static_cast<int>(i->c);

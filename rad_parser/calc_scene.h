@@ -22,7 +22,7 @@ enum Input : uint32_t {
   Pz,    // intersection point
   T,     // distance from the ray's start, along all its transmissions
   Rdot,  // -D.N, within [-1,1]
-  S,     // scale of the transform to the world... of the inverse transform: 1 without any
+  S,     // 1 over the scale of the transform from that space to the world
   Tx,
   Ty,
   Tz,  // world origin
