@@ -31,18 +31,19 @@ void Delaunay::setPlane(Triangle& t, const V3d& apex, const V3d& u, const V3d& v
 }
 
 bool Delaunay::holdsSlowly(const Triangle& t, const V3d& p) {
-  return circleHolds(sites[t.corner[0]], sites[t.corner[1]], sites[t.corner[2]], p, counts);
+  return circleHolds(sites[t.corner[0]].at, sites[t.corner[1]].at, sites[t.corner[2]].at, p, counts);
 }
 
-void Delaunay::start(const V3d& a, const V3d& b, const V3d& c, const V3d& d) {
-  sites.assign({a, b, c, d});
+void Delaunay::start(const std::array<Site, 4>& first) {
+  sites.assign(first.begin(), first.end());
   standsFor.assign({0, 1, 2, 3});
   triangles.assign(4, {});
   unused.clear();
   insertions = 4;
   lastTriangle = 0;
   counts = {};
-  const std::uint32_t outward = circleHolds(a, b, c, d, counts) ? 1 : 0;
+  const std::uint32_t outward =
+      circleHolds(first[0].at, first[1].at, first[2].at, first[3].at, counts) ? 1 : 0;
   const std::uint32_t i = 0, j = 1 + outward, k = 2 - outward, l = 3;
   const std::uint32_t corners[4][3] = {{i, j, k}, {j, i, l}, {k, j, l}, {i, k, l}};
   const std::uint32_t nexts[4][3] = {{2, 3, 1}, {3, 2, 0}, {1, 3, 0}, {2, 1, 0}};
@@ -51,8 +52,8 @@ void Delaunay::start(const V3d& a, const V3d& b, const V3d& c, const V3d& d) {
       triangles[t].corner[e] = corners[t][e];
       triangles[t].next[e] = nexts[t][e];
     }
-    const V3d& apex = sites[corners[t][0]];
-    setPlane(triangles[t], apex, sites[corners[t][1]] - apex, sites[corners[t][2]] - apex);
+    const V3d& apex = sites[corners[t][0]].at;
+    setPlane(triangles[t], apex, sites[corners[t][1]].at - apex, sites[corners[t][2]].at - apex);
   }
   someTriangle.assign({0, 0, 0, 1});
 }
@@ -70,8 +71,8 @@ std::uint32_t Delaunay::locate(const V3d& p, std::uint32_t& equal) {
       counts.filter += step + 1;
       return t;
     }
-    const V3d d[3] = {sites[triangle.corner[0]] - p, sites[triangle.corner[1]] - p,
-                      sites[triangle.corner[2]] - p};
+    const V3d d[3] = {sites[triangle.corner[0]].at - p, sites[triangle.corner[1]].at - p,
+                      sites[triangle.corner[2]].at - p};
     double least = 0;
     int across = -1;
     for (int e = 0; e < 3; ++e) {
@@ -94,12 +95,12 @@ std::uint32_t Delaunay::locate(const V3d& p, std::uint32_t& equal) {
 
 std::uint32_t Delaunay::locateFromNearest(const V3d& p, std::uint32_t site, std::uint32_t& equal) {
   // Each step is strictly nearer, so it ends, also on rings where many sites are equally near.
-  double distance2 = (sites[site] - p).length2();
+  double distance2 = (sites[site].at - p).length2();
   for (bool nearer = true; nearer;) {
     nearer = false;
     around(site, [&](std::uint32_t t, int i) {
       const std::uint32_t other = triangles[t].corner[kAfter[i]];
-      const double d2 = (sites[other] - p).length2();
+      const double d2 = (sites[other].at - p).length2();
       if (d2 < distance2) {
         distance2 = d2;
         site = other;
@@ -109,7 +110,7 @@ std::uint32_t Delaunay::locateFromNearest(const V3d& p, std::uint32_t site, std:
     });
   }
   equal = site;
-  if (sites[site] == p) return kNone;
+  if (sites[site].at == p) return kNone;
   // The nearest site will be joined to p, so a circle through it holds p; unless p is hidden.
   std::uint32_t found = kNone;
   const std::uint64_t slow = counts.lifted + counts.exact + counts.symbolic;
@@ -130,11 +131,12 @@ std::uint32_t Delaunay::locateFromNearest(const V3d& p, std::uint32_t site, std:
   return found;
 }
 
-void Delaunay::insert(const V3d& p) {
+void Delaunay::insert(const Site& added) {
+  const V3d p = added.at;
   const auto site = static_cast<std::uint32_t>(sites.size());
   std::uint32_t equal = kNone;
   const std::uint32_t first = locate(p, equal);
-  sites.push_back(p);
+  sites.push_back(added);
   someTriangle.push_back(kNone);
   if (first == kNone) {
     standsFor.push_back(equal);
@@ -186,10 +188,10 @@ void Delaunay::insert(const V3d& p) {
     triangles[hole_.back()].corner[0] = kNone;
     unused.push_back(hole_.back());
   }
-  V3d u = sites[rim_[0].from] - p;
+  V3d u = sites[rim_[0].from].at - p;
   for (std::size_t i = 0; i < rim_.size(); ++i) {
     const RimEdge& edge = rim_[i];
-    const V3d v = sites[edge.to] - p;
+    const V3d v = sites[edge.to].at - p;
     const std::uint32_t t = hole_[i];
     Triangle& triangle = triangles[t];
     triangle.corner[0] = site;

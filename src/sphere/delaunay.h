@@ -1,6 +1,7 @@
 #pragma once
 #include <Imath/ImathVec.h>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,10 +24,16 @@ struct alignas(64) Triangle {
 };
 static_assert(sizeof(Triangle) == 64);
 
+// A direction and half of |at|^2 - 1: how far outside the unit sphere rounding has left it.
+struct alignas(32) Site {
+  V3d at;
+  double height = 0;
+};
+
 struct Delaunay {
   static constexpr std::uint32_t kNone = ~0u;
 
-  std::vector<V3d> sites;                   // in the order of insertion
+  std::vector<Site> sites;                  // in the order of insertion
   std::vector<std::uint32_t> standsFor;     // the site that a site was merged into; itself if it is a corner
   std::vector<std::uint32_t> someTriangle;  // one that has the site as a corner
   std::vector<Triangle> triangles;
@@ -36,12 +43,12 @@ struct Delaunay {
   PredicateCounts counts;
 
   // Starts with four different sites.
-  void start(const V3d& a, const V3d& b, const V3d& c, const V3d& d);
+  void start(const std::array<Site, 4>& first);
 
   // Adds a site; its number is that of calls before it, plus 4. It is merged into the one that it equals, or
   // into the nearest if the hull keeps it hidden, which happens below 1e-15 apart only; so are those that it
   // hides.
-  void insert(const V3d& p);
+  void insert(const Site& added);
 
   // Is p inside the circle of the triangle?
   bool holds(const Triangle& t, const V3d& p) {

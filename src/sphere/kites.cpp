@@ -13,7 +13,8 @@ struct Block {
   double ax[kBlock], ay[kBlock], az[kBlock];
   double bx[kBlock], by[kBlock], bz[kBlock];
   double cx[kBlock], cy[kBlock], cz[kBlock];
-  double tangent[3][kBlock];  // at the edge opposite to that corner
+  double ah[kBlock], bh[kBlock], ch[kBlock];  // heights
+  double tangent[3][kBlock];                  // at the edge opposite to that corner
   double cosine[kBlock];
 };
 
@@ -30,15 +31,19 @@ void tangents(Block& k) {
     const Vec a{k.ax[i], k.ay[i], k.az[i]}, b{k.bx[i], k.by[i], k.bz[i]}, c{k.cx[i], k.cy[i], k.cz[i]};
     const Vec u{a.x - c.x, a.y - c.y, a.z - c.z}, v{b.x - c.x, b.y - c.y, b.z - c.z},
         w{a.x - b.x, a.y - b.y, a.z - b.z};
-    const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
+    const double du = k.ah[i] - k.ch[i], dv = k.bh[i] - k.ch[i], dw = k.ah[i] - k.bh[i];
+    const double uu = dot(u, u) - du * du, vv = dot(v, v) - dv * dv, ww = dot(w, w) - dw * dw;
+    const double dotA = dot(w, u) - 0.5 * (uu * dw + ww * du) - du * dw;
+    const double dotB = -dot(w, v) + 0.5 * (vv * dw - ww * dv) + dv * dw;
+    const double dotC = dot(u, v) + 0.5 * (uu * dv + vv * du) - du * dv;
     const bool cIsApex = (ww >= uu) & (ww >= vv), aIsApex = vv >= uu;
     const double atA = det(a, w, u), atB = det(b, w, v), atC = det(c, u, v);
     const double volume = cIsApex ? atC : aIsApex ? atA : atB;
     const double area = std::sqrt(volume * volume + 0.25 * uu * vv * ww);
     const double four = 4 * area + 4 * volume;
-    k.tangent[0][i] = vv * dot(w, u) / (four - vv * area);
-    k.tangent[1][i] = uu * -dot(w, v) / (four - uu * area);
-    k.tangent[2][i] = ww * dot(u, v) / (four - ww * area);
+    k.tangent[0][i] = vv * dotA / (four - vv * area);
+    k.tangent[1][i] = uu * dotB / (four - uu * area);
+    k.tangent[2][i] = ww * dotC / (four - ww * area);
     k.cosine[i] = volume / area;
   }
 }
@@ -61,12 +66,24 @@ void arcTangents(double (&t)[kBlock]) {
 
 struct LongVec {
   long double x, y, z;
-  LongVec(const V3d& to, const V3d& from)
-      : x(0.0L + to.x - from.x), y(0.0L + to.y - from.y), z(0.0L + to.z - from.z) {}
 };
 long double dot(const LongVec& a, const LongVec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-long double det(const V3d& a, const LongVec& b, const LongVec& c) {
+long double det(const LongVec& a, const LongVec& b, const LongVec& c) {
   return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
+}
+
+// 1 - 1/|site|
+long double shrinkage(const Site& s) { return s.height * (1 - 1.5L * s.height); }
+LongVec unit(const Site& s) {
+  const long double k = shrinkage(s);
+  return {s.at.x - s.at.x * k, s.at.y - s.at.y * k, s.at.z - s.at.z * k};
+}
+// unit(a) - unit(b), rounded at the size of the difference.
+LongVec difference(const Site& a, const Site& b) {
+  const long double k = shrinkage(a), l = shrinkage(b);
+  return {(0.0L + a.at.x - b.at.x) - (k * a.at.x - l * b.at.x),
+          (0.0L + a.at.y - b.at.y) - (k * a.at.y - l * b.at.y),
+          (0.0L + a.at.z - b.at.z) - (k * a.at.z - l * b.at.z)};
 }
 
 // The plane triangle a, b, c of a hull in extended precision.
@@ -74,11 +91,11 @@ struct LongTriangle {
   long double uu, vv, ww;        // squared edges ca, cb, ab
   long double dotA, dotB, dotC;  // of the two edges at a corner
   long double volume, area;      // k and N of kites.h
-  LongTriangle(const V3d& a, const V3d& b, const V3d& c) {
-    const LongVec u(a, c), v(b, c), w(a, b);
+  LongTriangle(const Site& a, const Site& b, const Site& c) {
+    const LongVec u = difference(a, c), v = difference(b, c), w = difference(a, b);
     uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
     dotA = dot(w, u), dotB = -dot(w, v), dotC = dot(u, v);
-    volume = ww >= uu && ww >= vv ? det(c, u, v) : vv >= uu ? det(a, w, u) : det(b, w, v);
+    volume = ww >= uu && ww >= vv ? det(unit(c), u, v) : vv >= uu ? det(unit(a), w, u) : det(unit(b), w, v);
     area = std::sqrt(volume * volume + uu * vv * ww / 4);
   }
 };
@@ -92,11 +109,11 @@ void computeKites(const Delaunay& delaunay, std::span<const std::uint32_t> which
     const int n = static_cast<int>(std::min<std::size_t>(kBlock, which.size() - first));
     for (int i = 0; i < kBlock; ++i) {
       const Triangle& t = delaunay.triangles[which[first + std::min(i, n - 1)]];
-      const V3d &a = delaunay.sites[t.corner[0]], &b = delaunay.sites[t.corner[1]],
-                &c = delaunay.sites[t.corner[2]];
-      block.ax[i] = a.x, block.ay[i] = a.y, block.az[i] = a.z;
-      block.bx[i] = b.x, block.by[i] = b.y, block.bz[i] = b.z;
-      block.cx[i] = c.x, block.cy[i] = c.y, block.cz[i] = c.z;
+      const Site &a = delaunay.sites[t.corner[0]], &b = delaunay.sites[t.corner[1]],
+                 &c = delaunay.sites[t.corner[2]];
+      block.ax[i] = a.at.x, block.ay[i] = a.at.y, block.az[i] = a.at.z, block.ah[i] = a.height;
+      block.bx[i] = b.at.x, block.by[i] = b.at.y, block.bz[i] = b.at.z, block.bh[i] = b.height;
+      block.cx[i] = c.at.x, block.cy[i] = c.at.y, block.cz[i] = c.at.z, block.ch[i] = c.height;
     }
     tangents(block);
     for (auto& t : block.tangent) arcTangents(t);
@@ -108,7 +125,7 @@ void computeKites(const Delaunay& delaunay, std::span<const std::uint32_t> which
   }
 }
 
-long double hullAngle(const V3d& a, const V3d& b, const V3d& c) {
+long double hullAngle(const Site& a, const Site& b, const Site& c) {
   const LongTriangle t(a, b, c);
   return std::atan2(t.area, t.dotC);
 }

@@ -61,43 +61,39 @@ std::uint32_t placeOnCurve(const V3d& d) {
   return place;
 }
 
-void orderAlongCurve(std::span<const V3d> directions, OrderScratch& scratch,
-                     std::vector<std::uint32_t>& order) {
-  scratch.keys.resize(directions.size());
-  for (std::size_t i = 0; i < directions.size(); ++i) {
-    scratch.keys[i] = std::uint64_t{placeOnCurve(directions[i])} << 32 | i;
+void orderAlongCurve(std::span<const Site> sites, OrderScratch& scratch, std::vector<std::uint32_t>& order) {
+  scratch.keys.resize(sites.size());
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    scratch.keys[i] = std::uint64_t{placeOnCurve(sites[i].at)} << 32 | i;
   }
   radixSort(scratch);
-  order.resize(directions.size());
-  for (std::size_t i = 0; i < directions.size(); ++i) order[i] = static_cast<std::uint32_t>(scratch.keys[i]);
+  order.resize(sites.size());
+  for (std::size_t i = 0; i < sites.size(); ++i) order[i] = static_cast<std::uint32_t>(scratch.keys[i]);
 }
 
-void orderForBuild(std::span<const V3d> directions, OrderScratch& scratch,
-                   std::vector<std::uint32_t>& order) {
-  orderAlongCurve(directions, scratch, order);
+void orderForBuild(std::span<const Site> sites, OrderScratch& scratch, std::vector<std::uint32_t>& order) {
+  orderAlongCurve(sites, scratch, order);
+  if (order.empty()) return;
   std::array<std::uint32_t, 6> extreme{};
-  for (std::uint32_t i = 0; i < directions.size(); ++i) {
+  for (std::uint32_t i = 0; i < sites.size(); ++i) {
     for (int axis = 0; axis < 3; ++axis) {
-      if (directions[i][axis] > directions[extreme[axis]][axis]) extreme[axis] = i;
-      if (directions[i][axis] < directions[extreme[3 + axis]][axis]) extreme[3 + axis] = i;
+      if (sites[i].at[axis] > sites[extreme[axis]].at[axis]) extreme[axis] = i;
+      if (sites[i].at[axis] < sites[extreme[3 + axis]].at[axis]) extreme[3 + axis] = i;
     }
   }
-  // One in 32 along the curve is even over the directions; 32 is where full builds were fastest.
+  // One in 32 along the curve is even over the directions; full builds were fastest with it.
   constexpr std::size_t kSample = 32;
-  std::vector<std::uint32_t> first, rest;
-  first.reserve(order.size());
-  const auto isExtreme = [&](std::uint32_t i) {
-    return std::find(extreme.begin(), extreme.end(), i) != extreme.end();
-  };
-  for (std::uint32_t i : extreme) {
-    if (i < directions.size() && std::find(first.begin(), first.end(), i) == first.end()) first.push_back(i);
+  auto& reordered = scratch.order;
+  reordered.clear();
+  std::sort(extreme.begin(), extreme.end());
+  reordered.insert(reordered.end(), extreme.begin(), std::unique(extreme.begin(), extreme.end()));
+  for (const bool sample : {true, false}) {
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      if ((k % kSample == 0) != sample) continue;
+      if (std::find(extreme.begin(), extreme.end(), order[k]) == extreme.end()) reordered.push_back(order[k]);
+    }
   }
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    if (isExtreme(order[k])) continue;
-    (k % kSample == 0 ? first : rest).push_back(order[k]);
-  }
-  first.insert(first.end(), rest.begin(), rest.end());
-  order.swap(first);
+  order.swap(reordered);
 }
 
 }  // namespace rsphere

@@ -157,6 +157,15 @@ int shiftedSide(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
 
 }  // namespace
 
+double lengthExcess(const V3d& p) {
+  const auto [xx, xLow] = product(p.x, p.x);
+  const auto [yy, yLow] = product(p.y, p.y);
+  const auto [zz, zLow] = product(p.z, p.z);
+  const auto [s, sLow] = sum(xx, yy);
+  const auto [t, tLow] = sum(s, zz);
+  return (t - 1) + (((tLow + sLow) + zLow) + (yLow + xLow));
+}
+
 bool circleHolds(const V3d& a, const V3d& b, const V3d& c, const V3d& p, PredicateCounts& counts) {
   // With u = a - p and |u|^2/2 in place of u's part along p, which for unit vectors is the same:
   // |u|^2 p.(v x w) + |v|^2 p.(w x u) + |w|^2 p.(u x v) is twice the exact form, whatever the radii are.

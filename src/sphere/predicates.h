@@ -26,6 +26,9 @@ inline constexpr double kUnitTolerance = 1e-14;
 // arithmetic.
 inline constexpr double kSmallestComponent = 0x1p-150;
 
+// |p|^2 - 1, to 1e-32 and to 2^-51 of itself where p is a normalized vector.
+double lengthExcess(const V3d& p);
+
 // How often each stage gave the answer. filter: the triangle's stored plane, in floating point with an error
 // bound. lifted: coordinates relative to the direction asked for, insensitive to radii. exact: expansions.
 // symbolic: ties.

@@ -19,42 +19,52 @@ constexpr double kSphere = 4 * std::numbers::pi;
 
 double withoutDust(double x) { return std::abs(x) < kSmallestComponent ? 0.0 : x; }
 
-void appendChecked(std::span<const V3d> directions, std::vector<V3d>& out) {
-  if (out.size() + directions.size() > (1u << 29)) throw std::invalid_argument("more than 2^29 directions");
+// Appends the directions as sites; throws if one is not a unit vector.
+void appendChecked(std::span<const V3d> directions, std::vector<Site>& sites) {
+  if (sites.size() + directions.size() > (1u << 29)) throw std::invalid_argument("more than 2^29 directions");
   for (const V3d& d : directions) {
-    if (!(std::abs(d.length2() - 1) <= kUnitTolerance)) {
-      throw std::invalid_argument("direction " + std::to_string(out.size()) + ": not a unit vector (" +
+    const V3d at(withoutDust(d.x), withoutDust(d.y), withoutDust(d.z));
+    const double excess = lengthExcess(at);
+    if (!(std::abs(excess) <= kUnitTolerance)) {
+      throw std::invalid_argument("direction " + std::to_string(sites.size()) + ": not a unit vector (" +
                                   std::to_string(d.x) + " " + std::to_string(d.y) + " " +
                                   std::to_string(d.z) + ")");
     }
-    out.emplace_back(withoutDust(d.x), withoutDust(d.y), withoutDust(d.z));
+    sites.push_back({at, excess / 2});
   }
 }
 
-// A triangulation of directions in the order of a list. Below four different directions there is none, and
-// few holds them.
+// Directions in the order in which they were inserted. Below four different ones there is no triangulation:
+// sites keep their order, and few names the different ones.
 struct Triangulation {
   Delaunay delaunay;
-  std::vector<V3d> directions;
   std::vector<std::uint32_t> order;  // site -> direction
-  std::vector<std::uint32_t> few;    // directions that differ, if less than four
+  std::vector<std::uint32_t> few;
 
-  void build(OrderScratch& scratch) {
-    orderForBuild(directions, scratch, order);
-    few.clear();
-    std::size_t taken = 0;
-    for (std::size_t k = 0; k < order.size() && few.size() < 4; ++k) {
-      const V3d& d = directions[order[k]];
-      if (std::any_of(few.begin(), few.end(), [&](std::uint32_t f) { return directions[f] == d; })) continue;
-      few.push_back(order[k]);
-      std::swap(order[taken++], order[k]);
-    }
-    if (few.size() < 4) return;
-    delaunay.start(directions[few[0]], directions[few[1]], directions[few[2]], directions[few[3]]);
-    few.clear();
-    for (std::size_t k = 4; k < order.size(); ++k) delaunay.insert(directions[order[k]]);
-  }
+  bool isFlat() const { return delaunay.sites.size() < 4 || !few.empty(); }
+  void build(std::span<const Site> sites, OrderScratch& scratch);
 };
+
+void Triangulation::build(std::span<const Site> sites, OrderScratch& scratch) {
+  orderForBuild(sites, scratch, order);
+  few.clear();
+  for (std::size_t k = 0; k < order.size() && few.size() < 4; ++k) {
+    const auto isSame = [&](std::uint32_t f) { return sites[f].at == sites[order[k]].at; };
+    if (std::none_of(few.begin(), few.end(), isSame)) {
+      std::swap(order[few.size()], order[k]);
+      few.push_back(order[few.size()]);
+    }
+  }
+  if (few.size() < 4) {
+    delaunay.sites.assign(sites.begin(), sites.end());
+    delaunay.counts = {};
+    std::iota(order.begin(), order.end(), 0);
+    return;
+  }
+  delaunay.start({sites[few[0]], sites[few[1]], sites[few[2]], sites[few[3]]});
+  few.clear();
+  for (std::size_t k = 4; k < order.size(); ++k) delaunay.insert(sites[order[k]]);
+}
 
 // Adds kites to the cells of their corners and marks those that wide circles spoil.
 void addKites(const Triangle& t, const Kites& kites, bool isWide, std::vector<double>& area,
@@ -65,6 +75,13 @@ void addKites(const Triangle& t, const Kites& kites, bool isWide, std::vector<do
   }
 }
 
+std::size_t indexAmong(const std::vector<std::uint32_t>& few, const std::vector<Site>& sites,
+                       const Site& site) {
+  std::size_t i = 0;
+  while (sites[few[i]].at != site.at) ++i;
+  return i;
+}
+
 std::uint32_t last(const std::vector<std::uint32_t>& standsFor, std::uint32_t site) {
   while (standsFor[site] != site) site = standsFor[site];
   return site;
@@ -73,6 +90,7 @@ std::uint32_t last(const std::vector<std::uint32_t>& standsFor, std::uint32_t si
 }  // namespace
 
 struct BaseTriangulation::Data {
+  std::vector<V3d> directions;
   Triangulation triangulation;
   std::vector<Kites> kites;
   std::vector<std::uint8_t> wide;
@@ -82,62 +100,60 @@ struct BaseTriangulation::Data {
 struct VoronoiWorkspace::Data {
   Triangulation triangulation;
   OrderScratch scratch;
-  std::vector<std::uint32_t> dynamicOrder, which;
+  std::vector<Site> added;
+  std::vector<std::uint32_t> addedOrder, which;
   std::vector<Kites> kites;
   std::vector<std::uint8_t> wide, spoiled;
   std::vector<double> area;  // of sites
   std::vector<std::uint32_t> sharers;
   std::vector<double> solidAngles;
 
-  void build(std::span<const V3d> first, std::span<const V3d> second);
+  void build(std::span<const Site> sites);
   void query(const BaseTriangulation::Data& base, std::span<const V3d> dynamicDirections);
   void addNewTriangles(std::uint32_t firstNewSite);
   void finishAreas();
-  void setFewAreas();
+  void setFlatAreas();
 };
 
-void VoronoiWorkspace::Data::build(std::span<const V3d> first, std::span<const V3d> second) {
-  triangulation.directions.clear();
-  appendChecked(first, triangulation.directions);
-  appendChecked(second, triangulation.directions);
-  triangulation.build(scratch);
-  solidAngles.assign(triangulation.directions.size(), 0);
-  if (!triangulation.few.empty() || triangulation.directions.empty()) {
-    setFewAreas();
-    return;
+void VoronoiWorkspace::Data::build(std::span<const Site> sites) {
+  triangulation.build(sites, scratch);
+  solidAngles.resize(sites.size());
+  area.assign(sites.size(), 0);
+  spoiled.assign(sites.size(), 0);
+  if (triangulation.isFlat()) {
+    setFlatAreas();
+  } else {
+    addNewTriangles(0);
+    finishAreas();
   }
-  area.assign(solidAngles.size(), 0);
-  spoiled.assign(solidAngles.size(), 0);
-  addNewTriangles(0);
-  finishAreas();
 }
 
 void VoronoiWorkspace::Data::query(const BaseTriangulation::Data& base,
                                    std::span<const V3d> dynamicDirections) {
   const Triangulation& from = base.triangulation;
-  if (!from.few.empty() || from.directions.empty()) {
-    build(from.directions, dynamicDirections);
+  const std::size_t kept = from.delaunay.sites.size();
+  if (from.isFlat()) {
+    added = from.delaunay.sites;
+    appendChecked(dynamicDirections, added);
+    build(added);
     return;
   }
-  const std::size_t kept = from.directions.size();
-  triangulation.few.clear();
-  triangulation.directions = from.directions;
-  appendChecked(dynamicDirections, triangulation.directions);
-  const std::span<const V3d> added = std::span(triangulation.directions).subspan(kept);
-  orderAlongCurve(added, scratch, dynamicOrder);
-  triangulation.order = from.order;
-  triangulation.delaunay = from.delaunay;
-  triangulation.delaunay.counts = {};
-  for (std::uint32_t i : dynamicOrder) {
+  added.clear();
+  appendChecked(dynamicDirections, added);
+  orderAlongCurve(added, scratch, addedOrder);
+  triangulation = from;
+  Delaunay& delaunay = triangulation.delaunay;
+  delaunay.counts = {};
+  for (std::uint32_t i : addedOrder) {
     triangulation.order.push_back(static_cast<std::uint32_t>(kept + i));
-    triangulation.delaunay.insert(added[i]);
+    delaunay.insert(added[i]);
   }
-  solidAngles.assign(triangulation.directions.size(), 0);
+  solidAngles.resize(delaunay.sites.size());
   area.assign(solidAngles.size(), 0);
   spoiled.assign(solidAngles.size(), 0);
   // A triangle of the base has no corner that came later; new ones have theirs first.
   for (std::size_t t = 0; t < from.delaunay.triangles.size(); ++t) {
-    const Triangle& triangle = triangulation.delaunay.triangles[t];
+    const Triangle& triangle = delaunay.triangles[t];
     if (triangle.corner[0] < kept) addKites(triangle, base.kites[t], base.wide[t], area, spoiled);
   }
   addNewTriangles(static_cast<std::uint32_t>(kept));
@@ -181,41 +197,43 @@ void VoronoiWorkspace::Data::finishAreas() {
     solidAngles[triangulation.order[site]] = area[site];
 }
 
-void VoronoiWorkspace::Data::setFewAreas() {
-  const auto& [delaunay, directions, order, few] = triangulation;
+void VoronoiWorkspace::Data::setFlatAreas() {
+  const auto& sites = triangulation.delaunay.sites;
+  const auto& few = triangulation.few;
   std::array<double, 3> cell = {kSphere, kSphere / 2, kSphere / 2};
   if (few.size() == 2) cell[0] = kSphere / 2;
   if (few.size() == 3) {
     // Both sides of the plane triangle are faces of the hull: a cell is 2 pi less its two angles (kites.h).
     for (int i = 0; i < 3; ++i) {
-      const long double angle =
-          hullAngle(directions[few[(i + 1) % 3]], directions[few[(i + 2) % 3]], directions[few[i]]);
+      const long double angle = hullAngle(sites[few[(i + 1) % 3]], sites[few[(i + 2) % 3]], sites[few[i]]);
       cell[i] = static_cast<double>(2 * (std::numbers::pi_v<long double> - angle));
     }
   }
   std::array<int, 3> shares{};
-  const auto indexOf = [&](const V3d& d) {
-    return std::find_if(few.begin(), few.end(), [&](std::uint32_t f) { return directions[f] == d; }) -
-           few.begin();
-  };
-  for (const V3d& d : directions) ++shares[indexOf(d)];
-  for (std::size_t i = 0; i < directions.size(); ++i) {
-    solidAngles[i] = cell[indexOf(directions[i])] / shares[indexOf(directions[i])];
+  for (const Site& s : sites) ++shares[indexAmong(few, sites, s)];
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    const std::size_t k = indexAmong(few, sites, sites[i]);
+    solidAngles[i] = cell[k] / shares[k];
   }
 }
 
 BaseTriangulation::BaseTriangulation(std::span<const V3d> directions) {
+  std::vector<Site> sites;
+  appendChecked(directions, sites);
   VoronoiWorkspace workspace;
-  workspace.data_->build(directions, {});
+  workspace.data_->build(sites);
   auto data = std::make_unique<Data>();
+  data->directions.assign(directions.begin(), directions.end());
   data->triangulation = std::move(workspace.data_->triangulation);
   data->solidAngles = std::move(workspace.data_->solidAngles);
-  const Delaunay& delaunay = data->triangulation.delaunay;
-  if (data->triangulation.few.empty() && !directions.empty()) {
+  if (!data->triangulation.isFlat()) {
+    const Delaunay& delaunay = data->triangulation.delaunay;
     std::vector<std::uint32_t> all(delaunay.triangles.size());
     std::iota(all.begin(), all.end(), 0);
-    for (std::uint32_t t : delaunay.unused)
-      all[t] = all[0] == t ? all[1] : all[0];  // no corners to read there
+    // Unused places have no corners to read.
+    const auto used = std::find_if(all.begin(), all.end(),
+                                   [&](std::uint32_t t) { return delaunay.triangles[t].corner[0] != kNone; });
+    for (std::uint32_t t : delaunay.unused) all[t] = *used;
     data->kites.resize(all.size());
     data->wide.resize(all.size());
     computeKites(delaunay, all, data->kites, data->wide);
@@ -225,7 +243,7 @@ BaseTriangulation::BaseTriangulation(std::span<const V3d> directions) {
 BaseTriangulation::~BaseTriangulation() = default;
 BaseTriangulation::BaseTriangulation(BaseTriangulation&&) noexcept = default;
 BaseTriangulation& BaseTriangulation::operator=(BaseTriangulation&&) noexcept = default;
-std::span<const V3d> BaseTriangulation::directions() const { return data_->triangulation.directions; }
+std::span<const V3d> BaseTriangulation::directions() const { return data_->directions; }
 std::span<const double> BaseTriangulation::solidAngles() const { return data_->solidAngles; }
 
 VoronoiWorkspace::VoronoiWorkspace() : data_(std::make_unique<Data>()) {}
@@ -241,7 +259,10 @@ std::span<const double> cellSolidAngles(const BaseTriangulation& base, std::span
 }
 
 std::span<const double> cellSolidAngles(std::span<const V3d> directions, VoronoiWorkspace& workspace) {
-  workspace.data_->build(directions, {});
+  auto& added = workspace.data_->added;
+  added.clear();
+  appendChecked(directions, added);
+  workspace.data_->build(added);
   return workspace.data_->solidAngles;
 }
 
@@ -252,38 +273,37 @@ std::vector<double> cellSolidAngles(std::span<const V3d> directions) {
 }
 
 VoronoiCells voronoiCells(const VoronoiWorkspace& workspace) {
-  const auto& [delaunay, directions, order, few] = workspace.data_->triangulation;
+  const auto& [delaunay, order, few] = workspace.data_->triangulation;
+  const auto& sites = delaunay.sites;
+  const std::size_t n = sites.size();
   VoronoiCells cells;
   cells.first.push_back(0);
-  cells.mergedInto.resize(directions.size());
-  if (!few.empty() || directions.empty()) {
-    for (std::uint32_t i = 0; i < directions.size(); ++i) {
-      const auto self = static_cast<std::size_t>(
-          std::find_if(few.begin(), few.end(),
-                       [&](std::uint32_t f) { return directions[f] == directions[i]; }) -
-          few.begin());
+  cells.mergedInto.resize(n);
+  if (workspace.data_->triangulation.isFlat()) {
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::size_t self = indexAmong(few, sites, sites[i]);
       cells.mergedInto[i] = few[self];
       for (std::size_t k = 1; k < few.size(); ++k) {
         const std::uint32_t other = few[(self + k) % few.size()],
                             third = few[(self + k % 2 + 1) % few.size()];
         cells.neighbour.push_back(other);
-        cells.vertex.push_back(
-            few.size() == 3 ? circumcentre(directions[other], directions[third], directions[i]) : V3d(0));
+        cells.vertex.push_back(few.size() == 3 ? circumcentre(sites[other].at, sites[third].at, sites[i].at)
+                                               : V3d(0));
       }
       cells.first.push_back(static_cast<std::uint32_t>(cells.neighbour.size()));
     }
     return cells;
   }
-  std::vector<std::uint32_t> siteOf(directions.size());
+  std::vector<std::uint32_t> siteOf(n);
   for (std::uint32_t site = 0; site < order.size(); ++site) siteOf[order[site]] = site;
-  for (std::uint32_t i = 0; i < directions.size(); ++i) {
+  for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t site = last(delaunay.standsFor, siteOf[i]);
     cells.mergedInto[i] = order[site];
     delaunay.around(site, [&](std::uint32_t t, int c) {
       const Triangle& triangle = delaunay.triangles[t];
       const std::uint32_t a = triangle.corner[Delaunay::kAfter[c]], b = triangle.corner[Delaunay::kBefore[c]];
       cells.neighbour.push_back(order[a]);
-      cells.vertex.push_back(circumcentre(delaunay.sites[a], delaunay.sites[b], delaunay.sites[site]));
+      cells.vertex.push_back(circumcentre(sites[a].at, sites[b].at, sites[site].at));
       return false;
     });
     cells.first.push_back(static_cast<std::uint32_t>(cells.neighbour.size()));
@@ -293,15 +313,15 @@ VoronoiCells voronoiCells(const VoronoiWorkspace& workspace) {
 
 std::optional<std::string> voronoiFault(const VoronoiWorkspace& workspace) {
   const auto& data = *workspace.data_;
-  const auto& [delaunay, directions, order, few] = data.triangulation;
-  if (directions.empty()) return std::nullopt;
+  const auto& [delaunay, order, few] = data.triangulation;
+  if (order.empty()) return std::nullopt;
   const double sum = std::accumulate(data.solidAngles.begin(), data.solidAngles.end(), 0.0);
   if (!(std::abs(sum - kSphere) <= 1e-12))
     return "the solid angles sum to 4 pi + " + std::to_string(sum - kSphere);
-  for (std::size_t i = 0; i < directions.size(); ++i) {
+  for (std::size_t i = 0; i < order.size(); ++i) {
     if (!(data.solidAngles[i] > 0)) return "direction " + std::to_string(i) + " has no solid angle";
   }
-  if (!few.empty()) return std::nullopt;
+  if (data.triangulation.isFlat()) return std::nullopt;
   PredicateCounts counts;
   std::size_t corners = 0, faces = 0;
   for (std::uint32_t site = 0; site < order.size(); ++site) corners += delaunay.standsFor[site] == site;
@@ -318,8 +338,8 @@ std::optional<std::string> voronoiFault(const VoronoiWorkspace& workspace) {
           other.corner[Delaunay::kBefore[back]] != from) {
         return "triangles do not fit together at direction " + std::to_string(order[from]);
       }
-      if (circleHolds(delaunay.sites[triangle.corner[0]], delaunay.sites[triangle.corner[1]],
-                      delaunay.sites[triangle.corner[2]], delaunay.sites[other.corner[back]], counts)) {
+      if (circleHolds(delaunay.sites[triangle.corner[0]].at, delaunay.sites[triangle.corner[1]].at,
+                      delaunay.sites[triangle.corner[2]].at, delaunay.sites[other.corner[back]].at, counts)) {
         return "the circle of directions " + std::to_string(order[triangle.corner[0]]) + " " +
                std::to_string(order[triangle.corner[1]]) + " " + std::to_string(order[triangle.corner[2]]) +
                " holds " + std::to_string(order[other.corner[back]]);
