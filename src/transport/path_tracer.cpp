@@ -12,8 +12,7 @@ constexpr double kNegligible = 1e-6;  // shares of light below it are not follow
 
 // A white diffuse surface whose radiance is pi times the mean of what it receives: the irradiance (-i, -I).
 const Opaque kIrradianceMeter{Rgb(kPi, kPi, kPi), 0, 0, false};
-constexpr double kMeterOffset = 1.1e-4;  // -I: world units in front of the point, where rtrace(1) starts
-constexpr double kMeterLength = 1e-5;    // and how far from there its imagined surface is
+constexpr double kMeterLength = 1e-5;  // -I: world units from the ray's origin to its imagined surface, as rtrace
 
 bool isBlack(const Rgb& c) { return !(maxChannel(c) > 0); }
 
@@ -71,17 +70,15 @@ Ray PathTracer::trace(const V3d& origin, const V3d& direction, double farthest, 
   random_ = Random(seed);
   Ray ray;
   ray.extinction = t_.options().mediumExtinction;
+  ray.origin = origin;
+  ray.direction = direction;
   if (t_.irradiance() == Irradiance::point) {
-    ray.origin = origin + kMeterOffset * direction;
-    ray.direction = -direction;
     ray.length = ray.unmirroredLength = kMeterLength;
-    ray.point = ray.origin + kMeterLength * ray.direction;
-    ray.normal = direction;
+    ray.point = origin + kMeterLength * direction;
+    ray.normal = -direction;
     shadeMaterial(ray, kIrradianceMeter);
     return ray;
   }
-  ray.origin = origin;
-  ray.direction = direction;
   ray.farthest = farthest;
   evaluate(ray);
   return ray;

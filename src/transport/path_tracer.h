@@ -51,9 +51,9 @@ class PathTracer {
  public:
   explicit PathTracer(const Transport& transport) : t_(transport) {}
 
-  // Radiance along a primary ray (W/sr/m2), or irradiance (W/m2) as Transport::irradiance says: at the
-  // surface that is hit, or at origin on a surface that faces direction. direction: unit. farthest: 0 for no
-  // limit (-ld).
+  // Radiance along a primary ray (W/sr/m2), or irradiance (W/m2) as Transport::irradiance says: on the surface that is
+  // hit, or on an imagined one just ahead that faces the ray (see inputRay() for where -I starts). direction: unit.
+  // farthest: 0 for no limit (-ld, world units). The seed decides every random number of the path.
   Ray trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed);
 
   // Only what is hit, no value.

@@ -1,0 +1,26 @@
+#include "cli/print_request.h"
+
+#include "cli/header.h"
+#include "cli/option_table.h"
+#include "cli/records.h"
+
+namespace rsphere {
+
+int printRequest(const Options& options, const Messages& messages) {
+  RecordWriter writer(1);
+  if (options.request == Request::version) writer.write(versionLine() + "\n");
+  if (options.request == Request::defaults) writer.write(defaultsText(options));
+  if (options.request == Request::help) writer.write(helpText(options));
+  if (options.request == Request::features) {
+    const FeatureReport report = featureReport(options.features);
+    writer.write(report.text);
+    if (!report.missing.empty()) {
+      writer.flush();
+      return messages.error(rad::Error("missing feature - " + report.missing));
+    }
+  }
+  writer.flush();
+  return 0;
+}
+
+}  // namespace rsphere

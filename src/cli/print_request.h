@@ -1,0 +1,12 @@
+#pragma once
+#include "cli/messages.h"
+#include "cli/options.h"
+
+namespace rsphere {
+
+// Prints what -version, -defaults, -help or -features ask for instead of answers, on standard output. Returns
+// the exit status: 1, with a message, where a feature is missing. Throws what RecordWriter throws. REQUIRES:
+// options.request is not Request::answers.
+int printRequest(const Options& options, const Messages& messages);
+
+}  // namespace rsphere
