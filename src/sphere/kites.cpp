@@ -9,42 +9,54 @@ namespace {
 
 constexpr int kBlock = 64;
 
-struct Block {
-  double ax[kBlock], ay[kBlock], az[kBlock];
-  double bx[kBlock], by[kBlock], bz[kBlock];
-  double cx[kBlock], cy[kBlock], cz[kBlock];
-  double ah[kBlock], bh[kBlock], ch[kBlock];  // heights
-  double tangent[3][kBlock];                  // at the edge opposite to that corner
-  double cosine[kBlock];
+struct alignas(64) Block {
+  double ax[kBlock], ay[kBlock], az[kBlock], ah[kBlock];  // corners, their heights
+  double bx[kBlock], by[kBlock], bz[kBlock], bh[kBlock];
+  double cx[kBlock], cy[kBlock], cz[kBlock], ch[kBlock];
+  double uu[kBlock], vv[kBlock], ww[kBlock];                 // squared edges, opposite to b, a, c
+  double volumeA[kBlock], volumeB[kBlock], volumeC[kBlock];  // from the edges at that corner
+  double volume[kBlock], area[kBlock];                       // k and N of kites.h
+  double tangent[3][kBlock];                                 // at the edge opposite to a corner
 };
 
-struct Vec {
-  double x, y, z;
-};
-inline double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline double det(Vec a, Vec b, Vec c) {
-  return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
-}
-
-void tangents(Block& k) {
+// Vectors as wide as the machine has them; answers do not depend on it, as nothing is contracted. Each loop
+// is one that GCC 12 puts into vectors: no choice between values that are still to be computed, no square
+// root.
+__attribute__((target_clones("avx512f", "avx2", "default"))) void tangents(Block& k) {
   for (int i = 0; i < kBlock; ++i) {
-    const Vec a{k.ax[i], k.ay[i], k.az[i]}, b{k.bx[i], k.by[i], k.bz[i]}, c{k.cx[i], k.cy[i], k.cz[i]};
-    const Vec u{a.x - c.x, a.y - c.y, a.z - c.z}, v{b.x - c.x, b.y - c.y, b.z - c.z},
-        w{a.x - b.x, a.y - b.y, a.z - b.z};
-    const double du = k.ah[i] - k.ch[i], dv = k.bh[i] - k.ch[i], dw = k.ah[i] - k.bh[i];
-    const double uu = dot(u, u) - du * du, vv = dot(v, v) - dv * dv, ww = dot(w, w) - dw * dw;
-    const double dotA = dot(w, u) - 0.5 * (uu * dw + ww * du) - du * dw;
-    const double dotB = -dot(w, v) + 0.5 * (vv * dw - ww * dv) + dv * dw;
-    const double dotC = dot(u, v) + 0.5 * (uu * dv + vv * du) - du * dv;
-    const bool cIsApex = (ww >= uu) & (ww >= vv), aIsApex = vv >= uu;
-    const double atA = det(a, w, u), atB = det(b, w, v), atC = det(c, u, v);
-    const double volume = cIsApex ? atC : aIsApex ? atA : atB;
-    const double area = std::sqrt(volume * volume + 0.25 * uu * vv * ww);
-    const double four = 4 * area + 4 * volume;
-    k.tangent[0][i] = vv * dotA / (four - vv * area);
-    k.tangent[1][i] = uu * dotB / (four - uu * area);
-    k.tangent[2][i] = ww * dotC / (four - ww * area);
-    k.cosine[i] = volume / area;
+    const double ux = k.ax[i] - k.cx[i], uy = k.ay[i] - k.cy[i], uz = k.az[i] - k.cz[i],
+                 du = k.ah[i] - k.ch[i];
+    const double vx = k.bx[i] - k.cx[i], vy = k.by[i] - k.cy[i], vz = k.bz[i] - k.cz[i],
+                 dv = k.bh[i] - k.ch[i];
+    const double wx = k.ax[i] - k.bx[i], wy = k.ay[i] - k.by[i], wz = k.az[i] - k.bz[i],
+                 dw = k.ah[i] - k.bh[i];
+    const double uu = ux * ux + uy * uy + uz * uz - du * du;
+    const double vv = vx * vx + vy * vy + vz * vz - dv * dv;
+    const double ww = wx * wx + wy * wy + wz * wz - dw * dw;
+    k.uu[i] = uu, k.vv[i] = vv, k.ww[i] = ww;
+    k.tangent[0][i] = vv * (wx * ux + wy * uy + wz * uz - 0.5 * (uu * dw + ww * du) - du * dw);
+    k.tangent[1][i] = uu * (0.5 * (vv * dw - ww * dv) + dv * dw - (wx * vx + wy * vy + wz * vz));
+    k.tangent[2][i] = ww * (ux * vx + uy * vy + uz * vz + 0.5 * (uu * dv + vv * du) - du * dv);
+    k.volumeA[i] =
+        k.ax[i] * (wy * uz - wz * uy) + k.ay[i] * (wz * ux - wx * uz) + k.az[i] * (wx * uy - wy * ux);
+    k.volumeB[i] =
+        k.bx[i] * (wy * vz - wz * vy) + k.by[i] * (wz * vx - wx * vz) + k.bz[i] * (wx * vy - wy * vx);
+    k.volumeC[i] =
+        k.cx[i] * (uy * vz - uz * vy) + k.cy[i] * (uz * vx - ux * vz) + k.cz[i] * (ux * vy - uy * vx);
+  }
+  for (int i = 0; i < kBlock; ++i) {
+    const double a = k.volumeA[i], b = k.volumeB[i], c = k.volumeC[i], uu = k.uu[i], vv = k.vv[i],
+                 ww = k.ww[i];
+    const double aOrB = vv >= uu ? a : b, longer = vv >= uu ? vv : uu;
+    k.volume[i] = ww >= longer ? c : aOrB;
+    k.area[i] = uu * vv * ww;
+  }
+  for (int i = 0; i < kBlock; ++i) k.area[i] = std::sqrt(k.volume[i] * k.volume[i] + 0.25 * k.area[i]);
+  for (int i = 0; i < kBlock; ++i) {
+    const double four = 4 * k.area[i] + 4 * k.volume[i];
+    k.tangent[0][i] /= four - k.vv[i] * k.area[i];
+    k.tangent[1][i] /= four - k.uu[i] * k.area[i];
+    k.tangent[2][i] /= four - k.ww[i] * k.area[i];
   }
 }
 
@@ -54,13 +66,13 @@ inline double arcTangentNearZero(double t) {
   return t - t * s * (1 / 3.0 - s * (1 / 5.0 - s * (1 / 7.0 - s * (1 / 9.0 - s * (1 / 11.0)))));
 }
 
-void arcTangents(double (&t)[kBlock]) {
-  double greatest = 0;
-  for (double x : t) greatest = std::max(greatest, std::abs(x));
-  if (greatest <= 1 / 32.0) {
+__attribute__((target_clones("avx512f", "avx2", "default"))) void arcTangents(double (&t)[kBlock]) {
+  std::uint64_t large = 0;
+  for (double x : t) large += std::abs(x) > 1 / 32.0;
+  if (large == 0) {
     for (double& x : t) x = arcTangentNearZero(x);
   } else {
-    for (double& x : t) x = std::abs(x) <= 1 / 32.0 ? arcTangentNearZero(x) : std::atan(x);
+    for (double& x : t) x = std::abs(x) > 1 / 32.0 ? std::atan(x) : arcTangentNearZero(x);
   }
 }
 
@@ -120,7 +132,7 @@ void computeKites(const Delaunay& delaunay, std::span<const std::uint32_t> which
     for (int i = 0; i < n; ++i) {
       const double a = block.tangent[0][i], b = block.tangent[1][i], c = block.tangent[2][i];
       kites[first + i] = {b + c, c + a, a + b};
-      wide[first + i] = !(block.cosine[i] > kLeastCosine);
+      wide[first + i] = !(block.volume[i] > kLeastCosine * block.area[i]);
     }
   }
 }

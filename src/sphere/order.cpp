@@ -3,18 +3,44 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace rsphere {
 namespace {
 
-constexpr int kBits = 14;
+// Four bits of each coordinate at a time: [turn of the curve][x][y] -> 8 bits of the place, and the next turn
+// above.
+constexpr int kSteps = 3, kBits = 4 * kSteps;
+constexpr std::array<std::uint16_t, 4 * 256> kCurve = [] {
+  std::array<std::uint16_t, 4 * 256> table{};
+  for (unsigned turn = 0; turn < 4; ++turn) {
+    for (unsigned xy = 0; xy < 256; ++xy) {
+      bool swapped = turn & 1, inverted = turn & 2;
+      unsigned place = 0;
+      for (int bit = 3; bit >= 0; --bit) {
+        bool x = xy >> (4 + bit) & 1, y = xy >> bit & 1;
+        if (swapped) std::swap(x, y);
+        if (inverted) x = !x, y = !y;
+        place = place << 2 | ((x ? 3u : 0u) ^ (y ? 1u : 0u));
+        if (!y) {
+          inverted = inverted != x;
+          swapped = !swapped;
+        }
+      }
+      table[turn << 8 | xy] =
+          static_cast<std::uint16_t>(place | (swapped ? 256u : 0u) | (inverted ? 512u : 0u));
+    }
+  }
+  return table;
+}();
 
-// Least significant byte first, stable; keys hold the number of the direction in their lower half.
+// Least significant digit first, stable; keys hold the number of the direction in their lower half.
 void radixSort(OrderScratch& scratch) {
   auto &keys = scratch.keys, &spare = scratch.spare;
   spare.resize(keys.size());
-  constexpr int kDigit = 11;
-  for (int shift = 32; shift < 64; shift += kDigit) {
+  constexpr int kDigit = 9;
+  static_assert(3 + 2 * kBits <= 3 * kDigit);
+  for (int shift = 32; shift < 32 + 3 * kDigit; shift += kDigit) {
     std::array<std::uint32_t, 1 << kDigit> start{};
     const auto digit = [shift](std::uint64_t key) { return (key >> shift) & ((1u << kDigit) - 1); };
     for (std::uint64_t key : keys) ++start[digit(key)];
@@ -32,31 +58,19 @@ void radixSort(OrderScratch& scratch) {
 }  // namespace
 
 std::uint32_t placeOnCurve(const V3d& d) {
-  // Faces follow each other around the cube.
+  // Faces x y z -x -y -z: each touches the one before it.
   const double ax = std::abs(d.x), ay = std::abs(d.y), az = std::abs(d.z);
-  double m, s, t;
-  std::uint32_t face;
-  if (ax >= ay && ax >= az) {
-    m = ax, s = d.y, t = d.z, face = d.x > 0 ? 0 : 3;
-  } else if (ay >= az) {
-    m = ay, s = d.z, t = d.x, face = d.y > 0 ? 1 : 4;
-  } else {
-    m = az, s = d.x, t = d.y, face = d.z > 0 ? 2 : 5;
-  }
-  const double scale = (1 << (kBits - 1)) * 0.9999 / m;
-  auto x = static_cast<std::uint32_t>((1 << (kBits - 1)) + s * scale);
-  auto y = static_cast<std::uint32_t>((1 << (kBits - 1)) + t * scale);
-  std::uint32_t place = face;
-  for (std::uint32_t bit = 1u << (kBits - 1); bit != 0; bit >>= 1) {
-    const bool right = x & bit, up = y & bit;
-    place = place << 2 | (3 * right ^ up);
-    if (!up) {
-      if (right) {
-        x = ~x;
-        y = ~y;
-      }
-      std::swap(x, y);
-    }
+  const bool xIsGreatest = ax >= ay && ax >= az, yIsGreater = ay >= az;
+  const double m = xIsGreatest ? d.x : yIsGreater ? d.y : d.z;
+  const double s = xIsGreatest ? d.y : yIsGreater ? d.z : d.x, t = xIsGreatest ? d.z : yIsGreater ? d.x : d.y;
+  const unsigned face = (xIsGreatest ? 0 : yIsGreater ? 1 : 2) + (m < 0 ? 3 : 0);
+  const double half = 1 << (kBits - 1), scale = 0.9999 * half / std::abs(m);
+  const auto x = static_cast<unsigned>(half + s * scale), y = static_cast<unsigned>(half + t * scale);
+  unsigned place = face, turn = 0;
+  for (int step = kSteps - 1; step >= 0; --step) {
+    const unsigned next = kCurve[turn << 8 | (x >> 4 * step & 15) << 4 | (y >> 4 * step & 15)];
+    place = place << 8 | (next & 255);
+    turn = next >> 8;
   }
   return place;
 }

@@ -11,7 +11,7 @@
 // and caches warm. It does not change the answer.
 namespace rsphere {
 
-// Place of a direction along a Hilbert curve on each face of a cube, 31 bits: 2^14 steps an edge.
+// Place of a direction along a Hilbert curve on each face of a cube, 27 bits: 2^12 steps an edge.
 // Source: Hilbert, "Ueber die stetige Abbildung einer Linie auf ein Flaechenstueck", 1891.
 std::uint32_t placeOnCurve(const V3d& direction);
 

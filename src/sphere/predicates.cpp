@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace rsphere {
@@ -155,6 +155,23 @@ int shiftedSide(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
   return 0;
 }
 
+// With u = a - p and |u|^2/2 in place of u's part along p, which for unit vectors is the same:
+//   |u|^2 p.(v x w) + |v|^2 p.(w x u) + |w|^2 p.(u x v)
+// is twice the exact form, whatever the radii are. Returns 0 where rounding might decide.
+// Error: 18 roundings of each product of two squared edges (differences 2, cross 2, dot 3, square 3, product
+// and sums 3; |v||w| <= (|v|^2 + |w|^2)/2), and kUnitTolerance^2 times the squared edges for using the weight
+// (1 + |p|^2)/2 in one form and chords in the other. The factors below are 32 and 2.
+template <class Real>
+int liftedSide(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
+  using Vec = Imath::Vec3<Real>;
+  const Vec q(p), u = Vec(a) - q, v = Vec(b) - q, w = Vec(c) - q;
+  const Real uu = u.dot(u), vv = v.dot(v), ww = w.dot(w);
+  const Real side = uu * q.dot(v.cross(w)) + vv * q.dot(w.cross(u)) + ww * q.dot(u.cross(v));
+  const Real bound = 16 * std::numeric_limits<Real>::epsilon() * (uu * vv + vv * ww + ww * uu) +
+                     Real(2 * kUnitTolerance * kUnitTolerance) * (uu + vv + ww);
+  return side > bound ? 1 : side < -bound ? -1 : 0;
+}
+
 }  // namespace
 
 double lengthExcess(const V3d& p) {
@@ -167,22 +184,15 @@ double lengthExcess(const V3d& p) {
 }
 
 bool circleHolds(const V3d& a, const V3d& b, const V3d& c, const V3d& p, PredicateCounts& counts) {
-  // With u = a - p and |u|^2/2 in place of u's part along p, which for unit vectors is the same:
-  // |u|^2 p.(v x w) + |v|^2 p.(w x u) + |w|^2 p.(u x v) is twice the exact form, whatever the radii are.
-  // Error: 16 roundings' worth of each product of two squared edges (differences 2, cross 2, dot 3, square 4,
-  // sums 3, all relative 2^-53 and |v||w| <= (|v|^2 + |w|^2)/2), and kUnitTolerance^2 times the squared edges
-  // for using the weight (1 + |p|^2)/2 in one form and the chords in the other. 2^-48 covers both factors
-  // twice over.
-  const V3d u = a - p, v = b - p, w = c - p;
-  const double uu = u.dot(u), vv = v.dot(v), ww = w.dot(w);
-  const double side = uu * p.dot(v.cross(w)) + vv * p.dot(w.cross(u)) + ww * p.dot(u.cross(v));
-  const double bound =
-      0x1p-48 * (uu * vv + vv * ww + ww * uu) + 2 * kUnitTolerance * kUnitTolerance * (uu + vv + ww);
-  if (std::abs(side) > bound) {
+  int sign = liftedSide<double>(a, b, c, p);
+  // Sites on one circle, rounded, are what the second precision is for: it costs a twentieth of the exact
+  // form.
+  if (sign == 0) sign = liftedSide<long double>(a, b, c, p);
+  if (sign != 0) {
     ++counts.lifted;
-    return side > 0;
+    return sign > 0;
   }
-  if (const int sign = exactSide(a, b, c, p); sign != 0) {
+  if (sign = exactSide(a, b, c, p); sign != 0) {
     ++counts.exact;
     return sign > 0;
   }

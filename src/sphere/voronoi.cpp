@@ -66,15 +66,6 @@ void Triangulation::build(std::span<const Site> sites, OrderScratch& scratch) {
   for (std::size_t k = 4; k < order.size(); ++k) delaunay.insert(sites[order[k]]);
 }
 
-// Adds kites to the cells of their corners and marks those that wide circles spoil.
-void addKites(const Triangle& t, const Kites& kites, bool isWide, std::vector<double>& area,
-              std::vector<std::uint8_t>& spoiled) {
-  for (int i = 0; i < 3; ++i) area[t.corner[i]] += kites[i];
-  if (isWide) {
-    for (std::uint32_t corner : t.corner) spoiled[corner] = 1;
-  }
-}
-
 std::size_t indexAmong(const std::vector<std::uint32_t>& few, const std::vector<Site>& sites,
                        const Site& site) {
   std::size_t i = 0;
@@ -103,14 +94,18 @@ struct VoronoiWorkspace::Data {
   std::vector<Site> added;
   std::vector<std::uint32_t> addedOrder, which;
   std::vector<Kites> kites;
-  std::vector<std::uint8_t> wide, spoiled;
-  std::vector<double> area;  // of sites
+  std::vector<std::uint8_t> wide, spoiled;  // spoiled: sites that a wide circle touches
+  std::vector<double> area;                 // of sites
   std::vector<std::uint32_t> sharers;
   std::vector<double> solidAngles;
 
   void build(std::span<const Site> sites);
   void query(const BaseTriangulation::Data& base, std::span<const V3d> dynamicDirections);
-  void addNewTriangles(std::uint32_t firstNewSite);
+  void addKeptTriangles(const BaseTriangulation::Data& base);  // and lists the new ones in which
+  void addNewTriangles();
+  void markSpoiled(const Triangle& t) {
+    for (std::uint32_t corner : t.corner) spoiled[corner] = 1;
+  }
   void finishAreas();
   void setFlatAreas();
 };
@@ -123,7 +118,11 @@ void VoronoiWorkspace::Data::build(std::span<const Site> sites) {
   if (triangulation.isFlat()) {
     setFlatAreas();
   } else {
-    addNewTriangles(0);
+    which.clear();
+    for (std::uint32_t t = 0; t < triangulation.delaunay.triangles.size(); ++t) {
+      if (triangulation.delaunay.triangles[t].corner[0] != kNone) which.push_back(t);
+    }
+    addNewTriangles();
     finishAreas();
   }
 }
@@ -151,29 +150,48 @@ void VoronoiWorkspace::Data::query(const BaseTriangulation::Data& base,
   solidAngles.resize(delaunay.sites.size());
   area.assign(solidAngles.size(), 0);
   spoiled.assign(solidAngles.size(), 0);
-  // A triangle of the base has no corner that came later; new ones have theirs first.
-  for (std::size_t t = 0; t < from.delaunay.triangles.size(); ++t) {
-    const Triangle& triangle = delaunay.triangles[t];
-    if (triangle.corner[0] < kept) addKites(triangle, base.kites[t], base.wide[t], area, spoiled);
-  }
-  addNewTriangles(static_cast<std::uint32_t>(kept));
+  addKeptTriangles(base);
+  addNewTriangles();
   finishAreas();
 }
 
-void VoronoiWorkspace::Data::addNewTriangles(std::uint32_t firstNewSite) {
+void VoronoiWorkspace::Data::addKeptTriangles(const BaseTriangulation::Data& base) {
+  // A triangle of the base has no corner that came later; new ones have theirs first. Without branches on
+  // which is which, since no guess at them is good: the kites of a triangle that is gone count 0 times.
   const auto& triangles = triangulation.delaunay.triangles;
-  constexpr std::size_t kAtOnce = 4096;
-  which.reserve(kAtOnce);
+  const std::size_t kept = base.triangulation.delaunay.sites.size(), places = base.kites.size();
+  which.resize(triangles.size());
+  std::size_t added = 0;
+  for (std::uint32_t t = 0; t < places; ++t) {
+    const Triangle& triangle = triangles[t];
+    const bool isNew = triangle.corner[0] >= kept;
+    which[added] = t;
+    added += isNew;
+    const bool isUnused = triangle.corner[0] == kNone;
+    if (isUnused) continue;
+    for (int i = 0; i < 3; ++i) area[triangle.corner[i]] += isNew ? 0.0 : base.kites[t][i];
+    if (base.wide[t] && !isNew) markSpoiled(triangle);
+  }
+  for (auto t = static_cast<std::uint32_t>(places); t < triangles.size(); ++t) which[added++] = t;
+  which.resize(added);
+  if (!triangulation.delaunay.unused.empty()) {
+    std::erase_if(which, [&](std::uint32_t t) { return triangles[t].corner[0] == kNone; });
+  }
+}
+
+void VoronoiWorkspace::Data::addNewTriangles() {
+  const auto& triangles = triangulation.delaunay.triangles;
+  constexpr std::size_t kAtOnce = 1024;
   kites.resize(kAtOnce);
   wide.resize(kAtOnce);
-  for (std::uint32_t t = 0; t < triangles.size();) {
-    which.clear();
-    for (; t < triangles.size() && which.size() < kAtOnce; ++t) {
-      if (triangles[t].corner[0] >= firstNewSite && triangles[t].corner[0] != kNone) which.push_back(t);
+  for (std::size_t first = 0; first < which.size(); first += kAtOnce) {
+    const auto some = std::span(which).subspan(first, std::min(kAtOnce, which.size() - first));
+    computeKites(triangulation.delaunay, some, kites, wide);
+    for (std::size_t k = 0; k < some.size(); ++k) {
+      const Triangle& triangle = triangles[some[k]];
+      for (int i = 0; i < 3; ++i) area[triangle.corner[i]] += kites[k][i];
+      if (wide[k]) markSpoiled(triangle);
     }
-    computeKites(triangulation.delaunay, which, kites, wide);
-    for (std::size_t i = 0; i < which.size(); ++i)
-      addKites(triangles[which[i]], kites[i], wide[i], area, spoiled);
   }
 }
 
