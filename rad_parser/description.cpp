@@ -61,9 +61,11 @@ std::string printable(std::string_view text, size_t longest) {
 
 std::string Description::at(Place place) const {
   const auto alone = [this](Place p) {
-    const std::string& name = files[p.file].name;
+    const SourceFile& file = files[p.file];
     // A command is known by its first words, a file by its whole path.
-    return fmt::format("{}:{}", printable(name, name.starts_with('!') ? 100 : 4096), p.line);
+    const std::string name = printable(file.name, file.name.starts_with('!') ? 100 : 4096);
+    if (p.line == 0) return name;
+    return file.numbered ? fmt::format("{}: object {}", name, p.line) : fmt::format("{}:{}", name, p.line);
   };
   constexpr int kShown = 4;
   std::string text = alone(place);

@@ -1,6 +1,8 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,7 +12,8 @@
 namespace rad {
 
 // Where a thing stands: a file of Description::files and a line in it, from 1. Piped input counts its own
-// lines.
+// lines. In a numbered file, which has no lines, `line` is the primitive's number, from 1. 0 is the file as a
+// whole.
 struct Place {
   uint32_t file = 0;
   uint32_t line = 0;
@@ -81,6 +84,13 @@ struct SourceFile {
   static constexpr uint32_t kNoFile = std::numeric_limits<uint32_t>::max();
   std::string name;
   Place from{kNoFile, 0};
+  bool numbered = false;  // an octree or a mesh: its places are numbers of primitives
+};
+
+// A cube along the axes, in units of the scene.
+struct Cube {
+  std::array<double, 3> origin{};  // its lowest corner
+  double size = 0;                 // length of an edge
 };
 
 // A scene as its files say it, in their order: plain values, nothing looked up outside, nothing computed but
@@ -92,6 +102,10 @@ struct Description {
   std::vector<uint32_t> stringArgs;  // indices in words
   std::vector<double> realArgs;
 
+  std::vector<std::string>
+      header;                // of an octree: its information header's lines, but those that name the format
+  std::optional<Cube> cube;  // of an octree: its bounds, which are to hold all surfaces but sources
+
   std::string_view name(const Primitive& p) const { return words[p.name]; }
   std::string_view string(const Primitive& p, size_t i) const { return words[stringArgs[p.firstString + i]]; }
   std::span<const double> reals(const Primitive& p) const {
@@ -99,7 +113,8 @@ struct Description {
   }
 
   // "room.rad:12", with the files that led there where there are any, the nearest first:
-  // "leg.rad:3 (from desk.rad:7, room.rad:12)". Long commands and chains are cut. One line, always.
+  // "leg.rad:3 (from desk.rad:7, room.rad:12)". "scene.oct: object 12" in a numbered file. Long commands and
+  // chains are cut. One line, always.
   std::string at(Place place) const;
 };
 

@@ -1,6 +1,5 @@
 #include "rad_parser/scene_file.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -12,6 +11,8 @@
 
 #include "rad_parser/description_builder.h"
 #include "rad_parser/file_path.h"
+#include "rad_parser/octree_file.h"
+#include "rad_parser/open_file.h"
 #include "rad_parser/shell_command.h"
 #include "rad_parser/text_source.h"
 #include "rad_parser/xform.h"
@@ -24,20 +25,6 @@ struct Context {
   std::string directory;  // where its commands run; empty: the current one
   const Transform* transform = nullptr;
   int depth = 0;
-};
-
-class OpenFile {
- public:
-  explicit OpenFile(const std::string& path) : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
-  ~OpenFile() {
-    if (descriptor_ >= 0) close(descriptor_);
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-  int descriptor() const { return descriptor_; }
-
- private:
-  int descriptor_;
 };
 
 // One line, for messages.
@@ -53,7 +40,8 @@ std::string shownCommand(std::string_view command) {
 
 class Reader {
  public:
-  explicit Reader(const ReadOptions& options) : options_(options) {}
+  // alone: of the names given this is the only one, so that it may be an octree.
+  Reader(const ReadOptions& options, bool alone) : options_(options), alone_(alone) {}
 
   void file(const std::string& name) {
     if (name.starts_with('!')) return command(name.substr(1), {SourceFile::kNoFile, 0}, {});
@@ -62,10 +50,28 @@ class Reader {
     const uint32_t file = builder_.addFile(found.value_or(name));
     const OpenFile input(found.value_or(name));
     if (input.descriptor() < 0)
-      throw Error(fmt::format("{}: cannot open scene file: {}", printable(name, 4096), std::strerror(errno)),
+      throw Error(fmt::format("{}: cannot open {} file: {}", printable(name, 4096),
+                              name.ends_with(".oct") ? "octree" : "scene", std::strerror(errno)),
                   Status::system);
-    TextSource text(input.descriptor(), file, builder_);
+    const std::string ahead = readBeginning(input.descriptor());
+    if (ahead.empty() && name.ends_with(".oct"))
+      throw Error(printable(name, 4096) + ": not an octree: 0 bytes (did oconv fail?)");
+    if (octree(input.descriptor(), file, ahead)) return;
+    TextSource text(input.descriptor(), file, builder_, ahead);
     all(text, {}, file);
+  }
+
+  void octreeFile(const std::string& name) {
+    const std::optional<std::string> found = findFile(name, libraryPath());
+    if (!found) throw Error(printable(name, 4096) + ": cannot find octree file", Status::system);
+    const OpenFile input(*found);
+    if (input.descriptor() < 0)
+      throw Error(
+          fmt::format("{}: cannot open octree file: {}", printable(*found, 4096), std::strerror(errno)),
+          Status::system);
+    const uint32_t file = builder_.addFile(*found);
+    const std::string ahead = readBeginning(input.descriptor());
+    if (!octree(input.descriptor(), file, ahead)) throw Error(printable(*found, 4096) + ": not an octree");
   }
 
   void memory(std::string_view text, std::string_view name) {
@@ -77,6 +83,29 @@ class Reader {
   Description take() { return builder_.take(); }
 
  private:
+  // Reads what `ahead` begins where it is an octree; else false.
+  bool octree(int descriptor, uint32_t file, std::string_view ahead) {
+    const std::string name = builder_.description().files[file].name;
+    if (!isOctree(ahead, name)) return false;
+    if (!alone_)
+      throw Error(printable(name, 4096) + ": an octree is a whole scene: it cannot be one among several");
+    BinaryReader input(descriptor, name, "octree", ahead);
+    readOctree(input, file, builder_, options_.warn, [&](const std::string& scene) {
+      if (scene.starts_with('!')) return command(scene.substr(1), {file, 0}, {});
+      const uint32_t sceneFile = builder_.addFile(scene, {file, 0});
+      const OpenFile opened(scene);
+      if (opened.descriptor() < 0)
+        throw builder_.error({sceneFile, 0},
+                             fmt::format("cannot open scene file: {} (an octree that is not frozen is used "
+                                         "where it was made)",
+                                         std::strerror(errno)),
+                             Status::system);
+      TextSource text(opened.descriptor(), sceneFile, builder_);
+      all(text, {}, sceneFile);
+    });
+    return true;
+  }
+
   // A whole text. quiet: an empty one is no news.
   void all(TextSource& text, const Context& context, uint32_t file, bool quiet = false) {
     const size_t before = builder_.description().primitives.size();
@@ -106,10 +135,10 @@ class Reader {
     if (!options_.commands)
       throw builder_.error(place, fmt::format("commands are not allowed: \"{}\"", printable(shown)));
     const uint32_t file = from.file == SourceFile::kNoFile ? place.file : builder_.addFile(shown, from);
-    shell(line, shown, file, place, context);
+    shell(line, shown, file, place, from, context);
   }
 
-  void shell(const std::string& line, const std::string& shown, uint32_t file, Place place,
+  void shell(const std::string& line, const std::string& shown, uint32_t file, Place place, Place from,
              const Context& context) {
     Context inner = context;
     ++inner.depth;
@@ -121,10 +150,18 @@ class Reader {
                            fmt::format("cannot execute command: {}", std::strerror(fault.code().value())),
                            Status::system);
     }
-    TextSource text(running->output(), file, builder_);
+    const bool named = from.file == SourceFile::kNoFile;  // not by a file: its output may be an octree
+    const std::string ahead = named ? readBeginning(running->output()) : std::string();
     const size_t before = builder_.description().primitives.size();
-    all(text, inner, file, true);
+    if (!named || !octree(running->output(), file, ahead)) {
+      TextSource text(running->output(), file, builder_, ahead);
+      all(text, inner, file, true);
+    }
     const std::string fault = running->finish();
+    if (named && alone_ && ahead.empty())
+      throw builder_.error({file, 0},
+                           fmt::format("not an octree: 0 bytes{}{}", fault.empty() ? "" : ", ", fault));
+    if (builder_.description().files[file].numbered) place.line = 0;
     if (!fault.empty()) warn(place, fmt::format("bad status from \"{}\": {}", printable(shown), fault));
     if (builder_.description().primitives.size() == before)
       warn(place, fmt::format("\"{}\" gives nothing", printable(shown)));
@@ -276,6 +313,7 @@ class Reader {
   static constexpr int64_t kMostArguments = 0x7fffffff;  // of one kind, for one primitive
 
   const ReadOptions& options_;
+  const bool alone_;
   DescriptionBuilder builder_;
   std::string modifier_, name_;  // of the primitive at hand; kept for their memory
 };
@@ -283,14 +321,20 @@ class Reader {
 }  // namespace
 
 Description readScene(std::span<const std::string> names, const ReadOptions& options) {
-  Reader reader(options);
+  Reader reader(options, names.size() == 1);
   for (const std::string& name : names) reader.file(name);
   return reader.take();
 }
 
 Description readSceneText(std::string_view text, std::string_view name, const ReadOptions& options) {
-  Reader reader(options);
+  Reader reader(options, false);
   reader.memory(text, name);
+  return reader.take();
+}
+
+Description readOctree(const std::string& name, const ReadOptions& options) {
+  Reader reader(options, true);
+  reader.octreeFile(name);
   return reader.take();
 }
 

@@ -33,9 +33,21 @@ inline constexpr int kDeepestNesting = 100;
 // kDeepestNesting, NUL bytes, words of more than 65536 bytes. A modifier must be defined before its use; the
 // last definition counts. Integer arguments must be 0 in number: no type has any. Memory is in proportion to
 // the text read. Source: RADIANCE reference manual, "Scene description"; oconv(1), xform(1).
+//
+// A single name may be an octree, or a command whose output is one, which its content tells: it is read as
+// readOctree() has it. One that is empty is refused where its name ends in ".oct" or it is a command's
+// output.
 Description readScene(std::span<const std::string> names, const ReadOptions& options = {});
 
-// The same for one text in memory. name: as messages print it.
+// Reads an octree, frozen or not, of oconv(1). name is looked for along RAYPATH, as `instance` has it. Header
+// and bounds are kept; the cells are passed over. Scene files that it names are opened as they stand, from
+// the current directory, and its commands are subject to options. Throws Error: Status::system where a file
+// cannot be found or read, Status::input for what is no octree, or is truncated, damaged or stale
+// (octree_file.h). Real numbers of a frozen octree are within 2^-31 of themselves of those of the text; equal
+// definitions of a modifier may have become one.
+Description readOctree(const std::string& name, const ReadOptions& options = {});
+
+// readScene() for one text in memory. name: as messages print it.
 Description readSceneText(std::string_view text, std::string_view name, const ReadOptions& options = {});
 
 }  // namespace rad

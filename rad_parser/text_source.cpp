@@ -31,9 +31,12 @@ Kind kindOf(char c) { return kKinds[static_cast<unsigned char>(c)]; }
 
 }  // namespace
 
-TextSource::TextSource(int descriptor, uint32_t file, const DescriptionBuilder& builder)
+TextSource::TextSource(int descriptor, uint32_t file, const DescriptionBuilder& builder,
+                       std::string_view ahead)
     : descriptor_(descriptor), file_(file), builder_(builder), block_(new char[kBlock]) {
-  next_ = end_ = block_.get();
+  std::memcpy(block_.get(), ahead.data(), ahead.size());
+  next_ = block_.get();
+  end_ = next_ + ahead.size();
 }
 
 TextSource::TextSource(std::string_view text, uint32_t file, const DescriptionBuilder& builder)

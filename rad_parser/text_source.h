@@ -15,8 +15,9 @@ class TextSource {
   // A word longer than this is taken for a sign that the input is no scene text.
   static constexpr size_t kLongestWord = 1 << 16;
 
-  // Reads `descriptor`, which stays the caller's, as the builder's file `file`.
-  TextSource(int descriptor, uint32_t file, const DescriptionBuilder& builder);
+  // Reads `descriptor`, which stays the caller's, as the builder's file `file`. ahead: what was read from it
+  // already; at most half a block (128 kB).
+  TextSource(int descriptor, uint32_t file, const DescriptionBuilder& builder, std::string_view ahead = {});
   // Reads text, which must outlive this.
   TextSource(std::string_view text, uint32_t file, const DescriptionBuilder& builder);
 

@@ -1,0 +1,144 @@
+#include "rad_parser/binary_reader.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include "rad_parser/description.h"
+
+namespace rad {
+namespace {
+
+constexpr size_t kBlock = 1 << 18;
+static_assert(kBlock > 2 * BinaryReader::kLongestString);
+
+// 2^-128 .. 2^127: the exponents that a byte holds.
+constexpr auto kPowers = [] {
+  std::array<double, 256> powers{};
+  powers[128] = 1;
+  for (int e = 1; e < 128; ++e) powers[128 + e] = powers[127 + e] * 2;
+  for (int e = 1; e <= 128; ++e) powers[128 - e] = powers[129 - e] / 2;
+  return powers;
+}();
+
+}  // namespace
+
+BinaryReader::BinaryReader(int descriptor, std::string name, std::string kind, std::string_view ahead)
+    : descriptor_(descriptor), name_(std::move(name)), kind_(std::move(kind)), block_(new uint8_t[kBlock]) {
+  std::memcpy(block_.get(), ahead.data(), ahead.size());
+  next_ = block_.get();
+  end_ = next_ + ahead.size();
+}
+
+Error BinaryReader::fault(std::string_view text) const {
+  return Error(fmt::format("{}: {} at byte {}", printable(name_, 4096), text, offset()));
+}
+
+// Reads more behind what begins at keep, which moves to the front of the block with next_. False, and nothing
+// moved, at the end.
+bool BinaryReader::refill(const uint8_t*& keep) {
+  if (descriptor_ < 0) return false;
+  const auto kept = static_cast<size_t>(end_ - keep);
+  std::memmove(block_.get(), keep, kept);
+  blockOffset_ += static_cast<uint64_t>(keep - block_.get());
+  next_ -= keep - block_.get();
+  keep = block_.get();
+  end_ = keep + kept;
+  ssize_t got;
+  do {
+    got = read(descriptor_, block_.get() + kept, kBlock - kept);
+  } while (got < 0 && errno == EINTR);
+  if (got < 0)
+    throw Error(fmt::format("{}: cannot read: {}", printable(name_, 4096), std::strerror(errno)),
+                Status::system);
+  if (got == 0) descriptor_ = -1;
+  end_ += got;
+  return got > 0;
+}
+
+void BinaryReader::need(size_t bytes) {
+  const uint8_t* keep = next_;
+  while (static_cast<size_t>(end_ - next_) < bytes) {
+    if (refill(keep)) continue;
+    next_ = end_;
+    throw fault("truncated " + kind_);
+  }
+}
+
+double BinaryReader::real() {
+  const auto m = static_cast<int32_t>(integer(4));
+  const auto e = static_cast<int8_t>(byte());
+  if (m == 0) return 0;
+  // The product with the reciprocal, not the quotient: the same double, to the last bit, as other readers
+  // have.
+  return (m + (m < 0 ? -.5 : .5)) * (1. / 0x7fffffff) * kPowers[128 + e];
+}
+
+std::string_view BinaryReader::string() {
+  const uint8_t* start = next_;
+  const uint8_t* seen = next_;
+  for (;;) {
+    if (const void* nul = seen == end_ ? nullptr : std::memchr(seen, 0, static_cast<size_t>(end_ - seen))) {
+      const auto* last = static_cast<const uint8_t*>(nul);
+      const auto length = static_cast<size_t>(last - start);
+      if (length > kLongestString) break;
+      next_ = last + 1;
+      return {reinterpret_cast<const char*>(start), length};
+    }
+    const auto length = static_cast<size_t>(end_ - start);
+    if (length > kLongestString) break;
+    if (!refill(start)) {
+      next_ = end_;
+      throw fault("truncated " + kind_);
+    }
+    seen = start + length;
+  }
+  throw fault(fmt::format("damaged {}: a string of more than {} bytes", kind_, kLongestString));
+}
+
+std::vector<std::string> BinaryReader::header(std::string_view format) {
+  const auto none = [this](const char* article) {
+    return Error(fmt::format("{}: not {} {}", printable(name_, 4096), article, kind_));
+  };
+  const char* article = std::string_view("aeiou").find(kind_[0]) == std::string_view::npos ? "a" : "an";
+  std::vector<std::string> lines;
+  for (std::string line;; line.clear()) {
+    for (;;) {
+      if (next_ == end_) {
+        const uint8_t* keep = next_;
+        if (!refill(keep)) throw lines.empty() ? none(article) : fault("truncated " + kind_);
+      }
+      const char c = static_cast<char>(*next_++);
+      if (offset() == 1 && (c < ' ' || c > '~')) throw none(article);
+      if (c == '\n') break;
+      line += c;
+      if (offset() > kLongestHeader) throw none(article);
+    }
+    if (line.ends_with('\r')) line.pop_back();
+    if (line.empty()) return lines;
+    constexpr std::string_view kFormat = "FORMAT=";
+    if (!line.starts_with(kFormat)) {
+      lines.push_back(line);
+      continue;
+    }
+    std::string_view value = std::string_view(line).substr(kFormat.size());
+    value.remove_prefix(std::min(value.find_first_not_of(" \t"), value.size()));
+    value = value.substr(0, value.find_last_not_of(" \t") + 1);
+    if (value != format)
+      throw Error(fmt::format("{}: not {} {}: its header says {}{}", printable(name_, 4096), article, kind_,
+                              kFormat, printable(value)));
+  }
+}
+
+uint64_t BinaryReader::remaining() const {
+  struct stat status;
+  if (descriptor_ < 0 || fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) return 0;
+  const auto size = static_cast<uint64_t>(status.st_size);
+  return size > offset() ? size - offset() : 0;
+}
+
+}  // namespace rad

@@ -1,0 +1,73 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rad_parser/error.h"
+
+namespace rad {
+
+// Reads the portable binary data of octrees and meshes, from a file descriptor, in blocks: memory does not
+// grow with the file. Every function throws fault("truncated KIND") where the data end too early, and Error
+// with Status::system where they cannot be read. Source: RADIANCE file formats, "Octree format".
+class BinaryReader {
+ public:
+  static constexpr size_t kLongestString = 1 << 16;  // as the words of scene text
+  static constexpr size_t kLongestHeader = 1 << 20;
+
+  // descriptor stays the caller's. name, kind: as messages have them ("scene.oct", "octree"). ahead: what was
+  // read from the descriptor already; at most half a block (128 kB).
+  BinaryReader(int descriptor, std::string name, std::string kind, std::string_view ahead = {});
+
+  // The information header: its lines but those that name the format, without line ends. Throws where it is
+  // none or names another format; a header that names none is taken.
+  std::vector<std::string> header(std::string_view format);
+
+  uint8_t byte() {
+    if (next_ == end_) need(1);
+    return *next_++;
+  }
+
+  // An integer of 1 to 8 bytes, the highest first, in two's complement.
+  int64_t integer(int bytes) {
+    if (end_ - next_ < bytes) need(static_cast<size_t>(bytes));
+    auto value = static_cast<uint64_t>(int64_t{static_cast<int8_t>(*next_++)});
+    for (int i = 1; i < bytes; ++i) value = value << 8 | *next_++;
+    return static_cast<int64_t>(value);
+  }
+  uint32_t count16() { return static_cast<uint32_t>(integer(2)) & 0xffff; }
+
+  // A real number: m = 4 bytes, e = 1 byte stand for (m + 1/2) / (2^31 - 1) * 2^e, away from zero for
+  // negative m; m = 0 is zero. The writer truncates, so what was written is met within 2^-31 of itself;
+  // magnitudes beyond 2^127 and below 2^-129 were lost when written.
+  double real();
+
+  // Bytes up to a NUL, without it. Valid until the next call.
+  std::string_view string();
+
+  // Bytes read so far.
+  uint64_t offset() const { return blockOffset_ + static_cast<uint64_t>(next_ - block_.get()); }
+
+  // How many more bytes there are, where that can be told (a regular file); else 0.
+  uint64_t remaining() const;
+
+  const std::string& name() const { return name_; }
+
+  // "scene.oct: TEXT at byte 1234".
+  Error fault(std::string_view text) const;
+
+ private:
+  void need(size_t bytes);
+  bool refill(const uint8_t*& keep);
+
+  int descriptor_;  // -1: nothing more to read
+  std::string name_, kind_;
+  uint64_t blockOffset_ = 0;  // of the block's first byte in the data
+  std::unique_ptr<uint8_t[]> block_;
+  const uint8_t* next_;
+  const uint8_t* end_;
+};
+
+}  // namespace rad

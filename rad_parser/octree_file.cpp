@@ -1,0 +1,112 @@
+#include "rad_parser/octree_file.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <limits>
+
+#include "rad_parser/binary_scene.h"
+
+namespace rad {
+namespace {
+
+constexpr std::string_view kFormat = "Radiance_octree";
+constexpr std::string_view kFirst = "#?";  // of an information header
+constexpr int kMagic = 283;                // what the format number exceeds is the width of object numbers
+constexpr size_t kBeginning = 1 << 16;
+
+// Where the header ends, behind its empty line; npos where it does not.
+size_t headerEnd(std::string_view data) {
+  const size_t unix = data.find("\n\n"), dos = data.find("\n\r\n");
+  if (unix == data.npos && dos == data.npos) return data.npos;
+  return unix < dos ? unix + 2 : dos + 3;
+}
+
+// Room for what the rest of a regular file can hold, so that a large scene is not moved again and again. What
+// is not filled is never touched, and costs no memory.
+void reserve(Description& d, int64_t objects, int width, uint64_t bytes) {
+  const uint64_t shortest = 6 + static_cast<uint64_t>(width);  // type, modifier, empty name, two counts
+  d.primitives.reserve(std::min(static_cast<uint64_t>(objects), bytes / shortest));
+  d.realArgs.reserve((bytes - std::min(bytes, static_cast<uint64_t>(objects) * shortest)) / 5);
+}
+
+}  // namespace
+
+std::string readBeginning(int descriptor) {
+  std::string data;
+  const auto enough = [&] {
+    if (data.size() >= kBeginning) return true;
+    if (!data.starts_with(kFirst)) return data.size() >= kFirst.size();
+    const size_t end = headerEnd(data);
+    return end != data.npos && data.size() >= end + 2;
+  };
+  while (!enough()) {
+    const size_t before = data.size();
+    data.resize(kBeginning);
+    const ssize_t got = read(descriptor, data.data() + before, kBeginning - before);
+    const bool interrupted = got < 0 && errno == EINTR;
+    data.resize(before + static_cast<size_t>(std::max<ssize_t>(got, 0)));
+    if (got <= 0 && !interrupted) break;
+  }
+  return data;
+}
+
+bool isOctree(std::string_view beginning, std::string_view name) {
+  if (!beginning.starts_with(kFirst)) return false;
+  const size_t end = headerEnd(beginning);
+  const std::string_view header = beginning.substr(0, end);
+  constexpr std::string_view kMark = "\nFORMAT=";
+  if (const size_t mark = header.find(kMark); mark != header.npos) {
+    std::string_view format = header.substr(mark + kMark.size());
+    format = format.substr(0, format.find_first_of("\r\n"));
+    format.remove_prefix(std::min(format.find_first_not_of(" \t"), format.size()));
+    format = format.substr(0, format.find_last_not_of(" \t") + 1);
+    if (format == kFormat) return true;
+    throw Error(fmt::format("{}: not an octree: its header says FORMAT={}", printable(name, 4096),
+                            printable(format)));
+  }
+  if (end == beginning.npos || beginning.size() < end + 2) return false;
+  const int number = static_cast<uint8_t>(beginning[end]) << 8 | static_cast<uint8_t>(beginning[end + 1]);
+  return number > kMagic && number <= kMagic + 8;
+}
+
+void readOctree(BinaryReader& input, uint32_t file, DescriptionBuilder& builder, const Warn& warn,
+                const std::function<void(const std::string&)>& sceneFile) {
+  Description& d = builder.description();
+  d.files[file].numbered = true;
+  d.header = input.header(kFormat);
+  const int width = readIndexWidth(input, kMagic);
+  d.cube = readCube(input);
+  bool frozen = true;
+  for (std::string name; !(name = input.string()).empty(); frozen = false) sceneFile(name);
+  const int64_t objects = input.integer(width);
+  if (objects < 0 || objects > std::numeric_limits<int32_t>::max())
+    throw input.fault(fmt::format("damaged octree: {} objects", objects));
+
+  bool modifierInTree = false;
+  const auto present = static_cast<int64_t>(d.primitives.size());
+  passOverCells(input, width, [&](int64_t object) {
+    if (object < 0 || object >= objects)
+      throw input.fault(fmt::format("damaged octree: object {} of {}", object + 1, objects));
+    if (object < present && !isSurface(d.primitives[object].type)) modifierInTree = true;
+  });
+
+  const auto stale = [&](std::string_view text) {
+    return Error(fmt::format("{}: {}; octree stale?", printable(input.name(), 4096), text));
+  };
+  if (frozen) {
+    reserve(d, objects, width, input.remaining());
+    const int64_t found = readPrimitives(input, width, file, builder, warn);
+    if (found != objects)
+      throw input.fault(fmt::format("damaged octree: {} objects in place of {}", found, objects));
+  } else if (present != objects) {
+    throw stale(
+        fmt::format("bad object count: {} in its scene files, {} when it was made", present, objects));
+  } else if (modifierInTree) {
+    throw stale("modifier in tree");
+  }
+}
+
+}  // namespace rad
