@@ -143,7 +143,7 @@ TEST(SceneFile, TruncatedTextsAreErrorsAtThePrimitive) {
   const std::string whole = "void texfunc t 3 dx dy f.cal 0 2 1 2";
   EXPECT_EQ(errorOfText(whole), "");
   for (size_t length = 1; length + 2 < whole.size(); ++length) {
-    const std::string error = errorOfText("\n" + whole.substr(0, length));
+    const std::string error = errorOfText(fmt::format("\n{}", whole.substr(0, length)));
     EXPECT_EQ(error.substr(0, 12), "room.rad:2: ") << length << " " << error;
   }
   EXPECT_EQ(errorOfText("void sphere s 0 0 4 1 2"), "room.rad:1: text ends within sphere \"s\"");
