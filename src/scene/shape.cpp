@@ -39,7 +39,7 @@ Polygon makePolygon(std::span<const V3d> all, uint32_t first, uint32_t count) {
   return polygon;
 }
 
-bool inside(const Polygon& polygon, std::span<const V3d> all, const V3d& point) {
+bool inside(const Polygon& polygon, std::span<const V3d> all, const V3d& point, double tolerance) {
   const int xi = polygon.axis == 2 ? 0 : polygon.axis + 1;
   const int yi = xi == 2 ? 0 : xi + 1;
   const double x = point[xi], y = point[yi];
@@ -50,21 +50,18 @@ bool inside(const Polygon& polygon, std::span<const V3d> all, const V3d& point) 
     const double y0 = (*from)[yi] - y, y1 = to[yi] - y;
     const double x0 = (*from)[xi] - x, x1 = to[xi] - x;
     from = &to;
-    if ((y0 > 0) == (y1 > 0)) {
-      // A point on an edge that lies along x is inside: else two polygons that share it would let a ray
-      // through.
-      if (y0 == 0 && y1 == 0 && (x0 > 0) != (x1 > 0)) return true;
+    const bool crosses = (y0 > 0) != (y1 > 0);
+    if (!crosses && std::min(std::abs(y0), std::abs(y1)) > tolerance) continue;
+    if (std::min(x0, x1) > tolerance) {
+      odd ^= crosses;
       continue;
     }
-    if (x0 > 0 && x1 > 0) {
-      odd = !odd;
-      continue;
-    }
+    if (std::max(x0, x1) < -tolerance) continue;
+    // The point lies in the edge's box: on the edge, or clearly on one side of it?
     const double cross = x0 * y1 - x1 * y0;
-    const double slack =
-        kRounding * (std::abs(x) + std::abs(y)) * (std::abs(x0) + std::abs(x1) + std::abs(y0) + std::abs(y1));
-    if (std::abs(cross) <= slack) return true;
-    if ((cross > 0) == (y1 > y0)) odd = !odd;
+    const double size = std::abs(x0) + std::abs(x1) + std::abs(y0) + std::abs(y1);
+    if (std::abs(cross) <= (tolerance + kRounding * size) * size) return true;
+    odd ^= crosses && (cross > 0) == (y1 > y0);
   }
   return odd;
 }
@@ -75,7 +72,11 @@ bool intersect(const Polygon& polygon, std::span<const V3d> vertices, const V3d&
   if (std::abs(cosine) <= kSamePlace) return false;
   const double t = (polygon.normal.dot(origin) - polygon.offset) / cosine;
   if (!within(t, farthest) || polygon.area == 0) return false;
-  if (!inside(polygon, vertices, origin + t * direction)) return false;
+  // How far apart two polygons that meet at an edge may see one ray: each has it at its own rounded distance.
+  // Points that near an edge are inside both, or light would leak between them.
+  const double size = std::abs(origin.x) + std::abs(origin.y) + std::abs(origin.z) + t;
+  const double tolerance = 2 * kRounding * size / std::abs(cosine);
+  if (!inside(polygon, vertices, origin + t * direction, tolerance)) return false;
   hit = {t, polygon.normal, cosine};
   return true;
 }

@@ -87,7 +87,8 @@ Box3d bounds(const Ring& ring);
 // The polygon's plane, area and axis from its vertices (at least 3). Area 0 where they lie on a line.
 Polygon makePolygon(std::span<const V3d> vertices, uint32_t first, uint32_t count);
 
-// Whether a point of the polygon's plane lies inside; points on the boundary count as inside, to rounding.
-bool inside(const Polygon& polygon, std::span<const V3d> vertices, const V3d& point);
+// Whether a point of the polygon's plane lies inside; points on the boundary count as inside, and those within
+// tolerance (world units) and rounding of it.
+bool inside(const Polygon& polygon, std::span<const V3d> vertices, const V3d& point, double tolerance = 0);
 
 }  // namespace rsphere
