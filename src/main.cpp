@@ -45,8 +45,8 @@ AnswerRecord answerPoints(const SphereEstimator& estimator, const Scene& scene, 
     const V3d point(record.numbers[0], record.numbers[1], record.numbers[2]);
     const PointAnswer answer = estimator.estimate(point, workspace);
     if (!options.sphere.everyDirection) return writer.write(bytes, answer);
-    for (const DirectionSample& sample : workspace.samples)
-      writer.write(bytes, directionAnswer(scene, sample), record.index);
+    for (size_t i = 0; i < workspace.samples.size(); ++i)
+      writer.write(bytes, directionAnswer(scene, workspace.samples[i], workspace.rays[i]), record.index);
   };
 }
 

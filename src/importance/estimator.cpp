@@ -4,34 +4,254 @@
 #include <cmath>
 #include <numbers>
 
+#include "importance/surface_point.h"
 #include "rad_parser/error.h"
 #include "sphere/directions.h"
 
 namespace rsphere {
+namespace {
 
-SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions& options)
-    : transport_(transport), options_(options) {
-  const auto count = static_cast<size_t>(options.baseDirections);
-  base_ = rotatedDirections(baseDirections(count), options.rotation);
-  if (options.weights == Weights::homogeneous) {
-    baseSolidAngles_.assign(count, 4 * std::numbers::pi / static_cast<double>(count));
-    return;
-  }
-  VoronoiWorkspace workspace;
-  const auto areas = cellSolidAngles(base_, workspace);
-  baseSolidAngles_.assign(areas.begin(), areas.end());
-  if (!options.verify) return;
-  if (const auto fault = voronoiFault(workspace)) throw rad::Error("weights of the directions: " + *fault);
+constexpr double kPi = std::numbers::pi;
+
+// Standard deviation of what one base direction finds, as a share of the mean radiance, sources apart:
+// measured in furnished interiors with three bounces, .3 to .5. Directions go where the radiance varies more
+// than this.
+constexpr double kUsualDeviation = .4;
+
+// Rays to measure how the radiance varies on the special objects of one material, and those at a point for
+// the mean that it is held against.
+constexpr int kRaysAMaterial = 256;
+constexpr int kRaysAPoint = 32;
+
+// More directions than this times the base's density are not sent anywhere: the last factor of two in density
+// would be paid for by everything else.
+constexpr double kMostContrast = 200;
+
+// An additive sequence of two dimensions, as even as it can be (Roberts 2018, the plastic number).
+V3d evenly(size_t i, double shift1, double shift2) {
+  const double a = shift1 + .7548776662466927 * static_cast<double>(i);
+  const double b = shift2 + .5698402909980532 * static_cast<double>(i);
+  return V3d(a - std::floor(a), b - std::floor(b), 0);
 }
 
-PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) const {
+}  // namespace
+
+SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions& options)
+    : transport_(transport), options_(options), sources_(transport) {
+  const auto count = static_cast<size_t>(options.baseDirections);
+  directions_ = rotatedDirections(baseDirections(count), options.rotation);
+  if (options.weights == Weights::homogeneous) {
+    solidAngles_.assign(count, 4 * kPi / static_cast<double>(count));
+    return;
+  }
+  base_.emplace(directions_);
+  solidAngles_.assign(base_->solidAngles().begin(), base_->solidAngles().end());
+  if (options.verify) {
+    VoronoiWorkspace workspace;
+    cellSolidAngles(directions_, workspace);
+    if (const auto fault = voronoiFault(workspace)) throw rad::Error("weights of the directions: " + *fault);
+  }
+  special_ = findSpecialObjects(transport.scene(), options.densityFactor);
+  if (options.weights == Weights::silhouettes) measureContrasts();
+}
+
+// Rays that start just before a point of an object and hit it from even directions: what its image is like on
+// average, wherever it will be looked at from. One figure for all objects of a material, since they see the
+// same surroundings.
+void SphereEstimator::measureContrasts() {
+  const Scene& scene = transport_.scene();
+  PathTracer tracer(transport_);
+  deviations_.assign(special_.size(), 0);
+  std::vector<std::vector<size_t>> byMaterial(scene.modifiers.size());
+  for (size_t i = 0; i < special_.size(); ++i)
+    byMaterial[scene.surfaces[special_[i].surface].material].push_back(i);
+  for (size_t m = 0; m < byMaterial.size(); ++m) {
+    const auto& objects = byMaterial[m];
+    if (objects.empty()) continue;
+    Random random(mixBits(m));
+    double sum = 0, squares = 0;
+    int count = 0;
+    for (int k = 0; k < kRaysAMaterial; ++k) {
+      const size_t object =
+          objects[static_cast<size_t>(random.uniform() * static_cast<double>(objects.size()))];
+      const auto surface = static_cast<int32_t>(special_[object].surface);
+      const SurfacePoint at = samplePoint(scene.surfaces[surface].shape, scene.vertices, random);
+      V3d x, y;
+      frame(at.normal, x, y);
+      const double radius = std::sqrt(random.uniform()), angle = 2 * kPi * random.uniform();
+      const V3d away = radius * std::cos(angle) * x + radius * std::sin(angle) * y +
+                       std::sqrt(1 - radius * radius) * at.normal;
+      const Ray ray = tracer.trace(at.point + at.clearance * away, -away, 0, random.bits());
+      if (ray.surface != surface || sources_.shown(tracer)) continue;
+      const double value = brightness(ray.value);
+      sum += value;
+      squares += value * value;
+      ++count;
+    }
+    if (count < 2) continue;
+    const double deviation = std::sqrt(std::max(0., (squares - sum * sum / count) / (count - 1)));
+    for (const size_t object : objects) deviations_[object] = deviation;
+  }
+}
+
+PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& w) const {
   const uint64_t seed =
       seedOf(std::initializer_list<double>{point.x, point.y, point.z}, mixBits(options_.rotation));
-  workspace.samples.resize(base_.size());
-  for (size_t i = 0; i < base_.size(); ++i)
-    workspace.samples[i] = {baseSolidAngles_[i],
-                            workspace.tracer.trace(point, base_[i], 0, mixBits(seed + i))};
-  return integrate(point, workspace.samples);
+  w.samples.clear();
+  w.rays.clear();
+  w.rest.clear();
+  switch (options_.weights) {
+    case Weights::homogeneous:
+      for (size_t i = 0; i < directions_.size(); ++i)
+        traceInto(w, point, directions_[i], solidAngles_[i], mixBits(seed + i));
+      break;
+    case Weights::voronoi:
+      sampleAsPaper(point, seed, w);
+      break;
+    case Weights::silhouettes:
+      sampleSilhouettes(point, seed, w);
+      break;
+  }
+  return integrate(point, w.samples);
+}
+
+void SphereEstimator::traceInto(Workspace& w, const V3d& point, const V3d& direction, double solidAngle,
+                                uint64_t seed) const {
+  const Ray ray = w.tracer.trace(point, direction, 0, seed);
+  w.samples.push_back({direction, solidAngle, ray.value});
+  if (options_.everyDirection) w.rays.push_back(ray);
+}
+
+// The paper, section 4: density times solid angle directions for each special object, those of the objects
+// with the fewest dropped where there are too many, plain Voronoi cells of all.
+void SphereEstimator::sampleAsPaper(const V3d& point, uint64_t seed, Workspace& w) const {
+  const Scene& scene = transport_.scene();
+  struct Wanted {
+    Silhouette silhouette;
+    size_t count;
+  };
+  std::vector<Wanted> wanted;
+  for (const SpecialObject& object : special_) {
+    Silhouette s = silhouetteOf(scene.surfaces[object.surface].shape, scene.vertices, point);
+    const auto count = static_cast<size_t>(std::min(object.density * s.solidAngle() + .5, 1e9));
+    if (count > 0) wanted.push_back({std::move(s), count});
+  }
+  std::stable_sort(wanted.begin(), wanted.end(),
+                   [](const auto& a, const auto& b) { return a.count > b.count; });
+  const auto most = static_cast<size_t>(options_.mostDirections);
+  size_t left = most > directions_.size() ? most - directions_.size() : 0;
+  w.dynamic.clear();
+  Random random(seed);
+  for (const Wanted& object : wanted) {
+    const double shift1 = random.uniform(), shift2 = random.uniform();
+    const size_t count = std::min(object.count, left);
+    for (size_t i = 0; i < count; ++i) {
+      const V3d u = evenly(i, shift1, shift2);
+      w.dynamic.push_back(object.silhouette.sample(u.x, u.y));
+    }
+    left -= count;
+  }
+  const auto areas = cellSolidAngles(*base_, w.dynamic, w.voronoi);
+  if (options_.verify)
+    if (const auto fault = voronoiFault(w.voronoi)) throw rad::Error("weights of the directions: " + *fault);
+  for (size_t i = 0; i < areas.size(); ++i)
+    traceInto(w, point, i < directions_.size() ? directions_[i] : w.dynamic[i - directions_.size()], areas[i],
+              mixBits(seed + i));
+}
+
+// Which special objects get directions of their own, and how many on average: in proportion to their
+// silhouettes and to how much more the radiance varies on them than around (Neyman's allocation; the base's
+// own share is already there). Where that is more than `most` all are scaled alike, so that nothing special
+// is lost without trace.
+void SphereEstimator::chooseTargets(const V3d& point, uint64_t seed, size_t most, Workspace& w) const {
+  w.targets.clear();
+  if (special_.empty() || most == 0) return;
+  const Scene& scene = transport_.scene();
+  double mean = 0;
+  Random random(mixBits(seed));
+  for (int i = 0; i < kRaysAPoint; ++i) {
+    // Stratified in height: the sphere's equal-area slices.
+    const double z = 1 - 2 * (i + random.uniform()) / kRaysAPoint, angle = 2 * kPi * random.uniform();
+    const double r = std::sqrt(std::max(0., 1 - z * z));
+    const Ray ray = w.tracer.trace(point, V3d(r * std::cos(angle), r * std::sin(angle), z), 0, random.bits());
+    if (!sources_.shown(w.tracer)) mean += brightness(ray.value) / kRaysAPoint;
+  }
+  const double usual = kUsualDeviation * mean;
+  const double baseDensity = static_cast<double>(directions_.size()) / (4 * kPi);
+  double sum = 0;
+  for (size_t i = 0; i < special_.size(); ++i) {
+    if (!(deviations_[i] > usual)) continue;
+    const double contrast = std::min(usual > 0 ? deviations_[i] / usual : kMostContrast, kMostContrast) - 1;
+    Workspace::Target target{silhouetteOf(scene.surfaces[special_[i].surface].shape, scene.vertices, point),
+                             0, 0};
+    if (!(target.silhouette.regionSolidAngle() > 0)) continue;
+    target.density = contrast * baseDensity * options_.densityFactor;
+    target.expected = target.density * target.silhouette.regionSolidAngle();
+    sum += target.expected;
+    w.targets.push_back(std::move(target));
+  }
+  if (sum <= static_cast<double>(most)) return;
+  const double scale = static_cast<double>(most) / sum;
+  for (Workspace::Target& target : w.targets) {
+    target.density *= scale;
+    target.expected *= scale;
+  }
+}
+
+void SphereEstimator::sampleSilhouettes(const V3d& point, uint64_t seed, Workspace& w) const {
+  const auto most = static_cast<size_t>(options_.mostDirections);
+  const size_t base = directions_.size();
+
+  // Sources that are seen directly.
+  w.sources.clear();
+  double seen = 0;
+  if (sources_.any())
+    sources_.sample(point, std::max<size_t>(base / 4, 16), mixBits(seed + 1), w.tracer, w.sources);
+  for (const SeenSources::Sample& s : w.sources) {
+    seen += s.direction.solidAngle;
+    w.samples.push_back(s.direction);
+    if (options_.everyDirection) w.rays.push_back(s.ray);
+  }
+
+  // Base and dynamic directions, each with the solid angle that it stands for where all that were sent are
+  // even.
+  const size_t used = base + w.samples.size();
+  chooseTargets(point, mixBits(seed + 2), most > used ? most - used : 0, w);
+  const auto extraDensity = [&](const V3d& d) {
+    double density = 0;
+    for (const Workspace::Target& t : w.targets)
+      if (t.silhouette.contains(d)) density += t.density;
+    return density;
+  };
+  double total = 0;
+  const auto send = [&](const V3d& d, double baseCell, uint64_t raySeed) {
+    const double solidAngle = 1 / (1 / baseCell + extraDensity(d));
+    traceInto(w, point, d, solidAngle, raySeed);
+    if (sources_.shown(w.tracer)) {
+      w.samples.back().solidAngle = 0;
+      w.samples.back().value = Rgb(0, 0, 0);
+    } else {
+      total += solidAngle;
+      w.rest.push_back(w.samples.size() - 1);
+    }
+  };
+  for (size_t i = 0; i < base; ++i) send(directions_[i], solidAngles_[i], mixBits(seed + 16 + i));
+  Random random(mixBits(seed + 3));
+  // Whole numbers of directions with the right average, one running sum over all objects.
+  double due = random.uniform();
+  uint64_t next = base;
+  for (const Workspace::Target& target : w.targets) {
+    due += target.expected;
+    const double shift1 = random.uniform(), shift2 = random.uniform();
+    for (size_t i = 0; due >= 1; --due, ++i) {
+      const V3d u = evenly(i, shift1, shift2);
+      send(target.silhouette.sample(u.x, u.y), 4 * kPi / static_cast<double>(base),
+           mixBits(seed + 16 + next++));
+    }
+  }
+  // All stand for the sphere but for the sources' part of it.
+  const double scale = total > 0 ? std::max(0., 4 * kPi - seen) / total : 0;
+  for (const size_t i : w.rest) w.samples[i].solidAngle *= scale;
 }
 
 PointAnswer integrate(const V3d& point, const std::vector<DirectionSample>& samples) {
@@ -41,20 +261,22 @@ PointAnswer integrate(const V3d& point, const std::vector<DirectionSample>& samp
   std::fill(std::begin(a.facing), std::end(a.facing), Rgb(0, 0, 0));
   Rgb total(0, 0, 0);
   for (const DirectionSample& s : samples) {
-    const Rgb part = s.ray.value * s.solidAngle;
-    const V3d& d = s.ray.direction;
+    const Rgb part = s.value * s.solidAngle;
+    const V3d& d = s.direction;
     total += part;
-    a.cylindricalIrradiance += part * (std::sqrt(std::max(0., 1 - d.z * d.z)) / std::numbers::pi);
+    a.cylindricalIrradiance += part * (std::sqrt(std::max(0., 1 - d.z * d.z)) / kPi);
     for (int axis = 0; axis < 3; ++axis) a.facing[2 * axis + (d[axis] < 0)] += part * std::abs(d[axis]);
     a.lightVector += brightness(part) * d;
   }
-  a.mean = total / (4 * std::numbers::pi);
+  a.mean = total / (4 * kPi);
   a.scalarIrradiance = total / 4.;
   return a;
 }
 
-RayAnswer directionAnswer(const Scene& scene, const DirectionSample& sample) {
-  RayAnswer a = answerOf(scene, sample.ray);
+RayAnswer directionAnswer(const Scene& scene, const DirectionSample& sample, const Ray& ray) {
+  RayAnswer a = answerOf(scene, ray);
+  a.direction = sample.direction;
+  a.value = sample.value;
   a.solidAngle = sample.solidAngle;
   return a;
 }

@@ -67,6 +67,7 @@ void setShape(LightSource& source, const Polygon& polygon, const Scene& scene) {
   }
   // Not convex: a square of the same area around the centre, of which some samples miss.
   setSquare(source);
+  source.map = LightSource::Map::square;
   if (!isConvex(v, polygon.normal)) return;
   source.map = LightSource::Map::fan;
   source.fanVertices.assign(v.begin(), v.end());
@@ -182,10 +183,10 @@ LightSources::LightSources(const Scene& scene) : scene_(scene) {
   }
 }
 
-void LightSources::sample(uint32_t index, const V3d& point, double rayWeight, const RayOptions& options,
-                          Random& random, std::vector<SourceSample>& samples) const {
+void LightSources::sample(uint32_t index, const V3d& point, const SourceSampling& how, Random& random,
+                          std::vector<SourceSample>& samples) const {
   const LightSource& source = sources_[index];
-  const double jitter = options.directJitter;
+  const double jitter = how.jitter;
   const V3d towards = source.distant ? source.center : source.center - point;
 
   // Adds a sample, where the ray hits the source. omega: what it stands for. length: to the place inside the
@@ -210,8 +211,8 @@ void LightSources::sample(uint32_t index, const V3d& point, double rayWeight, co
       sample.cosine = hit.cosine;
       sample.normal = hit.normal;
     }
-    if (source.reach > 0 && length > source.reach) return;
-    if (source.spot && !source.distant) {
+    if (how.asLight && source.reach > 0 && length > source.reach) return;
+    if (how.asLight && source.spot && !source.distant) {
       if (outsideSpot(*source.spot, direction)) return;
       // The light comes from a focus behind the surface.
       const double nearer = sample.distance / (sample.distance + source.spot->focalLength);
@@ -221,7 +222,7 @@ void LightSources::sample(uint32_t index, const V3d& point, double rayWeight, co
   };
 
   const double distance = source.distant ? 1e10 : towards.length();
-  if (source.reach > 0 && distance > source.reach + source.radius) return;
+  if (how.asLight && source.reach > 0 && distance > source.reach + source.radius) return;
   // A round source: directions spread as the projected solid angle around its middle, so that one ray at the
   // middle is exact for a surface that faces it, and jittered rays are for every surface.
   const auto addRound = [&](const V3d& middle, double sine) {
@@ -235,8 +236,8 @@ void LightSources::sample(uint32_t index, const V3d& point, double rayWeight, co
       add(s * (std::cos(angle) * x + std::sin(angle) * y) + c * middle, kPi * sine * sine / c, distance);
   };
 
-  const double allowed =
-      options.sourceSubstructuring > 1e-6 ? options.sourceSubstructuring / (2 * rayWeight) : 0;
+  // Parts are measured by their half-extents.
+  const double allowed = how.largest / 2;
 
   switch (source.map) {
     case LightSource::Map::cone:

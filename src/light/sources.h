@@ -25,6 +25,7 @@ struct LightSource {
   // How the unit square lies on the source.
   enum class Map : uint8_t {
     parallelogram,  // center + (2s-1) u + (2t-1) v
+    square,         // the same, of equal area, for a polygon that is not convex: some of it is outside
     disk,           // area-preserving on the disk with radii u, v
     fan,            // a convex polygon as triangles around its first vertex, by area
     ball,           // no map: the cone of directions that the sphere fills
@@ -50,6 +51,15 @@ struct SourceSample {
   uint32_t source = 0;  // index in LightSources
 };
 
+// How a source is sampled.
+struct SourceSampling {
+  double largest = 0;  // size over distance of a part, at most; 0: not split
+  double jitter = 0;   // share of a part that its ray may lie in, 0 to 1
+  // As a light source is sampled by rtrace: glow within its reach, spotlights from their focus. Else as it is
+  // seen.
+  bool asLight = true;
+};
+
 class LightSources {
  public:
   // Keeps a reference to the scene. Glow of zero or negative reach and distant glow are no light sources
@@ -58,10 +68,10 @@ class LightSources {
 
   std::span<const LightSource> all() const { return sources_; }
 
-  // Appends the samples of one source for a ray of this weight (1 for a primary one) that ended at point;
-  // none where the source cannot light it: behind it, beyond its reach, outside its spot. At most 64 parts. A
-  // sample that misses the source it was aimed at is left out.
-  void sample(uint32_t source, const V3d& point, double rayWeight, const RayOptions& options, Random& random,
+  // Appends the samples of one source as seen from a point; none where the source cannot light it: behind it,
+  // beyond its reach, outside its spot. At most 64 parts. A sample that misses the source it was aimed at is
+  // left out.
+  void sample(uint32_t source, const V3d& point, const SourceSampling& how, Random& random,
               std::vector<SourceSample>& samples) const;
 
  private:

@@ -12,7 +12,11 @@ constexpr double kNegligible = 1e-6;  // shares of light below it are not follow
 
 // A white diffuse surface whose radiance is pi times the mean of what it receives: the irradiance (-i, -I).
 const Opaque kIrradianceMeter{Rgb(kPi, kPi, kPi), 0, 0, false};
-constexpr double kMeterLength = 1e-5;  // -I: world units from the ray's origin to its imagined surface, as rtrace
+constexpr double kMeterLength =
+    1e-5;  // -I: world units from the ray's origin to its imagined surface, as rtrace
+
+// A ray whose direction changed by less on its way through panes has gone straight on.
+constexpr double kStraight = 1e-9;
 
 bool isBlack(const Rgb& c) { return !(maxChannel(c) > 0); }
 
@@ -68,6 +72,8 @@ Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance i
 
 Ray PathTracer::trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed) {
   random_ = Random(seed);
+  primaryDirection_ = direction;
+  shownSource_ = kNone;
   Ray ray;
   ray.extinction = t_.options().mediumExtinction;
   ray.origin = origin;
@@ -381,6 +387,9 @@ void PathTracer::emit(Ray& ray, const Rgb& radiance, const Glow* glow) {
     return;
   }
   ray.value = radiance * ray.pattern;
+  if (!(ray.kinds & ~(kPrimary | kTransmitted)) &&
+      (ray.direction - primaryDirection_).length2() < kStraight * kStraight)
+    shownSource_ = t_.lightOf(ray.surface);
 }
 
 // ---- scattering
@@ -483,6 +492,33 @@ void PathTracer::addIndirect(Ray& ray, const V3d& normal, const V3d& trueNormal,
 
 // ---- direct light
 
+Ray PathTracer::traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed) {
+  const LightSource& light = t_.lights().all()[sample.source];
+  switch (
+      t_.tracer().shadow(point, sample.direction, sample.distance, light.distant ? kNone : light.surface)) {
+    case Shadow::unsure:
+      return trace(point, sample.direction, 0, seed);
+    case Shadow::blocked:
+      break;
+    case Shadow::clear: {
+      Ray ray;
+      ray.origin = point;
+      ray.direction = sample.direction;
+      ray.surface = light.surface;
+      ray.length = ray.unmirroredLength = sample.distance;
+      if (!light.distant) ray.point = point + sample.distance * sample.direction;
+      ray.normal = sample.normal;
+      ray.cosine = sample.cosine;
+      primaryDirection_ = sample.direction;
+      shownSource_ = kNone;
+      shade(ray, t_.scene().surfaces[light.surface].modifier);
+      return ray;
+    }
+  }
+  shownSource_ = kNone;
+  return Ray{};
+}
+
 // The radiance of a source along a shadow ray that is not stopped.
 Rgb PathTracer::sourceValue(const Ray& ray, const SourceSample& sample) {
   const Scene& scene = t_.scene();
@@ -511,8 +547,10 @@ void PathTracer::addDirect(Ray& ray, const Scattering& scattering, const Interac
   const RayOptions& o = t_.options();
   samples_.clear();
   contributions_.clear();
+  const SourceSampling how{o.sourceSubstructuring > kNegligible ? o.sourceSubstructuring / ray.weight : 0,
+                           o.directJitter};
   for (uint32_t i = 0; i < t_.lights().all().size(); ++i)
-    t_.lights().sample(i, ray.point, ray.weight, o, random_, samples_);
+    t_.lights().sample(i, ray.point, how, random_, samples_);
   for (const SourceSample& sample : samples_) {
     const Rgb coefficient =
         directCoefficient(scattering, at, sample.direction, sample.solidAngle, o.directJitter);

@@ -51,10 +51,19 @@ class PathTracer {
  public:
   explicit PathTracer(const Transport& transport) : t_(transport) {}
 
-  // Radiance along a primary ray (W/sr/m2), or irradiance (W/m2) as Transport::irradiance says: on the surface that is
-  // hit, or on an imagined one just ahead that faces the ray (see inputRay() for where -I starts). direction: unit.
-  // farthest: 0 for no limit (-ld, world units). The seed decides every random number of the path.
+  // Radiance along a primary ray (W/sr/m2), or irradiance (W/m2) as Transport::irradiance says: on the
+  // surface that is hit, or on an imagined one just ahead that faces the ray (see inputRay() for where -I
+  // starts). direction: unit. farthest: 0 for no limit (-ld, world units). The seed decides every random
+  // number of the path.
   Ray trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed);
+
+  // The radiance along a primary ray to a light source, as trace() would have it, at the price of a shadow
+  // ray where nothing that could let light pass is in between. Whether it shows the source: shownSource().
+  Ray traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed);
+
+  // The light source (index in LightSources) whose own light the last primary ray showed, at its end or
+  // straight on through panes; kNone where it showed none.
+  int32_t shownSource() const { return shownSource_; }
 
   // Only what is hit, no value.
   Ray cast(const V3d& origin, const V3d& direction, double farthest);
@@ -103,6 +112,8 @@ class PathTracer {
 
   const Transport& t_;
   Random random_{0};
+  V3d primaryDirection_{0, 0, 1};
+  int32_t shownSource_ = kNone;
   // Scratch of addDirect, which never runs inside itself: shadow rays ask for no direct light.
   std::vector<SourceSample> samples_;
   std::vector<Contribution> contributions_;

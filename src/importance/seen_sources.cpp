@@ -1,0 +1,57 @@
+#include "importance/seen_sources.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "importance/silhouette.h"
+
+namespace rsphere {
+
+SeenSources::SeenSources(const Transport& transport) : transport_(transport) {
+  const Scene& scene = transport.scene();
+  for (const LightSource& light : transport.lights().all()) {
+    const Surface& surface = scene.surfaces[light.surface];
+    bool apart = !std::holds_alternative<Illum>(scene.modifiers[surface.material].content);
+    if (light.distant) apart = apart && light.cosHalfAngle > std::cos(kWidestDistant);
+    if (light.map == LightSource::Map::square) apart = false;
+    apart_.push_back(apart);
+    any_ = any_ || apart;
+  }
+}
+
+void SeenSources::sample(const V3d& point, size_t most, uint64_t seed, PathTracer& tracer,
+                         std::vector<Sample>& samples) const {
+  const Scene& scene = transport_.scene();
+  const auto lights = transport_.lights().all();
+  std::vector<SourceSample> aims;
+  SourceSampling how{transport_.options().sourceSubstructuring, 1, false};
+  for (;;) {
+    aims.clear();
+    Random random(seed);
+    for (uint32_t i = 0; i < lights.size(); ++i)
+      if (apart_[i]) transport_.lights().sample(i, point, how, random, aims);
+    if (aims.size() <= most || how.largest == 0) break;
+    how.largest = how.largest < 4 ? how.largest * std::sqrt(2.) : 0;
+  }
+  for (size_t begin = 0; begin < aims.size();) {
+    size_t end = begin;
+    double sum = 0;
+    for (; end < aims.size() && aims[end].source == aims[begin].source; ++end) sum += aims[end].solidAngle;
+    const LightSource& light = lights[aims[begin].source];
+    double scale = 1;
+    if (!light.distant && light.map != LightSource::Map::tube && sum > 0)
+      scale = silhouetteOf(scene.surfaces[light.surface].shape, scene.vertices, point).solidAngle() / sum;
+    for (; begin < end; ++begin) {
+      const SourceSample& aim = aims[begin];
+      Sample s;
+      s.source = aim.source;
+      s.ray = tracer.traceToSource(point, aim, mixBits(seed + begin));
+      const bool seen = tracer.shownSource() == static_cast<int32_t>(aim.source);
+      s.direction = {aim.direction, seen ? aim.solidAngle * scale : 0, seen ? s.ray.value : Rgb(0, 0, 0)};
+      samples.push_back(s);
+    }
+  }
+}
+
+}  // namespace rsphere

@@ -1,0 +1,51 @@
+#pragma once
+// The directions in which an object may be seen from a point.
+#include <span>
+#include <vector>
+
+#include "scene/shape.h"
+
+namespace rsphere {
+
+// A region on the sphere of directions that holds every direction in which the object can be seen, and can be
+// sampled evenly: a cap, or a convex spherical polygon. For spheres and convex polygons it is the silhouette
+// itself; for other shapes a cap around it.
+class Silhouette {
+ public:
+  // No direction at all.
+  Silhouette() = default;
+
+  // What the object itself fills, sr: exact to rounding for spheres and polygons (0 in the polygon's plane, 4
+  // pi inside a sphere), for cones, cylinders and rings the cap that bounds it.
+  double solidAngle() const { return solidAngle_; }
+  // What the region fills, sr; not less than solidAngle().
+  double regionSolidAngle() const { return regionSolidAngle_; }
+
+  bool contains(const V3d& direction) const;  // direction: unit
+
+  // A direction of the region, even by solid angle for even u1, u2 in [0, 1). Source for polygons: Arvo,
+  // "Stratified Sampling of Spherical Triangles" (SIGGRAPH 1995). REQUIRES regionSolidAngle() > 0.
+  V3d sample(double u1, double u2) const;
+
+  friend Silhouette silhouetteOf(const Shape& shape, std::span<const V3d> vertices, const V3d& point);
+
+ private:
+  void setCap(const V3d& axis, double sinHalfAngle);
+
+  double solidAngle_ = 0, regionSolidAngle_ = 0;
+  V3d axis_{0, 0, 1};
+  double versine_ = 0;          // 1 - cos(half angle) of the cap; exact where cos would round it away
+  std::vector<V3d> corners_;    // of a convex polygon, counterclockwise as seen from the point; empty: a cap
+  std::vector<V3d> sides_;      // its sides' inward normals
+  std::vector<double> shares_;  // cumulative solid angles of the triangles around corner 0
+};
+
+// The silhouette of a shape as seen from a point (world). vertices: Scene::vertices. Not for Distant.
+Silhouette silhouetteOf(const Shape& shape, std::span<const V3d> vertices, const V3d& point);
+
+// Solid angle of a polygon, concave or with holes by a seam, as seen from a point, sr: 0 in its plane.
+// Absolute error 1e-15 a vertex. Source: Van Oosterom and Strackee 1983, IEEE Trans. Biomed. Eng. 30/2,
+// summed with signs.
+double polygonSolidAngle(std::span<const V3d> vertices, const V3d& point);
+
+}  // namespace rsphere

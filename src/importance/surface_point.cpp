@@ -1,0 +1,66 @@
+#include "importance/surface_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "shade/scattering.h"
+
+namespace rsphere {
+namespace {
+
+constexpr double kTwoPi = 2 * std::numbers::pi;
+
+// A thousandth of the size of what is left, but far enough that the object is not taken for where the ray
+// starts.
+double clearanceOf(double size) { return std::max(size * 1e-3, 4 * kSamePlace); }
+
+SurfacePoint pointOn(const Polygon& polygon, std::span<const V3d> all, Random& random) {
+  const auto v = all.subspan(polygon.firstVertex, polygon.vertices);
+  double left = random.uniform() * 2 * polygon.area;
+  size_t i = 2;
+  for (; i + 1 < v.size(); ++i) {
+    left -= (v[i - 1] - v[0]).cross(v[i] - v[0]).length();
+    if (left < 0) break;
+  }
+  const double root = std::sqrt(random.uniform()), t = random.uniform();
+  return {(1 - root) * v[0] + root * (1 - t) * v[i - 1] + root * t * v[i], polygon.normal,
+          clearanceOf(std::sqrt(polygon.area))};
+}
+
+SurfacePoint pointOn(const Sphere& sphere, std::span<const V3d>, Random& random) {
+  const double z = 1 - 2 * random.uniform(), angle = kTwoPi * random.uniform();
+  const double r = std::sqrt(std::max(0., 1 - z * z));
+  const V3d out(r * std::cos(angle), r * std::sin(angle), z);
+  return {sphere.center + sphere.radius * out, sphere.inward ? -out : out, clearanceOf(sphere.radius)};
+}
+
+SurfacePoint pointOn(const Cone& cone, std::span<const V3d>, Random& random) {
+  V3d x, y;
+  frame(cone.axis, x, y);
+  const double s = random.uniform(), angle = kTwoPi * random.uniform();
+  const V3d out = std::cos(angle) * x + std::sin(angle) * y;
+  const double slope = (cone.radius1 - cone.radius0) / cone.length;
+  const V3d normal = (out - slope * cone.axis) / std::sqrt(1 + slope * slope);
+  return {cone.base + s * cone.length * cone.axis + (cone.radius0 + s * (cone.radius1 - cone.radius0)) * out,
+          cone.inward ? -normal : normal, clearanceOf(std::max(cone.radius0, cone.radius1))};
+}
+
+SurfacePoint pointOn(const Ring& ring, std::span<const V3d>, Random& random) {
+  V3d x, y;
+  frame(ring.normal, x, y);
+  const double inner = ring.inner * ring.inner, outer = ring.outer * ring.outer;
+  const double r = std::sqrt(inner + random.uniform() * (outer - inner)), angle = kTwoPi * random.uniform();
+  return {ring.center + r * std::cos(angle) * x + r * std::sin(angle) * y, ring.normal,
+          clearanceOf(ring.outer)};
+}
+
+SurfacePoint pointOn(const Distant&, std::span<const V3d>, Random&) { return {}; }
+
+}  // namespace
+
+SurfacePoint samplePoint(const Shape& shape, std::span<const V3d> vertices, Random& random) {
+  return std::visit([&](const auto& form) { return pointOn(form, vertices, random); }, shape);
+}
+
+}  // namespace rsphere
