@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdint>
 
-// The numeric functions of the expression language that the C library does not have. Each is pure and total.
+// The numeric functions of the expression language that the C library does not have. Each is pure.
 namespace rad::calc {
 
 // A pseudo-random number in [0,1) that depends on x alone. Equal to the original's to rounding. Where x is so
