@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "sphere/predicates.h"
@@ -42,6 +44,9 @@ struct Delaunay {
   std::uint32_t lastTriangle = 0;  // where the next walk begins
   PredicateCounts counts;
 
+  // Makes room for that many sites in all.
+  void reserve(std::size_t count);
+
   // Starts with four different sites.
   void start(const std::array<Site, 4>& first);
 
@@ -70,6 +75,10 @@ struct Delaunay {
       t = triangle.next[kAfter[i]];
     } while (t != first);
   }
+
+  // What is wrong with the triangulation, if anything: triangles that do not fit, a circle that holds the
+  // corner of a neighbour, a surface that is not closed. names[i] is what site i is called.
+  std::optional<std::string> fault(std::span<const std::uint32_t> names) const;
 
   static constexpr int kAfter[3] = {1, 2, 0}, kBefore[3] = {2, 0, 1};
 

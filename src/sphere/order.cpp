@@ -95,8 +95,8 @@ void orderForBuild(std::span<const Site> sites, OrderScratch& scratch, std::vect
       if (sites[i].at[axis] < sites[extreme[3 + axis]].at[axis]) extreme[3 + axis] = i;
     }
   }
-  // One in 32 along the curve is even over the directions; full builds were fastest with it.
-  constexpr std::size_t kSample = 32;
+  // One in 64 along the curve is even over the directions; full builds were fastest with it.
+  constexpr std::size_t kSample = 64;
   auto& reordered = scratch.order;
   reordered.clear();
   std::sort(extreme.begin(), extreme.end());
