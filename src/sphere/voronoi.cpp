@@ -16,6 +16,9 @@ namespace {
 
 constexpr std::uint32_t kNone = Delaunay::kNone;
 constexpr double kSphere = 4 * std::numbers::pi;
+// The square of an ulp of 1 [sr]: no input has smaller cells that rounding would not change beyond
+// recognition.
+constexpr double kLeastArea = 0x1p-104;
 
 double withoutDust(double x) { return std::abs(x) < kSmallestComponent ? 0.0 : x; }
 
@@ -207,6 +210,9 @@ void VoronoiWorkspace::Data::finishAreas() {
   for (std::uint32_t site = 0; site < area.size(); ++site) {
     anyMerged = anyMerged || delaunay.standsFor[site] != site;
     if (spoiled[site]) area[site] = carefulSolidAngle(delaunay, site);
+    // A crowd within an ulp: the hull's radii (predicates.h) and the sphere's differ by as much as the cells'
+    // size.
+    if (area[site] < 0 && area[site] > -kLeastArea) area[site] = 0;
   }
   if (anyMerged) {
     sharers.assign(area.size(), 0);
@@ -343,7 +349,7 @@ std::optional<std::string> voronoiFault(const VoronoiWorkspace& workspace) {
   if (!(std::abs(sum - kSphere) <= 1e-12))
     return "the solid angles sum to 4 pi + " + std::to_string(sum - kSphere);
   for (std::size_t i = 0; i < order.size(); ++i) {
-    if (!(data.solidAngles[i] > 0)) return "direction " + std::to_string(i) + " has no solid angle";
+    if (!(data.solidAngles[i] >= 0)) return "direction " + std::to_string(i) + " has a negative solid angle";
   }
   if (data.triangulation.isFlat()) return std::nullopt;
   return delaunay.fault(order);

@@ -25,8 +25,9 @@
 //  5. One direction: 4 pi. Two: 2 pi each, wherever they are. Three or more on one great or small circle:
 //  lunes.
 //     Equal directions are merged and share the area equally. Directions nearer than about 2e-16 may be
-//     merged too (5e-15 if their lengths use the tolerance up). All in one hemisphere, in a cap of any size,
-//     antipodes, cocircular ones and those of regular solids need no care. No direction: no area.
+//     merged too (5e-15 if their lengths use the tolerance up), and some cells in a crowd of them be 0. All
+//     in one hemisphere, in a cap of any size, antipodes, cocircular ones and those of regular solids need
+//     no care. No direction: no area.
 //  6. At most 2^29 directions; about 250 bytes each.
 // Threads: a BaseTriangulation may be shared once built; a VoronoiWorkspace belongs to one thread at a time.
 namespace rsphere {
@@ -103,8 +104,8 @@ struct VoronoiCells {
 VoronoiCells voronoiCells(const VoronoiWorkspace& workspace);
 
 // Checks the last query: each triangle's circle holds no corner of its neighbours (for a closed surface that
-// is enough for none to hold any direction), the surface is closed, areas are positive and sum to 4 pi within
-// 1e-12. Returns what is wrong, or nothing. Takes about as long as building anew.
+// is enough for none to hold any direction), the surface is closed, areas are not negative and sum to 4 pi
+// within 1e-12. Returns what is wrong, or nothing. Takes about as long as building anew.
 std::optional<std::string> voronoiFault(const VoronoiWorkspace& workspace);
 
 }  // namespace rsphere
