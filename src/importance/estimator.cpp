@@ -18,9 +18,9 @@ constexpr double kPi = std::numbers::pi;
 // than this.
 constexpr double kUsualDeviation = .4;
 
-// Rays to measure how the radiance varies on the special objects of one material, and those at a point for
-// the mean that it is held against.
-constexpr int kRaysAMaterial = 256;
+// Rays to measure how the radiance varies on the special objects, together and for each of them; and those at
+// a point for the mean that it is held against.
+constexpr size_t kRaysForContrast = 8192, kFewestRaysAnObject = 16, kMostRaysAnObject = 256;
 constexpr int kRaysAPoint = 32;
 
 // More directions than this times the base's density are not sent anywhere: the last factor of two in density
@@ -56,29 +56,23 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
 }
 
 // Rays that start just before a point of an object and hit it from even directions: what its image is like on
-// average, wherever it will be looked at from. One figure for all objects of a material, since they see the
-// same surroundings.
+// average, wherever it will be looked at from.
 void SphereEstimator::measureContrasts() {
   const Scene& scene = transport_.scene();
   PathTracer tracer(transport_);
   deviations_.assign(special_.size(), 0);
-  std::vector<std::vector<size_t>> byMaterial(scene.modifiers.size());
-  for (size_t i = 0; i < special_.size(); ++i)
-    byMaterial[scene.surfaces[special_[i].surface].material].push_back(i);
-  for (size_t m = 0; m < byMaterial.size(); ++m) {
-    const auto& objects = byMaterial[m];
-    if (objects.empty()) continue;
-    Random random(mixBits(m));
+  const int rays = static_cast<int>(std::clamp(kRaysForContrast / std::max<size_t>(special_.size(), 1),
+                                               kFewestRaysAnObject, kMostRaysAnObject));
+  for (size_t i = 0; i < special_.size(); ++i) {
+    const auto surface = static_cast<int32_t>(special_[i].surface);
+    Random random(mixBits(special_[i].surface));
     double sum = 0, squares = 0;
     int count = 0;
-    for (int k = 0; k < kRaysAMaterial; ++k) {
-      const size_t object =
-          objects[static_cast<size_t>(random.uniform() * static_cast<double>(objects.size()))];
-      const auto surface = static_cast<int32_t>(special_[object].surface);
+    for (int k = 0; k < rays; ++k) {
       const SurfacePoint at = samplePoint(scene.surfaces[surface].shape, scene.vertices, random);
       V3d x, y;
       frame(at.normal, x, y);
-      const double radius = std::sqrt(random.uniform()), angle = 2 * kPi * random.uniform();
+      const double radius = std::sqrt((k + random.uniform()) / rays), angle = 2 * kPi * random.uniform();
       const V3d away = radius * std::cos(angle) * x + radius * std::sin(angle) * y +
                        std::sqrt(1 - radius * radius) * at.normal;
       const Ray ray = tracer.trace(at.point + at.clearance * away, -away, 0, random.bits());
@@ -88,9 +82,7 @@ void SphereEstimator::measureContrasts() {
       squares += value * value;
       ++count;
     }
-    if (count < 2) continue;
-    const double deviation = std::sqrt(std::max(0., (squares - sum * sum / count) / (count - 1)));
-    for (const size_t object : objects) deviations_[object] = deviation;
+    if (count > 1) deviations_[i] = std::sqrt(std::max(0., (squares - sum * sum / count) / (count - 1)));
   }
 }
 

@@ -7,6 +7,10 @@
 #include "importance/silhouette.h"
 
 namespace rsphere {
+namespace {
+// Parts of a source smaller than this, against their distance, would be more than 64 for most of them.
+constexpr double kSmallestPart = .02;
+}  // namespace
 
 SeenSources::SeenSources(const Transport& transport) : transport_(transport) {
   const Scene& scene = transport.scene();
@@ -25,15 +29,21 @@ void SeenSources::sample(const V3d& point, size_t most, uint64_t seed, PathTrace
   const Scene& scene = transport_.scene();
   const auto lights = transport_.lights().all();
   std::vector<SourceSample> aims;
-  SourceSampling how{transport_.options().sourceSubstructuring, 1, false};
-  for (;;) {
+  // A shadow ray costs a tenth of another direction, and something half in front of a source is all that is
+  // left of the error here: from where -ds begins, parts are made smaller as long as they are few enough, or
+  // larger.
+  SourceSampling how{std::clamp(transport_.options().sourceSubstructuring, kSmallestPart, 1.), 1, false};
+  const auto aim = [&] {
     aims.clear();
     Random random(seed);
     for (uint32_t i = 0; i < lights.size(); ++i)
       if (apart_[i]) transport_.lights().sample(i, point, how, random, aims);
-    if (aims.size() <= most || how.largest == 0) break;
-    how.largest = how.largest < 4 ? how.largest * std::sqrt(2.) : 0;
-  }
+    return aims.size() <= most;
+  };
+  const double step = std::sqrt(2.);
+  bool few = aim();
+  for (; few && how.largest > kSmallestPart; few = aim()) how.largest /= step;
+  for (; !few && how.largest > 0; few = aim()) how.largest = how.largest < 8 ? how.largest * step : 0;
   for (size_t begin = 0; begin < aims.size();) {
     size_t end = begin;
     double sum = 0;
@@ -43,12 +53,12 @@ void SeenSources::sample(const V3d& point, size_t most, uint64_t seed, PathTrace
     if (!light.distant && light.map != LightSource::Map::tube && sum > 0)
       scale = silhouetteOf(scene.surfaces[light.surface].shape, scene.vertices, point).solidAngle() / sum;
     for (; begin < end; ++begin) {
-      const SourceSample& aim = aims[begin];
+      const SourceSample& to = aims[begin];
       Sample s;
-      s.source = aim.source;
-      s.ray = tracer.traceToSource(point, aim, mixBits(seed + begin));
-      const bool seen = tracer.shownSource() == static_cast<int32_t>(aim.source);
-      s.direction = {aim.direction, seen ? aim.solidAngle * scale : 0, seen ? s.ray.value : Rgb(0, 0, 0)};
+      s.source = to.source;
+      s.ray = tracer.traceToSource(point, to, mixBits(seed + begin));
+      const bool seen = tracer.shownSource() == static_cast<int32_t>(to.source);
+      s.direction = {to.direction, seen ? to.solidAngle * scale : 0, seen ? s.ray.value : Rgb(0, 0, 0)};
       samples.push_back(s);
     }
   }
