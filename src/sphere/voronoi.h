@@ -13,22 +13,19 @@
 // Spherical Voronoi cells: the solid angle for which each direction stands, being the nearest.
 //
 // Properties of every function here that takes directions:
-//  1. Directions are unit vectors; |p|^2 may differ from 1 by kUnitTolerance (1e-14). One that is farther
-//  from it, is
-//     NaN or infinite: std::invalid_argument, which names its place in the list. Components below 2^-150
-//     count as 0.
-//  2. What counts is the direction of the stored triple; rounding of its length does not matter.
-//  3. A cell's relative error is at most 1e-13, or what a change of the input by half an ulp (of 1) can do to
-//  it,
-//     whichever is greater. The sum is 4 pi within 1e-13 to 4096 directions, 1e-12 to a million.
-//  4. Order and rotation do not matter beyond that.
-//  5. One direction: 4 pi. Two: 2 pi each, wherever they are. Three or more on one great or small circle:
-//  lunes.
-//     Equal directions are merged and share the area equally. Directions nearer than about 2e-16 may be
-//     merged too (5e-15 if their lengths use the tolerance up), and some cells in a crowd of them be 0. All
-//     in one hemisphere, in a cap of any size, antipodes, cocircular ones and those of regular solids need
-//     no care. No direction: no area.
-//  6. At most 2^29 directions; about 250 bytes each.
+// 1. Directions are unit vectors; |p|^2 may differ from 1 by kUnitTolerance (1e-14). One that is farther
+//    from it, NaN or infinite: std::invalid_argument, which names its place in the list. Components below
+//    2^-150 count as 0.
+// 2. What counts is the direction of the stored triple; rounding of its length does not matter.
+// 3. A cell's relative error is at most 1e-13, or what a change of the input by half an ulp can do to it,
+//    whichever is greater. The sum is 4 pi within 1e-13 to 4096 directions, 1e-12 to a million.
+// 4. Order and rotation do not matter beyond that.
+// 5. One direction: 4 pi. Two: 2 pi each, wherever they are. Three or more on one great or small circle:
+//    lunes. Equal directions are merged and share the area equally. Directions nearer than about 2e-16 may be
+//    merged too (5e-15 if their lengths use the tolerance up), and some cells in a crowd of them be 0. All
+//    in one hemisphere, in a cap of any size, antipodes, cocircular ones and those of regular solids need
+//    no care. No direction: no area.
+// 6. At most 2^29 directions; about 300 bytes each.
 // Threads: a BaseTriangulation may be shared once built; a VoronoiWorkspace belongs to one thread at a time.
 namespace rsphere {
 
