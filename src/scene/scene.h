@@ -59,7 +59,7 @@ std::optional<Rgb> sourceRadiance(const Material& material);
 
 // Checks and converts what surfaces use of the description, which is kept for names and places. Vertices are
 // as the files have them (world frame, double). Warns of what RADIANCE warns of (negative radii, surfaces
-// without area, vertices out of the plane); a surface without area is kept, and never hit. Throws rad::Error
+// without area, vertices out of the plane); a surface without area is left out. Throws rad::Error
 // with the primitive's place: wrong arguments, a used type that is not supported yet.
 Scene buildScene(rad::Description description, const rad::Warn& warn);
 
