@@ -1,0 +1,205 @@
+#include "scene/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "tests/unit/support/scene_of.h"
+
+namespace rsphere {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr const char* kGray = "void plastic gray\n0\n0\n5 .5 .5 .5 0 0\n";  // lines 1 to 4
+
+std::string errorOf(const std::string& text) {
+  try {
+    sceneOf(text);
+  } catch (const rad::Error& e) {
+    return e.what();
+  }
+  return "no error";
+}
+
+struct Fault {
+  std::string text, message;
+};
+
+TEST(Scene, WarnsOfSurfacesWithoutAreaAndLeavesThemOut) {
+  const std::vector<Fault> faults = {
+      {"gray polygon s\n0\n0\n9 0 0 0 1 0 0 2 0 0\n", "room.rad:5: polygon \"s\": zero area"},
+      {"gray cone s\n0\n0\n8 0 0 0 0 0 1 0 0\n", "room.rad:5: cone \"s\": illegal radii"},
+      {"gray cone s\n0\n0\n8 0 0 0 0 0 1 1 -1\n", "room.rad:5: cone \"s\": illegal radii"},
+      {"gray cone s\n0\n0\n8 0 0 0 0 0 0 1 2\n", "room.rad:5: cone \"s\": unknown orientation"},
+      {"gray cylinder s\n0\n0\n7 0 0 0 0 0 1 0\n", "room.rad:5: cylinder \"s\": illegal radii"},
+      {"gray cylinder s\n0\n0\n7 1 1 1 1 1 1 1\n", "room.rad:5: cylinder \"s\": unknown orientation"},
+      {"gray ring s\n0\n0\n8 0 0 0 0 0 1 1 1\n", "room.rad:5: ring \"s\": illegal radii"},
+      {"gray ring s\n0\n0\n8 0 0 0 0 0 1 -1 1\n", "room.rad:5: ring \"s\": illegal radii"},
+      {"gray ring s\n0\n0\n8 0 0 0 0 0 0 0 1\n", "room.rad:5: ring \"s\": unknown orientation"},
+  };
+  for (const Fault& f : faults) {
+    std::vector<std::string> warnings;
+    const Scene scene = sceneOf(kGray + f.text, &warnings);
+    ASSERT_EQ(warnings.size(), 1u) << f.text;
+    EXPECT_EQ(warnings[0], f.message);
+    EXPECT_TRUE(scene.surfaces.empty());
+    EXPECT_TRUE(scene.vertices.empty());
+  }
+}
+
+TEST(Scene, TurnsNegativeRadiiInsideOutWithAWarning) {
+  for (const auto& [type, inward] : {std::pair("sphere", true), {"bubble", false}}) {
+    std::vector<std::string> warnings;
+    const Scene scene = sceneOf(std::string(kGray) + "gray " + type + " s\n0\n0\n4 0 0 0 -2\n", &warnings);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(warnings[0], std::string("room.rad:5: ") + type + " \"s\": negative radius");
+    const auto& sphere = std::get<Sphere>(scene.surfaces.at(0).shape);
+    EXPECT_EQ(sphere.radius, 2);
+    EXPECT_EQ(sphere.inward, inward);
+  }
+  for (const auto& [type, inward] : {std::pair("cylinder", true), {"tube", false}}) {
+    std::vector<std::string> warnings;
+    const Scene scene =
+        sceneOf(std::string(kGray) + "gray " + type + " s\n0\n0\n7 0 0 0 0 0 4 -2\n", &warnings);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(warnings[0], std::string("room.rad:5: ") + type + " \"s\": negative radius");
+    const auto& cone = std::get<Cone>(scene.surfaces.at(0).shape);
+    EXPECT_EQ(cone.radius0, 2);
+    EXPECT_EQ(cone.radius1, 2);
+    EXPECT_EQ(cone.length, 4);
+    EXPECT_EQ(cone.inward, inward);
+  }
+  std::vector<std::string> warnings;
+  const Scene scene = sceneOf(std::string(kGray) + "gray cup s\n0\n0\n8 0 0 0 0 0 4 -2 0\n", &warnings);
+  EXPECT_EQ(warnings, std::vector<std::string>{"room.rad:5: cup \"s\": negative radii"});
+  EXPECT_FALSE(std::get<Cone>(scene.surfaces.at(0).shape).inward);
+}
+
+TEST(Scene, WarnsOfBentPolygons) {
+  std::vector<std::string> warnings;
+  sceneOf(std::string(kGray) + "gray polygon s\n0\n0\n12 0 0 0 1 0 0 1 1 .0001 0 1 0\n", &warnings);
+  EXPECT_TRUE(warnings.empty()) << "rounding in files is not worth a word";
+  sceneOf(std::string(kGray) + "gray polygon s\n0\n0\n12 0 0 0 1 0 0 1 1 .1 0 1 0\n", &warnings);
+  EXPECT_EQ(warnings, std::vector<std::string>{"room.rad:5: polygon \"s\": non-planar vertex"});
+}
+
+TEST(Scene, RefusesWhatItCannotAnswerRightly) {
+  const std::vector<Fault> faults = {
+      {"gray sphere s\n0\n0\n4 0 0 0 0\n", "room.rad:5: sphere \"s\": zero radius"},
+      {"gray polygon s\n0\n0\n6 0 0 0 1 0 0\n",
+       "room.rad:5: polygon \"s\": expected 9 or more coordinates by threes, got 6"},
+      {"gray polygon s\n0\n0\n10 0 0 0 1 0 0 1 1 0 1\n",
+       "room.rad:5: polygon \"s\": expected 9 or more coordinates by threes, got 10"},
+      {"gray sphere s\n0\n0\n3 0 0 0\n", "room.rad:5: sphere \"s\": expected 4 real arguments, got 3"},
+      {"gray ring s\n0\n0\n7 0 0 0 0 0 1 1\n", "room.rad:5: ring \"s\": expected 8 real arguments, got 7"},
+      {"gray source s\n0\n0\n4 0 0 0 1\n", "room.rad:5: source \"s\": zero direction"},
+      {"gray source s\n0\n0\n4 0 0 1 0\n", "room.rad:5: source \"s\": zero size"},
+      {"void plastic bad\n0\n0\n4 .5 .5 .5 0\ngray sphere t\n0\n0\n4 0 0 0 1\nbad sphere s\n0\n0\n4 0 0 0 "
+       "1\n",
+       "room.rad:5: plastic \"bad\": expected 5 real arguments, got 4"},
+      {"void dielectric bad\n0\n0\n5 1 1 1 0 0\nbad sphere s\n0\n0\n4 0 0 0 1\n",
+       "room.rad:5: dielectric \"bad\": refractive index must be above 0"},
+      {"void glass bad\n0\n0\n4 1 1 1 .5\nbad sphere s\n0\n0\n4 0 0 0 1\n",
+       "room.rad:5: glass \"bad\": refractive index must be at least 1"},
+      {"void spotlight bad\n0\n0\n7 1 1 1 0 0 0 1\nbad sphere s\n0\n0\n4 0 0 0 1\n",
+       "room.rad:5: spotlight \"bad\": zero angle"},
+      {"void spotlight bad\n0\n0\n7 1 1 1 9 0 0 0\nbad sphere s\n0\n0\n4 0 0 0 1\n",
+       "room.rad:5: spotlight \"bad\": zero focus vector"},
+      {"void mirror bad\n1 later\n0\n3 1 1 1\nvoid plastic later\n0\n0\n5 0 0 0 0 0\nbad sphere s\n0\n0\n4 0 "
+       "0 0 1\n",
+       "room.rad:5: mirror \"bad\": undefined modifier \"later\""},
+      {"void light l\n0\n0\n3 1 1 1\nl ring s\n0\n0\n8 0 0 0 0 0 1 .5 1\n",
+       "room.rad:9: ring \"s\": cannot hit source center"},
+      {"void light l\n0\n0\n3 1 1 1\nl bubble s\n0\n0\n4 0 0 0 1\n",
+       "room.rad:9: bubble \"s\": a bubble cannot be a light source"},
+      {"void light l\n0\n0\n3 1 1 1\nl cone s\n0\n0\n8 0 0 0 0 0 1 1 2\n",
+       "room.rad:9: cone \"s\": only a cylinder of this kind can be a light source"},
+      {"void light l\n0\n0\n3 1 1 1\nl polygon s\n0\n0\n"
+       "24 0 0 0 3 0 0 3 3 0 2 3 0 2 1 0 1 1 0 1 3 0 0 3 0\n",
+       "room.rad:9: polygon \"s\": cannot hit source center"},
+  };
+  for (const Fault& f : faults) EXPECT_EQ(errorOf(kGray + f.text), f.message);
+}
+
+TEST(Scene, LooksAtUsedModifiersOnly) {
+  const Scene scene = sceneOf(
+      "void plastic unused\n0\n0\n1 7\n"
+      "void plastic a\n0\n0\n5 .1 .2 .3 .04 .05\n"
+      "a sphere s\n0\n0\n4 0 0 0 1\n"
+      "a sphere t\n0\n0\n4 5 0 0 1\n");
+  ASSERT_EQ(scene.modifiers.size(), 1u) << "the same modifier is converted once";
+  const auto& plastic = std::get<Opaque>(scene.modifiers[0].content);
+  EXPECT_EQ(plastic.color, Rgb(.1, .2, .3));
+  EXPECT_EQ(plastic.specularity, .04);
+  EXPECT_EQ(plastic.roughness, .05);
+  EXPECT_FALSE(plastic.metal);
+  EXPECT_EQ(scene.surfaces[1].modifier, 0);
+}
+
+TEST(Scene, FollowsAliasesAndRedefinitions) {
+  const Scene scene = sceneOf(
+      "void plastic a\n0\n0\n5 .1 .1 .1 0 0\n"
+      "void alias b a\n"
+      "void plastic a\n0\n0\n5 .2 .2 .2 0 0\n"
+      "a sphere second\n0\n0\n4 0 0 0 1\n"
+      "b sphere first\n0\n0\n4 5 0 0 1\n"
+      "void sphere none\n0\n0\n4 9 0 0 1\n");
+  ASSERT_EQ(scene.surfaces.size(), 3u);
+  const auto red = [&](int i) {
+    return std::get<Opaque>(scene.modifiers[scene.surfaces[i].material].content).color.x;
+  };
+  EXPECT_EQ(red(0), .2);
+  EXPECT_EQ(red(1), .1);
+  EXPECT_EQ(scene.surfaceName(scene.surfaces[1]), "first");
+  EXPECT_EQ(scene.modifierName(scene.surfaces[1]), "b");
+  EXPECT_EQ(scene.materialName(scene.surfaces[1]), "a");
+  EXPECT_EQ(scene.surfaces[2].modifier, kNone);
+  EXPECT_EQ(scene.modifierName(scene.surfaces[2]), "void");
+  EXPECT_EQ(scene.materialName(scene.surfaces[2]), "void");
+}
+
+TEST(Scene, ReadsAlternatesOfMirrorAndIllum) {
+  const Scene scene = sceneOf(
+      "void glass pane\n0\n0\n3 .9 .9 .9\n"
+      "void illum i0\n0\n0\n3 1 1 1\nvoid illum i1\n1 void\n0\n3 1 1 1\nvoid illum i2\n1 pane\n0\n3 1 1 1\n"
+      "i0 sphere a\n0\n0\n4 0 0 0 1\ni1 sphere b\n0\n0\n4 0 0 0 1\ni2 sphere c\n0\n0\n4 0 0 0 1\n");
+  const auto alternate = [&](int i) {
+    return std::get<Illum>(scene.modifiers[scene.surfaces[i].material].content).alternate;
+  };
+  EXPECT_EQ(alternate(0).kind, Alternate::Kind::none);
+  EXPECT_EQ(alternate(1).kind, Alternate::Kind::pass);
+  ASSERT_EQ(alternate(2).kind, Alternate::Kind::modifier);
+  EXPECT_TRUE(std::holds_alternative<Glass>(scene.modifiers[alternate(2).modifier].content));
+}
+
+TEST(Scene, MeasuresCones) {
+  const Scene scene = sceneOf(
+      "void spotlight s\n0\n0\n7 1 1 1 60 0 0 -2\ns sphere a\n0\n0\n4 0 0 0 1\n"
+      "void light sun\n0\n0\n3 1 1 1\nsun source b\n0\n0\n4 0 0 2 .533\nsun source c\n0\n0\n4 0 1 0 180\n");
+  const auto& spot = std::get<Spotlight>(scene.modifiers[scene.surfaces[0].material].content);
+  EXPECT_NEAR(spot.solidAngle, 2 * kPi * (1 - std::cos(kPi / 6)), 1e-14);
+  EXPECT_EQ(spot.aim, V3d(0, 0, -1));
+  EXPECT_EQ(spot.focalLength, 2);
+  const auto& sun = std::get<Distant>(scene.surfaces[1].shape);
+  EXPECT_EQ(sun.direction, V3d(0, 0, 1));
+  const double w = .533 * kPi / 180;
+  EXPECT_NEAR(sun.solidAngle, kPi * w * w / 4 * (1 - w * w / 48), 1e-14);
+  EXPECT_NEAR(std::get<Distant>(scene.surfaces[2].shape).solidAngle, 2 * kPi, 1e-14);
+}
+
+TEST(Scene, DropsALastVertexThatRepeatsTheFirst) {
+  const Scene scene =
+      sceneOf(std::string(kGray) + "gray polygon s\n0\n0\n15 0 0 0 1 0 0 1 1 0 0 1 0 0 0 0\n");
+  EXPECT_EQ(std::get<Polygon>(scene.surfaces.at(0).shape).vertices, 4u);
+}
+
+TEST(Scene, TakesChainsOfAnyDepth) {
+  std::string text = "void plastic m\n0\n0\n5 .5 .5 .5 0 0\n";
+  for (int i = 0; i < 50000; ++i) text += "m plastic m\n0\n0\n5 .5 .5 .5 0 0\n";
+  EXPECT_EQ(sceneOf(text + "m sphere s\n0\n0\n4 0 0 0 1\n").modifiers.size(), 50001u);
+}
+
+}  // namespace
+}  // namespace rsphere

@@ -1,0 +1,319 @@
+#include "trace/tracer.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "tests/unit/support/scene_of.h"
+#include "tests/unit/support/statistics.h"
+
+namespace rsphere {
+namespace {
+
+// Shapes are put at multiples of 2^-10, so that moving them by whole units rounds nothing.
+double onGrid(double x) { return std::round(x * 0x1p10) * 0x1p-10; }
+V3d onGrid(const V3d& p) { return V3d(onGrid(p.x), onGrid(p.y), onGrid(p.z)); }
+std::string text(const V3d& p) { return fmt::format(" {} {} {}", p.x, p.y, p.z); }
+
+constexpr const char* kMaterials =
+    "void plastic gray\n0\n0\n5 .5 .5 .5 0 0\n"
+    "void glass pane\n0\n0\n3 .9 .9 .9\n"
+    "void metal steel\n0\n0\n5 .5 .5 .5 .9 0\n"
+    "void light lamp\n0\n0\n3 1 1 1\n";
+
+// Many shapes of every type in a box of half-size 10 around the place.
+std::string clutter(const V3d& place, int count) {
+  Random random(11);
+  const char* const modifiers[] = {"gray", "pane", "steel", "void"};
+  std::string scene = kMaterials;
+  for (int i = 0; i < count; ++i) {
+    const V3d at = place + onGrid(randomPoint(random, 10));
+    const V3d u = onGrid(randomPoint(random, 2)), v = onGrid(randomPoint(random, 2));
+    const double r = onGrid(between(random, .1, 1.5)), r1 = onGrid(between(random, .1, 1));
+    const auto modifier = modifiers[random.bits() % 4];
+    switch (i % 6) {
+      case 0:
+        scene += fmt::format("{} sphere s{}\n0\n0\n4{} {}\n", modifier, i, text(at), r);
+        break;
+      case 1:
+        scene += fmt::format("{} cone s{}\n0\n0\n8{}{} {} {}\n", modifier, i, text(at), text(at + u), r, r1);
+        break;
+      case 2:
+        scene += fmt::format("{} tube s{}\n0\n0\n7{}{} {}\n", modifier, i, text(at), text(at + u), r1);
+        break;
+      case 3:
+        scene += fmt::format("{} ring s{}\n0\n0\n8{}{} 0 {}\n", modifier, i, text(at), text(u), r);
+        break;
+      default:
+        scene += fmt::format("{} polygon s{}\n0\n0\n12{}{}{}{}\n", modifier, i, text(at), text(at + u),
+                             text(at + u + v), text(at + v));
+    }
+  }
+  return scene;
+}
+
+bool meets(const Scene& scene, const Surface& surface, const V3d& origin, const V3d& direction,
+           double farthest, ShapeHit& hit) {
+  if (const auto* s = std::get_if<Polygon>(&surface.shape))
+    return intersect(*s, scene.vertices, origin, direction, farthest, hit);
+  if (const auto* s = std::get_if<Sphere>(&surface.shape))
+    return intersect(*s, origin, direction, farthest, hit);
+  if (const auto* s = std::get_if<Cone>(&surface.shape))
+    return intersect(*s, origin, direction, farthest, hit);
+  if (const auto* s = std::get_if<Ring>(&surface.shape))
+    return intersect(*s, origin, direction, farthest, hit);
+  return false;
+}
+
+// Every surface asked in turn. No two of these scenes' surfaces coincide but by accident.
+Hit nearestOfAll(const Scene& scene, const V3d& origin, const V3d& direction, double farthest) {
+  Hit nearest;
+  for (size_t i = 0; i < scene.surfaces.size(); ++i) {
+    ShapeHit hit;
+    if (!meets(scene, scene.surfaces[i], origin, direction, farthest, hit)) continue;
+    if (hit.distance >= nearest.distance) continue;
+    nearest = {static_cast<int32_t>(i), hit.distance, hit.normal, hit.cosine};
+  }
+  return nearest;
+}
+
+struct Probe {
+  V3d origin, direction;
+};
+
+// From within the clutter, from outside, and from very far away.
+std::vector<Probe> probes(int count) {
+  Random random(12);
+  std::vector<Probe> rays;
+  for (int i = 0; i < count; ++i) {
+    const double from = i % 3 == 0 ? 10 : i % 3 == 1 ? 40 : 1e5;
+    const V3d origin = onGrid(randomPoint(random, from));
+    rays.push_back({origin, (randomPoint(random, 10) - origin).normalized()});
+  }
+  return rays;
+}
+
+TEST(Tracer, FindsWhatALoopOverAllSurfacesFindsWhereverTheSceneLies) {
+  const Scene home = sceneOf(clutter(V3d(0, 0, 0), 400));
+  const std::vector<Probe> rays = probes(6000);
+  for (const double shift : {0., 1e5, 5e6}) {
+    const V3d place(shift, -shift, shift);
+    const Scene scene = sceneOf(clutter(place, 400));
+    const Tracer tracer(scene, true);
+    int hits = 0, otherThanLoop = 0, otherThanAtHome = 0;
+    for (const Probe& ray : rays) {
+      const double farthest = hits % 5 ? kFarAway : 8;
+      const Hit found = tracer.nearest(place + ray.origin, ray.direction, farthest);
+      const Hit expected = nearestOfAll(scene, place + ray.origin, ray.direction, farthest);
+      hits += expected.surface != kNone;
+      otherThanLoop += found.surface != expected.surface || found.distance != expected.distance;
+      otherThanAtHome += found.surface != nearestOfAll(home, ray.origin, ray.direction, farthest).surface;
+    }
+    EXPECT_GT(hits, 3000);
+    EXPECT_EQ(otherThanLoop, 0) << "shift " << shift;
+    // Edges may be hit or missed by a rounding of 1e-9 in 5e6.
+    EXPECT_EQ(otherThanAtHome, 0) << "shift " << shift;
+  }
+}
+
+TEST(Tracer, FindsAMillimetreSphereInASceneOfSixThousandKilometres) {
+  const Scene scene = sceneOf(std::string(kMaterials) +
+                              "gray sphere tiny\n0\n0\n4 123456 -234567 345678 .001\n"
+                              "gray bubble sky\n0\n0\n4 0 0 0 6e6\n");
+  const Tracer tracer(scene, true);
+  const V3d center(123456, -234567, 345678);
+  Random random(13);
+  for (int i = 0; i < 1000; ++i) {
+    const V3d away = randomDirection(random);
+    const V3d origin = center + (i % 2 ? 1. : 1e6) * away;
+    const V3d across = away.cross(randomDirection(random)).normalized();
+    const V3d at = center + .9e-3 * across, past = center + 1.1e-3 * across;
+    EXPECT_EQ(tracer.nearest(origin, (at - origin).normalized()).surface, 0);
+    EXPECT_EQ(tracer.nearest(origin, (past - origin).normalized()).surface, 1);
+  }
+}
+
+TEST(Tracer, FanOfAThousandTrianglesHasNoHole) {
+  for (const double shift : {0., 1e5}) {
+    std::string fan = kMaterials;
+    const V3d apex(shift, shift, 0);
+    for (int k = 0; k < 1000; ++k) {
+      const auto rim = [&](int i) {
+        const double a = 2 * std::numbers::pi * (i % 1000) / 1000;
+        return apex + V3d(std::cos(a), std::sin(a), 0);
+      };
+      fan += fmt::format("gray polygon p\n0\n0\n9{}{}{}\n", text(apex), text(rim(k)), text(rim(k + 1)));
+    }
+    const Scene scene = sceneOf(fan);
+    const Tracer tracer(scene, true);
+    Random random(14);
+    for (int i = 0; i < 5000; ++i) {
+      const double angle = 2 * std::numbers::pi * random.uniform();
+      const V3d target = apex + 1e-5 * V3d(std::cos(angle), std::sin(angle), 0);
+      const V3d origin = apex + V3d(0, 0, 1) + randomPoint(random, .5);
+      EXPECT_NE(tracer.nearest(origin, (target - origin).normalized()).surface, kNone);
+    }
+  }
+}
+
+// ---- ties
+
+std::string square(const char* modifier, const char* name, bool up = true, double z = 0) {
+  return up ? fmt::format("{} polygon {}\n0\n0\n12 -1 -1 {z} 1 -1 {z} 1 1 {z} -1 1 {z}\n", modifier, name,
+                          fmt::arg("z", z))
+            : fmt::format("{} polygon {}\n0\n0\n12 -1 1 {z} 1 1 {z} 1 -1 {z} -1 -1 {z}\n", modifier, name,
+                          fmt::arg("z", z));
+}
+
+// The name of what a ray from above hits first.
+std::string seenFromAbove(const std::string& surfaces) {
+  const Scene scene = sceneOf(kMaterials + surfaces);
+  const Tracer tracer(scene, true);
+  const Hit hit = tracer.nearest(V3d(.25, .125, 3), V3d(0, 0, -1));
+  return hit.surface == kNone ? "" : std::string(scene.surfaceName(scene.surfaces[hit.surface]));
+}
+
+// Each rule in both orders of the file, and with the rules after it speaking for the loser.
+TEST(Tracer, ChoosesBetweenCoincidentSurfacesAsRadianceDoes) {
+  struct Tie {
+    std::string winner, loser, why;
+  };
+  const std::vector<Tie> ties = {
+      {square("gray", "winner", false), square("void", "loser"), "one with a material"},
+      {square("pane", "winner", false), square("void", "loser"), "one with a material, though transparent"},
+      {square("gray", "winner", false), square("pane", "loser"), "opaque before transparent"},
+      {square("gray", "winner"), square("steel", "loser", false), "front before back"},
+      {square("steel", "winner"), square("gray", "loser"), "the later modifier"},
+      {square("steel", "winner", false), square("gray", "loser", false),
+       "the later modifier, both from behind"},
+      {square("gray", "winner", true, -.9e-6), square("void", "loser"), "close counts as coincident"},
+  };
+  for (const Tie& tie : ties) {
+    EXPECT_EQ(seenFromAbove(tie.winner + tie.loser), "winner") << tie.why;
+    EXPECT_EQ(seenFromAbove(tie.loser + tie.winner), "winner") << tie.why << ", other order";
+  }
+  EXPECT_EQ(seenFromAbove(square("gray", "low", true, -2e-6) + square("void", "high")), "high")
+      << "beyond the tolerance the nearer one counts";
+}
+
+TEST(Tracer, TakesAnyNumberOfCoincidentSurfaces) {
+  for (const int copies : {20, 300}) {
+    std::string scene;
+    for (int i = 0; i < copies; ++i) scene += square("gray", "other");
+    const std::string winner = square("steel", "winner");
+    for (const std::string& all : {scene + winner, winner + scene}) EXPECT_EQ(seenFromAbove(all), "winner");
+    for (int i = 0; i < copies; ++i) scene += square("gray", "other", false);
+    EXPECT_EQ(seenFromAbove(scene), "other");
+  }
+}
+
+// ---- shadows
+
+// By the loop: what lies before the source.
+Shadow shadowOfAll(const Scene& scene, const V3d& origin, const V3d& direction, double distance,
+                   int32_t source) {
+  Shadow shadow = Shadow::clear;
+  for (size_t i = 0; i < scene.surfaces.size(); ++i) {
+    const Surface& s = scene.surfaces[i];
+    ShapeHit hit;
+    if (static_cast<int32_t>(i) == source) continue;
+    if (!meets(scene, s, origin, direction, distance - kSamePlace, hit)) continue;
+    if (s.material != kNone && !isTransparent(scene.modifiers[s.material].content)) return Shadow::blocked;
+    shadow = Shadow::unsure;
+  }
+  return shadow;
+}
+
+TEST(Tracer, TellsShadowsAsALoopOverAllSurfacesDoes) {
+  for (const double shift : {0., 1e5, 5e6}) {
+    const V3d place(shift, shift, -shift);
+    const Scene scene = sceneOf(clutter(place, 90) +
+                                fmt::format("lamp sphere l\n0\n0\n4{} 1\n", text(place + V3d(0, 0, 14))));
+    const auto lamp = static_cast<int32_t>(scene.surfaces.size()) - 1;
+    const Tracer tracer(scene, true);
+    Random random(15);
+    int counts[3] = {0, 0, 0}, wrong = 0;
+    for (int i = 0; i < 6000; ++i) {
+      const V3d origin = place + onGrid(randomPoint(random, 11));
+      const bool distant = i % 2;
+      const V3d aim = place + V3d(0, 0, 14) + .5 * randomDirection(random);
+      const V3d direction = distant ? randomDirection(random) : (aim - origin).normalized();
+      double distance = kFarAway;
+      if (!distant) {
+        ShapeHit hit;
+        ASSERT_TRUE(meets(scene, scene.surfaces[lamp], origin, direction, kFarAway, hit));
+        distance = hit.distance;
+      }
+      const int32_t source = distant ? kNone : lamp;
+      const Shadow expected = shadowOfAll(scene, origin, direction, distance, source);
+      ++counts[static_cast<int>(expected)];
+      wrong += tracer.shadow(origin, direction, distance, source) != expected;
+    }
+    EXPECT_EQ(wrong, 0) << "shift " << shift;
+    for (const int count : counts) EXPECT_GT(count, 200) << "too few of a kind for a test";
+  }
+}
+
+// A source is not in its own shadow, nor in that of what lies under it.
+TEST(Tracer, TieAtTheSourceDecidesItsShadow) {
+  const auto shadowAt = [](const std::string& surfaces) {
+    const Scene scene = sceneOf(kMaterials + surfaces);
+    const Tracer tracer(scene, true);
+    int32_t lamp = kNone;
+    for (size_t i = 0; i < scene.surfaces.size(); ++i)
+      if (scene.surfaceName(scene.surfaces[i]) == "lamp") lamp = static_cast<int32_t>(i);
+    return tracer.shadow(V3d(.25, .125, 3), V3d(0, 0, -1), 3, lamp);
+  };
+  const std::string lamp = square("lamp", "lamp"), plate = square("gray", "plate");
+  EXPECT_EQ(shadowAt(lamp), Shadow::clear);
+  EXPECT_EQ(shadowAt(lamp + plate), Shadow::clear) << "light is the later modifier";
+  EXPECT_EQ(shadowAt(plate + lamp), Shadow::clear);
+  EXPECT_EQ(shadowAt(lamp + square("gray", "plate", true, .01)), Shadow::blocked);
+  EXPECT_EQ(shadowAt(lamp + square("gray", "plate", true, -.01)), Shadow::clear);
+  EXPECT_EQ(shadowAt(lamp + square("pane", "plate", true, .01)), Shadow::unsure);
+  const std::string later = "void plastic later\n0\n0\n5 .5 .5 .5 0 0\n" + square("later", "plate");
+  EXPECT_EQ(shadowAt(lamp + later), Shadow::blocked) << "the later modifier lies on the lamp";
+}
+
+TEST(Tracer, OpaqueFromBehindOnlyWhereBackFacesAreVisible) {
+  const Scene scene = sceneOf(kMaterials + square("gray", "plate", false));
+  EXPECT_EQ(Tracer(scene, true).shadow(V3d(0, 0, 1), V3d(0, 0, -1), kFarAway, kNone), Shadow::blocked);
+  EXPECT_EQ(Tracer(scene, false).shadow(V3d(0, 0, 1), V3d(0, 0, -1), kFarAway, kNone), Shadow::unsure);
+  EXPECT_EQ(Tracer(scene, false).shadow(V3d(0, 0, -1), V3d(0, 0, 1), kFarAway, kNone), Shadow::blocked);
+}
+
+// ---- limits
+
+TEST(Tracer, RaysDoNotHitWhereTheyStart) {
+  const Scene scene = sceneOf(kMaterials + square("gray", "a") + square("gray", "b", true, -5));
+  const Tracer tracer(scene, true);
+  EXPECT_EQ(tracer.nearest(V3d(0, 0, 0), V3d(0, 0, -1)).surface, 1);
+  EXPECT_EQ(tracer.nearest(V3d(0, 0, .5e-6), V3d(0, 0, -1)).surface, 1);
+  EXPECT_EQ(tracer.nearest(V3d(0, 0, 2e-6), V3d(0, 0, -1)).surface, 0);
+}
+
+TEST(Tracer, StopsAtTheFarthestPlace) {
+  const Scene scene = sceneOf(kMaterials + square("gray", "a"));
+  const Tracer tracer(scene, true);
+  EXPECT_EQ(tracer.nearest(V3d(0, 0, 5), V3d(0, 0, -1), 5).surface, 0);
+  const Hit miss = tracer.nearest(V3d(0, 0, 5), V3d(0, 0, -1), 4.999);
+  EXPECT_EQ(miss.surface, kNone);
+  EXPECT_EQ(miss.distance, kFarAway);
+}
+
+TEST(Tracer, AnswersForScenesWithNothingToHit) {
+  for (const char* surfaces : {"", "lamp source sun\n0\n0\n4 0 0 1 .5\n"}) {
+    const Scene scene = sceneOf(std::string(kMaterials) + surfaces);
+    const Tracer tracer(scene, true);
+    EXPECT_EQ(tracer.nearest(V3d(0, 0, 0), V3d(0, 0, 1)).surface, kNone);
+    EXPECT_EQ(tracer.shadow(V3d(0, 0, 0), V3d(0, 0, 1), kFarAway, kNone), Shadow::clear);
+    EXPECT_TRUE(tracer.bounds().isEmpty());
+  }
+}
+
+}  // namespace
+}  // namespace rsphere
