@@ -4,7 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -16,20 +16,11 @@ namespace {
 constexpr size_t kBlock = 1 << 18;
 static_assert(kBlock > 2 * BinaryReader::kLongestString);
 
-// 2^-128 .. 2^127: the exponents that a byte holds.
-constexpr auto kPowers = [] {
-  std::array<double, 256> powers{};
-  powers[128] = 1;
-  for (int e = 1; e < 128; ++e) powers[128 + e] = powers[127 + e] * 2;
-  for (int e = 1; e <= 128; ++e) powers[128 - e] = powers[129 - e] / 2;
-  return powers;
-}();
-
 }  // namespace
 
 BinaryReader::BinaryReader(int descriptor, std::string name, std::string kind, std::string_view ahead)
     : descriptor_(descriptor), name_(std::move(name)), kind_(std::move(kind)), block_(new uint8_t[kBlock]) {
-  std::memcpy(block_.get(), ahead.data(), ahead.size());
+  std::copy(ahead.begin(), ahead.end(), block_.get());
   next_ = block_.get();
   end_ = next_ + ahead.size();
 }
@@ -67,15 +58,6 @@ void BinaryReader::need(size_t bytes) {
     next_ = end_;
     throw fault("truncated " + kind_);
   }
-}
-
-double BinaryReader::real() {
-  const auto m = static_cast<int32_t>(integer(4));
-  const auto e = static_cast<int8_t>(byte());
-  if (m == 0) return 0;
-  // The product with the reciprocal, not the quotient: the same double, to the last bit, as other readers
-  // have.
-  return (m + (m < 0 ? -.5 : .5)) * (1. / 0x7fffffff) * kPowers[128 + e];
 }
 
 std::string_view BinaryReader::string() {

@@ -90,7 +90,8 @@ int64_t readPrimitives(BinaryReader& input, int width, uint32_t file, Descriptio
       throw damaged(fmt::format("no modifier can be named \"{}\"", name));
     Primitive p = builder.begin(type, place, builder.intern(name), static_cast<int32_t>(modifier));
     for (uint32_t strings = input.count16(); strings > 0; --strings) builder.addString(p, input.string());
-    for (uint32_t reals = input.count16(); reals > 0; --reals) builder.addReal(p, input.real());
+    p.reals = input.count16();
+    for (uint32_t i = 0; i < p.reals; ++i) d.realArgs.push_back(input.real());
     if (type == Type::alias) readAlias(input, p, modifier, builder);
     builder.add(p);
   }

@@ -28,7 +28,9 @@ size_t headerEnd(std::string_view data) {
 // is not filled is never touched, and costs no memory.
 void reserve(Description& d, int64_t objects, int width, uint64_t bytes) {
   const uint64_t shortest = 6 + static_cast<uint64_t>(width);  // type, modifier, empty name, two counts
-  d.primitives.reserve(std::min(static_cast<uint64_t>(objects), bytes / shortest));
+  const uint64_t most = std::min(static_cast<uint64_t>(objects), bytes / shortest);
+  d.primitives.reserve(most);
+  d.words.reserve(most);
   d.realArgs.reserve((bytes - std::min(bytes, static_cast<uint64_t>(objects) * shortest)) / 5);
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -34,7 +35,7 @@ Kind kindOf(char c) { return kKinds[static_cast<unsigned char>(c)]; }
 TextSource::TextSource(int descriptor, uint32_t file, const DescriptionBuilder& builder,
                        std::string_view ahead)
     : descriptor_(descriptor), file_(file), builder_(builder), block_(new char[kBlock]) {
-  std::memcpy(block_.get(), ahead.data(), ahead.size());
+  std::copy(ahead.begin(), ahead.end(), block_.get());
   next_ = block_.get();
   end_ = next_ + ahead.size();
 }

@@ -1,0 +1,392 @@
+#include "rad_parser/octree_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "binary_data.h"
+#include "rad_parser/binary_reader.h"
+#include "scene_text.h"
+
+namespace {
+
+using rad::Description;
+using rad::kVoid;
+using rad::Primitive;
+using rad::Status;
+using rad::Type;
+
+std::string fixture(const std::string& name) { return RSPHERE_TESTS "/scenes/octree/" + name; }
+
+// Octrees that are not frozen name their files from where they were made.
+class InFolder {
+ public:
+  explicit InFolder(const std::string& path) : before_(std::filesystem::current_path()) {
+    std::filesystem::current_path(path);
+  }
+  ~InFolder() { std::filesystem::current_path(before_); }
+
+ private:
+  std::filesystem::path before_;
+};
+
+// The same primitives, with reals within `within` of themselves.
+void expectSame(const Description& a, const Description& b, double within) {
+  ASSERT_EQ(a.primitives.size(), b.primitives.size());
+  for (size_t i = 0; i < a.primitives.size(); ++i) {
+    const Primitive &p = a.primitives[i], &q = b.primitives[i];
+    SCOPED_TRACE(fmt::format("{} {}", i, b.name(q)));
+    EXPECT_EQ(p.type, q.type);
+    EXPECT_EQ(p.modifier, q.modifier);
+    EXPECT_EQ(p.aliased, q.aliased);
+    EXPECT_EQ(a.name(p), b.name(q));
+    ASSERT_EQ(p.strings, q.strings);
+    for (uint32_t k = 0; k < p.strings; ++k) EXPECT_EQ(a.string(p, k), b.string(q, k));
+    ASSERT_EQ(p.reals, q.reals);
+    for (uint32_t k = 0; k < p.reals; ++k)
+      EXPECT_NEAR(a.reals(p)[k], b.reals(q)[k], within * std::abs(b.reals(q)[k])) << k;
+  }
+}
+
+// The fields of an octree of our own making: "mat" and two spheres, one leaf.
+struct OctreeData {
+  int width = 4;
+  std::string header = "#?RADIANCE\noconv made by hand\nFORMAT=Radiance_octree\n\n";
+  std::vector<std::string> files = {};
+  int64_t objects = 3;
+  std::string cells;  // empty: one leaf of both spheres
+  std::string types = std::string("sphere\0plastic\0alias\0\0", 22);
+
+  std::string sphere(int64_t modifier, std::string_view name) const {
+    BinaryData d;
+    d.integer(0, 1).integer(modifier, width).string(name).integer(0, 2).integer(4, 2);
+    for (int i = 0; i < 4; ++i) d.real(1073741823, 1);
+    return d.bytes;
+  }
+  std::string scene() const {
+    BinaryData d;
+    d.integer(1, 1).integer(-1, width).string("mat").integer(0, 2).integer(0, 2);
+    return types + d.bytes + sphere(0, "a") + sphere(0, "b") + '\xff';
+  }
+  std::string beforeScene() const {
+    BinaryData d;
+    d.bytes = header;
+    d.integer(283 + width, 2).string("-1").string("-2.5").string("3e0").string("10");
+    for (const std::string& file : files) d.string(file);
+    d.string("").integer(objects, width);
+    if (cells.empty())
+      d.integer(1, 1).integer(2, width).integer(1, width).integer(2, width);
+    else
+      d.bytes += cells;
+    return d.bytes;
+  }
+  std::string bytes() const { return beforeScene() + scene(); }
+};
+
+Description readBytes(std::string_view bytes, std::vector<std::string>* warnings = nullptr) {
+  const TestFolder folder;
+  return readFile(folder.write("t.oct", bytes), warnings);
+}
+std::string errorOfBytes(std::string_view bytes) {
+  const TestFolder folder;
+  const std::string path = folder.write("t.oct", bytes);
+  const std::string error = errorOf([&] { readFile(path); });
+  return error.starts_with(path) ? error.substr(path.size() - 5) : error;
+}
+
+TEST(OctreeFile, FrozenIsItsText) {
+  std::vector<std::string> warnings;
+  const Description octree = readFile(fixture("frozen.oct"), &warnings);
+  const Description text = readFile(fixture("every.rad"));
+  EXPECT_TRUE(warnings.empty());
+  ASSERT_EQ(text.primitives.size(), 17u);
+  expectSame(octree, text, 1.0001 / 0x80000000);
+  EXPECT_EQ(octree.header, (std::vector<std::string>{"#?RADIANCE", "oconv -f every.rad"}));
+  ASSERT_TRUE(octree.cube);  // figures: getinfo -d frozen.oct
+  EXPECT_EQ(octree.cube->size, 5.12502);
+  EXPECT_EQ(octree.cube->origin, (std::array{-1.56251, -2.50001, -2.00001}));
+  EXPECT_TRUE(text.header.empty());
+  EXPECT_FALSE(text.cube);
+  EXPECT_EQ(octree.at(octree.primitives[0].place), fixture("frozen.oct") + ": object 1");
+  EXPECT_EQ(octree.at(octree.primitives[16].place), fixture("frozen.oct") + ": object 17");
+}
+
+TEST(OctreeFile, NamedFilesAreReadFromWhereItWasMade) {
+  Description octree;
+  {
+    const InFolder here(fixture(""));
+    octree = readFile("named.oct");
+  }
+  Description text = readFile(fixture("every.rad"));
+  ASSERT_EQ(octree.primitives.size(), text.primitives.size() + 2);
+  EXPECT_EQ(octree.at(octree.primitives[17].place), "ball.rad:1 (from named.oct)");
+  EXPECT_EQ(octree.at(octree.primitives[18].place),
+            "!echo glass sphere third 0 0 4 0 2 0 .25:1 (from named.oct)");
+  EXPECT_EQ(octree.name(octree.primitives[octree.primitives[18].modifier]), "glass");
+  EXPECT_EQ(octree.header[1], "oconv every.rad ball.rad \"!echo glass sphere third 0 0 4 0 2 0 .25\"");
+  octree.primitives.resize(17);
+  expectSame(octree, text, 0);
+
+  const TestFolder elsewhere;
+  const InFolder there(elsewhere.path());
+  EXPECT_EQ(errorOf([] { readFile(fixture("named.oct")); }, Status::system),
+            "every.rad (from " + fixture("named.oct") +
+                "): cannot open scene file: No such file or directory (an octree that is not frozen is used "
+                "where it was made)");
+}
+
+TEST(OctreeFile, NamedFilesThatChangedAreStale) {
+  const TestFolder folder;
+  for (const char* name : {"named.oct", "every.rad", "ball.rad"})
+    std::filesystem::copy(fixture(name), folder.path(name));
+  const InFolder here(folder.path());
+  EXPECT_EQ(readFile("named.oct").primitives.size(), 19u);
+  EXPECT_EQ(errorOf([] { readFile("named.oct", nullptr, false); }),
+            "named.oct: commands are not allowed: \"!echo glass sphere third 0 0 4 0 2 0 .25\"");
+
+  folder.write("ball.rad", "glass bubble second 0 0 4 0 0 -4 1 glass bubble third 0 0 4 0 0 -5 1");
+  EXPECT_EQ(errorOf([] { readFile("named.oct"); }),
+            "named.oct: bad object count: 20 in its scene files, 19 when it was made; octree stale?");
+  folder.write("ball.rad", "void glass second 0 0 3 1 1 1");
+  EXPECT_EQ(errorOf([] { readFile("named.oct"); }), "named.oct: modifier in tree; octree stale?");
+  folder.write("ball.rad", "void glass");
+  EXPECT_EQ(errorOf([] { readFile("named.oct"); }),
+            "ball.rad:1 (from named.oct): text ends within glass \"\"");
+}
+
+TEST(OctreeFile, FromACommand) {
+  const std::string command = "!cat " + fixture("frozen.oct");
+  std::vector<std::string> warnings;
+  const Description d = readFile(command, &warnings);
+  expectSame(d, readFile(fixture("frozen.oct")), 0);
+  EXPECT_TRUE(warnings.empty());
+  EXPECT_EQ(d.at(d.primitives[1].place), rad::printable(command, 100) + ": object 2");
+  readFile(command + "; exit 4", &warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(warnings[0].ends_with("\": exit status 4")) << warnings[0];
+  EXPECT_EQ(errorOf([] { readFile("!false"); }), "!false: not an octree: 0 bytes, exit status 1");
+  EXPECT_EQ(errorOf([] { readFile("!:"); }), "!:: not an octree: 0 bytes");
+  EXPECT_NE(errorOf([&] { readFile(command, nullptr, false); }).find("commands are not allowed"),
+            std::string::npos);
+}
+
+TEST(OctreeFile, EveryWidthOfObjectNumbers) {
+  for (int width = 1; width <= 8; ++width) {
+    OctreeData data;
+    data.width = width;
+    const Description d = readBytes(data.bytes());
+    ASSERT_EQ(d.primitives.size(), 3u) << width;
+    EXPECT_EQ(d.primitives[0].modifier, kVoid);
+    EXPECT_EQ(d.primitives[2].modifier, 0);
+    EXPECT_EQ(d.reals(d.primitives[1])[0], 1);
+    EXPECT_EQ(d.cube->origin, (std::array{-1., -2.5, 3.}));
+  }
+  OctreeData data;
+  const std::string whole = data.bytes();
+  for (const int number : {0, 283, 292, 0x7fff, 0xffff}) {
+    std::string bytes = whole;
+    bytes[data.header.size()] = static_cast<char>(number >> 8);
+    bytes[data.header.size() + 1] = static_cast<char>(number);
+    EXPECT_EQ(errorOfBytes(bytes),
+              fmt::format("t.oct: incompatible format at byte {}", data.header.size() + 2));
+  }
+}
+
+// The encoding is the truncated mantissa of 31 bits; the ends of what it holds.
+TEST(OctreeFile, Reals) {
+  const auto decoded = [](int64_t m, int e) {
+    OctreeData data;
+    std::string bytes = data.bytes();
+    BinaryData real;
+    real.real(m, e);
+    bytes.replace(bytes.size() - 6, 5, real.bytes);
+    const Description d = readBytes(bytes);
+    return d.realArgs.back();
+  };
+  EXPECT_EQ(decoded(1073741823, 1), 1);
+  EXPECT_EQ(decoded(-1073741823, 1), -1);
+  EXPECT_EQ(decoded(1073741823, 127), std::ldexp(1, 126));
+  EXPECT_EQ(decoded(-1073741823, -128), -std::ldexp(1, -129));
+  EXPECT_EQ(decoded(0, 0), 0);
+  EXPECT_EQ(decoded(0, -7), 0);
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> exponent(-80, 80);
+  for (int i = 0; i < 200; ++i) {
+    const double x = std::pow(2, exponent(random)) * (i % 2 ? 1 : -1);
+    int e;
+    const auto m = static_cast<int64_t>(std::frexp(x, &e) * 0x7fffffff);
+    EXPECT_NEAR(decoded(m, e), x, std::abs(x) / 0x7fffffff) << x;
+  }
+}
+
+TEST(OctreeFile, HeadersAsProgramsWriteThem) {
+  OctreeData data;
+  data.header = "#?RADIANCE\nxform -t 1 2 3\n\tCAPDATE= 2020:01:01\nFORMAT= Radiance_octree \n\n";
+  EXPECT_EQ(readBytes(data.bytes()).header,
+            (std::vector<std::string>{"#?RADIANCE", "xform -t 1 2 3", "\tCAPDATE= 2020:01:01"}));
+  data.header = "#?RADIANCE\r\nFORMAT=Radiance_octree\r\n\r\n";
+  EXPECT_EQ(readBytes(data.bytes()).header, std::vector<std::string>{"#?RADIANCE"});
+  data.header = "#?RADIANCE\noconv\n\n";  // without a format the number tells
+  EXPECT_EQ(readBytes(data.bytes()).primitives.size(), 3u);
+  data.header = "#?RADIANCE\n" + std::string(70000, 'x') + "\nFORMAT=Radiance_octree\n\n";
+  EXPECT_NE(errorOfBytes(data.bytes()), "");  // the format is not within the beginning
+  data.header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n";
+  EXPECT_EQ(errorOfBytes(data.bytes()), "t.oct: not an octree: its header says FORMAT=32-bit_rle_rgbe");
+}
+
+TEST(OctreeFile, WhatIsNoOctree) {
+  const TestFolder folder;
+  const std::string empty = folder.write("empty.oct", ""),
+                    text = folder.write("text.oct", "void plastic m 0 0 0");
+  EXPECT_EQ(errorOf([&] { readFile(empty); }), empty + ": not an octree: 0 bytes (did oconv fail?)");
+  EXPECT_EQ(readFile(text).primitives.size(), 1u);  // the content tells, not the name
+  EXPECT_EQ(errorOf([&] { rad::readOctree(text); }), text + ": not an octree");
+  EXPECT_EQ(errorOf([&] { rad::readOctree(empty); }), empty + ": not an octree");
+  EXPECT_EQ(errorOf([&] { readFile(folder.path("none.oct")); }, Status::system),
+            folder.path("none.oct") + ": cannot open octree file: No such file or directory");
+  EXPECT_EQ(errorOf([&] { rad::readOctree("none.oct"); }, Status::system),
+            "none.oct: cannot find octree file");
+  EXPECT_EQ(errorOf([&] {
+              rad::readScene(std::vector{text, fixture("frozen.oct")});
+            }),
+            fixture("frozen.oct") + ": an octree is a whole scene: it cannot be one among several");
+  EXPECT_EQ(readFile(folder.write("note.rad", "#? no header\nvoid plastic m 0 0 0")).primitives.size(), 1u);
+}
+
+TEST(OctreeFile, AliasesByNumber) {
+  OctreeData data;
+  data.objects = 4;
+  const auto alias = [&](int64_t modifier) {
+    BinaryData d;
+    d.integer(2, 1).integer(modifier, data.width).string("x").integer(0, 2).integer(0, 2);
+    std::string scene = data.scene();
+    scene.pop_back();
+    return data.beforeScene() + scene + d.bytes + '\xff';
+  };
+  const Description d = readBytes(alias(0));
+  EXPECT_EQ(d.primitives[3].aliased, 0);
+  EXPECT_EQ(d.primitives[3].modifier, kVoid);
+  EXPECT_EQ(d.string(d.primitives[3], 0), "mat");
+  EXPECT_NE(errorOfBytes(alias(-1)).find("an alias of nothing at byte"), std::string::npos);
+  EXPECT_NE(errorOfBytes(alias(1)).find("t.oct: object 4: object 2 is no modifier"), std::string::npos);
+  EXPECT_NE(errorOfBytes(alias(3)).find("t.oct: object 4: modifier 4 is not before it"), std::string::npos);
+  EXPECT_NE(errorOfBytes(alias(-2)), "");
+}
+
+TEST(OctreeFile, UnknownTypesAreAWarningUntilUsed) {
+  OctreeData data;
+  std::vector<std::string> warnings;
+  data.types = std::string("sphere\0plastic\0alias\0tesseract\0\0", 32);
+  EXPECT_EQ(readBytes(data.bytes(), &warnings).primitives.size(), 3u);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(warnings[0].ends_with("t.oct: unknown type \"tesseract\"")) << warnings[0];
+  data.types = std::string("tesseract\0plastic\0alias\0\0", 25);
+  EXPECT_TRUE(errorOfBytes(data.bytes()).starts_with("t.oct: object 2: of a type that is not known here"));
+  data.types = std::string("sphere\0\0", 8);
+  EXPECT_TRUE(errorOfBytes(data.bytes()).starts_with("t.oct: object 1: type 1 (byte"));
+}
+
+TEST(OctreeFile, DamagedCells) {
+  OctreeData data;
+  const auto leaf = [&](std::initializer_list<int64_t> words) {
+    BinaryData d;
+    d.integer(1, 1);
+    for (const int64_t word : words) d.integer(word, data.width);
+    return d.bytes;
+  };
+  const auto with = [&](const std::string& cells) {
+    data.cells = cells;
+    return errorOfBytes(data.bytes());
+  };
+  EXPECT_EQ(with(leaf({2, 1, 2})), "");
+  EXPECT_EQ(with(leaf({0})), "");
+  EXPECT_EQ(with("\2" + leaf({1, 1}) + std::string(7, '\0')), "");
+  EXPECT_NE(with(leaf({1, 3})).find("damaged octree: object 4 of 3 at byte"), std::string::npos);
+  EXPECT_NE(with(leaf({1, -1})).find("damaged octree: object 0 of 3"), std::string::npos);
+  EXPECT_NE(with(leaf({2, 2, 1})).find("damaged octree: a leaf out of order"), std::string::npos);
+  EXPECT_NE(with(leaf({-1})).find("damaged octree: a leaf of negative size"), std::string::npos);
+  EXPECT_NE(with("\3").find("damaged octree at byte"), std::string::npos);
+  data.objects = 4;
+  EXPECT_NE(with(leaf({0})).find("damaged octree: 3 objects in place of 4"), std::string::npos);
+}
+
+// What is announced and does not come: an error as soon as the data end, whatever was announced.
+TEST(OctreeFile, HostileCounts) {
+  OctreeData data;
+  data.width = 8;
+  data.objects = std::numeric_limits<int32_t>::max();
+  EXPECT_NE(errorOfBytes(data.bytes()).find("damaged octree: 3 objects in place of 2147483647"),
+            std::string::npos);
+  data.objects = int64_t{1} << 40;
+  EXPECT_NE(errorOfBytes(data.bytes()).find("damaged octree: 1099511627776 objects"), std::string::npos);
+  data.objects = -1;
+  EXPECT_NE(errorOfBytes(data.bytes()).find("damaged octree: -1 objects"), std::string::npos);
+  data.objects = 3;
+  data.cells = "\1" + std::string("\x7f\xff\xff\xff\xff\xff\xff\xff", 8);
+  EXPECT_NE(errorOfBytes(data.beforeScene()).find("truncated octree at byte"), std::string::npos);
+  data.cells = std::string(10 << 20, '\2');  // ten million cells within each other
+  EXPECT_NE(errorOfBytes(data.beforeScene()).find("truncated octree at byte"), std::string::npos);
+  data.cells = std::string(1, '\0');
+  data.files = {std::string(1 << 20, 'x')};
+  EXPECT_NE(errorOfBytes(data.bytes()).find("a string of more than 65536 bytes"), std::string::npos);
+  data.files = {std::string(65536, 'x')};
+  EXPECT_NE(errorOf([&] { readBytes(data.bytes()); }, Status::system).find("cannot open scene file"),
+            std::string::npos);
+}
+
+TEST(OctreeFile, TruncatedAnywhereIsAnError) {
+  const TestFolder folder;
+  for (const char* name : {"frozen.oct", "named.oct"}) {
+    const InFolder here(fixture(""));
+    const std::string whole = bytesOf(fixture(name));
+    const size_t header = whole.find("\n\n") + 2;
+    for (size_t length = 0; length < whole.size(); ++length) {
+      const std::string path = folder.write("t.oct", whole.substr(0, length));
+      const std::string error = errorOf([&] { rad::readOctree(path); });
+      ASSERT_NE(error, "") << name << " " << length;
+      if (length >= header)
+        EXPECT_EQ(error, fmt::format("{}: truncated octree at byte {}", path, length));
+      else
+        EXPECT_TRUE(error.ends_with("not an octree") || error.find(": truncated octree at") != error.npos ||
+                    error.find("its header says") != error.npos)
+            << error;
+    }
+  }
+}
+
+// Whatever the bytes say, the answer is a description that holds together, or an error with the file's name.
+TEST(OctreeFile, FlippedBytesAreReadOrRefused) {
+  const TestFolder folder;
+  std::mt19937_64 random(5);
+  int refused = 0;
+  for (const char* name : {"frozen.oct", "ball.oct"}) {
+    std::string whole = name == std::string("ball.oct") ? OctreeData().bytes() : bytesOf(fixture(name));
+    for (int trial = 0; trial < 3000; ++trial) {
+      std::string bytes = whole;
+      for (int k = static_cast<int>(random() % 3); k >= 0; --k)
+        bytes[random() % bytes.size()] =
+            static_cast<char>(trial % 2 ? random() : bytes[0] ^ (1 << random() % 8));
+      const std::string path = folder.write("t.oct", bytes);
+      try {
+        rad::ReadOptions options;
+        options.commands = false;
+        const Description d = rad::readOctree(path, options);
+        for (size_t i = 0; i < d.primitives.size(); ++i) {
+          const Primitive& p = d.primitives[i];
+          ASSERT_LT(p.modifier, static_cast<int32_t>(i));
+          ASSERT_LE(p.firstReal + p.reals, d.realArgs.size());
+          ASSERT_LE(p.firstString + p.strings, d.stringArgs.size());
+          ASSERT_EQ(p.type == Type::alias, p.aliased != kVoid);
+        }
+      } catch (const rad::Error& error) {
+        ++refused;
+        EXPECT_NE(std::string(error.what()).find("t.oct"), std::string::npos) << error.what();
+      }
+    }
+  }
+  EXPECT_GT(refused, 1000);
+}
+
+}  // namespace
