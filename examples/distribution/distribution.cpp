@@ -1,0 +1,118 @@
+// A picture of the radiance that arrives at a point from all directions, from what rsphere -Sd prints:
+//   rsphere -h- -Sd -oidwv scene.rad < points.txt | distribution RECORD picture.png
+//
+// Latitude-longitude: zenith along the top edge, nadir along the bottom one, +x in the middle, +y a quarter
+// of the width to its left, as one sees it who stands at the point. Each pixel is the radiance of the
+// direction nearest to it, which is its Voronoi cell.
+#include <OpenImageIO/imageio.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <iostream>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "sphere/directions.h"
+
+namespace {
+
+using rsphere::V3d;
+
+constexpr int kWidth = 720, kHeight = 360;  // half a degree a pixel: a cell of 2048 is 4.5 degrees wide
+constexpr double kPi = std::numbers::pi;
+
+struct Sample {
+  V3d direction, radiance;
+};
+
+double luminance(const V3d& rgb) { return .265 * rgb.x + .67 * rgb.y + .065 * rgb.z; }
+
+// The samples of one record. Lines: record, direction (3), solid angle, radiance (3).
+std::vector<Sample> readSamples(std::istream& in, double wanted) {
+  std::vector<Sample> samples;
+  double record = 0, solidAngle = 0;
+  Sample s;
+  while (in >> record >> s.direction.x >> s.direction.y >> s.direction.z >> solidAngle >> s.radiance.x >>
+         s.radiance.y >> s.radiance.z) {
+    if (record == wanted) samples.push_back(s);
+  }
+  if (!in.eof()) throw std::runtime_error("standard input is not what rsphere -h- -Sd -oidwv prints");
+  if (samples.empty()) throw std::runtime_error(fmt::format("no directions of record {}", wanted));
+  return samples;
+}
+
+V3d pixelDirection(int x, int y) {
+  const double azimuth = kPi - 2 * kPi * (x + .5) / kWidth, polar = kPi * (y + .5) / kHeight;
+  return V3d(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar));
+}
+
+// Radiance to display values. The logarithm of luminance, over the three decades below the brightest, sets
+// how bright a pixel is; its colour is kept: lamps and the light that they make are seen in one picture.
+class Exposure {
+ public:
+  explicit Exposure(const std::vector<Sample>& samples) {
+    for (const Sample& s : samples) brightest_ = std::max(brightest_, luminance(s.radiance));
+  }
+  double brightest() const { return brightest_; }
+
+  void store(const V3d& radiance, uint8_t* rgb) const {
+    const double y = luminance(radiance);
+    const double shown = y > 0 ? std::clamp(1 + std::log10(y / brightest_) / 3, 0., 1.) : 0;
+    for (int c = 0; c < 3; ++c) {
+      const double channel = y > 0 ? shown * std::pow(radiance[c] / y, 1 / 2.2) : 0;
+      rgb[c] = static_cast<uint8_t>(std::lround(255 * std::clamp(channel, 0., 1.)));
+    }
+  }
+
+ private:
+  double brightest_ = 0;
+};
+
+std::vector<uint8_t> draw(const std::vector<Sample>& samples, const Exposure& exposure) {
+  std::vector<uint8_t> pixels(size_t{3} * kWidth * kHeight);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const V3d direction = pixelDirection(x, y);
+      const auto nearer = [&](const Sample& a, const Sample& b) {
+        return a.direction.dot(direction) < b.direction.dot(direction);
+      };
+      const Sample& nearest = *std::max_element(samples.begin(), samples.end(), nearer);
+      exposure.store(nearest.radiance, &pixels[3 * (size_t{kWidth} * y + x)]);
+    }
+  }
+  return pixels;
+}
+
+void writePicture(const std::string& name, const std::vector<uint8_t>& pixels) {
+  const auto out = OIIO::ImageOutput::create(name);
+  if (!out) throw std::runtime_error(OIIO::geterror());
+  if (!out->open(name, OIIO::ImageSpec(kWidth, kHeight, 3, OIIO::TypeDesc::UINT8)) ||
+      !out->write_image(OIIO::TypeDesc::UINT8, pixels.data()) || !out->close()) {
+    throw std::runtime_error(out->geterror());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  unsigned record = 0;
+  const std::string_view word = argc == 3 ? argv[1] : "";
+  if (word.empty() || std::from_chars(word.begin(), word.end(), record).ptr != word.end()) {
+    std::cerr << "usage: rsphere -h- -Sd -oidwv scene... < points | " << argv[0] << " RECORD picture.png\n";
+    return 1;
+  }
+  try {
+    const std::vector<Sample> samples = readSamples(std::cin, record);
+    const Exposure exposure(samples);
+    writePicture(argv[2], draw(samples, exposure));
+    fmt::print("{}: {} directions; white is {:.0f} cd/m2, black a thousandth of it\n", argv[2],
+               samples.size(), 179 * exposure.brightest());
+  } catch (const std::exception& error) {
+    std::cerr << argv[0] << ": " << error.what() << '\n';
+    return 1;
+  }
+}
