@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <iomanip>
 #include <iterator>
 #include <sstream>
 
@@ -19,6 +20,7 @@ namespace {
 
 // As in rtrace(1); also ends a file that names itself.
 constexpr size_t kMostExpanded = 4096;
+constexpr int kLongestWord = 65536;  // bytes; beyond any path
 
 struct Use {
   const OptionEntry* entry;
@@ -59,8 +61,12 @@ class Words {
     std::ifstream file(name.substr(1));
     std::vector<std::string> words;
     if (file) {
-      // Not all at once: a device without end has more words than may be.
-      for (std::string word; words.size() <= kMostExpanded && file >> word;) words.push_back(word);
+      // A device without end has more and longer words than may be.
+      for (std::string word; words.size() <= kMostExpanded && file >> std::setw(kLongestWord + 1) >> word;) {
+        if (word.size() > static_cast<size_t>(kLongestWord))
+          throw rad::Error(fmt::format("cannot expand '{}': too long a word", name));
+        words.push_back(word);
+      }
       if (!file.bad()) return words;
     }
     throw rad::Error(fmt::format("cannot expand '{}': {}", name, std::strerror(errno)), rad::Status::system);

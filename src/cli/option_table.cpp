@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 
@@ -28,7 +30,8 @@ std::vector<std::string> modifierFile(const OptionEntry& entry, const std::strin
   std::ifstream file(path.value_or(name));
   if (!path || !file)
     throw rad::Error(
-        fmt::format("cannot open ambient {} file \"{}\"", entry.name == "-aE" ? "exclude" : "include", name),
+        fmt::format("cannot open ambient {} file \"{}\": {}", entry.name == "-aE" ? "exclude" : "include",
+                    name, std::strerror(path ? errno : ENOENT)),
         rad::Status::system);
   return {std::istream_iterator<std::string>(file), {}};
 }

@@ -1,0 +1,442 @@
+#include "cli/batch.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <future>
+#include <optional>
+#include <set>
+
+#include "support.h"
+
+namespace rsphere {
+namespace {
+
+using namespace std::chrono_literals;
+
+// A record is answered with its numbers, and "bogus" if it is.
+void echo(const Record& record, unsigned, std::string& bytes) {
+  for (const double x : record.numbers) bytes += fmt::format("{} ", x);
+  bytes += record.bogus ? "bogus\n" : "\n";
+}
+
+struct Outcome {
+  std::string out, fault, messages;
+};
+
+// Runs over text with this command line, -n 1 and several -n; they must agree.
+Outcome run(std::initializer_list<const char*> words, const std::string& text,
+            const AnswerRecord& answer = echo) {
+  std::optional<Outcome> first;
+  for (const int threads : {1, 2, 5}) {
+    Options options = parse(words);
+    options.threads = threads;
+    const TemporaryFile in(text), out, log;
+    options.errorFile = log.path;
+    Outcome result;
+    {
+      Messages messages("rsphere");
+      messages.use(options);
+      const size_t head = contents(log.path).size();
+      RecordReader reader(in.descriptor, options.in, options.sphere.on ? 3 : 6);
+      RecordWriter writer(out.descriptor);
+      try {
+        runRecords(reader, writer, options, messages, nullptr, answer);
+      } catch (const rad::Error& error) {
+        result.fault = error.what();
+      }
+      result.messages = contents(log.path).substr(head);
+    }
+    result.out = contents(out.path);
+    if (!first) first = result;
+    EXPECT_EQ(result.out, first->out);
+    EXPECT_EQ(result.fault, first->fault);
+    EXPECT_EQ(result.messages, first->messages);
+  }
+  return *first;
+}
+
+TEST(RunRecords, AnswersInTheOrderOfTheInput) {
+  std::string text, expected;
+  for (int i = 0; i < 20000; ++i) {
+    text += fmt::format("{} {} {}\n", i, i % 7, i % 11);
+    expected += fmt::format("{} {} {} \n", i, i % 7, i % 11);
+  }
+  const Outcome result =
+      run({"rsphere", "s.oct"}, text, [](const Record& record, unsigned worker, std::string& bytes) {
+        EXPECT_EQ(record.index, static_cast<uint64_t>(record.numbers[0]));
+        EXPECT_LT(worker, 5u);
+        // Times differ, so that later records are ready earlier.
+        if (record.index % 97 == 0) std::this_thread::sleep_for(1ms);
+        echo(record, worker, bytes);
+      });
+  EXPECT_EQ(result.out, expected);
+  EXPECT_EQ(result.fault, "");
+  EXPECT_EQ(result.messages, "");
+}
+
+TEST(RunRecords, ARecordMayHaveManyAnswersOrNone) {
+  const Outcome result =
+      run({"rsphere", "s.oct"}, "0 0 3 0 0 0 0 0 2", [](const Record& record, unsigned, std::string& bytes) {
+        for (int i = 0; i < record.numbers[2]; ++i) bytes += fmt::format("{}.{}\n", record.index, i);
+      });
+  EXPECT_EQ(result.out, "0.0\n0.1\n0.2\n2.0\n2.1\n");
+}
+
+TEST(RunRecords, NoInputNoOutput) {
+  const Outcome result = run({"rsphere", "s.oct"}, "");
+  EXPECT_EQ(result.out + result.fault + result.messages, "");
+}
+
+TEST(RunRecords, EverythingBeforeAFaultIsAnswered) {
+  std::string text, expected;
+  for (int i = 0; i < 1000; ++i) {
+    text += fmt::format("{} 0 0\n", i);
+    expected += fmt::format("{} 0 0 \n", i);
+  }
+  const Outcome result = run({"rsphere", "s.oct"}, text + "1 2 x\n4 5 6\n");
+  EXPECT_EQ(result.out, expected);
+  EXPECT_EQ(result.fault, "stdin:1001: expected 3 numbers, got \"x\"");
+}
+
+TEST(RunRecords, EverythingBeforeAFaultyAnswerIsWritten) {
+  std::string text, expected;
+  for (int i = 0; i < 3000; ++i) text += fmt::format("{} 0 0\n", i);
+  for (int i = 0; i < 1234; ++i) expected += fmt::format("{} 0 0 \n", i);
+  const Outcome result =
+      run({"rsphere", "s.oct"}, text, [](const Record& record, unsigned worker, std::string& bytes) {
+        bytes += "";
+        if (record.index >= 1234) {
+          bytes += "half an answer";
+          throw rad::Error(fmt::format("no answer to {}", record.index));
+        }
+        echo(record, worker, bytes);
+      });
+  EXPECT_EQ(result.out, expected);
+  EXPECT_EQ(result.fault, "no answer to 1234");
+}
+
+TEST(RunRecords, ZeroDirectionsAreBogusAndRepeatTheRayBefore) {
+  const Outcome result =
+      run({"rtrace", "s.oct"}, "9 9 9 0 0 0  1 2 3 4 5 6  7 7 7 0 -0 0  8 8 8 0 0 0  1 1 1 0 0 1");
+  EXPECT_EQ(result.out,
+            "0 0 0 0 0 0 bogus\n1 2 3 4 5 6 \n1 2 3 4 5 6 bogus\n1 2 3 4 5 6 bogus\n1 1 1 0 0 1 \n");
+}
+
+TEST(RunRecords, PointsAtTheOriginAreNotBogus) {
+  EXPECT_EQ(run({"rsphere", "s.oct"}, "0 0 0").out, "0 0 0 \n");
+}
+
+TEST(RunRecords, ScanlinesEndTheInput) {
+  const std::string text = "1 0 0 2 0 0 3 0 0 4 0 0 5 0 0 6 0 0 7 0 0 x";
+  EXPECT_EQ(run({"rsphere", "-x", "3", "-y", "2", "s.oct"}, text).out,
+            "1 0 0 \n2 0 0 \n3 0 0 \n4 0 0 \n5 0 0 \n6 0 0 \n");
+  EXPECT_EQ(run({"rsphere", "-y", "2", "s.oct"}, text).out, "1 0 0 \n2 0 0 \n");
+  EXPECT_EQ(run({"rsphere", "-y", "2", "-x", "1", "s.oct"}, text).out, "1 0 0 \n2 0 0 \n");
+  EXPECT_EQ(run({"rsphere", "-y", "2", "s.oct"}, text).messages, "");
+  const Outcome early = run({"rsphere", "-y", "2", "s.oct"}, "1 0 0");
+  EXPECT_EQ(early.messages, "rsphere: warning - unexpected EOF on input\n");
+  EXPECT_EQ(early.fault, "");
+}
+
+TEST(RunRecords, WarnsOfRaysForPointsAndOfPointsForRays) {
+  EXPECT_EQ(run({"rtrace", "s.oct"}, "1 2 3\n0 0 1\n").messages,
+            "rsphere: warning - stdin:1: three numbers on a line, but a ray has six: two lines are taken for "
+            "one ray\n");
+  EXPECT_EQ(run({"rsphere", "s.oct"}, "1 2 3 0 0 1\n1 2 3\n").messages,
+            "rsphere: warning - stdin:1: six numbers on a line are taken for two points; -S- takes them for "
+            "a ray\n");
+  EXPECT_EQ(run({"rtrace", "s.oct"}, "1 2 3 0 0 1\n1 2 3 0 0 1\n").messages, "");
+}
+
+TEST(RunRecords, NoMoreThreadsThanAskedFor) {
+  std::string text;
+  for (int i = 0; i < 400; ++i) text += "1 2 3\n";
+  Options options = parse({"rsphere", "-n", "3", "s.oct"});
+  const TemporaryFile in(text), out;
+  RecordReader reader(in.descriptor, NumberFormat::ascii, 3);
+  RecordWriter writer(out.descriptor);
+  std::mutex mutex;
+  std::set<std::thread::id> threads;
+  std::set<unsigned> workers;
+  std::atomic<int> running{0}, most{0};
+  runRecords(reader, writer, options, Messages("rsphere"), nullptr,
+             [&](const Record&, unsigned worker, std::string&) {
+               const int now = ++running;
+               for (int before = most; before < now && !most.compare_exchange_weak(before, now);) {
+               }
+               std::this_thread::sleep_for(300us);
+               const std::lock_guard lock(mutex);
+               threads.insert(std::this_thread::get_id());
+               workers.insert(worker);
+               --running;
+             });
+  EXPECT_EQ(threads.size(), 3u);
+  EXPECT_EQ(workers, (std::set<unsigned>{0, 1, 2}));
+  EXPECT_EQ(most, 3);
+  EXPECT_TRUE(threads.contains(std::this_thread::get_id())) << "this thread is one of them";
+  options.threads = 0;
+  EXPECT_EQ(threadCount(options), std::max(1u, std::thread::hardware_concurrency()));
+}
+
+// A program that talks through pipes to runRecords() in a thread.
+class Conversation {
+ public:
+  explicit Conversation(std::initializer_list<const char*> words, AnswerRecord answer = echo)
+      : options_(parse(words)), answer_(std::move(answer)), thread_([this] {
+          RecordReader reader(toChild.out, options_.in, options_.sphere.on ? 3 : 6);
+          RecordWriter writer(fromChild.in);
+          try {
+            runRecords(reader, writer, options_, Messages("rsphere"), nullptr, answer_);
+          } catch (const rad::Error& error) {
+            fault = error.what();
+          }
+          fromChild.closeIn();
+        }) {}
+  ~Conversation() { toChild.closeIn(); }
+
+  void finish() {
+    toChild.closeIn();
+    thread_.join();
+  }
+  void wait() { thread_.join(); }
+
+  Pipe toChild, fromChild;
+  std::string fault;
+
+ private:
+  Options options_;
+  AnswerRecord answer_;
+  std::jthread thread_;
+};
+
+TEST(RunRecords, AnswersWithoutWaitingForMoreInput) {
+  for (const auto& words : {std::initializer_list<const char*>{"rsphere", "-x", "1", "s.oct"},
+                            {"rsphere", "s.oct"},
+                            {"rsphere", "-n", "4", "s.oct"},
+                            {"rsphere", "-n", "4", "-x", "1", "s.oct"}}) {
+    Conversation talk(words);
+    for (int i = 0; i < 50; ++i) {
+      talk.toChild.put(fmt::format("{} 1 2\n", i));
+      EXPECT_EQ(talk.fromChild.getLines(1), fmt::format("{} 1 2 \n", i));
+    }
+  }
+}
+
+TEST(RunRecords, ZeroDirectionFlushes) {
+  for (const char* threads : {"1", "3"}) {
+    Conversation talk({"rtrace", "-n", threads, "-x", "1000", "s.oct"});
+    for (int i = 0; i < 20; ++i) {
+      talk.toChild.put("1 2 3 0 0 1\n1 2 4 0 0 1\n0 0 0 0 0 0\n");
+      EXPECT_EQ(talk.fromChild.getLines(3), "1 2 3 0 0 1 \n1 2 4 0 0 1 \n1 2 4 0 0 1 bogus\n");
+    }
+  }
+}
+
+// A program that writes a whole group before it reads an answer: more than two pipes hold.
+TEST(RunRecords, GroupsAreWrittenOnceTheyAreWhole) {
+  for (const char* threads : {"1", "3"}) {
+    constexpr int kGroup = 20000;
+    Conversation talk({"rsphere", "-n", threads, "-x", "20000", "s.oct"});
+    for (int group = 0; group < 2; ++group) {
+      std::string text;
+      for (int i = 0; i < kGroup; ++i) text += fmt::format("{} 123456789 123456789\n", i);
+      talk.toChild.put(text);
+      const std::string answers = talk.fromChild.getLines(kGroup);
+      EXPECT_EQ(std::count(answers.begin(), answers.end(), '\n'), kGroup);
+    }
+  }
+}
+
+TEST(RunRecords, AFaultEndsAConversationThoughInputIsOpen) {
+  Conversation talk({"rsphere", "-n", "2", "s.oct"});
+  talk.toChild.put("1 2 3\n4 5 x\n");
+  talk.wait();
+  EXPECT_EQ(talk.fromChild.getAll(), "1 2 3 \n");
+  EXPECT_EQ(talk.fault, "stdin:2: expected 3 numbers, got \"x\"");
+}
+
+TEST(RunRecords, AClosedOutputEndsAConversationThoughInputIsOpen) {
+  std::signal(SIGPIPE, SIG_IGN);
+  for (const char* threads : {"1", "3"}) {
+    Conversation talk({"rsphere", "-n", threads, "s.oct"});
+    talk.fromChild.closeOut();
+    talk.toChild.put("1 2 3\n");
+    talk.wait();
+    EXPECT_EQ(talk.fault, "Broken pipe");
+  }
+}
+
+TEST(RunRecords, EndlessInputNeedsNoMoreMemory) {
+  const Options options = parse({"rsphere", "-n", "2", "-y", "3000000", "s.oct"});
+  Pipe pipe;
+  std::jthread source([&] {
+    std::string text;
+    for (int i = 0; i < 10000; ++i) text += "1 2 3\n";
+    for (int i = 0; i < 300; ++i) pipe.put(text);
+    pipe.closeIn();
+  });
+  RecordReader reader(pipe.out, NumberFormat::ascii, 3);
+  const int null = open("/dev/null", O_WRONLY);
+  RecordWriter writer(null);
+  const std::string answer(100, 'x');
+  rusage before{}, after{};
+  getrusage(RUSAGE_SELF, &before);
+  std::atomic<uint64_t> last{0};
+  runRecords(reader, writer, options, Messages("rsphere"), nullptr,
+             [&](const Record& record, unsigned, std::string& bytes) {
+               // The others must not run away while one record takes long.
+               if (record.index == 100) std::this_thread::sleep_for(100ms);
+               last = std::max<uint64_t>(last, record.index);
+               bytes += answer;
+             });
+  getrusage(RUSAGE_SELF, &after);
+  close(null);
+  EXPECT_EQ(reader.records(), 3000000u);
+  EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 50000) << "kB; all answers are 300 MB";
+}
+
+TEST(RunRecords, FullDiskIsASystemFault) {
+  const Options options = parse({"rsphere", "-n", "2", "s.oct"});
+  const TemporaryFile in("1 2 3\n");
+  const int full = open("/dev/full", O_WRONLY);
+  RecordReader reader(in.descriptor, NumberFormat::ascii, 3);
+  RecordWriter writer(full);
+  EXPECT_EQ(faultOf([&] { runRecords(reader, writer, options, Messages("rsphere"), nullptr, echo); },
+                    rad::Status::system),
+            "write error: No space left on device");
+  close(full);
+}
+
+TEST(RunRecords, ReportsProgress) {
+  Options options = parse({"rsphere", "-t", "0.01", "s.oct"});
+  const TemporaryFile in("1 2 3 1 2 3 1 2 3"), out, log;
+  options.errorFile = log.path;
+  Messages messages("rsphere");
+  messages.use(options);
+  RecordReader reader(in.descriptor, NumberFormat::ascii, 3);
+  RecordWriter writer(out.descriptor);
+  runRecords(reader, writer, options, messages, nullptr,
+             [](const Record&, unsigned, std::string&) { std::this_thread::sleep_for(15ms); });
+  EXPECT_NE(contents(log.path).find("\nrsphere: 1 records after 0.0 seconds, "), std::string::npos);
+}
+
+// Signals end a process: a child is one to spare. It answers two records and then waits for input, or is
+// busy.
+class Child {
+ public:
+  Child(bool deferred, const AnswerRecord& answer) {
+    pid_ = fork();
+    if (pid_ != 0) {
+      toChild.closeOut();
+      fromChild.closeIn();
+      return;
+    }
+    toChild.closeIn();
+    dup2(log.descriptor, 2);
+    Messages messages("rsphere");
+    int status = 0;
+    try {
+      StopSignals signals("rsphere");
+      const Options options = parse({"rsphere", "-n", "2", "s.oct"});
+      if (!deferred) {
+        fromChild.put("ready\n");
+        for (;;) pause();
+      }
+      RecordReader reader(toChild.out, NumberFormat::ascii, 3);
+      RecordWriter writer(fromChild.in);
+      runRecords(reader, writer, options, messages, &signals, answer);
+    } catch (const rad::Error& error) {
+      status = messages.error(error);
+    }
+    _exit(status);
+  }
+  int exitStatus() const {
+    int status = 0;
+    waitpid(pid_, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  void send(int signal) const { kill(pid_, signal); }
+
+  Pipe toChild, fromChild;
+  TemporaryFile log;
+
+ private:
+  pid_t pid_ = -1;
+};
+
+TEST(StopSignals, WhileWaitingForInput) {
+  for (const auto& [signal, name] :
+       {std::pair(SIGTERM, "Terminate"), std::pair(SIGINT, "Interrupt"), std::pair(SIGHUP, "Hangup"),
+        std::pair(SIGXCPU, "CPU limit exceeded"), std::pair(SIGXFSZ, "File size exceeded"),
+        std::pair(SIGALRM, "Alarm clock")}) {
+    const Child child(true, echo);
+    child.toChild.put("1 2 3\n");
+    EXPECT_EQ(child.fromChild.getLines(1), "1 2 3 \n");
+    child.send(signal);
+    EXPECT_EQ(child.exitStatus(), 3);
+    EXPECT_EQ(contents(child.log.path), std::string("rsphere: signal - ") + name + "\n");
+  }
+}
+
+TEST(StopSignals, FlushWhatIsFinished) {
+  // The third record takes its time; the two before it are ready, and held back as one group.
+  const Child child(true, [](const Record& record, unsigned worker, std::string& bytes) {
+    if (record.index == 2) {
+      kill(getpid(), SIGTERM);
+      std::this_thread::sleep_for(50ms);
+    }
+    echo(record, worker, bytes);
+  });
+  child.toChild.put("1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1\n");
+  EXPECT_EQ(child.exitStatus(), 3);
+  const std::string out = child.fromChild.getAll();
+  EXPECT_EQ(out.substr(0, 14), "1 2 3 \n4 5 6 \n");
+  EXPECT_EQ(out.back(), '\n');
+  EXPECT_EQ(contents(child.log.path), "rsphere: signal - Terminate\n");
+}
+
+TEST(StopSignals, BeforeRecordsAreRead) {
+  const Child child(false, echo);
+  EXPECT_EQ(child.fromChild.getLines(1), "ready\n");
+  child.send(SIGTERM);
+  EXPECT_EQ(child.exitStatus(), 3);
+  EXPECT_EQ(contents(child.log.path), "rsphere: signal - Terminate\n");
+}
+
+TEST(StopSignals, TheSecondEndsItAtOnce) {
+  const Child child(true, [](const Record&, unsigned, std::string&) { std::this_thread::sleep_for(60s); });
+  child.toChild.put("1 2 3\n");
+  std::this_thread::sleep_for(100ms);
+  child.send(SIGTERM);
+  std::this_thread::sleep_for(100ms);
+  const auto start = std::chrono::steady_clock::now();
+  child.send(SIGTERM);
+  EXPECT_EQ(child.exitStatus(), 3);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, 10s);
+}
+
+TEST(StopSignals, GiveBackTheHandlersBefore) {
+  std::signal(SIGTERM, SIG_DFL);
+  std::signal(SIGHUP, SIG_IGN);
+  {
+    const StopSignals signals("rsphere");
+    struct sigaction now {};
+    sigaction(SIGHUP, nullptr, &now);
+    EXPECT_EQ(now.sa_handler, SIG_IGN) << "ignored signals stay so (nohup)";
+    sigaction(SIGTERM, nullptr, &now);
+    EXPECT_NE(now.sa_handler, SIG_DFL);
+    EXPECT_FALSE(signals.raised());
+  }
+  struct sigaction now {};
+  sigaction(SIGTERM, nullptr, &now);
+  EXPECT_EQ(now.sa_handler, SIG_DFL);
+  std::signal(SIGHUP, SIG_DFL);
+}
+
+}  // namespace
+}  // namespace rsphere

@@ -1,0 +1,82 @@
+#include "cli/header.h"
+
+#include <regex>
+
+#include "cli/version.h"
+#include "support.h"
+
+namespace rsphere {
+namespace {
+
+constexpr std::time_t kNow = 1000000000;  // 2001-09-09 01:46:40 UTC
+
+std::string headerText(std::initializer_list<const char*> words, std::vector<std::string> scene = {}) {
+  setenv("TZ", "XYZ-2", 1);
+  tzset();
+  const TemporaryFile file;
+  RecordWriter writer(file.descriptor);
+  writeHeader(writer, parse(words), scene, kNow);
+  writer.flush();
+  return contents(file.path);
+}
+
+const std::string kSoftware = std::string("SOFTWARE= rsphere ") + kVersion +
+                              "\nCAPDATE= 2001:09:09 03:46:40\nGMT= 2001:09:09 01:46:40\n";
+
+TEST(Header, HasTheLinesOfRtraceInItsOrder) {
+  EXPECT_EQ(
+      headerText({"/bin/rtrace", "-ovs", "-ae", "a b", "s.oct"}, {"#?RADIANCE", "oconv -f s.rad"}),
+      "#?RADIANCE\noconv -f s.rad\nrtrace -ovs -ae \"a b\"\n" + kSoftware + "NCOMP=4\nFORMAT=ascii\n\n");
+}
+
+TEST(Header, NamesSceneFilesThatHaveNoHeader) {
+  EXPECT_EQ(
+      headerText({"rsphere", "-h+", "a.rad", "!genbox m n 1 1 1"}),
+      "#?RADIANCE\nrsphere -h+ a.rad \"!genbox m n 1 1 1\"\n" + kSoftware + "NCOMP=3\nFORMAT=ascii\n\n");
+}
+
+TEST(Header, QuotesWordsAsRtraceDoes) {
+  const Options options =
+      parse({"rsphere", "-ae", "it's", "-ae", "a\"b", "-ae", "\"", "-ae", "plain", "s s"});
+  EXPECT_EQ(commandLine(options, false), "rsphere -ae \"it's\" -ae 'a\"b' -ae \" -ae plain");
+  EXPECT_EQ(commandLine(options, true), "rsphere -ae \"it's\" -ae 'a\"b' -ae \" -ae plain \"s s\"");
+}
+
+TEST(Header, CanBeSwitchedOffButNotTheResolution) {
+  EXPECT_EQ(headerText({"rtrace", "-h", "s.oct"}), "");
+  EXPECT_EQ(headerText({"rtrace", "-h", "-x", "5", "s.oct"}), "");
+  EXPECT_EQ(headerText({"rtrace", "-h", "-x", "640", "-y", "48", "s.oct"}), "-Y       48 +X      640\n");
+  EXPECT_TRUE(headerText({"rtrace", "-x", "640", "-y", "48", "s.oct"})
+                  .ends_with("FORMAT=ascii\n\n-Y       48 +X      640\n"));
+}
+
+TEST(Header, BinaryRecordsBeginAligned) {
+  for (int extra = 0; extra < 9; ++extra) {
+    const std::string line(static_cast<size_t>(extra), 'x');
+    const std::string floats = headerText({"rtrace", "-ff", "s.oct"}, {"#?RADIANCE", line});
+    EXPECT_TRUE(std::regex_search(floats, std::regex("\nNCOMP=3\nBigEndian=0\nFORMAT=float *\n\n$")));
+    EXPECT_EQ(floats.size() % 4, 0u);
+    EXPECT_EQ(headerText({"rtrace", "-fd", "s.oct"}, {"#?RADIANCE", line}).size() % 8, 0u);
+  }
+  EXPECT_TRUE(headerText({"rtrace", "-ffc", "s.oct"}).ends_with("NCOMP=3\nFORMAT=32-bit_rle_rgbe\n\n"));
+}
+
+TEST(Header, PipesAreNotPadded) {
+  for (const char* line : {"", "x", "xx", "xxx"}) {
+    Pipe pipe;
+    RecordWriter writer(pipe.in);
+    const std::vector<std::string> scene{"#?RADIANCE", line};
+    writeHeader(writer, parse({"rtrace", "-ff", "s.oct"}), scene, kNow);
+    writer.flush();
+    EXPECT_TRUE(pipe.get().ends_with("FORMAT=float\n\n"));
+  }
+}
+
+TEST(Version, IsThatOfTheProject) {
+  const std::string lists = contents(std::string(RSPHERE_TESTS) + "/../CMakeLists.txt");
+  EXPECT_NE(lists.find(std::string("project(rsphere VERSION ") + kVersion + " "), std::string::npos);
+  EXPECT_EQ(versionLine(), std::string("rsphere ") + kVersion);
+}
+
+}  // namespace
+}  // namespace rsphere

@@ -1,0 +1,32 @@
+#include "support.h"
+
+namespace rsphere {
+namespace {
+
+// man/rsphere.1 is the template man/rsphere.1.in with the options of the table in it. After a change of
+// either, copy the file that this test leaves in the build folder.
+TEST(Manual, IsTheGeneratedOne) {
+  const std::string folder = std::string(RSPHERE_TESTS) + "/../man/";
+  std::string text = contents(folder + "rsphere.1.in");
+  const std::string mark = ".\\\" @OPTIONS@\n";
+  const size_t at = text.find(mark);
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, mark.size(), manualText());
+  std::ofstream("rsphere.1", std::ios::binary) << text;
+  EXPECT_TRUE(contents(folder + "rsphere.1") == text) << "differs from rsphere.1 in the folder of this test";
+}
+
+// What man(7) would take for a macro or a wrong sign.
+TEST(Manual, OptionsAreCleanText) {
+  const std::string text = manualText();
+  EXPECT_EQ(text.find("\n'"), std::string::npos);
+  for (size_t at = text.find("\n."); at != std::string::npos; at = text.find("\n.", at + 1)) {
+    const std::string macro = text.substr(at + 2, 2);
+    EXPECT_TRUE(macro == "TP" || macro == "BI" || macro == "SS") << macro;
+  }
+  for (const OptionEntry& entry : optionTable())
+    EXPECT_NE(text.find(".BI \\" + std::string(entry.name)), std::string::npos) << entry.name;
+}
+
+}  // namespace
+}  // namespace rsphere

@@ -1,0 +1,228 @@
+#include "support.h"
+
+namespace rsphere {
+namespace {
+
+using Names = std::vector<std::string>;
+
+TEST(ParseOptions, ModeComesFromTheNameAndFromS) {
+  EXPECT_TRUE(parse({"rsphere", "s.oct"}).sphere.on);
+  EXPECT_TRUE(parse({"/usr/bin/rsphere", "s.oct"}).sphere.on);
+  EXPECT_FALSE(parse({"rtrace", "s.oct"}).sphere.on);
+  EXPECT_FALSE(parse({"/a.b/rtrace", "s.oct"}).sphere.on);
+  EXPECT_TRUE(parse({"/rtrace/x", "s.oct"}).sphere.on);
+  EXPECT_FALSE(parse({"rsphere", "-S-", "s.oct"}).sphere.on);
+  EXPECT_FALSE(parse({"rsphere", "-S", "s.oct"}).sphere.on);
+  EXPECT_TRUE(parse({"rtrace", "-S", "s.oct"}).sphere.on);
+  EXPECT_TRUE(parse({"rtrace", "-S+", "-S-", "-S1", "s.oct"}).sphere.on);
+}
+
+TEST(ParseOptions, DefaultsAreThoseOfTheModeWhereverItIsGiven) {
+  const Options options = parse({"rsphere", "-ad", "7", "-dt", ".5", "-S-", "s.oct"});
+  EXPECT_EQ(options.ray.ambientDivisions, 7);
+  EXPECT_EQ(options.ray.directThreshold, .5);
+  EXPECT_EQ(options.ray.directJitter, 0);
+  EXPECT_EQ(parse({"rtrace", "-ab", "2", "-S+", "s.oct"}).ray.directJitter, 1);
+}
+
+TEST(ParseOptions, SwitchesToggleOrAreSet) {
+  EXPECT_FALSE(parse({"rtrace", "-h", "s.oct"}).header);
+  EXPECT_TRUE(parse({"rtrace", "-h", "-h", "s.oct"}).header);
+  for (const char* on : {"-ld+", "-ld1", "-ldy", "-ldY", "-ldt", "-ldT"})
+    EXPECT_TRUE(parse({"rtrace", "-ld", on, "s.oct"}).limitDistance);
+  for (const char* off : {"-w-", "-w0", "-wn", "-wN", "-wf", "-wF"})
+    EXPECT_FALSE(parse({"rtrace", off, "s.oct"}).warnings);
+  for (const char* wrong : {"-hx", "-h2", "-h+-", "-w+1", "-u?"})
+    EXPECT_EQ(faultOfOptions({"rtrace", wrong, "s.oct"}),
+              std::string("command line error at '") + wrong + "'");
+}
+
+TEST(ParseOptions, LettersAfterSAreOptionsNotSwitches) {
+  EXPECT_EQ(parse({"rsphere", "-Sn", "5", "s.oct"}).sphere.baseDirections, 5);
+  EXPECT_FALSE(parse({"rsphere", "-Sc-", "s.oct"}).commands);
+  EXPECT_TRUE(parse({"rsphere", "-Sd", "s.oct"}).sphere.everyDirection);
+}
+
+// rtrace's own words (6.1a), each with exit status 1.
+TEST(ParseOptions, ErrorsAreWordedAsThoseOfRtrace) {
+  EXPECT_EQ(faultOfOptions({"rtrace", "-ab", "1.5", "s.oct"}), "command line error at '-ab'");
+  EXPECT_EQ(faultOfOptions({"rtrace", "-ab", "x", "s.oct"}), "command line error at '-ab'");
+  EXPECT_EQ(faultOfOptions({"rtrace", "-ab", "s.oct"}), "command line error at '-ab'");
+  EXPECT_EQ(faultOfOptions({"rtrace", "-av", "1", "2", "s.oct"}), "command line error at '-av'");
+  EXPECT_EQ(faultOfOptions({"rtrace", "-dt", "1e", "s.oct"}), "command line error at '-dt'");
+  EXPECT_EQ(faultOfOptions({"rtrace", "-dt", "1,5", "s.oct"}), "command line error at '-dt'");
+  EXPECT_EQ(faultOfOptions({"rtrace", "-q", "3", "s.oct"}), "command line error at '-q'");
+  EXPECT_EQ(faultOfOptions({"rtrace", "-", "s.oct"}), "command line error at '-'");
+  EXPECT_EQ(faultOfOptions({"rtrace", "-abc", "s.oct"}), "command line error at '-abc'");
+  EXPECT_EQ(faultOfOptions({"rtrace", "-pRG", "s.oct"}), "command line error at '-pRG'");
+  EXPECT_EQ(faultOfOptions({"rtrace", "-n", "-1", "s.oct"}), "bad number of processes");
+  EXPECT_EQ(faultOfOptions({"rtrace"}), "missing octree argument");
+  EXPECT_EQ(faultOfOptions({"rtrace", "-ab", "1"}), "missing octree argument");
+  EXPECT_EQ(faultOfOptions({"rtrace", "s.oct", "-ab", "1"}), "command line error at 's.oct'");
+  EXPECT_EQ(faultOfOptions({"rsphere", "a.rad", "b.rad", "-h"}), "command line error at 'a.rad'");
+}
+
+TEST(ParseOptions, NumbersOutsideTheirRangeSayWhich) {
+  EXPECT_EQ(faultOfOptions({"rsphere", "-Sn", "0", "s.oct"}),
+            "command line error at '-Sn': 0 is not from 1 to 1000000");
+  EXPECT_EQ(faultOfOptions({"rtrace", "-ab", "99999999999", "s.oct"}),
+            "command line error at '-ab': 99999999999 is not from 0 to 2147483647");
+}
+
+TEST(ParseOptions, Formats) {
+  const auto formats = [](const char* word) {
+    const Options options = parse({"rtrace", word, "s.oct"});
+    return std::string{static_cast<char>(options.in), static_cast<char>(options.out)};
+  };
+  for (const char in : {'a', 'f', 'd'}) {
+    EXPECT_EQ(formats((std::string("-f") + in).c_str()), std::string({in, in}));
+    for (const char out : {'a', 'f', 'd', 'c'})
+      EXPECT_EQ(formats((std::string("-f") + in + out).c_str()), std::string({in, out}));
+  }
+  for (const char* wrong : {"-fc", "-fca", "-fx", "-fax", "-faaa"})
+    EXPECT_EQ(faultOfOptions({"rtrace", wrong, "s.oct"}),
+              std::string("command line error at '") + wrong + "'");
+}
+
+TEST(ParseOptions, OutputLettersBelongToTheMode) {
+  EXPECT_EQ(parse({"rtrace", "s.oct"}).outputs, "v");
+  EXPECT_EQ(parse({"rsphere", "s.oct"}).outputs, "v");
+  EXPECT_EQ(parse({"rsphere", "-Sd", "s.oct"}).outputs, "odwv");
+  EXPECT_NO_THROW(parse({"rtrace", "-oodvVwWlLcpnNsmMrRxX~", "s.oct"}));
+  EXPECT_NO_THROW(parse({"rsphere", "-ooveECHuk", "s.oct"}));
+  EXPECT_NO_THROW(parse({"rsphere", "-Sd", "-oiodwvlLpnNsmM", "s.oct"}));
+  EXPECT_EQ(faultOfOptions({"rtrace", "-ovz", "s.oct"}), "unrecognized output option 'z'");
+  EXPECT_EQ(faultOfOptions({"rtrace", "-oE", "s.oct"}), "unrecognized output option 'E'");
+  EXPECT_EQ(faultOfOptions({"rsphere", "-ol", "s.oct"}), "unrecognized output option 'l' (sphere mode)");
+  EXPECT_EQ(faultOfOptions({"rsphere", "-Sd", "-oE", "s.oct"}),
+            "unrecognized output option 'E' (sphere mode)");
+  EXPECT_EQ(faultOfOptions({"rtrace", "-o", "s.oct"}), "empty output specification");
+}
+
+TEST(ParseOptions, PixelsHoldOneColor) {
+  for (const char* letters : {"-ov", "-or", "-ox"})
+    EXPECT_NO_THROW(parse({"rtrace", "-fac", letters, "s.oct"}));
+  for (const char* letters : {"-ovv", "-oo", "-oW", "-ol"})
+    EXPECT_EQ(faultOfOptions({"rtrace", "-fac", letters, "s.oct"}), "color format only with -ov, -or, -ox");
+  for (const char* letters : {"-ov", "-oE", "-oC", "-oe"})
+    EXPECT_NO_THROW(parse({"rsphere", "-fac", letters, "s.oct"}));
+  EXPECT_EQ(faultOfOptions({"rsphere", "-fac", "-oH", "s.oct"}), "color format only with -ov, -oe, -oE, -oC");
+}
+
+TEST(ParseOptions, IrradianceCountsAsInRtrace) {
+  EXPECT_EQ(parse({"rtrace", "-i", "s.oct"}).irradiance, Irradiance::surface);
+  EXPECT_EQ(parse({"rtrace", "-i", "-I+", "s.oct"}).irradiance, Irradiance::point);
+  EXPECT_EQ(parse({"rtrace", "-i", "-I", "-I", "s.oct"}).irradiance, Irradiance::surface);
+  EXPECT_EQ(parse({"rtrace", "-i-", "-I-", "s.oct"}).irradiance, Irradiance::none);
+  EXPECT_EQ(faultOfOptions({"rtrace", "-I", "-oodL", "s.oct"}),
+            "-I+ and -i+ options require some value output");
+  EXPECT_EQ(parse({"rtrace", "-I", "-ovr", "s.oct"}).remarks,
+            (Names{"-orRxX options incompatible with -I+ and -i+"}));
+  EXPECT_EQ(parse({"rtrace", "-oVW", "s.oct"}).remarks,
+            (Names{"-oVW options require trace mode", "-oVW options require trace mode"}));
+}
+
+TEST(ParseOptions, WhatNeedsRaysIsRefusedInSphereMode) {
+  EXPECT_EQ(faultOfOptions({"rsphere", "-I+", "s.oct"}),
+            "-I needs ray mode (-S-); in sphere mode -oE, -oC and -oH give irradiances");
+  EXPECT_EQ(faultOfOptions({"rsphere", "-i", "s.oct"}),
+            "-i needs ray mode (-S-); in sphere mode -oE, -oC and -oH give irradiances");
+  EXPECT_EQ(faultOfOptions({"rsphere", "-ld", "s.oct"}),
+            "-ld needs ray mode (-S-): points have no direction vector");
+}
+
+TEST(ParseOptions, RussianRouletteNeedsAWeight) {
+  EXPECT_NE(faultOfOptions({"rtrace", "-lw", "0", "s.oct"}), "no fault");
+  EXPECT_NE(faultOfOptions({"rtrace", "-lw", "0", "-lr", "0", "s.oct"}), "no fault");
+  EXPECT_NO_THROW(parse({"rtrace", "-lw", "0", "-lr", "8", "s.oct"}));
+}
+
+TEST(ParseOptions, MostDirectionsFollowTheBase) {
+  EXPECT_EQ(parse({"rsphere", "s.oct"}).sphere.mostDirections, 4096);
+  EXPECT_EQ(parse({"rsphere", "-Sn", "10000", "s.oct"}).sphere.mostDirections, 20000);
+  EXPECT_EQ(parse({"rsphere", "-Sx", "5000", "-Sn", "4500", "s.oct"}).sphere.mostDirections, 5000);
+  EXPECT_EQ(faultOfOptions({"rsphere", "-Sx", "100", "s.oct"}),
+            "command line error at '-Sx': 100 is less than -Sn 2048");
+}
+
+TEST(ParseOptions, Words) {
+  const Options options = parse({"rsphere", "-Sg", "a", "-Sg", "b", "-Sw", "h", "-Sr", "12345678901", "-e",
+                                 "err", "-af", "x.amb", "s.oct"});
+  EXPECT_EQ(options.sphere.goals, (Names{"a", "b"}));
+  EXPECT_EQ(options.sphere.weights, Weights::homogeneous);
+  EXPECT_EQ(options.sphere.rotation, 12345678901u);
+  EXPECT_EQ(options.errorFile, "err");
+  EXPECT_EQ(options.ray.ambientFile, "x.amb");
+  EXPECT_EQ(faultOfOptions({"rsphere", "-Sw", "x", "s.oct"}),
+            "command line error at '-Sw': \"x\" is not h, v or c");
+  EXPECT_EQ(faultOfOptions({"rsphere", "-Sr", "-1", "s.oct"}), "command line error at '-Sr'");
+  EXPECT_EQ(faultOfOptions({"rsphere", "-af", " ", "s.oct"}), "command line error at '-af'");
+}
+
+TEST(ParseOptions, AmbientModifiersAreOneKindOnly) {
+  const TemporaryFile file("c d\n\te");
+  Options options = parse({"rtrace", "-ae", "a", "-ae", "b", "-aE", file.path.c_str(), "s.oct"});
+  EXPECT_EQ(options.ray.ambientExcluded, (Names{"a", "b", "c", "d", "e"}));
+  options = parse({"rtrace", "-ae", "a", "-ai", "b", "-aI", file.path.c_str(), "s.oct"});
+  EXPECT_TRUE(options.ray.ambientExcluded.empty());
+  EXPECT_EQ(options.ray.ambientIncluded, (Names{"b", "c", "d", "e"}));
+  EXPECT_EQ(faultOfOptions({"rtrace", "-aE", "/no/file", "s.oct"}, rad::Status::system),
+            "cannot open ambient exclude file \"/no/file\": No such file or directory");
+}
+
+TEST(ParseOptions, SceneTakesTheRest) {
+  EXPECT_EQ(parse({"rsphere", "-h", "a.rad", "b.rad"}).scene, (Names{"a.rad", "b.rad"}));
+  EXPECT_EQ(parse({"rsphere", "!oconv a.rad"}).scene, (Names{"!oconv a.rad"}));
+}
+
+TEST(ParseOptions, FilesAndVariablesStandForTheirWords) {
+  const TemporaryFile inner("-ab 3\n\t-ad  64"),
+      outer("-h @" + inner.path + "\n-lw 1e-3 $RSPHERE_TEST_WORDS\n");
+  ASSERT_EQ(setenv("RSPHERE_TEST_WORDS", "-x 7 -I", 1), 0);
+  ASSERT_EQ(setenv("RSPHERE_TEST_SCENE", " a.rad  b.rad ", 1), 0);
+  const Options options =
+      parse({"rtrace", ("@" + outer.path).c_str(), "-y", "2", "$RSPHERE_TEST_SCENE", "c.rad"});
+  EXPECT_FALSE(options.header);
+  EXPECT_EQ(options.ray.ambientBounces, 3);
+  EXPECT_EQ(options.ray.ambientDivisions, 64);
+  EXPECT_EQ(options.width, 7);
+  EXPECT_EQ(options.height, 2);
+  EXPECT_EQ(options.scene, (Names{"a.rad", "b.rad", "c.rad"}));
+  EXPECT_EQ(options.words, (Names{"-h", "-ab", "3", "-ad", "64", "-lw", "1e-3", "-x", "7", "-I", "-y", "2"}));
+}
+
+TEST(ParseOptions, WhatCannotBeExpandedIsASystemFault) {
+  EXPECT_EQ(faultOfOptions({"rtrace", "@/no/file", "s.oct"}, rad::Status::system),
+            "cannot expand '@/no/file': No such file or directory");
+  EXPECT_EQ(faultOfOptions({"rtrace", "$RSPHERE_NO_VARIABLE", "s.oct"}, rad::Status::system),
+            "cannot expand '$RSPHERE_NO_VARIABLE'");
+  EXPECT_NE(faultOfOptions({"rtrace", "@/tmp", "s.oct"}, rad::Status::system), "no fault");
+  // An option's own words are not expanded, as in rtrace.
+  EXPECT_EQ(faultOfOptions({"rtrace", "-ab", "$HOME", "s.oct"}), "command line error at '-ab'");
+}
+
+TEST(ParseOptions, ExpansionEnds) {
+  const TemporaryFile file;
+  std::ofstream(file.path) << "-h @" << file.path;
+  EXPECT_EQ(faultOfOptions({"rtrace", ("@" + file.path).c_str()}),
+            "cannot expand '@" + file.path + "': too many words");
+  ASSERT_EQ(setenv("RSPHERE_TEST_SELF", "$RSPHERE_TEST_SELF", 1), 0);
+  EXPECT_EQ(faultOfOptions({"rtrace", "$RSPHERE_TEST_SELF"}),
+            "cannot expand '$RSPHERE_TEST_SELF': too many words");
+  EXPECT_NE(faultOfOptions({"rtrace", "@/dev/zero"}), "no fault");
+}
+
+TEST(ParseOptions, RequestsEndTheCommandLine) {
+  EXPECT_EQ(parse({"rtrace", "-version", "-nonsense"}).request, Request::version);
+  EXPECT_EQ(parse({"rtrace", "-ab", "2", "-help"}).request, Request::help);
+  EXPECT_EQ(parse({"rtrace", "-ab", "2", "-defaults", "x"}).ray.ambientBounces, 2);
+  EXPECT_EQ(faultOfOptions({"rtrace", "-nonsense", "-version"}), "command line error at '-nonsense'");
+  EXPECT_EQ(faultOfOptions({"rtrace", "-h", "-features"}), "command line error at '-features'");
+}
+
+TEST(ParseOptions, NothingAtAll) {
+  EXPECT_EQ(faultOf([] { parseOptions(std::vector<std::string>{}); }), "missing octree argument");
+}
+
+}  // namespace
+}  // namespace rsphere

@@ -1,0 +1,303 @@
+#include "cli/records.h"
+
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include "support.h"
+
+namespace rsphere {
+namespace {
+
+struct ReadAll {
+  std::vector<double> numbers;
+  size_t records = 0;
+  std::string fault;
+};
+
+ReadAll readAll(RecordReader& reader, size_t most = 256) {
+  ReadAll all;
+  try {
+    while (const size_t n = reader.read(all.numbers, most)) all.records += n;
+  } catch (const rad::Error& error) {
+    EXPECT_EQ(error.status(), rad::Status::input);
+    all.fault = error.what();
+  }
+  return all;
+}
+
+ReadAll readText(const std::string& text, int perRecord = 3, size_t most = 256) {
+  const TemporaryFile file(text);
+  RecordReader reader(file.descriptor, NumberFormat::ascii, perRecord);
+  return readAll(reader, most);
+}
+
+template <class Number>
+std::string bytesOf(std::initializer_list<Number> numbers) {
+  std::string bytes;
+  for (const Number x : numbers) bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
+  return bytes;
+}
+
+using Numbers = std::vector<double>;
+
+TEST(RecordReader, LineEndsAreNoDifferentFromBlanks) {
+  const ReadAll all = readText("1 2\n3\t4\r\n5\v\f6 \n\n 7 8 9");
+  EXPECT_EQ(all.numbers, (Numbers{1, 2, 3, 4, 5, 6, 7, 8, 9}));
+  EXPECT_EQ(all.records, 3u);
+  EXPECT_EQ(all.fault, "");
+}
+
+TEST(RecordReader, NothingIsNoFault) {
+  EXPECT_EQ(readText("").records, 0u);
+  EXPECT_EQ(readText(" \n\n\t").fault, "");
+}
+
+TEST(RecordReader, NumbersAsRadianceSpellsThem) {
+  const ReadAll all = readText("+.5 1. 1e0 -0 .5e+1 1E-2 -.25 +3 \"7\" '8.5' 000 1e-400");
+  EXPECT_EQ(all.numbers, (Numbers{.5, 1, 1, -0.0, 5, .01, -.25, 3, 7, 8.5, 0, 0}));
+  EXPECT_TRUE(std::signbit(all.numbers[3]));
+}
+
+// rtrace cuts words at 31 characters, which moves all columns after.
+TEST(RecordReader, LongNumbersAreReadWhole) {
+  const std::string third = "0." + std::string(400, '3');
+  const ReadAll all =
+      readText(third + " 1.0000000000000000000000000000000000000000 12345678901234567890123456789012345e-30");
+  EXPECT_EQ(all.numbers, (Numbers{1 / 3., 1, 12345.678901234567890123456789012345}));
+}
+
+TEST(RecordReader, WhatIsNoNumberIsNamedWithItsLineAfterAllBefore) {
+  for (const std::string word :
+       {"x", "nan", "NaN", "inf", "-inf", "infinity", "0x10", "1d0",  "1,0",   "#",   "1e",  "1e+",
+        ".", "+",   "-",   "--1", "+-1",  "-+1",      "1..2", "1e5.", "1e999", "\"1", "1\"", "\"\""}) {
+    const ReadAll all = readText("1 2 3\n4 5 6 \n7 " + word + " 8\n1 2 3\n");
+    EXPECT_EQ(all.numbers, (Numbers{1, 2, 3, 4, 5, 6}));
+    EXPECT_EQ(all.fault, "stdin:3: expected 3 numbers, got \"" + word + "\"");
+  }
+  EXPECT_EQ(readText("1 2 3 4 5 x", 6).fault, "stdin:1: expected 6 numbers, got \"x\"");
+}
+
+TEST(RecordReader, AFaultStaysAFault) {
+  const TemporaryFile file("1 2 x 1 2 3");
+  RecordReader reader(file.descriptor, NumberFormat::ascii, 3);
+  EXPECT_EQ(readAll(reader).fault, readAll(reader).fault);
+}
+
+TEST(RecordReader, ShortRecordIsAFault) {
+  const ReadAll all = readText("1 2 3\n4 5\n\n");
+  EXPECT_EQ(all.records, 1u);
+  EXPECT_EQ(all.fault, "stdin:2: expected 3 numbers, got 2");
+}
+
+TEST(RecordReader, HostileWordsAreShownOnOneShortLine) {
+  EXPECT_EQ(readText(std::string("1 2 \x1b[2J\0z\n", 11)).fault,
+            "stdin:1: expected 3 numbers, got \"\\x1b[2J\\x00z\"");
+  const std::string fault = readText("1 2 " + std::string(10000000, '9')).fault;
+  EXPECT_EQ(fault, "stdin:1: expected 3 numbers, got \"" + std::string(40, '9') + "...\"");
+}
+
+// Blocks are 64 KiB: every place in a record meets their border.
+TEST(RecordReader, RecordsAcrossBlocksAreWhole) {
+  std::string text;
+  Numbers expected;
+  std::mt19937 random(1);
+  for (int i = 0; i < 60000; ++i) {
+    const double x = static_cast<double>(random()) / 1024 - 1e6;
+    expected.push_back(x);
+    char word[64];
+    std::snprintf(word, sizeof word, i % 3 == 0 ? "+%.17g\n" + (x < 0) : "%.17g ", x);
+    text += word;
+  }
+  for (const size_t most : {1u, 7u, 100000u}) {
+    const ReadAll all = readText(text, 6, most);
+    EXPECT_EQ(all.fault, "");
+    EXPECT_EQ(all.numbers, expected);
+  }
+}
+
+TEST(RecordReader, MegabytesOfBlanksInsideARecord) {
+  const std::string blanks(3000000, ' ');
+  EXPECT_EQ(readText("1" + blanks + "2" + blanks + "\n3").numbers, (Numbers{1, 2, 3}));
+}
+
+TEST(RecordReader, OneByteAtATime) {
+  const std::string text = "1.5 -2e1 +3\n44 55 66 7 8 1e";
+  Pipe pipe;
+  std::jthread slow([&] {
+    for (const char c : text) pipe.put({&c, 1});
+    pipe.closeIn();
+  });
+  RecordReader reader(pipe.out, NumberFormat::ascii, 3);
+  const ReadAll all = readAll(reader);
+  EXPECT_EQ(all.numbers, (Numbers{1.5, -20, 3, 44, 55, 66}));
+  EXPECT_EQ(all.fault, "stdin:2: expected 3 numbers, got \"1e\"");
+}
+
+TEST(RecordReader, DoesNotWaitForMoreThanARecord) {
+  Pipe pipe;
+  RecordReader reader(pipe.out, NumberFormat::ascii, 3);
+  Numbers numbers;
+  pipe.put("1 2 3\n4 5");
+  EXPECT_EQ(reader.read(numbers, 100), 1u);
+  pipe.put(" 6\n");
+  EXPECT_EQ(reader.read(numbers, 100), 1u);
+  EXPECT_EQ(numbers, (Numbers{1, 2, 3, 4, 5, 6}));
+}
+
+TEST(RecordReader, BinaryNumbers) {
+  {
+    const TemporaryFile file(bytesOf<float>({1, 2, .1f, 4, 5, 6}));
+    RecordReader reader(file.descriptor, NumberFormat::float32, 3);
+    EXPECT_EQ(readAll(reader).numbers, (Numbers{1, 2, .1f, 4, 5, 6}));
+  }
+  {
+    const TemporaryFile file(bytesOf<double>({1, 2, .1, 4, 5, 6}));
+    RecordReader reader(file.descriptor, NumberFormat::float64, 6);
+    EXPECT_EQ(readAll(reader).numbers, (Numbers{1, 2, .1, 4, 5, 6}));
+  }
+}
+
+TEST(RecordReader, BinaryFaultsHaveTheNumberOfTheRecord) {
+  {
+    const TemporaryFile file(bytesOf<float>({1, 2, 3, 4}) + "ab");
+    RecordReader reader(file.descriptor, NumberFormat::float32, 3);
+    const ReadAll all = readAll(reader);
+    EXPECT_EQ(all.records, 1u);
+    EXPECT_EQ(all.fault, "stdin: record 2: expected 12 bytes, got 6");
+  }
+  for (const double bad : {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+                           std::numeric_limits<double>::quiet_NaN()}) {
+    const TemporaryFile file(bytesOf<double>({1, 2, 3, 4, 5, 6, 7, bad, 9}));
+    RecordReader reader(file.descriptor, NumberFormat::float64, 3);
+    const ReadAll all = readAll(reader);
+    EXPECT_EQ(all.numbers, (Numbers{1, 2, 3, 4, 5, 6}));
+    EXPECT_EQ(all.fault, std::string("stdin: record 3: expected 3 numbers, got ") + (std::isnan(bad) ? "nan"
+                                                                                     : bad > 0       ? "inf"
+                                                                                               : "-inf"));
+  }
+}
+
+TEST(RecordReader, CannotReadIsASystemFault) {
+  RecordReader reader(9999, NumberFormat::ascii, 3);
+  Numbers numbers;
+  EXPECT_NE(faultOf([&] { reader.read(numbers, 1); }, rad::Status::system), "no fault");
+  const int folder = open("/tmp", O_RDONLY);
+  RecordReader onFolder(folder, NumberFormat::ascii, 3);
+  EXPECT_EQ(faultOf([&] { onFolder.read(numbers, 1); }, rad::Status::system), "stdin: Is a directory");
+  close(folder);
+}
+
+TEST(RecordReader, NumbersOnTheFirstLine) {
+  for (const auto& [text, count] : {std::pair("\n1 2 3\n4 5 6\n", 3), std::pair("1 2 3 4 5 6\n1 2 3", 6)}) {
+    const TemporaryFile file(text);
+    RecordReader reader(file.descriptor, NumberFormat::ascii, 3);
+    readAll(reader);
+    EXPECT_EQ(reader.numbersOnFirstLine(), count);
+  }
+}
+
+TEST(RecordText, AsRtraceWritesIt) {
+  std::string bytes;
+  RecordText text(bytes, NumberFormat::ascii);
+  text.vector(V3d(1, -.5, 1e10));
+  text.integer(12345678901);
+  text.name("wall");
+  text.color(Rgb(0, 1, 2));
+  text.end();
+  EXPECT_EQ(bytes,
+            "1.000000e+00\t-5.000000e-01\t1.000000e+10\t12345678901\twall\t0.000000e+00\t1.000000e+00\t2."
+            "000000e+00\t\n");
+  bytes.clear();
+  RecordText floats(bytes, NumberFormat::float32);
+  floats.number(.1);
+  floats.name("wall");
+  floats.integer(3);
+  floats.end();
+  EXPECT_EQ(bytes, bytesOf<float>({.1f}) + "wall\t" + bytesOf<float>({3}));
+  bytes.clear();
+  RecordText doubles(bytes, NumberFormat::float64);
+  doubles.vector(V3d(1, 2, .1));
+  EXPECT_EQ(bytes, bytesOf<double>({1, 2, .1}));
+}
+
+TEST(Rgbe, KnownPixels) {
+  using Pixel = std::array<uint8_t, 4>;
+  EXPECT_EQ(rgbePixel(Rgb(1, 1, 1)), (Pixel{128, 128, 128, 129}));
+  EXPECT_EQ(rgbePixel(Rgb(.5, .25, 0)), (Pixel{128, 64, 0, 128}));
+  EXPECT_EQ(rgbePixel(Rgb(0, 0, 0)), (Pixel{0, 0, 0, 0}));
+  EXPECT_EQ(rgbePixel(Rgb(-1, 2, -3)), (Pixel{0, 128, 0, 130}));
+  EXPECT_EQ(rgbePixel(Rgb(.99e-32, 0, 0)), (Pixel{0, 0, 0, 0}));
+  // echo 0 0 0 0 0 1 | rtrace -h -fac (6.1a), where the sky is a glow of this radiance.
+  EXPECT_EQ(rgbePixel(Rgb(.1, .7, 12.3)), (Pixel{1, 11, 196, 132}));
+  EXPECT_EQ(rgbePixel(Rgb(.99999, 1e-3, 1e-9)), (Pixel{255, 0, 0, 128}));
+  EXPECT_EQ(rgbePixel(Rgb(123456, 3, 99999)), (Pixel{241, 0, 195, 145}));
+}
+
+TEST(Rgbe, MantissasAreRoundedDownAndTheLargestIsAtLeastHalf) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> exponent(-30, 30);
+  for (int i = 0; i < 100000; ++i) {
+    const Rgb c(std::pow(10, exponent(random)), std::pow(10, exponent(random)),
+                std::pow(10, exponent(random)));
+    const auto pixel = rgbePixel(c);
+    const double unit = std::ldexp(1.0, pixel[3] - 128 - 8);
+    EXPECT_GE(std::max({pixel[0], pixel[1], pixel[2]}), 128);
+    for (int k = 0; k < 3; ++k) {
+      const auto single = static_cast<double>(static_cast<float>(c[k]));
+      ASSERT_LE(pixel[k] * unit, single);
+      ASSERT_GT((pixel[k] + 1) * unit, single);
+    }
+  }
+}
+
+TEST(Rgbe, NothingOverflows) {
+  using Pixel = std::array<uint8_t, 4>;
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(rgbePixel(Rgb(1e300, 0, 0)), (Pixel{255, 255, 255, 255}));
+  EXPECT_EQ(rgbePixel(Rgb(infinity, 1, 1)), (Pixel{255, 255, 255, 255}));
+  EXPECT_EQ(rgbePixel(Rgb(std::nan(""), 0, 1)), (Pixel{0, 0, 128, 129}));
+}
+
+TEST(RecordWriter, WritesInBlocksAndOnFlush) {
+  const TemporaryFile file;
+  RecordWriter writer(file.descriptor);
+  writer.write("abc");
+  EXPECT_EQ(contents(file.path), "");
+  EXPECT_EQ(writer.position(), 3);
+  writer.flush();
+  EXPECT_EQ(contents(file.path), "abc");
+  const std::string block(70000, 'x');
+  writer.write(block);
+  EXPECT_EQ(contents(file.path), "abc" + block);
+  writer.holdUntilFlush(true);
+  writer.write(block);
+  EXPECT_EQ(contents(file.path), "abc" + block);
+  writer.flush();
+  EXPECT_EQ(contents(file.path), "abc" + block + block);
+}
+
+TEST(RecordWriter, PipesCannotSeek) {
+  Pipe pipe;
+  EXPECT_EQ(RecordWriter(pipe.in).position(), std::nullopt);
+}
+
+TEST(RecordWriter, ClosedPipeAndFullDisk) {
+  std::signal(SIGPIPE, SIG_IGN);
+  Pipe pipe;
+  pipe.closeOut();
+  RecordWriter writer(pipe.in);
+  writer.write("x");
+  EXPECT_THROW(writer.flush(), ClosedPipe);
+  EXPECT_NO_THROW(writer.flush()) << "the bytes are gone";
+  const int full = open("/dev/full", O_WRONLY);
+  RecordWriter onFull(full);
+  onFull.write("x");
+  EXPECT_EQ(faultOf([&] { onFull.flush(); }, rad::Status::system), "write error: No space left on device");
+  close(full);
+}
+
+}  // namespace
+}  // namespace rsphere
