@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <deque>
 #include <map>
 #include <unordered_map>
@@ -230,19 +231,23 @@ class Graph {
   }
 
  private:
-  // Small powers by multiplication, within two roundings of pow(), and zero like it where the result is not
-  // finite.
+  Id product(Id a, int times) {
+    if (times == 1) return a;
+    const Id half = product(a, times / 2);
+    const Id even = operate(Op::multiply, half, half);
+    return times % 2 == 0 ? even : operate(Op::multiply, even, a);
+  }
+
+  // Small powers by multiplication, within as many roundings of pow() as the exponent says, and zero like it
+  // where the result is not finite.
   Id raise(Id a, Id b) {
     if (isConstant(b)) {
       const double e = nodes_[b].value;
       if (e == 0) return constant(1);
       if (e == 1) return operate(Op::finite, a);
       if (e == .5) return operate(Op::sqrt, a);
-      if (e == 2 || e == 3 || e == 4) {
-        const Id square = operate(Op::multiply, a, a);
-        const Id product = e == 2 ? square : operate(Op::multiply, square, e == 3 ? a : square);
-        return operate(Op::finite, product);
-      }
+      if (e >= 2 && e <= 16 && e == std::floor(e))
+        return operate(Op::finite, product(a, static_cast<int>(e)));
     }
     if (isConstant(a, 1)) return a;
     Node n;

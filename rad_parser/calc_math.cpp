@@ -102,46 +102,54 @@ double noise3(double x, double y, double z) {
 
 double fractalNoise3(double x, double y, double z) {
   constexpr int64_t units = 2000;  // to 1: the smallest spacing is kNoiseStep
+  // The seed of a lattice point is linear in its coordinates, so that only seeds are followed.
+  constexpr std::array<int64_t, 3> kSeeds = {17, 23, 29};
   const std::array<double, 3> point = {x, y, z};
-  std::array<int64_t, 3> target, origin;
+  std::array<int64_t, 3> offset;  // of the point from the cube's origin
+  int64_t origin = 0;
   for (int i = 0; i < 3; ++i) {
     if (!(std::abs(point[i]) < 1e15)) return 0;
-    target[i] = static_cast<int64_t>(units * point[i]);
-    origin[i] = static_cast<int64_t>(units * std::floor(point[i]));
+    const auto corner = static_cast<int64_t>(units * std::floor(point[i]));
+    offset[i] = static_cast<int64_t>(units * point[i]) - corner;
+    origin += kSeeds[i] * corner;
   }
-  const auto randomAt = [](const std::array<int64_t, 3>& p) {
-    return latticeRandom(17 * p[0] + 23 * p[1] + 29 * p[2]);
-  };
   // A corner's bit i says that it is at the far end of axis i.
   std::array<double, 8> corner;
   for (int c = 0; c < 8; ++c) {
-    std::array<int64_t, 3> p = origin;
-    for (int i = 0; i < 3; ++i) p[i] += (c >> i & 1) * units;
-    corner[c] = randomAt(p);
+    int64_t seed = origin;
+    for (int i = 0; i < 3; ++i) seed += (c >> i & 1) * units * kSeeds[i];
+    corner[c] = latticeRandom(seed);
   }
-  // Halve the cube towards the target. A corner of the half is an old corner, or the middle of an edge, a
-  // face or the cube: the mean of that one's corners, displaced in proportion to the spacing.
+  // Halve the cube towards the point. A corner of the half is an old corner, or the middle of an edge, a face
+  // or the cube: the mean of that one's corners, displaced in proportion to the spacing.
+  constexpr std::array<double, 8> kShare = {1, 1. / 2, 1. / 2, 1. / 4, 1. / 2, 1. / 4, 1. / 4, 1. / 8};
   for (int64_t half = units / 2; half > 0; half /= 2) {
     int octant = 0;
-    for (int i = 0; i < 3; ++i) octant |= (target[i] > origin[i] + half) << i;
-    std::array<double, 8> inner;
-    for (int c = 0; c < 8; ++c) {
-      const int middle = c ^ octant;  // axes along which this corner is in the middle
-      std::array<int64_t, 3> p = origin;
-      for (int i = 0; i < 3; ++i) p[i] += (middle >> i & 1) ? half : (octant >> i & 1) * 2 * half;
-      double sum = 0;
-      int count = 0;
-      for (int old = 0; old < 8; ++old) {
-        if (((old ^ octant) & ~middle) == 0) {
-          sum += corner[old];
-          ++count;
-        }
+    int64_t nearest = origin;       // seed of the octant's corner that is an old one
+    std::array<int64_t, 3> inward;  // what half an edge from there adds
+    for (int i = 0; i < 3; ++i) {
+      const bool far = offset[i] > half;
+      octant |= far << i;
+      nearest += far ? 2 * half * kSeeds[i] : 0;
+      inward[i] = far ? -half * kSeeds[i] : half * kSeeds[i];
+      if (far) {
+        offset[i] -= half;
+        origin += half * kSeeds[i];
       }
-      inner[c] = sum / count;
-      if (middle != 0) inner[c] += static_cast<double>(half) * kNoiseStep * randomAt(p);
     }
-    corner = inner;
-    for (int i = 0; i < 3; ++i) origin[i] += (octant >> i & 1) * half;
+    // sum[m]: of the corners of the edge, face or cube that runs from the octant's corner along the axes of m
+    std::array<double, 8> sum;
+    for (int m = 0; m < 8; ++m) sum[m] = corner[m ^ octant];
+    for (int bit = 1; bit < 8; bit *= 2) {
+      for (int m = 0; m < 8; ++m) sum[m] += (m & bit) != 0 ? sum[m ^ bit] : 0;
+    }
+    corner[octant] = sum[0];
+    const double spread = static_cast<double>(half) * kNoiseStep;
+    for (int m = 1; m < 8; ++m) {
+      int64_t seed = nearest;
+      for (int i = 0; i < 3; ++i) seed += (m >> i & 1) * inward[i];
+      corner[m ^ octant] = sum[m] * kShare[m] + spread * latticeRandom(seed);
+    }
   }
   double sum = 0;
   for (double value : corner) sum += value;
