@@ -52,8 +52,9 @@ AnswerRecord answerPoints(const SphereEstimator& estimator, const Scene& scene, 
 
 void answer(const Options& options, const Messages& messages, StopSignals& signals) {
   const rad::Warn warn = [&](std::string_view text) { messages.warning(text); };
-  const Scene scene = buildScene(rad::readScene(options.scene, {options.commands, warn}), warn);
-  const Transport transport(scene, options.ray, options.irradiance);
+  const Scene scene =
+      buildScene(rad::readScene(options.scene, {options.commands, warn}), warn, options.sphere.goals);
+  const Transport transport(scene, options.ray, options.irradiance, options.sphere.basicRadiance);
 
   RecordReader reader(0, options.in, options.sphere.on ? 3 : 6);
   RecordWriter writer(1);

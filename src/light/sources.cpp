@@ -112,6 +112,18 @@ void setShape(LightSource& source, const Distant& distant, const Scene&) {
   source.sinHalfAngle = std::sin(distant.halfAngle);
 }
 
+// Whether rays aimed at a shape's parts hit it. A goal may have any shape; one that can't be aimed at is met
+// by chance.
+bool canBeAimedAt(const Shape& shape, const Scene& scene) {
+  if (const auto* polygon = std::get_if<Polygon>(&shape))
+    return isConvex(std::span(scene.vertices).subspan(polygon->firstVertex, polygon->vertices),
+                    polygon->normal);
+  if (const auto* ring = std::get_if<Ring>(&shape)) return ring->inner == 0;
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return !sphere->inward;
+  if (const auto* cone = std::get_if<Cone>(&shape)) return !cone->inward && cone->radius0 == cone->radius1;
+  return false;
+}
+
 // A part of the unit square on a source.
 struct Part {
   double s0 = 0, s1 = 1, t0 = 0, t1 = 1;
@@ -165,21 +177,27 @@ double jittered(double from, double to, double jitter, Random& random) {
 }  // namespace
 
 LightSources::LightSources(const Scene& scene) : scene_(scene) {
+  const auto add = [&](uint32_t surface) -> LightSource& {
+    LightSource& source = sources_.emplace_back();
+    source.surface = static_cast<int32_t>(surface);
+    std::visit([&](const auto& shape) { setShape(source, shape, scene); }, scene.surfaces[surface].shape);
+    return source;
+  };
   for (uint32_t i = 0; i < scene.surfaces.size(); ++i) {
     const Surface& surface = scene.surfaces[i];
     if (surface.material == kNone) continue;
+    if (scene.importance) {
+      if (surface.goal && canBeAimedAt(surface.shape, scene)) add(i);
+      continue;
+    }
     const Material& material = scene.modifiers[surface.material].content;
     const std::optional<Rgb> radiance = sourceRadiance(material);
     if (!radiance || maxChannel(*radiance) <= 0) continue;
-    LightSource source;
-    source.surface = static_cast<int32_t>(i);
-    if (const auto* glow = std::get_if<Glow>(&material)) {
+    if (const auto* glow = std::get_if<Glow>(&material))
       if (glow->reach <= 0 || std::holds_alternative<Distant>(surface.shape)) continue;
-      source.reach = glow->reach;
-    }
+    LightSource& source = add(i);
+    if (const auto* glow = std::get_if<Glow>(&material)) source.reach = glow->reach;
     source.spot = std::get_if<Spotlight>(&material);
-    std::visit([&](const auto& shape) { setShape(source, shape, scene); }, surface.shape);
-    sources_.push_back(std::move(source));
   }
 }
 

@@ -12,7 +12,8 @@
 
 namespace rsphere {
 
-// A surface that lights others by the direct calculation: light, spotlight, illum, and glow within its reach.
+// A surface that lights others by the direct calculation: light, spotlight, illum, and glow within its reach;
+// with goals in the scene, those goals alone.
 struct LightSource {
   int32_t surface = kNone;  // index in Scene::surfaces
   V3d center{0, 0, 0};      // direction to it (unit) where distant

@@ -346,8 +346,17 @@ std::optional<Rgb> sourceRadiance(const Material& material) {
 
 bool isLightSource(const Material& material) { return sourceRadiance(material).has_value(); }
 
-Scene buildScene(rad::Description description, const rad::Warn& warn) {
-  return Builder(std::move(description), warn).build();
+Scene buildScene(rad::Description description, const rad::Warn& warn, std::span<const std::string> goals) {
+  Scene scene = Builder(std::move(description), warn).build();
+  for (const std::string& goal : goals) {
+    bool found = false;
+    for (Surface& surface : scene.surfaces)
+      if (scene.modifierName(surface) == goal && !std::holds_alternative<Distant>(surface.shape))
+        found = surface.goal = true;
+    if (!found) throw rad::Error(fmt::format("no surface has the goal's modifier \"{}\"", goal));
+  }
+  scene.importance = !goals.empty();
+  return scene;
 }
 
 }  // namespace rsphere

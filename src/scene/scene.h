@@ -29,6 +29,7 @@ struct Surface {
   int32_t modifier = kNone;  // index in Scene::modifiers; kNone: void
   int32_t material = kNone;  // the first material of the chain that modifier begins: what ties between
                              // surfaces and light sources go by. kNone: none
+  bool goal = false;         // emits importance 1 from its front, besides what its material does
 };
 
 // What the tracer needs of a scene, and only what this scene requires: used modifiers, surfaces that can be
@@ -38,6 +39,7 @@ struct Scene {
   std::vector<Surface> surfaces;
   std::vector<V3d> vertices;  // of the polygons
   std::vector<Modifier> modifiers;
+  bool importance = false;  // there are goals: importance is traced, and every other source is dark
 
   std::string_view surfaceName(const Surface& s) const {
     return description.name(description.primitives[s.primitive]);
@@ -60,7 +62,9 @@ std::optional<Rgb> sourceRadiance(const Material& material);
 // Checks and converts what surfaces use of the description, which is kept for names and places. Vertices are
 // as the files have them (world frame, double). Warns of what RADIANCE warns of (negative radii, surfaces
 // without area, vertices out of the plane); a surface without area is left out. Throws rad::Error
-// with the primitive's place: wrong arguments, a used type that is not supported yet.
-Scene buildScene(rad::Description description, const rad::Warn& warn);
+// with the primitive's place: wrong arguments, a used type that is not supported yet. Or that no
+// surface has the modifier of a goal: surfaces with a modifier of one of these names emit importance (-Sg).
+Scene buildScene(rad::Description description, const rad::Warn& warn,
+                 std::span<const std::string> goals = {});
 
 }  // namespace rsphere

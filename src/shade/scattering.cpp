@@ -97,7 +97,7 @@ Rgb extinctionOf(const Rgb& transmission, const Rgb& pattern) {
 // Reflection and refraction at a boundary. inner, outer: indices and extinctions beyond the front's back and
 // before it.
 Scattering scatterAtBoundary(const Interaction& at, double inner, const Rgb& innerExtinction, double outer,
-                             const Rgb& outerExtinction) {
+                             const Rgb& outerExtinction, bool basic) {
   Scattering s;
   beginScattering(s, at, 0);
   s.knowsMedium = true;
@@ -108,7 +108,7 @@ Scattering scatterAtBoundary(const Interaction& at, double inner, const Rgb& inn
   const bool image = at.flat && (!perturbed(at) || (at.kinds & kAmbient));
   if (reflectance < 1) {
     // Radiance is squeezed into the smaller solid angle: n^2.
-    const double transmittance = (1 - reflectance) * ratio * ratio;
+    const double transmittance = (1 - reflectance) * (basic ? 1 : ratio * ratio);
     const double bend = ratio * s.cosine - cosineBeyond;
     V3d d = ratio * at.direction + bend * s.normal;
     if (perturbed(at) && d.dot(at.normal) >= -kNegligible) d = ratio * at.direction + bend * at.normal;
@@ -194,15 +194,17 @@ Scattering scatter(const Trans& material, const Interaction& at, double specular
   return s;
 }
 
-Scattering scatter(const Dielectric& material, const Interaction& at, const Rgb& outerExtinction) {
+Scattering scatter(const Dielectric& material, const Interaction& at, const Rgb& outerExtinction,
+                   bool basic) {
   // Hartmann's formula at a mean wavelength of 500 nm.
   return scatterAtBoundary(at, material.refraction + material.hartmann / 500,
-                           extinctionOf(material.transmission, at.pattern), 1, outerExtinction);
+                           extinctionOf(material.transmission, at.pattern), 1, outerExtinction, basic);
 }
 
-Scattering scatter(const Interface& material, const Interaction& at) {
+Scattering scatter(const Interface& material, const Interaction& at, bool basic) {
   return scatterAtBoundary(at, material.innerRefraction, extinctionOf(material.innerTransmission, at.pattern),
-                           material.outerRefraction, extinctionOf(material.outerTransmission, at.pattern));
+                           material.outerRefraction, extinctionOf(material.outerTransmission, at.pattern),
+                           basic);
 }
 
 Scattering scatter(const Glass& material, const Interaction& at) {

@@ -74,8 +74,10 @@ struct Scattering {
 // specularThreshold: -st, lobes whose share is not above it are not sampled but added to the indirect light.
 Scattering scatter(const Opaque& material, const Interaction& at, double specularThreshold);
 Scattering scatter(const Trans& material, const Interaction& at, double specularThreshold);
-Scattering scatter(const Dielectric& material, const Interaction& at, const Rgb& outerExtinction);
-Scattering scatter(const Interface& material, const Interaction& at);
+// basic: radiance over n^2, which passes a boundary unsqueezed, as importance does (Veach 1997, section 5.2).
+Scattering scatter(const Dielectric& material, const Interaction& at, const Rgb& outerExtinction,
+                   bool basic = false);
+Scattering scatter(const Interface& material, const Interaction& at, bool basic = false);
 Scattering scatter(const Glass& material, const Interaction& at);
 Scattering scatter(const Mirror& material, const Interaction& at);
 

@@ -46,10 +46,11 @@ bool beyondReach(const Glow* glow, double distance) {
 
 }  // namespace
 
-Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance irradiance)
+Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance irradiance, bool basicRadiance)
     : scene_(scene),
       options_(options),
       irradiance_(irradiance),
+      basicRadiance_(basicRadiance),
       tracer_(scene, options.backFacesVisible),
       lights_(scene),
       lightOf_(scene.surfaces.size(), kNone) {
@@ -57,7 +58,7 @@ Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance i
     lightOf_[lights_.all()[i].surface] = static_cast<int32_t>(i);
   for (size_t i = 0; i < scene.surfaces.size(); ++i) {
     const Surface& s = scene.surfaces[i];
-    if (!std::holds_alternative<Distant>(s.shape) || s.material == kNone) continue;
+    if (scene.importance || !std::holds_alternative<Distant>(s.shape) || s.material == kNone) continue;
     const auto radiance = sourceRadiance(scene.modifiers[s.material].content);
     if (radiance && maxChannel(*radiance) > kNegligible) distant_.push_back(static_cast<int32_t>(i));
   }
@@ -192,9 +193,22 @@ bool PathTracer::seesDistant(Ray& ray) {
 
 void PathTracer::shadeHit(Ray& ray) {
   ray.unmirroredLength = ray.length;
-  if (shade(ray, t_.scene().surfaces[ray.surface].modifier)) return;
+  if (shadeSurface(ray)) return;
   if (std::holds_alternative<Distant>(t_.scene().surfaces[ray.surface].shape)) return;
   pass(ray);
+}
+
+// What the surface emits and scatters; false where it has no material.
+bool PathTracer::shadeSurface(Ray& ray) {
+  const Surface& surface = t_.scene().surfaces[ray.surface];
+  if (!surface.goal || ray.cosine < 0) return shade(ray, surface.modifier);
+  Ray emitted = ray;
+  const bool sampled = t_.lightOf(ray.surface) != kNone;
+  if (!(sampled && countedByDirect(ray, nullptr))) emit(emitted, Rgb(1, 1, 1), nullptr);
+  const bool shaded =
+      (ray.kinds & kShadow) && ray.aimedAt == t_.lightOf(ray.surface) ? true : shade(ray, surface.modifier);
+  ray.value += emitted.value;
+  return shaded;
 }
 
 // Shades the ray with a chain of modifiers; false where it has no material.
@@ -295,11 +309,12 @@ bool PathTracer::shadeMaterial(Ray& ray, const Trans& material) {
 
 bool PathTracer::shadeMaterial(Ray& ray, const Dielectric& material) {
   const Interaction at = interaction(ray);
-  return shadeBoundary(ray, scatter(material, at, at.front ? ray.extinction : t_.options().mediumExtinction));
+  return shadeBoundary(ray, scatter(material, at, at.front ? ray.extinction : t_.options().mediumExtinction,
+                                    t_.basicRadiance()));
 }
 
 bool PathTracer::shadeMaterial(Ray& ray, const Interface& material) {
-  return shadeBoundary(ray, scatter(material, interaction(ray)));
+  return shadeBoundary(ray, scatter(material, interaction(ray), t_.basicRadiance()));
 }
 
 bool PathTracer::shadeMaterial(Ray& ray, const Glass& material) {
@@ -340,29 +355,31 @@ bool PathTracer::useAlternate(Ray& ray, const Alternate& alternate) {
 }
 
 bool PathTracer::shadeMaterial(Ray& ray, const Light& material) {
-  if (!countedByDirect(ray, nullptr)) emit(ray, material.radiance, nullptr);
+  if (!t_.scene().importance && !countedByDirect(ray, nullptr)) emit(ray, material.radiance, nullptr);
   return true;
 }
 
 bool PathTracer::shadeMaterial(Ray& ray, const Glow& material) {
-  if (!countedByDirect(ray, &material)) emit(ray, material.radiance, &material);
+  if (!t_.scene().importance && !countedByDirect(ray, &material)) emit(ray, material.radiance, &material);
   return true;
 }
 
 bool PathTracer::shadeMaterial(Ray& ray, const Spotlight& material) {
-  if (countedByDirect(ray, nullptr)) return true;
+  if (t_.scene().importance || countedByDirect(ray, nullptr)) return true;
   if (ray.cosine < 0 || !outsideSpot(material, ray.direction)) emit(ray, material.radiance, nullptr);
   return true;
 }
 
 bool PathTracer::shadeMaterial(Ray& ray, const Illum& material) {
-  if (countedByDirect(ray, nullptr)) return true;
+  if (!t_.scene().importance && countedByDirect(ray, nullptr)) return true;
   const LightSource* aimed = ray.aimedAt == kNone ? nullptr : &t_.lights().all()[ray.aimedAt];
   if (!aimed || aimed->surface != ray.surface) {
     if (aimed && ray.cosine > 0) {
       // Light of an illum or glow behind this illum is what this one stands for.
       const Material& other = t_.scene().modifiers[t_.scene().surfaces[aimed->surface].material].content;
-      if (std::holds_alternative<Illum>(other) || std::holds_alternative<Glow>(other)) return true;
+      if (!t_.scene().importance &&
+          (std::holds_alternative<Illum>(other) || std::holds_alternative<Glow>(other)))
+        return true;
     }
     return useAlternate(ray, material.alternate);
   }
@@ -511,7 +528,7 @@ Ray PathTracer::traceToSource(const V3d& point, const SourceSample& sample, uint
       ray.cosine = sample.cosine;
       primaryDirection_ = sample.direction;
       shownSource_ = kNone;
-      shade(ray, t_.scene().surfaces[light.surface].modifier);
+      shadeSurface(ray);
       return ray;
     }
   }
@@ -526,6 +543,7 @@ Rgb PathTracer::sourceValue(const Ray& ray, const SourceSample& sample) {
   if (sample.cosine < 0) return Rgb(0, 0, 0);
   const Modifier& modifier = scene.modifiers[surface.material];
   const Rgb passed = passing(ray.extinction, sample.distance);
+  if (surface.goal) return passed;
   if (surface.modifier == surface.material && modifier.next == kNone)
     return *sourceRadiance(modifier.content) * passed;
   Ray child;

@@ -21,13 +21,15 @@ namespace rsphere {
 // What all threads share; not changed by tracing. Keeps references to the scene.
 class Transport {
  public:
-  Transport(const Scene& scene, const RayOptions& options, Irradiance irradiance);
+  // basicRadiance: refraction leaves radiance as it is (-Sb).
+  Transport(const Scene& scene, const RayOptions& options, Irradiance irradiance, bool basicRadiance = false);
 
   const Scene& scene() const { return scene_; }
   const Tracer& tracer() const { return tracer_; }
   const LightSources& lights() const { return lights_; }
   const RayOptions& options() const { return options_; }
   Irradiance irradiance() const { return irradiance_; }
+  bool basicRadiance() const { return basicRadiance_; }
   // Index in LightSources of a surface, or kNone.
   int32_t lightOf(int32_t surface) const { return lightOf_[surface]; }
   // Whether indirect light is computed on the surface (-ae, -ai).
@@ -39,6 +41,7 @@ class Transport {
   const Scene& scene_;
   RayOptions options_;
   Irradiance irradiance_;
+  bool basicRadiance_;
   Tracer tracer_;
   LightSources lights_;
   std::vector<int32_t> lightOf_;
@@ -83,6 +86,7 @@ class PathTracer {
   void findHit(Ray& ray);
   bool seesDistant(Ray& ray);
   void shadeHit(Ray& ray);
+  bool shadeSurface(Ray& ray);
   bool shade(Ray& ray, int32_t modifier);
   void pass(Ray& ray);
   void finish(Ray& ray);
