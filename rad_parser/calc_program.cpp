@@ -110,50 +110,41 @@ double apply(Op op, double a, double b, double c, uint32_t& faults) {
   }
 }
 
-void Program::evaluate(const Point& point, State& state, std::span<double> out) const {
-  // The frame that runs: where its registers and cells begin. top: the first ones that no activation uses.
-  uint32_t base = 0, cellBase = 0, top = 0, cellTop = 0;
-  double* r = nullptr;
-  const auto enter = [&](const Frame& frame) {
-    base = top;
-    cellBase = cellTop;
-    top += frame.registers;
-    cellTop += frame.cells;
-    if (state.registers_.size() < top) state.registers_.resize(top + top / 2);
-    if (state.cells_.size() < cellTop) state.cells_.resize(cellTop + cellTop / 2);
-    r = state.registers_.data() + base;
-    std::copy_n(constants_.data() + frame.firstConstant, frame.constants, r);
-    State::Cell* cells = state.cells_.data() + cellBase;
-    for (uint32_t i = frame.parameters; i < frame.cells; ++i) {
-      cells[i] = {cellStarts_[frame.firstCell + i], base, cellBase};
-    }
-  };
-  std::vector<State::Return>& returns = state.returns_;
-  returns.clear();
-  enter(frames_[0]);
+// Makes room for an activation of a frame and fills in what each begins with: constants and cells that have
+// not run.
+double* Program::enter(const Frame& frame, State& state, uint32_t base, uint32_t cellBase) const {
+  const size_t top = size_t{base} + frame.registers, cellTop = size_t{cellBase} + frame.cells;
+  if (state.registers_.size() < top) state.registers_.resize(2 * top);
+  if (state.cells_.size() < cellTop) state.cells_.resize(2 * cellTop);
+  double* r = state.registers_.data() + base;
+  const double* constants = constants_.data() + frame.firstConstant;
+  for (uint32_t i = 0; i < frame.constants; ++i) r[i] = constants[i];
+  State::Cell* cells = state.cells_.data() + cellBase;
+  const uint32_t* starts = cellStarts_.data() + frame.firstCell;
+  for (uint32_t i = frame.parameters; i < frame.cells; ++i) cells[i] = {starts[i], base, cellBase};
+  return r;
+}
 
+// Another entry on the stack of returns; its size is the caller's, so that the loop can keep it in a
+// register.
+void Program::push(const Frame& frame, State& state, size_t depth, size_t registers, State::Return back) {
+  if (depth >= kMaxDepth || registers > kMaxRegisters) {
+    throw Error(fmt::format("{}: recursion that is too deep or endless", frame.name));
+  }
+  if (depth == state.returns_.size()) state.returns_.resize(2 * depth + 64);
+  state.returns_[depth] = back;
+}
+
+void Program::evaluate(const Point& point, State& state, std::span<double> out) const {
+  const Instruction* const code = code_.data();
+  // The frame that runs: where its registers and cells begin. top, cellTop: the first ones that no activation
+  // uses. Nothing here is captured or passed by reference, else the loop would work on memory.
+  uint32_t base = 0, cellBase = 0;
+  double* r = enter(frames_[0], state, 0, 0);
+  uint32_t top = frames_[0].registers, cellTop = frames_[0].cells;
+  size_t depth = 0;
   uint32_t faults = 0;
-  const Instruction* i = code_.data() + frames_[0].begin;
-  const auto pcAfter = [&] { return static_cast<uint32_t>(i - code_.data()) + 1; };
-  const auto needDepth = [&](const Frame& frame) {
-    if (returns.size() >= kMaxDepth || top > kMaxRegisters) {
-      state.faults |= faults;
-      throw Error(fmt::format("{}: recursion that is too deep or endless", frame.name));
-    }
-  };
-  const auto force = [&](uint32_t cell, uint32_t to) {
-    State::Cell& c = state.cells_[cell];
-    if (c.pc == kDone) return false;
-    if (c.pc == kBusy) throw Error(fmt::format("{}: a value that depends on itself", frames_[0].name));
-    needDepth(frames_[0]);
-    returns.push_back({pcAfter(), base, cellBase, cell, to});
-    base = c.base;
-    cellBase = c.cellBase;
-    r = state.registers_.data() + base;
-    i = code_.data() + c.pc;
-    c.pc = kBusy;
-    return true;
-  };
+  const Instruction* i = code + frames_[0].begin;
 
   while (true) {
     switch (i->op) {
@@ -206,11 +197,11 @@ void Program::evaluate(const Point& point, State& state, std::span<double> out) 
         r[i->to] = checked(noise3(r[i->a], r[i->b], r[i->c]), faults);
         break;
       case Op::jump:
-        i = code_.data() + i->a;
+        i = code + i->a;
         continue;
       case Op::jumpUnlessPositive:
         if (!(r[i->a] > 0)) {
-          i = code_.data() + i->b;
+          i = code + i->b;
           continue;
         }
         break;
@@ -219,7 +210,7 @@ void Program::evaluate(const Point& point, State& state, std::span<double> out) 
         int n = rounded(x);
         const int choices = static_cast<int>(i->c);
         if (!(x >= -.5) || n >= choices) n = -1;
-        i = code_.data() + lists_[i->b + static_cast<uint32_t>(n + 1)];
+        i = code + lists_[i->b + static_cast<uint32_t>(n + 1)];
         continue;
       }
       case Op::zeroRange:
@@ -243,56 +234,69 @@ void Program::evaluate(const Point& point, State& state, std::span<double> out) 
         break;
       }
       case Op::force:
-        if (force(cellBase + i->a, base + i->to)) continue;
-        break;
-      case Op::forceGlobal:
-        if (force(i->a, i->to)) continue;
-        break;
+      case Op::forceGlobal: {
+        const bool own = i->op == Op::force;
+        const uint32_t cell = i->a + (own ? cellBase : 0);
+        State::Cell& c = state.cells_[cell];
+        if (c.pc == kDone) break;
+        if (c.pc == kBusy) throw Error(fmt::format("{}: a value that depends on itself", frames_[0].name));
+        const auto next = static_cast<uint32_t>(i - code) + 1;
+        push(frames_[0], state, depth++, top, {next, base, cellBase, cell, i->to + (own ? base : 0)});
+        base = c.base;
+        cellBase = c.cellBase;
+        r = state.registers_.data() + base;
+        i = code + c.pc;
+        c.pc = kBusy;
+        continue;
+      }
       case Op::global:
         r[i->to] = state.registers_[i->a];
         break;
       case Op::returnCell: {
         const double value = r[i->a];
-        const State::Return back = returns.back();
-        returns.pop_back();
+        const State::Return& back = state.returns_[--depth];
         state.cells_[back.cell].pc = kDone;
         base = back.base;
         cellBase = back.cellBase;
-        state.registers_[back.to] = value;
         r = state.registers_.data() + base;
-        i = code_.data() + back.pc;
+        state.registers_[back.to] = value;
+        i = code + back.pc;
         continue;
       }
       case Op::call: {
         const Frame& callee = frames_[i->a];
-        needDepth(callee);
-        returns.push_back({pcAfter(), base, cellBase, kNoCell, base + i->to});
-        const uint32_t callerBase = base, callerCells = cellBase;
+        const auto next = static_cast<uint32_t>(i - code) + 1;
+        push(callee, state, depth++, top, {next, base, cellBase, kNoCell, base + i->to});
         const uint32_t* arguments = lists_.data() + i->b;
-        enter(callee);
-        const double* caller = state.registers_.data() + callerBase;
+        r = enter(callee, state, top, cellTop);
+        const double* caller = state.registers_.data() + base;
+        const State::Cell* callerCells = state.cells_.data() + cellBase;
+        State::Cell* cells = state.cells_.data() + cellTop;
         for (uint32_t k = 0; k < callee.parameters; ++k, arguments += 3) {
           // A register that holds the value, or code that computes it in the caller's frame. The value may be
           // there all the same if the caller has a cell for it.
-          const bool isDone = arguments[1] == kDone || (arguments[2] != kNoCell &&
-                                                        state.cells_[callerCells + arguments[2]].pc == kDone);
-          state.cells_[cellBase + k] = {isDone ? kDone : arguments[1], callerBase, callerCells};
+          const bool isDone =
+              arguments[1] == kDone || (arguments[2] != kNoCell && callerCells[arguments[2]].pc == kDone);
+          cells[k] = {isDone ? kDone : arguments[1], base, cellBase};
           if (isDone) r[callee.constants + k] = caller[arguments[0]];
         }
-        i = code_.data() + callee.begin;
+        base = top;
+        cellBase = cellTop;
+        top += callee.registers;
+        cellTop += callee.cells;
+        i = code + callee.begin;
         continue;
       }
       case Op::returnCall: {
         const double value = r[i->a];
-        const State::Return back = returns.back();
-        returns.pop_back();
+        const State::Return& back = state.returns_[--depth];
         top = base;
         cellTop = cellBase;
         base = back.base;
         cellBase = back.cellBase;
-        state.registers_[back.to] = value;
         r = state.registers_.data() + base;
-        i = code_.data() + back.pc;
+        state.registers_[back.to] = value;
+        i = code + back.pc;
         continue;
       }
       case Op::fail:

@@ -164,6 +164,9 @@ class Program {
     uint32_t firstCell = 0, cells = 0;  // the first cells are the parameters'
   };
 
+  double* enter(const Frame& frame, State& state, uint32_t base, uint32_t cellBase) const;
+  static void push(const Frame& frame, State& state, size_t depth, size_t registers, State::Return back);
+
   std::vector<Instruction> code_;
   std::vector<Frame> frames_;  // the first evaluates the expressions
   std::vector<double> constants_;
