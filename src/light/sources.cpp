@@ -259,7 +259,7 @@ void LightSources::sample(uint32_t index, const V3d& point, const SourceSampling
 
   switch (source.map) {
     case LightSource::Map::cone:
-      if (source.cosHalfAngle <= 0) {
+      if (source.cosHalfAngle < kEdgeOn) {
         // Half the sky or more: spread evenly over the cone instead.
         const double c = 1 - (1 - source.cosHalfAngle) * (jitter > 0 ? random.uniform() * jitter : 0);
         const double angle = 2 * kPi * (jitter > 0 ? random.uniform() : 0);
