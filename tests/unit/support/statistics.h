@@ -43,7 +43,8 @@ inline void expectMean(const Sample& sample, double expected, double spoiled = 1
   EXPECT_LT(std::abs(sample.sigmas(expected)), kMostSigmas)
       << "mean " << sample.mean() << " +- " << sample.standardError() << ", expected " << expected;
   EXPECT_GT(std::abs(sample.sigmas(spoiled * expected)), kMostSigmas)
-      << "the sample is too small to see an error of " << spoiled;
+      << "the sample is too small to see an error of " << spoiled << " of " << expected << ": mean "
+      << sample.mean() << " +- " << sample.standardError();
 }
 
 // How many standard deviations a chi-squared statistic lies above its mean, as a normal deviate (Wilson and

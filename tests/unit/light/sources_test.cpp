@@ -1,0 +1,311 @@
+#include "light/sources.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "tests/unit/support/scene_of.h"
+#include "tests/unit/support/statistics.h"
+
+namespace rsphere {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kDegree = kPi / 180;
+
+std::string lit(const char* material, const std::string& surface) {
+  return std::string("void ") + material + "\n" + "lamp " + surface + "\n";
+}
+std::string light(const std::string& surface) { return lit("light lamp\n0\n0\n3 1 1 1", surface); }
+
+std::vector<SourceSample> samplesAt(const Scene& scene, const V3d& point, const SourceSampling& how,
+                                    uint64_t seed = 1) {
+  const LightSources sources(scene);
+  Random random(seed);
+  std::vector<SourceSample> samples;
+  for (uint32_t i = 0; i < sources.all().size(); ++i) sources.sample(i, point, how, random, samples);
+  return samples;
+}
+
+// Irradiance of a surface with this normal by sources of radiance 1.
+double irradiance(const std::vector<SourceSample>& samples, const V3d& normal) {
+  double e = 0;
+  for (const SourceSample& s : samples)
+    if (s.cosine > 0) e += s.solidAngle * std::max(0., normal.dot(s.direction));
+  return e;
+}
+
+Sample meanIrradiance(const Scene& scene, const V3d& point, const V3d& normal, const SourceSampling& how,
+                      int count = 2000) {
+  const LightSources sources(scene);
+  Random random(2);
+  Sample e;
+  std::vector<SourceSample> samples;
+  for (int i = 0; i < count; ++i) {
+    samples.clear();
+    for (uint32_t k = 0; k < sources.all().size(); ++k) sources.sample(k, point, how, random, samples);
+    e.add(irradiance(samples, normal));
+  }
+  return e;
+}
+
+const V3d kUp(0, 0, 1);
+
+// ---- closed forms
+
+// pi (r/d)^2 cos(b), b from the normal to the sphere's middle, while all of it is above the horizon.
+TEST(Source, SphereLightsByItsProjectedSolidAngle) {
+  for (const double r : {.01, .5, 1.8}) {
+    const Scene scene = sceneOf(light(fmt::format("sphere s\n0\n0\n4 0 0 2 {}\n", r)));
+    const double exact = kPi * r * r / 4;
+    EXPECT_NEAR(irradiance(samplesAt(scene, V3d(0, 0, 0), SourceSampling{.2, 0}), kUp), exact, 1e-12);
+    for (const double slope : {0., .25})
+      if (r <= .5 || slope == 0) {
+        const V3d normal = V3d(slope, 0, 1).normalized();
+        expectMean(meanIrradiance(scene, V3d(0, 0, 0), normal, SourceSampling{.2, 1}), exact * normal.z);
+      }
+  }
+}
+
+TEST(Source, FarSphereLightsByItsIntensity) {
+  const Scene scene = sceneOf(light("sphere s\n0\n0\n4 0 0 1e5 .1\n"));
+  EXPECT_NEAR(irradiance(samplesAt(scene, V3d(0, 0, 0), SourceSampling{.2, 0}), kUp) / (kPi * 1e-12), 1,
+              1e-12);
+}
+
+// A sun of full angle w: pi sin^2(w/2).
+TEST(Source, SunLightsByItsProjectedSolidAngle) {
+  for (const double w : {.533, 10., 90., 179.}) {
+    const Scene scene = sceneOf(light(fmt::format("source s\n0\n0\n4 0 0 1 {}\n", w)));
+    const double exact = kPi * std::pow(std::sin(w / 2 * kDegree), 2);
+    const auto samples = samplesAt(scene, V3d(7, 8, 9), SourceSampling{.2, 0});
+    ASSERT_EQ(samples.size(), 1u);
+    EXPECT_EQ(samples[0].distance, 1e10);
+    EXPECT_NEAR(irradiance(samples, kUp), exact, 1e-12);
+    expectMean(meanIrradiance(scene, V3d(7, 8, 9), kUp, SourceSampling{.2, 1}), exact, 1.0001 + .05);
+    if (w < 60)
+      expectMean(meanIrradiance(scene, V3d(0, 0, 0), V3d(.6, 0, .8), SourceSampling{.2, 1}), .8 * exact);
+  }
+}
+
+// Half the sky or more gives pi on what faces it, not its solid angle.
+TEST(Source, HalfTheSkyLightsByPi) {
+  const Scene half = sceneOf(light("source s\n0\n0\n4 0 0 1 180\n"));
+  const Scene whole = sceneOf(light("source s\n0\n0\n4 0 0 1 360\n"));
+  EXPECT_NEAR(irradiance(samplesAt(half, V3d(0, 0, 0), SourceSampling{.2, 0}), kUp), kPi, 1e-12);
+  expectMean(meanIrradiance(half, V3d(0, 0, 0), kUp, SourceSampling{.2, 1}, 80000), kPi);
+  expectMean(meanIrradiance(half, V3d(0, 0, 0), V3d(1, 0, 0), SourceSampling{.2, 1}, 80000), kPi / 2);
+  expectMean(meanIrradiance(whole, V3d(0, 0, 0), V3d(0, 1, 0), SourceSampling{.2, 1}, 80000), kPi);
+}
+
+// Howell's catalogue, B-3: differential element facing a corner of a parallel rectangle.
+double parallelCorner(double a, double b, double c) {
+  const double x = a / c, y = b / c, u = std::sqrt(1 + x * x), v = std::sqrt(1 + y * y);
+  return (x / u * std::atan(y / u) + y / v * std::atan(x / v)) / (2 * kPi);
+}
+// B-4: the rectangle stands upright before the element, of height a, width b, at distance c.
+double perpendicularCorner(double a, double b, double c) {
+  const double x = a / b, y = c / b, h = std::sqrt(x * x + y * y);
+  return (std::atan(1 / y) - y / h * std::atan(1 / h)) / (2 * kPi);
+}
+
+TEST(Source, RectangleLightsByItsConfigurationFactor) {
+  EXPECT_NEAR(perpendicularCorner(2, 1.5, 1), .1143604, 5e-8) << "by quadrature";
+  const Scene parallel = sceneOf(light("polygon s\n0\n0\n12 0 0 1 0 1.5 1 2 1.5 1 2 0 1\n"));
+  expectMean(meanIrradiance(parallel, V3d(0, 0, 0), kUp, SourceSampling{.05, 1}),
+             kPi * parallelCorner(2, 1.5, 1), 1.005);
+  const Scene upright = sceneOf(light("polygon s\n0\n0\n12 1 0 0 1 0 2 1 1.5 2 1 1.5 0\n"));
+  expectMean(meanIrradiance(upright, V3d(0, 0, 0), kUp, SourceSampling{.05, 1}),
+             kPi * perpendicularCorner(2, 1.5, 1), 1.005);
+  // One ray to the middle of each part is right to the square of -ds.
+  EXPECT_NEAR(irradiance(samplesAt(parallel, V3d(0, 0, 0), SourceSampling{.05, 0}), kUp) /
+                  (kPi * parallelCorner(2, 1.5, 1)),
+              1, 5e-3);
+}
+
+// Lambert's formula for a polygon: half the sum of the angles under which its edges are seen, as vectors.
+double polygonIrradiance(const std::vector<V3d>& v, const V3d& normal) {
+  V3d sum(0, 0, 0);
+  for (size_t i = 0; i < v.size(); ++i) {
+    const V3d a = v[i], b = v[(i + 1) % v.size()], across = a.cross(b);
+    sum += std::atan2(across.length(), a.dot(b)) * across.normalized();
+  }
+  return std::abs(sum.dot(normal)) / 2;
+}
+
+TEST(Source, TriangleAndPentagonLightByTheirEdges) {
+  const std::vector<std::vector<V3d>> outlines = {
+      {V3d(-1, -1, 1), V3d(0, 2, 1), V3d(1.5, -.5, 1)},
+      {V3d(-1, -1, 1), V3d(-1.5, .5, 1), V3d(0, 2, 1), V3d(1.5, .5, 1), V3d(1, -1, 1)}};
+  for (const auto& outline : outlines) {
+    std::string text = fmt::format("polygon s\n0\n0\n{}", 3 * outline.size());
+    for (const V3d& p : outline) text += fmt::format(" {} {} {}", p.x, p.y, p.z);
+    const Scene scene = sceneOf(light(text));
+    expectMean(meanIrradiance(scene, V3d(0, 0, 0), kUp, SourceSampling{.1, 1}),
+               polygonIrradiance(outline, kUp), 1.01);
+  }
+}
+
+// Disk of radius r at distance d on its axis: pi r^2 / (r^2 + d^2).
+TEST(Source, DiskLightsByItsConfigurationFactor) {
+  const Scene scene = sceneOf(light("ring s\n0\n0\n8 0 0 1 0 0 -1 0 .8\n"));
+  expectMean(meanIrradiance(scene, V3d(0, 0, 0), kUp, SourceSampling{.1, 1}), kPi * .64 / 1.64, 1.01);
+}
+
+// From far away a cylinder is a rectangle of its length and diameter, seen under the angle to its axis.
+TEST(Source, FarCylinderLightsByItsSilhouette) {
+  const Scene scene = sceneOf(light("cylinder s\n0\n0\n7 -.5 0 100 .5 0 100 .05\n"));
+  EXPECT_NEAR(irradiance(samplesAt(scene, V3d(0, 0, 0), SourceSampling{.2, 0}), kUp) / (.1 / 1e4), 1, 2e-3);
+  const Scene slanting = sceneOf(light("cylinder s\n0\n0\n7 -.3 0 99.6 .3 0 100.4 .05\n"));
+  EXPECT_NEAR(irradiance(samplesAt(slanting, V3d(0, 0, 0), SourceSampling{.2, 0}), kUp) / (.1 / 1e4 * .6), 1,
+              2e-2);
+}
+
+// An endless tube of radius r at distance h: pi r / h on what faces it.
+TEST(Source, LongTubeLightsAsAnEndlessOneDoes) {
+  const Scene scene = sceneOf(light("cylinder s\n0\n0\n7 -100 0 2 100 0 2 .02\n"));
+  expectMean(meanIrradiance(scene, V3d(0, 0, 0), kUp, SourceSampling{.05, 1}, 20000), kPi * .02 / 2, 1.05);
+}
+
+// ---- who is lit
+
+TEST(Source, PlaneSourcesLightTheirFrontOnly) {
+  for (const char* surface :
+       {"polygon s\n0\n0\n12 -1 -1 0 1 -1 0 1 1 0 -1 1 0\n", "ring s\n0\n0\n8 0 0 0 0 0 1 0 1\n"}) {
+    const Scene scene = sceneOf(light(surface));
+    EXPECT_FALSE(samplesAt(scene, V3d(0, 0, 1), SourceSampling{.2, 0}).empty());
+    EXPECT_TRUE(samplesAt(scene, V3d(0, 0, -1), SourceSampling{.2, 0}).empty());
+    EXPECT_TRUE(samplesAt(scene, V3d(5, 0, 0), SourceSampling{.2, 0}).empty()) << "edge-on";
+  }
+}
+
+TEST(Source, SphereDoesNotLightItsInside) {
+  const Scene scene = sceneOf(light("sphere s\n0\n0\n4 0 0 0 1\n"));
+  EXPECT_TRUE(samplesAt(scene, V3d(0, 0, .5), SourceSampling{.2, 0}).empty());
+}
+
+TEST(Source, GlowLightsWithinItsReach) {
+  const auto count = [](double reach, double z) {
+    const Scene scene = sceneOf(
+        lit(fmt::format("glow lamp\n0\n0\n4 1 1 1 {}", reach).c_str(), "sphere s\n0\n0\n4 0 0 0 .1\n"));
+    return samplesAt(scene, V3d(0, 0, z), SourceSampling{.2, 0}).size();
+  };
+  EXPECT_EQ(count(5, 4.9), 1u);
+  EXPECT_EQ(count(5, 5.2), 0u);
+  EXPECT_EQ(count(0, 1), 0u) << "of no reach: always indirect";
+  EXPECT_EQ(count(-1, 1), 0u) << "of negative reach: only seen";
+}
+
+TEST(Source, OnlyWhatShinesIsASource) {
+  const Scene scene = sceneOf(
+      "void light dark\n0\n0\n3 0 0 0\nvoid light lamp\n0\n0\n3 1 1 1\nvoid plastic gray\n0\n0\n5 1 1 1 0 0\n"
+      "void glow sky\n0\n0\n4 1 1 1 0\nvoid illum window\n0\n0\n3 1 1 1\n"
+      "dark sphere a\n0\n0\n4 0 0 0 1\ngray sphere b\n0\n0\n4 5 0 0 1\nsky source c\n0\n0\n4 0 0 1 180\n"
+      "lamp sphere d\n0\n0\n4 9 0 0 1\nwindow sphere e\n0\n0\n4 13 0 0 1\n");
+  const LightSources sources(scene);
+  ASSERT_EQ(sources.all().size(), 2u);
+  EXPECT_EQ(scene.surfaceName(scene.surfaces[sources.all()[0].surface]), "d");
+  EXPECT_EQ(scene.surfaceName(scene.surfaces[sources.all()[1].surface]), "e");
+}
+
+// A cone of 60 degrees that looks down. Its light comes from a focus behind the surface: that far away, it
+// falls off from there.
+TEST(Source, SpotlightLightsItsCone) {
+  const Scene scene =
+      sceneOf(lit("spotlight lamp\n0\n0\n7 1 1 1 60 0 0 -2", "ring s\n0\n0\n8 0 0 0 0 0 -1 0 .01\n"));
+  const auto at = [&](double degrees, double distance) {
+    const V3d down(std::sin(degrees * kDegree), 0, -std::cos(degrees * kDegree));
+    const auto samples = samplesAt(scene, distance * down, SourceSampling{.2, 0});
+    return samples.empty() ? 0 : samples[0].solidAngle;
+  };
+  EXPECT_GT(at(29.5, 3), 0);
+  EXPECT_EQ(at(30.5, 3), 0);
+  const double area = kPi * 1e-4;
+  for (const double d : {1., 3., 20.}) EXPECT_NEAR(at(0, d), area / ((d + 2) * (d + 2)), 1e-9);
+}
+
+// ---- parts and samples
+
+TEST(Source, IsSplitIntoNoMoreThan64Parts) {
+  for (const char* surface :
+       {"polygon s\n0\n0\n12 -5 -5 0 5 -5 0 5 5 0 -5 5 0\n", "ring s\n0\n0\n8 0 0 0 0 0 1 0 5\n",
+        "cylinder s\n0\n0\n7 -50 0 0 50 0 0 .01\n"}) {
+    const Scene scene = sceneOf(light(surface));
+    size_t last = 65;
+    for (const double ds : {1e-5, .05, .2, 1., 5.}) {
+      const size_t parts = samplesAt(scene, V3d(0, .01, .5), SourceSampling{ds, 0}).size();
+      EXPECT_LE(parts, 64u);
+      EXPECT_LE(parts, last) << "coarser -ds, fewer parts";
+      last = parts;
+    }
+    EXPECT_EQ(samplesAt(scene, V3d(0, 0, .5), SourceSampling{0, 0}).size(), 1u) << "-ds 0: not divided";
+  }
+}
+
+TEST(Source, SamplesHitTheSourceWhereTheySay) {
+  const std::vector<std::string> surfaces = {"polygon s\n0\n0\n12 -1 -1 0 1 -1 0 1 1 0 -1 1 0\n",
+                                             "polygon s\n0\n0\n9 -1 -1 0 1 -1 0 0 1 0\n",
+                                             "ring s\n0\n0\n8 0 0 0 0 0 1 0 1\n",
+                                             "sphere s\n0\n0\n4 0 0 0 1\n",
+                                             "cylinder s\n0\n0\n7 -1 0 0 1 0 0 .1\n",
+                                             "polygon s\n0\n0\n15 -1 -1 0 1 -1 0 1 1 0 0 .5 0 -1 1 0\n"};
+  for (const std::string& surface : surfaces) {
+    const Scene scene = sceneOf(light(surface));
+    Random random(3);
+    size_t count = 0;
+    for (int i = 0; i < 500; ++i) {
+      V3d point = 3. * randomDirection(random);
+      point.z = std::abs(point.z) + .1;
+      for (const SourceSample& s : samplesAt(scene, point, SourceSampling{.2, i % 2 ? 1. : 0.}, i)) {
+        ++count;
+        EXPECT_NEAR(s.direction.length(), 1, 1e-12);
+        EXPECT_GT(s.solidAngle, 0);
+        EXPECT_NEAR(s.cosine, -s.normal.dot(s.direction), 1e-12);
+        const V3d hit = point + s.distance * s.direction;
+        const auto& shape = scene.surfaces[0].shape;
+        if (const auto* p = std::get_if<Polygon>(&shape)) {
+          EXPECT_TRUE(inside(*p, scene.vertices, hit, 1e-12));
+        }
+        if (const auto* p = std::get_if<Ring>(&shape)) {
+          EXPECT_LE((hit - p->center).length(), 1 + 1e-12);
+        }
+        if (std::holds_alternative<Sphere>(shape)) {
+          EXPECT_NEAR(hit.length(), 1, 1e-12);
+        }
+        if (std::holds_alternative<Cone>(shape)) {
+          EXPECT_NEAR(std::hypot(hit.y, hit.z), .1, 1e-12);
+        }
+      }
+    }
+    EXPECT_GT(count, 400u) << surface;
+  }
+}
+
+// The jittered samples' solid angles sum up to the source's: 4 sin^2 for the sphere, and Van Oosterom and
+// Strackee's for the triangle.
+TEST(Source, SolidAnglesOfSamplesSumUpToTheSources) {
+  const auto mean = [](const Scene& scene) {
+    Sample sum;
+    for (uint64_t i = 0; i < 4000; ++i) {
+      double omega = 0;
+      for (const SourceSample& s : samplesAt(scene, V3d(0, 0, 0), SourceSampling{.2, 1}, i))
+        omega += s.solidAngle;
+      sum.add(omega);
+    }
+    return sum;
+  };
+  expectMean(mean(sceneOf(light("sphere s\n0\n0\n4 0 0 2 1\n"))), 2 * kPi * (1 - std::sqrt(.75)), 1.01);
+  const V3d a(0, 0, 1), b(0, 1, 1), c(1, 0, 1);
+  const double la = a.length(), lb = b.length(), lc = c.length();
+  const double omega = 2 * std::atan2(std::abs(a.dot(b.cross(c))),
+                                      la * lb * lc + a.dot(b) * lc + a.dot(c) * lb + b.dot(c) * la);
+  expectMean(mean(sceneOf(light("polygon s\n0\n0\n9 0 0 1 0 1 1 1 0 1\n"))), omega, 1.01);
+}
+
+}  // namespace
+}  // namespace rsphere
