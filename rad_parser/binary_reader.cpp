@@ -92,7 +92,11 @@ std::vector<std::string> BinaryReader::header(std::string_view format) {
     for (;;) {
       if (next_ == end_) {
         const uint8_t* keep = next_;
-        if (!refill(keep)) throw lines.empty() ? none(article) : fault("truncated " + kind_);
+        if (refill(keep)) continue;
+        if (offset() == 0)
+          throw Error(fmt::format("{}: not {} {}: 0 bytes (did the program that makes it fail?)",
+                                  printable(name_, 4096), article, kind_));
+        throw lines.empty() ? none(article) : fault("truncated " + kind_);
       }
       const char c = static_cast<char>(*next_++);
       if (offset() == 1 && (c < ' ' || c > '~')) throw none(article);

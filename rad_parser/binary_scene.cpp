@@ -62,7 +62,8 @@ Cube readCube(BinaryReader& input) {
   Cube cube;
   for (double& x : cube.origin) x = number();
   cube.size = number();
-  if (cube.size < 0) throw input.fault("damaged bounds");
+  for (const double x : cube.origin)
+    if (cube.size < 0 || !std::isfinite(x + cube.size)) throw input.fault("damaged bounds");
   return cube;
 }
 

@@ -54,9 +54,7 @@ class Reader {
                               name.ends_with(".oct") ? "octree" : "scene", std::strerror(errno)),
                   Status::system);
     const std::string ahead = readBeginning(input.descriptor());
-    if (ahead.empty() && name.ends_with(".oct"))
-      throw Error(printable(name, 4096) + ": not an octree: 0 bytes (did oconv fail?)");
-    if (octree(input.descriptor(), file, ahead)) return;
+    if ((!ahead.empty() || name.ends_with(".oct")) && octree(input.descriptor(), file, ahead)) return;
     TextSource text(input.descriptor(), file, builder_, ahead);
     all(text, {}, file);
   }
@@ -83,10 +81,10 @@ class Reader {
   Description take() { return builder_.take(); }
 
  private:
-  // Reads what `ahead` begins where it is an octree; else false.
+  // Reads what `ahead` begins where it is an octree, or nothing at all, which is an error; else false.
   bool octree(int descriptor, uint32_t file, std::string_view ahead) {
     const std::string name = builder_.description().files[file].name;
-    if (!isOctree(ahead, name)) return false;
+    if (!ahead.empty() && !isOctree(ahead, name)) return false;
     if (!alone_)
       throw Error(printable(name, 4096) + ": an octree is a whole scene: it cannot be one among several");
     BinaryReader input(descriptor, name, "octree", ahead);
@@ -153,7 +151,7 @@ class Reader {
     const bool named = from.file == SourceFile::kNoFile;  // not by a file: its output may be an octree
     const std::string ahead = named ? readBeginning(running->output()) : std::string();
     const size_t before = builder_.description().primitives.size();
-    if (!named || !octree(running->output(), file, ahead)) {
+    if (ahead.empty() || !octree(running->output(), file, ahead)) {
       TextSource text(running->output(), file, builder_, ahead);
       all(text, inner, file, true);
     }

@@ -241,9 +241,18 @@ TEST(MeshFile, DamagedMeshes) {
   EXPECT_TRUE(contains(error([](MeshData& d) { d.patches = 0x7fffffff; }), "truncated mesh at byte"));
   EXPECT_TRUE(contains(error([](MeshData& d) { d.patches = -1; }), "damaged mesh: -1 patches"));
   EXPECT_TRUE(contains(error([](MeshData& d) { d.bounds[6] = '0'; }), "damaged bounds"));
+  EXPECT_TRUE(contains(error([](MeshData& d) {
+                         d.bounds = std::string(
+                             "0\0"
+                             "9e307\0"
+                             "0\0"
+                             "1.7e308\0",
+                             18);
+                       }),
+                       "damaged bounds"));
   EXPECT_TRUE(contains(error([](MeshData& d) { d.materials[d.materials.size() - 12] = 1; }), "mesh"));
   EXPECT_EQ(errorOfBytes("void plastic m"), "t.rtm: not a mesh");
-  EXPECT_EQ(errorOfBytes(""), "t.rtm: not a mesh");
+  EXPECT_EQ(errorOfBytes(""), "t.rtm: not a mesh: 0 bytes (did the program that makes it fail?)");
   EXPECT_EQ(errorOfBytes(bytesOf(fixture("frozen.oct"))),
             "t.rtm: not a mesh: its header says FORMAT=Radiance_octree");
   EXPECT_EQ(errorOf([] { rad::readMesh("none.rtm"); }, Status::system), "none.rtm: cannot find mesh file");

@@ -1,0 +1,33 @@
+// Octrees of any bytes: a description that holds together, or rad::Error; never a crash, a hang or memory
+// beyond what the bytes justify. Scene files that an octree names are not opened. From the top folder:
+//   clang++ -O1 -g -std=c++20 -fsanitize=fuzzer,address,undefined -I. tests/fuzz/octree.cpp
+//     $(ls rad_parser/*.cpp) -lfmt -lImath-3_1 -o fuzz_octree
+//   ./fuzz_octree -max_len=8192 -rss_limit_mb=512 -timeout=5 new_files tests/fuzz/corpus/octree
+//   tests/scenes/octree
+#include <cstdlib>
+
+#include "memory_file.h"
+#include "rad_parser/octree_file.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const MemoryFile file(data, size);
+  rad::DescriptionBuilder builder;
+  const uint32_t index = builder.addFile("fuzz.oct");
+  try {
+    const std::string ahead = rad::readBeginning(file.descriptor());
+    if (!rad::isOctree(ahead, "fuzz.oct")) return 0;
+    rad::BinaryReader input(file.descriptor(), "fuzz.oct", "octree", ahead);
+    rad::readOctree(input, index, builder, {}, [](const std::string&) {});
+  } catch (const rad::Error&) {
+    return 0;
+  }
+  const rad::Description d = builder.take();
+  for (size_t i = 0; i < d.primitives.size(); ++i) {
+    const rad::Primitive& p = d.primitives[i];
+    const bool whole = p.modifier < static_cast<int32_t>(i) && p.firstReal + p.reals <= d.realArgs.size() &&
+                       p.firstString + p.strings <= d.stringArgs.size() &&
+                       (p.type == rad::Type::alias) == (p.aliased != rad::kVoid);
+    if (!whole) std::abort();
+  }
+  return 0;
+}
