@@ -23,6 +23,11 @@ std::string errorOf(const std::string& text) {
   return "no error";
 }
 
+template <class M>
+const M& materialAt(const Scene& scene, int32_t modifier) {
+  return std::get<M>(scene.modifiers[modifier].content);
+}
+
 struct Fault {
   std::string text, message;
 };
@@ -130,7 +135,7 @@ TEST(Scene, LooksAtUsedModifiersOnly) {
       "a sphere s\n0\n0\n4 0 0 0 1\n"
       "a sphere t\n0\n0\n4 5 0 0 1\n");
   ASSERT_EQ(scene.modifiers.size(), 1u) << "the same modifier is converted once";
-  const auto& plastic = std::get<Opaque>(scene.modifiers[0].content);
+  const auto& plastic = materialAt<Opaque>(scene, 0);
   EXPECT_EQ(plastic.color, Rgb(.1, .2, .3));
   EXPECT_EQ(plastic.specularity, .04);
   EXPECT_EQ(plastic.roughness, .05);
@@ -147,9 +152,7 @@ TEST(Scene, FollowsAliasesAndRedefinitions) {
       "b sphere first\n0\n0\n4 5 0 0 1\n"
       "void sphere none\n0\n0\n4 9 0 0 1\n");
   ASSERT_EQ(scene.surfaces.size(), 3u);
-  const auto red = [&](int i) {
-    return std::get<Opaque>(scene.modifiers[scene.surfaces[i].material].content).color.x;
-  };
+  const auto red = [&](int i) { return materialAt<Opaque>(scene, scene.surfaces[i].material).color.x; };
   EXPECT_EQ(red(0), .2);
   EXPECT_EQ(red(1), .1);
   EXPECT_EQ(scene.surfaceName(scene.surfaces[1]), "first");
@@ -166,19 +169,19 @@ TEST(Scene, ReadsAlternatesOfMirrorAndIllum) {
       "void illum i0\n0\n0\n3 1 1 1\nvoid illum i1\n1 void\n0\n3 1 1 1\nvoid illum i2\n1 pane\n0\n3 1 1 1\n"
       "i0 sphere a\n0\n0\n4 0 0 0 1\ni1 sphere b\n0\n0\n4 0 0 0 1\ni2 sphere c\n0\n0\n4 0 0 0 1\n");
   const auto alternate = [&](int i) {
-    return std::get<Illum>(scene.modifiers[scene.surfaces[i].material].content).alternate;
+    return materialAt<Illum>(scene, scene.surfaces[i].material).alternate;
   };
   EXPECT_EQ(alternate(0).kind, Alternate::Kind::none);
   EXPECT_EQ(alternate(1).kind, Alternate::Kind::pass);
   ASSERT_EQ(alternate(2).kind, Alternate::Kind::modifier);
-  EXPECT_TRUE(std::holds_alternative<Glass>(scene.modifiers[alternate(2).modifier].content));
+  EXPECT_EQ(materialAt<Glass>(scene, alternate(2).modifier).transmissivity.x, .9);
 }
 
 TEST(Scene, MeasuresCones) {
   const Scene scene = sceneOf(
       "void spotlight s\n0\n0\n7 1 1 1 60 0 0 -2\ns sphere a\n0\n0\n4 0 0 0 1\n"
       "void light sun\n0\n0\n3 1 1 1\nsun source b\n0\n0\n4 0 0 2 .533\nsun source c\n0\n0\n4 0 1 0 180\n");
-  const auto& spot = std::get<Spotlight>(scene.modifiers[scene.surfaces[0].material].content);
+  const auto& spot = materialAt<Spotlight>(scene, scene.surfaces[0].material);
   EXPECT_NEAR(spot.solidAngle, 2 * kPi * (1 - std::cos(kPi / 6)), 1e-14);
   EXPECT_EQ(spot.aim, V3d(0, 0, -1));
   EXPECT_EQ(spot.focalLength, 2);

@@ -1,0 +1,392 @@
+#include "transport/path_tracer.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "tests/unit/transport/transport_fixture.h"
+
+namespace rsphere {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+const V3d kOrigin(0, 0, 0), kUp(0, 0, 1), kDown(0, 0, -1);
+
+std::string plastic(const char* name, double reflectance) {
+  return fmt::format("void plastic {}\n0\n0\n5 {r} {r} {r} 0 0\n", name, fmt::arg("r", reflectance));
+}
+std::string light(double radiance) {
+  return fmt::format("void light lamp\n0\n0\n3 {r} {r} {r}\n", fmt::arg("r", radiance));
+}
+std::string glow(double radiance, double reach) {
+  return fmt::format("void glow sky\n0\n0\n4 {r} {r} {r} {}\n", reach, fmt::arg("r", radiance));
+}
+// A level square of half-size 10, that faces up.
+std::string floor(const char* modifier, double z = 0, double half = 10, bool up = true) {
+  const double a = up ? -half : half;
+  return fmt::format("{} polygon floor\n0\n0\n12 {a} {n} {z} {b} {n} {z} {b} {p} {z} {a} {p} {z}\n", modifier,
+                     fmt::arg("a", a), fmt::arg("b", -a), fmt::arg("n", -half), fmt::arg("p", half),
+                     fmt::arg("z", z));
+}
+// -I as the command asks for it: the ray comes down to the point from a little above.
+double irradianceAt(Traced& traced, const V3d& point, const V3d& normal, uint64_t seed = 1) {
+  return traced.value(point + 1.1e-4 * normal, -normal, seed);
+}
+
+// ---- enclosures
+
+TEST(Enclosure, OfGlowIsSeenAsItIs) {
+  Traced box(glow(1, 0) +
+             "sky polygon a\n0\n0\n12 1 -1 -1 1 1 -1 -1 1 -1 -1 -1 -1\n"
+             "sky polygon b\n0\n0\n12 -1 1 1 1 1 1 1 -1 1 -1 -1 1\n"
+             "sky polygon c\n0\n0\n12 -1 -1 1 1 -1 1 1 -1 -1 -1 -1 -1\n"
+             "sky polygon d\n0\n0\n12 1 1 -1 1 1 1 -1 1 1 -1 1 -1\n"
+             "sky polygon e\n0\n0\n12 -1 1 -1 -1 1 1 -1 -1 1 -1 -1 -1\n"
+             "sky polygon f\n0\n0\n12 1 -1 1 1 1 1 1 1 -1 1 -1 -1\n");
+  Random random(31);
+  for (int i = 0; i < 5000; ++i)
+    EXPECT_EQ(box.value(randomPoint(random, .99), randomDirection(random)), 1)
+        << "hole or wrong side, ray " << i;
+}
+
+// A furnace: whatever stands in even light of 1 that it does not absorb is seen as 1.
+TEST(Enclosure, FurnaceHidesWhatAbsorbsNothing) {
+  const std::string sky = glow(1, 0) + "sky source all\n0\n0\n4 0 0 1 360\n";
+  struct Case {
+    std::string material;
+    double lost;  // at most, by the model
+  };
+  for (const auto& [material, lost] :
+       std::vector<Case>{{"void plastic m\n0\n0\n5 1 1 1 0 0\n", 0},
+                         {"void trans m\n0\n0\n7 1 1 1 0 0 .5 0\n", 0},
+                         {"void trans m\n0\n0\n7 1 1 1 0 0 .5 .5\n", 0},
+                         {"void metal m\n0\n0\n5 1 1 1 1 0\n", 0},
+                         {"void mirror m\n0\n0\n3 1 1 1\n", 0},
+                         {"void glass m\n0\n0\n3 1 1 1\n", 0},
+                         {"void dielectric m\n0\n0\n5 1 1 1 1.5 0\n", 0},
+                         // Samples of a rough lobe that would leave under the surface are lost.
+                         {"void metal m\n0\n0\n5 1 1 1 1 .05\n", .01}}) {
+    Traced furnace(sky + material + "m sphere ball\n0\n0\n4 0 0 0 1\n", unbiased(40));
+    const Sample seen = furnace.mean(V3d(0, .3, 3), V3d(0, 0, -1), 500);
+    EXPECT_NEAR(seen.mean(), 1, lost + kMostSigmas * seen.standardError() + 1e-3) << material;
+  }
+}
+
+// The integrating sphere: with -ab n a radiance ray sees L_n = L_inf (1 - q^(n+1)). First hand, the wall's
+// radiance is p Ls (r/R)^2; of what it sends, the lamp, which indirect rays see as black, takes (r/R)^2.
+TEST(Enclosure, IntegratingSphereSumsItsGeometricSeries) {
+  for (const double p : {.3, .8})
+    for (const int bounces : {0, 1, 2, 8}) {
+      const double share = .1 * .1, q = p * (1 - share), first = p * 100 * share;
+      Traced sphere(plastic("wall", p) + light(100) +
+                        "wall bubble s\n0\n0\n4 0 0 0 1\nlamp sphere l\n0\n0\n4 0 0 0 .1\n",
+                    unbiased(bounces));
+      const auto seen = [&](int n) { return first * (1 - std::pow(q, n + 1)) / (1 - q); };
+      SCOPED_TRACE(testing::Message() << "reflectance " << p << ", -ab " << bounces);
+      const bool countsOnce = std::pow(q, bounces + 1) > .01;
+      expectMean(sphere.mean(V3d(.5, 0, 0), V3d(1, .2, .1), 40000), seen(bounces),
+                 countsOnce ? seen(bounces + 1) / seen(bounces) : 1.02);
+    }
+}
+
+// Glow of no reach is met by indirect rays alone: with -ab 1 a floor sees the sky, with -ab 0 nothing.
+TEST(Ambient, FirstBounceMeetsGlow) {
+  const double p = .5;
+  const std::string scene =
+      plastic("m", p) + floor("m", 0, 1000) + glow(1, 0) + "sky source all\n0\n0\n4 0 0 1 180\n";
+  EXPECT_EQ(Traced(scene, unbiased(0)).value(V3d(0, 0, 1), kDown), 0);
+  for (const int bounces : {1, 2, 5})
+    EXPECT_NEAR(Traced(scene, unbiased(bounces)).mean(V3d(0, 0, 1), kDown, 2000).mean(), p, 1e-12);
+}
+
+TEST(Ambient, ValueStandsForTheBouncesNotFollowed) {
+  RayOptions o = unbiased(0);
+  o.ambientValue = Rgb(.5, .25, 1);
+  const std::string wall = plastic("wall", .4) + "wall bubble s\n0\n0\n4 0 0 0 1\n";
+  const Rgb seen = Traced(wall, o).color(kOrigin, V3d(1, .2, .1));
+  EXPECT_NEAR(seen.x, .2, 1e-12);
+  EXPECT_NEAR(seen.y, .1, 1e-12);
+  EXPECT_NEAR(seen.z, .4, 1e-12);
+  for (const int bounces : {1, 3}) {
+    o.ambientBounces = bounces;
+    EXPECT_NEAR(Traced(wall, o).mean(kOrigin, V3d(1, .2, .1), 200).mean(), .5 * std::pow(.4, bounces + 1),
+                1e-9);
+  }
+}
+
+TEST(Ambient, DivisionsLowerTheSpread) {
+  const std::string scene =
+      plastic("m", .5) + floor("m") + glow(1, 0) + "sky source part\n0\n0\n4 1 0 1 60\n";
+  RayOptions o = unbiased(1);
+  const Sample one = Traced(scene, o).mean(V3d(0, 0, 1), kDown, 20000);
+  o.ambientDivisions = 256;
+  const Sample many = Traced(scene, o).mean(V3d(0, 0, 1), kDown, 1000);
+  // Of radiance 1 over a cone of 30 degrees half-angle at 45: E = pi sin^2(30) cos(45).
+  const double expected = .5 * .25 * std::sqrt(.5);
+  expectMean(one, expected, 1.1);
+  expectMean(many, expected, 1.02);
+  EXPECT_LT(many.standardError() * std::sqrt(1000.), one.standardError() * std::sqrt(20000.) / 16)
+      << "stratified directions do better than as many independent ones";
+}
+
+TEST(Ambient, ExcludedSurfacesTakeTheAmbientValue) {
+  const std::string scene =
+      plastic("m", .5) + floor("m") + glow(1, 0) + "sky source all\n0\n0\n4 0 0 1 180\n";
+  RayOptions o = unbiased(1);
+  o.ambientValue = Rgb(.125, .125, .125);
+  EXPECT_NEAR(Traced(scene, o).value(V3d(0, 0, 1), kDown), .5, 1e-12);
+  o.ambientExcluded = {"m"};
+  EXPECT_NEAR(Traced(scene, o).value(V3d(0, 0, 1), kDown), .0625, 1e-12);
+  o.ambientExcluded.clear();
+  o.ambientIncluded = {"other"};
+  EXPECT_NEAR(Traced(scene, o).value(V3d(0, 0, 1), kDown), .0625, 1e-12);
+  o.ambientIncluded = {"m"};
+  EXPECT_NEAR(Traced(scene, o).value(V3d(0, 0, 1), kDown), .5, 1e-12);
+}
+
+// ---- irradiance
+
+TEST(Irradiance, OfSunSphereAndSky) {
+  const double w = .533 * kPi / 180;
+  Traced sun(light(1e6) + "lamp source s\n0\n0\n4 0 0 1 .533\n", {}, Irradiance::point);
+  EXPECT_NEAR(irradianceAt(sun, kOrigin, kUp) / (1e6 * kPi * std::pow(std::sin(w / 2), 2)), 1, 1e-9);
+  Traced ball(light(3) + "lamp sphere s\n0\n0\n4 0 0 2 .5\n", {}, Irradiance::point);
+  EXPECT_NEAR(irradianceAt(ball, kOrigin, kUp), 3 * kPi / 16, 1e-3) << "the point lies 1e-4 higher";
+  Traced sky(glow(1, 0) + "sky source s\n0\n0\n4 0 0 1 180\n", unbiased(1), Irradiance::point);
+  EXPECT_NEAR(irradianceAt(sky, kOrigin, kUp), kPi, 1e-9);
+  Traced noBounce(glow(1, 0) + "sky source s\n0\n0\n4 0 0 1 180\n", unbiased(0), Irradiance::point);
+  EXPECT_EQ(irradianceAt(noBounce, kOrigin, kUp), 0) << "-I needs a bounce to see the sky";
+  Sample upright;
+  for (int i = 0; i < 4000; ++i) upright.add(irradianceAt(sky, kOrigin, V3d(1, 0, 0), mixBits(i)));
+  expectMean(upright, kPi / 2, 1.1);
+  Traced half(light(1) + "lamp source s\n0\n0\n4 0 0 1 180\n", {}, Irradiance::point);
+  EXPECT_NEAR(irradianceAt(half, kOrigin, kUp), kPi, 1e-9);
+}
+
+// -i replaces what is hit by a white meter; glass is passed, and sources stay.
+TEST(Irradiance, AtTheSurfaceIsPiTimesRadianceOverReflectance) {
+  const std::string scene = plastic("m", .25) + floor("m") + light(5) + "lamp sphere l\n0\n0\n4 3 0 4 .5\n";
+  Traced radiance(scene), meters(scene, {}, Irradiance::surface);
+  const V3d eye(0, 0, 2), aim(.1, .2, -1);
+  EXPECT_NEAR(meters.value(eye, aim), radiance.value(eye, aim) * kPi / .25, 1e-12);
+  Traced pane(scene + "void glass g\n0\n0\n3 .5 .5 .5\n" + floor("g", 1), {}, Irradiance::surface);
+  Traced noPane(scene + "void glass g\n0\n0\n3 .5 .5 .5\n" + floor("g", 3), {}, Irradiance::surface);
+  const double through = pane.value(eye, aim), below = noPane.value(eye, aim);
+  EXPECT_NEAR(through / below, 1, 1e-9) << "the eye passes the pane; only the light is filtered by it";
+  EXPECT_EQ(meters.value(eye, V3d(3, 0, 2)), 5) << "a lamp is seen as it is";
+}
+
+TEST(Irradiance, AtThePointEqualsThatAtTheSurface) {
+  const std::string scene = plastic("m", .25) + floor("m") + light(5) + "lamp sphere l\n0\n0\n4 3 0 4 .5\n";
+  Traced surface(scene, {}, Irradiance::surface), point(scene, {}, Irradiance::point);
+  EXPECT_NEAR(surface.value(V3d(.5, .5, 1), kDown), irradianceAt(point, V3d(.5, .5, 0), kUp), 1e-3);
+}
+
+// ---- direct light
+
+TEST(Direct, ShadowsAreDark) {
+  const std::string scene = plastic("m", .5) + floor("m") + light(1) + "lamp sphere l\n0\n0\n4 0 0 4 .1\n";
+  EXPECT_GT(Traced(scene).value(V3d(1, 0, 1), kDown), 0);
+  EXPECT_EQ(Traced(scene + "m sphere ball\n0\n0\n4 .5 0 2 .4\n").value(V3d(1, 0, 1), kDown), 0);
+}
+
+TEST(Direct, LightIsFilteredByGlass) {
+  const std::string scene = plastic("m", .5) + floor("m") + light(1) + "lamp sphere l\n0\n0\n4 0 0 4 .1\n" +
+                            "void glass g\n0\n0\n3 .96 .96 .96\n";
+  const double open = Traced(scene).value(V3d(0, 0, 1), kDown);
+  EXPECT_NEAR(Traced(scene + floor("g", 3)).value(V3d(0, 0, 1), kDown) / open, .88, 2e-3);
+}
+
+// Far too many equal lamps to be tested one by one: with -dt the untested are guessed by the tested.
+TEST(Direct, ThresholdKeepsToItsShare) {
+  std::string scene = plastic("m", .5) + floor("m") + light(1);
+  for (int i = 0; i < 100; ++i)
+    scene += fmt::format("lamp sphere l\n0\n0\n4 {} {} 5 {}\n", i % 10 - 4.5, i / 10 - 4.5, .01 + i * 1e-3);
+  RayOptions o;
+  o.directThreshold = 0;
+  const double exact = Traced(scene, o).value(V3d(0, 0, 1), kDown);
+  for (const double dt : {.03, .2}) {
+    o.directThreshold = dt;
+    EXPECT_NEAR(Traced(scene, o).value(V3d(0, 0, 1), kDown), exact, 1e-9)
+        << "nothing in the way: all are let through";
+  }
+}
+
+// ---- who is seen
+
+TEST(Sources, VisibilityFollowsTheOption) {
+  RayOptions hidden;
+  hidden.sourcesVisible = false;
+  const std::string ball = "lamp sphere l\n0\n0\n4 0 0 5 1\n";
+  EXPECT_EQ(Traced(light(2) + ball).value(kOrigin, kUp), 2);
+  EXPECT_EQ(Traced(light(2) + ball, hidden).value(kOrigin, kUp), 0);
+  const std::string shine = plastic("m", .5) + floor("m") + light(2) + ball;
+  EXPECT_EQ(Traced(shine, hidden).value(V3d(0, 0, 1), kDown), Traced(shine).value(V3d(0, 0, 1), kDown))
+      << "what it lights stays lit";
+  // Glow of no reach is no light source: it is seen in any case. Within its reach it is one.
+  const auto glowing = [&](double reach) {
+    return Traced(glow(2, reach) + "sky sphere g\n0\n0\n4 0 0 5 1\n", hidden).value(kOrigin, kUp);
+  };
+  EXPECT_EQ(glowing(0), 2);
+  EXPECT_EQ(glowing(3), 2) << "beyond its reach";
+  EXPECT_EQ(glowing(10), 0);
+  EXPECT_EQ(glowing(-1), 0);
+}
+
+TEST(Sources, AreDarkFromBehind) {
+  const std::string scene = light(2) + floor("lamp", 3);
+  EXPECT_EQ(Traced(scene).value(V3d(0, 0, 5), kDown), 2);
+  EXPECT_EQ(Traced(scene).value(kOrigin, kUp), 0);
+  RayOptions o;
+  o.backFacesVisible = false;
+  EXPECT_EQ(Traced(scene + glow(1, 0) + "sky source all\n0\n0\n4 0 0 1 360\n", o).value(kOrigin, kUp), 1)
+      << "-bv-: seen through from behind";
+}
+
+TEST(Sources, SpotlightIsSeenFromWithinItsConeOnly) {
+  const std::string scene =
+      "void spotlight s\n0\n0\n7 5 5 5 60 0 0 -1\ns ring r\n0\n0\n8 0 0 10 0 0 -1 0 .1\n";
+  EXPECT_EQ(Traced(scene).value(kOrigin, kUp), 5);
+  EXPECT_EQ(Traced(scene).value(V3d(5.5, 0, 0), V3d(-5.5, 0, 10)), 5);
+  EXPECT_EQ(Traced(scene).value(V3d(6, 0, 0), V3d(-6, 0, 10)), 0);
+}
+
+// illum lights, but is not seen: the eye sees its alternate, or through it.
+TEST(Sources, IllumIsSeenAsItsAlternate) {
+  const std::string before = glow(1, 0) + "sky source all\n0\n0\n4 0 0 1 360\n" + plastic("gray", .5);
+  for (const auto& [alternate, expected] : {std::pair("0", 1.), {"1 void", 1.}, {"1 black", 0.}}) {
+    const std::string scene =
+        before + plastic("black", 0) + fmt::format("void illum i\n{}\n0\n3 7 7 7\n", alternate);
+    EXPECT_EQ(Traced(scene + floor("i", 3, 1, false)).value(kOrigin, kUp), expected) << alternate;
+    // It lights the floor as a light of its radiance would.
+    const std::string lamp = before + plastic("black", 0) + light(7);
+    EXPECT_EQ(Traced(scene + floor("i", 3, 1, false) + floor("gray")).value(V3d(2, 0, 1), kDown),
+              Traced(lamp + floor("lamp", 3, 1, false) + floor("gray")).value(V3d(2, 0, 1), kDown))
+        << alternate;
+  }
+}
+
+// ---- mirrors and media
+
+TEST(Mirror, ShowsWhatItFaces) {
+  Traced scene("void mirror m\n0\n0\n3 .9 .8 .7\n" + floor("m") + light(2) +
+               "lamp sphere l\n0\n0\n4 3 0 3 .5\n");
+  const Rgb seen = scene.color(V3d(-3, 0, 3), V3d(3, 0, -3));
+  EXPECT_NEAR(seen.x, 1.8, 1e-12);
+  EXPECT_NEAR(seen.z, 1.4, 1e-12);
+  EXPECT_EQ(scene.value(V3d(0, 0, -1), kUp), 0) << "from behind it is black";
+}
+
+TEST(Mirror, GivesWayToItsAlternate) {
+  const std::string sky = glow(1, 0) + "sky source all\n0\n0\n4 0 0 1 360\n";
+  EXPECT_EQ(Traced(sky + "void mirror m\n1 void\n0\n3 .9 .9 .9\n" + floor("m")).value(V3d(0, 0, 1), kDown),
+            1);
+  EXPECT_EQ(Traced(sky + plastic("p", 0) + "void mirror m\n1 p\n0\n3 .9 .9 .9\n" + floor("m"))
+                .value(V3d(0, 0, 1), kDown),
+            0);
+}
+
+// Straight through a ball of index 1 there is no reflection: what is left is exp(-a d).
+TEST(Medium, AbsorbsByItsLength) {
+  const std::string sky = glow(1, 0) + "sky source all\n0\n0\n4 0 0 1 360\n";
+  Traced scene(sky + "void dielectric d\n0\n0\n5 .5 .9 1 1 0\nd sphere s\n0\n0\n4 0 0 0 1.5\n", unbiased());
+  const Rgb seen = scene.color(V3d(0, 0, 5), kDown);
+  EXPECT_NEAR(seen.x, .125, 1e-9);
+  EXPECT_NEAR(seen.y, .729, 1e-9);
+  EXPECT_NEAR(seen.z, 1, 1e-9);
+  const Rgb inside = scene.color(V3d(0, 0, .5), kDown);
+  EXPECT_NEAR(inside.x, .25, 1e-9) << "a ray that starts inside is told the medium by the surface it meets";
+}
+
+TEST(Medium, DielectricFocusesAsALensAndKeepsEnergy) {
+  const std::string sky = glow(1, 0) + "sky source all\n0\n0\n4 0 0 1 360\n";
+  Traced scene(sky + "void dielectric d\n0\n0\n5 1 1 1 1.5 0\nd sphere s\n0\n0\n4 0 0 0 1\n", unbiased());
+  for (const double x : {0., .3, .6, .9}) EXPECT_NEAR(scene.value(V3d(x, 0, 5), kDown), 1, 1e-6);
+}
+
+// ---- limits
+
+TEST(Limits, DistanceEndsTheRay) {
+  Traced scene(light(2) + "lamp sphere l\n0\n0\n4 0 0 5 1\n" + glow(1, 0) +
+               "sky source all\n0\n0\n4 0 0 1 360\n");
+  EXPECT_EQ(scene.value(kOrigin, kUp, 1, 4.5), 2);
+  EXPECT_EQ(scene.value(kOrigin, kUp, 1, 3.5), 0);
+  EXPECT_EQ(scene.value(kOrigin, kDown, 1, 3.5), 0) << "the sky is farther";
+  EXPECT_EQ(scene.value(kOrigin, kDown), 1);
+}
+
+// Between two facing mirrors a ray is reflected 5 times before it sees the sky.
+TEST(Limits, ReflectionsAndWeightEndPathsWhereTheyAreTold) {
+  const std::string scene = "void mirror m\n0\n0\n3 .5 .5 .5\n" + floor("m", -1) + floor("m", 1, 10, false) +
+                            glow(1, 0) + "sky source all\n0\n0\n4 0 0 1 360\n";
+  const auto seen = [&](int reflectionLimit, double weightLimit) {
+    RayOptions o;
+    o.reflectionLimit = reflectionLimit;
+    o.weightLimit = weightLimit;
+    return Traced(scene, o).mean(V3d(0, 0, 0), V3d(1, 0, 1), 4000);
+  };
+  const double all = std::pow(.5, 5);
+  EXPECT_NEAR(seen(5, 1e-4).mean(), all, 1e-12);
+  EXPECT_EQ(seen(4, 1e-4).mean(), 0);
+  EXPECT_NEAR(seen(-5, 1e-4).mean(), all, 1e-12);
+  EXPECT_EQ(seen(-4, 1e-4).mean(), 0);
+  EXPECT_NEAR(seen(0, 1e-4).mean(), all, 1e-12) << "0: no limit but the weight's";
+  EXPECT_NEAR(seen(10, .03).mean(), all, 1e-12);
+  EXPECT_EQ(seen(10, .04).mean(), 0) << "cut off";
+  expectMean(seen(-10, .2), all, 1.3);
+}
+
+// Russian roulette may cost variance, never the mean.
+TEST(Limits, RouletteKeepsTheMean) {
+  const std::string scene =
+      plastic("wall", .7) + light(100) + "wall bubble s\n0\n0\n4 0 0 0 1\nlamp sphere l\n0\n0\n4 0 0 .3 .1\n";
+  const auto seen = [&](double weightLimit, int count) {
+    RayOptions o = unbiased(12);
+    o.weightLimit = weightLimit;
+    return Traced(scene, o).mean(V3d(.5, 0, 0), V3d(1, .2, .1), count);
+  };
+  const Sample full = seen(1e-6, 20000);
+  for (const double lw : {1e-2, .2}) {
+    const Sample cut = seen(lw, 40000);
+    const double error = std::hypot(full.standardError(), cut.standardError());
+    EXPECT_LT(std::abs(cut.mean() - full.mean()), kMostSigmas * error) << "-lw " << lw;
+    EXPECT_GT(.05 * full.mean(), kMostSigmas * error) << "5% would have been noticed";
+  }
+  // Without the weight that survivors get, the mean would be lower: -lr above 0 cuts so.
+  RayOptions o = unbiased(12);
+  o.weightLimit = .2;
+  o.reflectionLimit = 1000;
+  const Sample spoiled = Traced(scene, o).mean(V3d(.5, 0, 0), V3d(1, .2, .1), 10000);
+  EXPECT_LT(spoiled.mean(),
+            full.mean() - kMostSigmas * std::hypot(full.standardError(), spoiled.standardError()));
+}
+
+// ---- order
+
+TEST(PathTracer, AnswersDoNotDependOnWhatWasTracedBefore) {
+  RayOptions o = unbiased(3);
+  o.ambientDivisions = 16;
+  const std::string scene = plastic("wall", .7) + "void metal m\n0\n0\n5 .8 .8 .8 .9 .1\n" + light(100) +
+                            "wall bubble s\n0\n0\n4 0 0 0 1\nlamp sphere l\n0\n0\n4 0 0 .3 .1\n"
+                            "m sphere ball\n0\n0\n4 .3 0 -.3 .2\n";
+  Traced traced(scene, o);
+  Random random(33);
+  std::vector<std::pair<V3d, V3d>> rays;
+  for (int i = 0; i < 50; ++i) rays.emplace_back(randomPoint(random, .2), randomDirection(random));
+  std::vector<Rgb> forward;
+  for (size_t i = 0; i < rays.size(); ++i)
+    forward.push_back(traced.color(rays[i].first, rays[i].second, 100 + i));
+  for (size_t i = rays.size(); i-- > 0;)
+    EXPECT_EQ(traced.color(rays[i].first, rays[i].second, 100 + i), forward[i]);
+  int same = 0;
+  for (size_t i = 0; i < rays.size(); ++i)
+    same += traced.color(rays[i].first, rays[i].second, 900 + i) == forward[i];
+  EXPECT_LT(same, 25) << "other seeds, other answers";
+}
+
+}  // namespace
+}  // namespace rsphere

@@ -1,0 +1,58 @@
+#pragma once
+#include <string>
+#include <utility>
+
+#include "tests/unit/support/scene_of.h"
+#include "tests/unit/support/statistics.h"
+#include "transport/path_tracer.h"
+
+namespace rsphere {
+
+// A scene with what is needed to trace rays in it.
+class Traced {
+ public:
+  explicit Traced(const std::string& text, const RayOptions& options = {},
+                  Irradiance irradiance = Irradiance::none)
+      : scene_(sceneOf(text)), transport_(scene_, options, irradiance), tracer_(transport_) {}
+
+  Rgb color(const V3d& origin, const V3d& direction, uint64_t seed = 1, double farthest = 0) {
+    return tracer_.trace(origin, direction.normalized(), farthest, seed).value;
+  }
+  // Of one channel: these scenes are gray unless a test says otherwise.
+  double value(const V3d& origin, const V3d& direction, uint64_t seed = 1, double farthest = 0) {
+    return color(origin, direction, seed, farthest).x;
+  }
+  Sample mean(const V3d& origin, const V3d& direction, int count, uint64_t seed = 1) {
+    Sample sample;
+    for (int i = 0; i < count; ++i) sample.add(value(origin, direction, mixBits(seed + i)));
+    return sample;
+  }
+  // Which surface a ray sees.
+  std::string seen(const V3d& origin, const V3d& direction) {
+    const Ray ray = tracer_.trace(origin, direction.normalized(), 0, 1);
+    return ray.surface == kNone ? "" : std::string(scene_.surfaceName(scene_.surfaces[ray.surface]));
+  }
+  PathTracer& tracer() { return tracer_; }
+  const Scene& scene() const { return scene_; }
+
+ private:
+  Scene scene_;
+  Transport transport_;
+  PathTracer tracer_;
+};
+
+// Every path followed and every source tested: means are right.
+inline RayOptions unbiased(int bounces = 0) {
+  RayOptions o;
+  o.directThreshold = 0;
+  o.directJitter = 1;
+  o.specularThreshold = 0;
+  o.ambientBounces = bounces;
+  o.ambientDivisions = 1;
+  o.ambientSuperSamples = 0;
+  o.reflectionLimit = -1000;
+  o.weightLimit = 1e-9;
+  return o;
+}
+
+}  // namespace rsphere
