@@ -61,7 +61,8 @@ void answer(const Options& options, const Messages& messages, StopSignals& signa
   const AnswerWriter answers(options);
   writeHeader(writer, options, {}, std::time(nullptr));
   if (options.sphere.on) {
-    const SphereEstimator estimator(transport, options.sphere);
+    const bool standardError = options.outputs.find('e') != std::string::npos;
+    const SphereEstimator estimator(transport, options.sphere, standardError);
     runRecords(reader, writer, options, messages, &signals, answerPoints(estimator, scene, options, answers));
   } else {
     runRecords(reader, writer, options, messages, &signals, answerRays(transport, options, answers));

@@ -41,6 +41,7 @@ struct PointAnswer {
   Rgb facing[6] = {};                  // H  irradiances of the six faces, +x -x +y -y +z -z
   V3d lightVector{0, 0, 0};            // u  integral of L d, of brightness
   size_t directions = 0;               // k
+  bool reached = true;                // whether the standard error that -Sa asks for was reached
 };
 
 }  // namespace rsphere

@@ -36,21 +36,29 @@ V3d evenly(size_t i, double shift1, double shift2) {
 
 }  // namespace
 
-SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions& options)
-    : transport_(transport), options_(options), sources_(transport) {
+SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions& options, bool standardError)
+    : transport_(transport),
+      options_(options),
+      sources_(transport),
+      standardError_(standardError || options.accuracy > 0) {
   const auto count = static_cast<size_t>(options.baseDirections);
   directions_ = rotatedDirections(baseDirections(count), options.rotation);
-  if (options.weights == Weights::homogeneous) {
-    solidAngles_.assign(count, 4 * kPi / static_cast<double>(count));
-    return;
-  }
-  base_.emplace(directions_);
-  solidAngles_.assign(base_->solidAngles().begin(), base_->solidAngles().end());
-  if (options.verify) {
+  const bool equal = options.weights == Weights::homogeneous;
+  if (equal) solidAngles_.assign(count, 4 * kPi / static_cast<double>(count));
+  if (!equal || standardError_ || options.verify) {
     VoronoiWorkspace workspace;
-    cellSolidAngles(directions_, workspace);
-    if (const auto fault = voronoiFault(workspace)) throw rad::Error("weights of the directions: " + *fault);
+    const auto areas = cellSolidAngles(directions_, workspace);
+    if (!equal) solidAngles_.assign(areas.begin(), areas.end());
+    if (standardError_) {
+      VoronoiCells cells = voronoiCells(workspace);
+      neighbours_ = {std::move(cells.first), std::move(cells.neighbour)};
+    }
+    if (options.verify)
+      if (const auto fault = voronoiFault(workspace))
+        throw rad::Error("weights of the directions: " + *fault);
   }
+  if (equal) return;
+  if (options.weights == Weights::voronoi) base_.emplace(directions_);
   special_ = findSpecialObjects(transport.scene(), options.densityFactor);
   if (options.weights == Weights::silhouettes) measureContrasts();
 }
@@ -87,24 +95,53 @@ void SphereEstimator::measureContrasts() {
 }
 
 PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& w) const {
-  const uint64_t seed =
-      seedOf(std::initializer_list<double>{point.x, point.y, point.z}, mixBits(options_.rotation));
   w.samples.clear();
   w.rays.clear();
+  Rgb variance(0, 0, 0);
+  uint64_t sets = 0;
+  bool reached = false;
+  for (size_t before = 0;;) {
+    sampleSet(point, sets++, w);
+    variance += w.variance;
+    if (options_.accuracy <= 0) break;
+    Rgb sum(0, 0, 0);
+    for (const DirectionSample& s : w.samples) sum += s.value * s.solidAngle;
+    reached = std::sqrt(brightness(variance)) <= options_.accuracy * brightness(sum);
+    const size_t set = w.samples.size() - before;
+    before = w.samples.size();
+    if (reached || w.samples.size() + set > static_cast<size_t>(options_.mostDirections)) break;
+  }
+  const double share = 1 / static_cast<double>(sets);
+  if (sets > 1)
+    for (DirectionSample& s : w.samples) s.solidAngle *= share;
+  PointAnswer answer = integrate(point, w.samples);
+  for (int i = 0; i < 3; ++i) answer.standardError[i] = std::sqrt(variance[i]) * share / (4 * kPi);
+  answer.reached = options_.accuracy <= 0 || reached;
+  return answer;
+}
+
+void SphereEstimator::sampleSet(const V3d& point, uint64_t set, Workspace& w) const {
+  const uint64_t seed = seedOf(std::initializer_list<double>{point.x, point.y, point.z},
+                               mixBits(options_.rotation + (set << 32)));
+  w.variance = Rgb(0, 0, 0);
+  w.directions = set == 0 ? directions_ : rotatedDirections(directions_, mixBits(seed));
   w.rest.clear();
+  w.counted.assign(w.directions.size(), true);
   switch (options_.weights) {
     case Weights::homogeneous:
-      for (size_t i = 0; i < directions_.size(); ++i)
-        traceInto(w, point, directions_[i], solidAngles_[i], mixBits(seed + i));
-      break;
+      return sampleEqually(point, seed, w);
     case Weights::voronoi:
-      sampleAsPaper(point, seed, w);
-      break;
+      return sampleAsPaper(point, seed, w);
     case Weights::silhouettes:
-      sampleSilhouettes(point, seed, w);
-      break;
+      return sampleSilhouettes(point, seed, w);
   }
-  return integrate(point, w.samples);
+}
+
+void SphereEstimator::sampleEqually(const V3d& point, uint64_t seed, Workspace& w) const {
+  const size_t first = w.samples.size();
+  for (size_t i = 0; i < w.directions.size(); ++i)
+    traceInto(w, point, w.directions[i], solidAngles_[i], mixBits(seed + i));
+  if (standardError_) w.variance = baseVariance(std::span(w.samples).subspan(first), neighbours_, w.counted);
 }
 
 void SphereEstimator::traceInto(Workspace& w, const V3d& point, const V3d& direction, double solidAngle,
@@ -131,7 +168,7 @@ void SphereEstimator::sampleAsPaper(const V3d& point, uint64_t seed, Workspace& 
   std::stable_sort(wanted.begin(), wanted.end(),
                    [](const auto& a, const auto& b) { return a.count > b.count; });
   const auto most = static_cast<size_t>(options_.mostDirections);
-  size_t left = most > directions_.size() ? most - directions_.size() : 0;
+  size_t left = most > w.directions.size() ? most - w.directions.size() : 0;
   w.dynamic.clear();
   Random random(seed);
   for (const Wanted& object : wanted) {
@@ -143,12 +180,24 @@ void SphereEstimator::sampleAsPaper(const V3d& point, uint64_t seed, Workspace& 
     }
     left -= count;
   }
-  const auto areas = cellSolidAngles(*base_, w.dynamic, w.voronoi);
+  std::vector<V3d> all;
+  const bool turned = w.directions != directions_;
+  if (turned) {
+    all = w.directions;
+    all.insert(all.end(), w.dynamic.begin(), w.dynamic.end());
+  }
+  const auto areas = turned ? cellSolidAngles(all, w.voronoi) : cellSolidAngles(*base_, w.dynamic, w.voronoi);
   if (options_.verify)
     if (const auto fault = voronoiFault(w.voronoi)) throw rad::Error("weights of the directions: " + *fault);
+  const size_t first = w.samples.size();
   for (size_t i = 0; i < areas.size(); ++i)
-    traceInto(w, point, i < directions_.size() ? directions_[i] : w.dynamic[i - directions_.size()], areas[i],
-              mixBits(seed + i));
+    traceInto(w, point, i < w.directions.size() ? w.directions[i] : w.dynamic[i - w.directions.size()],
+              areas[i], mixBits(seed + i));
+  if (!standardError_) return;
+  VoronoiCells cells = voronoiCells(w.voronoi);
+  w.counted.assign(areas.size(), true);
+  w.variance = baseVariance(std::span(w.samples).subspan(first),
+                            {std::move(cells.first), std::move(cells.neighbour)}, w.counted);
 }
 
 // Which special objects get directions of their own, and how many on average: in proportion to their
@@ -169,7 +218,7 @@ void SphereEstimator::chooseTargets(const V3d& point, uint64_t seed, size_t most
     if (!sources_.shown(w.tracer)) mean += brightness(ray.value) / kRaysAPoint;
   }
   const double usual = kUsualDeviation * mean;
-  const double baseDensity = static_cast<double>(directions_.size()) / (4 * kPi);
+  const double baseDensity = static_cast<double>(w.directions.size()) / (4 * kPi);
   double sum = 0;
   for (size_t i = 0; i < special_.size(); ++i) {
     if (!(deviations_[i] > usual)) continue;
@@ -192,7 +241,7 @@ void SphereEstimator::chooseTargets(const V3d& point, uint64_t seed, size_t most
 
 void SphereEstimator::sampleSilhouettes(const V3d& point, uint64_t seed, Workspace& w) const {
   const auto most = static_cast<size_t>(options_.mostDirections);
-  const size_t base = directions_.size();
+  const size_t base = w.directions.size();
 
   // Sources that are seen directly.
   w.sources.clear();
@@ -207,7 +256,7 @@ void SphereEstimator::sampleSilhouettes(const V3d& point, uint64_t seed, Workspa
 
   // Base and dynamic directions, each with the solid angle that it stands for where all that were sent are
   // even.
-  const size_t used = base + w.samples.size();
+  const size_t used = base + w.sources.size();
   chooseTargets(point, mixBits(seed + 2), most > used ? most - used : 0, w);
   const auto extraDensity = [&](const V3d& d) {
     double density = 0;
@@ -227,14 +276,21 @@ void SphereEstimator::sampleSilhouettes(const V3d& point, uint64_t seed, Workspa
       w.rest.push_back(w.samples.size() - 1);
     }
   };
-  for (size_t i = 0; i < base; ++i) send(directions_[i], solidAngles_[i], mixBits(seed + 16 + i));
+  const size_t firstBase = w.samples.size();
+  for (size_t i = 0; i < base; ++i) {
+    const size_t before = w.rest.size();
+    send(w.directions[i], solidAngles_[i], mixBits(seed + 16 + i));
+    w.counted[i] = w.rest.size() > before;
+  }
   Random random(mixBits(seed + 3));
   // Whole numbers of directions with the right average, one running sum over all objects.
   double due = random.uniform();
+  w.runs.clear();
   uint64_t next = base;
   for (const Workspace::Target& target : w.targets) {
     due += target.expected;
     const double shift1 = random.uniform(), shift2 = random.uniform();
+    w.runs.push_back(w.samples.size());
     for (size_t i = 0; due >= 1; --due, ++i) {
       const V3d u = evenly(i, shift1, shift2);
       send(target.silhouette.sample(u.x, u.y), 4 * kPi / static_cast<double>(base),
@@ -244,6 +300,19 @@ void SphereEstimator::sampleSilhouettes(const V3d& point, uint64_t seed, Workspa
   // All stand for the sphere but for the sources' part of it.
   const double scale = total > 0 ? std::max(0., 4 * kPi - seen) / total : 0;
   for (const size_t i : w.rest) w.samples[i].solidAngle *= scale;
+  if (standardError_) addVariances(firstBase, w);
+}
+
+void SphereEstimator::addVariances(size_t firstBase, Workspace& w) const {
+  const std::span<const DirectionSample> samples(w.samples);
+  w.variance = baseVariance(samples.subspan(firstBase, w.directions.size()), neighbours_, w.counted);
+  w.runs.push_back(w.samples.size());
+  for (size_t i = 1; i < w.runs.size(); ++i)
+    w.variance += spreadVariance(samples.subspan(w.runs[i - 1], w.runs[i] - w.runs[i - 1]));
+  for (size_t i = 0, next = 0; i < w.sources.size(); i = next) {
+    while (next < w.sources.size() && w.sources[next].source == w.sources[i].source) ++next;
+    w.variance += partsVariance(std::span(w.sources).subspan(i, next - i));
+  }
 }
 
 PointAnswer integrate(const V3d& point, const std::vector<DirectionSample>& samples) {

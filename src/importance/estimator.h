@@ -21,6 +21,7 @@
 #include "cli/answer.h"
 #include "cli/options.h"
 #include "importance/direction_sample.h"
+#include "importance/error_estimate.h"
 #include "importance/seen_sources.h"
 #include "importance/silhouette.h"
 #include "importance/special_objects.h"
@@ -32,9 +33,10 @@ namespace rsphere {
 // What all threads share. Keeps a reference to transport.
 class SphereEstimator {
  public:
-  // Finds the special objects and, for -Sw c, measures how much the radiance on them varies.
-  // Throws rad::Error where the base directions' weights fail their check (-Sv).
-  SphereEstimator(const Transport& transport, const SphereOptions& options);
+  // Finds the special objects and, for -Sw c, measures how much the radiance on them varies. standardError:
+  // whether PointAnswer's is wanted. Throws rad::Error where the base directions' weights fail their check
+  // (-Sv).
+  SphereEstimator(const Transport& transport, const SphereOptions& options, bool standardError);
 
   // What one thread needs.
   struct Workspace {
@@ -50,15 +52,20 @@ class SphereEstimator {
       double expected = 0;  // directions, on average
       double density = 0;   // of them, per sr of its region
     };
-    VoronoiWorkspace voronoi;
+    // Of the set that is being sampled:
+    std::vector<V3d> directions, dynamic;  // of the base, and to special objects
     std::vector<Target> targets;
-    std::vector<V3d> dynamic;
     std::vector<SeenSources::Sample> sources;
-    std::vector<size_t> rest;  // samples that no source apart was shown by
+    std::vector<size_t> rest;   // samples that showed no source that is integrated apart
+    std::vector<bool> counted;  // which base directions are among them
+    std::vector<size_t> runs;   // where each target's directions begin in samples
+    Rgb variance{0, 0, 0};      // of the integral of radiance
+    VoronoiWorkspace voronoi;
   };
 
   // The quantities at a point (world), and the directions in workspace.samples. Depends on point, scene and
-  // options alone.
+  // options alone. With -Sa, sets of directions are added, each turned another way, until the estimated
+  // standard error of the mean's brightness is below that share of it, or the next set would exceed -Sx.
   PointAnswer estimate(const V3d& point, Workspace& workspace) const;
 
   const std::vector<SpecialObject>& specialObjects() const { return special_; }
@@ -66,9 +73,12 @@ class SphereEstimator {
  private:
   void traceInto(Workspace& w, const V3d& point, const V3d& direction, double solidAngle,
                  uint64_t seed) const;
+  void sampleSet(const V3d& point, uint64_t set, Workspace& w) const;
+  void sampleEqually(const V3d& point, uint64_t seed, Workspace& w) const;
   void sampleAsPaper(const V3d& point, uint64_t seed, Workspace& w) const;
   void sampleSilhouettes(const V3d& point, uint64_t seed, Workspace& w) const;
   void chooseTargets(const V3d& point, uint64_t seed, size_t most, Workspace& w) const;
+  void addVariances(size_t firstBase, Workspace& w) const;
   void measureContrasts();
 
   const Transport& transport_;
@@ -77,6 +87,8 @@ class SphereEstimator {
   std::vector<V3d> directions_;      // of the base
   std::vector<double> solidAngles_;  // of the base, sr
   SeenSources sources_;
+  bool standardError_;
+  Neighbours neighbours_;  // of the base, where errors are wanted
   std::vector<SpecialObject> special_;
   std::vector<double> deviations_;  // by special object: standard deviation of the radiance on it, W/sr/m2
 };

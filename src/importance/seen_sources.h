@@ -27,6 +27,7 @@ class SeenSources {
   // One traced direction to a source.
   struct Sample {
     DirectionSample direction;  // solidAngle 0 where something hides the source
+    double part = 0;            // what it would be if nothing did, sr
     Ray ray;
     uint32_t source = 0;  // index in LightSources
   };
