@@ -142,7 +142,7 @@ void Program::evaluate(const Point& point, State& state, std::span<double> out) 
   uint32_t base = 0, cellBase = 0;
   double* r = enter(frames_[0], state, 0, 0);
   uint32_t top = frames_[0].registers, cellTop = frames_[0].cells;
-  size_t depth = 0;
+  size_t depth = 0, calls = 0;
   uint32_t faults = 0;
   const Instruction* i = code + frames_[0].begin;
 
@@ -266,6 +266,7 @@ void Program::evaluate(const Point& point, State& state, std::span<double> out) 
       case Op::call: {
         const Frame& callee = frames_[i->a];
         const auto next = static_cast<uint32_t>(i - code) + 1;
+        if (++calls > kMaxCalls) throw Error(fmt::format("{}: more than {} calls", callee.name, kMaxCalls));
         push(callee, state, depth++, top, {next, base, cellBase, kNoCell, base + i->to});
         const uint32_t* arguments = lists_.data() + i->b;
         r = enter(callee, state, top, cellTop);

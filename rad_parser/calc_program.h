@@ -129,8 +129,8 @@ class Program {
 
   // Evaluates all expressions at a point. out.size() >= outputs(). Every fault makes its value 0 and sets a
   // bit in state.faults. Throws Error with the place in the function file: a name that is not defined, an
-  // argument that is missing, recursion beyond kMaxDepth. After a throw, state may be used again. Thread-safe
-  // with one state for each thread.
+  // argument that is missing, recursion beyond kMaxDepth or kMaxCalls. After a throw, state may be used
+  // again. Thread-safe with one state for each thread.
   void evaluate(const Point& point, State& state, std::span<double> out) const;
   double evaluate(const Point& point, State& state) const {
     double value = 0;
@@ -144,6 +144,8 @@ class Program {
   // Calls and postponed values under evaluation at one time, and the registers (8 bytes each) that they may
   // hold.
   static constexpr size_t kMaxDepth = 100000, kMaxRegisters = size_t{1} << 25;
+  // Calls in one evaluation, a second or so: recursion that branches ends late though it is not deep.
+  static constexpr size_t kMaxCalls = 20000000;
 
  private:
   friend class CodeWriter;

@@ -196,7 +196,7 @@ tail`own(p) : quantile`own(sqrt(-2*log(p)));
 unif2norm(p) : if(.5 - p, -tail`own(p), tail`own(1 - p));
 nrand(x) = unif2norm(rand(x));
 
-{ Coordinates in a plane: U across the plane's line of steepest slope, V up it; x and y where the plane is level }
+{ Coordinates in a plane: V up its steepest slope, U across; x and y where the plane is level }
 slope`own = sq(Nx) + sq(Ny);
 U = if(slope`own - FTINY, (Py*Nx - Px*Ny)/slope`own, Px);
 V = if(slope`own - FTINY, Pz - Nz*(Px*Nx + Py*Ny)/slope`own, Py);

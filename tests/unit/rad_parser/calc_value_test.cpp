@@ -206,7 +206,7 @@ TEST(CalcValue, EndlessRecursionIsAnError) {
   Files files;
   files.files["c.cal"] =
       "f(n) = f(n+1);\ng(n) = h(n)+1; h(n) = g(n);\na = b; b = a;\nt(n) = t(n)+t(n+1);\n"
-      "c : k(1); k(n) : k(n);\n down(n) = if(n, 1+down(n-1), 0);";
+      "c : k(1); k(n) : k(n);\nboth(n) = if(n-1, both(n-1)+both(n-2), 1);\ndown(n) = if(n, 1+down(n-1), 0);";
   const std::string end = "recursion that is too deep or endless";
   EXPECT_EQ(files.error("c.cal", "f(x)"), "c.cal:1: f(): " + end);
   EXPECT_EQ(files.error("c.cal", "f(1)"), "c.cal:1: f(): " + end);
@@ -214,6 +214,8 @@ TEST(CalcValue, EndlessRecursionIsAnError) {
   EXPECT_EQ(files.error("c.cal", "t(x)"), "c.cal:4: t(): " + end);
   EXPECT_NE(files.error("c.cal", "a").find("is defined by itself"), std::string::npos);
   EXPECT_EQ(files.value("c.cal", "down(y*180000)"), 90000);
+  // Not deep, but some 1e12 calls.
+  EXPECT_EQ(files.error("c.cal", "both(y*120)"), "c.cal:6: both(): more than 20000000 calls");
   // An error leaves the state usable.
   State state;
   const auto bad = files.compile("c.cal", "f(x)");
