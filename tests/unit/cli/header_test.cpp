@@ -1,7 +1,5 @@
 #include "cli/header.h"
 
-#include <regex>
-
 #include "cli/version.h"
 #include "support.h"
 
@@ -54,7 +52,10 @@ TEST(Header, BinaryRecordsBeginAligned) {
   for (int extra = 0; extra < 9; ++extra) {
     const std::string line(static_cast<size_t>(extra), 'x');
     const std::string floats = headerText({"rtrace", "-ff", "s.oct"}, {"#?RADIANCE", line});
-    EXPECT_TRUE(std::regex_search(floats, std::regex("\nNCOMP=3\nBigEndian=0\nFORMAT=float *\n\n$")));
+    const std::string last = floats.substr(0, floats.find_last_not_of(" \n") + 1);
+    EXPECT_TRUE(last.ends_with("\nNCOMP=3\nBigEndian=0\nFORMAT=float"));
+    EXPECT_TRUE(floats.ends_with("\n\n"));
+    EXPECT_LE(floats.size() - last.size(), 5u);
     EXPECT_EQ(floats.size() % 4, 0u);
     EXPECT_EQ(headerText({"rtrace", "-fd", "s.oct"}, {"#?RADIANCE", line}).size() % 8, 0u);
   }
