@@ -36,7 +36,7 @@ class SphereEstimator {
   // Finds the special objects and, for -Sw c, measures how much the radiance on them varies. standardError:
   // whether PointAnswer's is wanted. Throws rad::Error where the base directions' weights fail their check
   // (-Sv).
-  SphereEstimator(const Transport& transport, const SphereOptions& options, bool standardError);
+  SphereEstimator(const Transport& transport, const SphereOptions& options, bool standardError = false);
 
   // What one thread needs.
   struct Workspace {
