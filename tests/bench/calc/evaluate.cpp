@@ -2,8 +2,9 @@
 // rtrace's user time for 1.6 million rays (-h -w -ab 0) at a glow polygon with the function as its brightfunc
 // or texfunc, less that for a plain glow. RADIANCE 6.1a and this, one core of an AMD EPYC, 2026-11-21, ns a
 // point (reals given):
-//   wood 1094 / 255, turbulence 1262 / 131, fractal noise 537 / 187, noise texture 281 / 93, periodic texture
-//   194 / 27, Perez sky 644 / 100, branches 256 / 53, branching recursion 39838 / 29700.
+//   woodpat.cal 1094 / 255, turbulence 1262 / 131, dirt.cal 537 / 187, pucker.cal 281 / 93, paneltex.cal 194
+//   / 27, perezlum.cal 644 / 100, branches 256 / 53, recursion that branches 39838 / 29700.
+// The functions below are of the same kinds.
 #include <benchmark/benchmark.h>
 
 #include <random>
