@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <ctime>
 #include <memory>
 #include <new>
@@ -37,13 +39,15 @@ AnswerRecord answerRays(const Transport& transport, const Options& options, cons
 
 // Points in, spherical means out, or every direction of them (-Sd).
 AnswerRecord answerPoints(const SphereEstimator& estimator, const Scene& scene, const Options& options,
-                          const AnswerWriter& writer) {
+                          const AnswerWriter& writer, const rad::Warn& warn) {
   auto workspaces = std::make_shared<std::vector<SphereEstimator::Workspace>>();
   for (unsigned i = 0; i < threadCount(options); ++i) workspaces->emplace_back(estimator);
   return [&, workspaces](const Record& record, unsigned worker, std::string& bytes) {
     SphereEstimator::Workspace& workspace = (*workspaces)[worker];
     const V3d point(record.numbers[0], record.numbers[1], record.numbers[2]);
     const PointAnswer answer = estimator.estimate(point, workspace);
+    if (!answer.reached)
+      warn(fmt::format("record {}: -Sa not reached with -Sx directions", record.index + 1));
     if (!options.sphere.everyDirection) return writer.write(bytes, answer);
     for (size_t i = 0; i < workspace.samples.size(); ++i)
       writer.write(bytes, directionAnswer(scene, workspace.samples[i], workspace.rays[i]), record.index);
@@ -59,11 +63,12 @@ void answer(const Options& options, const Messages& messages, StopSignals& signa
   RecordReader reader(0, options.in, options.sphere.on ? 3 : 6);
   RecordWriter writer(1);
   const AnswerWriter answers(options);
-  writeHeader(writer, options, {}, std::time(nullptr));
+  writeHeader(writer, options, scene.description.header, std::time(nullptr));
   if (options.sphere.on) {
     const bool standardError = options.outputs.find('e') != std::string::npos;
     const SphereEstimator estimator(transport, options.sphere, standardError);
-    runRecords(reader, writer, options, messages, &signals, answerPoints(estimator, scene, options, answers));
+    runRecords(reader, writer, options, messages, &signals,
+               answerPoints(estimator, scene, options, answers, warn));
   } else {
     runRecords(reader, writer, options, messages, &signals, answerRays(transport, options, answers));
   }
