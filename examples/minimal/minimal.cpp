@@ -27,7 +27,7 @@ int main(int argc, char** argv) {
     rays.ambientDivisions = 1;  // of thousands of directions, each needs one indirect path
     const Transport transport(scene, rays, Irradiance::none);
 
-    const SphereEstimator estimator(transport, SphereOptions{}, false);  // no standard error
+    const SphereEstimator estimator(transport, SphereOptions{});
     SphereEstimator::Workspace workspace(estimator);
     const Rgb mean = estimator.estimate(point, workspace).mean;
     fmt::print("{:.4f} {:.4f} {:.4f}\n", mean.x, mean.y, mean.z);
