@@ -8,6 +8,7 @@ struct DirectionSample {
   V3d direction{0, 0, 1};
   double solidAngle = 0;
   Rgb value{0, 0, 0};
+  bool toSource = false;  // aimed at a light source that is integrated apart
 };
 
 }  // namespace rsphere
