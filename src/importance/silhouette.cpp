@@ -11,89 +11,150 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Below this (sr) the angles of a spherical triangle differ from a plane one's by less than their rounding
-// matters in Arvo's formulas (the excess has lost half its digits); a cap around the polygon serves instead.
-constexpr double kTinyPolygon = 1e-7;
+// Unit vectors and their products are off by this much, a few ulp of 1: what lies on a region's edge is in
+// it.
+constexpr double kRounding = 1e-15;
 
-// Signed solid angle of the triangle of three unit vectors.
-double triangleSolidAngle(const V3d& a, const V3d& b, const V3d& c) {
-  return 2 * std::atan2(a.dot(b.cross(c)), 1 + a.dot(b) + b.dot(c) + c.dot(a));
+// Of regions that are narrower than 1e-6 rad the rounding of their corners shows (1e-10 of their width); a
+// cap around the polygon serves instead. As a versine.
+constexpr double kTiny = 1e-13;
+
+// No ray hits a plane that it starts so near to: it meets it either before kSamePlace or at a cosine below
+// it.
+bool liesInPlane(double height, double coordinates) {
+  return std::abs(height) <= std::max(kSamePlace * kSamePlace, 4 * kRounding * coordinates);
 }
 
-bool isConvex(const std::vector<V3d>& corners, const std::vector<V3d>& sides) {
+double largestCoordinate(const V3d& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
+
+// Solid angle, with its sign, of a triangle as seen from a point. Differences of the corners keep their
+// digits where the triangle is small or far.
+double triangleSolidAngle(const V3d& a, const V3d& b, const V3d& c, const V3d& point) {
+  const V3d toA = a - point, toB = b - point, toC = c - point;
+  const double la = toA.length(), lb = toB.length(), lc = toC.length();
+  return 2 * std::atan2(toA.dot((b - a).cross(c - a)),
+                        la * lb * lc + toA.dot(toB) * lc + toB.dot(toC) * la + toC.dot(toA) * lb);
+}
+
+// How far a corner lies outside a side, at most: rounding where the polygon is convex.
+double largestReentrance(const std::vector<V3d>& corners, const std::vector<V3d>& sides) {
+  double outside = 0;
   for (const V3d& side : sides)
-    for (const V3d& corner : corners)
-      if (side.dot(corner) < -1e-14) return false;
-  return true;
+    for (const V3d& corner : corners) outside = std::max(outside, -side.dot(corner));
+  return outside;
 }
 
-// Arvo's map from the square to the spherical triangle.
-V3d sampleTriangle(const V3d& a, const V3d& b, const V3d& c, double u1, double u2) {
-  const V3d nab = a.cross(b).normalized(), nbc = b.cross(c).normalized(), nca = c.cross(a).normalized();
-  const double alpha = std::acos(std::clamp(-nab.dot(nca), -1., 1.));
-  const double beta = std::acos(std::clamp(-nbc.dot(nab), -1., 1.));
-  const double gamma = std::acos(std::clamp(-nca.dot(nbc), -1., 1.));
-  const double cosC = a.dot(b);
-  const double part = u1 * (alpha + beta + gamma - kPi);
-  const double s = std::sin(part - alpha), t = std::cos(part - alpha);
-  const double u = t - std::cos(alpha), v = s + std::sin(alpha) * cosC;
-  const double below = (v * s + u * t) * std::sin(alpha);
-  const double q = below == 0 ? 1 : std::clamp(((v * t - u * s) * std::cos(alpha) - v) / below, -1., 1.);
-  const V3d across = c - c.dot(a) * a;
-  const V3d cHat = (q * a + std::sqrt(1 - q * q) * across.normalized()).normalized();
-  const double z = 1 - u2 * (1 - cHat.dot(b));
-  const V3d along = cHat - cHat.dot(b) * b;
-  const double length = along.length();
+// From b towards c along the great circle, so far that the sphere between its plane's slices across b is
+// passed evenly.
+V3d alongArc(const V3d& b, const V3d& c, double share) {
+  const V3d difference = c - b;
+  const double whole = difference.length2() / 2;  // 1 - cos without its cancellation
+  const V3d across = difference + whole * b;
+  const double length = across.length();
   if (!(length > 0)) return b;
-  return (z * b + std::sqrt(std::max(0., 1 - z * z)) / length * along).normalized();
+  const double versine = share * whole;
+  return ((1 - versine) * b + std::sqrt(versine * (2 - versine)) / length * across).normalized();
 }
 
-// A ball around a shape.
-struct Ball {
-  V3d center{0, 0, 0};
-  double radius = 0;
-};
-Ball ballAround(const Cone& cone) {
-  return {cone.base + cone.length / 2 * cone.axis,
-          std::hypot(cone.length / 2, std::max(cone.radius0, cone.radius1))};
+// An even map from the square to the spherical triangle. Arvo's construction: first the corner of the
+// triangle that holds the share u1 of the area, on the side from a to c; then a point between it and b. The
+// corner is found from tan(area / 2) = (a . b x c) / (1 + a.b + b.c + c.a), solved for the half angle from a:
+// no difference of angles and pi, which has few digits left where the triangle is small.
+V3d sampleTriangle(const V3d& a, const V3d& b, const V3d& c, double solidAngle, double u1, double u2) {
+  const V3d across = (c - a) - (c - a).dot(a) * a;
+  const double length = across.length();
+  if (!(length > 0)) return alongArc(b, a, u2);
+  const V3d e = across / length;
+  const double half = u1 * solidAngle / 2;
+  // Where b lies near a or across from it, products keep their digits as differences and sums.
+  const bool near = a.dot(b) > 0;
+  const double onePlus = (a + b).length2() / 2, volume = std::abs(e.dot(a.cross(near ? b - a : b + a)));
+  const double whole = std::atan2(c.dot(e), c.dot(a));
+  const double angle = std::min(
+      whole, 2 * std::atan2(std::sin(half) * onePlus, std::cos(half) * volume - std::sin(half) * b.dot(e)));
+  return alongArc(b, std::cos(angle) * a + std::sin(angle) * e, u2);
 }
-Ball ballAround(const Ring& ring) { return {ring.center, ring.outer}; }
-Ball ballAround(const Sphere& sphere) { return {sphere.center, sphere.radius}; }
 
 }  // namespace
 
 double polygonSolidAngle(std::span<const V3d> vertices, const V3d& point) {
   if (vertices.size() < 3) return 0;
-  const auto towards = [&](size_t i) {
-    const V3d d = vertices[i] - point;
-    const double length = d.length();
-    return length > 0 ? d / length : V3d(0, 0, 0);
-  };
-  const V3d first = towards(0);
-  double sum = 0;
-  V3d from = towards(1);
+  const V3d& first = vertices[0];
+  V3d normal(0, 0, 0);
+  double sum = 0, coordinates = largestCoordinate(point);
   for (size_t i = 2; i < vertices.size(); ++i) {
-    const V3d to = towards(i);
-    sum += triangleSolidAngle(first, from, to);
-    from = to;
+    normal += (vertices[i - 1] - first).cross(vertices[i] - first);
+    sum += triangleSolidAngle(first, vertices[i - 1], vertices[i], point);
+    coordinates = std::max(coordinates, largestCoordinate(vertices[i]));
   }
-  // Around a reentrant corner the sum may run once round the sphere more than it should.
-  sum = std::abs(sum);
-  return sum > 2 * kPi ? std::abs(4 * kPi - sum) : sum;
+  const double length = normal.length();
+  if (!(length > 0) || liesInPlane(normal.dot(first - point) / length, coordinates)) return 0;
+  return std::abs(sum);
 }
 
-void Silhouette::setCap(const V3d& axis, double sine) {
+void Silhouette::setCap(const V3d& axis, double versine) {
   axis_ = axis;
-  versine_ = sine * sine / (1 + std::sqrt(std::max(0., 1 - sine * sine)));
-  regionSolidAngle_ = 2 * kPi * versine_;
+  versine_ = versine;
+  corners_.clear();
+  const double chord = std::sqrt(2 * versine) * (1 + kRounding) + kRounding;
+  squaredChord_ = chord * chord;
+  regionSolidAngle_ = 2 * kPi * versine;
+}
+
+void Silhouette::setBall(const V3d& center, double radius, const V3d& point) {
+  const V3d towards = center - point;
+  const double distance = towards.length();
+  if (distance <= radius) {
+    setCap(V3d(0, 0, 1), 2);
+  } else {
+    const double sine = radius / distance;
+    setCap(towards / distance, sine * sine / (1 + std::sqrt(std::max(0., 1 - sine * sine))));
+  }
+  solidAngle_ = regionSolidAngle_;
+}
+
+void Silhouette::setPolygon(const Polygon& polygon, std::span<const V3d> vertices, const V3d& point) {
+  solidAngle_ = polygonSolidAngle(vertices, point);
+  if (!(solidAngle_ > 0)) return;
+  const bool front = polygon.normal.dot(point - vertices[0]) > 0;
+  // Seen from the front, vertices run counterclockwise around the ray; normals of the sides then point
+  // inwards.
+  const double inward = front ? -1 : 1;
+  V3d middle(0, 0, 0);
+  for (size_t i = 0; i < vertices.size(); ++i) {
+    const V3d towards = vertices[i] - point;
+    if (!(towards.length() > 0)) continue;
+    corners_.push_back(towards.normalized());
+    middle += corners_.back();
+    const V3d side = inward * towards.cross(vertices[(i + 1) % vertices.size()] - vertices[i]);
+    if (side.length() > 0) sides_.push_back(side.normalized());
+  }
+  V3d axis = middle.length() > 0 ? middle.normalized() : V3d(0, 0, 0);
+  double versine = 0;
+  for (const V3d& corner : corners_) versine = std::max(versine, (corner - axis).length2() / 2);
+  const double outside = largestReentrance(corners_, sides_);
+  if (versine > kTiny && outside <= 100 * kRounding) {
+    // Arcs between corners that are nearly across from one another magnify the rounding of their ends.
+    slack_ = outside + 2 * kRounding / std::max(1 - versine, 1e-7);
+    for (size_t i = 2; i < vertices.size(); ++i) {
+      regionSolidAngle_ += std::abs(triangleSolidAngle(vertices[0], vertices[i - 1], vertices[i], point));
+      shares_.push_back(regionSolidAngle_);
+    }
+    if (std::abs(regionSolidAngle_ - solidAngle_) <= 1e-9 * solidAngle_) return;
+  }
+  // A cap that holds the corners holds the sides too only where it is at most a hemisphere; one side of a
+  // plane never fills more.
+  if (versine > 1) {
+    axis = front ? -polygon.normal : polygon.normal;
+    versine = 1;
+  }
+  setCap(axis, versine);
 }
 
 bool Silhouette::contains(const V3d& direction) const {
-  if (corners_.empty()) {
-    // |d - axis|^2 / 2 is 1 - cos without its cancellation.
-    return regionSolidAngle_ > 0 && (direction - axis_).length2() / 2 <= versine_;
-  }
-  return std::all_of(sides_.begin(), sides_.end(), [&](const V3d& side) { return side.dot(direction) >= 0; });
+  if (corners_.empty()) return regionSolidAngle_ > 0 && (direction - axis_).length2() <= squaredChord_;
+  return std::all_of(sides_.begin(), sides_.end(),
+                     [&](const V3d& side) { return side.dot(direction) >= -slack_; });
 }
 
 V3d Silhouette::sample(double u1, double u2) const {
@@ -107,69 +168,36 @@ V3d Silhouette::sample(double u1, double u2) const {
   const double at = u1 * regionSolidAngle_;
   const auto found = std::upper_bound(shares_.begin(), shares_.end() - 1, at);
   const size_t i = static_cast<size_t>(found - shares_.begin());
-  const double before = i ? shares_[i - 1] : 0;
-  const double within = shares_[i] > before ? (at - before) / (shares_[i] - before) : 0;
-  return sampleTriangle(corners_[0], corners_[i + 1], corners_[i + 2], std::clamp(within, 0., 1.), u2);
+  const double before = i ? shares_[i - 1] : 0, whole = shares_[i] - before;
+  const double within = whole > 0 ? std::clamp((at - before) / whole, 0., 1.) : 0;
+  return sampleTriangle(corners_[0], corners_[i + 1], corners_[i + 2], whole, within, u2);
 }
 
 Silhouette silhouetteOf(const Shape& shape, std::span<const V3d> vertices, const V3d& point) {
   Silhouette s;
-  const auto useBall = [&](const Ball& ball) {
-    const V3d towards = ball.center - point;
-    const double distance = towards.length();
-    if (distance <= ball.radius) {
-      s.versine_ = 2;
-      s.regionSolidAngle_ = 4 * kPi;
-    } else {
-      s.setCap(towards / distance, ball.radius / distance);
-    }
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+    s.setBall(sphere->center, sphere->radius, point);
+  } else if (const auto* cone = std::get_if<Cone>(&shape)) {
+    s.setBall(cone->base + cone->length / 2 * cone->axis,
+              std::hypot(cone->length / 2, std::max(cone->radius0, cone->radius1)), point);
+  } else if (const auto* ring = std::get_if<Ring>(&shape)) {
+    const double height = ring->normal.dot(point - ring->center);
+    if (liesInPlane(height, std::max(largestCoordinate(point), largestCoordinate(ring->center)))) return s;
+    s.setBall(ring->center, ring->outer, point);
+    if (s.versine_ > 1) s.setCap(height > 0 ? -ring->normal : ring->normal, 1);
     s.solidAngle_ = s.regionSolidAngle_;
-  };
-  const auto usePolygon = [&](const Polygon& polygon) {
-    const auto around = vertices.subspan(polygon.firstVertex, polygon.vertices);
-    s.solidAngle_ = polygonSolidAngle(around, point);
-    if (!(s.solidAngle_ > 0)) return;
-    s.corners_.reserve(around.size());
-    V3d middle(0, 0, 0);
-    for (const V3d& v : around) {
-      const V3d d = v - point;
-      if (!(d.length() > 0)) continue;
-      s.corners_.push_back(d.normalized());
-      middle += s.corners_.back();
+  } else if (const auto* polygon = std::get_if<Polygon>(&shape)) {
+    const auto around = vertices.subspan(polygon->firstVertex, polygon->vertices);
+    if (polygon->thickness <= kSamePlace) {
+      s.setPolygon(*polygon, around, point);
+    } else {
+      // What rays hit: the vertices as they are seen along the axis, in the mean plane.
+      std::vector<V3d> flat(around.begin(), around.end());
+      for (V3d& v : flat)
+        v[polygon->axis] += (polygon->offset - polygon->normal.dot(v)) / polygon->normal[polygon->axis];
+      s.setPolygon(*polygon, flat, point);
     }
-    if (polygon.normal.dot(point) < polygon.offset) std::reverse(s.corners_.begin(), s.corners_.end());
-    // Seen from the front the vertices run counterclockwise around the ray; sides' normals then point
-    // inwards.
-    for (size_t i = 0; i < s.corners_.size(); ++i)
-      s.sides_.push_back(s.corners_[(i + 1) % s.corners_.size()].cross(s.corners_[i]));
-    if (s.solidAngle_ > kTinyPolygon && isConvex(s.corners_, s.sides_)) {
-      double sum = 0;
-      for (size_t i = 2; i < s.corners_.size(); ++i) {
-        sum += std::abs(triangleSolidAngle(s.corners_[0], s.corners_[i - 1], s.corners_[i]));
-        s.shares_.push_back(sum);
-      }
-      s.regionSolidAngle_ = sum;
-      if (std::abs(sum - s.solidAngle_) <= 1e-9 * sum) return;
-    }
-    // A cap around the corners.
-    const V3d axis = middle.length() > 0 ? middle.normalized() : -polygon.normal;
-    double versine = 0;
-    for (const V3d& c : s.corners_) versine = std::max(versine, (c - axis).length2() / 2);
-    s.corners_.clear();
-    s.axis_ = axis;
-    // A cap that holds the corners holds the sides too only if it is at most a hemisphere.
-    s.versine_ = versine <= 1 ? std::min(2., versine * (1 + 1e-12)) : 2;
-    s.regionSolidAngle_ = 2 * kPi * s.versine_;
-  };
-  std::visit(
-      [&](const auto& form) {
-        using S = std::decay_t<decltype(form)>;
-        if constexpr (std::is_same_v<S, Polygon>)
-          usePolygon(form);
-        else if constexpr (!std::is_same_v<S, Distant>)
-          useBall(ballAround(form));
-      },
-      shape);
+  }
   return s;
 }
 

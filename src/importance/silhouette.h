@@ -16,36 +16,45 @@ class Silhouette {
   Silhouette() = default;
 
   // What the object itself fills, sr: exact to rounding for spheres and polygons (0 in the polygon's plane, 4
-  // pi inside a sphere), for cones, cylinders and rings the cap that bounds it.
+  // pi inside a sphere), for cones, cylinders and rings the cap that bounds it. Vertices out of a polygon's
+  // plane count where rays meet it, in its mean plane.
   double solidAngle() const { return solidAngle_; }
   // What the region fills, sr; not less than solidAngle().
   double regionSolidAngle() const { return regionSolidAngle_; }
 
-  bool contains(const V3d& direction) const;  // direction: unit
+  // direction: unit. Within rounding of the edge (2e-15 rad, up to 1e-8 where a polygon reaches round half of
+  // the sphere) it counts as inside, so that what sample() returns always does.
+  bool contains(const V3d& direction) const;
 
-  // A direction of the region, even by solid angle for even u1, u2 in [0, 1). Source for polygons: Arvo,
+  // A direction of the region, even by solid angle for even u1, u2 in [0, 1]. Source for polygons: Arvo,
   // "Stratified Sampling of Spherical Triangles" (SIGGRAPH 1995). REQUIRES regionSolidAngle() > 0.
   V3d sample(double u1, double u2) const;
 
   friend Silhouette silhouetteOf(const Shape& shape, std::span<const V3d> vertices, const V3d& point);
 
  private:
-  void setCap(const V3d& axis, double sinHalfAngle);
+  void setCap(const V3d& axis, double versine);
+  void setBall(const V3d& center, double radius, const V3d& point);
+  void setPolygon(const Polygon& polygon, std::span<const V3d> vertices, const V3d& point);
 
   double solidAngle_ = 0, regionSolidAngle_ = 0;
   V3d axis_{0, 0, 1};
   double versine_ = 0;          // 1 - cos(half angle) of the cap; exact where cos would round it away
-  std::vector<V3d> corners_;    // of a convex polygon, counterclockwise as seen from the point; empty: a cap
-  std::vector<V3d> sides_;      // its sides' inward normals
+  double squaredChord_ = 0;     // between the cap's axis and its edge, rounding added
+  std::vector<V3d> corners_;    // of a convex polygon; empty: a cap
+  std::vector<V3d> sides_;      // its sides' inward normals, unit
+  double slack_ = 0;            // rad: how far outside them rounding may put a direction
   std::vector<double> shares_;  // cumulative solid angles of the triangles around corner 0
 };
 
 // The silhouette of a shape as seen from a point (world). vertices: Scene::vertices. Not for Distant.
 Silhouette silhouetteOf(const Shape& shape, std::span<const V3d> vertices, const V3d& point);
 
-// Solid angle of a polygon, concave or with holes by a seam, as seen from a point, sr: 0 in its plane.
-// Absolute error 1e-15 a vertex. Source: Van Oosterom and Strackee 1983, IEEE Trans. Biomed. Eng. 30/2,
-// summed with signs.
+// Solid angle of a plane polygon, concave or with holes by a seam, as seen from a point, sr: 0 where the
+// point lies in its plane, or so near (1e-12 world units, or rounding of the coordinates) that no ray from
+// there hits it. Error 1e-15 a vertex and, for small ones, 1e-15 a vertex of itself over the sine at which
+// the polygon is seen. Source: Van Oosterom and Strackee 1983, IEEE Trans. Biomed. Eng. 30/2, summed with
+// signs.
 double polygonSolidAngle(std::span<const V3d> vertices, const V3d& point);
 
 }  // namespace rsphere

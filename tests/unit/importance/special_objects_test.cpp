@@ -1,0 +1,101 @@
+#include "importance/special_objects.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "tests/unit/support/scene_of.h"
+
+namespace rsphere {
+namespace {
+
+const Rgb kGray(.5, .5, .5);
+
+std::vector<std::string> namesOf(const Scene& scene, const std::vector<SpecialObject>& objects) {
+  std::vector<std::string> names;
+  for (const SpecialObject& o : objects) names.emplace_back(scene.surfaceName(scene.surfaces[o.surface]));
+  return names;
+}
+
+TEST(Irregularity, ByType) {
+  EXPECT_EQ(irregularity(Mirror{kGray, {}}), 1);
+  EXPECT_EQ(irregularity(Dielectric{kGray, 1.5, 0}), 1);
+  EXPECT_EQ(irregularity(Interface{kGray, 1.5, kGray, 1.3}), 1);
+  EXPECT_EQ(irregularity(Glass{kGray, 1.52}), 1);
+  EXPECT_EQ(irregularity(Light{kGray}), 0);
+  EXPECT_EQ(irregularity(Illum{kGray, {}}), 0);
+  EXPECT_EQ(irregularity(Glow{kGray, 0}), 0);
+  EXPECT_EQ(irregularity(Spotlight{}), 0);
+}
+
+TEST(Irregularity, BySpecularityAndRoughness) {
+  EXPECT_EQ(irregularity(Opaque{kGray, 0, 0, false}), 0);
+  EXPECT_EQ(irregularity(Opaque{kGray, .9, 0, true}), .9);
+  EXPECT_EQ(irregularity(Opaque{kGray, .8, kSharpRoughness, true}), .4);
+  EXPECT_EQ(irregularity(Trans{kGray, .1, 0, .5, .8}), .9 * .5 * .8);
+  EXPECT_EQ(irregularity(Trans{kGray, .3, 0, .1, .1}), .3);
+  // More specular is more irregular, rougher is less.
+  for (double rough = 0; rough < .5; rough += .05)
+    for (double specular = 0; specular < .9; specular += .1) {
+      const double here = irregularity(Opaque{kGray, specular, rough, false});
+      EXPECT_LT(here, irregularity(Opaque{kGray, specular + .1, rough, false}));
+      EXPECT_GE(here, irregularity(Opaque{kGray, specular, rough + .05, false}));
+    }
+}
+
+constexpr const char* kRoom =
+    "void plastic matt 0 0 5 .5 .5 .5 0 0\n"
+    "void metal chrome 0 0 5 .8 .8 .8 .9 0\n"
+    "void alias tin chrome\n"
+    "void alias foil tin\n"
+    "void mirror silver 0 0 3 .9 .9 .9\n"
+    "void light lamp 0 0 3 1 1 1\n"
+    "matt sphere wall 0 0 4 0 0 0 9\n"
+    "chrome sphere ball 0 0 4 1 0 0 1\n"
+    "foil sphere wrapped 0 0 4 2 0 0 1\n"
+    "lamp sphere bulb 0 0 4 3 0 0 1\n"
+    "silver polygon glassless 0 0 9 0 0 0 1 0 0 0 1 0\n"
+    "void sphere bare 0 0 4 4 0 0 1\n"
+    "lamp source sun 0 0 4 0 0 1 .5\n";
+
+TEST(SpecialObjects, AreFoundThroughAliases) {
+  const Scene scene = sceneOf(kRoom);
+  const auto objects = findSpecialObjects(scene, 1);
+  EXPECT_EQ(namesOf(scene, objects), (std::vector<std::string>{"ball", "wrapped", "glassless"}));
+  for (const SpecialObject& o : objects) EXPECT_EQ(o.density, o.irregularity * kDirectionsPerSr);
+  EXPECT_EQ(objects[1].irregularity, .9);
+  EXPECT_EQ(objects[2].irregularity, 1);
+}
+
+TEST(SpecialObjects, DensityIsMultiplied) {
+  const Scene scene = sceneOf(kRoom);
+  const auto once = findSpecialObjects(scene, 1), thrice = findSpecialObjects(scene, 3);
+  ASSERT_EQ(once.size(), thrice.size());
+  for (size_t i = 0; i < once.size(); ++i) EXPECT_EQ(thrice[i].density, 3 * once[i].density);
+}
+
+TEST(SpecialObjects, NoneInADiffuseScene) {
+  const Scene scene = sceneOf(
+      "void plastic matt 0 0 5 .5 .5 .5 0 0\nvoid plastic satin 0 0 5 .5 .5 .5 .03 .2\n"
+      "matt sphere a 0 0 4 0 0 0 1\nsatin sphere b 0 0 4 2 0 0 1\n");
+  EXPECT_TRUE(findSpecialObjects(scene, 1).empty());
+  EXPECT_EQ(specialObjectsText(scene, {}), "");
+}
+
+TEST(SpecialObjects, TextHasALineForEach) {
+  const Scene scene = sceneOf(kRoom);
+  const auto objects = findSpecialObjects(scene, 1);
+  const std::string text = specialObjectsText(scene, objects);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);
+  const auto has = [&](const char* words) { return text.find(words) != std::string::npos; };
+  EXPECT_TRUE(
+      has("room.rad:8: sphere \"ball\"\tmetal \"chrome\"\t28800 per sr\tspecularity 0.9, roughness 0"))
+      << text;
+  EXPECT_TRUE(has("room.rad:11: polygon \"glassless\"\tmirror \"silver\"\t32000 per sr\tirregular by type"))
+      << text;
+  EXPECT_TRUE(has("sphere \"wrapped\"\tmetal \"chrome\"")) << text;
+}
+
+}  // namespace
+}  // namespace rsphere
