@@ -35,6 +35,9 @@ class Messages {
   // One line without a class, for progress reports.
   void report(std::string_view text) const;
 
+  // Where messages go now: for StopSignals::reportTo().
+  int descriptor() const { return fd_; }
+
  private:
   void write(std::string_view kind, std::string_view text) const;
 

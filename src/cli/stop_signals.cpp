@@ -36,6 +36,15 @@ struct State {
 };
 State state;
 
+// The next file opened would take the number of a standard descriptor that is closed, and be read or written
+// in its place. Opened the wrong way round, each use of it is an error, as it would be if it were closed.
+void occupyStandardDescriptors() {
+  for (int fd = 0; fd <= 2; ++fd)
+    if (fcntl(fd, F_GETFD) < 0) {
+      [[maybe_unused]] const int taken = open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
+    }
+}
+
 void onSignal(int number) {
   const int error = errno;
   int none = 0;
@@ -56,6 +65,7 @@ void onSignal(int number) {
 }  // namespace
 
 StopSignals::StopSignals(const std::string& program) {
+  occupyStandardDescriptors();
   if (pipe2(state.pipe, O_CLOEXEC | O_NONBLOCK) != 0)
     throw rad::Error("cannot make a pipe for signals", rad::Status::system);
   state.raised = 0;

@@ -417,6 +417,25 @@ TEST(StopSignals, TheSecondEndsItAtOnce) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, 10s);
 }
 
+TEST(StopSignals, AClosedStandardInputIsAFaultAndNotSomeOtherFile) {
+  const pid_t pid = fork();
+  if (pid == 0) {
+    close(0);
+    const StopSignals signals("rsphere");
+    RecordReader reader(0, NumberFormat::ascii, 3);
+    std::vector<double> numbers;
+    try {
+      reader.read(numbers, 1);
+    } catch (const rad::Error& error) {
+      _exit(static_cast<int>(error.status()));
+    }
+    _exit(0);
+  }
+  int status = 0;
+  waitpid(pid, &status, 0);
+  EXPECT_EQ(status, 2 << 8);
+}
+
 TEST(StopSignals, GiveBackTheHandlersBefore) {
   std::signal(SIGTERM, SIG_DFL);
   std::signal(SIGHUP, SIG_IGN);
