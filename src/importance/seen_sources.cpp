@@ -16,7 +16,7 @@ SeenSources::SeenSources(const Transport& transport) : transport_(transport) {
   const Scene& scene = transport.scene();
   for (const LightSource& light : transport.lights().all()) {
     const Surface& surface = scene.surfaces[light.surface];
-    bool apart = !std::holds_alternative<Illum>(scene.modifiers[surface.material].content);
+    bool apart = !std::holds_alternative<Illum>(*scene.materialOf(surface));
     if (light.distant) apart = apart && light.cosHalfAngle > std::cos(kWidestDistant);
     if (light.map == LightSource::Map::square) apart = false;
     apart_.push_back(apart);

@@ -28,6 +28,29 @@ struct Irregularity {
   double operator()(const Spotlight&) const { return 0; }
 };
 
+// The most irregular material that a surface may show, through the mixtures of its modifiers.
+struct Shown {
+  const Modifier* modifier = nullptr;
+  double irregularity = 0;
+};
+Shown mostIrregular(const Scene& scene, int32_t modifier) {
+  Shown most;
+  for (; modifier != kNone; modifier = scene.modifiers[modifier].next) {
+    const Modifier& m = scene.modifiers[modifier];
+    Shown here;
+    if (const auto* material = std::get_if<Material>(&m.content)) {
+      here = {&m, irregularity(*material)};
+    } else if (const auto* mixture = std::get_if<Mixture>(&m.content)) {
+      here = mostIrregular(scene, mixture->foreground);
+      const Shown background = mostIrregular(scene, mixture->background);
+      if (background.irregularity > here.irregularity) here = background;
+    }
+    if (here.irregularity > most.irregularity) most = here;
+    if (std::holds_alternative<Material>(m.content)) break;
+  }
+  return most;
+}
+
 std::string why(const Material& material, double irregularity) {
   if (const auto* m = std::get_if<Opaque>(&material))
     return fmt::format("specularity {:g}, roughness {:g}: irregularity {:.3g} of at least {:g}",
@@ -48,8 +71,8 @@ std::vector<SpecialObject> findSpecialObjects(const Scene& scene, double factor)
   std::vector<SpecialObject> objects;
   for (uint32_t i = 0; i < scene.surfaces.size(); ++i) {
     const Surface& s = scene.surfaces[i];
-    if (s.material == kNone || std::holds_alternative<Distant>(s.shape)) continue;
-    const double value = irregularity(scene.modifiers[s.material].content);
+    if (std::holds_alternative<Distant>(s.shape)) continue;
+    const double value = mostIrregular(scene, s.modifier).irregularity;
     if (value >= kSpecialIrregularity) objects.push_back({i, value, value * kDirectionsPerSr * factor});
   }
   return objects;
@@ -59,11 +82,11 @@ std::string specialObjectsText(const Scene& scene, const std::vector<SpecialObje
   std::string text;
   for (const SpecialObject& o : objects) {
     const Surface& s = scene.surfaces[o.surface];
-    const Modifier& m = scene.modifiers[s.material];
+    const Modifier& m = *mostIrregular(scene, s.modifier).modifier;
     const rad::Primitive& p = scene.description.primitives[m.primitive];
     fmt::format_to(std::back_inserter(text), "{}\t{} \"{}\"\t{:.6g} per sr\t{}\n", scene.place(s.primitive),
                    rad::typeName(p.type), scene.description.name(p), o.density,
-                   why(m.content, o.irregularity));
+                   why(std::get<Material>(m.content), o.irregularity));
   }
   return text;
 }

@@ -185,19 +185,19 @@ LightSources::LightSources(const Scene& scene) : scene_(scene) {
   };
   for (uint32_t i = 0; i < scene.surfaces.size(); ++i) {
     const Surface& surface = scene.surfaces[i];
-    if (surface.material == kNone) continue;
     if (scene.importance) {
       if (surface.goal && canBeAimedAt(surface.shape, scene)) add(i);
       continue;
     }
-    const Material& material = scene.modifiers[surface.material].content;
-    const std::optional<Rgb> radiance = sourceRadiance(material);
+    const Material* material = scene.materialOf(surface);
+    if (!material) continue;
+    const std::optional<Rgb> radiance = sourceRadiance(*material);
     if (!radiance || maxChannel(*radiance) <= 0) continue;
-    if (const auto* glow = std::get_if<Glow>(&material))
+    if (const auto* glow = std::get_if<Glow>(material))
       if (glow->reach <= 0 || std::holds_alternative<Distant>(surface.shape)) continue;
     LightSource& source = add(i);
-    if (const auto* glow = std::get_if<Glow>(&material)) source.reach = glow->reach;
-    source.spot = std::get_if<Spotlight>(&material);
+    if (const auto* glow = std::get_if<Glow>(material)) source.reach = glow->reach;
+    source.spot = std::get_if<Spotlight>(material);
   }
 }
 

@@ -10,6 +10,7 @@ namespace rsphere {
 namespace {
 
 using rad::Primitive;
+using rad::printable;
 using rad::Type;
 
 double radians(double degrees) { return degrees * (std::numbers::pi / 180); }
@@ -35,6 +36,7 @@ class Builder {
 
  private:
   static constexpr int32_t kUnknown = -2;
+  static constexpr int kDeepest = 64;
 
   const Primitive& primitive(uint32_t i) const { return scene_.description.primitives[i]; }
   std::span<const double> reals(uint32_t i) const { return scene_.description.reals(primitive(i)); }
@@ -65,16 +67,82 @@ class Builder {
 
   // ---- modifiers
 
-  // The latest definition, before primitive i, of the name that its string argument says (alternates of
-  // mirror, illum).
+  // The modifier that a string argument of primitive i names: its latest definition before i; kNone for void.
+  int32_t named(uint32_t i, size_t argument) {
+    const std::string_view name = scene_.description.string(primitive(i), argument);
+    if (name == "void") return kNone;
+    if (!index_) index_.emplace(scene_.description);
+    const int32_t described = index_->before(name, static_cast<int32_t>(i));
+    if (described == rad::kVoid) fail(i, fmt::format("undefined modifier \"{}\"", printable(name)));
+    // A ray that meets modifiers within each other goes as deep, and takes up to 2^depth ways.
+    if (depth_ == kDeepest) fail(i, fmt::format("modifiers name each other more than {} deep", kDeepest));
+    ++depth_;
+    const int32_t converted = modifier(described);
+    --depth_;
+    return converted;
+  }
+
+  // What mirror and illum name.
   Alternate alternate(uint32_t i) {
     if (primitive(i).strings == 0) return {};
-    const std::string_view name = scene_.description.string(primitive(i), 0);
-    if (name == "void") return {Alternate::Kind::pass, kNone};
-    for (uint32_t j = i; j-- > 0;)
-      if (!rad::isSurface(primitive(j).type) && scene_.description.name(primitive(j)) == name)
-        return {Alternate::Kind::modifier, modifier(static_cast<int32_t>(j))};
-    fail(i, fmt::format("undefined modifier \"{}\"", name));
+    if (scene_.description.string(primitive(i), 0) == "void") return {Alternate::Kind::pass, kNone};
+    return {Alternate::Kind::modifier, named(i, 0)};
+  }
+
+  void needAtLeast(uint32_t i, size_t strings, size_t realArguments = 0) const {
+    if (primitive(i).strings < strings)
+      fail(i, fmt::format("expected at least {} string arguments, got {}", strings, primitive(i).strings));
+    if (reals(i).size() < realArguments)
+      fail(i, fmt::format("expected at least {} real arguments, got {}", realArguments, reals(i).size()));
+  }
+
+  Content mixture(uint32_t i) {
+    const int32_t foreground = named(i, 0);
+    return Mixture{foreground, named(i, 1)};
+  }
+
+  Content content(uint32_t i) {
+    switch (primitive(i).type) {
+      case Type::brightfunc:
+        needAtLeast(i, 2);
+        return Pattern{};
+      case Type::colorfunc:
+      case Type::brightdata:
+        needAtLeast(i, 4);
+        return Pattern{};
+      case Type::colordata:
+        needAtLeast(i, 8);
+        return Pattern{};
+      case Type::colorpict:
+        needAtLeast(i, 7);
+        return Pattern{};
+      case Type::brighttext:
+        needAtLeast(i, 2, 11);
+        return Pattern{};
+      case Type::colortext:
+        needAtLeast(i, 2, 15);
+        return Pattern{};
+      case Type::texfunc:
+        needAtLeast(i, 4);
+        return Texture{};
+      case Type::texdata:
+        needAtLeast(i, 8);
+        return Texture{};
+      case Type::mixfunc:
+        needAtLeast(i, 4);
+        return mixture(i);
+      case Type::mixdata:
+        needAtLeast(i, 6);
+        return mixture(i);
+      case Type::mixpict:
+        needAtLeast(i, 7);
+        return mixture(i);
+      case Type::mixtext:
+        needAtLeast(i, 4, 9);
+        return mixture(i);
+      default:
+        return material(i);
+    }
   }
 
   Material material(uint32_t i) {
@@ -146,8 +214,8 @@ class Builder {
                  : target == i                           ? rad::kVoid
                                                          : primitive(target).modifier;
       if (target != rad::kVoid) {  // an alias without a target stands for its own modifier
-        Material content = material(static_cast<uint32_t>(target));
-        scene_.modifiers.push_back({std::move(content), converted, static_cast<uint32_t>(target)});
+        Content made = content(static_cast<uint32_t>(target));
+        scene_.modifiers.push_back({std::move(made), converted, static_cast<uint32_t>(target)});
         converted = static_cast<int32_t>(scene_.modifiers.size()) - 1;
       }
       modifierOf_[i] = converted;
@@ -162,17 +230,18 @@ class Builder {
     std::optional<Shape> shape = makeShape(i);
     if (!shape) return;
     Surface surface{std::move(*shape), i, modifier(p.modifier), kNone};
-    surface.material = surface.modifier;
-    if (surface.material != kNone) checkLight(i, surface);
+    surface.material = scene_.firstMaterial(surface.modifier);
+    checkLight(i, surface);
     scene_.surfaces.push_back(std::move(surface));
   }
 
   // Only shapes with a centre that can be aimed at can be sampled as light sources.
   void checkLight(uint32_t i, const Surface& surface) const {
-    const Material& material = scene_.modifiers[surface.material].content;
-    const std::optional<Rgb> radiance = sourceRadiance(material);
+    const Material* material = scene_.materialOf(surface);
+    if (!material) return;
+    const std::optional<Rgb> radiance = sourceRadiance(*material);
     if (!radiance || maxChannel(*radiance) <= 0) return;
-    if (const auto* glow = std::get_if<Glow>(&material); glow && glow->reach <= 0) return;
+    if (const auto* glow = std::get_if<Glow>(material); glow && glow->reach <= 0) return;
     if (const auto* polygon = std::get_if<Polygon>(&surface.shape)) {
       if (polygon->area == 0) fail(i, "zero source area");
       V3d center(0, 0, 0);
@@ -311,10 +380,21 @@ class Builder {
 
   const rad::Warn& warn_;
   Scene scene_;
-  std::vector<int32_t> modifierOf_;  // by index in the description; kUnknown: not looked at
+  std::optional<rad::ModifierIndex> index_;  // made when a modifier is first named by a string argument
+  int depth_ = 0;                            // of such names within each other
+  std::vector<int32_t> modifierOf_;          // by index in the description; kUnknown: not looked at
 };
 
 }  // namespace
+
+int32_t Scene::firstMaterial(int32_t modifier) const {
+  for (; modifier != kNone; modifier = modifiers[modifier].next) {
+    const Modifier& m = modifiers[modifier];
+    if (std::holds_alternative<Material>(m.content)) return modifier;
+    if (m.next == kNone && std::holds_alternative<Mixture>(m.content)) return modifier;
+  }
+  return kNone;
+}
 
 std::string_view Scene::modifierName(const Surface& s) const {
   const int32_t m = description.primitives[s.primitive].modifier;

@@ -29,19 +29,26 @@ bool stopsFromFront(const Material& material) {
   return std::holds_alternative<Opaque>(material) || stopsFromBehind(material);
 }
 
+// Whether a mixture stands before the surface's material.
+bool meetsMixture(const Scene& scene, const Surface& surface) {
+  for (int32_t m = surface.modifier; m != surface.material; m = scene.modifiers[m].next)
+    if (std::holds_alternative<Mixture>(scene.modifiers[m].content)) return true;
+  return false;
+}
+
 Occluder makeOccluder(const Scene& scene, uint32_t i, bool backFacesVisible) {
   const Surface& surface = scene.surfaces[i];
   Occluder o;
   o.surface = i;
   o.modifier = scene.description.primitives[surface.primitive].modifier;
   if (surface.material == kNone) return o;
-  const Material& material = scene.modifiers[surface.material].content;
   o.hasMaterial = true;
-  o.transparent = isTransparent(material);
-  // Only where the material is all there is of the surface: an alternate or a mixture has to be asked.
-  if (surface.modifier == surface.material) {
-    o.opaqueFront = stopsFromFront(material);
-    o.opaqueBack = stopsFromBehind(material) || (o.opaqueFront && backFacesVisible);
+  const Material* material = scene.materialOf(surface);
+  o.transparent = material && isTransparent(*material);
+  // An alternate or a mixture has to be asked.
+  if (material && !meetsMixture(scene, surface)) {
+    o.opaqueFront = stopsFromFront(*material);
+    o.opaqueBack = stopsFromBehind(*material) || (o.opaqueFront && backFacesVisible);
   }
   return o;
 }

@@ -1,5 +1,7 @@
 #include "transport/path_tracer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -25,6 +27,20 @@ double apparentLength(const Ray& ray) {
   return brightness(ray.mirrored) > .5 * brightness(ray.value) ? ray.mirroredLength : ray.unmirroredLength;
 }
 
+// Rays are traced one inside the other. The deepest takes about 8 MB of stack, what a thread has.
+constexpr int kDeepest = 4000;
+void checkDepth(const Ray& ray) {
+  if (ray.depth > kDeepest)
+    throw rad::Error(fmt::format("a ray goes through more than {} surfaces one after the other", kDeepest));
+}
+
+// Rounded once: where a plane lies at 0, what is left of the coordinate tells on which side of it the point
+// is, and function files with floor() in them ask.
+V3d along(const V3d& origin, double distance, const V3d& direction) {
+  return V3d(std::fma(distance, direction.x, origin.x), std::fma(distance, direction.y, origin.y),
+             std::fma(distance, direction.z, origin.z));
+}
+
 void turnRound(Ray& ray) {
   if (ray.cosine >= 0) return;
   ray.cosine = -ray.cosine;
@@ -46,20 +62,23 @@ bool beyondReach(const Glow* glow, double distance) {
 
 }  // namespace
 
-Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance irradiance, bool basicRadiance)
+Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance irradiance, bool basicRadiance,
+                     rad::Warn warn)
     : scene_(scene),
       options_(options),
       irradiance_(irradiance),
       basicRadiance_(basicRadiance),
       tracer_(scene, options.backFacesVisible),
       lights_(scene),
+      functions_(scene, std::move(warn)),
       lightOf_(scene.surfaces.size(), kNone) {
   for (size_t i = 0; i < lights_.all().size(); ++i)
     lightOf_[lights_.all()[i].surface] = static_cast<int32_t>(i);
   for (size_t i = 0; i < scene.surfaces.size(); ++i) {
     const Surface& s = scene.surfaces[i];
-    if (scene.importance || !std::holds_alternative<Distant>(s.shape) || s.material == kNone) continue;
-    const auto radiance = sourceRadiance(scene.modifiers[s.material].content);
+    const Material* material = scene.materialOf(s);
+    if (scene.importance || !std::holds_alternative<Distant>(s.shape) || !material) continue;
+    const auto radiance = sourceRadiance(*material);
     if (radiance && maxChannel(*radiance) > kNegligible) distant_.push_back(static_cast<int32_t>(i));
   }
   const bool including = !options.ambientIncluded.empty();
@@ -83,7 +102,7 @@ Ray PathTracer::trace(const V3d& origin, const V3d& direction, double farthest, 
     ray.length = ray.unmirroredLength = kMeterLength;
     ray.point = origin + kMeterLength * direction;
     ray.normal = -direction;
-    shadeMaterial(ray, kIrradianceMeter);
+    shadeMaterial(ray, kIrradianceMeter, kNone);
     return ray;
   }
   ray.farthest = farthest;
@@ -111,7 +130,9 @@ bool PathTracer::continueRay(Ray& child, RayKind kind, const Ray& parent, Rgb& c
   child.kinds = parent.kinds | kind;
   child.level = parent.level;
   child.ambientLevel = parent.ambientLevel;
+  child.depth = parent.depth + 1;
   child.pathLength = parent.pathLength + parent.length;
+  if (parent.kinds & kShadow) child.shadowLength = parent.shadowLength + parent.length;
   child.extinction = parent.extinction;
   if (kind & kReflections) {
     ++child.level;
@@ -135,6 +156,7 @@ bool PathTracer::continueRay(Ray& child, RayKind kind, const Ray& parent, Rgb& c
 }
 
 void PathTracer::evaluate(Ray& ray) {
+  checkDepth(ray);
   findHit(ray);
   if (ray.surface != kNone) shadeHit(ray);
   finish(ray);
@@ -149,7 +171,7 @@ void PathTracer::findHit(Ray& ray) {
   ray.cosine = 1;
   if (hit.surface != kNone) {
     ray.length = hit.distance;
-    ray.point = ray.origin + hit.distance * ray.direction;
+    ray.point = along(ray.origin, hit.distance, ray.direction);
     ray.normal = hit.normal;
     ray.cosine = hit.cosine;
   } else if (!(ray.farthest > kSamePlace)) {
@@ -174,7 +196,7 @@ bool PathTracer::seesDistant(Ray& ray) {
   bool passedIllum = false;
   for (const int32_t s : t_.distant()) {
     if (!sees(s)) continue;
-    const Material& material = scene.modifiers[scene.surfaces[s].material].content;
+    const Material& material = *scene.materialOf(scene.surfaces[s]);
     if (std::holds_alternative<Glow>(material)) {
       if (glow == kNone) glow = s;
     } else if (const auto* illum = std::get_if<Illum>(&material);
@@ -215,15 +237,97 @@ bool PathTracer::shadeSurface(Ray& ray) {
 bool PathTracer::shade(Ray& ray, int32_t modifier) {
   const bool meters = t_.irradiance() == Irradiance::surface && !(ray.kinds & ~(kPrimary | kTransmitted));
   for (; modifier != kNone; modifier = t_.scene().modifiers[modifier].next) {
-    const Material& material = t_.scene().modifiers[modifier].content;
-    if (meters && isTransparent(material)) {
+    const Modifier& m = t_.scene().modifiers[modifier];
+    const auto* material = std::get_if<Material>(&m.content);
+    if (!material) {
+      if (applyModifier(ray, modifier)) {
+        // Nothing shows what a material is mixed from but the mixture itself.
+        if (m.next != kNone) throw rad::Error(t_.scene().place(m.primitive) + ": inappropriate modifier");
+        return true;
+      }
+      continue;
+    }
+    if (meters && isTransparent(*material)) {
       pass(ray);
       return true;
     }
-    if (meters && !isLightSource(material)) return shadeMaterial(ray, kIrradianceMeter);
-    if (std::visit([&](const auto& m) { return shadeMaterial(ray, m); }, material)) return true;
+    if (meters && !isLightSource(*material)) {
+      ray.pattern = Rgb(1, 1, 1);
+      return shadeMaterial(ray, kIrradianceMeter, kNone);
+    }
+    if (std::visit([&](const auto& kind) { return shadeMaterial(ray, kind, m.next); }, *material))
+      return true;
   }
   return false;
+}
+
+// What a pattern, texture or mixture does to the ray; whether it has shaded it with a material.
+bool PathTracer::applyModifier(Ray& ray, int32_t modifier) {
+  const Content& content = t_.scene().modifiers[modifier].content;
+  if (const auto* mixture = std::get_if<Mixture>(&content)) return shadeMixture(ray, modifier, *mixture);
+  const FunctionPoint at = functionPoint(ray);
+  if (std::holds_alternative<Pattern>(content))
+    ray.pattern *= t_.functions().pattern(modifier, at, functionScratch_);
+  else
+    ray.perturbation += t_.functions().texture(modifier, at, functionScratch_);
+  return false;
+}
+
+// The modifiers of a material: patterns, textures, and mixtures of them.
+void PathTracer::applyModifiers(Ray& ray, int32_t modifier) {
+  for (; modifier != kNone; modifier = t_.scene().modifiers[modifier].next) {
+    const Modifier& m = t_.scene().modifiers[modifier];
+    if (std::holds_alternative<Material>(m.content) || applyModifier(ray, modifier))
+      throw rad::Error(t_.scene().place(m.primitive) + ": conflicting material");
+  }
+}
+
+bool PathTracer::shadeMixture(Ray& ray, int32_t modifier, const Mixture& mixture) {
+  const double share = t_.functions().mixture(modifier, functionPoint(ray), functionScratch_);
+  if (share < 0) return false;
+  struct Side {
+    Ray ray;
+    double share;
+    bool counts, shaded = false;
+  };
+  Side sides[2] = {{ray, share, share > kNegligible}, {ray, 1 - share, share < 1 - kNegligible}};
+  const int32_t chains[2] = {mixture.foreground, mixture.background};
+  for (int i = 0; i < 2; ++i) {
+    Side& side = sides[i];
+    if (!side.counts) continue;
+    side.ray.weight *= side.share;
+    side.shaded = shade(side.ray, chains[i]);
+  }
+  // Beside a material void is a hole.
+  for (int i = 0; i < 2; ++i)
+    if (sides[i].counts && !sides[i].shaded && sides[1 - i].shaded) pass(sides[i].ray);
+  const Ray& a = sides[0].ray;
+  const Ray& b = sides[1].ray;
+  const auto mixed = [&](const auto& x, const auto& y) { return x * share + y * (1 - share); };
+  ray.perturbation = mixed(a.perturbation, b.perturbation);
+  ray.pattern = mixed(a.pattern, b.pattern);
+  if (!sides[0].shaded && !sides[1].shaded) return false;
+  ray.value = mixed(a.value, b.value);
+  ray.mirrored = mixed(a.mirrored, b.mirrored);
+  const double mirroredA = share * brightness(a.mirrored), mirroredB = (1 - share) * brightness(b.mirrored);
+  ray.mirroredLength = (mirroredA > mirroredB ? a : b).mirroredLength;
+  const double restA = share * brightness(a.value) - mirroredA;
+  const double restB = (1 - share) * brightness(b.value) - mirroredB;
+  ray.unmirroredLength = (restA > restB ? a : b).unmirroredLength;
+  return true;
+}
+
+FunctionPoint PathTracer::functionPoint(const Ray& ray) const {
+  FunctionPoint at;
+  at.direction = ray.direction;
+  at.normal = ray.normal;
+  at.cosine = ray.cosine;
+  at.point = ray.point;
+  at.distance = ray.pathLength + ray.length;
+  at.shadowDistance = ray.shadowLength + ray.length;
+  at.u = ray.u;
+  at.v = ray.v;
+  return at;
 }
 
 // The ray goes on as if it had hit nothing.
@@ -236,7 +340,9 @@ void PathTracer::pass(Ray& ray) {
   child.kinds = ray.kinds | kTransmitted;
   child.level = ray.level;
   child.ambientLevel = ray.ambientLevel;
+  child.depth = ray.depth + 1;
   child.pathLength = ray.pathLength + ray.length;
+  if (ray.kinds & kShadow) child.shadowLength = ray.shadowLength + ray.length;
   child.extinction = ray.extinction;
   child.aimedAt = ray.aimedAt;
   child.weight = ray.weight;
@@ -245,6 +351,7 @@ void PathTracer::pass(Ray& ray) {
     if (ray.farthest > kSamePlace) child.farthest = std::max(ray.farthest - by, 2 * kSamePlace);
   };
   shorten(length);
+  checkDepth(child);
   findHit(child);
   // Surfaces of nothing at all are gone through here, however many there are, rather than one inside the
   // other.
@@ -252,6 +359,7 @@ void PathTracer::pass(Ray& ray) {
          child.length < kFarAway) {
     length += child.length;
     child.pathLength += child.length;
+    if (child.kinds & kShadow) child.shadowLength += child.length;
     child.origin = child.point;
     shorten(length);
     child.length = kFarAway;
@@ -286,48 +394,53 @@ Interaction PathTracer::interaction(const Ray& ray) const {
 
 // ---- materials
 
-bool PathTracer::shadeMaterial(Ray& ray, const Opaque& material) {
+bool PathTracer::shadeMaterial(Ray& ray, const Opaque& material, int32_t behind) {
   if (ray.kinds & kShadow) return true;
   if (ray.cosine < 0 && !t_.options().backFacesVisible) {
     pass(ray);
     return true;
   }
+  applyModifiers(ray, behind);
   turnRound(ray);
   const Interaction at = interaction(ray);
   return shadeDiffusing(ray, scatter(material, at, t_.options().specularThreshold), at);
 }
 
-bool PathTracer::shadeMaterial(Ray& ray, const Trans& material) {
+bool PathTracer::shadeMaterial(Ray& ray, const Trans& material, int32_t behind) {
   if (ray.cosine < 0 && !t_.options().backFacesVisible) {
     pass(ray);
     return true;
   }
+  applyModifiers(ray, behind);
   turnRound(ray);
   const Interaction at = interaction(ray);
   return shadeDiffusing(ray, scatter(material, at, t_.options().specularThreshold), at);
 }
 
-bool PathTracer::shadeMaterial(Ray& ray, const Dielectric& material) {
+bool PathTracer::shadeMaterial(Ray& ray, const Dielectric& material, int32_t behind) {
+  applyModifiers(ray, behind);
   const Interaction at = interaction(ray);
   return shadeBoundary(ray, scatter(material, at, at.front ? ray.extinction : t_.options().mediumExtinction,
                                     t_.basicRadiance()));
 }
 
-bool PathTracer::shadeMaterial(Ray& ray, const Interface& material) {
+bool PathTracer::shadeMaterial(Ray& ray, const Interface& material, int32_t behind) {
+  applyModifiers(ray, behind);
   return shadeBoundary(ray, scatter(material, interaction(ray), t_.basicRadiance()));
 }
 
-bool PathTracer::shadeMaterial(Ray& ray, const Glass& material) {
+bool PathTracer::shadeMaterial(Ray& ray, const Glass& material, int32_t behind) {
   if (ray.cosine <= 0 && !t_.options().backFacesVisible) {
     pass(ray);
     return true;
   }
+  applyModifiers(ray, behind);
   turnRound(ray);
   followSharp(ray, scatter(material, interaction(ray)));
   return true;
 }
 
-bool PathTracer::shadeMaterial(Ray& ray, const Mirror& material) {
+bool PathTracer::shadeMaterial(Ray& ray, const Mirror& material, int32_t behind) {
   const bool aimedHere = ray.aimedAt != kNone && t_.lights().all()[ray.aimedAt].surface == ray.surface;
   if (material.alternate.kind != Alternate::Kind::none && !aimedHere) {
     // An indirect ray that meets the front takes the mirror's way, as the light that it stands for does; only
@@ -335,7 +448,8 @@ bool PathTracer::shadeMaterial(Ray& ray, const Mirror& material) {
     const bool free = ray.cosine < 0 || !(ray.kinds & (kAmbient | kSpecular));
     const auto transparent = [&] {
       const int32_t m = material.alternate.modifier;
-      return m != kNone && isTransparent(t_.scene().modifiers[m].content);
+      const Material* other = t_.scene().materialAt(t_.scene().firstMaterial(m));
+      return other && isTransparent(*other);
     };
     if (free || transparent()) return useAlternate(ray, material.alternate);
   }
@@ -344,6 +458,7 @@ bool PathTracer::shadeMaterial(Ray& ray, const Mirror& material) {
     if (!t_.options().backFacesVisible) pass(ray);
     return true;
   }
+  applyModifiers(ray, behind);
   followSharp(ray, scatter(material, interaction(ray)));
   return true;
 }
@@ -354,36 +469,37 @@ bool PathTracer::useAlternate(Ray& ray, const Alternate& alternate) {
   return true;
 }
 
-bool PathTracer::shadeMaterial(Ray& ray, const Light& material) {
-  if (!t_.scene().importance && !countedByDirect(ray, nullptr)) emit(ray, material.radiance, nullptr);
+bool PathTracer::shadeMaterial(Ray& ray, const Light& material, int32_t behind) {
+  if (!t_.scene().importance && !countedByDirect(ray, nullptr)) emit(ray, material.radiance, nullptr, behind);
   return true;
 }
 
-bool PathTracer::shadeMaterial(Ray& ray, const Glow& material) {
-  if (!t_.scene().importance && !countedByDirect(ray, &material)) emit(ray, material.radiance, &material);
+bool PathTracer::shadeMaterial(Ray& ray, const Glow& material, int32_t behind) {
+  if (!t_.scene().importance && !countedByDirect(ray, &material))
+    emit(ray, material.radiance, &material, behind);
   return true;
 }
 
-bool PathTracer::shadeMaterial(Ray& ray, const Spotlight& material) {
+bool PathTracer::shadeMaterial(Ray& ray, const Spotlight& material, int32_t behind) {
   if (t_.scene().importance || countedByDirect(ray, nullptr)) return true;
-  if (ray.cosine < 0 || !outsideSpot(material, ray.direction)) emit(ray, material.radiance, nullptr);
+  if (ray.cosine < 0 || !outsideSpot(material, ray.direction)) emit(ray, material.radiance, nullptr, behind);
   return true;
 }
 
-bool PathTracer::shadeMaterial(Ray& ray, const Illum& material) {
+bool PathTracer::shadeMaterial(Ray& ray, const Illum& material, int32_t behind) {
   if (!t_.scene().importance && countedByDirect(ray, nullptr)) return true;
   const LightSource* aimed = ray.aimedAt == kNone ? nullptr : &t_.lights().all()[ray.aimedAt];
   if (!aimed || aimed->surface != ray.surface) {
     if (aimed && ray.cosine > 0) {
       // Light of an illum or glow behind this illum is what this one stands for.
-      const Material& other = t_.scene().modifiers[t_.scene().surfaces[aimed->surface].material].content;
+      const Material& other = *t_.scene().materialOf(t_.scene().surfaces[aimed->surface]);
       if (!t_.scene().importance &&
           (std::holds_alternative<Illum>(other) || std::holds_alternative<Glow>(other)))
         return true;
     }
     return useAlternate(ray, material.alternate);
   }
-  emit(ray, material.radiance, nullptr);
+  emit(ray, material.radiance, nullptr, behind);
   return true;
 }
 
@@ -394,7 +510,7 @@ bool PathTracer::countedByDirect(const Ray& ray, const Glow* glow) const {
          !beyondReach(glow, ray.length);
 }
 
-void PathTracer::emit(Ray& ray, const Rgb& radiance, const Glow* glow) {
+void PathTracer::emit(Ray& ray, const Rgb& radiance, const Glow* glow, int32_t behind) {
   if (ray.aimedAt != kNone && t_.lights().all()[ray.aimedAt].surface != ray.surface) return;
   if (!t_.options().sourcesVisible && !(ray.kinds & kShadow) &&
       !beyondReach(glow, ray.pathLength + ray.length))
@@ -403,6 +519,7 @@ void PathTracer::emit(Ray& ray, const Rgb& radiance, const Glow* glow) {
     if (!t_.options().backFacesVisible) pass(ray);
     return;
   }
+  applyModifiers(ray, behind);
   ray.value = radiance * ray.pattern;
   if (!(ray.kinds & ~(kPrimary | kTransmitted)) &&
       (ray.direction - primaryDirection_).length2() < kStraight * kStraight)
@@ -545,13 +662,14 @@ Rgb PathTracer::sourceValue(const Ray& ray, const SourceSample& sample) {
   const Rgb passed = passing(ray.extinction, sample.distance);
   if (surface.goal) return passed;
   if (surface.modifier == surface.material && modifier.next == kNone)
-    return *sourceRadiance(modifier.content) * passed;
+    return *sourceRadiance(std::get<Material>(modifier.content)) * passed;
   Ray child;
   child.origin = ray.point;
   child.direction = sample.direction;
   child.kind = kReflectedShadow;
   child.kinds = ray.kinds | kReflectedShadow;
   child.aimedAt = static_cast<int32_t>(sample.source);
+  child.pathLength = ray.pathLength + ray.length;
   child.surface = t_.lights().all()[sample.source].surface;
   child.length = sample.distance;
   child.point = sample.distance < kFarAway ? child.origin + sample.distance * child.direction : child.origin;

@@ -13,6 +13,7 @@
 #include "scene/random.h"
 #include "scene/scene.h"
 #include "shade/scattering.h"
+#include "shade/surface_functions.h"
 #include "trace/tracer.h"
 #include "transport/ray.h"
 
@@ -21,12 +22,14 @@ namespace rsphere {
 // What all threads share; not changed by tracing. Keeps references to the scene.
 class Transport {
  public:
-  // basicRadiance: refraction leaves radiance as it is (-Sb).
-  Transport(const Scene& scene, const RayOptions& options, Irradiance irradiance, bool basicRadiance = false);
+  // basicRadiance: refraction leaves radiance as it is (-Sb). warn: SurfaceFunctions'.
+  Transport(const Scene& scene, const RayOptions& options, Irradiance irradiance, bool basicRadiance = false,
+            rad::Warn warn = {});
 
   const Scene& scene() const { return scene_; }
   const Tracer& tracer() const { return tracer_; }
   const LightSources& lights() const { return lights_; }
+  const SurfaceFunctions& functions() const { return functions_; }
   const RayOptions& options() const { return options_; }
   Irradiance irradiance() const { return irradiance_; }
   bool basicRadiance() const { return basicRadiance_; }
@@ -44,6 +47,7 @@ class Transport {
   bool basicRadiance_;
   Tracer tracer_;
   LightSources lights_;
+  SurfaceFunctions functions_;
   std::vector<int32_t> lightOf_;
   std::vector<int32_t> distant_;
   std::vector<bool> ambient_;  // by surface; empty: all of them
@@ -91,19 +95,25 @@ class PathTracer {
   void pass(Ray& ray);
   void finish(Ray& ray);
 
-  bool shadeMaterial(Ray& ray, const Opaque& material);
-  bool shadeMaterial(Ray& ray, const Trans& material);
-  bool shadeMaterial(Ray& ray, const Dielectric& material);
-  bool shadeMaterial(Ray& ray, const Interface& material);
-  bool shadeMaterial(Ray& ray, const Glass& material);
-  bool shadeMaterial(Ray& ray, const Mirror& material);
-  bool shadeMaterial(Ray& ray, const Light& material);
-  bool shadeMaterial(Ray& ray, const Illum& material);
-  bool shadeMaterial(Ray& ray, const Glow& material);
-  bool shadeMaterial(Ray& ray, const Spotlight& material);
+  bool applyModifier(Ray& ray, int32_t modifier);
+  bool shadeMixture(Ray& ray, int32_t modifier, const Mixture& mixture);
+  void applyModifiers(Ray& ray, int32_t modifier);
+  FunctionPoint functionPoint(const Ray& ray) const;
+
+  // behind: the chain of modifiers that the material has itself.
+  bool shadeMaterial(Ray& ray, const Opaque& material, int32_t behind);
+  bool shadeMaterial(Ray& ray, const Trans& material, int32_t behind);
+  bool shadeMaterial(Ray& ray, const Dielectric& material, int32_t behind);
+  bool shadeMaterial(Ray& ray, const Interface& material, int32_t behind);
+  bool shadeMaterial(Ray& ray, const Glass& material, int32_t behind);
+  bool shadeMaterial(Ray& ray, const Mirror& material, int32_t behind);
+  bool shadeMaterial(Ray& ray, const Light& material, int32_t behind);
+  bool shadeMaterial(Ray& ray, const Illum& material, int32_t behind);
+  bool shadeMaterial(Ray& ray, const Glow& material, int32_t behind);
+  bool shadeMaterial(Ray& ray, const Spotlight& material, int32_t behind);
 
   bool countedByDirect(const Ray& ray, const Glow* glow) const;
-  void emit(Ray& ray, const Rgb& radiance, const Glow* glow);
+  void emit(Ray& ray, const Rgb& radiance, const Glow* glow, int32_t behind = kNone);
   bool shadeDiffusing(Ray& ray, const Scattering& scattering, const Interaction& at);
   bool shadeBoundary(Ray& ray, const Scattering& scattering);
   bool useAlternate(Ray& ray, const Alternate& alternate);
@@ -118,6 +128,7 @@ class PathTracer {
   Random random_{0};
   V3d primaryDirection_{0, 0, 1};
   int32_t shownSource_ = kNone;
+  FunctionScratch functionScratch_;
   // Scratch of addDirect, which never runs inside itself: shadow rays ask for no direct light.
   std::vector<SourceSample> samples_;
   std::vector<Contribution> contributions_;

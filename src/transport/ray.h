@@ -13,8 +13,10 @@ struct Ray {
   unsigned kinds = kPrimary;  // its own kind and those of its ancestors
   double weight = 1;          // most that its radiance can count for in the answer
   int level = 0;              // reflections that led to it
+  int depth = 0;              // rays that led to it
   int ambientLevel = 0;       // indirect bounces that led to it
-  double pathLength = 0;      // of its ancestors up to the first reflection, for glow that is seen
+  double pathLength = 0;      // of its ancestors
+  double shadowLength = 0;    // of those of them that were shadow rays
   int32_t aimedAt = kNone;    // light source that a shadow ray goes to
   Rgb extinction{0, 0, 0};    // of the medium it passes, per unit length
 

@@ -25,7 +25,7 @@ std::string errorOf(const std::string& text) {
 
 template <class M>
 const M& materialAt(const Scene& scene, int32_t modifier) {
-  return std::get<M>(scene.modifiers[modifier].content);
+  return std::get<M>(std::get<Material>(scene.modifiers[modifier].content));
 }
 
 struct Fault {

@@ -222,7 +222,7 @@ Shadow shadowOfAll(const Scene& scene, const V3d& origin, const V3d& direction, 
     ShapeHit hit;
     if (static_cast<int32_t>(i) == source) continue;
     if (!meets(scene, s, origin, direction, distance - kSamePlace, hit)) continue;
-    if (s.material != kNone && !isTransparent(scene.modifiers[s.material].content)) return Shadow::blocked;
+    if (const Material* m = scene.materialOf(s); m && !isTransparent(*m)) return Shadow::blocked;
     shadow = Shadow::unsure;
   }
   return shadow;

@@ -1,0 +1,239 @@
+#include "shade/picture.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string_view>
+
+#include "rad_parser/error.h"
+
+namespace rsphere {
+namespace {
+
+// Rows of pixels as the file has them: rows x columns, and where they belong in the picture.
+struct Layout {
+  size_t rows = 0, columns = 0;
+  bool columnsAlongX = true;                  // else each row of the file is a column of the picture
+  bool rowsFall = true, columnsFall = false;  // whether they run against their axis
+};
+
+struct Header {
+  Layout layout;
+  double aspect = 1;
+  bool xyz = false;
+  size_t size = 0;  // bytes up to the pixels
+};
+
+[[noreturn]] void bad(const std::string& path, std::string_view why) {
+  throw rad::Error(fmt::format("{}: bad picture file: {}", path, why));
+}
+
+// "-Y 480 +X 640": the axis that changes slowest comes first.
+std::optional<Layout> readLayout(std::string_view line) {
+  struct Axis {
+    char name = 0;
+    bool falls = false;
+    size_t length = 0;
+  } axes[2];
+  for (Axis& axis : axes) {
+    while (!line.empty() && line.front() == ' ') line.remove_prefix(1);
+    if (line.size() < 2 || (line[0] != '+' && line[0] != '-')) return std::nullopt;
+    axis = {line[1], line[0] == '-', 0};
+    line.remove_prefix(2);
+    while (!line.empty() && line.front() == ' ') line.remove_prefix(1);
+    const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), axis.length);
+    if (error != std::errc() || axis.length == 0) return std::nullopt;
+    line.remove_prefix(static_cast<size_t>(end - line.data()));
+  }
+  const bool alongX = axes[0].name == 'Y' && axes[1].name == 'X';
+  if (!alongX && !(axes[0].name == 'X' && axes[1].name == 'Y')) return std::nullopt;
+  return Layout{axes[0].length, axes[1].length, alongX, axes[0].falls, axes[1].falls};
+}
+
+Header readHeader(std::string_view bytes, const std::string& path) {
+  Header header;
+  size_t at = 0;
+  const auto line = [&]() -> std::optional<std::string_view> {
+    const size_t end = bytes.find('\n', at);
+    if (end == std::string_view::npos) return std::nullopt;
+    const std::string_view text = bytes.substr(at, end - at);
+    at = end + 1;
+    return text;
+  };
+  while (true) {
+    const auto text = line();
+    if (!text) bad(path, "no end of its header");
+    if (text->empty()) break;
+    if (text->starts_with("FORMAT=")) {
+      std::string_view format = text->substr(7);
+      while (!format.empty() && format.front() == ' ') format.remove_prefix(1);
+      while (!format.empty() && (format.back() == ' ' || format.back() == '\r')) format.remove_suffix(1);
+      header.xyz = format == "32-bit_rle_xyze";
+      if (!header.xyz && format != "32-bit_rle_rgbe") bad(path, "neither RGBE nor XYZE");
+    } else if (text->starts_with("PIXASPECT=")) {
+      std::string_view number = text->substr(10);
+      while (!number.empty() && number.front() == ' ') number.remove_prefix(1);
+      double aspect = 0;
+      std::from_chars(number.data(), number.data() + number.size(), aspect);
+      header.aspect *= aspect;
+    }
+  }
+  if (!(header.aspect > 1e-6 && header.aspect < 1e6)) bad(path, "pixel aspect ratio out of range");
+  const auto resolution = line();
+  const auto layout = resolution ? readLayout(*resolution) : std::nullopt;
+  if (!layout) bad(path, "no resolution");
+  header.layout = *layout;
+  header.size = at;
+  return header;
+}
+
+// Pixels of the old run-length code, in which (1, 1, 1, n) repeats what was before, written out one by one.
+std::string expanded(std::string_view coded, size_t pixels, const std::string& path) {
+  std::string flat;
+  flat.reserve(4 * pixels);
+  int shift = 0;
+  for (size_t at = 0; flat.size() < 4 * pixels; at += 4) {
+    if (coded.size() < at + 4) bad(path, "it ends too early");
+    const std::string_view pixel = coded.substr(at, 4);
+    if (!pixel.starts_with("\1\1\1")) {
+      flat += pixel;
+      shift = 0;
+      continue;
+    }
+    const size_t count = static_cast<size_t>(static_cast<unsigned char>(pixel[3])) << shift;
+    if (flat.empty() || shift > 16 || count > pixels - flat.size() / 4) bad(path, "a run is too long");
+    const std::string last = flat.substr(flat.size() - 4);
+    for (size_t i = 0; i < count; ++i) flat += last;
+    shift += 8;
+  }
+  return flat;
+}
+
+// The middle of what a pixel's eight bits stand for, where the decoder gives the lower end: half a step of
+// the exponent that all three share.
+void addHalfStep(float* rgb) {
+  const float most = std::max({rgb[0], rgb[1], rgb[2]});
+  if (!(most > 0)) return;
+  const float half = std::ldexp(.5f, std::ilogb(most) - 7);
+  for (int i = 0; i < 3; ++i) rgb[i] += half;
+}
+
+// CIE XYZ, in lumens as RADIANCE's XYZE pictures have it, to its RGB: primaries (.64,.33), (.29,.60),
+// (.15,.06), equal-energy white, 179 lumens a watt. Source: RADIANCE file formats, "Picture File Format";
+// ra_xyze(1).
+void rgbOfXyz(float* c) {
+  constexpr double m[3][3] = {{2.5653124, -1.16684962, -.39846279},
+                              {-1.02210817, 1.97828662, .04382155},
+                              {.07472437, -.25193953, 1.17721516}};
+  double rgb[3];
+  for (int i = 0; i < 3; ++i) rgb[i] = std::max(0., (m[i][0] * c[0] + m[i][1] * c[1] + m[i][2] * c[2]) / 179);
+  for (int i = 0; i < 3; ++i) c[i] = static_cast<float>(rgb[i]);
+}
+
+// OpenImageIO decodes the pixels. It gets a header of its own kind: files without one of today's, and pixels
+// in any order, are what it does not read; and it is told the format, since others are called ".pic" too.
+std::vector<float> decode(const Layout& layout, std::string_view coded, const std::string& path) {
+  std::string file =
+      fmt::format("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", layout.rows, layout.columns);
+  const bool runLengthCoded = layout.columns >= 8 && layout.columns < 32768 && coded.size() > 4 &&
+                              coded.starts_with("\2\2") && static_cast<unsigned char>(coded[2]) < 128;
+  if (runLengthCoded) {
+    file += coded;
+  } else {
+    file += expanded(coded, layout.rows * layout.columns, path);
+  }
+  std::vector<float> pixels(3 * layout.rows * layout.columns);
+  OIIO::Filesystem::IOMemReader memory(file.data(), file.size());
+  const auto input = OIIO::ImageInput::create("hdr");
+  OIIO::ImageSpec spec;
+  if (!input || !input->set_ioproxy(&memory) || !input->open(path + ".hdr", spec))
+    bad(path, input ? input->geterror() : OIIO::geterror());
+  if (static_cast<size_t>(spec.width) != layout.columns || static_cast<size_t>(spec.height) != layout.rows ||
+      spec.nchannels != 3)
+    bad(path, "its resolution is not its decoder's");
+  if (!input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, pixels.data())) bad(path, input->geterror());
+  return pixels;
+}
+
+// Two neighbours of a position in pixels and their weights: rad::DataFile::value()'s rule.
+struct Weights {
+  size_t index;
+  double first, second;
+};
+Weights weightsAt(double position, size_t count) {
+  if (count == 1) return {0, 1, 0};
+  const double last = static_cast<double>(count - 2);
+  const double i = position > 0 ? std::floor(std::min(position, last)) : 0;
+  const auto index = static_cast<size_t>(i);
+  if (position > i + 2) {
+    const double w = 1 / (i - 1 - position);
+    return {index, w, -2 * w};
+  }
+  if (position < i - 1) {
+    const double w = 1 / (position - i);
+    return {index, -2 * w, w};
+  }
+  return {index, i + 1 - position, position - i};
+}
+
+}  // namespace
+
+Picture Picture::read(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw rad::Error(fmt::format("{}: cannot open picture file", path), rad::Status::system);
+  const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const Header header = readHeader(bytes, path);
+  const Layout& layout = header.layout;
+  // A run of the densest code, two bytes for 127 values of a channel, is 16 pixels a byte; of the old one
+  // more, but nobody made such.
+  const size_t coded = bytes.size() - header.size;
+  if (layout.rows > 65536 || layout.columns > 65536 || layout.rows * layout.columns > 32 * coded + 64)
+    bad(path, "it ends too early");
+  std::vector<float> decoded = decode(layout, std::string_view(bytes).substr(header.size), path);
+
+  Picture picture;
+  picture.width_ = layout.columnsAlongX ? layout.columns : layout.rows;
+  picture.height_ = layout.columnsAlongX ? layout.rows : layout.columns;
+  picture.pixels_.resize(picture.width_ * picture.height_);
+  for (size_t row = 0; row < layout.rows; ++row)
+    for (size_t column = 0; column < layout.columns; ++column) {
+      float* rgb = &decoded[3 * (row * layout.columns + column)];
+      addHalfStep(rgb);
+      if (header.xyz) rgbOfXyz(rgb);
+      const size_t slow = layout.rowsFall ? layout.rows - 1 - row : row;
+      const size_t fast = layout.columnsFall ? layout.columns - 1 - column : column;
+      const size_t x = layout.columnsAlongX ? fast : slow, y = layout.columnsAlongX ? slow : fast;
+      picture.pixels_[y * picture.width_ + x] = {rgb[0], rgb[1], rgb[2]};
+    }
+  const double height = static_cast<double>(picture.height_) * header.aspect;
+  const auto width = static_cast<double>(picture.width_);
+  picture.sizeX_ = std::max(1., width / height);
+  picture.sizeY_ = std::max(1., height / width);
+  return picture;
+}
+
+Rgb Picture::value(double x, double y) const {
+  const Weights along = weightsAt(x / sizeX_ * static_cast<double>(width_ - 1), width_);
+  const Weights up = weightsAt(y / sizeY_ * static_cast<double>(height_ - 1), height_);
+  Rgb sum(0, 0, 0);
+  const auto add = [&](size_t row, double weight) {
+    if (std::abs(weight) <= 1e-6) return;
+    const Pixel* p = &pixels_[row * width_ + along.index];
+    const double a = weight * along.first, b = weight * along.second;
+    sum += Rgb(a * p[0].r, a * p[0].g, a * p[0].b);
+    if (width_ > 1) sum += Rgb(b * p[1].r, b * p[1].g, b * p[1].b);
+  };
+  add(up.index, up.first);
+  if (height_ > 1) add(up.index + 1, up.second);
+  return sum;
+}
+
+}  // namespace rsphere

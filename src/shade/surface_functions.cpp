@@ -1,0 +1,405 @@
+#include "shade/surface_functions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <span>
+
+#include "rad_parser/file_path.h"
+
+namespace rsphere {
+namespace {
+
+using rad::Primitive;
+using rad::Type;
+namespace calc = rad::calc;
+
+constexpr uint64_t bit(calc::Input input) { return uint64_t{1} << input; }
+constexpr uint64_t bits(calc::Input first, int count) { return ((uint64_t{1} << count) - 1) << first; }
+
+V3d turned(const V3d& v, const Imath::M44d& m) {
+  return V3d(v.x * m[0][0] + v.y * m[1][0] + v.z * m[2][0], v.x * m[0][1] + v.y * m[1][1] + v.z * m[2][1],
+             v.x * m[0][2] + v.y * m[1][2] + v.z * m[2][2]);
+}
+
+void put(double* to, const V3d& v) {
+  to[0] = v.x;
+  to[1] = v.y;
+  to[2] = v.z;
+}
+
+std::optional<std::string> readFile(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return std::nullopt;
+  return std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+}
+
+std::optional<calc::SourceText> loadFunctionFile(std::string_view name) {
+  const auto path = rad::findFile(name, rad::libraryPath());
+  if (!path) return std::nullopt;
+  auto text = readFile(*path);
+  if (!text) return std::nullopt;
+  return calc::SourceText{*path, std::move(*text)};
+}
+
+// Whether a word begins a transform behind the other string arguments.
+bool beginsTransform(std::string_view word) {
+  if (word == "-t" || word == "-s" || word == "-i") return true;
+  return word.size() == 3 && word[0] == '-' && (word[1] == 'r' || word[1] == 'm') && word[2] >= 'x' &&
+         word[2] <= 'z';
+}
+
+std::vector<std::string> linesOf(std::string_view text) {
+  std::vector<std::string> lines;
+  while (!text.empty()) {
+    const size_t end = std::min(text.find('\n'), text.size());
+    lines.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
+}  // namespace
+
+// Makes one modifier ready.
+class SurfaceFunctions::Maker {
+ public:
+  Maker(const SurfaceFunctions& functions, uint32_t primitive)
+      : functions_(functions),
+        scene_(functions.scene_),
+        index_(primitive),
+        primitive_(scene_.description.primitives[primitive]),
+        reals_(scene_.description.reals(primitive_)) {
+    for (size_t i = 0; i < primitive_.strings; ++i)
+      words_.push_back(scene_.description.string(primitive_, i));
+  }
+
+  std::unique_ptr<Function> make() {
+    switch (primitive_.type) {
+      case Type::brightfunc:
+        return values(0, 1);
+      case Type::mixfunc:
+        return values(2, 1);
+      case Type::colorfunc:
+      case Type::texfunc:
+        return values(0, 3);
+      case Type::brightdata:
+        return data({1}, 2, {{0, 1}});
+      case Type::mixdata:
+        return data({3}, 4, {{2, 1}});
+      case Type::colordata:
+        return data({3, 4, 5}, 6, colorCorrections());
+      case Type::texdata:
+        return data({3, 4, 5}, 6, {{0, 3}, {1, 3}, {2, 3}});
+      case Type::colorpict:
+        return image(colorCorrections());
+      case Type::mixpict:
+        return image({{2, 3}});
+      case Type::brighttext:
+        return text(0, 1);
+      case Type::colortext:
+        return text(0, 3);
+      case Type::mixtext:
+        return text(2, 0);
+      default:
+        fail("this type is not supported yet");
+    }
+  }
+
+ private:
+  // A string argument that names a function, and how many values it is called with.
+  struct Named {
+    size_t word;
+    int arguments;
+  };
+
+  [[noreturn]] void fail(std::string_view what, rad::Status status = rad::Status::input) const {
+    throw rad::Error(fmt::format("{}: {}", scene_.place(index_), what), status);
+  }
+
+  std::string_view word(size_t i) const {
+    if (i >= words_.size()) fail("too few string arguments");
+    return words_[i];
+  }
+
+  // The text of a file along RAYPATH, and its path.
+  std::string find(std::string_view name, std::string_view kind) const {
+    const auto path = rad::findFile(name, rad::libraryPath());
+    if (!path)
+      fail(fmt::format("cannot find {} file \"{}\"", kind, rad::printable(name)), rad::Status::system);
+    return *path;
+  }
+  std::string read(const std::string& path, std::string_view kind) const {
+    auto text = readFile(path);
+    if (!text) fail(fmt::format("cannot open {} file \"{}\"", kind, path), rad::Status::system);
+    return std::move(*text);
+  }
+
+  template <class T, class Read>
+  static std::shared_ptr<const T> shared(Cache<T>& cache, std::string_view name, const Read& make) {
+    const auto found = cache.find(name);
+    if (found != cache.end()) return found->second;
+    auto thing = std::make_shared<const T>(make());
+    cache.emplace(name, thing);
+    return thing;
+  }
+
+  std::shared_ptr<const rad::DataFile> table(std::string_view name) const {
+    return shared(functions_.data_, name, [&] {
+      const std::string path = find(name, "data");
+      return rad::DataFile::parse(read(path, "data"), path);
+    });
+  }
+
+  calc::Request request(size_t file) const {
+    calc::Request r;
+    r.place = scene_.place(index_);
+    r.file = word(file);
+    r.available = calc::kPointInputs;
+    r.reals = reals_;
+    return r;
+  }
+
+  void use(Function& f, const ProgramPointer& program) const { f.needs |= program->inputs(); }
+
+  ProgramPointer expressions(Function& f, size_t file, size_t first, size_t count) const {
+    std::vector<std::string> texts;
+    for (size_t i = 0; i < count; ++i) texts.emplace_back(word(first + i));
+    calc::Request r = request(file);
+    r.expressions = texts;
+    auto program = functions_.library_.compile(r);
+    use(f, program);
+    return program;
+  }
+
+  std::vector<Correction> corrections(Function& f, size_t file, const std::vector<Named>& named) const {
+    std::vector<Correction> all;
+    for (const Named& n : named) {
+      all.push_back(
+          {functions_.library_.compileCall(request(file), word(n.word), n.arguments), n.arguments > 1});
+      use(f, all.back().program);
+    }
+    return all;
+  }
+
+  // The second and third function of a colour take that colour's value alone where they are made for fewer
+  // than three.
+  std::vector<Named> colorCorrections() const {
+    const std::string_view file = word(primitive_.type == Type::colorpict ? 4 : 6);
+    std::vector<Named> named{{0, 3}};
+    for (size_t i = 1; i < 3; ++i)
+      named.push_back({i, functions_.library_.functionArity(file, word(i)) < 3 ? 1 : 3});
+    return named;
+  }
+
+  // What stands behind the first `from` string arguments, from the first word that can begin a transform.
+  void setTransform(Function& f, size_t from) const {
+    while (from < words_.size() && !beginsTransform(words_[from])) ++from;
+    if (from >= words_.size()) return;
+    size_t used = 0;
+    const rad::Similarity world = rad::readTransform(std::span(words_).subspan(from), used);
+    if (used != words_.size() - from) fail("bad transform");
+    const rad::Similarity own = world.inverse();
+    f.moved = true;
+    f.world = world.matrix;
+    f.worldScale = std::abs(world.scale);
+    f.own = own.matrix;
+    f.ownScale = std::abs(own.scale);
+  }
+
+  std::unique_ptr<Function> values(size_t first, size_t count) const {
+    auto f = std::make_unique<Function>();
+    f->results = count;
+    const size_t file = first + count;
+    f->what = Values{expressions(*f, file, first, count)};
+    setTransform(*f, file + 1);
+    return f;
+  }
+
+  std::unique_ptr<Function> data(const std::vector<size_t>& files, size_t file,
+                                 const std::vector<Named>& named) const {
+    auto f = std::make_unique<Function>();
+    f->results = named.size();
+    Data d;
+    for (size_t i : files) d.tables.push_back(table(word(i)));
+    const size_t dimensions = d.tables[0]->dimensions();
+    for (const auto& t : d.tables)
+      if (t->dimensions() != dimensions) fail("the data files differ in their number of dimensions");
+    d.coordinates = expressions(*f, file, file + 1, dimensions);
+    d.corrections = corrections(*f, file, named);
+    f->what = std::move(d);
+    setTransform(*f, file + 1 + dimensions);
+    return f;
+  }
+
+  std::unique_ptr<Function> image(const std::vector<Named>& named) const {
+    auto f = std::make_unique<Function>();
+    f->results = named.size();
+    Image i;
+    i.coordinates = expressions(*f, 4, 5, 2);
+    i.corrections = corrections(*f, 4, named);
+    i.picture =
+        shared(functions_.pictures_, word(3), [&] { return Picture::read(find(word(3), "picture")); });
+    f->what = std::move(i);
+    setTransform(*f, 7);
+    return f;
+  }
+
+  // channels: of its foreground and background; 0 for a mixture.
+  std::unique_ptr<Function> text(size_t fontWord, size_t channels) const {
+    auto f = std::make_unique<Function>();
+    f->results = std::max<size_t>(channels, 1);
+    const auto vector = [&](size_t i) { return V3d(reals_[i], reals_[i + 1], reals_[i + 2]); };
+    const V3d r = vector(3), d = vector(6), n = d.cross(r);
+    const double n2 = n.length2();
+    // Parallel, or next to nothing: n x d is what the original tests, with the square of 1e-12.
+    if (!(n2 * d.length2() > 1e-24)) fail("illegal motion vector");
+
+    const auto font = shared(functions_.fonts_, word(fontWord), [&] {
+      const std::string path = find(word(fontWord), "font");
+      return rad::FontFile::parse(read(path, "font"), path);
+    });
+    std::vector<std::string> lines;
+    if (words_.size() > fontWord + 2) {
+      std::string line(word(fontWord + 2));
+      for (size_t i = fontWord + 3; i < words_.size(); ++i) line.append(" ").append(words_[i]);
+      lines.push_back(std::move(line));
+    } else {
+      lines = linesOf(read(find(word(fontWord + 1), "text"), "text"));
+    }
+    const size_t end = 9 + 2 * channels;
+    std::optional<double> spacing;
+    if (reals_.size() > end) spacing = reals_[end];
+    std::array<double, 3> foreground{1, 0, 0}, background{0, 0, 0};
+    for (size_t i = 0; i < channels; ++i) {
+      foreground[i] = reals_[9 + i];
+      background[i] = reals_[9 + channels + i];
+    }
+    f->what.emplace<Text>(Text{font, rad::TextLayout(*font, lines, spacing), vector(0), n.cross(d) / n2,
+                               r.cross(n) / n2, foreground, background});
+    return f;
+  }
+
+  const SurfaceFunctions& functions_;
+  const Scene& scene_;
+  uint32_t index_;
+  const Primitive& primitive_;
+  std::span<const double> reals_;
+  std::vector<std::string_view> words_;
+};
+
+SurfaceFunctions::SurfaceFunctions(const Scene& scene, rad::Warn warn)
+    : scene_(scene),
+      warn_(std::move(warn)),
+      ready_(scene.modifiers.size()),
+      library_(calc::sceneInterface(), loadFunctionFile, warn_) {}
+
+const SurfaceFunctions::Function& SurfaceFunctions::prepare(int32_t modifier) const {
+  const std::lock_guard lock(mutex_);
+  auto& slot = ready_[static_cast<size_t>(modifier)];
+  if (const Function* f = slot.load(std::memory_order_relaxed)) return *f;
+  functions_.push_back(Maker(*this, scene_.modifiers[static_cast<size_t>(modifier)].primitive).make());
+  slot.store(functions_.back().get(), std::memory_order_release);
+  return *functions_.back();
+}
+
+void SurfaceFunctions::setInputs(const Function& f, const FunctionPoint& at, FunctionScratch& scratch) const {
+  using namespace rad::calc;
+  auto& in = scratch.inputs;
+  const uint64_t needs = f.needs;
+  const double perScale = 1 / f.ownScale;
+  const auto direction = [&](const V3d& v) { return f.moved ? turned(v, f.own) * perScale : v; };
+  if (needs & bits(Dx, 3)) put(&in[Dx], direction(at.direction));
+  if (needs & bits(Nx, 3)) put(&in[Nx], direction(at.normal));
+  if (needs & bits(Px, 3)) {
+    V3d p = at.point;
+    if (f.moved) p = turned(p, f.own) + V3d(f.own[3][0], f.own[3][1], f.own[3][2]);
+    put(&in[Px], p);
+  }
+  in[T] = at.distance * f.ownScale;
+  in[Rdot] = std::clamp(at.cosine, -1., 1.);
+  in[Ts] = at.shadowDistance * f.ownScale;
+  in[Lu] = at.u;
+  in[Lv] = at.v;
+  in[S] = f.ownScale;
+  if (needs & bits(Tx, 12)) {
+    put(&in[Tx], V3d(f.own[3][0], f.own[3][1], f.own[3][2]));
+    for (int i = 0; i < 3; ++i)
+      put(&in[static_cast<size_t>(Ix + 3 * i)], V3d(f.own[i][0], f.own[i][1], f.own[i][2]) * perScale);
+  }
+}
+
+bool SurfaceFunctions::evaluate(int32_t modifier, const Function& f, const FunctionPoint& at,
+                                FunctionScratch& scratch, std::array<double, 3>& out) const {
+  if (const auto* text = std::get_if<Text>(&f.what)) {
+    const V3d v = at.point - text->anchor;
+    out = text->layout.covers(v.dot(text->right), v.dot(text->down)) ? text->foreground : text->background;
+    return true;
+  }
+  setInputs(f, at, scratch);
+  const Primitive& primitive =
+      scene_.description.primitives[scene_.modifiers[static_cast<size_t>(modifier)].primitive];
+  calc::Point point{scratch.inputs, scene_.description.reals(primitive), {}};
+  calc::State& state = scratch.state;
+  state.faults = 0;
+  const auto correct = [&](const std::vector<Correction>& corrections, const double* values) {
+    for (size_t i = 0; i < corrections.size(); ++i) {
+      point.arguments =
+          corrections[i].ofAll ? std::span<const double>(values, 3) : std::span<const double>(values + i, 1);
+      out[i] = corrections[i].program->evaluate(point, state);
+    }
+  };
+  if (const auto* values = std::get_if<Values>(&f.what)) {
+    values->program->evaluate(point, state, out);
+  } else if (const auto* data = std::get_if<Data>(&f.what)) {
+    std::array<double, rad::DataFile::kMaxDimensions> coordinates{};
+    const std::span<double> place(coordinates.data(), data->coordinates->outputs());
+    data->coordinates->evaluate(point, state, place);
+    std::array<double, 3> found{};
+    for (size_t i = 0; i < data->tables.size() && state.faults == 0; ++i)
+      found[i] = i > 0 && data->tables[i] == data->tables[0] ? found[0] : data->tables[i]->value(place);
+    if (state.faults == 0) correct(data->corrections, found.data());
+  } else if (const auto* image = std::get_if<Image>(&f.what)) {
+    std::array<double, 2> xy{};
+    image->coordinates->evaluate(point, state, xy);
+    if (state.faults == 0) {
+      const Rgb color = image->picture->value(xy[0], xy[1]);
+      const std::array<double, 3> found{color.x, color.y, color.z};
+      correct(image->corrections, found.data());
+    }
+  }
+  if (state.faults == 0) return true;
+  if (warn_ && !f.warned.exchange(true)) {
+    const std::lock_guard lock(mutex_);
+    warn_(fmt::format("{}: compute error",
+                      scene_.place(scene_.modifiers[static_cast<size_t>(modifier)].primitive)));
+  }
+  return false;
+}
+
+Rgb SurfaceFunctions::pattern(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const {
+  const Function& f = ready(modifier);
+  std::array<double, 3> v;
+  if (!evaluate(modifier, f, at, scratch, v)) return Rgb(1, 1, 1);
+  return f.results == 1 ? Rgb(v[0], v[0], v[0]) : Rgb(v[0], v[1], v[2]);
+}
+
+V3d SurfaceFunctions::texture(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const {
+  const Function& f = ready(modifier);
+  std::array<double, 3> v;
+  if (!evaluate(modifier, f, at, scratch, v)) return V3d(0, 0, 0);
+  const V3d own(v[0], v[1], v[2]);
+  return f.moved ? turned(own, f.world) / f.worldScale : own;
+}
+
+double SurfaceFunctions::mixture(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const {
+  std::array<double, 3> v;
+  if (!evaluate(modifier, ready(modifier), at, scratch, v)) return -1;
+  return std::clamp(v[0], 0., 1.);
+}
+
+}  // namespace rsphere
