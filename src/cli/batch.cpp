@@ -84,8 +84,9 @@ class Batch {
   void stop(std::exception_ptr error);
   void endInput();
   bool stopping() const { return stopped_ || (signals_ != nullptr && signals_->raised()); }
+  // As rtrace decides it: a direction whose square is zero in floating point has no unit vector.
   bool isBogus(const double* record) const {
-    return perRecord_ == 6 && record[3] == 0 && record[4] == 0 && record[5] == 0;
+    return perRecord_ == 6 && record[3] * record[3] + record[4] * record[4] + record[5] * record[5] == 0;
   }
 
   RecordReader& reader_;

@@ -126,6 +126,12 @@ TEST(RunRecords, ZeroDirectionsAreBogusAndRepeatTheRayBefore) {
             "0 0 0 0 0 0 bogus\n1 2 3 4 5 6 \n1 2 3 4 5 6 bogus\n1 2 3 4 5 6 bogus\n1 1 1 0 0 1 \n");
 }
 
+// echo 1 2 3 0 0 1e-200 | rtrace: a bogus record (6.1a).
+TEST(RunRecords, DirectionsTooSmallToHaveAUnitVectorAreBogus) {
+  EXPECT_EQ(run({"rtrace", "s.oct"}, "1 2 3 0 0 1e-200  1 2 3 0 0 1e-100").out,
+            "0 0 0 0 0 0 bogus\n1 2 3 0 0 1e-100 \n");
+}
+
 TEST(RunRecords, PointsAtTheOriginAreNotBogus) {
   EXPECT_EQ(run({"rsphere", "s.oct"}, "0 0 0").out, "0 0 0 \n");
 }
