@@ -9,7 +9,7 @@ Rgb squared(const Rgb& c) { return c * c; }
 
 // Share of the residuals' variance that is left where the set is even. Measured on furnished rooms (see
 // tests/unit/importance): .4 where edges are all, 1 where noise of paths is.
-constexpr double kEvenSet = .65;
+constexpr double kEvenSet = .8;
 
 // The same for the parts of a source: an edge before it is met by successive parts more often than it crosses
 // one.

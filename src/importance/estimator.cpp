@@ -13,15 +13,15 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Standard deviation of what one base direction finds, as a share of the mean radiance, sources apart:
-// measured in furnished interiors with three bounces, .3 to .5. Directions go where the radiance varies more
-// than this.
-constexpr double kUsualDeviation = .4;
+// Share of the radiance's deviation over all directions that counts for a base direction: the slow part of
+// it, from one side of a room to the other, is no error of an even set. Measured in furnished interiors, .5
+// to .7.
+constexpr double kUnevenShare = .6;
 
 // Rays to measure how the radiance varies on the special objects, together and for each of them; and those at
 // a point for the mean that it is held against.
 constexpr size_t kRaysForContrast = 8192, kFewestRaysAnObject = 16, kMostRaysAnObject = 256;
-constexpr int kRaysAPoint = 32;
+constexpr int kRaysAPoint = 32, kRaysForSurroundings = 1024;
 
 // More directions than this times the base's density are not sent anywhere: the last factor of two in density
 // would be paid for by everything else.
@@ -33,6 +33,32 @@ V3d evenly(size_t i, double shift1, double shift2) {
   const double b = shift2 + .5698402909980532 * static_cast<double>(i);
   return V3d(a - std::floor(a), b - std::floor(b), 0);
 }
+
+// A direction on the front side, spread as a diffuse surface sends light, for even u1, u2.
+V3d awayFrom(const V3d& normal, double u1, double u2) {
+  V3d x, y;
+  frame(normal, x, y);
+  const double radius = std::sqrt(u1), angle = 2 * kPi * u2;
+  return radius * std::cos(angle) * x + radius * std::sin(angle) * y +
+         std::sqrt(std::max(0., 1 - u1)) * normal;
+}
+
+class Values {
+ public:
+  void add(double value) {
+    sum_ += value;
+    squares_ += value * value;
+    ++count_;
+  }
+  double mean() const { return count_ > 0 ? sum_ / count_ : 0; }
+  double deviation() const {
+    return count_ > 1 ? std::sqrt(std::max(0., (squares_ - sum_ * sum_ / count_) / (count_ - 1))) : 0;
+  }
+
+ private:
+  double sum_ = 0, squares_ = 0;
+  int count_ = 0;
+};
 
 }  // namespace
 
@@ -66,32 +92,41 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
 // Rays that start just before a point of an object and hit it from even directions: what its image is like on
 // average, wherever it will be looked at from.
 void SphereEstimator::measureContrasts() {
+  deviations_.assign(special_.size(), 0);
+  if (special_.empty()) return;
   const Scene& scene = transport_.scene();
   PathTracer tracer(transport_);
-  deviations_.assign(special_.size(), 0);
+  measureSurroundings(tracer);
   const int rays = static_cast<int>(std::clamp(kRaysForContrast / std::max<size_t>(special_.size(), 1),
                                                kFewestRaysAnObject, kMostRaysAnObject));
   for (size_t i = 0; i < special_.size(); ++i) {
     const auto surface = static_cast<int32_t>(special_[i].surface);
     Random random(mixBits(special_[i].surface));
-    double sum = 0, squares = 0;
-    int count = 0;
+    Values values;
     for (int k = 0; k < rays; ++k) {
       const SurfacePoint at = samplePoint(scene.surfaces[surface].shape, scene.vertices, random);
-      V3d x, y;
-      frame(at.normal, x, y);
-      const double radius = std::sqrt((k + random.uniform()) / rays), angle = 2 * kPi * random.uniform();
-      const V3d away = radius * std::cos(angle) * x + radius * std::sin(angle) * y +
-                       std::sqrt(1 - radius * radius) * at.normal;
+      const V3d away = awayFrom(at.normal, (k + random.uniform()) / rays, random.uniform());
       const Ray ray = tracer.trace(at.point + at.clearance * away, -away, 0, random.bits());
-      if (ray.surface != surface || sources_.shown(tracer)) continue;
-      const double value = brightness(ray.value);
-      sum += value;
-      squares += value * value;
-      ++count;
+      if (ray.surface == surface && !sources_.shown(tracer)) values.add(brightness(ray.value));
     }
-    if (count > 1) deviations_[i] = std::sqrt(std::max(0., (squares - sum * sum / count) / (count - 1)));
+    deviations_[i] = values.deviation();
   }
+}
+
+// What is seen around from points of the scene's surfaces, each surface as often as any other.
+void SphereEstimator::measureSurroundings(PathTracer& tracer) {
+  const Scene& scene = transport_.scene();
+  Random random(mixBits(scene.surfaces.size()));
+  Values values;
+  for (int k = 0; k < kRaysForSurroundings; ++k) {
+    const auto i = static_cast<size_t>(random.uniform() * static_cast<double>(scene.surfaces.size()));
+    if (std::holds_alternative<Distant>(scene.surfaces[i].shape)) continue;
+    const SurfacePoint at = samplePoint(scene.surfaces[i].shape, scene.vertices, random);
+    const V3d away = awayFrom(at.normal, random.uniform(), random.uniform());
+    const Ray ray = tracer.trace(at.point + at.clearance * away, away, 0, random.bits());
+    if (!sources_.shown(tracer)) values.add(brightness(ray.value));
+  }
+  if (values.mean() > 0) usualDeviation_ = kUnevenShare * values.deviation() / values.mean();
 }
 
 PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& w) const {
@@ -217,7 +252,7 @@ void SphereEstimator::chooseTargets(const V3d& point, uint64_t seed, size_t most
     const Ray ray = w.tracer.trace(point, V3d(r * std::cos(angle), r * std::sin(angle), z), 0, random.bits());
     if (!sources_.shown(w.tracer)) mean += brightness(ray.value) / kRaysAPoint;
   }
-  const double usual = kUsualDeviation * mean;
+  const double usual = usualDeviation_ * mean;
   const double baseDensity = static_cast<double>(w.directions.size()) / (4 * kPi);
   double sum = 0;
   for (size_t i = 0; i < special_.size(); ++i) {

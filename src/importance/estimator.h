@@ -80,6 +80,7 @@ class SphereEstimator {
   void chooseTargets(const V3d& point, uint64_t seed, size_t most, Workspace& w) const;
   void addVariances(size_t firstBase, Workspace& w) const;
   void measureContrasts();
+  void measureSurroundings(PathTracer& tracer);
 
   const Transport& transport_;
   SphereOptions options_;
@@ -90,6 +91,7 @@ class SphereEstimator {
   bool standardError_;
   Neighbours neighbours_;  // of the base, where errors are wanted
   std::vector<SpecialObject> special_;
+  double usualDeviation_ = 1;       // of one base direction's radiance, as a share of the mean, sources apart
   std::vector<double> deviations_;  // by special object: standard deviation of the radiance on it, W/sr/m2
 };
 
