@@ -298,14 +298,10 @@ double sampleReflection(const Scattering& s, const Interaction& at, double sprea
   frame(s.normal, x, y);
   const double radius = lobeRadius(s.alpha2, spread, u2), angle = 2 * kPi * u1;
   const V3d half = s.normal + radius * (std::cos(angle) * x + std::sin(angle) * y);
+  // The mirror image of a unit vector, which needs no normalizing.
   direction = at.direction - 2 * half.dot(at.direction) / (1 + radius * radius) * half;
   const double out = direction.dot(at.normal);
   if (out <= kNegligible) return 0;
-  // A mirror image of a unit vector: only its rounding is to be taken off, to first order, as rtrace does
-  // (what function files see beyond depends on the last bit where planes lie at 0).
-  const double square =
-      std::fma(direction.z, direction.z, std::fma(direction.x, direction.x, direction.y * direction.y));
-  direction *= 1.5 - .5 * square;
   return 2 / (1 + at.cosine / out);
 }
 
