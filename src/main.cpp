@@ -2,8 +2,6 @@
 
 #include <ctime>
 #include <memory>
-#include <new>
-#include <string>
 #include <vector>
 
 #include "cli/answer_writer.h"
@@ -14,9 +12,9 @@
 #include "cli/print_request.h"
 #include "cli/records.h"
 #include "cli/stop_signals.h"
+#include "importance/distribution.h"
 #include "importance/estimator.h"
 #include "rad_parser/scene_file.h"
-#include "scene/scene.h"
 #include "transport/path_tracer.h"
 
 namespace rsphere {
@@ -37,7 +35,7 @@ AnswerRecord answerRays(const Transport& transport, const Options& options, cons
   };
 }
 
-// Points in, spherical means out, or every direction of them (-Sd).
+// Points in, spherical means out, or every direction of them (-Sd); pictures of them (-Si).
 AnswerRecord answerPoints(const SphereEstimator& estimator, const Scene& scene, const Options& options,
                           const AnswerWriter& writer, const rad::Warn& warn) {
   auto workspaces = std::make_shared<std::vector<SphereEstimator::Workspace>>();
@@ -46,8 +44,8 @@ AnswerRecord answerPoints(const SphereEstimator& estimator, const Scene& scene, 
     SphereEstimator::Workspace& workspace = (*workspaces)[worker];
     const V3d point(record.numbers[0], record.numbers[1], record.numbers[2]);
     const PointAnswer answer = estimator.estimate(point, workspace);
-    if (!answer.reached)
-      warn(fmt::format("record {}: -Sa not reached with -Sx directions", record.index + 1));
+    if (!answer.reached) warn(fmt::format("record {}: -Sa not reached within -Sx", record.index + 1));
+    writeDistribution(options.sphere.picture, record.index, workspace.samples);
     if (!options.sphere.everyDirection) return writer.write(bytes, answer);
     for (size_t i = 0; i < workspace.samples.size(); ++i)
       writer.write(bytes, directionAnswer(scene, workspace.samples[i], workspace.rays[i]), record.index);
@@ -58,15 +56,19 @@ void answer(const Options& options, const Messages& messages, StopSignals& signa
   const rad::Warn warn = [&](std::string_view text) { messages.warning(text); };
   const Scene scene =
       buildScene(rad::readScene(options.scene, {options.commands, warn}), warn, options.sphere.goals);
+  RecordWriter writer(1);
+  if (options.sphere.listSpecial) {
+    writer.write(specialObjectsText(scene, findSpecialObjects(scene, options.sphere.densityFactor)));
+    return writer.flush();
+  }
   const Transport transport(scene, options.ray, options.irradiance, options.sphere.basicRadiance);
 
   RecordReader reader(0, options.in, options.sphere.on ? 3 : 6);
-  RecordWriter writer(1);
   const AnswerWriter answers(options);
   writeHeader(writer, options, scene.description.header, std::time(nullptr));
   if (options.sphere.on) {
-    const bool standardError = options.outputs.find('e') != std::string::npos;
-    const SphereEstimator estimator(transport, options.sphere, standardError);
+    const SphereEstimator estimator(transport, options.sphere,
+                                    options.outputs.find('e') != std::string::npos);
     runRecords(reader, writer, options, messages, &signals,
                answerPoints(estimator, scene, options, answers, warn));
   } else {

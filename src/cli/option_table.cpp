@@ -740,8 +740,19 @@ std::vector<OptionEntry> makeTable() {
        .value = +[](O& o) -> std::string& { return o.sphere.picture; },
        .remark = "picture of each point",
        .paragraph =
-           "Write what each point sees as a picture in the format that its name says; %d in it becomes the "
-           "number of the record, from 0."});
+           "Write what each point sees as a picture in the format that its name says: radiance in HDR, EXR "
+           "and TIFF, else exposed so that twice the mean is mid-bright. %d in it (or %04d and the like) "
+           "becomes the number of the record, from 0. The columns are the azimuth from the x axis, "
+           "counterclockwise about z, the rows go from the zenith to the nadir; each pixel has the radiance "
+           "of the direction that is nearest."});
+  add({.name = "-Sl",
+       .group = Group::sphere,
+       .value = +[](O& o) -> bool& { return o.sphere.listSpecial; },
+       .remark = "list special objects|answers",
+       .paragraph =
+           "Switch for a list of the scene's special objects instead of answers: a line for each with its "
+           "place, material, density of directions (1/sr) and why it is special, separated by tabs. Nothing "
+           "is read from standard input."});
   return table;
 }
 

@@ -64,6 +64,7 @@ struct SphereOptions {
   uint64_t rotation = 0;                   // -Sr
   bool verify = false;                     // -Sv
   std::string picture;                     // -Si
+  bool listSpecial = false;                // -Sl
 };
 
 enum class NumberFormat : char { ascii = 'a', float32 = 'f', float64 = 'd', rgbe = 'c' };

@@ -197,6 +197,7 @@ std::string pictureName(const std::string& pattern, uint64_t record) {
 
 void writeDistribution(const std::string& pattern, uint64_t record,
                        std::span<const DirectionSample> samples) {
+  if (pattern.empty()) return;
   const std::string name = pictureName(pattern, record);
   const auto file = OIIO::ImageOutput::create(name);
   if (!file) cannotWrite(name, OIIO::geterror());

@@ -29,10 +29,10 @@ DistributionPicture drawDistribution(std::span<const DirectionSample> samples, i
 // would be lost.
 std::string pictureName(const std::string& pattern, uint64_t record);
 
-// Draws the samples to the file that pattern and record name, in the format of its suffix: radiance where the
-// format is HDR, EXR or TIFF; else (PNG and so on) exposed so that twice the mean over all directions is
-// mid-bright (.5), on the sRGB curve. Threads may write different files at the same time. Throws rad::Error
-// (Status::system) with the file's name where it cannot be written.
+// Draws the samples to the file that pattern and record name (none where the pattern is empty), in the format
+// of its suffix: radiance where the format is HDR, EXR or TIFF; else (PNG and so on) exposed so that twice
+// the mean over all directions is mid-bright (.5), on the sRGB curve. Threads may write different files at
+// the same time. Throws rad::Error (Status::system) with the file's name where it cannot be written.
 void writeDistribution(const std::string& pattern, uint64_t record, std::span<const DirectionSample> samples);
 
 }  // namespace rsphere

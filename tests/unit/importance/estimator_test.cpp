@@ -1,0 +1,251 @@
+#include "importance/estimator.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+
+#include "cli/option_table.h"
+#include "tests/unit/support/scene_of.h"
+#include "tests/unit/support/statistics.h"
+
+namespace rsphere {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+std::string box(const char* modifier, const V3d& low, const V3d& high) {
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const bool upper : {false, true}) {
+      V3d u(0, 0, 0), v(0, 0, 0);
+      const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+      u[a] = high[a] - low[a];
+      v[b] = high[b] - low[b];
+      V3d p = low;
+      if (upper) p[axis] = high[axis];
+      text += fmt::format("{} polygon b 0 0 12", modifier);
+      for (const V3d& corner : {p, p + u, p + u + v, p + v})
+        text += fmt::format(" {} {} {}", corner.x, corner.y, corner.z);
+      text += '\n';
+    }
+  return text;
+}
+
+// A room of 6 x 5 x 3 m with two luminaires, a table, a cupboard and mirror spheres. With opaque polygons
+// their back sides scatter as their fronts do.
+std::string room(int spheres, double radius = .1, double luminaire = .8) {
+  std::string text =
+      "void plastic wall 0 0 5 .6 .6 .55 0 0\nvoid plastic wood 0 0 5 .4 .25 .15 0 0\n"
+      "void light lamp 0 0 3 20 20 20\nvoid mirror silver 0 0 3 .9 .9 .9\n";
+  text += box("wall", V3d(0, 0, 0), V3d(6, 5, 3));
+  text += box("wood", V3d(2, 1.5, .7), V3d(4, 2.5, .75));
+  text += box("wood", V3d(5.4, 1, 0), V3d(5.9, 3, 2));
+  for (const double y : {1., 3.})
+    text += fmt::format("lamp polygon p 0 0 12 2 {0} 2.9 2 {1} 2.9 4 {1} 2.9 4 {0} 2.9\n", y, y + luminaire);
+  Random random(1);
+  for (int i = 0; i < spheres; ++i)
+    text += fmt::format("silver sphere s 0 0 4 {} {} {} {}\n", between(random, .5, 5.2),
+                        between(random, .5, 4.5), between(random, 1.6, 2.6), radius);
+  return text;
+}
+
+struct Setting {
+  Scene scene;
+  Options options = modeDefaults(true);
+  std::unique_ptr<Transport> transport;
+
+  explicit Setting(const std::string& text, int bounces = 0) : scene(sceneOf(text)) {
+    options.ray.ambientBounces = bounces;
+    transport = std::make_unique<Transport>(scene, options.ray, Irradiance::none);
+  }
+  // Of the mode's options, with these.
+  SphereOptions with(Weights weights, int base, uint64_t rotation = 0) const {
+    SphereOptions o = options.sphere;
+    o.weights = weights;
+    o.baseDirections = base;
+    o.mostDirections = 2 * base;
+    o.rotation = rotation;
+    return o;
+  }
+  PointAnswer at(const V3d& point, const SphereOptions& o) const {
+    const SphereEstimator estimator(*transport, o);
+    SphereEstimator::Workspace workspace(estimator);
+    return estimator.estimate(point, workspace);
+  }
+};
+
+double sumOf(const std::vector<DirectionSample>& samples) {
+  double sum = 0;
+  for (const DirectionSample& s : samples) sum += s.solidAngle;
+  return sum;
+}
+
+constexpr Weights kAllWeights[] = {Weights::homogeneous, Weights::voronoi, Weights::silhouettes};
+
+// Silhouettes against brute force.
+TEST(Estimator, AgreesWithEqualWeights) {
+  const Setting setting(room(12), 1);
+  const V3d point(2.2, 3.4, 1.5);
+  Sample equal, silhouettes;
+  for (uint64_t rotation = 0; rotation < 60; ++rotation)
+    silhouettes.add(brightness(setting.at(point, setting.with(Weights::silhouettes, 512, rotation)).mean));
+  for (uint64_t rotation = 0; rotation < 24; ++rotation)
+    equal.add(brightness(setting.at(point, setting.with(Weights::homogeneous, 20000, rotation)).mean));
+  const double error = std::hypot(equal.standardError(), silhouettes.standardError());
+  EXPECT_LT(std::abs(silhouettes.mean() - equal.mean()), 3 * error)
+      << silhouettes.mean() << " +- " << silhouettes.standardError() << " and " << equal.mean() << " +- "
+      << equal.standardError();
+  EXPECT_GT(std::abs(1.01 * silhouettes.mean() - equal.mean()), 3 * error) << "would not see an error of 1%";
+}
+
+// Small luminaires are what equal weights miss, or hit once too often.
+TEST(Estimator, ScattersFarLessThanEqualWeights) {
+  const Setting setting(room(12, .1, .1));
+  const V3d point(2.2, 3.4, 1.5);
+  Sample reference;
+  for (uint64_t rotation = 100; rotation < 120; ++rotation)
+    reference.add(brightness(setting.at(point, setting.with(Weights::silhouettes, 8192, rotation)).mean));
+  Sample square, equalSquare;
+  size_t most = 0;
+  for (uint64_t rotation = 0; rotation < 60; ++rotation) {
+    const PointAnswer a = setting.at(point, setting.with(Weights::silhouettes, 512, rotation));
+    square.add(std::pow(brightness(a.mean) / reference.mean() - 1, 2));
+    most = std::max(most, a.directions);
+  }
+  for (uint64_t rotation = 0; rotation < 60; ++rotation) {
+    const SphereOptions o = setting.with(Weights::homogeneous, static_cast<int>(most), rotation);
+    equalSquare.add(std::pow(brightness(setting.at(point, o).mean) / reference.mean() - 1, 2));
+  }
+  const double ratio = std::sqrt(equalSquare.mean() / square.mean());
+  RecordProperty("ratio", static_cast<int>(100 * ratio));
+  EXPECT_GT(ratio, 5) << "rms " << std::sqrt(square.mean()) << " with at most " << most << " directions";
+}
+
+TEST(Estimator, SolidAnglesSumToTheSphere) {
+  const Setting setting(room(20));
+  // In the room, on a wall, in the middle of a sphere and on a luminaire.
+  const auto& sphere = std::get<Sphere>(setting.scene.surfaces.back().shape);
+  for (const Weights weights : kAllWeights) {
+    const SphereEstimator estimator(*setting.transport, setting.with(weights, 500));
+    SphereEstimator::Workspace workspace(estimator);
+    for (const V3d& p : {V3d(1, 1, 1), V3d(3, 2.5, 0), sphere.center, sphere.center + V3d(.1, 0, 0),
+                         V3d(3, 1.4, 2.9), V3d(100, 0, 1e4)}) {
+      const PointAnswer a = estimator.estimate(p, workspace);
+      EXPECT_NEAR(sumOf(workspace.samples), 4 * kPi, 1e-9) << static_cast<int>(weights) << ' ' << p;
+      EXPECT_EQ(a.directions, workspace.samples.size());
+      EXPECT_TRUE(std::isfinite(brightness(a.mean))) << p;
+    }
+  }
+}
+
+TEST(Estimator, NoSpecialObjectNoDynamicDirection) {
+  const Setting setting("void plastic wall 0 0 5 .5 .5 .5 0 0\n" + box("wall", V3d(0, 0, 0), V3d(6, 5, 3)));
+  for (const Weights weights : kAllWeights) {
+    const PointAnswer a = setting.at(V3d(1, 2, 1), setting.with(weights, 700));
+    EXPECT_EQ(a.directions, 700u) << static_cast<int>(weights);
+  }
+}
+
+TEST(Estimator, DynamicDirectionsWhereThereAreSpecialObjects) {
+  const Setting setting(room(12));
+  EXPECT_GT(setting.at(V3d(2, 2, 1.5), setting.with(Weights::voronoi, 700)).directions, 700u);
+  EXPECT_EQ(setting.at(V3d(2, 2, 1.5), setting.with(Weights::homogeneous, 700)).directions, 700u);
+}
+
+TEST(Estimator, TenThousandSpecialObjectsStayWithinTheMost) {
+  const Setting setting(room(10000, .005));
+  for (const Weights weights : {Weights::voronoi, Weights::silhouettes}) {
+    const SphereOptions o = setting.with(weights, 500);
+    const PointAnswer a = setting.at(V3d(2.2, 3.4, 1.2), o);
+    EXPECT_LE(a.directions, static_cast<size_t>(o.mostDirections)) << static_cast<int>(weights);
+    EXPECT_GT(brightness(a.mean), 0);
+    EXPECT_TRUE(std::isfinite(brightness(a.mean)));
+  }
+}
+
+TEST(Estimator, AnswersDoNotDependOnThoseBefore) {
+  const Setting setting(room(12), 1);
+  for (const Weights weights : kAllWeights) {
+    const SphereEstimator estimator(*setting.transport, setting.with(weights, 300));
+    SphereEstimator::Workspace used(estimator), fresh(estimator);
+    for (const V3d& p : {V3d(1, 1, 1), V3d(4, 4, 2), V3d(1, 1, 1)}) estimator.estimate(p, used);
+    const PointAnswer later = estimator.estimate(V3d(2, 3, 1.5), used);
+    const PointAnswer first = estimator.estimate(V3d(2, 3, 1.5), fresh);
+    EXPECT_EQ(first.mean, later.mean);
+    EXPECT_EQ(first.lightVector, later.lightVector);
+    ASSERT_EQ(used.samples.size(), fresh.samples.size());
+    for (size_t i = 0; i < used.samples.size(); ++i) {
+      ASSERT_EQ(used.samples[i].direction, fresh.samples[i].direction);
+      ASSERT_EQ(used.samples[i].solidAngle, fresh.samples[i].solidAngle);
+    }
+  }
+}
+
+TEST(Estimator, SameAnswerInAScaledScene) {
+  // Sizes and distances by a power of two: nothing but rounding may differ.
+  const auto ball = [](double k) {
+    return fmt::format(
+        "void light lamp 0 0 3 5 5 5\nvoid mirror silver 0 0 3 .9 .9 .9\nvoid plastic gray 0 0 5 .5 .5 .5 0 "
+        "0\n"
+        "lamp sphere l 0 0 4 0 0 {0} {1}\nsilver sphere m 0 0 4 {0} 0 0 {1}\n"
+        "gray ring g 0 0 8 0 0 {2} 0 0 1 0 {3}\n",
+        4 * k, k, -2 * k, 16 * k);
+  };
+  const double expected =
+      brightness(Setting(ball(1)).at(V3d(0, 0, 0), Setting(ball(1)).with(Weights::silhouettes, 512)).mean);
+  for (const double k : {1. / 1024, 1024.}) {
+    const Setting setting(ball(k));
+    const double mean = brightness(setting.at(V3d(0, 0, 0), setting.with(Weights::silhouettes, 512)).mean);
+    EXPECT_NEAR(mean / expected, 1, .01) << k;
+  }
+}
+
+TEST(Estimator, AloneInUniformLight) {
+  const Setting setting("void glow sky 0 0 4 1 1 1 0\nsky source dome 0 0 4 0 0 1 360\n");
+  for (const Weights weights : kAllWeights) {
+    const PointAnswer a = setting.at(V3d(1, 2, 3), setting.with(weights, 2048));
+    EXPECT_NEAR(brightness(a.mean), 1, 1e-9);
+    EXPECT_NEAR(brightness(a.scalarIrradiance), kPi, 1e-8);
+    EXPECT_NEAR(brightness(a.cylindricalIrradiance), kPi, 2e-3 * kPi);
+    for (const Rgb& facing : a.facing) EXPECT_NEAR(brightness(facing), kPi, 5e-3 * kPi);
+    EXPECT_NEAR(a.lightVector.length(), 0, .02);
+  }
+}
+
+TEST(Estimator, UnderHalfASphereOfLight) {
+  const Setting setting("void glow sky 0 0 4 1 1 1 0\nsky source dome 0 0 4 0 0 1 180\n");
+  for (const Weights weights : kAllWeights) {
+    const PointAnswer a = setting.at(V3d(0, 0, 0), setting.with(weights, 2048));
+    EXPECT_NEAR(brightness(a.mean), .5, 2e-3);
+    EXPECT_NEAR(brightness(a.scalarIrradiance), kPi / 2, 5e-3);
+    EXPECT_NEAR(brightness(a.cylindricalIrradiance), kPi / 2, .01);
+    for (int face = 0; face < 4; ++face) EXPECT_NEAR(brightness(a.facing[face]), kPi / 2, .02);
+    EXPECT_NEAR(brightness(a.facing[4]), kPi, .02);
+    EXPECT_NEAR(brightness(a.facing[5]), 0, 2e-3);
+    EXPECT_NEAR((a.lightVector - V3d(0, 0, kPi)).length(), 0, .02);
+  }
+}
+
+// Radiance L, radius a: intensity I = pi a^2 L, and the mean is L times its share of the sphere.
+TEST(Estimator, LampAloneInSpace) {
+  const double radiance = 100, radius = .1, intensity = kPi * radius * radius * radiance;
+  const Setting setting("void light lamp 0 0 3 100 100 100\nlamp sphere l 0 0 4 0 0 0 .1\n");
+  for (const double distance : {.2, 1., 5., 100.}) {
+    const V3d point = distance * V3d(1, 2, 2) / 3;
+    const PointAnswer a = setting.at(point, setting.with(Weights::silhouettes, 512));
+    const double sine = radius / distance;
+    const double exact = radiance * sine * sine / (1 + std::sqrt(1 - sine * sine)) / 2;
+    EXPECT_NEAR(brightness(a.mean) / exact, 1, 1e-6) << distance;
+    EXPECT_NEAR(brightness(a.mean) / (intensity / (4 * kPi * distance * distance)), 1, sine * sine)
+        << distance;
+    // What faces it, pi L sin^2. One ray stands for all of a sphere: the vector is that much too long.
+    EXPECT_NEAR(a.lightVector.length() / (kPi * radiance * sine * sine), 1, .3 * sine * sine) << distance;
+  }
+}
+
+}  // namespace
+}  // namespace rsphere
