@@ -773,9 +773,10 @@ Options modeDefaults(bool sphereMode) {
   options.sphere.on = sphereMode;
   if (!sphereMode) return options;
   // Thousands of directions are averaged: what one of them lacks in samples is made up for by the others, if
-  // each is unbiased. One indirect path a direction, all sources sampled over their whole size, every
-  // highlight followed.
-  options.ray.ambientDivisions = 1;
+  // each is unbiased. Four indirect paths a direction, all sources sampled over their whole size, every
+  // highlight followed. In the open-plan office of examples (50 spheres, -ab 3) the rms error is .49% at 69 ms a
+  // point with one path, .37% at 161 ms with four, .34% at 331 ms with nine.
+  options.ray.ambientDivisions = 4;
   options.ray.ambientSuperSamples = 0;
   options.ray.ambientAccuracy = 0;
   options.ray.directJitter = 1;
