@@ -186,8 +186,10 @@ class Graph {
     const int operands = directOperands(op);
     if (isConstant(a) && (operands < 2 || isConstant(b)) && (operands < 3 || isConstant(c))) {
       uint32_t faults = 0;
-      return constant(apply(op, nodes_[a].value, operands > 1 ? nodes_[b].value : 0,
-                            operands > 2 ? nodes_[c].value : 0, faults));
+      const double value = apply(op, nodes_[a].value, operands > 1 ? nodes_[b].value : 0,
+                                 operands > 2 ? nodes_[c].value : 0, faults);
+      // What has no value says so whenever it is evaluated.
+      if (faults == 0) return constant(value);
     }
     switch (op) {
       case Op::negate:
@@ -207,8 +209,6 @@ class Graph {
         if (a > b) std::swap(a, b);
         break;
       case Op::divide:
-        if (isConstant(a, 0)) return a;
-        if (isConstant(b, 0)) return b;
         // One multiplication, as the original has it where the divisor is a constant: off by a rounding.
         if (isConstant(b) && std::isnormal(1 / nodes_[b].value)) {
           return operate(Op::multiply, a, constant(1 / nodes_[b].value));

@@ -499,5 +499,16 @@ TEST(CalcValue, ThreadsShareProgramsAndLibrary) {
   EXPECT_EQ(fresh.loads, 1);
 }
 
+// What is found out in advance is no less a fault: x*0 is known to be 0.
+TEST(CalcValue, FaultsOfWhatFoldsToConstantsAreSeen) {
+  Files files;
+  EXPECT_EQ(files.value("1/(x*0)"), 0);
+  EXPECT_EQ(files.faults, kDivisionByZero);
+  EXPECT_EQ(files.value("(x*0)/(y*0)"), 0);
+  EXPECT_EQ(files.faults, kDivisionByZero);
+  EXPECT_EQ(files.value("sqrt(x*0-1)+2"), 2);
+  EXPECT_EQ(files.faults, kDomainError);
+}
+
 }  // namespace
 }  // namespace rad::calc
