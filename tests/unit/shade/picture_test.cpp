@@ -1,0 +1,187 @@
+#include "shade/picture.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "rad_parser/error.h"
+
+namespace rsphere {
+namespace {
+
+using Code = std::array<uint8_t, 4>;
+
+// A picture of w x h pixels in a file of its own.
+class PictureFile {
+ public:
+  explicit PictureFile(const std::string& bytes, const char* suffix = ".pic")
+      : path_(testing::TempDir() + "picture" + std::to_string(getpid()) + suffix) {
+    std::ofstream(path_, std::ios::binary) << bytes;
+  }
+  ~PictureFile() { std::remove(path_.c_str()); }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+constexpr int kWidth = 11, kHeight = 5;
+
+// Pixel (x, y) from the lower left; no two are alike.
+Code pixel(int x, int y) {
+  return {static_cast<uint8_t>(128 + 11 * y + x), static_cast<uint8_t>(2 * x),
+          static_cast<uint8_t>(200 - x - y), static_cast<uint8_t>(128 + (x + y) % 3)};
+}
+// The middle of what a pixel stands for (RADIANCE file formats, "Picture File Format").
+double channel(const Code& c, int i) { return std::ldexp(c[static_cast<size_t>(i)] + .5, c[3] - 136); }
+
+std::string append(const std::vector<Code>& pixels) {
+  std::string bytes;
+  for (const Code& c : pixels)
+    for (uint8_t b : c) bytes += static_cast<char>(b);
+  return bytes;
+}
+
+// A row in the new code: each channel by itself, here in literal stretches and a run.
+std::string runLengthCoded(const std::vector<Code>& row) {
+  std::string bytes{2, 2, static_cast<char>(row.size() >> 8), static_cast<char>(row.size() & 255)};
+  for (size_t c = 0; c < 4; ++c)
+    for (size_t i = 0; i < row.size();) {
+      size_t n = 1;
+      while (i + n < row.size() && row[i + n][c] == row[i][c]) ++n;
+      bytes += static_cast<char>(n > 1 ? 128 + n : 1);
+      bytes += static_cast<char>(row[i][c]);
+      i += n;
+    }
+  return bytes;
+}
+
+struct Order {
+  const char *slow, *fast;
+};
+constexpr Order kOrders[] = {{"-Y", "+X"}, {"-Y", "-X"}, {"+Y", "-X"}, {"+Y", "+X"},
+                             {"+X", "+Y"}, {"+X", "-Y"}, {"-X", "-Y"}, {"-X", "+Y"}};
+
+std::string coded(const Order& order, bool runs,
+                  const std::string& header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n") {
+  const auto size = [](char axis) { return axis == 'X' ? kWidth : kHeight; };
+  const int rows = size(order.slow[1]), columns = size(order.fast[1]);
+  std::string bytes = header + "\n" + order.slow + " " + std::to_string(rows) + " " + order.fast + " " +
+                      std::to_string(columns) + "\n";
+  for (int i = 0; i < rows; ++i) {
+    std::vector<Code> row;
+    for (int j = 0; j < columns; ++j) {
+      const int slow = order.slow[0] == '+' ? i : rows - 1 - i,
+                fast = order.fast[0] == '+' ? j : columns - 1 - j;
+      row.push_back(order.slow[1] == 'Y' ? pixel(fast, slow) : pixel(slow, fast));
+    }
+    bytes += runs && columns >= 8 ? runLengthCoded(row) : append(row);
+  }
+  return bytes;
+}
+
+void expectPixels(const Picture& picture, const std::string& what) {
+  ASSERT_EQ(picture.width(), static_cast<size_t>(kWidth)) << what;
+  ASSERT_EQ(picture.height(), static_cast<size_t>(kHeight)) << what;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const Rgb got = picture.value(static_cast<double>(kWidth) / kHeight * x / (kWidth - 1.),
+                                    static_cast<double>(y) / (kHeight - 1));
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(got[c], channel(pixel(x, y), c), 1e-6) << what << " pixel " << x << ' ' << y;
+    }
+}
+
+TEST(Picture, EveryOrderOfPixelsInEveryCode) {
+  for (const Order& order : kOrders)
+    for (bool runs : {false, true}) {
+      const PictureFile file(coded(order, runs));
+      expectPixels(Picture::read(file.path()), std::string(order.slow) + order.fast);
+    }
+}
+
+// Pictures of the first years have neither magic number nor format, and end in ".pic" as others do.
+TEST(Picture, NeedsNoFormatLineAndNoSuffix) {
+  for (const char* suffix : {".pic", ".hdr", ".exr", ""}) {
+    const PictureFile file(coded(kOrders[0], true, "oconv room.rad\nEXPOSURE=5.3\n"), suffix);
+    expectPixels(Picture::read(file.path()), suffix);
+  }
+}
+
+TEST(Picture, OldRunLengthCode) {
+  // Four alike, then 300 more: 44 + 1 * 256.
+  std::string bytes = "#?RADIANCE\n\n-Y 2 +X 153\n";
+  bytes += append({{100, 150, 200, 128}, {1, 1, 1, 49}, {1, 1, 1, 1}});
+  const PictureFile file(bytes);
+  const Picture picture = Picture::read(file.path());
+  for (double x : {0., 30., 76.5})
+    for (double y : {0., .5, 1.}) EXPECT_NEAR(picture.value(x, y).y, 150.5 / 256, 1e-6);
+}
+
+TEST(Picture, XyzBecomesRgb) {
+  // Equal-energy white of 179 lumens is 1 in each channel; Y alone is the matrix's second column.
+  const PictureFile file("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n" +
+                         append({{179, 179, 179, 136}}));
+  const Rgb white = Picture::read(file.path()).value(0, 0);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(white[c], 179.5 / 179, 1e-5);
+}
+
+TEST(Picture, AspectOfPixelsSetsTheSize) {
+  const PictureFile file(coded(kOrders[0], false, "#?RADIANCE\nPIXASPECT=4\nFORMAT=32-bit_rle_rgbe\n"));
+  const Picture picture = Picture::read(file.path());
+  // 11 wide and 5 * 4 high: the shorter side is 1.
+  EXPECT_NEAR(picture.value(1, 20. / 11).x, channel(pixel(kWidth - 1, kHeight - 1), 0), 1e-6);
+}
+
+TEST(Picture, BetweenAndBeyondPixels) {
+  const PictureFile file("#?RADIANCE\n\n-Y 2 +X 2\n" +
+                         append({{140, 0, 0, 136}, {240, 0, 0, 136}, {140, 0, 0, 136}, {240, 0, 0, 136}}));
+  const Picture picture = Picture::read(file.path());
+  EXPECT_NEAR(picture.value(.5, .5).x, 190.5, 1e-4);
+  EXPECT_NEAR(picture.value(1.5, 0).x, 290.5, 1e-4);  // one division on, the line goes on
+  EXPECT_NEAR(picture.value(-1, .3).x, 40.5, 1e-4);
+  // Further out it falls with the distance: position 4 of 0 and 1, weights 2/5 and -1/5.
+  EXPECT_NEAR(picture.value(4, 0).x, 240.5 * 2 / 5 - 140.5 / 5, 1e-4);
+}
+
+std::string errorOf(const std::string& bytes) {
+  const PictureFile file(bytes);
+  try {
+    Picture::read(file.path());
+  } catch (const rad::Error& e) {
+    const std::string what = e.what();
+    EXPECT_EQ(what.find(file.path()), 0u) << what;
+    return what.substr(file.path().size());
+  }
+  return "no error";
+}
+
+TEST(Picture, BadFilesAreSaidToBe) {
+  EXPECT_EQ(errorOf("GIF89a"), ": bad picture file: no end of its header");
+  EXPECT_EQ(errorOf("#?RADIANCE\nFORMAT=Radiance_spectra\n\n-Y 1 +X 1\n1234"),
+            ": bad picture file: neither RGBE nor XYZE");
+  EXPECT_EQ(errorOf("#?RADIANCE\n\n-Y 1 +Y 1\n1234"), ": bad picture file: no resolution");
+  EXPECT_EQ(errorOf("#?RADIANCE\n\n-Y 4 +X 4\n1234"), ": bad picture file: it ends too early");
+  EXPECT_EQ(errorOf("#?RADIANCE\n\n-Y 60000 +X 60000\n1234"), ": bad picture file: it ends too early");
+  EXPECT_EQ(errorOf("#?RADIANCE\n\n-Y 1 +X 2\n" + append({{1, 1, 1, 2}})),
+            ": bad picture file: a run is too long");
+  const std::string whole = coded(kOrders[0], true);
+  for (size_t cut = 60; cut < whole.size(); cut += 7)
+    EXPECT_NE(errorOf(whole.substr(0, cut)), "no error") << cut << " bytes";
+  try {
+    Picture::read("/nonexistent.hdr");
+    FAIL();
+  } catch (const rad::Error& e) {
+    EXPECT_EQ(e.status(), rad::Status::system);
+  }
+}
+
+}  // namespace
+}  // namespace rsphere
