@@ -61,7 +61,7 @@ void answer(const Options& options, const Messages& messages, StopSignals& signa
     writer.write(specialObjectsText(scene, findSpecialObjects(scene, options.sphere.densityFactor)));
     return writer.flush();
   }
-  const Transport transport(scene, options.ray, options.irradiance, options.sphere.basicRadiance);
+  const Transport transport(scene, options.ray, options.irradiance, options.sphere.basicRadiance, warn);
 
   RecordReader reader(0, options.in, options.sphere.on ? 3 : 6);
   const AnswerWriter answers(options);
