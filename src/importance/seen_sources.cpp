@@ -59,7 +59,7 @@ void SeenSources::sample(const V3d& point, size_t most, uint64_t seed, PathTrace
       s.part = to.solidAngle * scale;
       s.ray = tracer.traceToSource(point, to, mixBits(seed + begin));
       const bool seen = tracer.shownSource() == static_cast<int32_t>(to.source);
-      s.direction = {to.direction, seen ? s.part : 0, seen ? s.ray.value : Rgb(0, 0, 0)};
+      s.direction = {to.direction, seen ? s.part : 0, seen ? s.ray.value : Rgb(0, 0, 0), true};
       samples.push_back(s);
     }
   }

@@ -1,0 +1,127 @@
+// Light and importance are duals: what a lamp at a point sends to a surface is what the point sees of
+// importance that the surface emits (Veach 1997, chapter 4). A lamp of intensity I in all directions puts E =
+// I F / A on a goal of area A, where F = 4 pi v is the integral of importance at the lamp's place.
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <string>
+
+#include "importance/estimator.h"
+#include "tests/unit/support/scene_of.h"
+#include "tests/unit/support/statistics.h"
+
+namespace rsphere {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+const V3d kLamp(1, 1.2, 1.9);
+constexpr double kLampRadius = .01, kLampRadiance = 1000;
+constexpr double kGoalHeight = .7, kGoalX = 2.2, kGoalY = 1.6, kGoalWidth = .8, kGoalDepth = .5;
+
+// A room of 4 x 3 x 2.5 m with a pane of glass and a glass ball between the lamp and the goal.
+std::string room(bool lit) {
+  std::string text = R"(
+void plastic wall 0 0 5 .6 .5 .4 0 0
+wall polygon floor 0 0 12 0 0 0 4 0 0 4 3 0 0 3 0
+wall polygon ceiling 0 0 12 0 0 2.5 0 3 2.5 4 3 2.5 4 0 2.5
+wall polygon south 0 0 12 0 0 0 0 0 2.5 4 0 2.5 4 0 0
+wall polygon east 0 0 12 4 0 0 4 0 2.5 4 3 2.5 4 3 0
+wall polygon north 0 0 12 4 3 0 4 3 2.5 0 3 2.5 0 3 0
+wall polygon west 0 0 12 0 3 0 0 3 2.5 0 0 2.5 0 0 0
+void glass pane 0 0 3 .9 .8 .7
+pane polygon window 0 0 12 1.6 .2 .2 1.6 2 .2 1.6 2 2.2 1.6 .2 2.2
+void dielectric crystal 0 0 5 .9 .95 .98 1.5 0
+crystal sphere ball 0 0 4 2.9 1.2 1.3 .15
+void plastic goal 0 0 5 .5 .35 .2 0 0
+goal polygon top 0 0 12 2.2 1.6 .7 3 1.6 .7 3 2.1 .7 2.2 2.1 .7
+)";
+  if (lit) text += "void light lamp_mat 0 0 3 1000 1000 1000\nlamp_mat sphere lamp 0 0 4 1 1.2 1.9 .01\n";
+  return text;
+}
+
+RayOptions finely(int bounces) {
+  RayOptions o;
+  o.ambientBounces = bounces;
+  o.ambientDivisions = 4;
+  o.ambientSuperSamples = 0;
+  o.directThreshold = 0;
+  o.directJitter = 1;
+  o.sourceSubstructuring = .05;
+  o.specularThreshold = 0;
+  o.weightLimit = 1e-6;
+  return o;
+}
+
+// Mean irradiance on the goal, by rays that start at its surface, with one bounce more than importance is
+// traced with: the goal itself is the first.
+Sample irradianceOnGoal(int bounces) {
+  const Scene scene = sceneOf(room(true));
+  const Transport transport(scene, finely(bounces + 1), Irradiance::point);
+  PathTracer tracer(transport);
+  Random random(7);
+  Sample sample;
+  for (int i = 0; i < 60; ++i)
+    for (int j = 0; j < 60; ++j) {
+      const V3d at(kGoalX + kGoalWidth * (i + random.uniform()) / 60,
+                   kGoalY + kGoalDepth * (j + random.uniform()) / 60, kGoalHeight + 1e-4);
+      sample.add(tracer.trace(at, V3d(0, 0, -1), 0, random.bits()).value.y);
+    }
+  return sample;
+}
+
+Sample irradianceByImportance(int bounces, bool basic) {
+  Scene scene = [] {
+    const std::string goals[] = {"goal"};
+    return buildScene(rad::readSceneText(room(false), "room.rad"), nullptr, goals);
+  }();
+  const Transport transport(scene, finely(bounces), Irradiance::none, basic);
+  Sample sample;
+  for (uint64_t rotation = 1; rotation <= 24; ++rotation) {
+    SphereOptions options;
+    options.baseDirections = 1024;
+    options.rotation = rotation;
+    const SphereEstimator estimator(transport, options);
+    SphereEstimator::Workspace workspace(estimator);
+    const double intensity = kLampRadiance * kPi * kLampRadius * kLampRadius;
+    sample.add(4 * kPi * intensity * estimator.estimate(kLamp, workspace).mean.y / (kGoalWidth * kGoalDepth));
+  }
+  return sample;
+}
+
+TEST(Duality, IrradianceFromALampIsWhatImportancePredicts) {
+  const Sample light = irradianceOnGoal(2);
+  const Sample importance = irradianceByImportance(2, false);
+  const double error = std::hypot(light.standardError(), importance.standardError());
+  // 1% is what the comparison has to see: both together must be surer than that.
+  EXPECT_LT(3 * error, .02 * light.mean());
+  EXPECT_LT(std::abs(light.mean() - importance.mean()), std::max(.01 * light.mean(), 3 * error))
+      << light.mean() << " +- " << light.standardError() << ", by importance " << importance.mean() << " +- "
+      << importance.standardError();
+  // Importance that is 5% too strong would have been noticed.
+  EXPECT_GT(std::abs(light.mean() - 1.05 * importance.mean()), std::max(.01 * light.mean(), 3 * error));
+}
+
+TEST(Duality, BasicRadianceIsTheSameOutsideOfGlass) {
+  const Sample radiance = irradianceByImportance(1, false), basic = irradianceByImportance(1, true);
+  EXPECT_NEAR(radiance.mean(), basic.mean(), 4 * std::hypot(radiance.standardError(), basic.standardError()));
+}
+
+// Inside glass the radiance from outside is n^2 of what it was; basic radiance is not (Snell; n = 1.5).
+TEST(Duality, BasicRadianceLeavesOutTheSquareOfTheIndex) {
+  const Scene scene = sceneOf(
+      "void dielectric clear 0 0 5 1 1 1 1.5 0\nclear sphere ball 0 0 4 0 0 0 1\n"
+      "void glow sky 0 0 4 1 1 1 0\nsky source dome 0 0 4 0 0 1 360\n");
+  const auto straightUp = [&](bool basic) {
+    const Transport transport(scene, finely(0), Irradiance::none, basic);
+    PathTracer tracer(transport);
+    Sample sample;
+    for (uint64_t seed = 0; seed < 200; ++seed)
+      sample.add(tracer.trace(V3d(0, 0, 0), V3d(0, 0, 1), 0, seed).value.x);
+    return sample.mean();
+  };
+  EXPECT_NEAR(straightUp(false), 1.5 * 1.5, .02);
+  EXPECT_NEAR(straightUp(true), 1, .01);
+}
+
+}  // namespace
+}  // namespace rsphere
