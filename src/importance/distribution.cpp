@@ -1,6 +1,5 @@
 #include "importance/distribution.h"
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "image/codec.h"
 #include "rad_parser/error.h"
 
 namespace rsphere {
@@ -199,18 +199,14 @@ void writeDistribution(const std::string& pattern, uint64_t record,
                        std::span<const DirectionSample> samples) {
   if (pattern.empty()) return;
   const std::string name = pictureName(pattern, record);
-  const auto file = OIIO::ImageOutput::create(name);
-  if (!file) cannotWrite(name, OIIO::geterror());
+  std::string format;
+  if (const std::string why = imageCodec().formatOf(name, format); !why.empty()) cannotWrite(name, why);
   DistributionPicture picture = drawDistribution(samples);
-  const std::string_view format = file->format_name();
   const bool keepsRadiance = format == "openexr" || format == "hdr" || format == "tiff";
   if (!keepsRadiance) expose(picture.pixels, samples);
-  OIIO::ImageSpec spec(picture.width, picture.height, 3,
-                       keepsRadiance ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", keepsRadiance ? "Linear" : "sRGB");
-  if (!file->open(name, spec)) cannotWrite(name, file->geterror());
-  if (!file->write_image(OIIO::TypeDesc::FLOAT, picture.pixels.data()) || !file->close())
-    cannotWrite(name, file->geterror());
+  const std::string why =
+      imageCodec().write(name, picture.width, picture.height, keepsRadiance, picture.pixels.data());
+  if (!why.empty()) cannotWrite(name, why);
 }
 
 }  // namespace rsphere

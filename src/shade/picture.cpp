@@ -1,7 +1,5 @@
 #include "shade/picture.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include <optional>
 #include <string_view>
 
+#include "image/codec.h"
 #include "rad_parser/error.h"
 
 namespace rsphere {
@@ -139,7 +138,7 @@ void rgbOfXyz(float* c) {
 }
 
 // OpenImageIO decodes the pixels. It gets a header of its own kind: files without one of today's, and pixels
-// in any order, are what it does not read; and it is told the format, since others are called ".pic" too.
+// in any order, are what it does not read.
 std::vector<float> decode(const Layout& layout, std::string_view coded, const std::string& path) {
   std::string file =
       fmt::format("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", layout.rows, layout.columns);
@@ -151,15 +150,8 @@ std::vector<float> decode(const Layout& layout, std::string_view coded, const st
     file += expanded(coded, layout.rows * layout.columns, path);
   }
   std::vector<float> pixels(3 * layout.rows * layout.columns);
-  OIIO::Filesystem::IOMemReader memory(file.data(), file.size());
-  const auto input = OIIO::ImageInput::create("hdr");
-  OIIO::ImageSpec spec;
-  if (!input || !input->set_ioproxy(&memory) || !input->open(path + ".hdr", spec))
-    bad(path, input ? input->geterror() : OIIO::geterror());
-  if (static_cast<size_t>(spec.width) != layout.columns || static_cast<size_t>(spec.height) != layout.rows ||
-      spec.nchannels != 3)
-    bad(path, "its resolution is not its decoder's");
-  if (!input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, pixels.data())) bad(path, input->geterror());
+  const std::string why = imageCodec().decodeRadiance(file, layout.columns, layout.rows, pixels.data());
+  if (!why.empty()) bad(path, why);
   return pixels;
 }
 
