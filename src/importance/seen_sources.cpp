@@ -16,7 +16,8 @@ SeenSources::SeenSources(const Transport& transport) : transport_(transport) {
   const Scene& scene = transport.scene();
   for (const LightSource& light : transport.lights().all()) {
     const Surface& surface = scene.surfaces[light.surface];
-    bool apart = !std::holds_alternative<Illum>(*scene.materialOf(surface));
+    const Material* material = scene.materialOf(surface);
+    bool apart = !(material && std::holds_alternative<Illum>(*material));
     if (light.distant) apart = apart && light.cosHalfAngle > std::cos(kWidestDistant);
     if (light.map == LightSource::Map::square) apart = false;
     apart_.push_back(apart);

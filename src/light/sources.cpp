@@ -185,6 +185,7 @@ LightSources::LightSources(const Scene& scene) : scene_(scene) {
   };
   for (uint32_t i = 0; i < scene.surfaces.size(); ++i) {
     const Surface& surface = scene.surfaces[i];
+    if (surface.material == kNone) continue;
     if (scene.importance) {
       if (surface.goal && canBeAimedAt(surface.shape, scene)) add(i);
       continue;

@@ -492,9 +492,9 @@ bool PathTracer::shadeMaterial(Ray& ray, const Illum& material, int32_t behind) 
   if (!aimed || aimed->surface != ray.surface) {
     if (aimed && ray.cosine > 0) {
       // Light of an illum or glow behind this illum is what this one stands for.
-      const Material& other = *t_.scene().materialOf(t_.scene().surfaces[aimed->surface]);
-      if (!t_.scene().importance &&
-          (std::holds_alternative<Illum>(other) || std::holds_alternative<Glow>(other)))
+      const Material* other = t_.scene().materialOf(t_.scene().surfaces[aimed->surface]);
+      if (!t_.scene().importance && other &&
+          (std::holds_alternative<Illum>(*other) || std::holds_alternative<Glow>(*other)))
         return true;
     }
     return useAlternate(ray, material.alternate);

@@ -673,6 +673,27 @@ TEST_F(Patterns, MixtureWithoutAMaterialBehindItIsTheMaterial) {
   EXPECT_EQ(none.materialName(none.surfaces[0]), "void");
 }
 
+// A goal emits whatever its modifiers are: a plastic surface beside one that is mixed receives importance
+// from it.
+TEST_F(Patterns, GoalMayBeAMixture) {
+  const std::string text =
+      "void plastic Q\n0\n0\n5 .5 .5 .5 0 0\nvoid mixfunc G\n4 Q void .5 .\n0\n0\n"
+      "Q polygon floor\n0\n0\n12 -4 -4 0 4 -4 0 4 4 0 -4 4 0\n"
+      "G polygon goal\n0\n0\n12 -1 -1 2 -1 1 2 1 1 2 1 -1 2\n";
+  const std::vector<std::string> goals = {"G"};
+  const Scene scene = buildScene(rad::readSceneText(text, "room.rad"), nullptr, goals);
+  const Transport transport(scene, unbiased(), Irradiance::none);
+  PathTracer tracer(transport);
+  EXPECT_EQ(tracer.trace(V3d(.2, .3, 1), V3d(0, 0, 1), 0, 1).value.x, 1);
+  Sample floor;
+  for (uint64_t i = 0; i < 4000; ++i)
+    floor.add(tracer.trace(V3d(0, 0, 1), V3d(0, 0, -1), 0, mixBits(i)).value.x);
+  // .5/pi times the irradiance under the middle of a square: 4 / pi times that of a quarter, with a = b =
+  // 1/2.
+  const double side = 1 / std::sqrt(5.), factor = 4 / 3.14159265358979 * side * std::atan(side);
+  EXPECT_NEAR(floor.mean(), .5 * factor, 5 * floor.standardError());
+}
+
 TEST_F(Patterns, MixturesNestAsDeepAsMakesSense) {
   const auto nested = [](int depth) {
     std::string text = kGlowA, last = "A";
