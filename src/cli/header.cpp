@@ -29,6 +29,8 @@ std::string dateText(const std::tm& date) {
                      date.tm_mday, date.tm_hour, date.tm_min, date.tm_sec);
 }
 
+}  // namespace
+
 std::string_view formatName(NumberFormat format) {
   switch (format) {
     case NumberFormat::ascii:
@@ -42,8 +44,6 @@ std::string_view formatName(NumberFormat format) {
   }
   return "unknown";
 }
-
-}  // namespace
 
 std::string versionLine() { return fmt::format("rsphere {}", kVersion); }
 

@@ -2,6 +2,7 @@
 #include <ctime>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "cli/options.h"
 #include "cli/records.h"
@@ -14,6 +15,9 @@ std::string versionLine();
 // The command as it can be typed again: program and options, words quoted where they need it, without a line
 // end; the scene only where asked for.
 std::string commandLine(const Options& options, bool withScene);
+
+// The name that FORMAT= and -help give a format: "ascii", "float", "double", "32-bit_rle_rgbe".
+std::string_view formatName(NumberFormat format);
 
 // Writes the information header that rtrace writes before its records, unless switched off (-h-), and then
 // the resolution line where -x and -y are both given, header or not:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cli/header.h"
 #include "cli/option_table.h"
 
 namespace rsphere {
@@ -78,20 +79,7 @@ std::string remarkOf(const OptionEntry& entry, const Options& options) {
   if (entry.name == "-x" && options.height != 0 && options.width != 0) return "x resolution";
   if (entry.name == "-lr" && options.ray.reflectionLimit <= 0) return "limit reflection (Russian roulette)";
   if (entry.name == "-f") {
-    const auto name = [](NumberFormat format) {
-      switch (format) {
-        case NumberFormat::ascii:
-          return "ascii";
-        case NumberFormat::float32:
-          return "float";
-        case NumberFormat::float64:
-          return "double";
-        case NumberFormat::rgbe:
-          return "32-bit_rle_rgbe";
-      }
-      return "unknown";
-    };
-    return fmt::format("{} = {}/{}", entry.remark, name(options.in), name(options.out));
+    return fmt::format("{} = {}/{}", entry.remark, formatName(options.in), formatName(options.out));
   }
   if (entry.name == "-o") {
     std::string remark(entry.remark);

@@ -333,7 +333,6 @@ FunctionPoint PathTracer::functionPoint(const Ray& ray) const {
 // The ray goes on as if it had hit nothing.
 void PathTracer::pass(Ray& ray) {
   Ray child;
-  Rgb whole(1, 1, 1);
   child.direction = ray.direction;
   child.origin = ray.point;
   child.kind = kTransmitted;
@@ -394,8 +393,9 @@ Interaction PathTracer::interaction(const Ray& ray) const {
 
 // ---- materials
 
-bool PathTracer::shadeMaterial(Ray& ray, const Opaque& material, int32_t behind) {
-  if (ray.kinds & kShadow) return true;
+// Plastic, metal and trans are the same from both sides.
+template <class M>
+bool PathTracer::shadeTwoSided(Ray& ray, const M& material, int32_t behind) {
   if (ray.cosine < 0 && !t_.options().backFacesVisible) {
     pass(ray);
     return true;
@@ -406,15 +406,12 @@ bool PathTracer::shadeMaterial(Ray& ray, const Opaque& material, int32_t behind)
   return shadeDiffusing(ray, scatter(material, at, t_.options().specularThreshold), at);
 }
 
+bool PathTracer::shadeMaterial(Ray& ray, const Opaque& material, int32_t behind) {
+  return (ray.kinds & kShadow) || shadeTwoSided(ray, material, behind);
+}
+
 bool PathTracer::shadeMaterial(Ray& ray, const Trans& material, int32_t behind) {
-  if (ray.cosine < 0 && !t_.options().backFacesVisible) {
-    pass(ray);
-    return true;
-  }
-  applyModifiers(ray, behind);
-  turnRound(ray);
-  const Interaction at = interaction(ray);
-  return shadeDiffusing(ray, scatter(material, at, t_.options().specularThreshold), at);
+  return shadeTwoSided(ray, material, behind);
 }
 
 bool PathTracer::shadeMaterial(Ray& ray, const Dielectric& material, int32_t behind) {

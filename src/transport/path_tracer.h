@@ -101,6 +101,8 @@ class PathTracer {
   FunctionPoint functionPoint(const Ray& ray) const;
 
   // behind: the chain of modifiers that the material has itself.
+  template <class M>
+  bool shadeTwoSided(Ray& ray, const M& material, int32_t behind);
   bool shadeMaterial(Ray& ray, const Opaque& material, int32_t behind);
   bool shadeMaterial(Ray& ray, const Trans& material, int32_t behind);
   bool shadeMaterial(Ray& ray, const Dielectric& material, int32_t behind);
