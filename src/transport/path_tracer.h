@@ -15,6 +15,7 @@
 #include "shade/scattering.h"
 #include "shade/surface_functions.h"
 #include "trace/tracer.h"
+#include "transport/function_ref.h"
 #include "transport/ray.h"
 
 namespace rsphere {
@@ -53,6 +54,14 @@ class Transport {
   std::vector<bool> ambient_;  // by surface; empty: all of them
 };
 
+// The share of a source's radiance that leaves along a ray, for the source's direction (unit) and the solid
+// angle (sr) that a sample of it stands for.
+using DirectCoefficient = FunctionRef<Rgb(const V3d& toSource, double solidAngle)>;
+
+// Draws a direction (unit) of a lobe for two uniform numbers in [0, 1); answers its weight, 0 where the draw
+// is lost.
+using LobeSampler = FunctionRef<double(double u1, double u2, V3d& direction)>;
+
 // Traces one ray at a time; one a thread. The answer depends on the ray, the seed and Transport alone.
 class PathTracer {
  public:
@@ -85,7 +94,6 @@ class PathTracer {
   };
 
   bool continueRay(Ray& child, RayKind kind, const Ray& parent, Rgb& coefficient);
-  bool startShadowRay(Ray& child, const Ray& parent, const V3d& direction, uint32_t source);
   void evaluate(Ray& ray);
   void findHit(Ray& ray);
   bool seesDistant(Ray& ray);
@@ -121,8 +129,9 @@ class PathTracer {
   bool useAlternate(Ray& ray, const Alternate& alternate);
   void followSharp(Ray& ray, const Scattering& scattering);
   void sampleLobes(Ray& ray, const Scattering& scattering, const Interaction& at);
+  void sampleLobe(Ray& ray, RayKind kind, const Rgb& share, LobeSampler draw);
   void addIndirect(Ray& ray, const V3d& normal, const V3d& trueNormal, RayKind kind, const Rgb& coefficient);
-  void addDirect(Ray& ray, const Scattering& scattering, const Interaction& at);
+  void addDirect(Ray& ray, DirectCoefficient coefficientOf);
   Rgb sourceValue(const Ray& ray, const SourceSample& sample);
   Interaction interaction(const Ray& ray) const;
 

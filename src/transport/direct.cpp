@@ -1,0 +1,126 @@
+// Light straight from the sources.
+#include <algorithm>
+#include <cmath>
+
+#include "transport/path_tracer.h"
+#include "transport/ray_functions.h"
+
+namespace rsphere {
+
+Ray PathTracer::traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed) {
+  const LightSource& light = t_.lights().all()[sample.source];
+  switch (
+      t_.tracer().shadow(point, sample.direction, sample.distance, light.distant ? kNone : light.surface)) {
+    case Shadow::unsure:
+      return trace(point, sample.direction, 0, seed);
+    case Shadow::blocked:
+      break;
+    case Shadow::clear: {
+      Ray ray;
+      ray.origin = point;
+      ray.direction = sample.direction;
+      ray.surface = light.surface;
+      ray.length = ray.unmirroredLength = sample.distance;
+      if (!light.distant) ray.point = point + sample.distance * sample.direction;
+      ray.normal = sample.normal;
+      ray.cosine = sample.cosine;
+      primaryDirection_ = sample.direction;
+      shownSource_ = kNone;
+      shadeSurface(ray);
+      return ray;
+    }
+  }
+  shownSource_ = kNone;
+  return Ray{};
+}
+
+// The radiance of a source along a shadow ray that is not stopped.
+Rgb PathTracer::sourceValue(const Ray& ray, const SourceSample& sample) {
+  const Scene& scene = t_.scene();
+  const Surface& surface = scene.surfaces[t_.lights().all()[sample.source].surface];
+  if (sample.cosine < 0) return Rgb(0, 0, 0);
+  const Modifier& modifier = scene.modifiers[surface.material];
+  const Rgb passed = passing(ray.extinction, sample.distance);
+  if (surface.goal) return passed;
+  if (surface.modifier == surface.material && modifier.next == kNone)
+    return *sourceRadiance(std::get<Material>(modifier.content)) * passed;
+  Ray child;
+  child.origin = ray.point;
+  child.direction = sample.direction;
+  child.kind = kReflectedShadow;
+  child.kinds = ray.kinds | kReflectedShadow;
+  child.aimedAt = static_cast<int32_t>(sample.source);
+  child.pathLength = ray.pathLength + ray.length;
+  child.surface = t_.lights().all()[sample.source].surface;
+  child.length = sample.distance;
+  child.point = sample.distance < kFarAway ? child.origin + sample.distance * child.direction : child.origin;
+  child.normal = sample.normal;
+  child.cosine = sample.cosine;
+  shade(child, surface.modifier);
+  return child.value * passed;
+}
+
+void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf) {
+  const RayOptions& o = t_.options();
+  samples_.clear();
+  contributions_.clear();
+  const SourceSampling how{o.sourceSubstructuring > kNegligible ? o.sourceSubstructuring / ray.weight : 0,
+                           o.directJitter};
+  for (uint32_t i = 0; i < t_.lights().all().size(); ++i)
+    t_.lights().sample(i, ray.point, how, random_, samples_);
+  for (const SourceSample& sample : samples_) {
+    const Rgb coefficient = coefficientOf(sample.direction, sample.solidAngle);
+    if (isBlack(coefficient)) continue;
+    const Rgb value = sourceValue(ray, sample) * coefficient;
+    const double bright = brightness(value);
+    if (bright > 0)
+      contributions_.push_back(
+          {sample.direction, coefficient, value, bright, sample.distance, sample.source});
+  }
+  if (contributions_.empty()) return;
+
+  const size_t count = contributions_.size();
+  const double threshold = o.directThreshold / ray.weight;
+  // How many of those still untested are taken together to decide whether they can matter (-dc).
+  size_t lookAhead = count;
+  if (threshold > 0) {
+    std::stable_sort(contributions_.begin(), contributions_.end(),
+                     [](const auto& a, const auto& b) { return a.brightness > b.brightness; });
+    remaining_.assign(count + 1, 0);
+    for (size_t i = count; i-- > 0;) remaining_[i] = remaining_[i + 1] + contributions_[i].brightness;
+    lookAhead = static_cast<size_t>(std::pow(static_cast<double>(count), o.directCertainty) + .5);
+  }
+  constexpr size_t kAlwaysTested = 2;
+  size_t tested = 0, visible = 0;
+  for (; tested < count; ++tested) {
+    if (threshold > 0 && tested >= kAlwaysTested) {
+      const double ahead = remaining_[tested] - remaining_[std::min(tested + lookAhead, count)];
+      if (ahead < threshold * brightness(ray.value)) break;
+    }
+    const Contribution& c = contributions_[tested];
+    const LightSource& light = t_.lights().all()[c.source];
+    const Shadow shadow =
+        t_.tracer().shadow(ray.point, c.direction, c.distance, light.distant ? kNone : light.surface);
+    if (shadow == Shadow::blocked) continue;
+    if (shadow == Shadow::clear) {
+      ray.value += c.value;
+      ++visible;
+      continue;
+    }
+    Ray child;
+    Rgb whole(1, 1, 1);
+    const bool through = (ray.cosine > 0) != (ray.normal.dot(c.direction) > 0);
+    if (!continueRay(child, through ? kTransmittedShadow : kReflectedShadow, ray, whole)) continue;
+    child.aimedAt = static_cast<int32_t>(c.source);
+    child.direction = c.direction;
+    evaluate(child);
+    if (maxChannel(child.value) <= kNegligible) continue;
+    ray.value += child.value * c.coefficient;
+    ++visible;
+  }
+  // Sources too weak to be tested are let through as often as those that were.
+  const double share = tested ? static_cast<double>(visible) / static_cast<double>(tested) : .5;
+  for (; tested < count; ++tested) ray.value += contributions_[tested].value * share;
+}
+
+}  // namespace rsphere

@@ -1,0 +1,115 @@
+// Light that comes by way of other surfaces: sharp paths, sampled lobes, the hemisphere.
+#include <algorithm>
+#include <cmath>
+
+#include "transport/path_tracer.h"
+#include "transport/ray_functions.h"
+
+namespace rsphere {
+
+bool PathTracer::shadeBoundary(Ray& ray, const Scattering& scattering) {
+  ray.extinction = scattering.extinction;
+  followSharp(ray, scattering);
+  return true;
+}
+
+bool PathTracer::shadeDiffusing(Ray& ray, const Scattering& scattering, const Interaction& at) {
+  followSharp(ray, scattering);
+  if (ray.kinds & kShadow) return true;
+  sampleLobes(ray, scattering, at);
+  if (maxChannel(scattering.ambientReflection) > kNegligible)
+    addIndirect(ray, scattering.normal, at.normal, kReflectedAmbient, scattering.ambientReflection);
+  if (maxChannel(scattering.ambientTransmission) > kNegligible)
+    addIndirect(ray, -scattering.normal, -at.normal, kTransmittedAmbient, scattering.ambientTransmission);
+  if (!isBlack(scattering.diffuseReflection) || !isBlack(scattering.diffuseTransmission) ||
+      !isBlack(scattering.specularReflection) || !isBlack(scattering.specularTransmission))
+    addDirect(ray, [&, jitter = t_.options().directJitter](const V3d& toSource, double solidAngle) {
+      return directCoefficient(scattering, at, toSource, solidAngle, jitter);
+    });
+  return true;
+}
+
+void PathTracer::followSharp(Ray& ray, const Scattering& scattering) {
+  for (const SharpPath& path : scattering.sharp) {
+    if ((ray.kinds & kShadow) && path.kind == kReflected) continue;
+    Ray child;
+    Rgb coefficient = path.coefficient;
+    if (isBlack(coefficient) || !continueRay(child, path.kind, ray, coefficient)) continue;
+    child.direction = path.direction;
+    if (path.entersMedium) child.extinction = path.extinction;
+    evaluate(child);
+    child.value *= coefficient;
+    ray.value += child.value;
+    if (path.kind == kReflected) {
+      ray.mirrored = child.value;
+      ray.mirroredLength = ray.length + (path.lengthCounts ? apparentLength(child) : 0);
+    } else if (path.lengthCounts) {
+      ray.unmirroredLength = ray.length + apparentLength(child);
+    }
+  }
+}
+
+void PathTracer::sampleLobes(Ray& ray, const Scattering& scattering, const Interaction& at) {
+  const double spread = t_.options().specularSampling;
+  if (scattering.sampleReflection)
+    sampleLobe(ray, kReflectedSpecular, scattering.specularReflection, [&](double u1, double u2, V3d& d) {
+      return sampleReflection(scattering, at, spread, u1, u2, d);
+    });
+  if (scattering.sampleTransmission)
+    sampleLobe(ray, kTransmittedSpecular, scattering.specularTransmission, [&](double u1, double u2, V3d& d) {
+      return sampleTransmission(scattering, at, spread, u1, u2, d);
+    });
+}
+
+// share: of the lobe in the ray's radiance, what the weights of its directions are 1 in the mean of.
+void PathTracer::sampleLobe(Ray& ray, RayKind kind, const Rgb& share, LobeSampler draw) {
+  const double spread = t_.options().specularSampling;
+  const int samples = spread > 1.5 ? std::max(1, static_cast<int>(spread * ray.weight + .5)) : 1;
+  for (int i = 0; i < samples; ++i) {
+    Ray child;
+    const double u1 = (i + random_.uniform()) / samples, u2 = random_.uniform();
+    const double weight = draw(u1, u2, child.direction);
+    if (!(weight > 0)) continue;
+    Rgb coefficient = share * (weight / samples);
+    if (!continueRay(child, kind, ray, coefficient)) continue;
+    evaluate(child);
+    ray.value += child.value * coefficient;
+  }
+}
+
+void PathTracer::addIndirect(Ray& ray, const V3d& normal, const V3d& trueNormal, RayKind kind,
+                             const Rgb& coefficient) {
+  const RayOptions& o = t_.options();
+  if (o.ambientDivisions <= 0 || ray.ambientLevel >= o.ambientBounces || !t_.isAmbient(ray.surface)) {
+    ray.value += coefficient * o.ambientValue;
+    return;
+  }
+  int side = 1;
+  if (ray.ambientLevel == 0) {
+    // No more directions than can be followed: each would fall below the weight limit and most of them end.
+    const double followed =
+        .8 * maxChannel(coefficient) * ray.weight / (o.ambientDivisions * o.weightLimit + 1e-20);
+    const double divisions = (o.ambientDivisions + o.ambientSuperSamples) * std::min(ray.weight, followed);
+    side = std::max(1, static_cast<int>(std::sqrt(divisions) + .5));
+  }
+  V3d x, y;
+  frame(normal, x, y);
+  const Rgb share = coefficient / (static_cast<double>(side) * side);
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j) {
+      // By projected solid angle, so that every direction counts the same (Malley's method).
+      const double radius = std::sqrt((i + random_.uniform()) / side);
+      const double angle = 2 * kPi * (j + random_.uniform()) / side;
+      const double height = std::sqrt(std::max(0., 1 - radius * radius));
+      Ray child;
+      child.direction = radius * std::cos(angle) * x + radius * std::sin(angle) * y + height * normal;
+      if (child.direction.dot(trueNormal) <= 0) continue;
+      Rgb c = share;
+      if (!continueRay(child, kind, ray, c)) continue;
+      ++child.ambientLevel;
+      evaluate(child);
+      ray.value += child.value * c;
+    }
+}
+
+}  // namespace rsphere

@@ -1,0 +1,146 @@
+// What each material does to a ray that hits it.
+#include "transport/path_tracer.h"
+#include "transport/ray_functions.h"
+
+namespace rsphere {
+namespace {
+
+// A ray whose direction changed by less on its way through panes has gone straight on.
+constexpr double kStraight = 1e-9;
+
+bool beyondReach(const Glow* glow, double distance) {
+  return glow && glow->reach >= -kNegligible && distance > glow->reach;
+}
+
+}  // namespace
+
+template <class M>
+bool PathTracer::shadeTwoSided(Ray& ray, const M& material, int32_t behind) {
+  if (ray.cosine < 0 && !t_.options().backFacesVisible) {
+    pass(ray);
+    return true;
+  }
+  applyModifiers(ray, behind);
+  turnRound(ray);
+  const Interaction at = interaction(ray);
+  return shadeDiffusing(ray, scatter(material, at, t_.options().specularThreshold), at);
+}
+
+bool PathTracer::shadeMaterial(Ray& ray, const Opaque& material, int32_t behind) {
+  return (ray.kinds & kShadow) || shadeTwoSided(ray, material, behind);
+}
+
+bool PathTracer::shadeMaterial(Ray& ray, const Trans& material, int32_t behind) {
+  return shadeTwoSided(ray, material, behind);
+}
+
+bool PathTracer::shadeMaterial(Ray& ray, const Dielectric& material, int32_t behind) {
+  applyModifiers(ray, behind);
+  const Interaction at = interaction(ray);
+  return shadeBoundary(ray, scatter(material, at, at.front ? ray.extinction : t_.options().mediumExtinction,
+                                    t_.basicRadiance()));
+}
+
+bool PathTracer::shadeMaterial(Ray& ray, const Interface& material, int32_t behind) {
+  applyModifiers(ray, behind);
+  return shadeBoundary(ray, scatter(material, interaction(ray), t_.basicRadiance()));
+}
+
+bool PathTracer::shadeMaterial(Ray& ray, const Glass& material, int32_t behind) {
+  if (ray.cosine <= 0 && !t_.options().backFacesVisible) {
+    pass(ray);
+    return true;
+  }
+  applyModifiers(ray, behind);
+  turnRound(ray);
+  followSharp(ray, scatter(material, interaction(ray)));
+  return true;
+}
+
+bool PathTracer::shadeMaterial(Ray& ray, const Mirror& material, int32_t behind) {
+  const bool aimedHere = ray.aimedAt != kNone && t_.lights().all()[ray.aimedAt].surface == ray.surface;
+  if (material.alternate.kind != Alternate::Kind::none && !aimedHere) {
+    // An indirect ray that meets the front takes the mirror's way, as the light that it stands for does; only
+    // what is transparent is passed even then.
+    const bool free = ray.cosine < 0 || !(ray.kinds & (kAmbient | kSpecular));
+    const auto transparent = [&] {
+      const int32_t m = material.alternate.modifier;
+      const Material* other = t_.scene().materialAt(t_.scene().firstMaterial(m));
+      return other && isTransparent(*other);
+    };
+    if (free || transparent()) return useAlternate(ray, material.alternate);
+  }
+  if (ray.aimedAt != kNone && !aimedHere) return true;
+  if (ray.cosine < 0) {
+    if (!t_.options().backFacesVisible) pass(ray);
+    return true;
+  }
+  applyModifiers(ray, behind);
+  followSharp(ray, scatter(material, interaction(ray)));
+  return true;
+}
+
+bool PathTracer::useAlternate(Ray& ray, const Alternate& alternate) {
+  if (alternate.kind == Alternate::Kind::modifier) return shade(ray, alternate.modifier);
+  pass(ray);
+  return true;
+}
+
+bool PathTracer::shadeMaterial(Ray& ray, const Light& material, int32_t behind) {
+  if (!t_.scene().importance && !countedByDirect(ray, nullptr)) emit(ray, material.radiance, nullptr, behind);
+  return true;
+}
+
+bool PathTracer::shadeMaterial(Ray& ray, const Glow& material, int32_t behind) {
+  if (!t_.scene().importance && !countedByDirect(ray, &material))
+    emit(ray, material.radiance, &material, behind);
+  return true;
+}
+
+bool PathTracer::shadeMaterial(Ray& ray, const Spotlight& material, int32_t behind) {
+  if (t_.scene().importance || countedByDirect(ray, nullptr)) return true;
+  if (ray.cosine < 0 || !outsideSpot(material, ray.direction)) emit(ray, material.radiance, nullptr, behind);
+  return true;
+}
+
+bool PathTracer::shadeMaterial(Ray& ray, const Illum& material, int32_t behind) {
+  if (!t_.scene().importance && countedByDirect(ray, nullptr)) return true;
+  const LightSource* aimed = ray.aimedAt == kNone ? nullptr : &t_.lights().all()[ray.aimedAt];
+  if (!aimed || aimed->surface != ray.surface) {
+    if (aimed && ray.cosine > 0) {
+      // Light of an illum or glow behind this illum is what this one stands for.
+      const Material* other = t_.scene().materialOf(t_.scene().surfaces[aimed->surface]);
+      if (!t_.scene().importance && other &&
+          (std::holds_alternative<Illum>(*other) || std::holds_alternative<Glow>(*other)))
+        return true;
+    }
+    return useAlternate(ray, material.alternate);
+  }
+  emit(ray, material.radiance, nullptr, behind);
+  return true;
+}
+
+// Whether an indirect or specular sample met the front of a source whose light the direct calculation has
+// counted.
+bool PathTracer::countedByDirect(const Ray& ray, const Glow* glow) const {
+  return (ray.kinds & (kAmbient | kSpecular)) && !(ray.kinds & kShadow) && ray.cosine >= 0 &&
+         !beyondReach(glow, ray.length);
+}
+
+void PathTracer::emit(Ray& ray, const Rgb& radiance, const Glow* glow, int32_t behind) {
+  if (ray.aimedAt != kNone && t_.lights().all()[ray.aimedAt].surface != ray.surface) return;
+  if (!t_.options().sourcesVisible && !(ray.kinds & kShadow) &&
+      !beyondReach(glow, ray.pathLength + ray.length))
+    return;
+  if (ray.cosine < 0) {
+    if (!t_.options().backFacesVisible) pass(ray);
+    return;
+  }
+  applyModifiers(ray, behind);
+  ray.value = radiance * ray.pattern;
+  if (!(ray.kinds & ~(kPrimary | kTransmitted)) &&
+      (ray.direction - primaryDirection_).length2() < kStraight * kStraight)
+    shownSource_ = t_.lightOf(ray.surface);
+}
+
+}  // namespace rsphere
