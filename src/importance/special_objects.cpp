@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace rsphere {
@@ -13,11 +14,36 @@ struct Irregularity {
     const double wide = roughness / kSharpRoughness;
     return share / (1 + wide * wide);
   }
+  static double lobe(double share, double roughnessAlong, double roughnessAcross) {
+    const double along = roughnessAlong / kSharpRoughness, across = roughnessAcross / kSharpRoughness;
+    return share / std::sqrt((1 + along * along) * (1 + across * across));
+  }
+  static double lobe(const WgmdFunction::Lobe& m) {
+    return lobe(std::min(m.share, 1.), m.roughnessAlong, m.roughnessAcross);
+  }
+  // A power of cosines as Gaussian of slopes: where both begin to fall alike.
+  static double roughnessOf(double power) { return std::sqrt(2 / (power + 1)); }
   double operator()(const Opaque& m) const { return lobe(m.specularity, m.roughness); }
   double operator()(const Trans& m) const {
     return lobe(std::max(m.specularity, (1 - m.specularity) * m.transmissivity * m.transmittedSpecular),
                 m.roughness);
   }
+  double operator()(const Anisotropic& m) const {
+    return lobe(std::max(m.specularity, (1 - m.specularity) * m.transmissivity * m.transmittedSpecular),
+                m.roughnessAlong, m.roughnessAcross);
+  }
+  double operator()(const Ashikhmin& m) const {
+    return lobe(maxChannel(m.specular), roughnessOf(m.powerAlong), roughnessOf(m.powerAcross));
+  }
+  double operator()(const FunctionScatterer& m) const {
+    return lobe(std::max(m.specularity, (1 - m.specularity) * m.transmissivity * m.transmittedSpecular),
+                kSharpRoughness);
+  }
+  double operator()(const BrtdFunction& m) const {
+    const double sharp = std::clamp(std::max(m.mostReflected, m.mostTransmitted), 0., 1.);
+    return m.directional ? std::max(sharp, lobe(1, kSharpRoughness)) : sharp;
+  }
+  double operator()(const WgmdFunction& m) const { return std::max(lobe(m.reflected), lobe(m.transmitted)); }
   double operator()(const Dielectric&) const { return 1; }
   double operator()(const Interface&) const { return 1; }
   double operator()(const Glass&) const { return 1; }

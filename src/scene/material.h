@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <variant>
 
 #include "cli/rgb.h"
@@ -41,6 +42,57 @@ struct Glass {
   double refraction = 1.52;
 };
 
+// Materials with function files know them by their own index in Scene::modifiers (SurfaceFunctions).
+
+// plastic2, metal2 and trans2: highlights of elliptic shape. Roughness is that along the direction that the
+// functions give, projected onto the surface, and across it; both above 0.
+struct Anisotropic {
+  Rgb color;
+  double specularity = 0;
+  double roughnessAlong = 0, roughnessAcross = 0;
+  bool metal = false;
+  bool trans = false;  // trans2: light passes, as Trans has it
+  double transmissivity = 0, transmittedSpecular = 0;
+  int32_t functions = -1;
+};
+// ashik2: the higher the powers, the smoother. Diffuse and specular colour add up.
+struct Ashikhmin {
+  Rgb diffuse, specular;
+  double powerAlong = 0, powerAcross = 0;
+  int32_t functions = -1;
+};
+// plasfunc, metfunc, transfunc, plasdata, metdata and transdata: what is specular is scattered as a function
+// of the direction to a light source says.
+struct FunctionScatterer {
+  Rgb color;
+  double specularity = 0;
+  bool metal = false;
+  double transmissivity = 0, transmittedSpecular = 0;
+  int32_t functions = -1;
+};
+// BRTDfunc. What functions say is known here as far as numbers are given in their place.
+struct BrtdFunction {
+  Rgb diffuseFront, diffuseBack, diffuseTransmitted;
+  bool transmits = true;     // sharply: a transmission is other than the word 0
+  bool directional = true;   // there are distribution functions
+  double mostReflected = 1;  // sharply, by either side; 1 where functions decide
+  double mostTransmitted = 1;
+  int32_t functions = -1;
+};
+// WGMDfunc: trans2 with modifiers and functions of its own for each component.
+struct WgmdFunction {
+  // The most that a lobe may hold, and its least roughness: 1 and 0 where functions decide.
+  struct Lobe {
+    double share = 1, roughnessAlong = 0, roughnessAcross = 0;
+    std::optional<int32_t> modifier;  // index in Scene::modifiers or -1 (void); empty: the material's own
+  };
+  Rgb diffuseFront, diffuseBack, diffuseTransmitted;
+  Lobe reflected, transmitted;
+  std::optional<int32_t> diffuseTransmittedModifier;
+  bool transmits = true;  // the specular transmission is other than the word 0
+  int32_t functions = -1;
+};
+
 // What a surface is to rays that it does not concern (illum, mirror).
 struct Alternate {
   enum class Kind : uint8_t { none, pass, modifier } kind = Kind::none;
@@ -73,6 +125,7 @@ struct Spotlight {
 };
 
 using Material =
-    std::variant<Opaque, Trans, Dielectric, Interface, Glass, Mirror, Light, Illum, Glow, Spotlight>;
+    std::variant<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
+                 Dielectric, Interface, Glass, Mirror, Light, Illum, Glow, Spotlight>;
 
 }  // namespace rsphere

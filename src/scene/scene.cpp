@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <unordered_map>
@@ -37,6 +39,8 @@ class Builder {
  private:
   static constexpr int32_t kUnknown = -2;
   static constexpr int kDeepest = 64;
+  static constexpr double kNegligible =
+      1e-6;  // shares and roughnesses below it are none; RADIANCE's own figure
 
   const Primitive& primitive(uint32_t i) const { return scene_.description.primitives[i]; }
   std::span<const double> reals(uint32_t i) const { return scene_.description.reals(primitive(i)); }
@@ -94,6 +98,25 @@ class Builder {
       fail(i, fmt::format("expected at least {} string arguments, got {}", strings, primitive(i).strings));
     if (reals(i).size() < realArguments)
       fail(i, fmt::format("expected at least {} real arguments, got {}", realArguments, reals(i).size()));
+  }
+
+  // A string argument's value where it is a number, else what it may be at worst.
+  double numberOr(uint32_t i, size_t argument, double otherwise) const {
+    const std::string_view word = scene_.description.string(primitive(i), argument);
+    double value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return error == std::errc() && end == word.data() + word.size() ? value : otherwise;
+  }
+
+  // What WGMDfunc names for a component; one that holds nothing needs no modifier.
+  std::optional<int32_t> componentModifier(uint32_t i, size_t argument, bool used) {
+    if (!used || scene_.description.string(primitive(i), argument) == "inherit") return std::nullopt;
+    return named(i, argument);
+  }
+  WgmdFunction::Lobe lobe(uint32_t i, size_t argument) {
+    const double share = numberOr(i, argument + 1, 1);
+    return {share, numberOr(i, argument + 2, 0), numberOr(i, argument + 3, 0),
+            componentModifier(i, argument, share > kNegligible)};
   }
 
   Content mixture(uint32_t i) {
@@ -154,6 +177,55 @@ class Builder {
       case Type::trans:
         needReals(i, 7);
         return Trans{color(i, 0), reals(i)[3], reals(i)[4], reals(i)[5], reals(i)[6]};
+      case Type::plastic2:
+      case Type::metal2:
+        needReals(i, 6);
+        return anisotropic(i);
+      case Type::trans2:
+        needReals(i, 8);
+        return anisotropic(i);
+      case Type::ashik2:
+        needReals(i, 8);
+        needAtLeast(i, 4);
+        if (!(reals(i)[6] > -1 && reals(i)[7] > -1)) fail(i, "specular powers must be above -1");
+        return Ashikhmin{color(i, 0), color(i, 3), reals(i)[6], reals(i)[7]};
+      case Type::plasfunc:
+      case Type::metfunc:
+        needAtLeast(i, 2, 4);
+        return FunctionScatterer{color(i, 0), reals(i)[3], primitive(i).type == Type::metfunc};
+      case Type::plasdata:
+      case Type::metdata:
+        needAtLeast(i, 4, 4);
+        return FunctionScatterer{color(i, 0), reals(i)[3], primitive(i).type == Type::metdata};
+      case Type::transfunc:
+      case Type::transdata:
+        needAtLeast(i, primitive(i).type == Type::transfunc ? 2 : 4, 6);
+        return FunctionScatterer{color(i, 0), reals(i)[3], false, reals(i)[4], reals(i)[5]};
+      case Type::brtdfunc: {
+        needAtLeast(i, 10, 9);
+        const auto word = [&](size_t k) { return scene_.description.string(primitive(i), k); };
+        const auto most = [&](size_t k) {
+          return std::max({numberOr(i, k, 1), numberOr(i, k + 1, 1), numberOr(i, k + 2, 1)});
+        };
+        return BrtdFunction{color(i, 0),
+                            color(i, 3),
+                            color(i, 6),
+                            word(3) != "0" || word(4) != "0" || word(5) != "0",
+                            word(6) != "0" || word(7) != "0" || word(8) != "0",
+                            most(0),
+                            most(3)};
+      }
+      case Type::wgmdfunc: {
+        needAtLeast(i, 13, 9);
+        const bool diffusesThrough = maxChannel(color(i, 6)) > kNegligible;
+        return WgmdFunction{color(i, 0),
+                            color(i, 3),
+                            color(i, 6),
+                            lobe(i, 0),
+                            lobe(i, 4),
+                            componentModifier(i, 8, diffusesThrough),
+                            scene_.description.string(primitive(i), 5) != "0"};
+      }
       case Type::dielectric:
         needReals(i, 5);
         if (!(reals(i)[3] > 0)) fail(i, "refractive index must be above 0");
@@ -194,6 +266,19 @@ class Builder {
     }
   }
 
+  Material anisotropic(uint32_t i) const {
+    needAtLeast(i, 4);
+    const auto r = reals(i);
+    if (!(r[4] > kNegligible && r[5] > kNegligible)) fail(i, "roughness too small");
+    Anisotropic m{color(i, 0), r[3], r[4], r[5], primitive(i).type == Type::metal2};
+    m.trans = primitive(i).type == Type::trans2;
+    if (m.trans) {
+      m.transmissivity = r[6];
+      m.transmittedSpecular = r[7];
+    }
+    return m;
+  }
+
   // Converts the modifier at this index of the description and those that modify it; the same one only once.
   int32_t modifier(int32_t described) {
     if (described == rad::kVoid) return kNone;
@@ -215,12 +300,22 @@ class Builder {
                                                          : primitive(target).modifier;
       if (target != rad::kVoid) {  // an alias without a target stands for its own modifier
         Content made = content(static_cast<uint32_t>(target));
+        tellIndex(made, static_cast<int32_t>(scene_.modifiers.size()));
         scene_.modifiers.push_back({std::move(made), converted, static_cast<uint32_t>(target)});
         converted = static_cast<int32_t>(scene_.modifiers.size()) - 1;
       }
       modifierOf_[i] = converted;
     }
     return converted;
+  }
+
+  static void tellIndex(Content& content, int32_t index) {
+    if (auto* material = std::get_if<Material>(&content))
+      std::visit(
+          [index](auto& kind) {
+            if constexpr (requires { kind.functions; }) kind.functions = index;
+          },
+          *material);
   }
 
   // ---- surfaces
@@ -412,6 +507,9 @@ std::string Scene::place(uint32_t i) const {
 }
 
 bool isTransparent(const Material& material) {
+  if (const auto* m = std::get_if<Anisotropic>(&material)) return m->trans;
+  if (const auto* m = std::get_if<BrtdFunction>(&material)) return m->transmits;
+  if (const auto* m = std::get_if<WgmdFunction>(&material)) return m->transmits;
   return std::holds_alternative<Trans>(material) || std::holds_alternative<Dielectric>(material) ||
          std::holds_alternative<Interface>(material) || std::holds_alternative<Glass>(material);
 }

@@ -105,6 +105,23 @@ class SurfaceFunctions::Maker {
         return text(0, 3);
       case Type::mixtext:
         return text(2, 0);
+      case Type::plastic2:
+      case Type::metal2:
+      case Type::trans2:
+      case Type::ashik2:
+        return oriented();
+      case Type::plasfunc:
+      case Type::metfunc:
+      case Type::transfunc:
+        return distributed();
+      case Type::plasdata:
+      case Type::metdata:
+      case Type::transdata:
+        return tabulated();
+      case Type::brtdfunc:
+        return brtd();
+      case Type::wgmdfunc:
+        return wgmd();
       default:
         fail("this type is not supported yet");
     }
@@ -159,7 +176,7 @@ class SurfaceFunctions::Maker {
     calc::Request r;
     r.place = scene_.place(index_);
     r.file = word(file);
-    r.available = calc::kPointInputs;
+    r.available = available_;
     r.reals = reals_;
     return r;
   }
@@ -284,12 +301,76 @@ class SurfaceFunctions::Maker {
     return f;
   }
 
+  // ---- materials
+
+  std::unique_ptr<Function> oriented() const {
+    auto f = std::make_unique<Function>();
+    Scatterer s;
+    s.orientation = expressions(*f, 3, 0, 3);
+    return finish(std::move(f), std::move(s), 4);
+  }
+
+  // The function of a word, called with the direction to a source and its solid angle, after `before` others.
+  ProgramPointer called(Function& f, size_t file, size_t function, int before) const {
+    auto program = functions_.library_.compileCall(request(file), word(function), before + 4);
+    use(f, program);
+    return program;
+  }
+
+  std::unique_ptr<Function> distributed() {
+    available_ = calc::kMaterialInputs;
+    auto f = std::make_unique<Function>();
+    Scatterer s;
+    s.distribution[0] = called(*f, 1, 0, 0);
+    return finish(std::move(f), std::move(s), 2);
+  }
+
+  std::unique_ptr<Function> tabulated() {
+    available_ = calc::kMaterialInputs;
+    auto f = std::make_unique<Function>();
+    Scatterer s;
+    s.table = table(word(1));
+    for (size_t i = 0; i < s.table->dimensions(); ++i) s.coordinates.push_back(called(*f, 2, 3 + i, 0));
+    s.distribution[0] = called(*f, 2, 0, 1);
+    return finish(std::move(f), std::move(s), 3);
+  }
+
+  std::unique_ptr<Function> brtd() {
+    available_ = calc::kMaterialInputs;
+    auto f = std::make_unique<Function>();
+    Scatterer s;
+    s.reflection = expressions(*f, 9, 0, 3);
+    s.transmission = expressions(*f, 9, 3, 3);
+    s.gray = word(6) == word(7) && word(7) == word(8);
+    for (size_t i = 0; i < (s.gray ? 1 : 3); ++i)
+      if (word(6 + i) != "0") s.distribution[i] = called(*f, 9, 6 + i, 0);
+    return finish(std::move(f), std::move(s), 10);
+  }
+
+  std::unique_ptr<Function> wgmd() {
+    available_ = (uint64_t{1} << calc::CrP) - 1;
+    auto f = std::make_unique<Function>();
+    Scatterer s;
+    s.reflection = expressions(*f, 12, 1, 3);
+    s.transmission = expressions(*f, 12, 5, 3);
+    s.orientation = expressions(*f, 12, 9, 3);
+    return finish(std::move(f), std::move(s), 13);
+  }
+
+  std::unique_ptr<Function> finish(std::unique_ptr<Function> f, Scatterer s, size_t transform) const {
+    f->results = 3;
+    f->what = std::move(s);
+    setTransform(*f, transform);
+    return f;
+  }
+
   const SurfaceFunctions& functions_;
   const Scene& scene_;
   uint32_t index_;
   const Primitive& primitive_;
   std::span<const double> reals_;
   std::vector<std::string_view> words_;
+  uint64_t available_ = calc::kPointInputs;
 };
 
 SurfaceFunctions::SurfaceFunctions(const Scene& scene, rad::Warn warn)
@@ -305,6 +386,11 @@ const SurfaceFunctions::Function& SurfaceFunctions::prepare(int32_t modifier) co
   functions_.push_back(Maker(*this, scene_.modifiers[static_cast<size_t>(modifier)].primitive).make());
   slot.store(functions_.back().get(), std::memory_order_release);
   return *functions_.back();
+}
+
+std::span<const double> SurfaceFunctions::realsOf(int32_t modifier) const {
+  return scene_.description.reals(
+      scene_.description.primitives[scene_.modifiers[static_cast<size_t>(modifier)].primitive]);
 }
 
 void SurfaceFunctions::setInputs(const Function& f, const FunctionPoint& at, FunctionScratch& scratch) const {
@@ -331,6 +417,19 @@ void SurfaceFunctions::setInputs(const Function& f, const FunctionPoint& at, Fun
     for (int i = 0; i < 3; ++i)
       put(&in[static_cast<size_t>(Ix + 3 * i)], V3d(f.own[i][0], f.own[i][1], f.own[i][2]) * perScale);
   }
+  if (needs & bits(NxP, 3)) put(&in[NxP], direction(at.perturbedNormal));
+  in[RdotP] = at.perturbedCosine;
+  if (needs & bits(CrP, 3)) put(&in[CrP], at.color);
+}
+
+bool SurfaceFunctions::computed(int32_t modifier, const Function& f, const FunctionScratch& scratch) const {
+  if (scratch.state.faults == 0) return true;
+  if (warn_ && !f.warned.exchange(true)) {
+    const std::lock_guard lock(mutex_);
+    warn_(fmt::format("{}: compute error",
+                      scene_.place(scene_.modifiers[static_cast<size_t>(modifier)].primitive)));
+  }
+  return false;
 }
 
 bool SurfaceFunctions::evaluate(int32_t modifier, const Function& f, const FunctionPoint& at,
@@ -341,9 +440,7 @@ bool SurfaceFunctions::evaluate(int32_t modifier, const Function& f, const Funct
     return true;
   }
   setInputs(f, at, scratch);
-  const Primitive& primitive =
-      scene_.description.primitives[scene_.modifiers[static_cast<size_t>(modifier)].primitive];
-  calc::Point point{scratch.inputs, scene_.description.reals(primitive), {}};
+  calc::Point point{scratch.inputs, realsOf(modifier), {}};
   calc::State& state = scratch.state;
   state.faults = 0;
   const auto correct = [&](const std::vector<Correction>& corrections, const double* values) {
@@ -372,13 +469,7 @@ bool SurfaceFunctions::evaluate(int32_t modifier, const Function& f, const Funct
       correct(image->corrections, found.data());
     }
   }
-  if (state.faults == 0) return true;
-  if (warn_ && !f.warned.exchange(true)) {
-    const std::lock_guard lock(mutex_);
-    warn_(fmt::format("{}: compute error",
-                      scene_.place(scene_.modifiers[static_cast<size_t>(modifier)].primitive)));
-  }
-  return false;
+  return computed(modifier, f, scratch);
 }
 
 Rgb SurfaceFunctions::pattern(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const {
@@ -400,6 +491,58 @@ double SurfaceFunctions::mixture(int32_t modifier, const FunctionPoint& at, Func
   std::array<double, 3> v;
   if (!evaluate(modifier, ready(modifier), at, scratch, v)) return -1;
   return std::clamp(v[0], 0., 1.);
+}
+
+std::array<double, 3> SurfaceFunctions::three(int32_t modifier, ProgramPointer Scatterer::*program,
+                                              const FunctionPoint& at, FunctionScratch& scratch) const {
+  const Function& f = ready(modifier);
+  setInputs(f, at, scratch);
+  scratch.state.faults = 0;
+  std::array<double, 3> v{};
+  (std::get<Scatterer>(f.what).*program)->evaluate({scratch.inputs, realsOf(modifier), {}}, scratch.state, v);
+  return computed(modifier, f, scratch) ? v : std::array<double, 3>{};
+}
+
+V3d SurfaceFunctions::orientation(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const {
+  const auto v = three(modifier, &Scatterer::orientation, at, scratch);
+  const Function& f = ready(modifier);
+  const V3d own(v[0], v[1], v[2]);
+  return f.moved ? turned(own, f.world) : own;
+}
+
+std::array<double, 3> SurfaceFunctions::reflection(int32_t modifier, const FunctionPoint& at,
+                                                   FunctionScratch& scratch) const {
+  return three(modifier, &Scatterer::reflection, at, scratch);
+}
+
+std::array<double, 3> SurfaceFunctions::transmission(int32_t modifier, const FunctionPoint& at,
+                                                     FunctionScratch& scratch) const {
+  return three(modifier, &Scatterer::transmission, at, scratch);
+}
+
+Rgb SurfaceFunctions::distribution(int32_t modifier, const FunctionPoint& at, const V3d& toSource,
+                                   double solidAngle, FunctionScratch& scratch) const {
+  const Function& f = ready(modifier);
+  const Scatterer& s = std::get<Scatterer>(f.what);
+  setInputs(f, at, scratch);
+  calc::State& state = scratch.state;
+  state.faults = 0;
+  const V3d own = f.moved ? turned(toSource, f.own) / f.ownScale : toSource;
+  std::array<double, 5> arguments{0, own.x, own.y, own.z, solidAngle};
+  const std::span<const double> ofSource = std::span(arguments).subspan(1);
+  calc::Point point{scratch.inputs, realsOf(modifier), ofSource};
+  if (s.table) {
+    std::array<double, rad::DataFile::kMaxDimensions> place{};
+    for (size_t i = 0; i < s.coordinates.size(); ++i) place[i] = s.coordinates[i]->evaluate(point, state);
+    if (state.faults == 0) arguments[0] = s.table->value({place.data(), s.coordinates.size()});
+    point.arguments = arguments;
+  }
+  Rgb value(0, 0, 0);
+  for (int i = 0; i < (s.gray ? 1 : 3) && state.faults == 0; ++i)
+    if (s.distribution[static_cast<size_t>(i)])
+      value[i] = s.distribution[static_cast<size_t>(i)]->evaluate(point, state);
+  if (!computed(modifier, f, scratch)) return Rgb(0, 0, 0);
+  return s.gray ? Rgb(value.x, value.x, value.x) : value;
 }
 
 }  // namespace rsphere

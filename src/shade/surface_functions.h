@@ -1,5 +1,6 @@
 #pragma once
-// What patterns, textures and mixtures compute at a surface point: function files, data, pictures and text.
+// What patterns, textures, mixtures and the functions of materials compute at a surface point: function
+// files, data, pictures and text.
 //
 // Nothing is read until a modifier is first asked for; from then on it is compiled, shared by all threads and
 // asked without a lock. Threads: any number may ask at once, each with a FunctionScratch of its own.
@@ -8,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -31,6 +33,10 @@ struct FunctionPoint {
   double distance = 0;        // T: from there to the eye, along the ray and its ancestors
   double shadowDistance = 0;  // Ts: along the ray, and those of its ancestors that are shadow rays
   double u = 0, v = 0;        // local coordinates
+  // For scattering(), light() and distribution():
+  V3d perturbedNormal{0, 0, 1};  // unit, on the ray's side
+  double perturbedCosine = 1;    // -perturbedNormal . direction
+  Rgb color{1, 1, 1};            // of the material with its pattern; of BRTDfunc, the pattern's
 };
 
 // What one thread needs for its evaluations.
@@ -57,6 +63,21 @@ class SurfaceFunctions {
   V3d texture(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
   // The foreground's share, 0 to 1; negative where it can't be computed: the mixture is then passed over.
   double mixture(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
+
+  // The same for materials, 0 where a value can't be computed.
+
+  // The direction in the world that highlights are oriented by (ux uy uz), of any length: plastic2, metal2,
+  // trans2, ashik2, WGMDfunc.
+  V3d orientation(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
+  // BRTDfunc: the coefficients of what is sharply reflected and transmitted. WGMDfunc: share, roughness along
+  // and across of the reflected and the transmitted lobe.
+  std::array<double, 3> reflection(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
+  std::array<double, 3> transmission(int32_t modifier, const FunctionPoint& at,
+                                     FunctionScratch& scratch) const;
+  // plasfunc and its kin, BRTDfunc: per steradian, the share of the light of a source that fills solidAngle
+  // (sr) in direction toSource (unit, world) that is scattered towards the ray.
+  Rgb distribution(int32_t modifier, const FunctionPoint& at, const V3d& toSource, double solidAngle,
+                   FunctionScratch& scratch) const;
 
  private:
   using ProgramPointer = std::shared_ptr<const rad::calc::Program>;
@@ -87,9 +108,20 @@ class SurfaceFunctions {
     std::array<double, 3> foreground, background;
   };
 
+  // Of a material; null for what its type does not have.
+  struct Scatterer {
+    ProgramPointer orientation, reflection, transmission;  // of three numbers each
+    // One for each channel, or the first for all: of the direction to a source and its solid angle, with a
+    // table's value before these where there is one.
+    std::array<ProgramPointer, 3> distribution;
+    bool gray = true;
+    std::shared_ptr<const rad::DataFile> table;
+    std::vector<ProgramPointer> coordinates;  // of the same four arguments
+  };
+
   // A modifier made ready.
   struct Function {
-    std::variant<Values, Data, Image, Text> what;
+    std::variant<Values, Data, Image, Text, Scatterer> what;
     size_t results = 1;   // 1 or 3
     uint64_t needs = 0;   // inputs, by bits
     bool moved = false;   // whether it has a transform
@@ -109,7 +141,12 @@ class SurfaceFunctions {
     return f ? *f : prepare(modifier);
   }
   const Function& prepare(int32_t modifier) const;
+  std::span<const double> realsOf(int32_t modifier) const;
   void setInputs(const Function& f, const FunctionPoint& at, FunctionScratch& scratch) const;
+  // Whether nothing went wrong since the faults were cleared; warns where it did.
+  bool computed(int32_t modifier, const Function& f, const FunctionScratch& scratch) const;
+  std::array<double, 3> three(int32_t modifier, ProgramPointer Scatterer::*program, const FunctionPoint& at,
+                              FunctionScratch& scratch) const;
   // The function's numbers; false where they can't be computed, which is warned of.
   bool evaluate(int32_t modifier, const Function& f, const FunctionPoint& at, FunctionScratch& scratch,
                 std::array<double, 3>& out) const;

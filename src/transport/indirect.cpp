@@ -9,12 +9,12 @@ namespace rsphere {
 
 bool PathTracer::shadeBoundary(Ray& ray, const Scattering& scattering) {
   ray.extinction = scattering.extinction;
-  followSharp(ray, scattering);
+  followSharp(ray, scattering.sharp);
   return true;
 }
 
 bool PathTracer::shadeDiffusing(Ray& ray, const Scattering& scattering, const Interaction& at) {
-  followSharp(ray, scattering);
+  followSharp(ray, scattering.sharp);
   if (ray.kinds & kShadow) return true;
   sampleLobes(ray, scattering, at);
   if (maxChannel(scattering.ambientReflection) > kNegligible)
@@ -29,8 +29,8 @@ bool PathTracer::shadeDiffusing(Ray& ray, const Scattering& scattering, const In
   return true;
 }
 
-void PathTracer::followSharp(Ray& ray, const Scattering& scattering) {
-  for (const SharpPath& path : scattering.sharp) {
+void PathTracer::followSharp(Ray& ray, const SharpPaths& sharp) {
+  for (const SharpPath& path : sharp) {
     if ((ray.kinds & kShadow) && path.kind == kReflected) continue;
     Ray child;
     Rgb coefficient = path.coefficient;

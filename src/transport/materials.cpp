@@ -53,7 +53,7 @@ bool PathTracer::shadeMaterial(Ray& ray, const Glass& material, int32_t behind) 
   }
   applyModifiers(ray, behind);
   turnRound(ray);
-  followSharp(ray, scatter(material, interaction(ray)));
+  followSharp(ray, scatter(material, interaction(ray)).sharp);
   return true;
 }
 
@@ -76,7 +76,7 @@ bool PathTracer::shadeMaterial(Ray& ray, const Mirror& material, int32_t behind)
     return true;
   }
   applyModifiers(ray, behind);
-  followSharp(ray, scatter(material, interaction(ray)));
+  followSharp(ray, scatter(material, interaction(ray)).sharp);
   return true;
 }
 

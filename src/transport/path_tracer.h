@@ -5,6 +5,7 @@
 // Indirect light is computed without a cache whatever -aa says: -ad directions over the hemisphere,
 // stratified, at the first diffuse surface of a path, one at every later one. Paths end at -ab bounces and by
 // Russian roulette below -lw, so that the mean stays right.
+#include <optional>
 #include <vector>
 
 #include "cli/answer.h"
@@ -12,6 +13,8 @@
 #include "light/sources.h"
 #include "scene/random.h"
 #include "scene/scene.h"
+#include "shade/anisotropic.h"
+#include "shade/function_reflection.h"
 #include "shade/scattering.h"
 #include "shade/surface_functions.h"
 #include "trace/tracer.h"
@@ -107,12 +110,19 @@ class PathTracer {
   bool shadeMixture(Ray& ray, int32_t modifier, const Mixture& mixture);
   void applyModifiers(Ray& ray, int32_t modifier);
   FunctionPoint functionPoint(const Ray& ray) const;
+  FunctionPoint functionPoint(const Ray& ray, const FunctionScattering& scattering) const;
+  FunctionPoint functionPoint(const Ray& ray, const Interaction& at) const;
 
   // behind: the chain of modifiers that the material has itself.
   template <class M>
   bool shadeTwoSided(Ray& ray, const M& material, int32_t behind);
   bool shadeMaterial(Ray& ray, const Opaque& material, int32_t behind);
   bool shadeMaterial(Ray& ray, const Trans& material, int32_t behind);
+  bool shadeMaterial(Ray& ray, const Anisotropic& material, int32_t behind);
+  bool shadeMaterial(Ray& ray, const Ashikhmin& material, int32_t behind);
+  bool shadeMaterial(Ray& ray, const FunctionScatterer& material, int32_t behind);
+  bool shadeMaterial(Ray& ray, const BrtdFunction& material, int32_t behind);
+  bool shadeMaterial(Ray& ray, const WgmdFunction& material, int32_t behind);
   bool shadeMaterial(Ray& ray, const Dielectric& material, int32_t behind);
   bool shadeMaterial(Ray& ray, const Interface& material, int32_t behind);
   bool shadeMaterial(Ray& ray, const Glass& material, int32_t behind);
@@ -127,10 +137,16 @@ class PathTracer {
   bool shadeDiffusing(Ray& ray, const Scattering& scattering, const Interaction& at);
   bool shadeBoundary(Ray& ray, const Scattering& scattering);
   bool useAlternate(Ray& ray, const Alternate& alternate);
-  void followSharp(Ray& ray, const Scattering& scattering);
+  bool passesBack(Ray& ray);
+  bool shadeElliptic(Ray& ray, const AnisotropicScattering& scattering, const Interaction& at);
+  bool shadeByFunction(Ray& ray, const FunctionScattering& scattering, const Interaction& at,
+                       int32_t functions);
+  Interaction component(const Ray& ray, const std::optional<int32_t>& named, const Interaction& inherited);
+  void followSharp(Ray& ray, const SharpPaths& sharp);
   void sampleLobes(Ray& ray, const Scattering& scattering, const Interaction& at);
   void sampleLobe(Ray& ray, RayKind kind, const Rgb& share, LobeSampler draw);
   void addIndirect(Ray& ray, const V3d& normal, const V3d& trueNormal, RayKind kind, const Rgb& coefficient);
+  void addIndirect(Ray& ray, const V3d& normal, const Interaction& at, RayKind kind, const Rgb& coefficient);
   void addDirect(Ray& ray, DirectCoefficient coefficientOf);
   Rgb sourceValue(const Ray& ray, const SourceSample& sample);
   Interaction interaction(const Ray& ray) const;

@@ -1,0 +1,302 @@
+#include "shade/anisotropic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace rsphere {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kNegligible = 1e-6;  // shares and slopes below it are none; RADIANCE's own figure
+constexpr double kLeastCosine = .001;
+
+// The rise of a polished WGMDfunc: Ward's exponential for an index of about 1.5, with the original's
+// constant, which leaves .0008 at right angles.
+double fresnelRise(double cosine) { return std::exp(-5.85 * cosine) - .00202943064; }
+constexpr double kFresnelSpecularity = .017999;
+
+double schlick(double cosine) {
+  const double c = 1 - cosine, c2 = c * c;
+  return c2 * c2 * c;
+}
+
+bool perturbed(const Interaction& at) { return at.perturbation.length2() > kNegligible * kNegligible; }
+
+V3d normalOf(const Interaction& at, double& cosine) {
+  cosine = at.cosine;
+  return perturbed(at) ? perturbedNormal(at, cosine) : at.normal;
+}
+
+Rgb gray(double x) { return Rgb(x, x, x); }
+
+// A lobe's slopes along the tangents of its normal.
+void orient(EllipticLobe& lobe, const V3d& along, double roughnessAlong, double roughnessAcross) {
+  lobe.tangents = tangents(lobe.normal, along);
+  lobe.alongSquare = roughnessAlong * roughnessAlong;
+  lobe.acrossSquare = roughnessAcross * roughnessAcross;
+  if (!lobe.tangents.given) lobe.alongSquare = lobe.acrossSquare = (lobe.alongSquare + lobe.acrossSquare) / 2;
+}
+
+double reflectedLobe(const EllipticLobe& lobe, const V3d& direction, const V3d& toSource, double widening) {
+  const double along2 = lobe.alongSquare + widening, across2 = lobe.acrossSquare + widening;
+  const V3d half = toSource - direction;
+  const double a = lobe.tangents.along.dot(half), b = lobe.tangents.across.dot(half);
+  const double up = lobe.normal.dot(half), up2 = up * up;
+  return std::exp(-(a * a / along2 + b * b / across2) / up2) * half.length2() /
+         (kPi * up2 * up2 * std::sqrt(along2 * across2));
+}
+
+// Times the cosine of the direction to the source, cosineBeyond > 0.
+double transmittedLobe(const EllipticLobe& lobe, const V3d& toSource, double cosineBeyond,
+                       double solidAngle) {
+  const double widening = solidAngle / kPi;
+  const double along2 = lobe.alongSquare + widening, across2 = lobe.acrossSquare + widening;
+  const V3d off = toSource - lobe.transmitted;
+  const double length2 = off.length2(), up = off.dot(lobe.normal);
+  double exponent = 0;
+  if (length2 > kNegligible * kNegligible) {
+    const double within = 1 - up * up / length2;
+    if (within > kNegligible * kNegligible) {
+      const double a = lobe.tangents.along.dot(off), b = lobe.tangents.across.dot(off);
+      exponent = (a * a / along2 + b * b / across2) / within;
+    }
+  }
+  return std::exp(-exponent) / kPi * std::sqrt(cosineBeyond / (lobe.cosine * along2 * across2));
+}
+
+// An offset within the tangent plane, by the Gaussian of the lobe's slopes.
+V3d offset(const EllipticLobe& lobe, double spread, double u1, double u2) {
+  const double v = std::max(1 - std::min(spread, 1.) * u2, kNegligible);
+  const double radius = std::sqrt(-std::log(v)), angle = 2 * kPi * u1;
+  return radius * std::cos(angle) * std::sqrt(lobe.alongSquare) * lobe.tangents.along +
+         radius * std::sin(angle) * std::sqrt(lobe.acrossSquare) * lobe.tangents.across;
+}
+
+// WGMDfunc's reflected and transmitted component: its lobe, or its sharp path.
+EllipticLobe beginLobe(const WgmdComponent& c, const V3d& along, bool& sharp) {
+  EllipticLobe lobe;
+  lobe.share = c.at.pattern * c.share;
+  lobe.normal = normalOf(c.at, lobe.cosine);
+  lobe.cosine = std::max(lobe.cosine, kLeastCosine);
+  sharp = !(c.roughnessAlong > kNegligible && c.roughnessAcross > kNegligible);
+  if (!sharp) orient(lobe, along, c.roughnessAlong, c.roughnessAcross);
+  return lobe;
+}
+
+bool present(const WgmdComponent& c) {
+  return c.share > kNegligible && maxChannel(c.at.pattern) > kNegligible;
+}
+
+}  // namespace
+
+Tangents tangents(const V3d& normal, const V3d& direction) {
+  Tangents t;
+  t.across = normal.cross(direction);
+  const double length = t.across.length();
+  // A length of nothing, and what rounding leaves where both are parallel.
+  if (!(length > 1e-12 * direction.length())) {
+    t.given = false;
+    frame(normal, t.along, t.across);
+    return t;
+  }
+  t.across /= length;
+  t.along = t.across.cross(normal);
+  return t;
+}
+
+AnisotropicScattering scatter(const Anisotropic& m, const Interaction& at, const V3d& along,
+                              double specularThreshold) {
+  AnisotropicScattering s;
+  double cosine = 0;
+  const V3d normal = normalOf(at, cosine);
+  cosine = std::max(cosine, kLeastCosine);
+  s.reflection.normal = s.transmission.normal = normal;
+  s.widenReflection = at.flat && !perturbed(at);
+  const Rgb color = m.color * at.pattern;
+  const double passes = m.transmissivity * (1 - m.specularity);
+  const double straight = passes * m.transmittedSpecular;
+  s.reflection.share = s.reflection.ambient = color * (1 - passes - m.specularity);
+  s.transmission.share = s.transmission.ambient = color * (passes - straight);
+  EllipticLobe lobe;
+  lobe.normal = normal;
+  lobe.cosine = cosine;
+  orient(lobe, along, m.roughnessAlong, m.roughnessAcross);
+  if (m.specularity > kNegligible) {
+    s.reflected = lobe;
+    s.reflected.share = m.metal ? color * m.specularity : gray(m.specularity);
+    s.reflected.sampled = specularThreshold < m.specularity - kNegligible;
+    if (!s.reflected.sampled) s.reflection.ambient += s.reflected.share;
+  }
+  if (straight > kNegligible) {
+    s.transmitted = lobe;
+    s.transmitted.share = color * straight;
+    s.transmitted.transmitted = at.direction;
+    if (perturbed(at) && !at.smoothed) {
+      const V3d bent = at.direction - at.perturbation;
+      if (bent.dot(at.normal) < -kNegligible) s.transmitted.transmitted = bent.normalized();
+    }
+    s.transmitted.sampled = specularThreshold < straight - kNegligible;
+    if (!s.transmitted.sampled) s.transmission.ambient = color * passes;
+  }
+  return s;
+}
+
+AnisotropicScattering scatter(const WgmdFunction& m, const WgmdComponent& reflected,
+                              const WgmdComponent& transmitted, const Interaction& diffuseReflected,
+                              const Interaction& diffuseTransmitted, const V3d& along,
+                              double specularThreshold) {
+  AnisotropicScattering s;
+  double cosine = 0;
+  s.reflection.normal = normalOf(diffuseReflected, cosine);
+  s.reflection.share = (diffuseReflected.front ? m.diffuseFront : m.diffuseBack) * diffuseReflected.pattern;
+  s.transmission.normal = normalOf(diffuseTransmitted, cosine);
+  s.transmission.share = m.diffuseTransmitted * diffuseTransmitted.pattern;
+  bool mirrors = false, passes = false;
+  if (present(reflected)) s.reflected = beginLobe(reflected, along, mirrors);
+  if (present(transmitted)) s.transmitted = beginLobe(transmitted, along, passes);
+  if (mirrors && brightness(s.reflected.share) >= kFresnelSpecularity) {
+    double mirrorCosine = 0;
+    s.polished = true;
+    s.polishedNormal = normalOf(reflected.at, mirrorCosine);
+    const double rise = fresnelRise(mirrorCosine);
+    s.reflected.share += rise * (Rgb(1, 1, 1) - s.reflected.share);
+    s.reflection.share *= 1 - rise;
+    s.transmission.share *= 1 - rise;
+    s.transmitted.share *= 1 - rise;
+  }
+  s.reflection.ambient = s.reflection.share;
+  s.transmission.ambient = s.transmission.share;
+  s.widenReflection = reflected.at.flat && !perturbed(reflected.at);
+
+  if (maxChannel(s.transmitted.share) > 0) {
+    const Interaction& at = transmitted.at;
+    V3d& through = s.transmitted.transmitted;
+    through = at.direction;
+    if (perturbed(at) && !(at.kinds & (kShadow | kAmbient)) && !at.smoothed) {
+      const V3d bend = s.transmitted.normal - at.normal;
+      const V3d bent = at.front ? at.direction - bend : at.direction + bend;
+      if (bent.dot(at.normal) < 0) through = bent.normalized();
+    }
+    if (passes) {
+      const double bright = brightness(s.transmitted.share);
+      const bool image = bright > brightness(s.reflection.share) + brightness(s.transmission.share);
+      s.sharp.add({through, s.transmitted.share, kTransmitted, image});
+      s.transmitted.share = Rgb(0, 0, 0);
+    } else {
+      s.transmitted.sampled = specularThreshold < brightness(s.transmitted.share) - kNegligible;
+      if (!s.transmitted.sampled) s.transmission.ambient += s.transmitted.share;
+    }
+  }
+  if (mirrors) {
+    const Interaction& at = reflected.at;
+    V3d mirrored = at.direction - 2 * at.direction.dot(s.reflected.normal) * s.reflected.normal;
+    if (perturbed(at) && mirrored.dot(at.normal) <= 0) mirrored = at.direction + 2 * at.cosine * at.normal;
+    s.sharp.add({mirrored.normalized(), s.reflected.share, kReflected,
+                 s.widenReflection && (at.kinds & kAmbient) != 0});
+    s.reflected.share = Rgb(0, 0, 0);
+  } else if (maxChannel(s.reflected.share) > 0) {
+    s.reflected.sampled = specularThreshold < brightness(s.reflected.share) - kNegligible;
+    if (!s.reflected.sampled) s.reflection.ambient += s.reflected.share;
+  }
+  return s;
+}
+
+Rgb directCoefficient(const AnisotropicScattering& s, const V3d& direction, const V3d& toSource,
+                      double solidAngle, double sourceJitter) {
+  Rgb sum(0, 0, 0);
+  const double enters = s.polished ? 1 - fresnelRise(std::abs(s.polishedNormal.dot(toSource))) : 1;
+  const double before = s.reflection.normal.dot(toSource), beyond = -s.transmission.normal.dot(toSource);
+  if (before > kNegligible) sum += s.reflection.share * (enters * before * solidAngle / kPi);
+  if (beyond > kNegligible) sum += s.transmission.share * (enters * beyond * solidAngle / kPi);
+  if (maxChannel(s.reflected.share) > 0) {
+    const double cosine = s.reflected.normal.dot(toSource);
+    if (cosine > kNegligible) {
+      const double widening = s.widenReflection ? (1 - sourceJitter) * solidAngle * .25 / kPi : 0;
+      const double lobe = reflectedLobe(s.reflected, direction, toSource, widening);
+      if (lobe > kNegligible) sum += s.reflected.share * (lobe * cosine * solidAngle);
+    }
+  }
+  if (maxChannel(s.transmitted.share) > 0) {
+    const double cosine = -s.transmitted.normal.dot(toSource);
+    if (cosine > kNegligible) {
+      const double lobe = transmittedLobe(s.transmitted, toSource, cosine, solidAngle);
+      if (lobe > kNegligible) sum += s.transmitted.share * (lobe * solidAngle);
+    }
+  }
+  return sum;
+}
+
+double sampleReflection(const EllipticLobe& lobe, const Interaction& at, double spread, double u1, double u2,
+                        V3d& direction) {
+  const V3d half = lobe.normal + offset(lobe, spread, u1, u2);
+  direction = at.direction - 2 * half.dot(at.direction) / half.length2() * half;
+  const double out = direction.dot(at.normal);
+  return out <= kNegligible ? 0 : 2 / (1 + at.cosine / out);
+}
+
+double sampleTransmission(const EllipticLobe& lobe, const Interaction& at, double spread, double u1,
+                          double u2, V3d& direction) {
+  direction = lobe.transmitted + offset(lobe, spread, u1, u2);
+  if (direction.dot(at.normal) >= -kNegligible) return 0;
+  direction.normalize();
+  return 1;
+}
+
+AshikhminScattering scatter(const Ashikhmin& m, const Interaction& at, const V3d& along,
+                            double specularThreshold) {
+  AshikhminScattering s;
+  s.reflection.normal = normalOf(at, s.cosine);
+  s.cosine = std::max(s.cosine, kLeastCosine);
+  s.reflection.share = s.reflection.ambient = m.diffuse * at.pattern;
+  s.powerAlong = m.powerAlong;
+  s.powerAcross = m.powerAcross;
+  s.tangents = tangents(s.reflection.normal, along);
+  if (!s.tangents.given) {  // their harmonic mean; the constant keeps it from 1/0
+    constexpr double kAbove = 1e-5;
+    s.powerAlong = s.powerAcross = 2 / (1 / (m.powerAlong + kAbove) + 1 / (m.powerAcross + kAbove));
+  }
+  if (maxChannel(m.specular) > kNegligible) {
+    s.share = m.specular + schlick(s.cosine) * (Rgb(1, 1, 1) - m.specular);
+    s.sampled = specularThreshold < brightness(m.specular) - kNegligible;
+    if (!s.sampled) s.reflection.ambient += s.share;
+  }
+  return s;
+}
+
+Rgb directCoefficient(const AshikhminScattering& s, const V3d& direction, const V3d& toSource,
+                      double solidAngle) {
+  const double cosine = s.reflection.normal.dot(toSource);
+  if (cosine <= kNegligible) return Rgb(0, 0, 0);
+  Rgb sum = s.reflection.share * ((1 - schlick(cosine)) * cosine * solidAngle / kPi);
+  if (maxChannel(s.share) > 0) {
+    const V3d half = (toSource - direction).normalized();
+    const double up = half.dot(s.reflection.normal);
+    const double a = half.dot(s.tangents.along), b = half.dot(s.tangents.across);
+    // (h.u)^2 and (h.v)^2 sum up to 1 - (h.n)^2; where both are 0 the power makes no difference.
+    const double within = 1 - up * up;
+    const double power = within > 0 ? (s.powerAlong * a * a + s.powerAcross * b * b) / within : 0;
+    const double lobe = std::pow(up, power) * std::sqrt((s.powerAlong + 1) * (s.powerAcross + 1)) /
+                        (8 * kPi * toSource.dot(half) * std::max(cosine, s.cosine));
+    if (lobe > kNegligible) sum += s.share * (lobe * cosine * solidAngle);
+  }
+  return sum;
+}
+
+double sampleReflection(const AshikhminScattering& s, const Interaction& at, double u1, double u2,
+                        V3d& direction) {
+  const double angle = 2 * kPi * u1;
+  double x = std::sqrt(s.powerAcross + 1) * std::cos(angle),
+         y = std::sqrt(s.powerAlong + 1) * std::sin(angle);
+  const double length = std::hypot(x, y);
+  x /= length;
+  y /= length;
+  const double up = std::pow(1 - u2, 1 / (s.powerAlong * x * x + s.powerAcross * y * y + 1));
+  const double within = std::sqrt(std::max(0., 1 - up * up));
+  const V3d half = within * (x * s.tangents.along + y * s.tangents.across) + up * s.reflection.normal;
+  direction = (at.direction - 2 * half.dot(at.direction) * half).normalized();
+  if (half.dot(at.direction) >= 0 || direction.dot(at.normal) <= kNegligible) return 0;
+  return std::min(1., s.reflection.normal.dot(direction) / s.cosine);
+}
+
+}  // namespace rsphere

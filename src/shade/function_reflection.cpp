@@ -1,0 +1,67 @@
+#include "shade/function_reflection.h"
+
+#include <cmath>
+
+namespace rsphere {
+namespace {
+
+constexpr double kNegligible = 1e-6;
+
+bool perturbed(const Interaction& at) { return at.perturbation.length2() > kNegligible * kNegligible; }
+
+FunctionScattering begin(const Interaction& at) {
+  FunctionScattering s;
+  s.normal = at.normal;
+  s.cosine = at.cosine;
+  if (perturbed(at)) s.normal = perturbedNormal(at, s.cosine);
+  return s;
+}
+
+Rgb colorOf(const std::array<double, 3>& v) { return Rgb(v[0], v[1], v[2]); }
+
+}  // namespace
+
+FunctionScattering scatter(const FunctionScatterer& m, const Interaction& at) {
+  FunctionScattering s = begin(at);
+  s.color = m.color * at.pattern;
+  const double passes = m.transmissivity * (1 - m.specularity);
+  const double directional = passes * m.transmittedSpecular;
+  s.diffuseReflection = s.color * (1 - passes - m.specularity);
+  s.diffuseTransmission = s.color * (passes - directional);
+  s.ambientReflection = s.color * (1 - passes);
+  s.ambientTransmission = s.color * passes;
+  s.directionalReflection =
+      m.metal ? s.color * m.specularity : Rgb(m.specularity, m.specularity, m.specularity);
+  s.directionalTransmission = s.color * directional;
+  return s;
+}
+
+FunctionScattering scatter(const BrtdFunction& m, const Interaction& at) {
+  FunctionScattering s = begin(at);
+  s.color = at.pattern;
+  s.diffuseReflection = s.ambientReflection = (at.front ? m.diffuseFront : m.diffuseBack) * at.pattern;
+  s.diffuseTransmission = s.ambientTransmission = m.diffuseTransmitted * at.pattern;
+  if (m.directional) s.directionalReflection = s.directionalTransmission = Rgb(1, 1, 1);
+  return s;
+}
+
+SharpPath sharpTransmission(const FunctionScattering& s, const Interaction& at,
+                            const std::array<double, 3>& coefficient) {
+  const bool straight = !perturbed(at) || (at.kinds & (kShadow | kAmbient));
+  SharpPath path{at.direction, colorOf(coefficient), kTransmitted, false};
+  path.lengthCounts = straight && brightness(s.diffuseReflection) + brightness(s.diffuseTransmission) < 1;
+  if (!straight && !at.smoothed) {
+    const V3d bent = at.direction - at.perturbation;
+    const double length = bent.length();
+    if (length > 0) path.direction = bent / length;
+  }
+  return path;
+}
+
+SharpPath sharpReflection(const FunctionScattering& s, const Interaction& at,
+                          const std::array<double, 3>& coefficient) {
+  return {(at.direction + 2 * s.cosine * s.normal).normalized(), colorOf(coefficient), kReflected,
+          at.flat && (!perturbed(at) || (at.kinds & kAmbient))};
+}
+
+}  // namespace rsphere
