@@ -319,8 +319,8 @@ std::vector<OptionEntry> makeTable() {
        .unit = "reflections",
        .remark = "direct relays",
        .paragraph =
-           "How often light may be passed on by mirrors and other materials that make virtual sources. 0: "
-           "never."});
+           "How often the light of a source may be passed on by plane surfaces of mirror, prism1 and prism2 "
+           "on its way: each makes a virtual source of every source that it sees. 0: never."});
   add({.name = "-dp",
        .arguments = "D",
        .group = Group::direct,
@@ -328,9 +328,12 @@ std::vector<OptionEntry> makeTable() {
        .range = kCount,
        .unit = "samples/sr",
        .remark = "direct pretest density",
-       .paragraph =
-           "Density of the rays sent beforehand to learn whether a virtual source can be reached at all. 0: "
-           "none."});
+       .paragraph = "Density of the rays that rtrace sends beforehand to learn whether a virtual source can "
+                    "be reached "
+                    "at all, or is reached from everywhere. Here each one that geometry does not rule out is "
+                    "tested, as "
+                    "with 0.",
+       .support = Support::unused});
   add({.name = "-dv",
        .group = Group::direct,
        .value = +[](O& o) -> bool& { return o.ray.sourcesVisible; },
@@ -774,8 +777,8 @@ Options modeDefaults(bool sphereMode) {
   if (!sphereMode) return options;
   // Thousands of directions are averaged: what one of them lacks in samples is made up for by the others, if
   // each is unbiased. Four indirect paths a direction, all sources sampled over their whole size, every
-  // highlight followed. In the open-plan office of examples (50 spheres, -ab 3) the rms error is .49% at 69 ms a
-  // point with one path, .37% at 161 ms with four, .34% at 331 ms with nine.
+  // highlight followed. In the open-plan office of examples (50 spheres, -ab 3) the rms error is .49% at 69
+  // ms a point with one path, .37% at 161 ms with four, .34% at 331 ms with nine.
   options.ray.ambientDivisions = 4;
   options.ray.ambientSuperSamples = 0;
   options.ray.ambientAccuracy = 0;

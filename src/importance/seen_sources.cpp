@@ -19,7 +19,8 @@ SeenSources::SeenSources(const Transport& transport) : transport_(transport) {
     const Material* material = scene.materialOf(surface);
     bool apart = !(material && std::holds_alternative<Illum>(*material));
     if (light.distant) apart = apart && light.cosHalfAngle > std::cos(kWidestDistant);
-    if (light.map == LightSource::Map::square) apart = false;
+    // What is seen by way of a relay is left to the other directions.
+    if (light.map == LightSource::Map::square || light.isVirtual()) apart = false;
     apart_.push_back(apart);
     any_ = any_ || apart;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "light/relays.h"
 #include "shade/scattering.h"
 
 namespace rsphere {
@@ -198,8 +199,14 @@ LightSources::LightSources(const Scene& scene) : scene_(scene) {
       if (glow->reach <= 0 || std::holds_alternative<Distant>(surface.shape)) continue;
     LightSource& source = add(i);
     if (const auto* glow = std::get_if<Glow>(material)) source.reach = glow->reach;
-    source.spot = std::get_if<Spotlight>(material);
+    if (const auto* spot = std::get_if<Spotlight>(material)) source.spot = *spot;
   }
+}
+
+LightSources::LightSources(const Scene& scene, int relays, const SurfaceFunctions& functions,
+                           const rad::Warn& warn)
+    : LightSources(scene) {
+  addVirtualSources(scene, relays, functions, warn, sources_);
 }
 
 void LightSources::sample(uint32_t index, const V3d& point, const SourceSampling& how, Random& random,
@@ -212,20 +219,12 @@ void LightSources::sample(uint32_t index, const V3d& point, const SourceSampling
   // source that it is aimed at, which the reach is measured to.
   const auto add = [&](const V3d& direction, double omega, double length) {
     SourceSample sample{direction, omega, 1e10, 1, -direction, index};
-    if (!source.distant) {
+    if (!source.distant || source.isVirtual()) {
       ShapeHit hit;
-      const bool hits = std::visit(
-          [&](const auto& shape) {
-            using S = std::decay_t<decltype(shape)>;
-            if constexpr (std::is_same_v<S, Polygon>)
-              return intersect(shape, scene_.vertices, point, direction, 1e10, hit);
-            else if constexpr (std::is_same_v<S, Distant>)
-              return false;
-            else
-              return intersect(shape, point, direction, 1e10, hit);
-          },
-          scene_.surfaces[source.surface].shape);
-      if (!hits) return;
+      // A virtual source's relay lies before its image.
+      const double farthest = source.isVirtual() && !source.distant ? length + source.radius : 1e10;
+      if (!intersect(scene_.surfaces[source.surface].shape, scene_.vertices, point, direction, farthest, hit))
+        return;
       sample.distance = hit.distance;
       sample.cosine = hit.cosine;
       sample.normal = hit.normal;
@@ -234,7 +233,7 @@ void LightSources::sample(uint32_t index, const V3d& point, const SourceSampling
     if (how.asLight && source.spot && !source.distant) {
       if (outsideSpot(*source.spot, direction)) return;
       // The light comes from a focus behind the surface.
-      const double nearer = sample.distance / (sample.distance + source.spot->focalLength);
+      const double nearer = length / (length + source.spot->focalLength);
       sample.solidAngle *= nearer * nearer;
     }
     samples.push_back(sample);
@@ -242,6 +241,7 @@ void LightSources::sample(uint32_t index, const V3d& point, const SourceSampling
 
   const double distance = source.distant ? 1e10 : towards.length();
   if (how.asLight && source.reach > 0 && distance > source.reach + source.radius) return;
+  if (source.isVirtual() && -towards.dot(source.beam) < source.cosBeam * distance) return;
   // A round source: directions spread as the projected solid angle around its middle, so that one ray at the
   // middle is exact for a surface that faces it, and jittered rays are for every surface.
   const auto addRound = [&](const V3d& middle, double sine) {

@@ -3,25 +3,39 @@
 // there
 // (-ds), one ray to each part, at its middle or jittered over it (-dj).
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "cli/options.h"
 #include "scene/random.h"
 #include "scene/scene.h"
+#include "shade/surface_functions.h"
 
 namespace rsphere {
 
 // A surface that lights others by the direct calculation: light, spotlight, illum, and glow within its reach;
 // with goals in the scene, those goals alone.
+//
+// Virtual sources follow them: what a relay (mirror, prism1, prism2) makes of another source, as an image of
+// its own place and extent that is seen through the relay alone.
 struct LightSource {
-  int32_t surface = kNone;  // index in Scene::surfaces
+  int32_t surface =
+      kNone;  // index in Scene::surfaces; the relay of a virtual one: what a ray to it hits first
+  int32_t relayed = kNone;  // index of the source that a ray goes on to from the relay; kNone: a real one
+  int32_t image = 0;        // which of its relay's images, from 0
   V3d center{0, 0, 0};      // direction to it (unit) where distant
   double radius = 0;        // of a sphere around it (world units)
   double reach = 0;         // farther from the sphere it lights nothing directly; 0: no limit
   bool distant = false;
   double sinHalfAngle = 0, cosHalfAngle = 1;  // distant only
-  const Spotlight* spot = nullptr;            // lives in the scene
+  std::optional<Spotlight> spot;
+  // The beam of a virtual source that is not distant: from the image's center, every direction of its light
+  // lies in a cone around beam (unit).
+  V3d beam{0, 0, 1};
+  double cosBeam = -1;
+
+  bool isVirtual() const { return relayed != kNone; }
 
   // How the unit square lies on the source.
   enum class Map : uint8_t {
@@ -46,8 +60,9 @@ struct LightSource {
 struct SourceSample {
   V3d direction{0, 0, 0};
   double solidAngle = 0;
-  double distance = 0;  // to where the source is hit, kFarAway for distant ones
-  double cosine = 1;    // of the hit, positive on the front
+  double distance =
+      0;              // to where the source is hit, or the relay of a virtual one; kFarAway for distant ones
+  double cosine = 1;  // of the hit, positive on the front
   V3d normal{0, 0, 0};
   uint32_t source = 0;  // index in LightSources
 };
@@ -67,11 +82,15 @@ class LightSources {
   // here.
   explicit LightSources(const Scene& scene);
 
+  // The same, and virtual sources by way of up to `relays` relays one after the other (-dr): see relays.h.
+  LightSources(const Scene& scene, int relays, const SurfaceFunctions& functions, const rad::Warn& warn);
+
   std::span<const LightSource> all() const { return sources_; }
 
   // Appends the samples of one source as seen from a point; none where the source cannot light it: behind it,
   // beyond its reach, outside its spot. At most 64 parts. A sample that misses the source it was aimed at is
-  // left out.
+  // left out; one to a virtual source is only followed to the first relay: what comes back from there may be
+  // nothing.
   void sample(uint32_t source, const V3d& point, const SourceSampling& how, Random& random,
               std::vector<SourceSample>& samples) const;
 

@@ -77,6 +77,9 @@ bool intersect(const Polygon& polygon, std::span<const V3d> vertices, const V3d&
 bool intersect(const Sphere& sphere, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit);
 bool intersect(const Cone& cone, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit);
 bool intersect(const Ring& ring, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit);
+// Any of them; a distant one is never met.
+bool intersect(const Shape& shape, std::span<const V3d> vertices, const V3d& origin, const V3d& direction,
+               double farthest, ShapeHit& hit);
 
 // The smallest box around the shape, up to rounding. Not for Distant.
 Box3d bounds(const Polygon& polygon, std::span<const V3d> vertices);
@@ -87,8 +90,8 @@ Box3d bounds(const Ring& ring);
 // The polygon's plane, area and axis from its vertices (at least 3). Area 0 where they lie on a line.
 Polygon makePolygon(std::span<const V3d> vertices, uint32_t first, uint32_t count);
 
-// Whether a point of the polygon's plane lies inside; points on the boundary count as inside, and those within
-// tolerance (world units) and rounding of it.
+// Whether a point of the polygon's plane lies inside; points on the boundary count as inside, and those
+// within tolerance (world units) and rounding of it.
 bool inside(const Polygon& polygon, std::span<const V3d> vertices, const V3d& point, double tolerance = 0);
 
 }  // namespace rsphere

@@ -37,7 +37,18 @@ Ray PathTracer::traceToSource(const V3d& point, const SourceSample& sample, uint
 // The radiance of a source along a shadow ray that is not stopped.
 Rgb PathTracer::sourceValue(const Ray& ray, const SourceSample& sample) {
   const Scene& scene = t_.scene();
-  const Surface& surface = scene.surfaces[t_.lights().all()[sample.source].surface];
+  const LightSource& light = t_.lights().all()[sample.source];
+  const Surface& surface = scene.surfaces[light.surface];
+  if (light.isVirtual()) {
+    Ray child;
+    Rgb whole(1, 1, 1);
+    if (!continueRay(child, kReflectedShadow, ray, whole)) return Rgb(0, 0, 0);
+    child.aimedAt = static_cast<int32_t>(sample.source);
+    child.direction = sample.direction;
+    child.unobstructed = true;
+    evaluate(child);
+    return child.value;
+  }
   if (sample.cosine < 0) return Rgb(0, 0, 0);
   const Modifier& modifier = scene.modifiers[surface.material];
   const Rgb passed = passing(ray.extinction, sample.distance);
@@ -99,10 +110,11 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf) {
     }
     const Contribution& c = contributions_[tested];
     const LightSource& light = t_.lights().all()[c.source];
+    const bool toSurface = !light.distant || light.isVirtual();
     const Shadow shadow =
-        t_.tracer().shadow(ray.point, c.direction, c.distance, light.distant ? kNone : light.surface);
+        t_.tracer().shadow(ray.point, c.direction, c.distance, toSurface ? light.surface : kNone);
     if (shadow == Shadow::blocked) continue;
-    if (shadow == Shadow::clear) {
+    if (shadow == Shadow::clear && !light.isVirtual()) {
       ray.value += c.value;
       ++visible;
       continue;

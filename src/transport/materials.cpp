@@ -58,7 +58,8 @@ bool PathTracer::shadeMaterial(Ray& ray, const Glass& material, int32_t behind) 
 }
 
 bool PathTracer::shadeMaterial(Ray& ray, const Mirror& material, int32_t behind) {
-  const bool aimedHere = ray.aimedAt != kNone && t_.lights().all()[ray.aimedAt].surface == ray.surface;
+  const LightSource* target = targetOf(ray);
+  const bool aimedHere = target && target->surface == ray.surface;
   if (material.alternate.kind != Alternate::Kind::none && !aimedHere) {
     // An indirect ray that meets the front takes the mirror's way, as the light that it stands for does; only
     // what is transparent is passed even then.
@@ -70,14 +71,35 @@ bool PathTracer::shadeMaterial(Ray& ray, const Mirror& material, int32_t behind)
     };
     if (free || transparent()) return useAlternate(ray, material.alternate);
   }
-  if (ray.aimedAt != kNone && !aimedHere) return true;
+  if (target && !aimedHere) return true;
   if (ray.cosine < 0) {
     if (!t_.options().backFacesVisible) pass(ray);
     return true;
   }
   applyModifiers(ray, behind);
+  if (target) {
+    // Textures are left out: the image is where the plane has it.
+    relay(ray, kReflected, ray.direction + 2 * ray.cosine * ray.normal, material.reflectance * ray.pattern);
+    return true;
+  }
   followSharp(ray, scatter(material, interaction(ray)).sharp);
   return true;
+}
+
+// What a shadow ray is aimed at; null for other rays.
+const LightSource* PathTracer::targetOf(const Ray& ray) const {
+  return ray.aimedAt == kNone ? nullptr : &t_.lights().all()[ray.aimedAt];
+}
+
+// Sends a shadow ray that has reached the relay it was aimed at on to the source that is seen there.
+void PathTracer::relay(Ray& ray, RayKind kind, const V3d& direction, Rgb coefficient) {
+  Ray child;
+  if (!continueRay(child, kind, ray, coefficient)) return;
+  child.aimedAt = t_.lights().all()[ray.aimedAt].relayed;
+  child.unobstructed = ray.unobstructed;
+  child.direction = direction.normalized();
+  evaluate(child);
+  ray.value += child.value * coefficient;
 }
 
 bool PathTracer::useAlternate(Ray& ray, const Alternate& alternate) {
@@ -105,9 +127,9 @@ bool PathTracer::shadeMaterial(Ray& ray, const Spotlight& material, int32_t behi
 
 bool PathTracer::shadeMaterial(Ray& ray, const Illum& material, int32_t behind) {
   if (!t_.scene().importance && countedByDirect(ray, nullptr)) return true;
-  const LightSource* aimed = ray.aimedAt == kNone ? nullptr : &t_.lights().all()[ray.aimedAt];
-  if (!aimed || aimed->surface != ray.surface) {
-    if (aimed && ray.cosine > 0) {
+  const LightSource* aimed = targetOf(ray);
+  if (!aimed || aimed->surface != ray.surface || aimed->isVirtual()) {
+    if (aimed && !aimed->isVirtual() && ray.cosine > 0) {
       // Light of an illum or glow behind this illum is what this one stands for.
       const Material* other = t_.scene().materialOf(t_.scene().surfaces[aimed->surface]);
       if (!t_.scene().importance && other &&
@@ -128,7 +150,9 @@ bool PathTracer::countedByDirect(const Ray& ray, const Glow* glow) const {
 }
 
 void PathTracer::emit(Ray& ray, const Rgb& radiance, const Glow* glow, int32_t behind) {
-  if (ray.aimedAt != kNone && t_.lights().all()[ray.aimedAt].surface != ray.surface) return;
+  if (const LightSource* target = targetOf(ray);
+      target && (target->surface != ray.surface || target->isVirtual()))
+    return;
   if (!t_.options().sourcesVisible && !(ray.kinds & kShadow) &&
       !beyondReach(glow, ray.pathLength + ray.length))
     return;

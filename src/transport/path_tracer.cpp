@@ -30,17 +30,17 @@ V3d along(const V3d& origin, double distance, const V3d& direction) {
 }  // namespace
 
 Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance irradiance, bool basicRadiance,
-                     rad::Warn warn)
+                     const rad::Warn& warn)
     : scene_(scene),
       options_(options),
       irradiance_(irradiance),
       basicRadiance_(basicRadiance),
       tracer_(scene, options.backFacesVisible),
-      lights_(scene),
-      functions_(scene, std::move(warn)),
+      functions_(scene, warn),
+      lights_(scene, options.directRelays, functions_, warn),
       lightOf_(scene.surfaces.size(), kNone) {
   for (size_t i = 0; i < lights_.all().size(); ++i)
-    lightOf_[lights_.all()[i].surface] = static_cast<int32_t>(i);
+    if (!lights_.all()[i].isVirtual()) lightOf_[lights_.all()[i].surface] = static_cast<int32_t>(i);
   for (size_t i = 0; i < scene.surfaces.size(); ++i) {
     const Surface& s = scene.surfaces[i];
     const Material* material = scene.materialOf(s);
@@ -128,6 +128,7 @@ void PathTracer::evaluate(Ray& ray) {
 }
 
 void PathTracer::findHit(Ray& ray) {
+  if (ray.unobstructed) return findTarget(ray);
   const Hit hit =
       t_.tracer().nearest(ray.origin, ray.direction, ray.farthest > kSamePlace ? ray.farthest : kFarAway);
   ray.surface = hit.surface;
@@ -144,6 +145,25 @@ void PathTracer::findHit(Ray& ray) {
   }
 }
 
+// The surface that a shadow ray is aimed at, whatever else is in its way.
+void PathTracer::findTarget(Ray& ray) {
+  const Scene& scene = t_.scene();
+  const LightSource& target = t_.lights().all()[ray.aimedAt];
+  ray.point = ray.origin;
+  ray.normal = -ray.direction;
+  ShapeHit hit;
+  if (target.distant && !target.isVirtual()) {
+    seesDistant(ray);
+  } else if (intersect(scene.surfaces[target.surface].shape, scene.vertices, ray.origin, ray.direction,
+                       kFarAway, hit)) {
+    ray.surface = target.surface;
+    ray.length = hit.distance;
+    ray.point = along(ray.origin, hit.distance, ray.direction);
+    ray.normal = hit.normal;
+    ray.cosine = hit.cosine;
+  }
+}
+
 // A distant source in the ray's direction. The first one that is not glow hides the others; illum that lets
 // light pass and glow give way, and glow is what is left.
 bool PathTracer::seesDistant(Ray& ray) {
@@ -154,7 +174,7 @@ bool PathTracer::seesDistant(Ray& ray) {
   };
   if (ray.aimedAt != kNone) {
     const LightSource& light = t_.lights().all()[ray.aimedAt];
-    if (light.distant && sees(light.surface)) ray.surface = light.surface;
+    if (light.distant && !light.isVirtual() && sees(light.surface)) ray.surface = light.surface;
     return ray.surface != kNone;
   }
   int32_t glow = kNone;

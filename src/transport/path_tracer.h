@@ -26,9 +26,9 @@ namespace rsphere {
 // What all threads share; not changed by tracing. Keeps references to the scene.
 class Transport {
  public:
-  // basicRadiance: refraction leaves radiance as it is (-Sb). warn: SurfaceFunctions'.
+  // basicRadiance: refraction leaves radiance as it is (-Sb). warn: SurfaceFunctions' and LightSources'.
   Transport(const Scene& scene, const RayOptions& options, Irradiance irradiance, bool basicRadiance = false,
-            rad::Warn warn = {});
+            const rad::Warn& warn = {});
 
   const Scene& scene() const { return scene_; }
   const Tracer& tracer() const { return tracer_; }
@@ -37,7 +37,7 @@ class Transport {
   const RayOptions& options() const { return options_; }
   Irradiance irradiance() const { return irradiance_; }
   bool basicRadiance() const { return basicRadiance_; }
-  // Index in LightSources of a surface, or kNone.
+  // Index in LightSources of a surface's own light, or kNone.
   int32_t lightOf(int32_t surface) const { return lightOf_[surface]; }
   // Whether indirect light is computed on the surface (-ae, -ai).
   bool isAmbient(int32_t surface) const { return surface == kNone || ambient_.empty() || ambient_[surface]; }
@@ -50,8 +50,8 @@ class Transport {
   Irradiance irradiance_;
   bool basicRadiance_;
   Tracer tracer_;
-  LightSources lights_;
   SurfaceFunctions functions_;
+  LightSources lights_;
   std::vector<int32_t> lightOf_;
   std::vector<int32_t> distant_;
   std::vector<bool> ambient_;  // by surface; empty: all of them
@@ -99,6 +99,7 @@ class PathTracer {
   bool continueRay(Ray& child, RayKind kind, const Ray& parent, Rgb& coefficient);
   void evaluate(Ray& ray);
   void findHit(Ray& ray);
+  void findTarget(Ray& ray);
   bool seesDistant(Ray& ray);
   void shadeHit(Ray& ray);
   bool shadeSurface(Ray& ray);
@@ -143,6 +144,8 @@ class PathTracer {
                        int32_t functions);
   Interaction component(const Ray& ray, const std::optional<int32_t>& named, const Interaction& inherited);
   void followSharp(Ray& ray, const SharpPaths& sharp);
+  const LightSource* targetOf(const Ray& ray) const;
+  void relay(Ray& ray, RayKind kind, const V3d& direction, Rgb coefficient);
   void sampleLobes(Ray& ray, const Scattering& scattering, const Interaction& at);
   void sampleLobe(Ray& ray, RayKind kind, const Rgb& share, LobeSampler draw);
   void addIndirect(Ray& ray, const V3d& normal, const V3d& trueNormal, RayKind kind, const Rgb& coefficient);

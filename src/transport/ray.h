@@ -18,6 +18,7 @@ struct Ray {
   double pathLength = 0;      // of its ancestors
   double shadowLength = 0;    // of those of them that were shadow rays
   int32_t aimedAt = kNone;    // light source that a shadow ray goes to
+  bool unobstructed = false;  // of a shadow ray: it meets what it is aimed at, and nothing else
   Rgb extinction{0, 0, 0};    // of the medium it passes, per unit length
 
   int32_t surface = kNone;  // hit, index in Scene::surfaces

@@ -18,7 +18,8 @@ const V3d kLamp(1, 1.2, 1.9);
 constexpr double kLampRadius = .01, kLampRadiance = 1000;
 constexpr double kGoalHeight = .7, kGoalX = 2.2, kGoalY = 1.6, kGoalWidth = .8, kGoalDepth = .5;
 
-// A room of 4 x 3 x 2.5 m with a pane of glass and a glass ball between the lamp and the goal.
+// A room of 4 x 3 x 2.5 m with a pane of glass and a glass ball between the lamp and the goal, and a mirror on
+// the wall behind the goal.
 std::string room(bool lit) {
   std::string text = R"(
 void plastic wall 0 0 5 .6 .5 .4 0 0
@@ -32,6 +33,8 @@ void glass pane 0 0 3 .9 .8 .7
 pane polygon window 0 0 12 1.6 .2 .2 1.6 2 .2 1.6 2 2.2 1.6 .2 2.2
 void dielectric crystal 0 0 5 .9 .95 .98 1.5 0
 crystal sphere ball 0 0 4 2.9 1.2 1.3 .15
+void mirror silver 0 0 3 .9 .85 .8
+silver polygon mirror 0 0 12 3.98 1 .75 3.98 2.6 .75 3.98 2.6 2.2 3.98 1 2.2
 void plastic goal 0 0 5 .5 .35 .2 0 0
 goal polygon top 0 0 12 2.2 1.6 .7 3 1.6 .7 3 2.1 .7 2.2 2.1 .7
 )";

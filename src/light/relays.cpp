@@ -1,0 +1,236 @@
+#include "light/relays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "shade/scattering.h"
+
+namespace rsphere {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kFarAway = 1e10;
+constexpr double kTiny = 1e-6;  // world units, cosines: RADIANCE's own figure for "in the plane"
+
+// An affine map that keeps the points of a relay's plane where they are: p goes to p + height(p) * shift. It
+// keeps volumes but for their sign where shift . normal is 0 or -2 (a shear, a shear and a mirror).
+struct Projection {
+  V3d normal;
+  double offset;
+  V3d shift;
+
+  double height(const V3d& p) const { return p.dot(normal) - offset; }
+  V3d point(const V3d& p) const { return p + height(p) * shift; }
+  V3d vector(const V3d& v) const { return v + v.dot(normal) * shift; }
+};
+
+struct Relay {
+  int32_t surface;
+  int32_t modifier;  // of the material
+  V3d normal;
+  double offset = 0;    // normal . p for the points p of the plane
+  V3d center{0, 0, 0};  // of a sphere around it
+  double radius = 0;
+};
+
+// The mirror or prism that decides about the surface: an illum's alternative counts.
+int32_t relayMaterial(const Scene& scene, const Surface& surface) {
+  int32_t modifier = surface.material;
+  const Material* material = scene.materialAt(modifier);
+  if (const auto* illum = material ? std::get_if<Illum>(material) : nullptr;
+      illum && illum->alternate.kind == Alternate::Kind::modifier) {
+    modifier = illum->alternate.modifier;
+    material = scene.materialAt(modifier);
+  }
+  return material && std::holds_alternative<Mirror>(*material) ? modifier : kNone;
+}
+
+// The farthest that the source reaches from its middle along a unit vector.
+double extent(const LightSource& source, const V3d& along) {
+  const double u = source.u.dot(along), v = source.v.dot(along);
+  switch (source.map) {
+    case LightSource::Map::parallelogram:
+      return std::abs(u) + std::abs(v);
+    case LightSource::Map::disk:
+      return std::hypot(u, v);
+    case LightSource::Map::fan: {
+      double most = 0;
+      for (const V3d& p : source.fanVertices) most = std::max(most, (p - source.center).dot(along));
+      return most;
+    }
+    case LightSource::Map::cone:
+      return source.cosHalfAngle > 0 ? source.sinHalfAngle : 1;
+    default:
+      return source.radius;
+  }
+}
+
+bool isPlane(const LightSource& source) {
+  return source.map != LightSource::Map::cone && source.map != LightSource::Map::ball &&
+         source.map != LightSource::Map::tube;
+}
+
+class Images {
+ public:
+  Images(const Scene& scene, const rad::Warn& warn, std::vector<LightSource>& sources)
+      : scene_(scene), sources_(sources) {
+    for (uint32_t i = 0; i < scene.surfaces.size(); ++i) addRelay(i, warn);
+  }
+
+  // Images of one source and images of those, up to `relays` of them one after the other.
+  void addImages(size_t source, int relays) {
+    if (relays <= 0) return;
+    for (size_t r = 0; r < relays_.size(); ++r) {
+      // A relay does not see its own images, nor the light of its own surface.
+      if (relays_[r].surface == sources_[source].surface) continue;
+      if (!lights(source, relays_[r])) continue;
+      const auto projection = project(sources_[source], relays_[r]);
+      if (!projection) continue;
+      relayOf_.resize(sources_.size());
+      relayOf_.push_back(r);
+      sources_.push_back(imageOf(sources_[source], relays_[r], *projection));
+      sources_.back().relayed = static_cast<int32_t>(source);
+      addImages(sources_.size() - 1, relays - 1);
+    }
+  }
+
+ private:
+  void addRelay(uint32_t index, const rad::Warn& warn) {
+    const Surface& surface = scene_.surfaces[index];
+    Relay relay;
+    relay.surface = static_cast<int32_t>(index);
+    relay.modifier = relayMaterial(scene_, surface);
+    if (relay.modifier == kNone) return;
+    if (const auto* polygon = std::get_if<Polygon>(&surface.shape)) {
+      relay.normal = polygon->normal;
+      relay.offset = polygon->offset;
+      const auto vertices = std::span(scene_.vertices).subspan(polygon->firstVertex, polygon->vertices);
+      for (const V3d& v : vertices) relay.center += v / static_cast<double>(vertices.size());
+      for (const V3d& v : vertices) relay.radius = std::max(relay.radius, (v - relay.center).length());
+    } else if (const auto* ring = std::get_if<Ring>(&surface.shape)) {
+      relay.normal = ring->normal;
+      relay.offset = ring->normal.dot(ring->center);
+      relay.center = ring->center;
+      relay.radius = ring->outer;
+    } else {
+      if (warn)
+        warn(scene_.place(surface.primitive) +
+             ": only plane surfaces relay light, this one makes no virtual "
+             "sources");
+      return;
+    }
+    relays_.push_back(relay);
+  }
+
+  // The largest of value(p) over the corners of a relay; a ring's are those of the square around it.
+  template <class Value>
+  double mostOver(const Relay& relay, const Value& value) const {
+    double most = -kFarAway;
+    if (const auto* polygon = std::get_if<Polygon>(&scene_.surfaces[relay.surface].shape)) {
+      for (const V3d& v : std::span(scene_.vertices).subspan(polygon->firstVertex, polygon->vertices))
+        most = std::max(most, value(v));
+      return most;
+    }
+    V3d x, y;
+    frame(relay.normal, x, y);
+    for (const double a : {-relay.radius, relay.radius})
+      for (const double b : {-relay.radius, relay.radius})
+        most = std::max(most, value(relay.center + a * x + b * y));
+    return most;
+  }
+
+  std::optional<Projection> project(const LightSource& source, const Relay& relay) const {
+    const double before =
+        source.center.dot(relay.normal) - (source.distant ? 0 : relay.offset) + extent(source, relay.normal);
+    if (before <= kTiny) return std::nullopt;  // behind the mirror
+    return Projection{relay.normal, relay.offset, -2. * relay.normal};
+  }
+
+  // Whether light of a source can reach the relay at all.
+  bool lights(size_t index, const Relay& relay) const {
+    const LightSource& source = sources_[index];
+    if (source.isVirtual()) {
+      // Its light leaves the relay before on the side where the image is not.
+      const Relay& last = relays_[relayOf_[index]];
+      double side = source.center.dot(last.normal);
+      if (!source.distant) side -= last.offset;
+      const V3d away = side > 0 ? -last.normal : last.normal;
+      const double offset = side > 0 ? -last.offset : last.offset;
+      if (mostOver(relay, [&](const V3d& p) { return p.dot(away) - offset; }) <= kTiny) return false;
+      if (!meetsBeam(source, last, relay)) return false;
+    }
+    if (source.distant) return true;
+    // RADIANCE's reach ends at the relay's middle.
+    if (source.reach > 0 && (relay.center - source.center).length() > source.reach) return false;
+    if (source.spot && !meetsCone(source, source.spot->aim, 1 - source.spot->solidAngle / (2 * kPi), relay))
+      return false;
+    if (!isPlane(source)) return true;
+    return mostOver(relay, [&](const V3d& p) { return (p - source.center).dot(source.normal); }) > kTiny;
+  }
+
+  static bool meetsBeam(const LightSource& source, const Relay& last, const Relay& relay) {
+    if (source.distant) {
+      const V3d between = relay.center - last.center;
+      if (source.cosHalfAngle <= .5) return true;
+      const double distance = between.length() + last.radius + relay.radius;
+      const double spread = distance * source.sinHalfAngle / source.cosHalfAngle;
+      const V3d aside = between - between.dot(source.center) * source.center;
+      return aside.length() <= last.radius + relay.radius + spread;
+    }
+    return meetsCone(source, source.beam, source.cosBeam, relay);
+  }
+
+  // Whether the relay may be met by rays from the source's middle within a cone; as seen from elsewhere on
+  // the source it may lie as much nearer the cone as the source is wide.
+  static bool meetsCone(const LightSource& source, const V3d& axis, double cosHalf, const Relay& relay) {
+    const V3d towards = relay.center - source.center;
+    const double distance = towards.length(), radius = relay.radius + source.radius;
+    if (cosHalf <= 0 || distance <= radius) return true;
+    const double angle = std::acos(std::clamp(towards.dot(axis) / distance, -1., 1.));
+    return angle <= std::acos(cosHalf) + std::asin(radius / distance) + kTiny;
+  }
+
+  static LightSource imageOf(const LightSource& source, const Relay& relay, const Projection& projection) {
+    LightSource image = source;
+    image.surface = relay.surface;
+    image.u = projection.vector(source.u);
+    image.v = projection.vector(source.v);
+    for (V3d& p : image.fanVertices) p = projection.point(p);
+    if (isPlane(source)) image.normal = projection.vector(source.normal).normalized();
+    if (image.spot) image.spot->aim = projection.vector(image.spot->aim).normalized();
+    if (source.distant) {
+      image.center = projection.vector(source.center).normalized();
+      return image;
+    }
+    image.center = projection.point(source.center);
+    const V3d towards = relay.center - image.center;
+    const double distance = towards.length();
+    // A ray from a point of the image through one of the relay keeps within this angle of the line between
+    // their middles, however far it goes on.
+    const double sine = (relay.radius + source.radius) / distance;
+    image.cosBeam = -1;
+    if (distance > 0 && sine < 1) {
+      image.beam = towards / distance;
+      image.cosBeam = std::sqrt(1 - sine * sine);
+    }
+    return image;
+  }
+
+  const Scene& scene_;
+  std::vector<LightSource>& sources_;
+  std::vector<Relay> relays_;
+  std::vector<size_t> relayOf_;  // by source: index in relays_ of the last one of a virtual source
+};
+
+}  // namespace
+
+void addVirtualSources(const Scene& scene, int relays, const SurfaceFunctions&, const rad::Warn& warn,
+                       std::vector<LightSource>& sources) {
+  if (relays <= 0 || sources.empty()) return;
+  Images images(scene, warn, sources);
+  const size_t real = sources.size();
+  for (size_t i = 0; i < real; ++i) images.addImages(i, relays);
+}
+
+}  // namespace rsphere

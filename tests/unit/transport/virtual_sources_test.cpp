@@ -1,0 +1,197 @@
+// Light by way of mirrors: the image of a source is where plane mirrors show it (Euclid), as bright as they
+// reflect.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "tests/unit/transport/transport_fixture.h"
+
+namespace rsphere {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kRadius = .01, kRadiance = 1e5;
+
+std::string lamp(const V3d& at) {
+  return fmt::format("void light bright 0 0 3 {0} {0} {0}\nbright sphere lamp 0 0 4 {1} {2} {3} {4}\n",
+                     kRadiance, at.x, at.y, at.z, kRadius);
+}
+// A mirror of 40 x 40 at x, that faces the side of `faces` (1 or -1).
+std::string mirror(double x, double faces, double reflectance = .9, const char* name = "silver") {
+  return fmt::format(
+      "void mirror {0} 0 0 3 {1} {1} {1}\n{0} polygon {0}_plane 0 0 12 {2} {3} -20 {2} {4} -20 {2} {4} 20 "
+      "{2} "
+      "{3} 20\n",
+      name, reflectance, x, -20 * faces, 20 * faces);
+}
+
+// On a surface with this normal, by a small ball there.
+double irradianceBy(const V3d& lamp, const V3d& point, const V3d& normal = V3d(0, 0, 1)) {
+  const V3d to = lamp - point;
+  return kRadiance * kPi * kRadius * kRadius * std::max(0., to.dot(normal)) / std::pow(to.length(), 3);
+}
+double irradianceAt(Traced& traced, const V3d& point, const V3d& normal = V3d(0, 0, 1)) {
+  return traced.value(point + 1.1e-4 * normal, -normal);
+}
+RayOptions relaying(int relays) {
+  RayOptions o;
+  o.directThreshold = 0;
+  o.directRelays = relays;
+  return o;
+}
+Traced meters(const std::string& scene, int relays) {
+  return Traced(scene, relaying(relays), Irradiance::point);
+}
+
+const V3d kLamp(1, .3, 2), kPoint(2, -.5, 0);
+
+TEST(VirtualSource, AMirrorShowsASecondLamp) {
+  const double direct = irradianceBy(kLamp, kPoint), image = irradianceBy(V3d(-1, .3, 2), kPoint);
+  Traced lit = meters(lamp(kLamp) + mirror(0, 1), 1);
+  EXPECT_NEAR(irradianceAt(lit, kPoint), direct + .9 * image, 1e-4 * direct);
+  Traced without = meters(lamp(kLamp) + mirror(0, 1), 0);
+  EXPECT_NEAR(irradianceAt(without, kPoint), direct, 1e-4 * direct);
+  Traced fromBehind = meters(lamp(kLamp) + mirror(0, -1), 2);
+  EXPECT_NEAR(irradianceAt(fromBehind, kPoint), direct, 1e-4 * direct);
+}
+
+// Between mirrors at 0 and 4 the images of x lie at -x and 8 - x, of those at -8 + x and 8 + x, and so on.
+TEST(VirtualSource, MirrorsShowImagesOfImages) {
+  const std::string scene = lamp(kLamp) + mirror(0, 1, .9) + mirror(4, -1, .7, "other");
+  const std::vector<std::vector<double>> images{{-1, 8 - 1}, {-8 + 1, 8 + 1}, {-8 - 1, 16 - 1}};
+  const double left[] = {.9, .9 * .7, .9 * .7 * .9}, right[] = {.7, .7 * .9, .7 * .9 * .7};
+  double expected = irradianceBy(kLamp, kPoint);
+  for (int relays = 1; relays <= 3; ++relays) {
+    expected += left[relays - 1] * irradianceBy(V3d(images[relays - 1][0], .3, 2), kPoint) +
+                right[relays - 1] * irradianceBy(V3d(images[relays - 1][1], .3, 2), kPoint);
+    Traced lit = meters(scene, relays);
+    EXPECT_NEAR(irradianceAt(lit, kPoint), expected, 1e-4 * expected) << relays;
+    Traced fewer = meters(scene, relays - 1);
+    EXPECT_LT(irradianceAt(fewer, kPoint), .999 * expected);
+  }
+}
+
+// The mirror is a window: its image lights what sees it through there, and nothing else.
+TEST(VirtualSource, IsSeenThroughTheMirrorAlone) {
+  const std::string pane =
+      "void mirror silver 0 0 3 1 1 1\nsilver polygon pane 0 0 12 0 -.2 .5 0 .2 .5 0 .2 .9 0 -.2 .9\n";
+  for (const std::string& shape : {pane, std::string("void mirror silver 0 0 3 1 1 1\n"
+                                                     "silver ring pane 0 0 8 0 0 .7 1 0 0 .1 .3\n")}) {
+    Traced lit = meters(lamp(kLamp) + shape, 1);
+    const bool ring = shape.find("ring") != std::string::npos;
+    Random random(3);
+    int inside = 0;
+    for (int i = 0; i < 400; ++i) {
+      const V3d at(.2 + .9 * random.uniform(), -.6 + random.uniform(), 0);
+      const V3d image(-1, .3, 2), toImage = image - at;
+      const V3d through = at - at.x / toImage.x * toImage;
+      const double radius = std::hypot(through.y, through.z - .7);
+      const bool seen =
+          ring ? radius > .1 && radius < .3 : std::abs(through.y) < .2 && through.z > .5 && through.z < .9;
+      inside += seen;
+      const double expected = irradianceBy(kLamp, at) + (seen ? irradianceBy(image, at) : 0);
+      EXPECT_NEAR(irradianceAt(lit, at), expected, 2e-4 * expected) << at;
+    }
+    EXPECT_GT(inside, 20);
+    EXPECT_LT(inside, 380);
+  }
+}
+
+TEST(VirtualSource, OfTheSunComesFromTheMirroredDirection) {
+  Traced lit =
+      meters("void light bright 0 0 3 1e5 1e5 1e5\nbright source sun 0 0 4 3 1 4 .5\n" + mirror(0, 1), 1);
+  const double sine = std::sin(.25 * kPi / 180), e = 1e5 * kPi * sine * sine * 4 / std::sqrt(26.);
+  EXPECT_NEAR(irradianceAt(lit, V3d(2, 0, 0)), e * 1.9, 1e-4 * e);
+  // Its light reaches no farther than the mirror is high.
+  EXPECT_NEAR(irradianceAt(lit, V3d(17, 0, 0)), e, 1e-4 * e);
+}
+
+// What the direct calculation brings by way of the mirror is black to rays that gather indirect light, and to
+// samples of rough reflections.
+TEST(VirtualSource, IsNotCountedTwice) {
+  RayOptions gathering = unbiased(2);
+  gathering.directJitter = 0;
+  gathering.ambientDivisions = 4096;
+  const std::string scene =
+      "void light bright 0 0 3 20 20 20\nbright sphere lamp 0 0 4 1 .3 2 .4\n" + mirror(0, 1);
+  const auto by = [](const V3d& ball) {
+    const V3d to = ball - kPoint;
+    return 20 * kPi * .16 * to.z / std::pow(to.length(), 3);
+  };
+  Traced lit(scene, gathering, Irradiance::point);
+  const double expected = by(kLamp) + .9 * by(V3d(-1, .3, 2));
+  EXPECT_NEAR(irradianceAt(lit, kPoint), expected, 1e-4 * expected);
+}
+
+// A shadow in the mirror, and before it.
+TEST(VirtualSource, IsHiddenByWhatStandsInTheWay) {
+  const double direct = irradianceBy(kLamp, kPoint), image = irradianceBy(V3d(-1, .3, 2), kPoint);
+  const V3d onMirror = V3d(0, kPoint.y + 2. / 3 * (.3 - kPoint.y), 2. / 3 * 2);
+  const std::string black = "void plastic black 0 0 5 0 0 0 0 0\n";
+  for (const V3d& at : {(kPoint + onMirror) * .5, (kLamp + onMirror) * .5}) {
+    const std::string ball = fmt::format("sphere ball 0 0 4 {} {} {} .05\n", at.x, at.y, at.z);
+    Traced hidden = meters(lamp(kLamp) + mirror(0, 1) + black + "black " + ball, 1);
+    EXPECT_NEAR(irradianceAt(hidden, kPoint), direct, 1e-4 * direct) << at;
+  }
+  // A pane before the mirror, which the light goes through twice, 1/cosine as thick.
+  const V3d way = V3d(-1, .3, 2) - kPoint;
+  const double passed = std::pow(.5, 2 * way.length() / std::abs(way.x));
+  Traced dimmed = meters(lamp(kLamp) + mirror(0, 1) +
+                             "void glass clear 0 0 4 .5 .5 .5 1\n"
+                             "clear polygon pane 0 0 9 .9 -19 -19 .9 19 -19 .9 0 19\n",
+                         1);
+  EXPECT_NEAR(irradianceAt(dimmed, kPoint), direct + .9 * passed * image, 1e-4 * direct);
+}
+
+TEST(VirtualSource, MirrorsThatAreNotPlaneAreWarnedOf) {
+  const Scene scene =
+      sceneOf(lamp(kLamp) + "void mirror silver 0 0 3 1 1 1\nsilver sphere ball 0 0 4 0 0 0 .1\n");
+  std::vector<std::string> warnings;
+  const rad::Warn warn = [&](std::string_view text) { warnings.emplace_back(text); };
+  const Transport none(scene, relaying(0), Irradiance::none, false, warn);
+  EXPECT_TRUE(warnings.empty());
+  const Transport relays(scene, relaying(1), Irradiance::none, false, warn);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("sphere \"ball\": only plane surfaces relay light"), std::string::npos)
+      << warnings[0];
+}
+
+// How many sources a scene makes: those that cannot light anything are left out.
+TEST(VirtualSource, IsLeftOutWhereGeometryShowsItNeverLights) {
+  const auto count = [](const std::string& text, int relays) {
+    const Scene scene = sceneOf(text);
+    const Transport transport(scene, relaying(relays), Irradiance::none);
+    return transport.lights().all().size();
+  };
+  EXPECT_EQ(count(lamp(kLamp) + mirror(0, 1), 1), 2u);
+  EXPECT_EQ(count(lamp(kLamp) + mirror(0, 1), 9), 2u);
+  EXPECT_EQ(count(lamp(kLamp) + mirror(0, -1), 1), 1u);
+  EXPECT_EQ(count(lamp(kLamp) + mirror(0, 1) + mirror(4, -1, 1, "other"), 3), 1 + 2 + 2 + 2u);
+  // The second mirror faces away from the first one's light, or lies behind it.
+  EXPECT_EQ(count(lamp(kLamp) + mirror(0, 1) + mirror(4, 1, 1, "other"), 3), 2u);
+  EXPECT_EQ(count(lamp(kLamp) + mirror(0, 1) + mirror(-2, -1, 1, "other"), 3), 2u);
+  // A panel that shines up lights no mirror below it.
+  const std::string panel =
+      "void light bright 0 0 3 1 1 1\nbright polygon panel 0 0 12 1 0 2 2 0 2 2 1 2 1 1 2\n";
+  const std::string low =
+      "void mirror silver 0 0 3 1 1 1\nsilver polygon low 0 0 12 0 -1 0 0 1 0 0 1 1 0 -1 1\n";
+  EXPECT_EQ(count(panel + low, 1), 1u);
+  EXPECT_EQ(count(panel + mirror(0, 1), 1), 2u);
+  // A spotlight that points elsewhere.
+  const std::string spot =
+      "void spotlight beam 0 0 7 1 1 1 40 1 0 0\nbeam ring spot 0 0 8 1 0 1 1 0 0 0 .05\n";
+  EXPECT_EQ(count(spot + low, 1), 1u);
+  // Two small mirrors side by side: the second is out of the first one's beam.
+  const std::string small =
+      "void mirror silver 0 0 3 1 1 1\n"
+      "silver polygon first 0 0 12 0 -.1 0 0 .1 0 0 .1 .2 0 -.1 .2\n"
+      "silver polygon second 0 0 12 3 5.1 0 3 4.9 0 3 4.9 .2 3 5.1 .2\n";
+  EXPECT_EQ(count(lamp(V3d(1, 0, .1)) + small, 2), 3u);
+}
+
+}  // namespace
+}  // namespace rsphere
