@@ -84,6 +84,13 @@ EllipticLobe beginLobe(const WgmdComponent& c, const V3d& along, bool& sharp) {
   return lobe;
 }
 
+// Decides whether a lobe is sampled (-st), or counts with the indirect light: that of a diffuse component, if
+// there is one.
+void sampleOrAdd(EllipticLobe& lobe, double share, double threshold, DiffuseComponent& diffuse) {
+  lobe.sampled = threshold < share - kNegligible;
+  if (!lobe.sampled && maxChannel(diffuse.share) > kNegligible) diffuse.ambient += lobe.share;
+}
+
 bool present(const WgmdComponent& c) {
   return c.share > kNegligible && maxChannel(c.at.pattern) > kNegligible;
 }
@@ -125,8 +132,7 @@ AnisotropicScattering scatter(const Anisotropic& m, const Interaction& at, const
   if (m.specularity > kNegligible) {
     s.reflected = lobe;
     s.reflected.share = m.metal ? color * m.specularity : gray(m.specularity);
-    s.reflected.sampled = specularThreshold < m.specularity - kNegligible;
-    if (!s.reflected.sampled) s.reflection.ambient += s.reflected.share;
+    sampleOrAdd(s.reflected, m.specularity, specularThreshold, s.reflection);
   }
   if (straight > kNegligible) {
     s.transmitted = lobe;
@@ -136,8 +142,7 @@ AnisotropicScattering scatter(const Anisotropic& m, const Interaction& at, const
       const V3d bent = at.direction - at.perturbation;
       if (bent.dot(at.normal) < -kNegligible) s.transmitted.transmitted = bent.normalized();
     }
-    s.transmitted.sampled = specularThreshold < straight - kNegligible;
-    if (!s.transmitted.sampled) s.transmission.ambient = color * passes;
+    sampleOrAdd(s.transmitted, straight, specularThreshold, s.transmission);
   }
   return s;
 }
@@ -184,8 +189,7 @@ AnisotropicScattering scatter(const WgmdFunction& m, const WgmdComponent& reflec
       s.sharp.add({through, s.transmitted.share, kTransmitted, image});
       s.transmitted.share = Rgb(0, 0, 0);
     } else {
-      s.transmitted.sampled = specularThreshold < brightness(s.transmitted.share) - kNegligible;
-      if (!s.transmitted.sampled) s.transmission.ambient += s.transmitted.share;
+      sampleOrAdd(s.transmitted, brightness(s.transmitted.share), specularThreshold, s.transmission);
     }
   }
   if (mirrors) {
@@ -196,8 +200,7 @@ AnisotropicScattering scatter(const WgmdFunction& m, const WgmdComponent& reflec
                  s.widenReflection && (at.kinds & kAmbient) != 0});
     s.reflected.share = Rgb(0, 0, 0);
   } else if (maxChannel(s.reflected.share) > 0) {
-    s.reflected.sampled = specularThreshold < brightness(s.reflected.share) - kNegligible;
-    if (!s.reflected.sampled) s.reflection.ambient += s.reflected.share;
+    sampleOrAdd(s.reflected, brightness(s.reflected.share), specularThreshold, s.reflection);
   }
   return s;
 }
@@ -259,7 +262,7 @@ AshikhminScattering scatter(const Ashikhmin& m, const Interaction& at, const V3d
   if (maxChannel(m.specular) > kNegligible) {
     s.share = m.specular + schlick(s.cosine) * (Rgb(1, 1, 1) - m.specular);
     s.sampled = specularThreshold < brightness(m.specular) - kNegligible;
-    if (!s.sampled) s.reflection.ambient += s.share;
+    if (!s.sampled && maxChannel(s.reflection.share) > kNegligible) s.reflection.ambient += s.share;
   }
   return s;
 }
@@ -283,8 +286,8 @@ Rgb directCoefficient(const AshikhminScattering& s, const V3d& direction, const 
   return sum;
 }
 
-double sampleReflection(const AshikhminScattering& s, const Interaction& at, double u1, double u2,
-                        V3d& direction) {
+bool sampleReflection(const AshikhminScattering& s, const Interaction& at, double u1, double u2,
+                      V3d& direction) {
   const double angle = 2 * kPi * u1;
   double x = std::sqrt(s.powerAcross + 1) * std::cos(angle),
          y = std::sqrt(s.powerAlong + 1) * std::sin(angle);
@@ -295,8 +298,7 @@ double sampleReflection(const AshikhminScattering& s, const Interaction& at, dou
   const double within = std::sqrt(std::max(0., 1 - up * up));
   const V3d half = within * (x * s.tangents.along + y * s.tangents.across) + up * s.reflection.normal;
   direction = (at.direction - 2 * half.dot(at.direction) * half).normalized();
-  if (half.dot(at.direction) >= 0 || direction.dot(at.normal) <= kNegligible) return 0;
-  return std::min(1., s.reflection.normal.dot(direction) / s.cosine);
+  return direction.dot(at.normal) > kNegligible;
 }
 
 }  // namespace rsphere

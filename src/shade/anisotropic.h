@@ -28,8 +28,8 @@ struct EllipticLobe {
   bool sampled = false;
 };
 
-// Without directional light; `ambient` has what else the indirect light is multiplied by: lobes too weak to
-// be sampled (-st).
+// ambient: what indirect light is multiplied by: the share, and that of a lobe too weak to be sampled (-st)
+// where there is a share at all.
 struct DiffuseComponent {
   V3d normal{0, 0, 1};  // perturbed, on the ray's side
   Rgb share{0, 0, 0}, ambient{0, 0, 0};
@@ -90,8 +90,12 @@ AshikhminScattering scatter(const Ashikhmin& material, const Interaction& at, co
                             double specularThreshold);
 Rgb directCoefficient(const AshikhminScattering& scattering, const V3d& direction, const V3d& toSource,
                       double solidAngle);
-// The whole lobe: -ss does not narrow it. Weight: min(1, cosine out / cosine in), from the paper's eq. (9).
-double sampleReflection(const AshikhminScattering& scattering, const Interaction& at, double u1, double u2,
-                        V3d& direction);
+// The whole lobe, -ss does not narrow it; by half vectors, the paper's eq. (6) and (8). False where the
+// sample lies under the surface: the original draws another then, and counts every one as 1 rather than by
+// min(1, cosine out / cosine in), which would make their mean that of the lobe of direct light. So what
+// light from elsewhere contributes is not less at grazing angles, as direct light is, and never more than the
+// share.
+bool sampleReflection(const AshikhminScattering& scattering, const Interaction& at, double u1, double u2,
+                      V3d& direction);
 
 }  // namespace rsphere

@@ -68,7 +68,7 @@ void addReflection(Scattering& s, const Interaction& at, const Gloss& g, const R
   } else {
     s.specularReflection = color;
     s.sampleReflection = specularThreshold < g.specular - kNegligible;
-    if (!s.sampleReflection) s.ambientReflection += color;
+    if (!s.sampleReflection && maxChannel(s.diffuseReflection) > kNegligible) s.ambientReflection += color;
   }
 }
 
@@ -186,7 +186,8 @@ Scattering scatter(const Trans& material, const Interaction& at, double specular
     } else {
       s.specularTransmission = color * straight;
       s.sampleTransmission = specularThreshold < straight - kNegligible;
-      if (!s.sampleTransmission) s.ambientTransmission = color * passes;
+      if (!s.sampleTransmission && maxChannel(s.diffuseTransmission) > kNegligible)
+        s.ambientTransmission = color * passes;
     }
   }
   if (!(at.kinds & kShadow))

@@ -55,7 +55,7 @@ struct Scattering {
 
   Rgb diffuseReflection{0, 0, 0}, diffuseTransmission{0, 0, 0};
   Rgb ambientReflection{0, 0, 0},
-      ambientTransmission{0, 0, 0};  // the above, and lobes too weak to be sampled (-st)
+      ambientTransmission{0, 0, 0};  // the above where there is any, and lobes too weak to be sampled (-st)
   double diffuseFresnel = 0;         // 1 where a polished surface lets less light in at grazing angles
 
   // Gaussian lobes; black: none. alpha2: the facets' mean square slope.

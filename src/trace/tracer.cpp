@@ -18,9 +18,13 @@ struct Occluder {
 };
 
 bool stopsFromBehind(const Material& material) {
-  // A light source stops rays to other sources from both sides, whatever -bv says.
-  return std::holds_alternative<Light>(material) || std::holds_alternative<Glow>(material) ||
-         std::holds_alternative<Spotlight>(material);
+  // A light source stops rays to other sources from both sides, whatever -bv says; so do materials with
+  // functions.
+  if (const auto* brtd = std::get_if<BrtdFunction>(&material)) return !brtd->transmits;
+  if (const auto* wgmd = std::get_if<WgmdFunction>(&material)) return !wgmd->transmits;
+  return std::holds_alternative<Anisotropic>(material) || std::holds_alternative<Ashikhmin>(material) ||
+         std::holds_alternative<FunctionScatterer>(material) || std::holds_alternative<Light>(material) ||
+         std::holds_alternative<Glow>(material) || std::holds_alternative<Spotlight>(material);
 }
 
 bool stopsFromFront(const Material& material) {

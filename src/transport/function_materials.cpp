@@ -4,6 +4,12 @@
 #include "transport/ray_functions.h"
 
 namespace rsphere {
+namespace {
+
+constexpr int kMostTries =
+    10;  // for a sample of ashik2 that does not lie under the surface; RADIANCE's own figure
+
+}  // namespace
 
 // Whether the ray goes on through a back that isn't to be seen (-bv).
 bool PathTracer::passesBack(Ray& ray) {
@@ -59,8 +65,14 @@ bool PathTracer::shadeMaterial(Ray& ray, const Ashikhmin& material, int32_t behi
   const V3d along = t_.functions().orientation(material.functions, functionPoint(ray), functionScratch_);
   const AshikhminScattering s = scatter(material, at, along, t_.options().specularThreshold);
   if (s.sampled)
-    sampleLobe(ray, kReflectedSpecular, s.share,
-               [&](double u1, double u2, V3d& d) { return sampleReflection(s, at, u1, u2, d); });
+    sampleLobe(ray, kReflectedSpecular, s.share, [&](double u1, double u2, V3d& d) {
+      for (int tries = 0; tries < kMostTries; ++tries) {
+        if (sampleReflection(s, at, u1, u2, d)) return 1;
+        u1 = random_.uniform();
+        u2 = random_.uniform();
+      }
+      return 0;
+    });
   addIndirect(ray, s.reflection.normal, at, kReflectedAmbient, s.reflection.ambient);
   addDirect(ray, [&](const V3d& toSource, double solidAngle) {
     return directCoefficient(s, at.direction, toSource, solidAngle);
@@ -135,8 +147,8 @@ FunctionPoint PathTracer::functionPoint(const Ray& ray, const Interaction& at) c
 }
 
 bool PathTracer::shadeMaterial(Ray& ray, const WgmdFunction& material, int32_t behind) {
-  if (passesBack(ray)) return true;
   if ((ray.kinds & kShadow) && !material.transmits) return true;
+  if (passesBack(ray)) return true;
   const SurfaceFunctions& functions = t_.functions();
   const int32_t f = material.functions;
   const Interaction own = component(ray, behind, {});
