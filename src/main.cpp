@@ -20,14 +20,18 @@
 namespace rsphere {
 namespace {
 
-// Rays in, what rtrace answers out.
+// Rays in, what rtrace answers out, with their trees (-ot).
 AnswerRecord answerRays(const Transport& transport, const Options& options, const AnswerWriter& writer) {
   auto tracers = std::make_shared<std::vector<PathTracer>>(threadCount(options), PathTracer(transport));
-  const bool value = needsValue(options.outputs);
-  return [&, tracers, value](const Record& record, unsigned worker, std::string& bytes) {
+  const bool trees = !options.treeOutputs.empty(), value = trees || needsValue(options.outputs);
+  return [&, tracers, trees, value](const Record& record, unsigned worker, std::string& bytes) {
     const InputRay in = inputRay(record.numbers.data(), options.irradiance);
     if (record.bogus) return writer.write(bytes, bogusAnswer(in), record.index);
     PathTracer& tracer = (*tracers)[worker];
+    const auto writeBranch = [&](const Ray& ray) {
+      writer.writeBranch(bytes, branchAnswer(transport, ray), ray.depth);
+    };
+    if (trees) tracer.observe(writeBranch, options.treeShadows);
     const double farthest = options.limitDistance ? in.length : 0;
     const Ray ray = value ? tracer.trace(in.origin, in.direction, farthest, seedOf(record.numbers))
                           : tracer.cast(in.origin, in.direction, farthest);
@@ -88,6 +92,7 @@ int main(int argc, char** argv) {
     StopSignals signals(program);
     const Options options = parseOptions(argc, argv);
     messages.use(options);
+    signals.reportTo(messages.descriptor());
     if (options.request != Request::answers) return printRequest(options, messages);
     answer(options, messages, signals);
     return 0;

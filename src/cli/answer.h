@@ -26,8 +26,9 @@ struct RayAnswer {
   V3d normal{0, 0, 0};                        // n  perturbed, facing the ray
   V3d unperturbedNormal{0, 0, 0};             // N  as the surface has it
   std::string_view surface = "*", modifier = "*", material = "*";  // s m M
-  Rgb weight{1, 1, 1};    // w (one number, its brightness) and W (contribution of the ray)
-  double solidAngle = 0;  // w under -Sd, sr
+  double rayWeight = 1;                                            // w
+  Rgb contribution{1, 1, 1};  // W  share of its value in that of the primary ray; times value: V
+  double solidAngle = 0;      // w under -Sd, sr
 };
 
 // What is known of one point, for the -o letters of sphere mode. With F the integral of radiance over 4 pi
@@ -41,7 +42,7 @@ struct PointAnswer {
   Rgb facing[6] = {};                  // H  irradiances of the six faces, +x -x +y -y +z -z
   V3d lightVector{0, 0, 0};            // u  integral of L d, of brightness
   size_t directions = 0;               // k
-  bool reached = true;                // whether the standard error that -Sa asks for was reached
+  bool reached = true;                 // whether the standard error that -Sa asks for was reached
 };
 
 }  // namespace rsphere

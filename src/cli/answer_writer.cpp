@@ -1,5 +1,6 @@
 #include "cli/answer_writer.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cli/records.h"
@@ -10,29 +11,79 @@ namespace {
 // Scene units; rtrace starts there so as to be clear of the surface that a sensor lies on.
 constexpr double kSensorHeight = 1.1e-4;
 
+// One letter of a ray's record.
+void writeLetter(RecordText& text, char letter, const RayAnswer& answer, const OutputColors& colors) {
+  switch (letter) {
+    case 'o':
+      return text.vector(answer.origin);
+    case 'd':
+      return text.vector(answer.direction);
+    case 'v':
+      return colors.write(text, answer.value);
+    case 'V':
+      return colors.write(text, answer.value * answer.contribution);
+    case 'r':
+      return colors.write(text, answer.mirroredContribution);
+    case 'x':
+      return colors.write(text, answer.unmirroredContribution);
+    case 'R':
+      return text.number(answer.mirroredLength);
+    case 'X':
+      return text.number(answer.unmirroredLength);
+    case 'l':
+      return text.number(answer.effectiveLength);
+    case 'L':
+      return text.number(answer.firstLength);
+    case 'c':
+      text.number(answer.u);
+      return text.number(answer.v);
+    case 'p':
+      return text.vector(answer.point);
+    case 'n':
+      return text.vector(answer.normal);
+    case 'N':
+      return text.vector(answer.unperturbedNormal);
+    case 's':
+      return text.name(answer.surface);
+    case 'm':
+      return text.name(answer.modifier);
+    case 'M':
+      return text.name(answer.material);
+    case 'w':
+      return text.number(answer.rayWeight);
+    case 'W':
+      return colors.writeCoefficient(text, answer.contribution);
+    case '~':
+      return text.name("~");
+  }
+}
+
 }  // namespace
 
 int componentCount(const Options& options) {
+  const int color = OutputColors(options.color).count();
   int count = 0;
   for (const char letter : options.outputs) switch (letter) {
-      case 'o':
-      case 'd':
       case 'v':
       case 'V':
       case 'r':
       case 'x':
-      case 'p':
-      case 'n':
-      case 'N':
       case 'W':
       case 'e':
       case 'E':
       case 'C':
+        count += color;
+        break;
+      case 'o':
+      case 'd':
+      case 'p':
+      case 'n':
+      case 'N':
       case 'u':
         count += 3;
         break;
       case 'H':
-        count += 18;
+        count += 6 * color;
         break;
       case 'c':
         count += 2;
@@ -47,73 +98,29 @@ int componentCount(const Options& options) {
 }
 
 void AnswerWriter::write(std::string& bytes, const RayAnswer& answer, uint64_t record) const {
+  if (options_.outputs.empty()) return;  // -ot alone: nothing but the trees
   RecordText text(bytes, options_.out);
-  for (const char letter : options_.outputs) switch (letter) {
-      case 'i':
-        text.integer(record);
-        break;
-      case 'o':
-        text.vector(answer.origin);
-        break;
-      case 'd':
-        text.vector(answer.direction);
-        break;
-      case 'v':
-        text.color(answer.value);
-        break;
-      case 'V':
-        text.color(answer.value * answer.weight);
-        break;
-      case 'r':
-        text.color(answer.mirroredContribution);
-        break;
-      case 'x':
-        text.color(answer.unmirroredContribution);
-        break;
-      case 'R':
-        text.number(answer.mirroredLength);
-        break;
-      case 'X':
-        text.number(answer.unmirroredLength);
-        break;
-      case 'l':
-        text.number(answer.effectiveLength);
-        break;
-      case 'L':
-        text.number(answer.firstLength);
-        break;
-      case 'c':
-        text.number(answer.u);
-        text.number(answer.v);
-        break;
-      case 'p':
-        text.vector(answer.point);
-        break;
-      case 'n':
-        text.vector(answer.normal);
-        break;
-      case 'N':
-        text.vector(answer.unperturbedNormal);
-        break;
-      case 's':
-        text.name(answer.surface);
-        break;
-      case 'm':
-        text.name(answer.modifier);
-        break;
-      case 'M':
-        text.name(answer.material);
-        break;
-      case 'w':
-        text.number(options_.sphere.on ? answer.solidAngle : brightness(answer.weight));
-        break;
-      case 'W':
-        text.color(answer.weight);
-        break;
-      case '~':
-        text.name("~");
-        break;
-    }
+  for (const char letter : options_.outputs) {
+    if (letter == 'i')
+      text.integer(record);
+    else if (letter == 'w' && options_.sphere.on)
+      text.number(answer.solidAngle);
+    else
+      writeLetter(text, letter, answer, colors_);
+  }
+  text.end();
+}
+
+void AnswerWriter::writeBranch(std::string& bytes, const RayAnswer& answer, int ancestors) const {
+  const auto named = [&](const std::vector<std::string>& list) {
+    return std::find(list.begin(), list.end(), answer.modifier) != list.end();
+  };
+  const bool hit = answer.surface != "*";
+  if (!options_.treeIncluded.empty() && !(hit && named(options_.treeIncluded))) return;
+  if (hit && named(options_.treeExcluded)) return;
+  bytes.append(static_cast<size_t>(ancestors), '\t');
+  RecordText text(bytes, options_.out);
+  for (const char letter : options_.treeOutputs) writeLetter(text, letter, answer, colors_);
   text.end();
 }
 
@@ -124,19 +131,19 @@ void AnswerWriter::write(std::string& bytes, const PointAnswer& answer) const {
         text.vector(answer.point);
         break;
       case 'v':
-        text.color(answer.mean);
+        colors_.write(text, answer.mean);
         break;
       case 'e':
-        text.color(answer.standardError);
+        colors_.write(text, answer.standardError);
         break;
       case 'E':
-        text.color(answer.scalarIrradiance);
+        colors_.write(text, answer.scalarIrradiance);
         break;
       case 'C':
-        text.color(answer.cylindricalIrradiance);
+        colors_.write(text, answer.cylindricalIrradiance);
         break;
       case 'H':
-        for (const Rgb& face : answer.facing) text.color(face);
+        for (const Rgb& face : answer.facing) colors_.write(text, face);
         break;
       case 'u':
         text.vector(answer.lightVector);
@@ -157,6 +164,10 @@ namespace {
 double makeUnit(const V3d& vector, V3d& unit) {
   const double square = std::fma(vector.z, vector.z, std::fma(vector.x, vector.x, vector.y * vector.y));
   if (square == 0) return 0;
+  if (!std::isfinite(square)) {
+    const double largest = std::max({std::fabs(vector.x), std::fabs(vector.y), std::fabs(vector.z)});
+    return largest * makeUnit(vector / largest, unit);
+  }
   constexpr double kNearlyUnit = 1e-6;
   const bool nearly = square <= 1 + kNearlyUnit && square >= 1 - kNearlyUnit;
   const double length = nearly ? .5 + .5 * square : std::sqrt(square);

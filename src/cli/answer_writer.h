@@ -4,6 +4,7 @@
 
 #include "cli/answer.h"
 #include "cli/options.h"
+#include "cli/output_colors.h"
 
 namespace rsphere {
 
@@ -15,17 +16,21 @@ int componentCount(const Options& options);
 // REQUIRES options from parseOptions(), alive as long as this is.
 class AnswerWriter {
  public:
-  explicit AnswerWriter(const Options& options) : options_(options) {}
+  explicit AnswerWriter(const Options& options) : options_(options), colors_(options.color) {}
 
   // One ray, in ray mode and under -Sd, where `record` is the number of the point's record, from 0 (letter
   // i).
   void write(std::string& bytes, const RayAnswer& answer, uint64_t record = 0) const;
+
+  // One ray of a tree (-ot), behind a TAB for each of its ancestors, unless -te or -ti leaves it out.
+  void writeBranch(std::string& bytes, const RayAnswer& answer, int ancestors) const;
 
   // One point, in sphere mode.
   void write(std::string& bytes, const PointAnswer& answer) const;
 
  private:
   const Options& options_;
+  OutputColors colors_;
 };
 
 // The ray that rtrace traces for the six numbers of an input record: direction made a unit vector; under -I

@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "cli/answer_writer.h"
+#include "cli/output_colors.h"
 #include "cli/version.h"
 
 namespace rsphere {
@@ -31,7 +32,7 @@ std::string dateText(const std::tm& date) {
 
 }  // namespace
 
-std::string_view formatName(NumberFormat format) {
+std::string_view formatName(NumberFormat format, const ColorOptions& color) {
   switch (format) {
     case NumberFormat::ascii:
       return "ascii";
@@ -40,7 +41,7 @@ std::string_view formatName(NumberFormat format) {
     case NumberFormat::float64:
       return "double";
     case NumberFormat::rgbe:
-      return "32-bit_rle_rgbe";
+      return OutputColors(color).pixelFormat();
   }
   return "unknown";
 }
@@ -66,12 +67,14 @@ void writeHeader(RecordWriter& writer, const Options& options, std::span<const s
     std::tm date{};
     if (localtime_r(&now, &date) != nullptr) text += fmt::format("CAPDATE= {}\n", dateText(date));
     if (gmtime_r(&now, &date) != nullptr) text += fmt::format("GMT= {}\n", dateText(date));
-    text += fmt::format("NCOMP={}\n", componentCount(options));
+    if (options.treeOutputs.empty() && !options.outputs.empty())
+      text += fmt::format("NCOMP={}\n", componentCount(options));
+    text += OutputColors(options.color).headerLines();
     size_t alignment = 1;
     if (options.out == NumberFormat::float32) alignment = sizeof(float);
     if (options.out == NumberFormat::float64) alignment = sizeof(double);
     if (alignment > 1) text += fmt::format("BigEndian={}\n", std::endian::native == std::endian::big ? 1 : 0);
-    text += fmt::format("FORMAT={}", formatName(options.out));
+    text += fmt::format("FORMAT={}", formatName(options.out, options.color));
     constexpr size_t kLineEnds = 2;  // of this line and of the empty one
     if (const auto start = writer.position(); start && alignment > 1)
       while ((static_cast<size_t>(*start) + text.size() + kLineEnds) % alignment != 0) text += ' ';

@@ -16,8 +16,8 @@ std::string versionLine();
 // end; the scene only where asked for.
 std::string commandLine(const Options& options, bool withScene);
 
-// The name that FORMAT= and -help give a format: "ascii", "float", "double", "32-bit_rle_rgbe".
-std::string_view formatName(NumberFormat format);
+// The name that FORMAT= and -help give a format: "ascii", "float", "double", or that of the colors' pixels.
+std::string_view formatName(NumberFormat format, const ColorOptions& color);
 
 // Writes the information header that rtrace writes before its records, unless switched off (-h-), and then
 // the resolution line where -x and -y are both given, header or not:
@@ -26,7 +26,8 @@ std::string_view formatName(NumberFormat format);
 //   - the command line; the octree is left out, as rtrace does: its header names it. Scene text has no
 //   header, so its
 //     names are kept
-//   - SOFTWARE=, CAPDATE= (local), GMT=, NCOMP=, BigEndian= for floats and doubles, FORMAT=, an empty line
+//   - SOFTWARE=, CAPDATE= (local), GMT=, NCOMP= (not for trees), WAVELENGTH_SPLITS= or PRIMARIES= for what is
+//   not RGB, BigEndian= for floats and doubles, FORMAT=, an empty line
 // The FORMAT line of floats or doubles is padded with blanks so that the records are aligned, if the output
 // can seek. Source: RADIANCE file formats, "Information header"; rtrace(1).
 void writeHeader(RecordWriter& writer, const Options& options, std::span<const std::string> sceneHeader,

@@ -12,6 +12,7 @@
 
 #include "cli/option_table.h"
 #include "cli/option_words.h"
+#include "cli/output_colors.h"
 #include "rad_parser/error.h"
 #include "rad_parser/number.h"
 
@@ -74,7 +75,9 @@ class Words {
 
   static std::vector<std::string> fromEnvironment(const std::string& name) {
     const char* text = std::getenv(name.c_str() + 1);
-    if (text == nullptr) throw rad::Error(fmt::format("cannot expand '{}'", name), rad::Status::system);
+    if (text == nullptr)
+      throw rad::Error(fmt::format("cannot expand '{}': {}", name, std::strerror(ENOENT)),
+                       rad::Status::system);
     std::istringstream in{std::string(text)};
     return splitWords(in);
   }
@@ -97,7 +100,7 @@ const OptionEntry* findOption(std::string_view word) {
       return &entry;
   const OptionEntry* found = nullptr;
   for (const OptionEntry& entry : table)
-    if (entry.glued && startsWith(word, entry.name) &&
+    if ((entry.glued || entry.alsoGlued) && startsWith(word, entry.name) &&
         (found == nullptr || found->name.size() < entry.name.size()))
       found = &entry;
   return found;
@@ -161,27 +164,51 @@ void apply(const Use& use, Options& options) {
   std::visit(Set{use, entry, options}, entry.value);
 }
 
+// Ray mode: t or T ends the letters of the record and begins those of its tree, anew each time. At the end it
+// does nothing.
+void splitTree(Options& options) {
+  std::string letters = options.outputs;
+  if (options.sphere.on || letters.find_first_of("tT") == std::string::npos) return;
+  options.treeShadows = letters.find('T') != std::string::npos;
+  if (letters.back() == 't' || letters.back() == 'T') letters.pop_back();
+  options.outputs = letters.substr(0, letters.find_first_of("tT"));
+  if (const size_t tree = letters.find_last_of("tT"); tree != std::string::npos)
+    options.treeOutputs = letters.substr(tree + 1);
+}
+
 // -o letters of one mode.
 void checkLetters(const Options& options) {
   const bool points = options.sphere.on && !options.sphere.everyDirection;
   const std::string_view known = !options.sphere.on ? "odvVwWlLcpnNsmMrRxX~"
                                  : points           ? "oveECHuk"
                                                     : "iodwvlLcpnNsmM~";
-  for (size_t i = 0; i < options.outputs.size(); ++i) {
-    const char letter = options.outputs[i];
+  for (const char letter : options.outputs + options.treeOutputs) {
     if (known.find(letter) != std::string_view::npos) continue;
-    if (!options.sphere.on && (letter == 't' || letter == 'T'))
-      throw rad::Error("option '-o' is not supported with t or T: ray trees are not kept");
     const std::string_view hint = options.sphere.on ? " (sphere mode)" : "";
     throw rad::Error(fmt::format("unrecognized output option '{}'{}", letter, hint));
   }
   const std::string_view colors = points ? "veEC" : options.sphere.on ? "v" : "vrx";
-  if (options.out == NumberFormat::rgbe &&
-      (options.outputs.size() != 1 || colors.find(options.outputs[0]) == std::string_view::npos)) {
+  if (options.out == NumberFormat::rgbe && (options.outputs.size() != 1 || !options.treeOutputs.empty() ||
+                                            colors.find(options.outputs[0]) == std::string_view::npos)) {
     std::string list;
     for (const char letter : colors) list += fmt::format("{}-o{}", list.empty() ? "" : ", ", letter);
     throw rad::Error(fmt::format("color format only with {}", list));
   }
+}
+
+// What rtrace says about colors.
+void checkColorOutput(Options& options) {
+  ColorOptions& color = options.color;
+  if (color.space == ColorSpace::spectrum && color.bands == 3) color.space = ColorSpace::rgb;
+  checkColors(color);
+  const bool oneChannel = color.space >= ColorSpace::photopic && color.space <= ColorSpace::average;
+  if (!spectrumHoldsChannels(color) && !oneChannel && color.space != ColorSpace::spectrum)
+    options.remarks.push_back("spectral range incompatible with color output");
+  if (options.out == NumberFormat::rgbe && oneChannel)
+    throw rad::Error("color format incompatible with -pY, -pS, -pM");
+  if (options.sphere.on && !options.sphere.everyDirection && color.space != ColorSpace::rgb &&
+      options.outputs.find('e') != std::string::npos)
+    throw rad::Error("-oe needs -pRGB: standard errors are those of red, green and blue");
 }
 
 // What rtrace says about irradiance and the letters of a ray.
@@ -197,7 +224,8 @@ void checkIrradiance(Options& options) {
       throw rad::Error(
           fmt::format("{} needs ray mode (-S-); in sphere mode -oE, -oC and -oH give irradiances",
                       options.irradianceAtPoint ? "-I" : "-i"));
-    if (!uses("vVrRxXlnW")) throw rad::Error("-I+ and -i+ options require some value output");
+    if (options.treeOutputs.empty() && !uses("vVrRxXlnW"))
+      throw rad::Error("-I+ and -i+ options require some value output");
   }
   for (const char letter : options.outputs) {
     if (options.sphere.on) break;
@@ -258,7 +286,8 @@ Options parseOptions(std::span<const std::string> given) {
     const OptionEntry* entry = findOption(word);
     if (entry == nullptr) commandLineError(word);
     Use use{entry, word.substr(entry->name.size()), {}};
-    for (int i = 0; i < arity(*entry); ++i) {
+    if (entry->alsoGlued && !use.rest.empty()) use.words.push_back(use.rest);
+    while (use.words.size() < static_cast<size_t>(arity(*entry))) {
       if (words.atEnd() || !isWord(words.word())) commandLineError(word);
       use.words.push_back(words.take());
     }
@@ -281,7 +310,9 @@ Options parseOptions(std::span<const std::string> given) {
     }
     if (options.scene.empty()) throw rad::Error("missing octree argument");
   }
+  splitTree(options);
   checkLetters(options);
+  if (request == Request::answers) checkColorOutput(options);
   checkIrradiance(options);
   checkTogether(options, mostGiven);
   return options;

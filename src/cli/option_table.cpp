@@ -11,6 +11,7 @@
 #include <iterator>
 
 #include "cli/option_words.h"
+#include "cli/output_colors.h"
 #include "rad_parser/error.h"
 #include "rad_parser/file_path.h"
 #include "rad_parser/number.h"
@@ -30,20 +31,22 @@ std::vector<std::string> modifierFile(const OptionEntry& entry, const std::strin
   std::ifstream file(path.value_or(name));
   if (!path || !file)
     throw rad::Error(
-        fmt::format("cannot open ambient {} file \"{}\": {}", entry.name == "-aE" ? "exclude" : "include",
-                    name, std::strerror(path ? errno : ENOENT)),
+        fmt::format("cannot open {} {} file \"{}\": {}", entry.name[1] == 'a' ? "ambient" : "trace",
+                    entry.name[2] == 'E' ? "exclude" : "include", name, std::strerror(path ? errno : ENOENT)),
         rad::Status::system);
   return {std::istream_iterator<std::string>(file), {}};
 }
 
-// -ae and -aE name modifiers without indirect light, -ai and -aI the only ones with it: the last kind given
-// counts.
-void setAmbientModifiers(Options& options, const OptionEntry& entry, std::span<const std::string> words,
-                         std::string_view) {
-  const bool exclude = entry.name == "-ae" || entry.name == "-aE";
-  auto& list = exclude ? options.ray.ambientExcluded : options.ray.ambientIncluded;
-  (exclude ? options.ray.ambientIncluded : options.ray.ambientExcluded).clear();
-  if (entry.name == "-ae" || entry.name == "-ai") {
+// -ae and -aE name modifiers without indirect light, -ai and -aI the only ones with it; -te.. those in ray
+// trees: the last kind given counts.
+void setModifiers(Options& options, const OptionEntry& entry, std::span<const std::string> words,
+                  std::string_view) {
+  const bool ambient = entry.name[1] == 'a', exclude = entry.name[2] == 'e' || entry.name[2] == 'E';
+  auto& excluded = ambient ? options.ray.ambientExcluded : options.treeExcluded;
+  auto& included = ambient ? options.ray.ambientIncluded : options.treeIncluded;
+  auto& list = exclude ? excluded : included;
+  (exclude ? included : excluded).clear();
+  if (entry.name[2] == 'e' || entry.name[2] == 'i') {
     list.push_back(words[0]);
   } else {
     const auto more = modifierFile(entry, words[0]);
@@ -97,47 +100,125 @@ void setRotation(Options& options, const OptionEntry& entry, std::span<const std
 }
 
 // -e takes an expression where its word has '=' or ':', as rtrace tells them apart.
-void setErrorFile(Options& options, const OptionEntry& entry, std::span<const std::string> words,
+void setErrorFile(Options& options, const OptionEntry&, std::span<const std::string> words,
                   std::string_view) {
   if (words[0].find_first_of("=:") != std::string::npos)
-    throw rad::Error(
-        fmt::format("option '{} {}' is not supported: definitions belong in a function file of the scene",
-                    entry.name, words[0]));
-  options.errorFile = words[0];
+    options.ray.definitions.push_back({false, words[0]});
+  else
+    options.errorFile = words[0];
+}
+
+void setFunctionFile(Options& options, const OptionEntry&, std::span<const std::string> words,
+                     std::string_view) {
+  options.ray.definitions.push_back({true, words[0]});
 }
 
 void ignore(Options&, const OptionEntry&, std::span<const std::string>, std::string_view) {}
 
-void ignoreSwitch(Options&, const OptionEntry& entry, std::span<const std::string>, std::string_view rest) {
-  if (!switched(rest, false)) commandLineError(fmt::format("{}{}", entry.name, rest));
+struct NamedSpace {
+  std::string_view name;
+  ColorSpace space;
+  std::string_view remark, paragraph;
+};
+constexpr std::array<NamedSpace, 6> kSpaces = {{
+    {"-pRGB", ColorSpace::rgb, "standard RGB color output",
+     "Colors as red, green and blue of RADIANCE's standard primaries."},
+    {"-pXYZ", ColorSpace::xyz, "CIE XYZ color output",
+     "Colors as CIE X, Y and Z, times 179 lm/W: Y is luminance or illuminance."},
+    {"-pY", ColorSpace::photopic, "photopic output",
+     "One number for each color, its luminance: 179 lm/W times .265 red + .670 green + .065 blue."},
+    {"-pS", ColorSpace::scotopic, "scotopic output",
+     "One number for each color, for night vision (412 lm/W): red stands for all wavelengths from 588 nm up, "
+     "green for those from 480 nm, blue for those below."},
+    {"-pM", ColorSpace::melanopic, "melanopic output",
+     "One number for each color, for the melanopic response (179 lm/W), with the channels as for -pS."},
+    {"-pA", ColorSpace::average, "radiometric average output",
+     "One number for each color: the mean of its channels."},
+}};
+
+void setColorSpace(Options& options, const OptionEntry& entry, std::span<const std::string>,
+                   std::string_view) {
+  for (const NamedSpace& s : kSpaces)
+    if (s.name == entry.name) options.color.space = s.space;
+}
+
+void setPrimaries(Options& options, const OptionEntry& entry, std::span<const std::string> words,
+                  std::string_view) {
+  for (size_t i = 0; i < words.size(); ++i) {
+    const auto x = rad::parseReal(words[i]);
+    if (!x) commandLineError(entry.name);
+    options.color.primaries[i] = *x;
+  }
+  options.color.space = areStandard(options.color.primaries) ? ColorSpace::rgb : ColorSpace::primaries;
+}
+
+void setSpectralOutput(Options& options, const OptionEntry& entry, std::span<const std::string>,
+                       std::string_view rest) {
+  const bool before = options.color.space == ColorSpace::spectrum;
+  const auto on = switched(rest, before);
+  if (!on) commandLineError(fmt::format("{}{}", entry.name, rest));
+  if (*on != before) options.color.space = *on ? ColorSpace::spectrum : ColorSpace::rgb;
+}
+
+void setBands(Options& options, const OptionEntry& entry, std::span<const std::string> words,
+              std::string_view) {
+  const auto n = rad::parseInteger(words[0]);
+  if (!n) commandLineError(entry.name);
+  options.color.bands = static_cast<int>(std::clamp<int64_t>(*n, 0, kMostBands));
+}
+
+void setWavelengths(Options& options, const OptionEntry& entry, std::span<const std::string> words,
+                    std::string_view) {
+  const auto a = rad::parseReal(words[0]), b = rad::parseReal(words[1]);
+  if (!a || !b) commandLineError(entry.name);
+  options.color.shortest = std::min(*a, *b);
+  options.color.longest = std::max(*a, *b);
 }
 
 bool allZero(std::span<const std::string> words) {
   return std::all_of(words.begin(), words.end(), [](const std::string& w) { return rad::parseReal(w) == 0; });
 }
 
-bool threeBands(std::span<const std::string> words) { return rad::parseInteger(words[0]) == 3; }
-
-bool visibleRange(std::span<const std::string> words) {
-  const auto a = rad::parseReal(words[0]), b = rad::parseReal(words[1]);
-  return a && b && std::min(*a, *b) == 380 && std::max(*a, *b) == 780;
-}
-
-// The primaries and white point that RADIANCE calls standard.
-bool standardPrimaries(std::span<const std::string> words) {
-  constexpr std::array<double, 8> kStandard = {.640, .330, .290, .600, .150, .060, 1 / 3., 1 / 3.};
-  for (size_t i = 0; i < kStandard.size(); ++i) {
-    const auto x = rad::parseReal(words[i]);
-    if (!x || std::fabs(*x - kStandard[i]) > .001) return false;
-  }
-  return true;
-}
-
 std::string formatLine(const Options& o) {
   return fmt::format("-f{}{}\t\t\t\t", static_cast<char>(o.in), static_cast<char>(o.out));
 }
 
-std::string outputsLine(const Options& o) { return fmt::format("-o{:<9}\t\t\t", o.outputs); }
+std::string outputsLine(const Options& o) {
+  const std::string_view tree = o.treeShadows ? "T" : o.treeOutputs.empty() ? "" : "t";
+  return fmt::format("-o{:<9}\t\t\t", fmt::format("{}{}{}", o.outputs, tree, o.treeOutputs));
+}
+
+// Of the options that choose the color space, -defaults prints the one that did.
+template <size_t I>
+std::string spaceLine(const Options& o) {
+  return o.color.space == kSpaces[I].space ? fmt::format("{}\t\t\t\t", kSpaces[I].name) : "";
+}
+constexpr std::array<std::string (*)(const Options&), kSpaces.size()> kSpaceLines = {
+    spaceLine<0>, spaceLine<1>, spaceLine<2>, spaceLine<3>, spaceLine<4>, spaceLine<5>};
+
+std::string primariesLine(const Options& o) {
+  if (o.color.space != ColorSpace::primaries) return "";
+  std::string line = "-pc";
+  for (const double x : o.color.primaries) line += fmt::format(" {:.4f}", x);
+  return line + '\t';
+}
+
+bool printsSpectrum(const Options& o) {
+  return o.color.bands > 3 && (o.color.space < ColorSpace::photopic || o.color.space > ColorSpace::average);
+}
+
+std::string spectralLine(const Options& o) {
+  if (!printsSpectrum(o)) return "";
+  return o.color.space == ColorSpace::spectrum ? "-co+\t\t\t\t" : "-co-\t\t\t\t";
+}
+
+std::string bandsLine(const Options& o) {
+  return o.color.bands > 3 ? fmt::format("-cs {:<2}\t\t\t\t", o.color.bands) : "";
+}
+
+std::string wavelengthsLine(const Options& o) {
+  return o.color.bands > 3 ? fmt::format("-cw {:3.0f} {:3.0f}\t\t\t", o.color.shortest, o.color.longest) : "";
+}
 
 std::string immediateLine(const Options& o) { return o.irradianceAtPoint ? "-I+\t\t\t\t" : ""; }
 
@@ -149,7 +230,6 @@ std::string weightsLine(const Options& o) {
 std::vector<OptionEntry> makeTable() {
   using O = Options;
   constexpr std::string_view kPhotons = "photon maps are not read; -ab N -aa 0 computes indirect light";
-  constexpr std::string_view kSpectra = "colors have three channels; rcalc or rmtxop can convert them";
   constexpr std::string_view kPersist = "a program that waits is kept with a pipe and -x 1";
   std::vector<OptionEntry> table;
   const auto add = [&table](OptionEntry entry) { table.push_back(entry); };
@@ -228,35 +308,40 @@ std::vector<OptionEntry> makeTable() {
        .value = Custom{setOutputs},
        .remark = "output",
        .paragraph =
-           "What a record of output has, in the order of the letters in spec; see OUTPUT below. No blank "
-           "precedes spec.",
+           "What a record of output has, in the order of the letters in spec; see OUTPUT below. In ray mode, "
+           "the "
+           "letters behind a t are for all rays on the way: reflected, transmitted and indirect ones, and "
+           "shadow "
+           "rays where they go through something; behind a T, all shadow rays. Each comes before its parent, "
+           "indented by a TAB for each of its ancestors. No blank precedes spec.",
        .glued = true,
        .line = outputsLine});
-  add({.name = "-pRGB",
-       .group = Group::color,
-       .value = Custom{ignore},
-       .remark = "standard RGB color output",
-       .paragraph = "Colors as red, green and blue of RADIANCE's standard primaries.",
-       .support = Support::unused,
-       .line = +[](const O&) { return std::string("-pRGB\t\t\t\t"); }});
-  for (const std::string_view name : {"-pXYZ", "-pY", "-pS", "-pM", "-pA"})
-    add({.name = name,
+  for (size_t i = 0; i < kSpaces.size(); ++i)
+    add({.name = kSpaces[i].name,
          .group = Group::color,
-         .value = Custom{ignore},
-         .remark = "another color space",
-         .paragraph = "Colors in another space.",
-         .support = Support::refused,
-         .reason = kSpectra});
+         .value = Custom{setColorSpace},
+         .remark = kSpaces[i].remark,
+         .paragraph = kSpaces[i].paragraph,
+         .line = kSpaceLines[i]});
   add({.name = "-pc",
        .arguments = "xr yr xg yg xb yb xw yw",
        .group = Group::color,
-       .value = Custom{ignore},
-       .range = kFraction,
-       .remark = "output primaries and white point",
-       .paragraph = "Colors for other primaries. The standard ones are accepted.",
-       .support = Support::refused,
-       .reason = kSpectra,
-       .harmless = standardPrimaries});
+       .value = Custom{setPrimaries},
+       .range = {-2, 3},
+       .remark = "output color primaries and white point",
+       .paragraph =
+           "Colors as red, green and blue of these primaries (CIE x and y), with the white point adapted.",
+       .line = primariesLine});
+  add({.name = "-co",
+       .group = Group::color,
+       .value = Custom{setSpectralOutput},
+       .remark = "output spectral values",
+       .paragraph =
+           "Switch for spectra: a color is as many numbers as -cs has bands, from the longest wavelength to "
+           "the shortest. Scenes have three channels; each band has the value of the one it is in (see "
+           "-pS). Three bands are no spectrum, and red, green and blue are written.",
+       .glued = true,
+       .line = spectralLine});
   add({.name = "-i",
        .group = Group::records,
        .value = +[](O& o) -> bool& { return o.irradianceAtHit; },
@@ -460,6 +545,26 @@ std::vector<OptionEntry> makeTable() {
        .remark = "mist sampling distance",
        .paragraph = "Distance of samples in a medium. Changes nothing without -me.",
        .support = Support::unused});
+  add({.name = "-cs",
+       .arguments = "Ns",
+       .group = Group::color,
+       .value = Custom{setBands},
+       .range = {3, kMostBands},
+       .unit = "bands",
+       .remark = "number of spectral bins",
+       .paragraph = "Bands of spectral output, at most 24; see -co. Other output stays as it is with three: "
+                    "what rtrace "
+                    "changes by turning red, green and blue into a spectrum and back is not imitated.",
+       .line = bandsLine});
+  add({.name = "-cw",
+       .arguments = "nmA nmB",
+       .group = Group::color,
+       .value = Custom{setWavelengths},
+       .range = kNotNegative,
+       .unit = "nm",
+       .remark = "wavelength limits (nm)",
+       .paragraph = "Limits of the spectrum, at least 50 nm apart: 380 and 780 unless told otherwise.",
+       .line = wavelengthsLine});
   add({.name = "-lr",
        .arguments = "N",
        .group = Group::limits,
@@ -526,7 +631,7 @@ std::vector<OptionEntry> makeTable() {
   add({.name = "-ae",
        .arguments = "mod",
        .group = Group::indirect,
-       .value = Custom{setAmbientModifiers},
+       .value = Custom{setModifiers},
        .remark = "modifier without indirect light",
        .paragraph =
            "Surfaces with modifier mod get the ambient value instead of computed indirect light. May be "
@@ -534,14 +639,14 @@ std::vector<OptionEntry> makeTable() {
   add({.name = "-aE",
        .arguments = "file",
        .group = Group::indirect,
-       .value = Custom{setAmbientModifiers},
+       .value = Custom{setModifiers},
        .remark = "modifiers without indirect light",
        .paragraph =
            "As -ae, for all modifiers that the file names, between blanks. It is looked for along RAYPATH."});
   add({.name = "-ai",
        .arguments = "mod",
        .group = Group::indirect,
-       .value = Custom{setAmbientModifiers},
+       .value = Custom{setModifiers},
        .remark = "modifier with indirect light",
        .paragraph =
            "Only surfaces with modifier mod, and those of other -ai, get computed indirect light; -ae or -aE "
@@ -549,65 +654,42 @@ std::vector<OptionEntry> makeTable() {
   add({.name = "-aI",
        .arguments = "file",
        .group = Group::indirect,
-       .value = Custom{setAmbientModifiers},
+       .value = Custom{setModifiers},
        .remark = "modifiers with indirect light",
        .paragraph =
            "As -ai, for all modifiers that the file names, between blanks. It is looked for along RAYPATH."});
-  add({.name = "-cs",
-       .arguments = "Ns",
-       .group = Group::color,
-       .value = Custom{ignore},
-       .range = kCount,
-       .unit = "bands",
-       .remark = "spectral bands",
-       .paragraph = "Number of spectral bands. Three are accepted.",
-       .support = Support::refused,
-       .reason = kSpectra,
-       .harmless = threeBands});
-  add({.name = "-cw",
-       .arguments = "nmA nmB",
-       .group = Group::color,
-       .value = Custom{ignore},
-       .range = kNotNegative,
-       .unit = "nm",
-       .remark = "spectral limits",
-       .paragraph = "Limits of the spectrum. 380 and 780 are accepted.",
-       .support = Support::refused,
-       .reason = kSpectra,
-       .harmless = visibleRange});
-  add({.name = "-co",
-       .group = Group::color,
-       .value = Custom{ignoreSwitch},
-       .remark = "spectral output",
-       .paragraph = "Switch for spectra in the output, accepted as in rtrace: three bands are no spectrum, "
-                    "and red, green "
-                    "and blue are written.",
-       .support = Support::unused,
-       .glued = true});
   for (const std::string_view name : {"-te", "-ti"})
     add({.name = name,
          .arguments = "mod",
          .group = Group::trees,
-         .value = Custom{ignore},
-         .remark = "modifier for ray trees",
-         .paragraph = "Accepted as in rtrace; changes nothing without -ot, which is not supported.",
-         .support = Support::unused});
+         .value = Custom{setModifiers},
+         .remark = name == "-te" ? "modifier left out of ray trees" : "modifier in ray trees",
+         .paragraph = name == "-te"
+                          ? "Leave rays that hit a surface with modifier mod out of the trees of -ot and "
+                            "-oT. May be repeated; -ti or -tI after it starts anew. The blank may be "
+                            "left out."
+                          : "Show only rays that hit a surface with modifier mod, or that of another -ti, "
+                            "in the trees of -ot and -oT; -te or -tE after it starts anew.",
+         .alsoGlued = true});
   for (const std::string_view name : {"-tE", "-tI"})
     add({.name = name,
          .arguments = "file",
          .group = Group::trees,
-         .value = Custom{ignore},
-         .remark = "modifiers for ray trees",
-         .paragraph = "Accepted as in rtrace; changes nothing without -ot, which is not supported.",
-         .support = Support::unused});
+         .value = Custom{setModifiers},
+         .remark = name == "-tE" ? "modifiers left out of ray trees" : "modifiers in ray trees",
+         .paragraph = name == "-tE"
+                          ? "As -te, for all modifiers that the file names, between blanks. It is looked for "
+                            "along RAYPATH."
+                          : "As -ti, for all modifiers that the file names, between blanks. It is looked "
+                            "for along RAYPATH."});
   add({.name = "-f",
        .arguments = "source",
        .group = Group::program,
-       .value = Custom{ignore},
+       .value = Custom{setFunctionFile},
        .remark = "function file",
-       .paragraph = "Definitions for all function files.",
-       .support = Support::refused,
-       .reason = "definitions belong in a function file of the scene"});
+       .paragraph = "Take the definitions of the function file source, looked for along RAYPATH, for all "
+                    "function files; "
+                    "they replace those of rayinit.cal."});
   add({.name = "-e",
        .arguments = "file",
        .group = Group::program,
@@ -615,8 +697,9 @@ std::vector<OptionEntry> makeTable() {
        .remark = "error file",
        .paragraph =
            "Append messages to the file instead of writing them to standard error, beginning with the "
-           "process id and the command line. A word with = or : is a definition as in rtrace, and is not "
-           "supported.",
+           "process id and the command line. A word with = or : in it is no file but definitions, as those "
+           "of -f: "
+           "-e 'height=2;x(a):a*height'.",
        .line = +[](const O& o) { return o.errorFile.empty() ? "" : fmt::format("-e {}\t\t", o.errorFile); }});
   for (const std::string_view name : {"-P", "-PP"})
     add({.name = name,
@@ -634,8 +717,10 @@ std::vector<OptionEntry> makeTable() {
        .range = kNotNegative,
        .unit = "s",
        .remark = "progress report interval",
-       .paragraph = "Report about every so many seconds how many records were answered, on standard error. "
-                    "0: never."});
+       .paragraph =
+           "Report about every so many seconds how many records were answered, how many a second and, where "
+           "the end is known (-y, or input from a file), how long the rest will take, on standard error. "
+           "0: never."});
 
   add({.name = "-S",
        .group = Group::sphere,

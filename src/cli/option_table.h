@@ -67,7 +67,8 @@ struct OptionEntry {
   std::string_view reason{};  // why it is refused
   // A refused option is let pass with words that ask for nothing ("-me 0 0 0"). Null: never.
   bool (*harmless)(std::span<const std::string> words) = nullptr;
-  bool glued = false;  // its value follows without a blank: -fio -ospec
+  bool glued = false;      // its value follows without a blank: -fio -ospec
+  bool alsoGlued = false;  // it may: -te mod, -temod
   // The line of -defaults without its remark, where the type alone does not give it; empty: no line.
   std::string (*line)(const Options&) = nullptr;
 };

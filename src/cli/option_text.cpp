@@ -12,6 +12,8 @@ namespace {
 
 std::string_view letterName(char letter, bool sphereRecord) {
   switch (letter) {
+    case 't':
+      return "trace";
     case 'o':
       return sphereRecord ? "point" : "origin";
     case 'd':
@@ -76,14 +78,17 @@ std::string remarkOf(const OptionEntry& entry, const Options& options) {
     Options copy = options;
     return std::string((*value)(copy) ? entry.remark.substr(0, bar) : entry.remark.substr(bar + 1));
   }
+  if (entry.name == "-co" && options.color.space != ColorSpace::spectrum) return "output tristimulus colors";
   if (entry.name == "-x" && options.height != 0 && options.width != 0) return "x resolution";
   if (entry.name == "-lr" && options.ray.reflectionLimit <= 0) return "limit reflection (Russian roulette)";
   if (entry.name == "-f") {
-    return fmt::format("{} = {}/{}", entry.remark, formatName(options.in), formatName(options.out));
+    return fmt::format("{} = {}/{}", entry.remark, formatName(options.in, options.color),
+                       formatName(options.out, options.color));
   }
   if (entry.name == "-o") {
     std::string remark(entry.remark);
-    for (const char letter : options.outputs)
+    const std::string_view tree = options.treeShadows || !options.treeOutputs.empty() ? "t" : "";
+    for (const char letter : fmt::format("{}{}{}", options.outputs, tree, options.treeOutputs))
       if (const auto name = letterName(letter, options.sphere.on && !options.sphere.everyDirection);
           !name.empty())
         remark += fmt::format(" {}", name);

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -8,6 +9,12 @@
 #include "cli/rgb.h"
 
 namespace rsphere {
+
+// -e expression and -f file: definitions for all function files.
+struct SharedDefinitions {
+  bool isFile = false;
+  std::string text;  // the expression, or the name of the file, looked for along RAYPATH
+};
 
 // What steers a ray's path: rtrace's options, under the names rtrace(1) explains. Defaults are rtrace's (ray
 // mode); sphere mode has its own, see modeDefaults() of option_table.h.
@@ -43,8 +50,9 @@ struct RayOptions {
   double mediumEccentricity = 0;  // -mg
   double mediumSampling = 0;      // -ms  unit lengths; 0: whole
   // others
-  bool backFacesVisible = true;  // -bv
-  bool uncorrelated = true;      // -u
+  std::vector<SharedDefinitions> definitions;  // -e -f, in their order
+  bool backFacesVisible = true;                // -bv
+  bool uncorrelated = true;                    // -u
 };
 
 enum class Irradiance : uint8_t { none, surface /* -i */, point /* -I */ };
@@ -69,6 +77,26 @@ struct SphereOptions {
 
 enum class NumberFormat : char { ascii = 'a', float32 = 'f', float64 = 'd', rgbe = 'c' };
 
+enum class ColorSpace : uint8_t {
+  rgb,
+  xyz,        // -pXYZ  tristimulus values, Y in lumens
+  primaries,  // -pc
+  photopic,   // -pY -pS -pM: one channel, in lumens (-pM: as rtrace scales it)
+  scotopic,
+  melanopic,
+  average,  // -pA  one channel
+  spectrum  // -co
+};
+
+// How colors are written.
+struct ColorOptions {
+  ColorSpace space = ColorSpace::rgb;
+  std::array<double, 8> primaries{};     // x y of red, green, blue and white
+  int bands = 3;                         // -cs  at most kMostBands count
+  double shortest = 380, longest = 780;  // -cw  nm
+};
+inline constexpr int kMostBands = 24;
+
 // What the command line asks for: answers, or something to be printed instead of them.
 enum class Request : uint8_t { answers, version, defaults, help, features };
 
@@ -79,7 +107,11 @@ struct Options {
   bool irradianceAtHit = false, irradianceAtPoint = false;  // -i -I as given
   Irradiance irradiance = Irradiance::none;                 // which of them counts: -I, if both are on
   NumberFormat in = NumberFormat::ascii, out = NumberFormat::ascii;  // -f
-  std::string outputs;             // -o letters; the mode's default where not given
+  std::string outputs;       // -o letters; the mode's default where not given
+  std::string treeOutputs;   // those behind t or T: of every ray on the way. Empty: no trees
+  bool treeShadows = false;  // -o..T: shadow rays, too
+  std::vector<std::string> treeExcluded, treeIncluded;  // -te -tE, -ti -tI (at most one is not empty)
+  ColorOptions color;
   int64_t width = 0, height = 0;   // -x -y
   bool limitDistance = false;      // -ld
   bool header = true;              // -h

@@ -9,9 +9,9 @@ namespace rsphere {
 using Rgb = Imath::Color3<double>;
 using Imath::V3d;
 
-// Weights of the channels in one number, for RADIANCE's primaries and white point (0.3333, 0.3333): what
-// rtrace -ov, thresholds and the light vector call brightness.
-inline constexpr double kRedWeight = 0.265074126, kGreenWeight = 0.670114631, kBlueWeight = 0.064811243;
+// Weights of the channels in one number, for RADIANCE's primaries and its white point (1/3, 1/3): what
+// rtrace -pY, thresholds and the light vector call brightness.
+inline constexpr double kRedWeight = .265105820, kGreenWeight = .670105820, kBlueWeight = .064788360;
 inline double brightness(const Rgb& c) { return kRedWeight * c.x + kGreenWeight * c.y + kBlueWeight * c.z; }
 inline double maxChannel(const Rgb& c) {
   return c.x > c.y ? (c.x > c.z ? c.x : c.z) : (c.y > c.z ? c.y : c.z);

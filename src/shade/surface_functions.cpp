@@ -373,11 +373,18 @@ class SurfaceFunctions::Maker {
   uint64_t available_ = calc::kPointInputs;
 };
 
-SurfaceFunctions::SurfaceFunctions(const Scene& scene, rad::Warn warn)
+SurfaceFunctions::SurfaceFunctions(const Scene& scene, rad::Warn warn,
+                                   std::span<const SharedDefinitions> definitions)
     : scene_(scene),
       warn_(std::move(warn)),
       ready_(scene.modifiers.size()),
-      library_(calc::sceneInterface(), loadFunctionFile, warn_) {}
+      library_(calc::sceneInterface(), loadFunctionFile, warn_) {
+  for (const SharedDefinitions& shared : definitions)
+    if (shared.isFile)
+      library_.include(shared.text);
+    else
+      library_.define(shared.text, fmt::format("-e '{}'", shared.text));
+}
 
 const SurfaceFunctions::Function& SurfaceFunctions::prepare(int32_t modifier) const {
   const std::lock_guard lock(mutex_);

@@ -14,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "cli/options.h"
 #include "rad_parser/calc_library.h"
 #include "rad_parser/calc_scene.h"
 #include "rad_parser/data_file.h"
@@ -48,8 +49,10 @@ struct FunctionScratch {
 class SurfaceFunctions {
  public:
   // Keeps a reference to the scene. warn: gets a line, once for each modifier, where a value can't be
-  // computed (division by zero and the like); from any thread, one at a time.
-  explicit SurfaceFunctions(const Scene& scene, rad::Warn warn = {});
+  // computed (division by zero and the like); from any thread, one at a time. definitions: shared by all
+  // function files, instead of those of rayinit.cal; throws rad::Error where they are missing or wrong.
+  explicit SurfaceFunctions(const Scene& scene, rad::Warn warn = {},
+                            std::span<const SharedDefinitions> definitions = {});
 
   // Each takes the index in Scene::modifiers of what it is named after, and answers what leaves things as
   // they are where a value can't be computed. Each throws rad::Error with its place when it is first asked

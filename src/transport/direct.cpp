@@ -71,6 +71,19 @@ Rgb PathTracer::sourceValue(const Ray& ray, const SourceSample& sample) {
   return child.value * passed;
 }
 
+// What a shadow ray brings through all that may let light pass.
+Rgb PathTracer::valueFromSource(const Ray& ray, const Contribution& to) {
+  const bool through = (ray.cosine > 0) != (ray.normal.dot(to.direction) > 0);
+  Ray child;
+  Rgb whole(1, 1, 1);
+  if (!continueRay(child, through ? kTransmittedShadow : kReflectedShadow, ray, whole)) return Rgb(0, 0, 0);
+  child.contribution *= to.coefficient;
+  child.aimedAt = static_cast<int32_t>(to.source);
+  child.direction = to.direction;
+  evaluate(child);
+  return child.value;
+}
+
 void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf) {
   const RayOptions& o = t_.options();
   samples_.clear();
@@ -113,21 +126,17 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf) {
     const bool toSurface = !light.distant || light.isVirtual();
     const Shadow shadow =
         t_.tracer().shadow(ray.point, c.direction, c.distance, toSurface ? light.surface : kNone);
+    const bool follow = shadow == Shadow::unsure || (shadow == Shadow::clear && light.isVirtual());
+    if (allShadowRays_ && !follow) valueFromSource(ray, c);  // to be shown
     if (shadow == Shadow::blocked) continue;
-    if (shadow == Shadow::clear && !light.isVirtual()) {
+    if (!follow) {
       ray.value += c.value;
       ++visible;
       continue;
     }
-    Ray child;
-    Rgb whole(1, 1, 1);
-    const bool through = (ray.cosine > 0) != (ray.normal.dot(c.direction) > 0);
-    if (!continueRay(child, through ? kTransmittedShadow : kReflectedShadow, ray, whole)) continue;
-    child.aimedAt = static_cast<int32_t>(c.source);
-    child.direction = c.direction;
-    evaluate(child);
-    if (maxChannel(child.value) <= kNegligible) continue;
-    ray.value += child.value * c.coefficient;
+    const Rgb value = valueFromSource(ray, c);
+    if (maxChannel(value) <= kNegligible) continue;
+    ray.value += value * c.coefficient;
     ++visible;
   }
   // Sources too weak to be tested are let through as often as those that were.

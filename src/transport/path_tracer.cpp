@@ -36,7 +36,7 @@ Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance i
       irradiance_(irradiance),
       basicRadiance_(basicRadiance),
       tracer_(scene, options.backFacesVisible),
-      functions_(scene, warn),
+      functions_(scene, warn, options.definitions),
       lights_(scene, options.directRelays, functions_, warn),
       lightOf_(scene.surfaces.size(), kNone) {
   for (size_t i = 0; i < lights_.all().size(); ++i)
@@ -106,6 +106,8 @@ bool PathTracer::continueRay(Ray& child, RayKind kind, const Ray& parent, Rgb& c
     child.aimedAt = parent.aimedAt;
     child.farthest = parent.farthest > kSamePlace ? parent.farthest - parent.length : 0;
   }
+  if (observer_)
+    child.contribution = parent.contribution * coefficient * passing(parent.extinction, parent.length);
   child.weight = parent.weight * std::min(1., maxChannel(coefficient));
   const double depth = maxChannel(parent.extinction) * parent.length;
   if (depth > .1) child.weight *= std::exp(-depth);
@@ -116,6 +118,7 @@ bool PathTracer::continueRay(Ray& child, RayKind kind, const Ray& parent, Rgb& c
   if (child.weight >= o.weightLimit) return true;
   if (random_.uniform() * o.weightLimit > child.weight) return false;
   coefficient *= o.weightLimit / child.weight;
+  child.contribution *= o.weightLimit / child.weight;
   child.weight = o.weightLimit;
   return true;
 }
@@ -211,6 +214,7 @@ void PathTracer::pass(Ray& ray) {
   child.pathLength = ray.pathLength + ray.length;
   if (ray.kinds & kShadow) child.shadowLength = ray.shadowLength + ray.length;
   child.extinction = ray.extinction;
+  if (observer_) child.contribution = ray.contribution * passing(ray.extinction, ray.length);
   child.aimedAt = ray.aimedAt;
   child.weight = ray.weight;
   double length = ray.length;
@@ -221,8 +225,8 @@ void PathTracer::pass(Ray& ray) {
   checkDepth(child);
   findHit(child);
   // Surfaces of nothing at all are gone through here, however many there are, rather than one inside the
-  // other.
-  while (child.surface != kNone && t_.scene().surfaces[child.surface].modifier == kNone &&
+  // other, unless each is to be shown.
+  while (!observer_ && child.surface != kNone && t_.scene().surfaces[child.surface].modifier == kNone &&
          child.length < kFarAway) {
     length += child.length;
     child.pathLength += child.length;
@@ -240,7 +244,12 @@ void PathTracer::pass(Ray& ray) {
   ray.unmirroredLength = length + child.unmirroredLength;
 }
 
-void PathTracer::finish(Ray& ray) { ray.value *= passing(ray.extinction, ray.length); }
+void PathTracer::finish(Ray& ray) {
+  // Not those that only ask what light there would be; shadow rays that meet nothing have just missed their
+  // source, by rounding.
+  if (observer_ && !ray.unobstructed && (ray.aimedAt == kNone || ray.surface != kNone)) observer_(ray);
+  ray.value *= passing(ray.extinction, ray.length);
+}
 
 RayAnswer answerOf(const Scene& scene, const Ray& ray) {
   RayAnswer a;
@@ -272,6 +281,16 @@ RayAnswer answerOf(const Scene& scene, const Ray& ray) {
   a.surface = scene.surfaceName(surface);
   a.modifier = scene.modifierName(surface);
   a.material = scene.materialName(surface);
+  return a;
+}
+
+RayAnswer branchAnswer(const Transport& transport, const Ray& ray) {
+  RayAnswer a = answerOf(transport.scene(), ray);
+  a.rayWeight = ray.weight;
+  a.contribution = ray.contribution * passing(ray.extinction, ray.length);
+  const bool dark = ray.value.x + ray.value.y + ray.value.z <= 3 * kNegligible;
+  if (ray.aimedAt != kNone && dark && transport.lights().all()[ray.aimedAt].surface != ray.surface)
+    a.contribution = Rgb(0, 0, 0);
   return a;
 }
 

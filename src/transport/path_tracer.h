@@ -5,6 +5,7 @@
 // Indirect light is computed without a cache whatever -aa says: -ad directions over the hemisphere,
 // stratified, at the first diffuse surface of a path, one at every later one. Paths end at -ab bounces and by
 // Russian roulette below -lw, so that the mean stays right.
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -65,6 +66,9 @@ using DirectCoefficient = FunctionRef<Rgb(const V3d& toSource, double solidAngle
 // is lost.
 using LobeSampler = FunctionRef<double(double u1, double u2, V3d& direction)>;
 
+// Gets a ray that is finished, but for what the medium in front of its hit takes away (rtrace's -ot, -oT).
+using RayObserver = std::function<void(const Ray& ray)>;
+
 // Traces one ray at a time; one a thread. The answer depends on the ray, the seed and Transport alone.
 class PathTracer {
  public:
@@ -83,6 +87,15 @@ class PathTracer {
   // The light source (index in LightSources) whose own light the last primary ray showed, at its end or
   // straight on through panes; kNone where it showed none.
   int32_t shownSource() const { return shownSource_; }
+
+  // From now on trace() shows every ray to the observer, descendants before their ancestors, the primary ray
+  // last (but not under -I, where it meets nothing); Ray::depth counts its ancestors. Shadow rays are shown
+  // where they meet something that might let light pass, and all that meet something if allShadowRays. No
+  // answer changes by it. Null: none.
+  void observe(RayObserver observer, bool allShadowRays = false) {
+    observer_ = std::move(observer);
+    allShadowRays_ = allShadowRays;
+  }
 
   // Only what is hit, no value.
   Ray cast(const V3d& origin, const V3d& direction, double farthest);
@@ -106,6 +119,7 @@ class PathTracer {
   bool shade(Ray& ray, int32_t modifier);
   void pass(Ray& ray);
   void finish(Ray& ray);
+  Rgb valueFromSource(const Ray& ray, const Contribution& to);
 
   bool applyModifier(Ray& ray, int32_t modifier);
   bool shadeMixture(Ray& ray, int32_t modifier, const Mixture& mixture);
@@ -158,6 +172,8 @@ class PathTracer {
   Random random_{0};
   V3d primaryDirection_{0, 0, 1};
   int32_t shownSource_ = kNone;
+  RayObserver observer_;
+  bool allShadowRays_ = false;
   FunctionScratch functionScratch_;
   // Scratch of addDirect, which never runs inside itself: shadow rays ask for no direct light.
   std::vector<SourceSample> samples_;
@@ -167,6 +183,10 @@ class PathTracer {
 
 // What rtrace's output letters say of a traced ray.
 RayAnswer answerOf(const Scene& scene, const Ray& ray);
+
+// What they say of a ray that an observer was shown: as answerOf(), with its weight and its contribution,
+// which is zero for a shadow ray that brings no light from its source.
+RayAnswer branchAnswer(const Transport& transport, const Ray& ray);
 
 // Whether the letters need a ray's value, or only what it hits.
 bool needsValue(std::string_view letters);

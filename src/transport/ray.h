@@ -20,6 +20,7 @@ struct Ray {
   int32_t aimedAt = kNone;    // light source that a shadow ray goes to
   bool unobstructed = false;  // of a shadow ray: it meets what it is aimed at, and nothing else
   Rgb extinction{0, 0, 0};    // of the medium it passes, per unit length
+  Rgb contribution{1, 1, 1};  // share of its radiance, at its origin, in that of the primary ray
 
   int32_t surface = kNone;  // hit, index in Scene::surfaces
   double length = kFarAway;

@@ -24,7 +24,8 @@ RayAnswer someRay() {
   a.surface = "ball";
   a.modifier = "paint";
   a.material = "white";
-  a.weight = Rgb(.5, .25, .125);
+  a.contribution = Rgb(.5, .25, .125);
+  a.rayWeight = 27;
   a.solidAngle = 28;
   return a;
 }
@@ -63,10 +64,9 @@ TEST(AnswerWriter, EveryLetterOfARay) {
     EXPECT_EQ(written({"rtrace", letters, "s.oct"}, someRay()), text);
 }
 
-TEST(AnswerWriter, WeightIsBrightnessOfARayAndSolidAngleOfADirection) {
-  RayAnswer answer = someRay();
-  answer.weight = Rgb(.5, .5, .5);
-  EXPECT_EQ(written({"rtrace", "-ow", "s.oct"}, answer), "5.000000e-01\t\n");
+TEST(AnswerWriter, WeightIsThatOfARayAndTheSolidAngleOfADirection) {
+  const RayAnswer answer = someRay();
+  EXPECT_EQ(written({"rtrace", "-ow", "s.oct"}, answer), "2.700000e+01\t\n");
   EXPECT_EQ(written({"rsphere", "-Sd", "-oiwv", "s.oct"}, answer, 12345678),
             "12345678\t2.800000e+01\t4.000000e+00\t5.000000e+00\t6.000000e+00\t\n");
 }
@@ -81,6 +81,40 @@ TEST(AnswerWriter, ARayThatHitsNothing) {
       "0.000000e+00\t0.000000e+00\t0.000000e+00\t*\t*\t*\t0.000000e+00\t0.000000e+00\t1.000000e+00\t1."
       "000000e+00\t"
       "1.000000e+00\t1.000000e+00\t1.000000e+10\t1.000000e+10\t~\t\n");
+}
+
+TEST(AnswerWriter, RaysOfATreeAreIndented) {
+  const auto branch = [](std::initializer_list<const char*> words, int ancestors) {
+    const Options options = parse(words);
+    std::string bytes;
+    AnswerWriter(options).writeBranch(bytes, someRay(), ancestors);
+    return bytes;
+  };
+  EXPECT_EQ(branch({"rtrace", "-ov~tmL", "s.oct"}, 2), "\t\tpaint\t1.600000e+01\t\n");
+  EXPECT_EQ(branch({"rtrace", "-oTw", "s.oct"}, 0), "2.700000e+01\t\n");
+  // As in rtrace, the TABs are there in binary, too.
+  EXPECT_EQ(branch({"rtrace", "-faf", "-otX", "s.oct"}, 1), std::string("\t\0\0\x60\x41", 5));
+  EXPECT_EQ(branch({"rtrace", "-otm", "-te", "paint", "s.oct"}, 1), "");
+  EXPECT_EQ(branch({"rtrace", "-otm", "-te", "white", "s.oct"}, 0), "paint\t\n");
+  EXPECT_EQ(branch({"rtrace", "-otm", "-ti", "paint", "s.oct"}, 0), "paint\t\n");
+  EXPECT_EQ(branch({"rtrace", "-otm", "-tiother", "s.oct"}, 0), "");
+  EXPECT_EQ(branch({"rtrace", "-otm", "-ti", "other", "-te", "other", "s.oct"}, 0), "paint\t\n");
+  EXPECT_EQ(written({"rtrace", "-ov~tmL", "s.oct"}, someRay()),
+            "4.000000e+00\t5.000000e+00\t6.000000e+00\t~\t\n");
+  EXPECT_EQ(written({"rtrace", "-otmL", "s.oct"}, someRay()), "");
+}
+
+// Rays that see nothing are in no list.
+TEST(AnswerWriter, RaysThatHitNothingAreOnlyInTreesWithoutAList) {
+  const auto branch = [](std::initializer_list<const char*> words) {
+    const Options options = parse(words);
+    std::string bytes;
+    AnswerWriter(options).writeBranch(bytes, RayAnswer{}, 0);
+    return bytes;
+  };
+  EXPECT_EQ(branch({"rtrace", "-otm", "s.oct"}), "*\t\n");
+  EXPECT_EQ(branch({"rtrace", "-otm", "-te", "paint", "s.oct"}), "*\t\n");
+  EXPECT_EQ(branch({"rtrace", "-otm", "-ti", "paint", "s.oct"}), "");
 }
 
 TEST(AnswerWriter, EveryLetterOfAPoint) {

@@ -27,6 +27,31 @@ TEST(Header, HasTheLinesOfRtraceInItsOrder) {
       "#?RADIANCE\noconv -f s.rad\nrtrace -ovs -ae \"a b\"\n" + kSoftware + "NCOMP=4\nFORMAT=ascii\n\n");
 }
 
+// rtrace's lines for what is not RGB (6.1a).
+TEST(Header, TellsOfColors) {
+  const auto lines = [](std::initializer_list<const char*> words) {
+    const std::string text = headerText(words);
+    return text.substr(text.find("NCOMP="));
+  };
+  EXPECT_EQ(lines({"rtrace", "-pXYZ", "-fac", "s.oct"}),
+            "NCOMP=3\nPRIMARIES= 1.0000 0.0000 0.0000 1.0000 0.0000 0.0000 0.3333 0.3333\n"
+            "FORMAT=32-bit_rle_xyze\n\n");
+  EXPECT_EQ(
+      lines({"rtrace", "-pc", ".68", ".32", ".265", ".69", ".15", ".06", ".3127", ".329", "-fac", "s.oct"}),
+      "NCOMP=3\nPRIMARIES= 0.6800 0.3200 0.2650 0.6900 0.1500 0.0600 0.3127 0.3290\n"
+      "FORMAT=32-bit_rle_rgbe\n\n");
+  EXPECT_EQ(lines({"rtrace", "-pY", "-oov", "s.oct"}), "NCOMP=4\nFORMAT=ascii\n\n");
+  EXPECT_EQ(lines({"rtrace", "-co", "-cs", "6", "-fac", "s.oct"}),
+            "NCOMP=6\nWAVELENGTH_SPLITS= 780 588 480 380\nFORMAT=Radiance_spectra\n\n");
+  EXPECT_EQ(lines({"rtrace", "-co", "-cs", "4", "-cw", "500", "600", "s.oct"}),
+            "NCOMP=4\nWAVELENGTH_SPLITS= 600 566.667 533.333 500\nFORMAT=ascii\n\n");
+}
+
+TEST(Header, OfTreesHasNoNumberOfComponents) {
+  for (const char* letters : {"-ovtm", "-oTm", "-ot"})
+    EXPECT_EQ(headerText({"rtrace", letters, "s.oct"}).find("NCOMP"), std::string::npos);
+}
+
 TEST(Header, NamesSceneFilesThatHaveNoHeader) {
   EXPECT_EQ(
       headerText({"rsphere", "-h+", "a.rad", "!genbox m n 1 1 1"}),

@@ -99,6 +99,45 @@ TEST(ParseOptions, OutputLettersBelongToTheMode) {
   EXPECT_EQ(faultOfOptions({"rtrace", "-o", "s.oct"}), "empty output specification");
 }
 
+// As rtrace's: the last t with letters behind it begins the tree's; at the end it does nothing.
+TEST(ParseOptions, LettersBehindTAreForTrees) {
+  const auto letters = [](const char* word) {
+    const Options o = parse({"rtrace", word, "s.oct"});
+    return o.outputs + "," + o.treeOutputs + (o.treeShadows ? ",T" : "");
+  };
+  EXPECT_EQ(letters("-ov"), "v,");
+  EXPECT_EQ(letters("-ov~tmW"), "v~,mW");
+  EXPECT_EQ(letters("-oTvW"), ",vW,T");
+  EXPECT_EQ(letters("-ot"), ",");
+  EXPECT_EQ(letters("-ovt"), "v,");
+  EXPECT_EQ(letters("-ovtmTs"), "v,s,T");
+  EXPECT_EQ(letters("-ovtmT"), "v,m,T");
+  EXPECT_EQ(faultOfOptions({"rtrace", "-otz", "s.oct"}), "unrecognized output option 'z'");
+  EXPECT_EQ(faultOfOptions({"rtrace", "-fac", "-ovtv", "s.oct"}), "color format only with -ov, -or, -ox");
+  EXPECT_EQ(faultOfOptions({"rsphere", "-ovt", "s.oct"}), "unrecognized output option 't' (sphere mode)");
+  EXPECT_NO_THROW(parse({"rtrace", "-otL", "-I", "s.oct"}));
+}
+
+// Programs glue a modifier to -te; rtrace wants a blank.
+TEST(ParseOptions, NamesOfTreeModifiersMayBeGlued) {
+  EXPECT_EQ(parse({"rtrace", "-tewall", "-te", "roof", "s.oct"}).treeExcluded, (Names{"wall", "roof"}));
+  EXPECT_EQ(parse({"rtrace", "-tifloor", "-t", "5", "s.oct"}).treeIncluded, (Names{"floor"}));
+  EXPECT_EQ(faultOfOptions({"rtrace", "-tE", "/no/such/file", "s.oct"}, rad::Status::system),
+            "cannot open trace exclude file \"/no/such/file\": No such file or directory");
+}
+
+TEST(ParseOptions, DefinitionsKeepTheirOrder) {
+  const Options o =
+      parse({"rtrace", "-e", "a=1", "-f", "b.cal", "-e", "c:2;d(x)=x", "-e", "err.txt", "s.oct"});
+  ASSERT_EQ(o.ray.definitions.size(), 3u);
+  EXPECT_EQ(o.ray.definitions[0].text, "a=1");
+  EXPECT_FALSE(o.ray.definitions[0].isFile);
+  EXPECT_EQ(o.ray.definitions[1].text, "b.cal");
+  EXPECT_TRUE(o.ray.definitions[1].isFile);
+  EXPECT_EQ(o.ray.definitions[2].text, "c:2;d(x)=x");
+  EXPECT_EQ(o.errorFile, "err.txt");
+}
+
 TEST(ParseOptions, PixelsHoldOneColor) {
   for (const char* letters : {"-ov", "-or", "-ox"})
     EXPECT_NO_THROW(parse({"rtrace", "-fac", letters, "s.oct"}));
@@ -195,7 +234,7 @@ TEST(ParseOptions, WhatCannotBeExpandedIsASystemFault) {
   EXPECT_EQ(faultOfOptions({"rtrace", "@/no/file", "s.oct"}, rad::Status::system),
             "cannot expand '@/no/file': No such file or directory");
   EXPECT_EQ(faultOfOptions({"rtrace", "$RSPHERE_NO_VARIABLE", "s.oct"}, rad::Status::system),
-            "cannot expand '$RSPHERE_NO_VARIABLE'");
+            "cannot expand '$RSPHERE_NO_VARIABLE': No such file or directory");
   EXPECT_NE(faultOfOptions({"rtrace", "@/tmp", "s.oct"}, rad::Status::system), "no fault");
   // An option's own words are not expanded, as in rtrace.
   EXPECT_EQ(faultOfOptions({"rtrace", "-ab", "$HOME", "s.oct"}), "command line error at '-ab'");

@@ -708,5 +708,33 @@ TEST_F(Patterns, MixturesNestAsDeepAsMakesSense) {
   EXPECT_NE(errorOf(nested(2000)).find("modifiers name each other more than 64 deep"), std::string::npos);
 }
 
+// -e and -f: rtrace -h -e 'tone(x)=.25*x;noon:2' and -f with the same in a file give 0.5 (RADIANCE 6.1a).
+TEST_F(Patterns, SharedDefinitionsAreSeenByAllFunctionFiles) {
+  const std::string text =
+      "void brightfunc p\n2 tone(noon) .\n0\n0\np glow g\n0\n0\n4 1 1 1 0\ng source all\n0\n0\n4 0 0 1 360\n";
+  const auto value = [&](std::vector<SharedDefinitions> definitions) {
+    RayOptions options;
+    options.definitions = std::move(definitions);
+    return Traced(text, options).value(V3d(0, 0, 0), V3d(0, 0, 1));
+  };
+  EXPECT_EQ(value({{false, "tone(x)=.25*x;noon:2"}}), .5);
+  EXPECT_EQ(value({{false, "noon=1"}, {false, "tone(x)=x*noon;noon=3"}}), 9);
+  EXPECT_EQ(value({{true, "shared.cal"}, {false, "noon=3"}}), 1.5);
+  EXPECT_EQ(value({{false, "noon=3"}, {true, "shared.cal"}}), 1);
+  // What rayinit.cal has is replaced.
+  EXPECT_EQ(value({{false, "tone(x)=bound(0,x,9);noon=4;bound(a,x,b)=a+x+b"}}), 13);
+  const auto fault = [&](SharedDefinitions definitions, rad::Status status) {
+    try {
+      value({std::move(definitions)});
+    } catch (const rad::Error& error) {
+      EXPECT_EQ(error.status(), status);
+      return std::string(error.what());
+    }
+    return std::string("no fault");
+  };
+  EXPECT_NE(fault({true, "absent.cal"}, rad::Status::system).find("absent.cal"), std::string::npos);
+  EXPECT_NE(fault({false, "a=1+"}, rad::Status::input).find("-e 'a=1+'"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace rsphere

@@ -34,6 +34,7 @@ class Traced {
   }
   PathTracer& tracer() { return tracer_; }
   const Scene& scene() const { return scene_; }
+  const Transport& transport() const { return transport_; }
 
  private:
   Scene scene_;

@@ -1,0 +1,129 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/unit/transport/transport_fixture.h"
+
+// The rays that an observer is shown.
+namespace rsphere {
+namespace {
+
+// A lamp over a floor, a pane between them, a ball of metal and a mirror.
+const std::string kRoom =
+    "void light lamp 0 0 3 10 8 5\nlamp sphere bulb 0 0 4 0 0 3 .2\n"
+    "void plastic red 0 0 5 .6 .2 .1 .03 .1\nred polygon floor 0 0 12 -5 -5 0 5 -5 0 5 5 0 -5 5 0\n"
+    "void metal shiny 0 0 5 .7 .8 .9 .9 0\nshiny sphere ball 0 0 4 1 1 1 .5\n"
+    "void mirror mir 0 0 3 .9 .9 .8\nmir polygon wall 0 0 12 4 -2 0 4 2 0 4 2 3 4 -2 3\n"
+    "void glass gl 0 0 3 .9 .8 .9\ngl polygon pane 0 0 12 -2 -2 0 -2 2 0 -2 2 2 -2 -2 2\n";
+
+struct Shown {
+  std::string surface;
+  int depth;
+  Rgb value, contribution;
+  bool shadow;
+};
+
+std::vector<Shown> treeOf(Traced& room, const V3d& origin, const V3d& direction, bool shadows,
+                          const Transport& transport) {
+  std::vector<Shown> tree;
+  room.tracer().observe(
+      [&](const Ray& ray) {
+        const RayAnswer a = branchAnswer(transport, ray);
+        tree.push_back(
+            {std::string(a.surface), ray.depth, ray.value, a.contribution, (ray.kinds & kShadow) != 0});
+      },
+      shadows);
+  room.value(origin, direction);
+  room.tracer().observe({});
+  return tree;
+}
+
+// echo -1 0 1 -1 0 -.2 | rtrace -h -ss 0 -oTsvW (RADIANCE 6.1a): eight rays, in this order.
+TEST(RayTree, IsThatOfTheOriginal) {
+  const std::string plain = "void plastic red 0 0 5 .6 .2 .1 0 0\n";
+  std::string text = kRoom;
+  text.replace(text.find("void plastic red"), text.find("\nred polygon") - text.find("void plastic red"),
+               plain.substr(0, plain.size() - 1));
+  RayOptions options;
+  options.specularSampling = 0;
+  Traced room(text, options);
+  const auto tree = treeOf(room, V3d(0, 0, 1), V3d(-1, 0, -.2), true, room.transport());
+  const struct {
+    const char* surface;
+    int depth;
+    Rgb value, contribution;
+  } expected[] = {
+      {"bulb", 3, {10, 8, 5}, {2.452877e-04, 6.401788e-05, 4.088128e-05}},
+      {"pane", 2, {8.182423, 5.773479, 4.091211}, {2.997739e-04, 8.870613e-05, 4.996232e-05}},
+      {"floor", 1, {2.971639e-03, 6.989249e-04, 2.476366e-04}, {8.254288e-01, 7.327582e-01, 8.254288e-01}},
+      {"bulb", 2, {10, 8, 5}, {1.689925e-04, 5.125134e-05, 2.816542e-05}},
+      {"floor", 1, {2.276840e-02, 6.071574e-03, 1.897367e-03}, {7.422239e-02, 6.752956e-02, 7.422239e-02}},
+      {"pane", 0, {4.142802e-03, 9.221537e-04, 3.452335e-04}, {1, 1, 1}},
+  };
+  ASSERT_EQ(tree.size(), std::size(expected));
+  for (size_t i = 0; i < tree.size(); ++i) {
+    EXPECT_EQ(tree[i].surface, expected[i].surface);
+    EXPECT_EQ(tree[i].depth, expected[i].depth);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(tree[i].value[c], expected[i].value[c], 1e-6 * expected[i].value[c]) << i;
+      EXPECT_NEAR(tree[i].contribution[c], expected[i].contribution[c], 1e-6 * expected[i].contribution[c])
+          << i;
+    }
+  }
+}
+
+// Without T, shadow rays are shown only where they go through something.
+TEST(RayTree, LeavesOutShadowRaysInTheClear) {
+  Traced room(kRoom);
+  int through = 0;
+  for (const Shown& s : treeOf(room, V3d(0, 0, 1), V3d(-1, 0, -.2), false, room.transport()))
+    through += s.shadow;
+  EXPECT_EQ(through, 2);  // the pane, and the bulb behind it
+}
+
+// All light comes from the bulb, so what its rays contribute is the value of the primary ray.
+TEST(RayTree, ContributionsSumToTheValue) {
+  RayOptions options = unbiased(2);
+  options.ambientDivisions = 16;
+  Traced room(kRoom, options);
+  for (const V3d& direction : {V3d(0, 0, -1), V3d(-1, 0, -.2), V3d(1, 1, 0), V3d(1, .1, -.1)}) {
+    const auto tree = treeOf(room, V3d(0, 0, 1), direction, true, room.transport());
+    ASSERT_FALSE(tree.empty());
+    EXPECT_EQ(tree.back().depth, 0);
+    Rgb sum(0, 0, 0), outside(0, 0, 0);
+    for (const Shown& s : tree) {
+      if (s.surface == "bulb") sum += s.contribution * s.value;
+      if (s.surface == "*") outside += s.value;
+    }
+    EXPECT_EQ(outside, Rgb(0, 0, 0));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], tree.back().value[c], 1e-5 * tree.back().value[c]);
+  }
+}
+
+TEST(RayTree, ChangesNoAnswer) {
+  Traced room(kRoom, unbiased(2));
+  Random random(7);
+  for (int i = 0; i < 200; ++i) {
+    const V3d direction = randomDirection(random);
+    const Rgb before = room.color(V3d(0, 0, 1), direction, 5);
+    int shown = 0;
+    room.tracer().observe([&](const Ray&) { ++shown; }, i % 2 == 0);
+    EXPECT_EQ(room.color(V3d(0, 0, 1), direction, 5), before);
+    EXPECT_GT(shown, 0);
+    room.tracer().observe({});
+  }
+}
+
+// Surfaces of nothing are passed one by one where each is to be shown.
+TEST(RayTree, ShowsSurfacesOfNothing) {
+  Traced room(
+      "void polygon a 0 0 12 -1 -1 1 1 -1 1 1 1 1 -1 1 1\nvoid polygon b 0 0 12 -1 -1 2 1 -1 2 1 1 2 -1 1 2\n"
+      "void polygon c 0 0 12 -1 -1 3 1 -1 3 1 1 3 -1 1 3\n");
+  std::string seen;
+  for (const Shown& s : treeOf(room, V3d(0, 0, 0), V3d(0, 0, 1), false, room.transport())) seen += s.surface;
+  EXPECT_EQ(seen, "*cba");
+}
+
+}  // namespace
+}  // namespace rsphere
