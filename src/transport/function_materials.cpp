@@ -8,6 +8,9 @@ namespace {
 
 constexpr int kMostTries =
     10;  // for a sample of ashik2 that does not lie under the surface; RADIANCE's own figure
+// -ss below 1 leaves ashik2's lobe as it is. The original draws one sample a ray, and spreads those of
+// successive rays evenly; ours depend on their own ray alone, and four make their mean as quiet.
+constexpr int kAshikhminSamples = 4;
 
 }  // namespace
 
@@ -65,14 +68,17 @@ bool PathTracer::shadeMaterial(Ray& ray, const Ashikhmin& material, int32_t behi
   const V3d along = t_.functions().orientation(material.functions, functionPoint(ray), functionScratch_);
   const AshikhminScattering s = scatter(material, at, along, t_.options().specularThreshold);
   if (s.sampled)
-    sampleLobe(ray, kReflectedSpecular, s.share, [&](double u1, double u2, V3d& d) {
-      for (int tries = 0; tries < kMostTries; ++tries) {
-        if (sampleReflection(s, at, u1, u2, d)) return 1;
-        u1 = random_.uniform();
-        u2 = random_.uniform();
-      }
-      return 0;
-    });
+    sampleLobe(
+        ray, kReflectedSpecular, s.share,
+        [&](double u1, double u2, V3d& d) {
+          for (int tries = 0; tries < kMostTries; ++tries) {
+            if (sampleReflection(s, at, u1, u2, d)) return 1;
+            u1 = random_.uniform();
+            u2 = random_.uniform();
+          }
+          return 0;
+        },
+        kAshikhminSamples);
   addIndirect(ray, s.reflection.normal, at, kReflectedAmbient, s.reflection.ambient);
   addDirect(ray, [&](const V3d& toSource, double solidAngle) {
     return directCoefficient(s, at.direction, toSource, solidAngle);

@@ -62,9 +62,11 @@ void PathTracer::sampleLobes(Ray& ray, const Scattering& scattering, const Inter
 }
 
 // share: of the lobe in the ray's radiance, what the weights of its directions are 1 in the mean of.
-void PathTracer::sampleLobe(Ray& ray, RayKind kind, const Rgb& share, LobeSampler draw) {
+// least: the number that a ray of weight 1 gets whatever -ss is.
+void PathTracer::sampleLobe(Ray& ray, RayKind kind, const Rgb& share, LobeSampler draw, int least) {
   const double spread = t_.options().specularSampling;
-  const int samples = spread > 1.5 ? std::max(1, static_cast<int>(spread * ray.weight + .5)) : 1;
+  const double wanted = std::max<double>(spread > 1.5 ? spread : 1, least);
+  const int samples = std::max(1, static_cast<int>(wanted * ray.weight + .5));
   for (int i = 0; i < samples; ++i) {
     Ray child;
     const double u1 = (i + random_.uniform()) / samples, u2 = random_.uniform();

@@ -161,7 +161,7 @@ class PathTracer {
   const LightSource* targetOf(const Ray& ray) const;
   void relay(Ray& ray, RayKind kind, const V3d& direction, Rgb coefficient);
   void sampleLobes(Ray& ray, const Scattering& scattering, const Interaction& at);
-  void sampleLobe(Ray& ray, RayKind kind, const Rgb& share, LobeSampler draw);
+  void sampleLobe(Ray& ray, RayKind kind, const Rgb& share, LobeSampler draw, int least = 1);
   void addIndirect(Ray& ray, const V3d& normal, const V3d& trueNormal, RayKind kind, const Rgb& coefficient);
   void addIndirect(Ray& ray, const V3d& normal, const Interaction& at, RayKind kind, const Rgb& coefficient);
   void addDirect(Ray& ray, DirectCoefficient coefficientOf);
