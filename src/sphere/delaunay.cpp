@@ -1,6 +1,7 @@
 #include "sphere/delaunay.h"
 
 #include <cmath>
+#include <limits>
 
 namespace rsphere {
 namespace {
@@ -13,12 +14,15 @@ constexpr double kHiddenDistance = 2 * kUnitTolerance;
 // together.
 double sideOfArc(const V3d& aFromP, const V3d& bFromP, const V3d& p) { return aFromP.cross(bFromP).dot(p); }
 
-double sumOfParts(const V3d& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+// From the apex to another corner; parts: the sum of its absolute components.
+struct Edge {
+  explicit Edge(const V3d& e) : to(e), parts(std::abs(e.x) + std::abs(e.y) + std::abs(e.z)) {}
+  V3d to;
+  double parts;
+};
 
-}  // namespace
-
-void Delaunay::setPlane(Triangle& t, const V3d& apex, const V3d& u, const V3d& v) {
-  const V3d n = u.cross(v);
+inline void setPlane(Triangle& t, const V3d& apex, const Edge& u, const Edge& v) {
+  const V3d n = u.to.cross(v.to);
   t.nx = n.x;
   t.ny = n.y;
   t.nz = n.z;
@@ -26,9 +30,11 @@ void Delaunay::setPlane(Triangle& t, const V3d& apex, const V3d& u, const V3d& v
   // Rounding: normal 4 sqrt(2) roundings of |u||v|, used with p and with the apex; 8 more for the two dot
   // products. Radii: each may be off by kUnitTolerance/2, at p times |n|, at a corner times at most twice the
   // opposite edge.
-  const double m = sumOfParts(u), k = sumOfParts(v);
+  const double m = u.parts, k = v.parts;
   t.bound = static_cast<float>(0x1p-48 * m * k + 0.51 * kUnitTolerance * (m * k + 4 * (m + k)) + 1e-36);
 }
+
+}  // namespace
 
 bool Delaunay::holdsSlowly(const Triangle& t, const V3d& p) {
   return circleHolds(sites[t.corner[0]].at, sites[t.corner[1]].at, sites[t.corner[2]].at, p, counts);
@@ -47,55 +53,68 @@ void Delaunay::start(const std::array<Site, 4>& first) {
   triangles.assign(4, {});
   unused.clear();
   insertions = 4;
-  lastTriangle = 0;
+  lengthenScratch(kLeastScratch);
+  hole_[0] = 0;
+  lastRim_ = 1;
   counts = {};
   const std::uint32_t outward =
       circleHolds(first[0].at, first[1].at, first[2].at, first[3].at, counts) ? 1 : 0;
   const std::uint32_t i = 0, j = 1 + outward, k = 2 - outward, l = 3;
   const std::uint32_t corners[4][3] = {{i, j, k}, {j, i, l}, {k, j, l}, {i, k, l}};
   const std::uint32_t nexts[4][3] = {{2, 3, 1}, {3, 2, 0}, {1, 3, 0}, {2, 1, 0}};
-  for (int t = 0; t < 4; ++t) {
+  for (std::uint32_t t = 0; t < 4; ++t) {
     for (int e = 0; e < 3; ++e) {
       triangles[t].corner[e] = corners[t][e];
-      triangles[t].next[e] = nexts[t][e];
+      const std::uint32_t* back = nexts[nexts[t][e]];
+      triangles[t].next[e] = 4 * nexts[t][e] + (back[0] == t ? 0 : back[1] == t ? 1 : 2);
     }
     const V3d& apex = sites[corners[t][0]].at;
-    setPlane(triangles[t], apex, sites[corners[t][1]].at - apex, sites[corners[t][2]].at - apex);
+    setPlane(triangles[t], apex, Edge(sites[corners[t][1]].at - apex), Edge(sites[corners[t][2]].at - apex));
   }
   someTriangle.assign({0, 0, 0, 1});
 }
 
-std::uint32_t Delaunay::locate(const V3d& p, std::uint32_t& equal) {
+// Within insert(), its one caller, p stays in registers.
+[[gnu::always_inline]] inline std::uint32_t Delaunay::locate(const V3d& p, std::uint32_t& equal) {
   // A visibility walk: across an edge that separates p from the triangle, until a circle holds p. It ends
   // where the hull holds the centre and signs are right; elsewhere the limit ends it and the nearest site is
   // sought instead.
   const std::uint32_t limit =
       64 + 4 * static_cast<std::uint32_t>(std::sqrt(static_cast<double>(triangles.size())));
-  std::uint32_t t = lastTriangle, from = kNone;
+  std::uint32_t t = 0, from = kNone;
+  // The next site is near the last one, mostly: of the triangles around that, the walk begins with the one
+  // whose plane p is farthest beyond. Always as many, since the end of a loop that can't be guessed costs
+  // more.
+  double farthest = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < kStarts; ++k) {
+    const std::uint32_t start = hole_[k < lastRim_ ? k : 0];
+    const double beyond = triangles[start].beyond(p);
+    t = beyond > farthest ? start : t;
+    farthest = std::max(farthest, beyond);
+  }
   for (std::uint32_t step = 0; step < limit; ++step) {
     const Triangle& triangle = triangles[t];
-    if (triangle.nx * p.x + triangle.ny * p.y + triangle.nz * p.z - triangle.offset > triangle.bound) {
+    if (triangle.beyond(p) > triangle.bound) {
       counts.filter += step + 1;
       return t;
     }
     const V3d d[3] = {sites[triangle.corner[0]].at - p, sites[triangle.corner[1]].at - p,
                       sites[triangle.corner[2]].at - p};
-    double least = 0;
-    int across = -1;
-    for (int e = 0; e < 3; ++e) {
-      if (triangle.next[e] == from) continue;
-      const double side = sideOfArc(d[kAfter[e]], d[kBefore[e]], p);
-      if (side < least) {
-        least = side;
-        across = e;
-      }
-    }
-    if (across < 0) {
+    // The edge that separates most: chosen without branches, which nobody could guess.
+    const double side0 = sideOfArc(d[1], d[2], p), side1 = sideOfArc(d[2], d[0], p),
+                 side2 = sideOfArc(d[0], d[1], p);
+    const bool oneIsLess = side1 < side0;
+    const double less = oneIsLess ? side1 : side0;
+    const bool twoIsLeast = side2 < less;
+    const double least = twoIsLeast ? side2 : less;
+    const std::uint32_t across = triangle.next[twoIsLeast ? 2u : static_cast<std::uint32_t>(oneIsLess)] / 4;
+    // Back where it came from: rounding has it on both sides.
+    if (!(least < 0) || across == from) {
       counts.filter += step;
       break;
     }
     from = t;
-    t = triangle.next[across];
+    t = across;
   }
   return locateFromNearest(p, triangles[t].corner[0], equal);
 }
@@ -138,6 +157,12 @@ std::uint32_t Delaunay::locateFromNearest(const V3d& p, std::uint32_t site, std:
   return found;
 }
 
+void Delaunay::lengthenScratch(std::size_t length) {
+  hole_.resize(length);
+  pending_.resize(length);
+  rim_.resize(length);
+}
+
 void Delaunay::insert(const Site& added) {
   const V3d p = added.at;
   const auto site = static_cast<std::uint32_t>(sites.size());
@@ -151,75 +176,94 @@ void Delaunay::insert(const Site& added) {
   }
   standsFor.push_back(site);
 
-  // The hole, edge by edge counterclockwise, so that its rim comes out in order.
-  ++insertions;
-  hole_.clear();
-  rim_.clear();
-  pending_.clear();
-  triangles[first].hole = insertions;
-  hole_.push_back(first);
-  for (std::uint32_t e : {2u, 1u, 0u}) pending_.push_back(4 * first + e);
+  // The hole, edge by edge counterclockwise, so that its rim comes out in order. Pointers of our own: what is
+  // written cannot change them, as far as the compiler knows.
+  const std::uint32_t insertion = ++insertions;
+  std::size_t holes = 1, rims = 0, pending = 3;
+  makeRoom(holes, rims, pending);
+  Triangle* const all = triangles.data();
+  std::uint32_t *hole = hole_.data(), *stack = pending_.data();
+  RimEdge* border = rim_.data();
+  all[first].hole = insertion;
+  hole[0] = first;
+  for (std::uint32_t e = 0; e < 3; ++e) stack[e] = 4 * first + 2 - e;
   const std::uint64_t slow = counts.lifted + counts.exact + counts.symbolic;
   std::uint64_t asked = 0;
-  while (!pending_.empty()) {
-    const std::uint32_t t = pending_.back() / 4, e = pending_.back() % 4;
-    pending_.pop_back();
-    const std::uint32_t across = triangles[t].next[e];
-    Triangle& outside = triangles[across];
-    if (outside.hole == insertions) continue;
-    const int back = outside.next[0] == t ? 0 : outside.next[1] == t ? 1 : 2;
+  while (pending > 0) {
+    const std::uint32_t t = stack[--pending] / 4, e = stack[pending] % 4;
+    const Triangle& inside = all[t];
+    const std::uint32_t across = inside.next[e], back = across % 4;
+    Triangle& outside = all[across / 4];
+    if (outside.hole == insertion) continue;
     ++asked;
     if (holds(outside, p)) {
-      outside.hole = insertions;
-      hole_.push_back(across);
-      pending_.push_back(4 * across + kBefore[back]);
-      pending_.push_back(4 * across + kAfter[back]);
+      outside.hole = insertion;
+      hole[holes++] = across / 4;
+      stack[pending++] = across - back + kBefore[back];
+      stack[pending++] = across - back + kAfter[back];
+      if (makeRoom(holes, rims, pending)) {
+        hole = hole_.data();
+        stack = pending_.data();
+        border = rim_.data();
+      }
     } else {
-      rim_.push_back({triangles[t].corner[kAfter[e]], triangles[t].corner[kBefore[e]], across, back});
+      border[rims++] = {inside.corner[kAfter[e]], inside.corner[kBefore[e]], across};
     }
   }
   counts.filter += asked - (counts.lifted + counts.exact + counts.symbolic - slow);
+  const std::span<const RimEdge> rim(rim_.data(), rims);
   // A hole without a site inside has two triangles less than its rim has edges.
-  if (rim_.size() != hole_.size() + 2) mergeHidden(site);
+  if (rims != holes + 2) mergeHidden(site, {hole_.data(), holes}, rim);
 
-  while (hole_.size() < rim_.size()) {
+  if (hole_.size() < rims) hole_.resize(rims);
+  while (holes < rims) {
     if (unused.empty()) {
-      hole_.push_back(static_cast<std::uint32_t>(triangles.size()));
+      hole_[holes++] = static_cast<std::uint32_t>(triangles.size());
       triangles.emplace_back();
     } else {
-      hole_.push_back(unused.back());
+      hole_[holes++] = unused.back();
       unused.pop_back();
     }
   }
-  for (; hole_.size() > rim_.size(); hole_.pop_back()) {
-    triangles[hole_.back()].corner[0] = kNone;
-    unused.push_back(hole_.back());
+  while (holes > rims) {
+    const std::uint32_t left = hole_[--holes];
+    triangles[left].corner[0] = kNone;
+    unused.push_back(left);
   }
-  V3d u = sites[rim_[0].from].at - p;
-  for (std::size_t i = 0; i < rim_.size(); ++i) {
-    const RimEdge& edge = rim_[i];
-    const V3d v = sites[edge.to].at - p;
-    const std::uint32_t t = hole_[i];
-    Triangle& triangle = triangles[t];
+  Triangle* const now = triangles.data();
+  const Site* const site_ = sites.data();
+  std::uint32_t* const triangleOf = someTriangle.data();
+  const std::uint32_t* const place = hole_.data();
+  Edge u(site_[rim[0].from].at - p);
+  std::uint32_t before = place[rims - 1], t = place[0];
+  for (std::size_t i = 0; i < rims; ++i) {
+    const RimEdge& edge = rim[i];
+    const Edge v(site_[edge.to].at - p);
+    const std::uint32_t after = place[i + 1 < rims ? i + 1 : 0];
+    Triangle& triangle = now[t];
     triangle.corner[0] = site;
     triangle.corner[1] = edge.from;
     triangle.corner[2] = edge.to;
     triangle.next[0] = edge.outside;
-    triangle.next[1] = hole_[i + 1 < rim_.size() ? i + 1 : 0];
-    triangle.next[2] = hole_[i > 0 ? i - 1 : rim_.size() - 1];
-    triangles[edge.outside].next[edge.outsideEdge] = t;
-    someTriangle[edge.from] = t;
+    triangle.next[1] = 4 * after + 2;
+    triangle.next[2] = 4 * before + 1;
+    now[edge.outside / 4].next[edge.outside % 4] = 4 * t;
+    triangleOf[edge.from] = t;
     setPlane(triangle, p, u, v);
     u = v;
+    before = t;
+    t = after;
   }
-  lastTriangle = someTriangle[site] = hole_[0];
+  triangleOf[site] = place[0];
+  lastRim_ = rims;
 }
 
-void Delaunay::mergeHidden(std::uint32_t p) {
-  for (std::uint32_t t : hole_) {
+void Delaunay::mergeHidden(std::uint32_t p, std::span<const std::uint32_t> hole,
+                           std::span<const RimEdge> rim) {
+  for (std::uint32_t t : hole) {
     for (std::uint32_t corner : triangles[t].corner) {
       bool onRim = false;
-      for (const RimEdge& edge : rim_) onRim = onRim || edge.from == corner;
+      for (const RimEdge& edge : rim) onRim = onRim || edge.from == corner;
       if (!onRim) standsFor[corner] = p;
     }
   }
@@ -235,10 +279,10 @@ std::optional<std::string> Delaunay::fault(std::span<const std::uint32_t> names)
     const auto& k = triangle.corner;
     if (k[0] == kNone) continue;
     ++faces;
-    for (int e = 0; e < 3; ++e) {
-      const Triangle& other = triangles[triangle.next[e]];
-      const int back = other.next[0] == t ? 0 : other.next[1] == t ? 1 : 2;
-      if (other.next[back] != t || other.corner[kAfter[back]] != k[kBefore[e]] ||
+    for (std::uint32_t e = 0; e < 3; ++e) {
+      const Triangle& other = triangles[triangle.next[e] / 4];
+      const std::uint32_t back = triangle.next[e] % 4;
+      if (other.next[back] != 4 * t + e || other.corner[kAfter[back]] != k[kBefore[e]] ||
           other.corner[kBefore[back]] != k[kAfter[e]]) {
         return "triangles do not fit together at direction " + name(k[kAfter[e]]);
       }

@@ -1,7 +1,9 @@
 #pragma once
 #include <Imath/ImathVec.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -21,8 +23,11 @@ struct alignas(64) Triangle {
          offset = 0;             // outward normal, twice the triangle's area long; normal . corner
   float bound = 0;               // a plane distance times |normal| that is greater has the right sign
   std::uint32_t corner[3] = {};  // sites, counterclockwise as seen from outside
-  std::uint32_t next[3] = {};    // the triangle across the edge opposite to that corner
+  std::uint32_t next[3] = {};    // across the edge opposite to that corner: 4 * triangle + its edge
   std::uint32_t hole = 0;        // the insertion that took it away last
+
+  // How far p is beyond the plane, times |normal|.
+  double beyond(const V3d& p) const { return nx * p.x + ny * p.y + nz * p.z - offset; }
 };
 static_assert(sizeof(Triangle) == 64);
 
@@ -41,7 +46,6 @@ struct Delaunay {
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> unused;  // places in triangles; their corner[0] is kNone
   std::uint32_t insertions = 0;
-  std::uint32_t lastTriangle = 0;  // where the next walk begins
   PredicateCounts counts;
 
   // Makes room for that many sites in all.
@@ -57,7 +61,7 @@ struct Delaunay {
 
   // Is p inside the circle of the triangle?
   bool holds(const Triangle& t, const V3d& p) {
-    const double beyond = t.nx * p.x + t.ny * p.y + t.nz * p.z - t.offset;
+    const double beyond = t.beyond(p);
     if (beyond > t.bound) return true;
     if (beyond < -t.bound) return false;
     return holdsSlowly(t, p);
@@ -67,12 +71,14 @@ struct Delaunay {
   template <class Visit>
   void around(std::uint32_t site, Visit&& visit) const {
     const std::uint32_t first = someTriangle[site];
+    const auto& k = triangles[first].corner;
     std::uint32_t t = first;
+    int i = k[0] == site ? 0 : k[1] == site ? 1 : 2;
     do {
-      const Triangle& triangle = triangles[t];
-      const int i = triangle.corner[0] == site ? 0 : triangle.corner[1] == site ? 1 : 2;
       if (visit(t, i)) return;
-      t = triangle.next[kAfter[i]];
+      const std::uint32_t across = triangles[t].next[kAfter[i]];
+      t = across / 4;
+      i = kAfter[across % 4];
     } while (t != first);
   }
 
@@ -84,17 +90,30 @@ struct Delaunay {
 
  private:
   struct RimEdge {
-    std::uint32_t from, to, outside;  // counterclockwise as seen from inside the hole
-    int outsideEdge;
+    std::uint32_t from, to;  // counterclockwise as seen from inside the hole
+    std::uint32_t outside;   // 4 * triangle + edge
   };
 
   bool holdsSlowly(const Triangle& t, const V3d& p);
   // A triangle whose circle holds p, or kNone and the site that p is to be merged into.
   std::uint32_t locate(const V3d& p, std::uint32_t& equal);
   std::uint32_t locateFromNearest(const V3d& p, std::uint32_t from, std::uint32_t& equal);
-  void setPlane(Triangle& t, const V3d& apex, const V3d& u, const V3d& v);
-  void mergeHidden(std::uint32_t p);
+  // Whether the scratch of insert() had to be made longer: each triangle of the hole leaves two edges or
+  // fewer to look at and to its rim.
+  bool makeRoom(std::size_t holes, std::size_t rims, std::size_t pending) {
+    const std::size_t most = std::max(holes, rims + pending) + 4;
+    if (most <= hole_.size()) [[likely]]
+      return false;
+    lengthenScratch(2 * most + 64);
+    return true;
+  }
+  void lengthenScratch(std::size_t length);
+  void mergeHidden(std::uint32_t p, std::span<const std::uint32_t> hole, std::span<const RimEdge> rim);
 
+  // Scratch of insert(), which knows how much of it counts. What stays in hole_ until the next are the
+  // triangles around the last site, lastRim_ of them.
+  static constexpr std::size_t kStarts = 6, kLeastScratch = 64;
+  std::size_t lastRim_ = 1;
   std::vector<std::uint32_t> hole_;
   std::vector<RimEdge> rim_;
   std::vector<std::uint32_t> pending_;  // 4 * triangle + edge

@@ -114,8 +114,11 @@ struct LongTriangle {
 
 }  // namespace
 
-void computeKites(const Delaunay& delaunay, std::span<const std::uint32_t> which, std::span<Kites> kites,
-                  std::span<std::uint8_t> wide) {
+namespace {
+
+// Calls use(i, kites, wide) for each triangle which[i].
+template <class Use>
+void forKites(const Delaunay& delaunay, std::span<const std::uint32_t> which, Use&& use) {
   Block block;
   for (std::size_t first = 0; first < which.size(); first += kBlock) {
     const int n = static_cast<int>(std::min<std::size_t>(kBlock, which.size() - first));
@@ -131,10 +134,29 @@ void computeKites(const Delaunay& delaunay, std::span<const std::uint32_t> which
     for (auto& t : block.tangent) arcTangents(t);
     for (int i = 0; i < n; ++i) {
       const double a = block.tangent[0][i], b = block.tangent[1][i], c = block.tangent[2][i];
-      kites[first + i] = {b + c, c + a, a + b};
-      wide[first + i] = !(block.volume[i] > kLeastCosine * block.area[i]);
+      use(first + i, Kites{b + c, c + a, a + b}, !(block.volume[i] > kLeastCosine * block.area[i]));
     }
   }
+}
+
+}  // namespace
+
+void computeKites(const Delaunay& delaunay, std::span<const std::uint32_t> which, std::span<Kites> kites,
+                  std::span<std::uint8_t> wide) {
+  forKites(delaunay, which, [&](std::size_t i, const Kites& k, bool isWide) {
+    kites[i] = k;
+    wide[i] = isWide;
+  });
+}
+
+void addKites(const Delaunay& delaunay, std::span<const std::uint32_t> which, std::span<double> area,
+              std::span<std::uint8_t> spoiled) {
+  forKites(delaunay, which, [&](std::size_t i, const Kites& k, bool isWide) {
+    const auto& corner = delaunay.triangles[which[i]].corner;
+    for (int e = 0; e < 3; ++e) area[corner[e]] += k[e];
+    if (isWide)
+      for (std::uint32_t c : corner) spoiled[c] = 1;
+  });
 }
 
 long double hullAngle(const Site& a, const Site& b, const Site& c) {

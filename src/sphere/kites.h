@@ -33,6 +33,11 @@ inline constexpr double kLeastCosine = 0.1;
 void computeKites(const Delaunay& delaunay, std::span<const std::uint32_t> which, std::span<Kites> kites,
                   std::span<std::uint8_t> wide);
 
+// Adds the kites of the listed triangles to their corners' areas [sr], and marks the corners of too wide
+// ones.
+void addKites(const Delaunay& delaunay, std::span<const std::uint32_t> which, std::span<double> area,
+              std::span<std::uint8_t> spoiled);
+
 // The cell of a site [sr] in extended precision, from the angles at the hull's vertex where a circle is wide:
 // the cell is 2 pi less their sum, since its polar dual has them as sides.
 double carefulSolidAngle(const Delaunay& delaunay, std::uint32_t site);

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "sphere/two_parts.h"
+
 namespace rsphere {
 namespace {
 
@@ -18,28 +20,6 @@ struct Expansion {
   }
   int sign() const { return size == 0 ? 0 : part[size - 1] > 0 ? 1 : -1; }
 };
-
-struct TwoParts {
-  double high, low;
-};
-
-TwoParts sum(double a, double b) {
-  const double s = a + b, fromB = s - a;
-  return {s, (a - (s - fromB)) + (b - fromB)};
-}
-
-// Veltkamp's halves: 26 bits each, so that products of halves are exact.
-TwoParts halves(double a) {
-  const double c = 134217729.0 * a, high = c - (c - a);
-  return {high, a - high};
-}
-
-TwoParts product(double a, double b) {
-  const double p = a * b;
-  const auto [ah, al] = halves(a);
-  const auto [bh, bl] = halves(b);
-  return {p, al * bl - (((p - ah * bh) - al * bh) - ah * bl)};
-}
 
 // Adds one double; the parts stay apart (Shewchuk's grow-expansion with zero elimination).
 template <int N>
@@ -173,15 +153,6 @@ int liftedSide(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
 }
 
 }  // namespace
-
-double lengthExcess(const V3d& p) {
-  const auto [xx, xLow] = product(p.x, p.x);
-  const auto [yy, yLow] = product(p.y, p.y);
-  const auto [zz, zLow] = product(p.z, p.z);
-  const auto [s, sLow] = sum(xx, yy);
-  const auto [t, tLow] = sum(s, zz);
-  return (t - 1) + (((tLow + sLow) + zLow) + (yLow + xLow));
-}
 
 bool circleHolds(const V3d& a, const V3d& b, const V3d& c, const V3d& p, PredicateCounts& counts) {
   int sign = liftedSide<double>(a, b, c, p);

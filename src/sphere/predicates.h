@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "sphere/two_parts.h"
+
 // Which side of a triangle's circle a direction lies on, decided rightly and consistently for all input.
 //
 // The object. A stored triple p stands for the point q = 2p / (1 + |p|^2). The denominator is the first step
@@ -27,7 +29,14 @@ inline constexpr double kUnitTolerance = 1e-14;
 inline constexpr double kSmallestComponent = 0x1p-150;
 
 // |p|^2 - 1, to 1e-32 and to 2^-51 of itself where p is a normalized vector.
-double lengthExcess(const V3d& p);
+inline double lengthExcess(const V3d& p) {
+  const auto [xx, xLow] = product(p.x, p.x);
+  const auto [yy, yLow] = product(p.y, p.y);
+  const auto [zz, zLow] = product(p.z, p.z);
+  const auto [s, sLow] = sum(xx, yy);
+  const auto [t, tLow] = sum(s, zz);
+  return (t - 1) + (((tLow + sLow) + zLow) + (yLow + xLow));
+}
 
 // How often each stage gave the answer. filter: the triangle's stored plane, in floating point with an error
 // bound. lifted: coordinates relative to the direction asked for, insensitive to radii. exact: expansions.

@@ -94,6 +94,7 @@ struct BaseTriangulation::Data {
   Triangulation triangulation;
   std::vector<Kites> kites;
   std::vector<std::uint8_t> wide;
+  bool anyUnused = false, anyWide = false;
   std::vector<double> solidAngles;
 };
 
@@ -102,16 +103,14 @@ struct VoronoiWorkspace::Data {
   OrderScratch scratch;
   std::vector<Site> added;
   std::vector<std::uint32_t> addedOrder, which;
-  std::vector<Kites> kites;
-  std::vector<std::uint8_t> wide, spoiled;  // spoiled: sites that a wide circle touches
-  std::vector<double> area;                 // of sites
+  std::vector<std::uint8_t> spoiled;  // spoiled: sites that a wide circle touches
+  std::vector<double> area;           // of sites
   std::vector<std::uint32_t> sharers;
   std::vector<double> solidAngles;
 
   void build(std::span<const Site> sites);
   void query(const BaseTriangulation::Data& base, std::span<const V3d> dynamicDirections);
   void addKeptTriangles(const BaseTriangulation::Data& base);  // and lists the new ones in which
-  void addNewTriangles();
   void markSpoiled(const Triangle& t) {
     for (std::uint32_t corner : t.corner) spoiled[corner] = 1;
   }
@@ -131,7 +130,7 @@ void VoronoiWorkspace::Data::build(std::span<const Site> sites) {
     for (std::uint32_t t = 0; t < triangulation.delaunay.triangles.size(); ++t) {
       if (triangulation.delaunay.triangles[t].corner[0] != kNone) which.push_back(t);
     }
-    addNewTriangles();
+    addKites(triangulation.delaunay, which, area, spoiled);
     finishAreas();
   }
 }
@@ -160,7 +159,7 @@ void VoronoiWorkspace::Data::query(const BaseTriangulation::Data& base,
   area.assign(solidAngles.size(), 0);
   spoiled.assign(solidAngles.size(), 0);
   addKeptTriangles(base);
-  addNewTriangles();
+  addKites(triangulation.delaunay, which, area, spoiled);
   finishAreas();
 }
 
@@ -176,31 +175,14 @@ void VoronoiWorkspace::Data::addKeptTriangles(const BaseTriangulation::Data& bas
     const bool isNew = triangle.corner[0] >= kept;
     which[added] = t;
     added += isNew;
-    const bool isUnused = triangle.corner[0] == kNone;
-    if (isUnused) continue;
+    if (base.anyUnused && triangle.corner[0] == kNone) continue;
     for (int i = 0; i < 3; ++i) area[triangle.corner[i]] += isNew ? 0.0 : base.kites[t][i];
-    if (base.wide[t] && !isNew) markSpoiled(triangle);
+    if (base.anyWide && base.wide[t] && !isNew) markSpoiled(triangle);
   }
   for (auto t = static_cast<std::uint32_t>(places); t < triangles.size(); ++t) which[added++] = t;
   which.resize(added);
   if (!triangulation.delaunay.unused.empty()) {
     std::erase_if(which, [&](std::uint32_t t) { return triangles[t].corner[0] == kNone; });
-  }
-}
-
-void VoronoiWorkspace::Data::addNewTriangles() {
-  const auto& triangles = triangulation.delaunay.triangles;
-  constexpr std::size_t kAtOnce = 1024;
-  kites.resize(kAtOnce);
-  wide.resize(kAtOnce);
-  for (std::size_t first = 0; first < which.size(); first += kAtOnce) {
-    const auto some = std::span(which).subspan(first, std::min(kAtOnce, which.size() - first));
-    computeKites(triangulation.delaunay, some, kites, wide);
-    for (std::size_t k = 0; k < some.size(); ++k) {
-      const Triangle& triangle = triangles[some[k]];
-      for (int i = 0; i < 3; ++i) area[triangle.corner[i]] += kites[k][i];
-      if (wide[k]) markSpoiled(triangle);
-    }
   }
 }
 
@@ -267,6 +249,8 @@ BaseTriangulation::BaseTriangulation(std::span<const V3d> directions) {
     data->kites.resize(all.size());
     data->wide.resize(all.size());
     computeKites(delaunay, all, data->kites, data->wide);
+    data->anyUnused = !delaunay.unused.empty();
+    data->anyWide = std::find(data->wide.begin(), data->wide.end(), 1) != data->wide.end();
   }
   data_ = std::move(data);
 }
