@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 
+#include "rad_parser/block.h"
 #include "rad_parser/description.h"
 
 namespace rad {
@@ -33,22 +32,8 @@ Error BinaryReader::fault(std::string_view text) const {
 // moved, at the end.
 bool BinaryReader::refill(const uint8_t*& keep) {
   if (descriptor_ < 0) return false;
-  const auto kept = static_cast<size_t>(end_ - keep);
-  std::memmove(block_.get(), keep, kept);
   blockOffset_ += static_cast<uint64_t>(keep - block_.get());
-  next_ -= keep - block_.get();
-  keep = block_.get();
-  end_ = keep + kept;
-  ssize_t got;
-  do {
-    got = read(descriptor_, block_.get() + kept, kBlock - kept);
-  } while (got < 0 && errno == EINTR);
-  if (got < 0)
-    throw Error(fmt::format("{}: cannot read: {}", printable(name_, 4096), std::strerror(errno)),
-                Status::system);
-  if (got == 0) descriptor_ = -1;
-  end_ += got;
-  return got > 0;
+  return readOn(descriptor_, block_.get(), kBlock, keep, next_, end_, [&] { return printable(name_, 4096); });
 }
 
 void BinaryReader::need(size_t bytes) {

@@ -4,6 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <limits>
+
+#include "rad_parser/error.h"
 
 namespace rad {
 namespace {
@@ -83,8 +87,45 @@ std::string Description::at(Place place) const {
   return text;
 }
 
-ModifierIndex::ModifierIndex(const Description& description) {
-  for (size_t i = 0; i < description.primitives.size(); ++i) {
+void append(Description& to, Description&& more, Place from) {
+  const auto check = [](size_t have, size_t added, size_t most) {
+    if (added > most - have) throw Error("more than can be numbered in files that are read together");
+  };
+  constexpr size_t kMost32 = std::numeric_limits<uint32_t>::max();
+  check(to.primitives.size(), more.primitives.size(), std::numeric_limits<int32_t>::max());
+  check(to.words.size(), more.words.size(), kMost32);
+  check(to.stringArgs.size(), more.stringArgs.size(), kMost32);
+  const auto files = static_cast<uint32_t>(to.files.size()), words = static_cast<uint32_t>(to.words.size());
+  const auto strings = static_cast<uint32_t>(to.stringArgs.size());
+  const auto primitives = static_cast<int32_t>(to.primitives.size());
+  const uint64_t reals = to.realArgs.size();
+
+  for (SourceFile& file : more.files) {
+    if (file.from.file == SourceFile::kNoFile)
+      file.from = from;
+    else
+      file.from.file += files;
+    to.files.push_back(std::move(file));
+  }
+  to.words.insert(to.words.end(), std::make_move_iterator(more.words.begin()),
+                  std::make_move_iterator(more.words.end()));
+  for (uint32_t word : more.stringArgs) to.stringArgs.push_back(word + words);
+  to.realArgs.insert(to.realArgs.end(), more.realArgs.begin(), more.realArgs.end());
+  to.primitives.reserve(to.primitives.size() + more.primitives.size());
+  for (Primitive p : more.primitives) {
+    if (p.modifier != kVoid) p.modifier += primitives;
+    if (p.aliased != kVoid) p.aliased += primitives;
+    p.place.file += files;
+    p.name += words;
+    p.firstString += strings;
+    p.firstReal += reals;
+    to.primitives.push_back(p);
+  }
+  more = Description();
+}
+
+ModifierIndex::ModifierIndex(const Description& description, size_t first) {
+  for (size_t i = first; i < description.primitives.size(); ++i) {
     const Primitive& p = description.primitives[i];
     if (!isSurface(p.type)) definitions_[description.name(p)].push_back(static_cast<int32_t>(i));
   }

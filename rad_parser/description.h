@@ -118,11 +118,17 @@ struct Description {
   std::string at(Place place) const;
 };
 
+// Appends the files, words and primitives of another description, numbered on from those there are; from:
+// the place that named it. Header and cube stay as they are. A word that both have is there twice. Throws
+// Error where there are more than can be numbered.
+void append(Description& to, Description&& more, Place from);
+
 // Finds the modifiers that string arguments name (mixtures, mirror, illum, antimatter). The description must
 // outlive the index and keep its words and primitives.
 class ModifierIndex {
  public:
-  explicit ModifierIndex(const Description& description);
+  // Of the primitives from primitives[first] on.
+  explicit ModifierIndex(const Description& description, size_t first = 0);
 
   // The last modifier of that name defined before primitives[index], which is what the name means there;
   // kVoid where there is none ("void" itself never names one). Logarithmic in the number of definitions of

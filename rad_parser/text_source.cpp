@@ -1,14 +1,13 @@
 #include "rad_parser/text_source.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cstring>
 
+#include "rad_parser/block.h"
 #include "rad_parser/number.h"
 
 namespace rad {
@@ -47,21 +46,9 @@ TextSource::TextSource(std::string_view text, uint32_t file, const DescriptionBu
 // the end.
 bool TextSource::refill(const char*& keep) {
   if (descriptor_ < 0) return false;
-  const size_t kept = static_cast<size_t>(end_ - keep);
-  std::memmove(block_.get(), keep, kept);
-  next_ -= keep - block_.get();
-  keep = block_.get();
-  end_ = keep + kept;
-  ssize_t got;
-  do {
-    got = read(descriptor_, block_.get() + kept, kBlock - kept);
-  } while (got < 0 && errno == EINTR);
-  if (got < 0)
-    throw builder_.error({file_, line_}, fmt::format("cannot read: {}", std::strerror(errno)),
-                         Status::system);
-  if (got == 0) descriptor_ = -1;
-  end_ += got;
-  return got > 0;
+  return readOn(descriptor_, block_.get(), kBlock, keep, next_, end_, [&] {
+    return builder_.description().at({file_, line_});
+  });
 }
 
 void TextSource::nulByte() const { throw builder_.error({file_, line_}, "NUL byte: this is not scene text"); }

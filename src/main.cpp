@@ -58,8 +58,8 @@ AnswerRecord answerPoints(const SphereEstimator& estimator, const Scene& scene, 
 
 void answer(const Options& options, const Messages& messages, StopSignals& signals) {
   const rad::Warn warn = [&](std::string_view text) { messages.warning(text); };
-  const Scene scene =
-      buildScene(rad::readScene(options.scene, {options.commands, warn}), warn, options.sphere.goals);
+  const rad::ReadOptions read{options.commands, warn};
+  const Scene scene = buildScene(rad::readScene(options.scene, read), read, options.sphere.goals);
   RecordWriter writer(1);
   if (options.sphere.listSpecial) {
     writer.write(specialObjectsText(scene, findSpecialObjects(scene, options.sphere.densityFactor)));

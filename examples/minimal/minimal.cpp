@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
       argc == 5 ? V3d(std::atof(argv[2]), std::atof(argv[3]), std::atof(argv[4])) : V3d(0, 0, 0);
   try {
     const std::string files[] = {argv[1]};
-    const Scene scene = buildScene(rad::readScene(files), {});
+    const Scene scene = buildScene(rad::readScene(files));
 
     RayOptions rays;
     rays.ambientBounces = 2;

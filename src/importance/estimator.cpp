@@ -119,7 +119,8 @@ void SphereEstimator::measureSurroundings(PathTracer& tracer) {
   Random random(mixBits(scene.surfaces.size()));
   Values values;
   for (int k = 0; k < kRaysForSurroundings; ++k) {
-    const auto i = static_cast<size_t>(random.uniform() * static_cast<double>(scene.surfaces.size()));
+    const auto surfaces = static_cast<double>(scene.outermost().size());
+    const auto i = static_cast<size_t>(random.uniform() * surfaces);
     if (std::holds_alternative<Distant>(scene.surfaces[i].shape)) continue;
     const SurfacePoint at = samplePoint(scene.surfaces[i].shape, scene.vertices, random);
     const V3d away = awayFrom(at.normal, random.uniform(), random.uniform());

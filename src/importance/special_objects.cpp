@@ -95,7 +95,7 @@ double irregularity(const Material& material) { return std::visit(Irregularity{}
 
 std::vector<SpecialObject> findSpecialObjects(const Scene& scene, double factor) {
   std::vector<SpecialObject> objects;
-  for (uint32_t i = 0; i < scene.surfaces.size(); ++i) {
+  for (uint32_t i = 0; i < scene.outermost().size(); ++i) {
     const Surface& s = scene.surfaces[i];
     if (std::holds_alternative<Distant>(s.shape)) continue;
     const double value = mostIrregular(scene, s.modifier).irregularity;

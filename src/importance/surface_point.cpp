@@ -55,12 +55,15 @@ SurfacePoint pointOn(const Ring& ring, std::span<const V3d>, Random& random) {
           clearanceOf(ring.outer)};
 }
 
-SurfacePoint pointOn(const Distant&, std::span<const V3d>, Random&) { return {}; }
-
 }  // namespace
 
 SurfacePoint samplePoint(const Shape& shape, std::span<const V3d> vertices, Random& random) {
-  return std::visit([&](const auto& form) { return pointOn(form, vertices, random); }, shape);
+  return std::visit(
+      [&](const auto& form) -> SurfacePoint {
+        if constexpr (kIsPlain<std::decay_t<decltype(form)>>) return pointOn(form, vertices, random);
+        return {};
+      },
+      shape);
 }
 
 }  // namespace rsphere

@@ -75,7 +75,7 @@ class Images {
  public:
   Images(const Scene& scene, const rad::Warn& warn, std::vector<LightSource>& sources)
       : scene_(scene), sources_(sources) {
-    for (uint32_t i = 0; i < scene.surfaces.size(); ++i) addRelay(i, warn);
+    for (uint32_t i = 0; i < scene.outermost().size(); ++i) addRelay(i, warn);
   }
 
   // Images of one source and images of those, up to `relays` of them one after the other.

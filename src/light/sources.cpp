@@ -181,10 +181,16 @@ LightSources::LightSources(const Scene& scene) : scene_(scene) {
   const auto add = [&](uint32_t surface) -> LightSource& {
     LightSource& source = sources_.emplace_back();
     source.surface = static_cast<int32_t>(surface);
-    std::visit([&](const auto& shape) { setShape(source, shape, scene); }, scene.surfaces[surface].shape);
+    std::visit(
+        [&](const auto& shape) {
+          using S = std::decay_t<decltype(shape)>;
+          if constexpr (kIsPlain<S> || std::is_same_v<S, Distant>) setShape(source, shape, scene);
+        },
+        scene.surfaces[surface].shape);
     return source;
   };
-  for (uint32_t i = 0; i < scene.surfaces.size(); ++i) {
+  // As for rtrace, what shines in octrees and meshes is only seen.
+  for (uint32_t i = 0; i < scene.outermost().size(); ++i) {
     const Surface& surface = scene.surfaces[i];
     if (surface.material == kNone) continue;
     if (scene.importance) {

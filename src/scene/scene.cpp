@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <type_traits>
 #include <unordered_map>
 
 namespace rsphere {
 namespace {
 
+using rad::Place;
 using rad::Primitive;
 using rad::printable;
 using rad::Type;
@@ -24,15 +27,21 @@ double coneSolidAngle(double fullAngleDegrees) {
 
 class Builder {
  public:
-  Builder(rad::Description description, const rad::Warn& warn) : warn_(warn) {
+  Builder(rad::Description description, const rad::ReadOptions& options)
+      : options_(options), warn_(options.warn) {
     scene_.description = std::move(description);
   }
 
   Scene build() {
-    const auto& primitives = scene_.description.primitives;
-    modifierOf_.assign(primitives.size(), kUnknown);
-    for (uint32_t i = 0; i < primitives.size(); ++i)
-      if (rad::isSurface(primitives[i].type)) addSurface(i);
+    addGroup(0);
+    // Octrees that instances name, and those that these name in turn; then the meshes of them all.
+    for (size_t i = 0; i < octrees_.size(); ++i) {
+      const Place from = primitive(octrees_[i].namedBy).place;
+      addGroup(adopt(read(octrees_[i].namedBy, [&] { return rad::readOctree(octrees_[i].file, options_); }),
+                     from));
+    }
+    checkNesting();
+    for (size_t i = 0; i < meshes_.size(); ++i) addMesh(meshes_[i]);
     return std::move(scene_);
   }
 
@@ -41,6 +50,12 @@ class Builder {
   static constexpr int kDeepest = 64;
   static constexpr double kNegligible =
       1e-6;  // shares and roughnesses below it are none; RADIANCE's own figure
+
+  // A file that primitives name; the first of them.
+  struct NamedFile {
+    std::string file;
+    uint32_t namedBy = 0;
+  };
 
   const Primitive& primitive(uint32_t i) const { return scene_.description.primitives[i]; }
   std::span<const double> reals(uint32_t i) const { return scene_.description.reals(primitive(i)); }
@@ -75,7 +90,7 @@ class Builder {
   int32_t named(uint32_t i, size_t argument) {
     const std::string_view name = scene_.description.string(primitive(i), argument);
     if (name == "void") return kNone;
-    if (!index_) index_.emplace(scene_.description);
+    if (!index_) index_.emplace(scene_.description, firstPrimitive_);
     const int32_t described = index_->before(name, static_cast<int32_t>(i));
     if (described == rad::kVoid) fail(i, fmt::format("undefined modifier \"{}\"", printable(name)));
     // A ray that meets modifiers within each other goes as deep, and takes up to 2^depth ways.
@@ -317,16 +332,159 @@ class Builder {
           },
           *material);
   }
+  // ---- octrees and meshes
+
+  // What a reader of primitive i's file returns; what it throws says which primitive named the file.
+  template <class Read>
+  std::invoke_result_t<Read> read(uint32_t i, const Read& reader) const {
+    try {
+      return reader();
+    } catch (const rad::Error& error) {
+      throw rad::Error(fmt::format("{} (from {})", error.what(), scene_.place(i)), error.status());
+    }
+  }
+
+  // Adds another file's description; the index of its first primitive.
+  uint32_t adopt(rad::Description&& description, Place from) {
+    const auto first = static_cast<uint32_t>(scene_.description.primitives.size());
+    rad::append(scene_.description, std::move(description), from);
+    index_.reset();
+    return first;
+  }
+
+  // The surfaces among the primitives from this one on.
+  void addGroup(uint32_t firstPrimitive) {
+    firstPrimitive_ = firstPrimitive;
+    const auto& primitives = scene_.description.primitives;
+    modifierOf_.resize(primitives.size(), kUnknown);
+    SurfaceGroup group{static_cast<uint32_t>(scene_.surfaces.size()), 0};
+    for (uint32_t i = firstPrimitive; i < primitives.size(); ++i)
+      if (rad::isSurface(primitives[i].type)) addSurface(i);
+    group.surfaces = static_cast<uint32_t>(scene_.surfaces.size()) - group.firstSurface;
+    scene_.groups.push_back(group);
+  }
+
+  // The number of a file among those of its kind, in the order in which they are first named.
+  static uint32_t numberOf(const std::string& file, uint32_t i, std::vector<NamedFile>& files,
+                           std::unordered_map<std::string, uint32_t>& numbers) {
+    const auto [at, isNew] = numbers.try_emplace(file, static_cast<uint32_t>(files.size()));
+    if (isNew) files.push_back({file, i});
+    return at->second;
+  }
+
+  // A file and the transform of what is in it: the arguments of instance and mesh.
+  std::string fileArgument(uint32_t i) const {
+    if (primitive(i).strings == 0) fail(i, "expected a file name");
+    return std::string(scene_.description.string(primitive(i), 0));
+  }
+  uint32_t placement(uint32_t i) {
+    std::vector<std::string_view> words;
+    for (uint32_t k = 1; k < primitive(i).strings; ++k)
+      words.push_back(scene_.description.string(primitive(i), k));
+    size_t used = 0;
+    Placement p;
+    p.toOuter = rad::readTransform(words, used);
+    if (used != words.size()) fail(i, "bad transform");
+    p.toInner = p.toOuter.inverse();
+    for (rad::Similarity* s : {&p.toOuter, &p.toInner}) {
+      s->scale = std::abs(s->scale);
+      bool finite = std::isnormal(s->scale);
+      for (const auto& row : s->matrix.x)
+        for (double x : row) finite = finite && std::isfinite(x);
+      if (!finite) fail(i, "a transform beyond the range of numbers");
+    }
+    scene_.placements.push_back(p);
+    return static_cast<uint32_t>(scene_.placements.size()) - 1;
+  }
+
+  Instance makeInstance(uint32_t i) {
+    const std::string file = fileArgument(i);
+    return {placement(i), 1 + numberOf(file, i, octrees_, octreeNumbers_)};
+  }
+
+  MeshInstance makeMeshInstance(uint32_t i) {
+    const std::string file = fileArgument(i);
+    return {placement(i), numberOf(file, i, meshes_, meshNumbers_)};
+  }
+
+  // Reads a mesh; each material that it uses becomes the modifier of faces of its own.
+  void addMesh(const NamedFile& named) {
+    rad::Mesh data = read(named.namedBy, [&] { return rad::readMesh(named.file, warn_); });
+    std::vector<bool> used(data.materials.primitives.size());
+    for (const rad::Mesh::Triangle& t : data.triangles)
+      if (t.material != rad::Mesh::kNoMaterial) used[static_cast<size_t>(t.material)] = true;
+    const std::optional<rad::Cube> cube = data.materials.cube;
+    firstPrimitive_ = adopt(std::move(data.materials), primitive(named.namedBy).place);
+    data.materials.cube = cube;
+    modifierOf_.resize(scene_.description.primitives.size(), kUnknown);
+    std::vector<int32_t> facesOf(used.size(), kNone);
+    for (size_t m = 0; m < used.size(); ++m)
+      if (used[m]) facesOf[m] = addFaces(static_cast<int32_t>(firstPrimitive_ + m));
+    scene_.meshes.push_back({std::move(data), std::move(facesOf)});
+  }
+
+  int32_t addFaces(int32_t described) {
+    rad::Description& d = scene_.description;
+    if (facesName_ == kNoWord) {
+      facesName_ = static_cast<uint32_t>(d.words.size());
+      d.words.emplace_back("M-Tri");  // what rtrace -os calls them
+    }
+    rad::Primitive p;
+    p.type = Type::mesh;
+    p.modifier = described;
+    p.place = primitive(static_cast<uint32_t>(described)).place;
+    p.name = facesName_;
+    d.primitives.push_back(p);
+    modifierOf_.push_back(kUnknown);
+    addSurface(static_cast<uint32_t>(d.primitives.size()) - 1, MeshFaces{});
+    return static_cast<int32_t>(scene_.surfaces.size()) - 1;
+  }
+
+  // Octrees within each other: an end to them, and to how deep a ray can be.
+  void checkNesting() {
+    heights_.assign(scene_.groups.size(), kUnknown);
+    if (!octrees_.empty()) height(0, 0);
+  }
+  // How many levels of octrees and meshes there are under this group, which is itself at `depth`.
+  int height(uint32_t group, int depth) {
+    constexpr int kOpen = -1;
+    int& known = heights_[group];
+    if (known != kUnknown) return known;
+    known = kOpen;
+    int highest = 0;
+    const SurfaceGroup& g = scene_.groups[group];
+    for (uint32_t s = g.firstSurface; s < g.firstSurface + g.surfaces; ++s) {
+      const Surface& surface = scene_.surfaces[s];
+      int under = 0;
+      if (const auto* instance = std::get_if<Instance>(&surface.shape)) {
+        if (heights_[instance->group] == kOpen) fail(surface.primitive, "an octree within itself");
+        under = depth < kMostLevels ? 1 + height(instance->group, depth + 1) : kMostLevels + 1;
+      } else if (std::holds_alternative<MeshInstance>(surface.shape)) {
+        under = 1;
+      }
+      if (depth + under > kMostLevels)
+        fail(surface.primitive, fmt::format("octrees within each other more than {} deep", kMostLevels));
+      highest = std::max(highest, under);
+    }
+    return heights_[group] = highest;
+  }
+  static constexpr int kMostLevels = PlacementPath::kDeepest;
 
   // ---- surfaces
 
   void addSurface(uint32_t i) {
-    const Primitive& p = primitive(i);
+    // Light from far away does not come out of an octree.
+    if (firstPrimitive_ > 0 && primitive(i).type == Type::source) return;
     std::optional<Shape> shape = makeShape(i);
-    if (!shape) return;
-    Surface surface{std::move(*shape), i, modifier(p.modifier), kNone};
+    if (shape) addSurface(i, std::move(*shape));
+  }
+
+  void addSurface(uint32_t i, Shape shape) {
+    Surface surface{std::move(shape), i, modifier(primitive(i).modifier), kNone};
     surface.material = scene_.firstMaterial(surface.modifier);
-    checkLight(i, surface);
+    surface.smoothed = scene_.modifierName(surface) == "Phong";
+    // Sources in octrees are seen, but do not light by themselves.
+    if (firstPrimitive_ == 0) checkLight(i, surface);
     scene_.surfaces.push_back(std::move(surface));
   }
 
@@ -351,6 +509,8 @@ class Builder {
       if (cone->inward || cone->radius0 != cone->radius1)
         fail(i, "only a cylinder of this kind can be a light source");
       if (cone->radius0 > .2 * cone->length) warn(i, "source aspect too small");
+    } else if (!std::holds_alternative<Distant>(surface.shape)) {
+      fail(i, "a light source's material on a surface that cannot be one");
     }
   }
 
@@ -371,6 +531,10 @@ class Builder {
         return makeRing(i);
       case Type::source:
         return makeDistant(i);
+      case Type::instance:
+        return makeInstance(i);
+      case Type::mesh:
+        return makeMeshInstance(i);
       default:
         fail(i, "this type is not supported yet");
     }
@@ -473,8 +637,16 @@ class Builder {
                    coneSolidAngle(2 * half * 180 / std::numbers::pi)};
   }
 
+  static constexpr uint32_t kNoWord = std::numeric_limits<uint32_t>::max();
+
+  const rad::ReadOptions& options_;
   const rad::Warn& warn_;
   Scene scene_;
+  uint32_t firstPrimitive_ = 0;  // of the file that is being converted
+  std::vector<NamedFile> octrees_, meshes_;
+  std::unordered_map<std::string, uint32_t> octreeNumbers_, meshNumbers_;
+  std::vector<int> heights_;  // by group
+  uint32_t facesName_ = kNoWord;
   std::optional<rad::ModifierIndex> index_;  // made when a modifier is first named by a string argument
   int depth_ = 0;                            // of such names within each other
   std::vector<int32_t> modifierOf_;          // by index in the description; kUnknown: not looked at
@@ -489,6 +661,13 @@ int32_t Scene::firstMaterial(int32_t modifier) const {
     if (m.next == kNone && std::holds_alternative<Mixture>(m.content)) return modifier;
   }
   return kNone;
+}
+
+Placement Scene::placementOf(const PlacementPath& path) const {
+  if (path.count == 0) return {};
+  Placement all = placements[path.placements[0]];
+  for (uint8_t i = 1; i < path.count; ++i) all = within(all, placements[path.placements[i]]);
+  return all;
 }
 
 std::string_view Scene::modifierName(const Surface& s) const {
@@ -524,8 +703,9 @@ std::optional<Rgb> sourceRadiance(const Material& material) {
 
 bool isLightSource(const Material& material) { return sourceRadiance(material).has_value(); }
 
-Scene buildScene(rad::Description description, const rad::Warn& warn, std::span<const std::string> goals) {
-  Scene scene = Builder(std::move(description), warn).build();
+Scene buildScene(rad::Description description, const rad::ReadOptions& options,
+                 std::span<const std::string> goals) {
+  Scene scene = Builder(std::move(description), options).build();
   for (const std::string& goal : goals) {
     bool found = false;
     for (Surface& surface : scene.surfaces)

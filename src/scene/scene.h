@@ -9,7 +9,10 @@
 
 #include "rad_parser/description.h"
 #include "rad_parser/error.h"
+#include "rad_parser/mesh_file.h"
+#include "rad_parser/scene_file.h"
 #include "scene/material.h"
+#include "scene/placement.h"
 #include "scene/shape.h"
 
 namespace rsphere {
@@ -43,17 +46,39 @@ struct Surface {
   int32_t material = kNone;  // the first material of the chain that modifier begins, or else the mixture that
                              // ends it: what ties between surfaces and light sources go by. kNone: none
   bool goal = false;         // emits importance 1 from its front, besides what its material does
+  bool smoothed = false;  // its modifier is called "Phong": what perturbs normals bends nothing that passes
+};
+
+// Surfaces that are traced together, in coordinates of their own: the scene itself, or an octree that
+// instances bring in, once in memory however many they are.
+struct SurfaceGroup {
+  uint32_t firstSurface = 0, surfaces = 0;  // range in Scene::surfaces
+};
+
+// A mesh file, once in memory.
+struct Mesh {
+  rad::Mesh data;                // materials: the cube alone; the rest is part of Scene::description
+  std::vector<int32_t> facesOf;  // by material of data: index in Scene::surfaces of its MeshFaces, or kNone
 };
 
 // What the tracer needs of a scene, and only what this scene requires: used modifiers, surfaces that can be
 // hit.
 struct Scene {
-  rad::Description description;
-  std::vector<Surface> surfaces;
+  rad::Description description;      // of octrees and meshes too, behind the scene's own
+  std::vector<Surface> surfaces;     // by groups, then the MeshFaces
+  std::vector<SurfaceGroup> groups;  // [0]: the scene itself
+  std::vector<Mesh> meshes;
+  std::vector<Placement> placements;
   std::vector<V3d> vertices;  // of the polygons
   std::vector<Modifier> modifiers;
   bool importance = false;  // there are goals: importance is traced, and every other source is dark
 
+  // The surfaces that are in the world rather than in an octree or a mesh: the first ones.
+  std::span<const Surface> outermost() const {
+    return std::span(surfaces).first(groups.empty() ? 0 : groups[0].surfaces);
+  }
+  // Of all on the path together; placements of an empty one leave everything where it is.
+  Placement placementOf(const PlacementPath& path) const;
   std::string_view surfaceName(const Surface& s) const {
     return description.name(description.primitives[s.primitive]);
   }
@@ -80,13 +105,15 @@ bool isLightSource(const Material& material);
 // The radiance a source material is given (W/sr/m2); empty for others.
 std::optional<Rgb> sourceRadiance(const Material& material);
 
-// Checks and converts what surfaces use of the description, which is kept for names and places. Vertices are
-// as the files have them (world frame, double). Warns of what RADIANCE warns of (negative radii, surfaces
-// without area, vertices out of the plane); a surface without area is left out. Throws rad::Error
+// Checks and converts what surfaces use of the description, which is kept for names and places, and reads the
+// octrees and meshes that it names (options: for them), each once. Vertices are as the files have them
+// (double precision). Warns of what RADIANCE warns of (negative radii, surfaces without area, vertices out of
+// the plane); a surface without area is left out, and so are distant sources in octrees. Throws rad::Error
 // with the primitive's place: wrong arguments, a used type that is not supported yet, mixtures nested beyond
-// reason. Or that no
-// surface has the modifier of a goal: surfaces with a modifier of one of these names emit importance (-Sg).
-Scene buildScene(rad::Description description, const rad::Warn& warn,
+// reason, octrees within themselves or deeper than PlacementPath::kDeepest, what rad::readOctree() and
+// rad::readMesh() throw. Or that no surface has the modifier of a goal: surfaces with a modifier of one of
+// these names emit importance (-Sg).
+Scene buildScene(rad::Description description, const rad::ReadOptions& options = {},
                  std::span<const std::string> goals = {});
 
 }  // namespace rsphere

@@ -165,21 +165,6 @@ bool intersect(const Ring& ring, const V3d& origin, const V3d& direction, double
   return true;
 }
 
-bool intersect(const Shape& shape, std::span<const V3d> vertices, const V3d& origin, const V3d& direction,
-               double farthest, ShapeHit& hit) {
-  return std::visit(
-      [&](const auto& s) {
-        using S = std::decay_t<decltype(s)>;
-        if constexpr (std::is_same_v<S, Polygon>)
-          return intersect(s, vertices, origin, direction, farthest, hit);
-        else if constexpr (std::is_same_v<S, Distant>)
-          return false;
-        else
-          return intersect(s, origin, direction, farthest, hit);
-      },
-      shape);
-}
-
 Box3d bounds(const Polygon& polygon, std::span<const V3d> vertices) {
   Box3d box;
   for (const V3d& v : vertices.subspan(polygon.firstVertex, polygon.vertices)) box.extendBy(v);
@@ -219,6 +204,35 @@ Box3d bounds(const Cone& cone) {
 Box3d bounds(const Ring& ring) {
   const V3d extent = ring.outer * diskExtent(ring.normal);
   return Box3d(ring.center - extent, ring.center + extent);
+}
+
+bool intersect(const Shape& shape, std::span<const V3d> vertices, const V3d& origin, const V3d& direction,
+               double farthest, ShapeHit& hit) {
+  return std::visit(
+      [&](const auto& form) {
+        using S = std::decay_t<decltype(form)>;
+        if constexpr (std::is_same_v<S, Polygon>)
+          return intersect(form, vertices, origin, direction, farthest, hit);
+        else if constexpr (kIsPlain<S>)
+          return intersect(form, origin, direction, farthest, hit);
+        else
+          return false;
+      },
+      shape);
+}
+
+Box3d bounds(const Shape& shape, std::span<const V3d> vertices) {
+  return std::visit(
+      [&](const auto& form) {
+        using S = std::decay_t<decltype(form)>;
+        if constexpr (std::is_same_v<S, Polygon>)
+          return bounds(form, vertices);
+        else if constexpr (kIsPlain<S>)
+          return bounds(form);
+        else
+          return Box3d();
+      },
+      shape);
 }
 
 }  // namespace rsphere

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <variant>
 
 namespace rsphere {
@@ -66,7 +67,27 @@ struct Distant {
   double solidAngle = 0;  // sr
 };
 
-using Shape = std::variant<Polygon, Sphere, Cone, Ring, Distant>;
+// The surfaces of an octree, brought in by "instance".
+struct Instance {
+  uint32_t placement = 0;  // index in Scene::placements
+  uint32_t group = 0;      // index in Scene::groups
+};
+
+// The triangles of a file, brought in by "mesh".
+struct MeshInstance {
+  uint32_t placement = 0;  // index in Scene::placements
+  uint32_t mesh = 0;       // index in Scene::meshes
+};
+
+// The triangles of a mesh that have one material of the mesh's own; hit through the mesh's instances.
+struct MeshFaces {};
+
+using Shape = std::variant<Polygon, Sphere, Cone, Ring, Distant, Instance, MeshInstance, MeshFaces>;
+
+// Whether rays hit the shape as it stands, by one of the functions below.
+template <class S>
+inline constexpr bool kIsPlain = std::is_same_v<S, Polygon> || std::is_same_v<S, Sphere> ||
+                                 std::is_same_v<S, Cone> || std::is_same_v<S, Ring>;
 
 // Each returns whether the ray from origin along the unit vector direction meets the shape farther than
 // kSamePlace and not beyond farthest (the first such place), and fills hit only then. Rounding: distances are
@@ -77,15 +98,17 @@ bool intersect(const Polygon& polygon, std::span<const V3d> vertices, const V3d&
 bool intersect(const Sphere& sphere, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit);
 bool intersect(const Cone& cone, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit);
 bool intersect(const Ring& ring, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit);
-// Any of them; a distant one is never met.
-bool intersect(const Shape& shape, std::span<const V3d> vertices, const V3d& origin, const V3d& direction,
-               double farthest, ShapeHit& hit);
 
 // The smallest box around the shape, up to rounding. Not for Distant.
 Box3d bounds(const Polygon& polygon, std::span<const V3d> vertices);
 Box3d bounds(const Sphere& sphere);
 Box3d bounds(const Cone& cone);
 Box3d bounds(const Ring& ring);
+
+// The two above for any shape: no hit and an empty box where it is not plain.
+bool intersect(const Shape& shape, std::span<const V3d> vertices, const V3d& origin, const V3d& direction,
+               double farthest, ShapeHit& hit);
+Box3d bounds(const Shape& shape, std::span<const V3d> vertices);
 
 // The polygon's plane, area and axis from its vertices (at least 3). Area 0 where they lie on a line.
 Polygon makePolygon(std::span<const V3d> vertices, uint32_t first, uint32_t count);

@@ -21,11 +21,6 @@ namespace calc = rad::calc;
 constexpr uint64_t bit(calc::Input input) { return uint64_t{1} << input; }
 constexpr uint64_t bits(calc::Input first, int count) { return ((uint64_t{1} << count) - 1) << first; }
 
-V3d turned(const V3d& v, const Imath::M44d& m) {
-  return V3d(v.x * m[0][0] + v.y * m[1][0] + v.z * m[2][0], v.x * m[0][1] + v.y * m[1][1] + v.z * m[2][1],
-             v.x * m[0][2] + v.y * m[1][2] + v.z * m[2][2]);
-}
-
 void put(double* to, const V3d& v) {
   to[0] = v.x;
   to[1] = v.y;
@@ -222,10 +217,9 @@ class SurfaceFunctions::Maker {
     if (used != words_.size() - from) fail("bad transform");
     const rad::Similarity own = world.inverse();
     f.moved = true;
-    f.world = world.matrix;
-    f.worldScale = std::abs(world.scale);
-    f.own = own.matrix;
-    f.ownScale = std::abs(own.scale);
+    f.placement = {world, own};
+    f.placement.toOuter.scale = std::abs(world.scale);
+    f.placement.toInner.scale = std::abs(own.scale);
   }
 
   std::unique_ptr<Function> values(size_t first, size_t count) const {
@@ -400,29 +394,35 @@ std::span<const double> SurfaceFunctions::realsOf(int32_t modifier) const {
       scene_.description.primitives[scene_.modifiers[static_cast<size_t>(modifier)].primitive]);
 }
 
+const Placement* SurfaceFunctions::placementOf(const Function& f, const FunctionPoint& at,
+                                               FunctionScratch& scratch) const {
+  if (at.path.count == 0) return f.moved ? &f.placement : nullptr;
+  if (at.path.count == 1 && !f.moved) return &scene_.placements[at.path.placements[0]];
+  scratch.placement = within(scene_.placementOf(at.path), f.placement);
+  return &scratch.placement;
+}
+
 void SurfaceFunctions::setInputs(const Function& f, const FunctionPoint& at, FunctionScratch& scratch) const {
   using namespace rad::calc;
   auto& in = scratch.inputs;
   const uint64_t needs = f.needs;
-  const double perScale = 1 / f.ownScale;
-  const auto direction = [&](const V3d& v) { return f.moved ? turned(v, f.own) * perScale : v; };
+  const Placement* placement = placementOf(f, at, scratch);
+  const double scale = placement ? placement->toInner.scale : 1;
+  const auto direction = [&](const V3d& v) { return placement ? placement->directionToInner(v) : v; };
   if (needs & bits(Dx, 3)) put(&in[Dx], direction(at.direction));
   if (needs & bits(Nx, 3)) put(&in[Nx], direction(at.normal));
-  if (needs & bits(Px, 3)) {
-    V3d p = at.point;
-    if (f.moved) p = turned(p, f.own) + V3d(f.own[3][0], f.own[3][1], f.own[3][2]);
-    put(&in[Px], p);
-  }
-  in[T] = at.distance * f.ownScale;
+  if (needs & bits(Px, 3)) put(&in[Px], placement ? placement->toInner.point(at.point) : at.point);
+  in[T] = at.distance * scale;
   in[Rdot] = std::clamp(at.cosine, -1., 1.);
-  in[Ts] = at.shadowDistance * f.ownScale;
+  in[Ts] = at.shadowDistance * scale;
   in[Lu] = at.u;
   in[Lv] = at.v;
-  in[S] = f.ownScale;
+  in[S] = scale;
   if (needs & bits(Tx, 12)) {
-    put(&in[Tx], V3d(f.own[3][0], f.own[3][1], f.own[3][2]));
+    const Imath::M44d own = placement ? placement->toInner.matrix : Imath::M44d();
+    put(&in[Tx], V3d(own[3][0], own[3][1], own[3][2]));
     for (int i = 0; i < 3; ++i)
-      put(&in[static_cast<size_t>(Ix + 3 * i)], V3d(f.own[i][0], f.own[i][1], f.own[i][2]) * perScale);
+      put(&in[static_cast<size_t>(Ix + 3 * i)], V3d(own[i][0], own[i][1], own[i][2]) / scale);
   }
   if (needs & bits(NxP, 3)) put(&in[NxP], direction(at.perturbedNormal));
   in[RdotP] = at.perturbedCosine;
@@ -442,7 +442,8 @@ bool SurfaceFunctions::computed(int32_t modifier, const Function& f, const Funct
 bool SurfaceFunctions::evaluate(int32_t modifier, const Function& f, const FunctionPoint& at,
                                 FunctionScratch& scratch, std::array<double, 3>& out) const {
   if (const auto* text = std::get_if<Text>(&f.what)) {
-    const V3d v = at.point - text->anchor;
+    const Placement* placement = placementOf(f, at, scratch);
+    const V3d v = (placement ? placement->toInner.point(at.point) : at.point) - text->anchor;
     out = text->layout.covers(v.dot(text->right), v.dot(text->down)) ? text->foreground : text->background;
     return true;
   }
@@ -491,7 +492,8 @@ V3d SurfaceFunctions::texture(int32_t modifier, const FunctionPoint& at, Functio
   std::array<double, 3> v;
   if (!evaluate(modifier, f, at, scratch, v)) return V3d(0, 0, 0);
   const V3d own(v[0], v[1], v[2]);
-  return f.moved ? turned(own, f.world) / f.worldScale : own;
+  const Placement* placement = placementOf(f, at, scratch);
+  return placement ? placement->directionToOuter(own) : own;
 }
 
 double SurfaceFunctions::mixture(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const {
@@ -514,7 +516,8 @@ V3d SurfaceFunctions::orientation(int32_t modifier, const FunctionPoint& at, Fun
   const auto v = three(modifier, &Scatterer::orientation, at, scratch);
   const Function& f = ready(modifier);
   const V3d own(v[0], v[1], v[2]);
-  return f.moved ? turned(own, f.world) : own;
+  // As for rtrace, an instance turns the point and the normal that it is computed from, but not the result.
+  return f.moved ? f.placement.toOuter.vector(own) : own;
 }
 
 std::array<double, 3> SurfaceFunctions::reflection(int32_t modifier, const FunctionPoint& at,
@@ -534,7 +537,8 @@ Rgb SurfaceFunctions::distribution(int32_t modifier, const FunctionPoint& at, co
   setInputs(f, at, scratch);
   calc::State& state = scratch.state;
   state.faults = 0;
-  const V3d own = f.moved ? turned(toSource, f.own) / f.ownScale : toSource;
+  const Placement* placement = placementOf(f, at, scratch);
+  const V3d own = placement ? placement->directionToInner(toSource) : toSource;
   std::array<double, 5> arguments{0, own.x, own.y, own.z, solidAngle};
   const std::span<const double> ofSource = std::span(arguments).subspan(1);
   calc::Point point{scratch.inputs, realsOf(modifier), ofSource};

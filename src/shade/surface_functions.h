@@ -34,6 +34,7 @@ struct FunctionPoint {
   double distance = 0;        // T: from there to the eye, along the ray and its ancestors
   double shadowDistance = 0;  // Ts: along the ray, and those of its ancestors that are shadow rays
   double u = 0, v = 0;        // local coordinates
+  PlacementPath path{};       // what places the modifiers' coordinates in the world
   // For scattering(), light() and distribution():
   V3d perturbedNormal{0, 0, 1};  // unit, on the ray's side
   double perturbedCosine = 1;    // -perturbedNormal . direction
@@ -44,6 +45,7 @@ struct FunctionPoint {
 struct FunctionScratch {
   rad::calc::State state;
   std::array<double, rad::calc::kInputs> inputs{};
+  Placement placement;
 };
 
 class SurfaceFunctions {
@@ -128,10 +130,7 @@ class SurfaceFunctions {
     size_t results = 1;   // 1 or 3
     uint64_t needs = 0;   // inputs, by bits
     bool moved = false;   // whether it has a transform
-    Imath::M44d own;      // world to the primitive's own coordinates
-    double ownScale = 1;  // of lengths, positive
-    Imath::M44d world;    // and back
-    double worldScale = 1;
+    Placement placement;  // by that
     mutable std::atomic<bool> warned = false;
   };
 
@@ -145,6 +144,9 @@ class SurfaceFunctions {
   }
   const Function& prepare(int32_t modifier) const;
   std::span<const double> realsOf(int32_t modifier) const;
+  // What places the function's own coordinates in the world, kept in scratch where it is made for this; null
+  // where they are the world's.
+  const Placement* placementOf(const Function& f, const FunctionPoint& at, FunctionScratch& scratch) const;
   void setInputs(const Function& f, const FunctionPoint& at, FunctionScratch& scratch) const;
   // Whether nothing went wrong since the faults were cleared; warns where it did.
   bool computed(int32_t modifier, const Function& f, const FunctionScratch& scratch) const;

@@ -1,9 +1,12 @@
 #include "trace/tracer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "trace/embree.h"
+#include "trace/triangle.h"
 
 namespace rsphere {
 namespace {
@@ -71,141 +74,190 @@ float roundUp(double x) {
   return std::nextafter(static_cast<float>(x * (1 + 1e-6)), std::numeric_limits<float>::infinity());
 }
 
-bool intersectShape(const Scene& scene, const Surface& surface, const V3d& origin, const V3d& direction,
-                    double farthest, ShapeHit& hit) {
-  return std::visit(
-      [&](const auto& shape) {
-        using S = std::decay_t<decltype(shape)>;
-        if constexpr (std::is_same_v<S, Polygon>)
-          return intersect(shape, scene.vertices, origin, direction, farthest, hit);
-        else if constexpr (std::is_same_v<S, Distant>)
-          return false;
-        else
-          return intersect(shape, origin, direction, farthest, hit);
-      },
-      surface.shape);
-}
+// Whether an instance or a mesh hides what it brings in behind a modifier of its own.
+bool standsForContents(const Occluder& o) { return o.modifier != rad::kVoid; }
 
-// The ray as callbacks see it; Embree hands the context through.
+// The nearest hit so far, in the coordinates of the tree that was asked.
+struct Found {
+  const Occluder* occluder = nullptr;
+  ShapeHit hit;
+  PlacementPath path;        // of where it is, from the world's coordinates
+  uint8_t modifierPath = 0;  // how many of these place its modifiers
+  const rad::Mesh* mesh = nullptr;
+  uint32_t triangle = 0;
+  TriangleHit triangleHit;
+};
+
+// The ray as callbacks see it, in the coordinates of the tree that is asked; Embree hands the context
+// through.
 struct Query {
   embree::QueryContext context;  // first, so that its address is the query's
-  const V3d* origin = nullptr;
-  const V3d* direction = nullptr;
-  double start = 0;     // where Embree's ray begins, along the true one
-  double farthest = 0;  // for nearest(): of the best hit so far, for shadow(): of the source
+  V3d origin, direction;
+  double start = 0;               // where Embree's ray begins, along the true one
+  double farthest = 0;            // as it was asked
+  double samePlace = kSamePlace;  // of the world
+  uint8_t depth = 0;              // of the tree: placements that lead to it
+  Found best;                     // shadow(): the source itself, where it is a surface
   int32_t source = kNone;
-  const Occluder* best = nullptr;
-  ShapeHit hit;
-  bool passable = false;
+  const Occluder* standIn = nullptr;  // shadow(): what stands for the contents of the tree
+  bool passable = false;              // shadow(): something was hit that may let light pass
+
+  double reach() const { return best.occluder ? best.hit.distance + samePlace : farthest; }
+  // Whether a hit at least as near as reach() has to give way to the best one.
+  bool loses(const Occluder& occluder, const ShapeHit& hit) const {
+    return best.occluder && hit.distance >= best.hit.distance - samePlace &&
+           !wins(occluder, hit.cosine, *best.occluder, best.hit.cosine);
+  }
 };
+
+float roundDown(double x) {
+  return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
+}
 
 }  // namespace
 
-struct Tracer::Embree {
-  const Scene& scene;
-  std::vector<Occluder> occluders;  // by Embree's primitive number
-  std::vector<int32_t> occluderOf;  // by surface; kNone for distant ones
-  V3d center{0, 0, 0};
-  double radius = 0;  // of a sphere around everything
-  double padding = 0;
-  RTCDevice device = nullptr;
-  RTCScene tree = nullptr;
-
-  explicit Embree(const Scene& s) : scene(s) {}
-  ~Embree() {
-    if (tree) rtcReleaseScene(tree);
-    if (device) rtcReleaseDevice(device);
+// Surfaces that are traced together, with Embree's tree around them.
+class Tracer::Tree {
+ public:
+  // A group of surfaces. trees: those of other groups, and those of meshes, that its instances may be of.
+  Tree(RTCDevice device, const Scene& scene, const SurfaceGroup& group, bool backFacesVisible,
+       std::span<const std::unique_ptr<Tree>> groups, std::span<const std::unique_ptr<Tree>> meshes)
+      : scene_(scene), groups_(groups), meshes_(meshes) {
+    occluders_.reserve(group.surfaces);
+    for (uint32_t i = group.firstSurface; i < group.firstSurface + group.surfaces; ++i) {
+      const Box3d box = boundsOf(scene.surfaces[i]);
+      if (box.isEmpty()) continue;
+      bounds_.extendBy(box);
+      occluders_.push_back(makeOccluder(scene, i, backFacesVisible));
+    }
+    build(device, occluders_.size(), onIntersect<&Tree::meetSurface>, onOccluded<&Tree::crossSurface>);
   }
 
-  static Box3d boundsOf(const Scene& scene, const Surface& surface) {
-    return std::visit(
-        [&](const auto& shape) {
-          using S = std::decay_t<decltype(shape)>;
-          if constexpr (std::is_same_v<S, Polygon>)
-            return rsphere::bounds(shape, scene.vertices);
-          else if constexpr (std::is_same_v<S, Distant>)
-            return Box3d();
-          else
-            return rsphere::bounds(shape);
-        },
-        surface.shape);
+  // The triangles of a mesh.
+  Tree(RTCDevice device, const Scene& scene, const Mesh& mesh, bool backFacesVisible)
+      : scene_(scene), mesh_(&mesh) {
+    occluders_.resize(mesh.facesOf.size());
+    for (size_t i = 0; i < mesh.facesOf.size(); ++i)
+      if (mesh.facesOf[i] != kNone)
+        occluders_[i] = makeOccluder(scene, static_cast<uint32_t>(mesh.facesOf[i]), backFacesVisible);
+    const size_t triangles = mesh.data.triangles.size();
+    for (uint32_t i = 0; i < triangles; ++i) bounds_.extendBy(rsphere::bounds(mesh.data, i));
+    build(device, triangles, onIntersect<&Tree::meetTriangle>, onOccluded<&Tree::crossTriangle>);
+  }
+
+  ~Tree() {
+    if (tree_) rtcReleaseScene(tree_);
+  }
+  Tree(const Tree&) = delete;
+  Tree& operator=(const Tree&) = delete;
+
+  const Box3d& bounds() const { return bounds_; }
+  size_t primitives() const { return mesh_ ? mesh_->data.triangles.size() : occluders_.size(); }
+
+  // What stands for a surface of this tree; null where it can't be hit.
+  const Occluder* occluderOf(uint32_t surface) const {
+    const auto at = std::lower_bound(occluders_.begin(), occluders_.end(), surface,
+                                     [](const Occluder& o, uint32_t s) { return o.surface < s; });
+    return at != occluders_.end() && at->surface == surface ? &*at : nullptr;
+  }
+
+  // Sets query.best where something is nearer, as Tracer::nearest() has it.
+  void nearest(Query& query) const {
+    RTCRayHit rayHit;
+    if (!aim(query, rayHit.ray)) return;
+    rayHit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rayHit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    embree::initContext(query.context);
+    embree::intersect(tree_, query.context, rayHit);
+  }
+
+  // Whether the ray is surely stopped; if not, query.passable says whether it needs to be followed.
+  bool blocks(Query& query) const {
+    RTCRay ray;
+    if (!aim(query, ray)) return false;
+    embree::initContext(query.context);
+    embree::occluded(tree_, query.context, ray);
+    return ray.tfar < 0;
+  }
+
+ private:
+  // What an instance or a mesh brings in.
+  struct Contents {
+    const Tree* tree = nullptr;
+    uint32_t placement = 0;
+  };
+  Contents contentsOf(const Surface& surface) const {
+    if (const auto* instance = std::get_if<Instance>(&surface.shape))
+      return {groups_[instance->group].get(), instance->placement};
+    if (const auto* mesh = std::get_if<MeshInstance>(&surface.shape))
+      return {meshes_[mesh->mesh].get(), mesh->placement};
+    return {};
+  }
+
+  Box3d boundsOf(const Surface& surface) const {
+    const Contents contents = contentsOf(surface);
+    if (!contents.tree) return rsphere::bounds(surface.shape, scene_.vertices);
+    return placed(scene_.placements[contents.placement], contents.tree->bounds_);
+  }
+
+  Box3d boundsOf(uint32_t primitive) const {
+    if (mesh_) return rsphere::bounds(mesh_->data, primitive);
+    return boundsOf(scene_.surfaces[occluders_[primitive].surface]);
+  }
+
+  void build(RTCDevice device, size_t primitives, RTCIntersectFunctionN intersect,
+             RTCOccludedFunctionN occluded) {
+    if (bounds_.isEmpty()) return;
+    center_ = bounds_.center();
+    radius_ = bounds_.size().length() / 2;
+    // A ray of Embree's starts within 2 radii and ends within 4 more: rounding moves its origin by at most
+    // 2^-23 radius a coordinate, and its direction, over that length, by 2^-22.
+    padding_ = radius_ * 0x1p-21;
+    tree_ = rtcNewScene(device);
+    rtcSetSceneFlags(tree_, RTC_SCENE_FLAG_ROBUST);
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(primitives));
+    rtcSetGeometryUserData(geometry, this);
+    rtcSetGeometryBoundsFunction(geometry, writeBounds, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, intersect);
+    rtcSetGeometryOccludedFunction(geometry, occluded);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(tree_, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(tree_);
   }
 
   static void writeBounds(const RTCBoundsFunctionArguments* arguments) {
-    const auto& self = *static_cast<const Embree*>(arguments->geometryUserPtr);
-    const Box3d box = boundsOf(self.scene, self.scene.surfaces[self.occluders[arguments->primID].surface]);
-    const V3d low = box.min - self.center - V3d(self.padding),
-              high = box.max - self.center + V3d(self.padding);
+    const auto& self = *static_cast<const Tree*>(arguments->geometryUserPtr);
+    const Box3d box = self.boundsOf(arguments->primID);
+    const V3d low = box.min - self.center_ - V3d(self.padding_),
+              high = box.max - self.center_ + V3d(self.padding_);
     RTCBounds& out = *arguments->bounds_o;
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    const auto down = [](double x) { return std::nextafter(static_cast<float>(x), -kInfinity); };
-    const auto up = [](double x) { return std::nextafter(static_cast<float>(x), kInfinity); };
-    out.lower_x = down(low.x), out.lower_y = down(low.y), out.lower_z = down(low.z);
-    out.upper_x = up(high.x), out.upper_y = up(high.y), out.upper_z = up(high.z);
+    out.lower_x = roundDown(low.x), out.lower_y = roundDown(low.y), out.lower_z = roundDown(low.z);
+    out.upper_x = -roundDown(-high.x), out.upper_y = -roundDown(-high.y), out.upper_z = -roundDown(-high.z);
   }
 
-  static void onIntersect(const RTCIntersectFunctionNArguments* arguments) {
-    if (!arguments->valid[0]) return;
-    const auto& self = *static_cast<const Embree*>(arguments->geometryUserPtr);
-    auto& query = *reinterpret_cast<Query*>(arguments->context);
-    const Occluder& occluder = self.occluders[arguments->primID];
-    ShapeHit hit;
-    const double farthest = query.best ? query.hit.distance + kSamePlace : query.farthest;
-    if (!intersectShape(self.scene, self.scene.surfaces[occluder.surface], *query.origin, *query.direction,
-                        farthest, hit))
-      return;
-    if (query.best && hit.distance >= query.hit.distance - kSamePlace &&
-        !wins(occluder, hit.cosine, *query.best, query.hit.cosine))
-      return;
-    query.best = &occluder;
-    query.hit = hit;
-    auto& rayHit = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
-    rayHit.ray.tfar =
-        std::min(rayHit.ray.tfar, roundUp(hit.distance + kSamePlace - query.start + self.padding));
-    rayHit.hit.geomID = arguments->geomID;
-    rayHit.hit.primID = arguments->primID;
-  }
-
-  static void onOccluded(const RTCOccludedFunctionNArguments* arguments) {
-    if (!arguments->valid[0]) return;
-    const auto& self = *static_cast<const Embree*>(arguments->geometryUserPtr);
-    auto& query = *reinterpret_cast<Query*>(arguments->context);
-    const Occluder& occluder = self.occluders[arguments->primID];
-    if (static_cast<int32_t>(occluder.surface) == query.source) return;
-    ShapeHit hit;
-    if (!intersectShape(self.scene, self.scene.surfaces[occluder.surface], *query.origin, *query.direction,
-                        query.farthest, hit))
-      return;
-    // At the source's own place the tie decides; query.hit is where the source itself is hit.
-    if (query.best && hit.distance >= query.hit.distance - kSamePlace &&
-        !wins(occluder, hit.cosine, *query.best, query.hit.cosine))
-      return;
-    if (hit.cosine > 0 ? occluder.opaqueFront : occluder.opaqueBack)
-      reinterpret_cast<RTCRay*>(arguments->ray)->tfar = -std::numeric_limits<float>::infinity();
-    else
-      query.passable = true;
-  }
-
-  // Embree's ray for a query: begins where the true ray comes near the scene, so that single precision
+  // Embree's ray for a query: begins where the true ray comes near the tree, so that single precision
   // suffices. False where it never does.
   bool aim(Query& query, RTCRay& ray) const {
-    const V3d m = *query.origin - center;
-    const double b = m.dot(*query.direction);
+    if (!tree_) return false;
+    const V3d m = query.origin - center_;
+    const double b = m.dot(query.direction);
     const double c = m.length();
-    query.start = c > 2 * radius ? -b - radius : 0;
-    if (c > 2 * radius) {
-      if (b > 0 || (m - b * *query.direction).length() > radius) return false;
+    query.start = c > 2 * radius_ ? -b - radius_ : 0;
+    if (c > 2 * radius_) {
+      if (b > 0 || (m - b * query.direction).length() > radius_) return false;
       query.start = std::max(query.start, 0.);
     }
-    const V3d begin = m + query.start * *query.direction;
+    const V3d begin = m + query.start * query.direction;
     ray.org_x = static_cast<float>(begin.x);
     ray.org_y = static_cast<float>(begin.y);
     ray.org_z = static_cast<float>(begin.z);
-    ray.dir_x = static_cast<float>(query.direction->x);
-    ray.dir_y = static_cast<float>(query.direction->y);
-    ray.dir_z = static_cast<float>(query.direction->z);
+    ray.dir_x = static_cast<float>(query.direction.x);
+    ray.dir_y = static_cast<float>(query.direction.y);
+    ray.dir_z = static_cast<float>(query.direction.z);
     ray.tnear = 0;
-    const double reach = std::min(query.farthest - query.start, 4 * radius) + padding;
+    const double reach = std::min(query.farthest - query.start, 4 * radius_) + padding_;
     if (!(reach > 0)) return false;
     ray.tfar = roundUp(reach);
     ray.time = 0;
@@ -214,85 +266,243 @@ struct Tracer::Embree {
     ray.flags = 0;
     return true;
   }
+
+  // Embree's callbacks: `meet` returns whether the primitive is now the nearest hit, `cross` whether it
+  // surely stops the ray.
+  template <bool (Tree::*meet)(Query&, uint32_t) const>
+  static void onIntersect(const RTCIntersectFunctionNArguments* arguments) {
+    if (!arguments->valid[0]) return;
+    const auto& self = *static_cast<const Tree*>(arguments->geometryUserPtr);
+    auto& query = *reinterpret_cast<Query*>(arguments->context);
+    if (!(self.*meet)(query, arguments->primID)) return;
+    auto& rayHit = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
+    rayHit.ray.tfar = std::min(rayHit.ray.tfar, roundUp(query.reach() - query.start + self.padding_));
+    rayHit.hit.geomID = arguments->geomID;
+    rayHit.hit.primID = arguments->primID;
+  }
+  template <bool (Tree::*cross)(Query&, uint32_t) const>
+  static void onOccluded(const RTCOccludedFunctionNArguments* arguments) {
+    if (!arguments->valid[0]) return;
+    const auto& self = *static_cast<const Tree*>(arguments->geometryUserPtr);
+    auto& query = *reinterpret_cast<Query*>(arguments->context);
+    if ((self.*cross)(query, arguments->primID))
+      reinterpret_cast<RTCRay*>(arguments->ray)->tfar = -std::numeric_limits<float>::infinity();
+  }
+
+  bool meetSurface(Query& query, uint32_t primitive) const {
+    const Occluder& occluder = occluders_[primitive];
+    const Surface& surface = scene_.surfaces[occluder.surface];
+    if (const Contents contents = contentsOf(surface); contents.tree)
+      return meetContents(query, occluder, contents);
+    ShapeHit hit;
+    if (!intersect(surface.shape, scene_.vertices, query.origin, query.direction, query.reach(), hit) ||
+        query.loses(occluder, hit))
+      return false;
+    query.best.occluder = &occluder;
+    query.best.hit = hit;
+    query.best.path.count = query.best.modifierPath = query.depth;
+    query.best.mesh = nullptr;
+    return true;
+  }
+
+  bool meetTriangle(Query& query, uint32_t primitive) const {
+    TriangleHit hit;
+    if (!intersect(mesh_->data, primitive, query.origin, query.direction, query.reach(), hit)) return false;
+    const Occluder& occluder = triangleOccluder(primitive, *query.standIn);
+    if (query.loses(occluder, hit.hit)) return false;
+    query.best.occluder = &occluder;
+    query.best.hit = hit.hit;
+    query.best.path.count = query.best.modifierPath = query.depth;
+    query.best.mesh = &mesh_->data;
+    query.best.triangle = primitive;
+    query.best.triangleHit = hit;
+    return true;
+  }
+
+  // A mesh without a modifier is hit in its triangles' own materials; in those without one, itself.
+  const Occluder& triangleOccluder(uint32_t triangle, const Occluder& mesh) const {
+    const int32_t material = mesh_->data.triangles[triangle].material;
+    return standsForContents(mesh) || material == rad::Mesh::kNoMaterial
+               ? mesh
+               : occluders_[static_cast<size_t>(material)];
+  }
+
+  // The same ray in the coordinates of what an instance or a mesh brings in.
+  Query inner(const Query& query, const Occluder& occluder, const Contents& contents) const {
+    const Placement& placement = scene_.placements[contents.placement];
+    Query in;
+    in.origin = placement.toInner.point(query.origin);
+    in.direction = placement.directionToInner(query.direction);
+    in.farthest = query.reach() * placement.toInner.scale;
+    in.samePlace = query.samePlace * placement.toInner.scale;
+    in.depth = query.depth + 1;
+    in.standIn = &occluder;
+    return in;
+  }
+
+  bool meetContents(Query& query, const Occluder& occluder, const Contents& contents) const {
+    Query in = inner(query, occluder, contents);
+    contents.tree->nearest(in);
+    if (!in.best.occluder) return false;
+    const Placement& placement = scene_.placements[contents.placement];
+    Found& found = in.best;
+    found.hit.distance *= placement.toOuter.scale;
+    found.hit.normal = placement.directionToOuter(found.hit.normal);
+    found.path.placements[query.depth] = contents.placement;
+    if (standsForContents(occluder)) {
+      found.occluder = &occluder;
+      found.modifierPath = query.depth;
+    }
+    if (query.loses(*found.occluder, found.hit)) return false;
+    query.best = found;
+    return true;
+  }
+
+  // The side that is hit, and the tie with what lies on the source: query.best is where the source itself is.
+  bool crosses(Query& query, const Occluder& occluder, const ShapeHit& hit) const {
+    if (query.loses(occluder, hit)) return false;
+    if (hit.cosine > 0 ? occluder.opaqueFront : occluder.opaqueBack) return true;
+    query.passable = true;
+    return false;
+  }
+
+  bool crossSurface(Query& query, uint32_t primitive) const {
+    const Occluder& own = occluders_[primitive];
+    const Occluder& occluder = query.standIn ? *query.standIn : own;
+    if (static_cast<int32_t>(occluder.surface) == query.source) return false;
+    const Surface& surface = scene_.surfaces[own.surface];
+    if (const Contents contents = contentsOf(surface); contents.tree)
+      return crossContents(query, own, contents);
+    ShapeHit hit;
+    return intersect(surface.shape, scene_.vertices, query.origin, query.direction, query.reach(), hit) &&
+           crosses(query, occluder, hit);
+  }
+
+  bool crossTriangle(Query& query, uint32_t primitive) const {
+    TriangleHit hit;
+    return intersect(mesh_->data, primitive, query.origin, query.direction, query.reach(), hit) &&
+           crosses(query, triangleOccluder(primitive, *query.standIn), hit.hit);
+  }
+
+  bool crossContents(Query& query, const Occluder& own, const Contents& contents) const {
+    Query in = inner(query, own, contents);
+    in.best = query.best;
+    in.best.hit.distance *= scene_.placements[contents.placement].toInner.scale;
+    in.source = query.source;
+    if (query.standIn)
+      in.standIn = query.standIn;
+    else if (!standsForContents(own) && !contents.tree->mesh_)
+      in.standIn = nullptr;
+    const bool blocked = contents.tree->blocks(in);
+    query.passable = query.passable || in.passable;
+    return blocked;
+  }
+
+  const Scene& scene_;
+  std::span<const std::unique_ptr<Tree>> groups_, meshes_;
+  const Mesh* mesh_ = nullptr;
+  // Of a group: by Embree's primitive number, ascending by surface. Of a mesh: by material.
+  std::vector<Occluder> occluders_;
+  Box3d bounds_;
+  V3d center_{0, 0, 0};
+  double radius_ = 0;   // of a sphere around everything
+  double padding_ = 0;  // see build()
+  RTCScene tree_ = nullptr;
 };
 
-Tracer::Tracer(const Scene& scene, bool backFacesVisible) : embree_(std::make_unique<Embree>(scene)) {
-  Embree& e = *embree_;
-  e.occluderOf.assign(scene.surfaces.size(), kNone);
-  for (uint32_t i = 0; i < scene.surfaces.size(); ++i) {
-    const Box3d box = Embree::boundsOf(scene, scene.surfaces[i]);
-    if (box.isEmpty()) continue;
-    bounds_.extendBy(box);
-    e.occluderOf[i] = static_cast<int32_t>(e.occluders.size());
-    e.occluders.push_back(makeOccluder(scene, i, backFacesVisible));
-  }
-  if (e.occluders.empty()) return;
-  e.center = bounds_.center();
-  e.radius = bounds_.size().length() / 2;
-  // A ray of Embree's starts within 2 radii and ends within 4 more: rounding moves its origin by at most
-  // 2^-23 radius a coordinate, and its direction, over that length, by 2^-22.
-  e.padding = e.radius * 0x1p-21;
+struct Tracer::Embree {
+  RTCDevice device = nullptr;
+  std::vector<std::unique_ptr<Tree>> meshes, groups;  // as the scene has them
 
-  const auto fail = [&] { throw rad::Error("cannot build the ray tracing tree", rad::Status::system); };
+  ~Embree() {
+    groups.clear();
+    meshes.clear();
+    if (device) rtcReleaseDevice(device);
+  }
+};
+
+Tracer::Tracer(const Scene& scene, bool backFacesVisible)
+    : scene_(scene), embree_(std::make_unique<Embree>()) {
+  Embree& e = *embree_;
+  const auto fail = [] { throw rad::Error("cannot build the ray tracing tree", rad::Status::system); };
+  size_t primitives = scene.surfaces.size();
+  for (const Mesh& mesh : scene.meshes) primitives += mesh.data.triangles.size();
   // Threads help only where there is something to build; starting them costs more than a small scene's tree.
-  e.device = rtcNewDevice(e.occluders.size() < 20000 ? "threads=1,user_threads=1" : nullptr);
+  e.device = rtcNewDevice(primitives < 20000 ? "threads=1,user_threads=1" : nullptr);
   if (!e.device) fail();
-  e.tree = rtcNewScene(e.device);
-  rtcSetSceneFlags(e.tree, RTC_SCENE_FLAG_ROBUST);
-  RTCGeometry geometry = rtcNewGeometry(e.device, RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(e.occluders.size()));
-  rtcSetGeometryUserData(geometry, &e);
-  rtcSetGeometryBoundsFunction(geometry, Embree::writeBounds, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, Embree::onIntersect);
-  rtcSetGeometryOccludedFunction(geometry, Embree::onOccluded);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(e.tree, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(e.tree);
+  for (const Mesh& mesh : scene.meshes)
+    e.meshes.push_back(std::make_unique<Tree>(e.device, scene, mesh, backFacesVisible));
+  // Those that instances bring in before those that hold the instances.
+  e.groups.resize(scene.groups.size());
+  const auto build = [&](const auto& self, size_t g) -> void {
+    const SurfaceGroup& group = scene.groups[g];
+    if (scene.groups.size() > 1)
+      for (const Surface& surface : std::span(scene.surfaces).subspan(group.firstSurface, group.surfaces))
+        if (const auto* instance = std::get_if<Instance>(&surface.shape))
+          if (!e.groups[instance->group]) self(self, instance->group);
+    e.groups[g] = std::make_unique<Tree>(e.device, scene, group, backFacesVisible, e.groups, e.meshes);
+  };
+  if (!scene.groups.empty()) {
+    build(build, 0);
+    bounds_ = e.groups[0]->bounds();
+  }
   if (rtcGetDeviceError(e.device) != RTC_ERROR_NONE) fail();
 }
 
 Tracer::~Tracer() = default;
 Tracer::Tracer(Tracer&&) noexcept = default;
 
+size_t Tracer::primitives() const {
+  size_t sum = 0;
+  for (const auto& tree : embree_->groups) sum += tree->primitives();
+  for (const auto& tree : embree_->meshes) sum += tree->primitives();
+  return sum;
+}
+
 Hit Tracer::nearest(const V3d& origin, const V3d& direction, double farthest) const {
   Hit result;
-  if (embree_->occluders.empty()) return result;
+  if (embree_->groups.empty()) return result;
   Query query;
-  query.origin = &origin;
-  query.direction = &direction;
+  query.origin = origin;
+  query.direction = direction;
   query.farthest = farthest;
-  RTCRayHit rayHit;
-  if (!embree_->aim(query, rayHit.ray)) return result;
-  rayHit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rayHit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  embree::initContext(query.context);
-  embree::intersect(embree_->tree, query.context, rayHit);
-  if (query.best)
-    result = {static_cast<int32_t>(query.best->surface), query.hit.distance, query.hit.normal,
-              query.hit.cosine};
+  embree_->groups[0]->nearest(query);
+  const Found& found = query.best;
+  if (!found.occluder) return result;
+  result.surface = static_cast<int32_t>(found.occluder->surface);
+  result.distance = found.hit.distance;
+  result.normal = found.hit.normal;
+  result.cosine = found.hit.cosine;
+  if (found.path.count == 0) return result;
+  result.path = found.path;
+  result.path.count = found.modifierPath;
+  if (!found.mesh) return result;
+  const Imath::V2d uv = localCoordinates(*found.mesh, found.triangle, found.triangleHit);
+  result.u = uv.x;
+  result.v = uv.y;
+  V3d smooth = smoothNormal(*found.mesh, found.triangle, found.triangleHit);
+  if (smooth == V3d(0, 0, 0)) return result;
+  for (size_t i = found.path.count; i-- > 0;)
+    smooth = scene_.placements[found.path.placements[i]].directionToOuter(smooth);
+  result.perturbation = smooth - result.normal;
   return result;
 }
 
 Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, int32_t source) const {
-  if (embree_->occluders.empty()) return Shadow::clear;
+  if (embree_->groups.empty()) return Shadow::clear;
+  const Tree& tree = *embree_->groups[0];
   Query query;
-  query.origin = &origin;
-  query.direction = &direction;
+  query.origin = origin;
+  query.direction = direction;
   query.farthest = distance;
   query.source = source;
-  const int32_t own = source == kNone ? kNone : embree_->occluderOf[source];
-  if (own != kNone) {
+  if (source != kNone) {
     // The front is what shines; the tie with whatever lies on the source is decided for that side.
-    query.best = &embree_->occluders[own];
-    query.hit = {distance, V3d(0, 0, 0), 1};
+    query.best.occluder = tree.occluderOf(static_cast<uint32_t>(source));
+    query.best.hit = {distance, V3d(0, 0, 0), 1};
     query.farthest += kSamePlace;
   }
-  RTCRay ray;
-  if (!embree_->aim(query, ray)) return Shadow::clear;
-  embree::initContext(query.context);
-  embree::occluded(embree_->tree, query.context, ray);
-  if (ray.tfar < 0) return Shadow::blocked;
+  if (tree.blocks(query)) return Shadow::blocked;
   return query.passable ? Shadow::unsure : Shadow::clear;
 }
 

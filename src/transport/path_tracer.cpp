@@ -143,6 +143,10 @@ void PathTracer::findHit(Ray& ray) {
     ray.point = along(ray.origin, hit.distance, ray.direction);
     ray.normal = hit.normal;
     ray.cosine = hit.cosine;
+    ray.perturbation = hit.perturbation;
+    ray.u = hit.u;
+    ray.v = hit.v;
+    ray.path = hit.path;
   } else if (!(ray.farthest > kSamePlace)) {
     seesDistant(ray);
   }
@@ -270,13 +274,15 @@ RayAnswer answerOf(const Scene& scene, const Ray& ray) {
   a.unperturbedNormal = ray.fromBehind ? -ray.normal : ray.normal;
   a.normal = ray.normal;
   if (ray.perturbation.length2() > 0) {
+    // What has no material has not been turned to the ray.
+    const double side = ray.cosine < 0 ? -1 : 1;
     Interaction at;
     at.direction = ray.direction;
-    at.normal = ray.normal;
-    at.cosine = ray.cosine;
-    at.perturbation = ray.perturbation;
+    at.normal = side * ray.normal;
+    at.cosine = side * ray.cosine;
+    at.perturbation = side * ray.perturbation;
     double cosine = 0;
-    a.normal = perturbedNormal(at, cosine);
+    a.normal = side * perturbedNormal(at, cosine);
   }
   a.surface = scene.surfaceName(surface);
   a.modifier = scene.modifierName(surface);

@@ -31,6 +31,7 @@ struct Ray {
   V3d perturbation{0, 0, 0};
   Rgb pattern{1, 1, 1};
   double u = 0, v = 0;
+  PlacementPath path;  // what the surface's modifiers are placed by
 
   Rgb value{0, 0, 0};     // radiance, W/sr/m2
   Rgb mirrored{0, 0, 0};  // the part of it that was mirrored

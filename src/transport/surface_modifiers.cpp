@@ -118,6 +118,7 @@ FunctionPoint PathTracer::functionPoint(const Ray& ray) const {
   at.shadowDistance = ray.shadowLength + ray.length;
   at.u = ray.u;
   at.v = ray.v;
+  at.path = ray.path;
   return at;
 }
 
@@ -132,8 +133,10 @@ Interaction PathTracer::interaction(const Ray& ray) const {
   at.pattern = ray.pattern;
   at.kinds = ray.kinds;
   if (ray.surface != kNone) {
-    const Shape& shape = t_.scene().surfaces[ray.surface].shape;
-    at.flat = std::holds_alternative<Polygon>(shape) || std::holds_alternative<Ring>(shape);
+    const Surface& surface = t_.scene().surfaces[ray.surface];
+    at.flat = std::holds_alternative<Polygon>(surface.shape) || std::holds_alternative<Ring>(surface.shape) ||
+              std::holds_alternative<MeshFaces>(surface.shape);
+    at.smoothed = surface.smoothed;
   }
   return at;
 }

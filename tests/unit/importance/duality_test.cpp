@@ -75,7 +75,7 @@ Sample irradianceOnGoal(int bounces) {
 Sample irradianceByImportance(int bounces, bool basic) {
   Scene scene = [] {
     const std::string goals[] = {"goal"};
-    return buildScene(rad::readSceneText(room(false), "room.rad"), nullptr, goals);
+    return buildScene(rad::readSceneText(room(false), "room.rad"), {}, goals);
   }();
   const Transport transport(scene, finely(bounces), Irradiance::none, basic);
   Sample sample;

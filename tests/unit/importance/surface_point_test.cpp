@@ -17,17 +17,7 @@ Scene alone(const char* shape) {
 }
 
 bool meets(const Scene& scene, const V3d& origin, const V3d& direction, ShapeHit& hit) {
-  return std::visit(
-      [&](const auto& form) {
-        using S = std::decay_t<decltype(form)>;
-        if constexpr (std::is_same_v<S, Polygon>)
-          return intersect(form, scene.vertices, origin, direction, 1e10, hit);
-        else if constexpr (std::is_same_v<S, Distant>)
-          return false;
-        else
-          return intersect(form, origin, direction, 1e10, hit);
-      },
-      scene.surfaces[0].shape);
+  return intersect(scene.surfaces[0].shape, scene.vertices, origin, direction, 1e10, hit);
 }
 
 constexpr const char* kShapes[] = {

@@ -13,7 +13,7 @@ inline Scene sceneOf(std::string_view text, std::vector<std::string>* warnings =
   const rad::Warn warn = [warnings](std::string_view line) {
     if (warnings) warnings->emplace_back(line);
   };
-  return buildScene(rad::readSceneText(text, "room.rad"), warn);
+  return buildScene(rad::readSceneText(text, "room.rad"), {true, warn});
 }
 
 }  // namespace rsphere

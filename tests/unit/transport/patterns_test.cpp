@@ -681,7 +681,7 @@ TEST_F(Patterns, GoalMayBeAMixture) {
       "Q polygon floor\n0\n0\n12 -4 -4 0 4 -4 0 4 4 0 -4 4 0\n"
       "G polygon goal\n0\n0\n12 -1 -1 2 -1 1 2 1 1 2 1 -1 2\n";
   const std::vector<std::string> goals = {"G"};
-  const Scene scene = buildScene(rad::readSceneText(text, "room.rad"), nullptr, goals);
+  const Scene scene = buildScene(rad::readSceneText(text, "room.rad"), {}, goals);
   const Transport transport(scene, unbiased(), Irradiance::none);
   PathTracer tracer(transport);
   EXPECT_EQ(tracer.trace(V3d(.2, .3, 1), V3d(0, 0, 1), 0, 1).value.x, 1);
