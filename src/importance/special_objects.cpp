@@ -78,14 +78,26 @@ Shown mostIrregular(const Scene& scene, int32_t modifier) {
 }
 
 std::string why(const Material& material, double irregularity) {
+  const auto reason = [&](const std::string& given) {
+    return fmt::format("{}: irregularity {:.3g} of at least {:g}", given, irregularity, kSpecialIrregularity);
+  };
   if (const auto* m = std::get_if<Opaque>(&material))
-    return fmt::format("specularity {:g}, roughness {:g}: irregularity {:.3g} of at least {:g}",
-                       m->specularity, m->roughness, irregularity, kSpecialIrregularity);
+    return reason(fmt::format("specularity {:g}, roughness {:g}", m->specularity, m->roughness));
   if (const auto* m = std::get_if<Trans>(&material))
-    return fmt::format(
-        "specularity {:g}, transmitted {:g}, roughness {:g}: irregularity {:.3g} of at least {:g}",
-        m->specularity, m->transmissivity * m->transmittedSpecular, m->roughness, irregularity,
-        kSpecialIrregularity);
+    return reason(fmt::format("specularity {:g}, transmitted {:g}, roughness {:g}", m->specularity,
+                              m->transmissivity * m->transmittedSpecular, m->roughness));
+  if (const auto* m = std::get_if<Anisotropic>(&material))
+    return reason(fmt::format("specularity {:g}, transmitted {:g}, roughness {:g} and {:g}", m->specularity,
+                              m->transmissivity * m->transmittedSpecular, m->roughnessAlong,
+                              m->roughnessAcross));
+  if (const auto* m = std::get_if<Ashikhmin>(&material))
+    return reason(fmt::format("specularity {:g}, powers {:g} and {:g}", maxChannel(m->specular),
+                              m->powerAlong, m->powerAcross));
+  if (const auto* m = std::get_if<FunctionScatterer>(&material))
+    return reason(fmt::format("specularity {:g}, transmitted {:g}, by functions", m->specularity,
+                              m->transmissivity * m->transmittedSpecular));
+  if (std::holds_alternative<BrtdFunction>(material) || std::holds_alternative<WgmdFunction>(material))
+    return reason("by functions");
   return "irregular by type";
 }
 

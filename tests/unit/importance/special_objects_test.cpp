@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "tests/unit/support/scene_of.h"
@@ -42,6 +43,43 @@ TEST(Irregularity, BySpecularityAndRoughness) {
       EXPECT_LT(here, irregularity(Opaque{kGray, specular + .1, rough, false}));
       EXPECT_GE(here, irregularity(Opaque{kGray, specular, rough + .05, false}));
     }
+}
+
+TEST(Irregularity, OfEllipticHighlightsByBothRoughnesses) {
+  const auto shiny = [](double specular, double along, double across) {
+    return irregularity(Anisotropic{kGray, specular, along, across});
+  };
+  EXPECT_NEAR(shiny(.8, kSharpRoughness, kSharpRoughness), .4, 1e-12) << "as its round kin";
+  EXPECT_NEAR(shiny(.8, .2, .01), shiny(.8, .01, .2), 1e-12);
+  EXPECT_GT(shiny(.8, .2, .01), shiny(.8, .2, .1));
+  EXPECT_LT(shiny(.8, .2, .01), shiny(.8, .01, .01));
+  Anisotropic through{kGray, 0, kSharpRoughness, kSharpRoughness};
+  through.transmissivity = .5;
+  through.transmittedSpecular = .8;
+  EXPECT_NEAR(irregularity(through), .2, 1e-12);
+  const auto phong = [](double power) { return irregularity(Ashikhmin{kGray, kGray, power, power}); };
+  EXPECT_NEAR(phong(2 / (kSharpRoughness * kSharpRoughness) - 1), .25, 1e-12);
+  EXPECT_LT(phong(5), phong(50));
+}
+
+// What functions decide is taken for as irregular as it may be, numbers for what they are.
+TEST(Irregularity, OfFunctionsByWhatIsKnown) {
+  const auto of = [](const std::string& material) {
+    const Scene scene = sceneOf(material + "\nM sphere s 0 0 4 0 0 0 1\n");
+    return irregularity(*scene.materialOf(scene.surfaces[0]));
+  };
+  EXPECT_EQ(of("void plasfunc M 2 f . 0 4 .5 .5 .5 .2"), .1) << "of unknown width: half of a sharp one";
+  EXPECT_EQ(of("void metdata M 4 f d.dat . x 0 4 .5 .5 .5 0"), 0);
+  EXPECT_NEAR(of("void transfunc M 2 f . 0 6 .5 .5 .5 .1 .5 .8"), .9 * .5 * .8 / 2, 1e-12);
+  EXPECT_EQ(of("void BRTDfunc M 10 0 0 0 0 0 0 0 0 0 . 0 9 .1 .1 .1 0 0 0 0 0 0"), 0);
+  EXPECT_EQ(of("void BRTDfunc M 10 0 0 0 0 0 0 f f f . 0 9 .1 .1 .1 0 0 0 0 0 0"), .5);
+  EXPECT_EQ(of("void BRTDfunc M 10 .1 .2 .1 0 .3 0 0 0 0 . 0 9 .1 .1 .1 0 0 0 0 0 0"), .3);
+  EXPECT_EQ(of("void BRTDfunc M 10 Rdot .2 .1 0 .3 0 0 0 0 . 0 9 .1 .1 .1 0 0 0 0 0 0"), 1);
+  const std::string nine = " . 0 9 .1 .1 .1 0 0 0 0 0 0";
+  EXPECT_EQ(of("void WGMDfunc M 13 void 0 0 0 void 0 0 0 void 0 0 1" + nine), 0);
+  EXPECT_EQ(of("void WGMDfunc M 13 void .2 0 0 void .4 .05 .05 void 0 0 1" + nine), .2);
+  EXPECT_EQ(of("void WGMDfunc M 13 void Rdot 0 0 void .4 .05 .05 void 0 0 1" + nine), 1);
+  EXPECT_EQ(of("void WGMDfunc M 13 void .2 .05 Rdot void 0 0 0 void 0 0 1" + nine), .2 / std::sqrt(2));
 }
 
 constexpr const char* kRoom =

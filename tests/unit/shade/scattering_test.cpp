@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "tests/unit/shade/lobe_sampling.h"
 #include "tests/unit/support/statistics.h"
 
 namespace rsphere {
@@ -13,14 +14,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kSampleAll = 0;  // -st
-
-// A ray that comes down in the plane of x and z.
-Interaction arriving(double cosine) {
-  Interaction at;
-  at.cosine = cosine;
-  at.direction = V3d(std::sqrt(1 - cosine * cosine), 0, -cosine);
-  return at;
-}
 
 const SharpPath* find(const Scattering& s, RayKind kind) {
   for (const SharpPath& p : s.sharp)
@@ -303,51 +296,20 @@ TEST(Lobe, ReflectedIsReciprocal) {
   }
 }
 
-// Counts of sampled directions in cells of z and azimuth, against the density that makes the mean of weight *
-// L the integral of lobe * cosine * L. How many standard deviations chi-squared is off.
+// Samples of a lobe against the density that makes the mean of weight * L the integral of lobe * cosine * L.
 template <class SampleLobe, class Weight>
 double samplingSigmas(const Interaction& at, const Scattering& sampled, const Scattering& evaluated,
                       SampleLobe sampleLobe, Weight weightOf, double densityFactor, double widest,
                       uint64_t seed) {
-  constexpr int kRows = 40, kColumns = 24, kFine = 24;
-  const double side = sampled.specularTransmission.x > 0 ? -1 : 1;
-  std::vector<double> counts(kRows * kColumns + 1, 0.), expected(kRows * kColumns + 1, 0.);
-  // Rows go by half the chord from the lobe's middle, up to the widest; the last cell takes what is left.
-  V3d middle = side > 0 ? V3d(at.direction.x, at.direction.y, -at.direction.z) : sampled.transmitted;
-  V3d x, y;
-  frame(middle, x, y);
-  const auto cellOf = [&](const V3d& d) {
-    const double c = std::sqrt(std::max(0., (1 - d.dot(middle)) / 2));
-    if (c >= widest) return kRows * kColumns;
-    const int row = std::min(kRows - 1, static_cast<int>(c / widest * kRows));
-    const double turn = std::atan2(d.dot(y), d.dot(x)) / (2 * kPi) + .5;
-    return row * kColumns + std::min(kColumns - 1, static_cast<int>(turn * kColumns));
-  };
-  constexpr int kSamples = 200000;
-  Random random(seed);
-  for (int i = 0; i < kSamples; ++i) {
-    V3d d;
-    const double weight = sampleLobe(sampled, at, 1, random.uniform(), random.uniform(), d);
-    ++counts[weight > 0 ? cellOf(d) : kRows * kColumns];
-  }
-  double total = 0;
-  for (int row = 0; row < kRows; ++row)
-    for (int i = 0; i < kFine; ++i) {
-      const double c = widest * (row + (i + .5) / kFine) / kRows;
-      const double cosine = 1 - 2 * c * c, sine = std::sqrt(std::max(0., 1 - cosine * cosine));
-      // d(cosine) = 4 c dc
-      const double omega = 4 * c * widest / (kRows * kFine) * 2 * kPi / (kColumns * kFine);
-      for (int k = 0; k < kColumns * kFine; ++k) {
-        const double angle = ((k + .5) / (kColumns * kFine) - .5) * 2 * kPi;
-        const V3d d = cosine * middle + sine * (std::cos(angle) * x + std::sin(angle) * y);
-        if (side * d.z <= 1e-6) continue;
-        const double n = densityFactor * kSamples * lobeTimesCosine(evaluated, at, d) / weightOf(d) * omega;
-        expected[row * kColumns + k / kFine] += n;
-        total += n;
-      }
-    }
-  expected.back() = std::max(0., kSamples - total);
-  return chiSquaredSigmas(counts, expected);
+  const bool through = sampled.specularTransmission.x > 0;
+  const V3d middle = through ? sampled.transmitted : V3d(at.direction.x, at.direction.y, -at.direction.z);
+  return rsphere::samplingSigmas(
+      middle, widest, seed,
+      [&](double u1, double u2, V3d& d) { return sampleLobe(sampled, at, 1, u1, u2, d); },
+      [&](const V3d& d) {
+        if ((through ? -d.z : d.z) <= 1e-6) return 0.;
+        return densityFactor * lobeTimesCosine(evaluated, at, d) / weightOf(d);
+      });
 }
 
 // Only the lobe, of share 1.
