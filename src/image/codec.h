@@ -4,13 +4,12 @@
 
 namespace rsphere {
 
-// Picture files through OpenImageIO. It lives in a shared object that is loaded when a picture is first met:
-// with the libraries that come along (250 in Debian 12) a program takes 0.3 s to start, without them 3 ms,
-// and most runs of rtrace are short. Functions return what went wrong, empty where nothing did; any thread
-// may call them.
+// Pictures written through OpenImageIO. It lives in a shared object that is loaded when a picture is first
+// written: with the libraries that come along (250 in Debian 12) a program takes 0.3 s to start, without them
+// 3 ms, and most runs of rtrace are short. That is why pictures that scenes name, which are of one simple
+// format, are read without it (shade/picture.h). Functions return what went wrong, empty where nothing did;
+// any thread may call them.
 struct ImageCodec {
-  // Reads a RADIANCE picture in memory, of one order of rows and columns, into 3 * columns * rows numbers.
-  std::string (*decodeRadiance)(const std::string& file, size_t columns, size_t rows, float* pixels);
   // The format that a file's name asks for, as OpenImageIO calls it.
   std::string (*formatOf)(const std::string& name, std::string& format);
   // Writes 3 * width * height numbers, the highest row first: radiance as it is, or screen colours from 0

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -11,7 +12,6 @@
 #include <optional>
 #include <string_view>
 
-#include "image/codec.h"
 #include "rad_parser/error.h"
 
 namespace rsphere {
@@ -30,6 +30,8 @@ struct Header {
   bool xyz = false;
   size_t size = 0;  // bytes up to the pixels
 };
+
+using Rgbe = std::array<uint8_t, 4>;
 
 [[noreturn]] void bad(const std::string& path, std::string_view why) {
   throw rad::Error(fmt::format("{}: bad picture file: {}", path, why));
@@ -94,35 +96,68 @@ Header readHeader(std::string_view bytes, const std::string& path) {
   return header;
 }
 
-// Pixels of the old run-length code, in which (1, 1, 1, n) repeats what was before, written out one by one.
-std::string expanded(std::string_view coded, size_t pixels, const std::string& path) {
-  std::string flat;
-  flat.reserve(4 * pixels);
-  int shift = 0;
-  for (size_t at = 0; flat.size() < 4 * pixels; at += 4) {
-    if (coded.size() < at + 4) bad(path, "it ends too early");
-    const std::string_view pixel = coded.substr(at, 4);
-    if (!pixel.starts_with("\1\1\1")) {
-      flat += pixel;
-      shift = 0;
-      continue;
-    }
-    const size_t count = static_cast<size_t>(static_cast<unsigned char>(pixel[3])) << shift;
-    if (flat.empty() || shift > 16 || count > pixels - flat.size() / 4) bad(path, "a run is too long");
-    const std::string last = flat.substr(flat.size() - 4);
-    for (size_t i = 0; i < count; ++i) flat += last;
-    shift += 8;
-  }
-  return flat;
-}
+// The pixels of a file, four bytes each: three mantissas and the exponent that they share.
+class PixelReader {
+ public:
+  PixelReader(std::string_view coded, const std::string& path) : left_(coded), path_(path) {}
 
-// The middle of what a pixel's eight bits stand for, where the decoder gives the lower end: half a step of
-// the exponent that all three share.
-void addHalfStep(float* rgb) {
-  const float most = std::max({rgb[0], rgb[1], rgb[2]});
-  if (!(most > 0)) return;
-  const float half = std::ldexp(.5f, std::ilogb(most) - 7);
-  for (int i = 0; i < 3; ++i) rgb[i] += half;
+  // Reads the next row: channel after channel in runs, or pixel after pixel with runs of the old kind.
+  void read(std::vector<Rgbe>& row) {
+    const size_t count = row.size();
+    if (count >= 8 && count < 32768 && left_.size() >= 4 && left_.starts_with("\2\2") && byteAt(2) < 128) {
+      if ((static_cast<size_t>(byteAt(2)) << 8 | byteAt(3)) != count) bad(path_, "a row of another length");
+      left_.remove_prefix(4);
+      for (size_t channel = 0; channel < 4; ++channel) readChannel(row, channel);
+    } else {
+      readPixels(row);
+    }
+  }
+
+ private:
+  uint8_t byteAt(size_t i) const { return static_cast<uint8_t>(left_[i]); }
+  uint8_t next() {
+    if (left_.empty()) bad(path_, "it ends too early");
+    const uint8_t byte = byteAt(0);
+    left_.remove_prefix(1);
+    return byte;
+  }
+
+  void readChannel(std::vector<Rgbe>& row, size_t channel) {
+    for (size_t at = 0; at < row.size();) {
+      const uint8_t code = next();
+      const size_t count = code > 128 ? code - 128u : code;
+      if (count > row.size() - at) bad(path_, "a run is too long");
+      const uint8_t repeated = code > 128 ? next() : 0;
+      for (const size_t end = at + count; at < end; ++at) row[at][channel] = code > 128 ? repeated : next();
+    }
+  }
+
+  // (1, 1, 1, n) repeats what was before n times; one after another count in steps of 256.
+  void readPixels(std::vector<Rgbe>& row) {
+    int shift = 0;
+    for (size_t at = 0; at < row.size();) {
+      Rgbe pixel;
+      for (uint8_t& byte : pixel) byte = next();
+      if (pixel[0] != 1 || pixel[1] != 1 || pixel[2] != 1) {
+        row[at++] = pixel;
+        shift = 0;
+        continue;
+      }
+      const size_t count = shift > 16 ? row.size() + 1 : static_cast<size_t>(pixel[3]) << shift;
+      if (at == 0 || count > row.size() - at) bad(path_, "a run is too long");
+      for (const size_t end = at + count; at < end; ++at) row[at] = row[at - 1];
+      shift += 8;
+    }
+  }
+
+  std::string_view left_;
+  const std::string& path_;
+};
+
+// Each mantissa stands for the middle of its step. Source: RADIANCE file formats, "Picture File Format".
+void decode(const Rgbe& pixel, float* rgb) {
+  const float step = pixel[3] ? std::ldexp(1.f, pixel[3] - 136) : 0;
+  for (size_t i = 0; i < 3; ++i) rgb[i] = (static_cast<float>(pixel[i]) + .5f) * step;
 }
 
 // CIE XYZ, in lumens as RADIANCE's XYZE pictures have it, to its RGB: primaries (.64,.33), (.29,.60),
@@ -135,24 +170,6 @@ void rgbOfXyz(float* c) {
   double rgb[3];
   for (int i = 0; i < 3; ++i) rgb[i] = std::max(0., (m[i][0] * c[0] + m[i][1] * c[1] + m[i][2] * c[2]) / 179);
   for (int i = 0; i < 3; ++i) c[i] = static_cast<float>(rgb[i]);
-}
-
-// OpenImageIO decodes the pixels. It gets a header of its own kind: files without one of today's, and pixels
-// in any order, are what it does not read.
-std::vector<float> decode(const Layout& layout, std::string_view coded, const std::string& path) {
-  std::string file =
-      fmt::format("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", layout.rows, layout.columns);
-  const bool runLengthCoded = layout.columns >= 8 && layout.columns < 32768 && coded.size() > 4 &&
-                              coded.starts_with("\2\2") && static_cast<unsigned char>(coded[2]) < 128;
-  if (runLengthCoded) {
-    file += coded;
-  } else {
-    file += expanded(coded, layout.rows * layout.columns, path);
-  }
-  std::vector<float> pixels(3 * layout.rows * layout.columns);
-  const std::string why = imageCodec().decodeRadiance(file, layout.columns, layout.rows, pixels.data());
-  if (!why.empty()) bad(path, why);
-  return pixels;
 }
 
 // Two neighbours of a position in pixels and their weights: rad::DataFile::value()'s rule.
@@ -189,22 +206,25 @@ Picture Picture::read(const std::string& path) {
   const size_t coded = bytes.size() - header.size;
   if (layout.rows > 65536 || layout.columns > 65536 || layout.rows * layout.columns > 32 * coded + 64)
     bad(path, "it ends too early");
-  std::vector<float> decoded = decode(layout, std::string_view(bytes).substr(header.size), path);
+  PixelReader reader(std::string_view(bytes).substr(header.size), path);
+  std::vector<Rgbe> pixels(layout.columns);
 
   Picture picture;
   picture.width_ = layout.columnsAlongX ? layout.columns : layout.rows;
   picture.height_ = layout.columnsAlongX ? layout.rows : layout.columns;
   picture.pixels_.resize(picture.width_ * picture.height_);
-  for (size_t row = 0; row < layout.rows; ++row)
+  for (size_t row = 0; row < layout.rows; ++row) {
+    reader.read(pixels);
     for (size_t column = 0; column < layout.columns; ++column) {
-      float* rgb = &decoded[3 * (row * layout.columns + column)];
-      addHalfStep(rgb);
+      float rgb[3];
+      decode(pixels[column], rgb);
       if (header.xyz) rgbOfXyz(rgb);
       const size_t slow = layout.rowsFall ? layout.rows - 1 - row : row;
       const size_t fast = layout.columnsFall ? layout.columns - 1 - column : column;
       const size_t x = layout.columnsAlongX ? fast : slow, y = layout.columnsAlongX ? slow : fast;
       picture.pixels_[y * picture.width_ + x] = {rgb[0], rgb[1], rgb[2]};
     }
+  }
   const double height = static_cast<double>(picture.height_) * header.aspect;
   const auto width = static_cast<double>(picture.width_);
   picture.sizeX_ = std::max(1., width / height);

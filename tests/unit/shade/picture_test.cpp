@@ -116,9 +116,9 @@ TEST(Picture, NeedsNoFormatLineAndNoSuffix) {
 }
 
 TEST(Picture, OldRunLengthCode) {
-  // Four alike, then 300 more: 44 + 1 * 256.
-  std::string bytes = "#?RADIANCE\n\n-Y 2 +X 153\n";
-  bytes += append({{100, 150, 200, 128}, {1, 1, 1, 49}, {1, 1, 1, 1}});
+  // One, then 304 more of it: 48 + 1 * 256.
+  std::string bytes = "#?RADIANCE\n\n-Y 2 +X 305\n";
+  for (int row = 0; row < 2; ++row) bytes += append({{100, 150, 200, 128}, {1, 1, 1, 48}, {1, 1, 1, 1}});
   const PictureFile file(bytes);
   const Picture picture = Picture::read(file.path());
   for (double x : {0., 30., 76.5})

@@ -1,0 +1,19 @@
+// RADIANCE pictures, and colours from what was read.
+//   clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -I. -Isrc -I/usr/include/Imath
+//   tests/fuzz/picture.cpp src/shade/picture.cpp -lfmt -o fuzz_picture
+//   ./fuzz_picture -timeout=20 tests/fuzz/corpus/picture
+#include "shade/picture.h"
+
+#include "memory_file.h"
+#include "rad_parser/error.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const MemoryFile file(data, size);
+  try {
+    const rsphere::Picture picture = rsphere::Picture::read(file.path());
+    for (double x : {-1e300, -1., 0., .3, 1., 7., 1e30})
+      for (double y : {-2., 0., .5, 1e9}) static_cast<void>(picture.value(x, y));
+  } catch (const rad::Error&) {
+  }
+  return 0;
+}
