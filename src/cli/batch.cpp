@@ -81,6 +81,7 @@ class Batch {
   void handIn(uint64_t number, Finished&& finished);
   void waitingForInput(bool waiting);
   void reportProgress();
+  double expectedRecords() const;
   void stop(std::exception_ptr error);
   void endInput();
   bool stopping() const { return stopped_ || (signals_ != nullptr && signals_->raised()); }
@@ -114,6 +115,8 @@ class Batch {
   Clock::time_point start_ = Clock::now(), lastReport_ = start_;
 
   std::atomic<bool> stopped_{false}, waiting_{false};
+  std::atomic<uint64_t> recordsTaken_{0};  // these two for progress reports only
+  std::atomic<double> inputShare_{0};
   int wakeFd_ = -1;
 };
 
@@ -196,6 +199,10 @@ bool Batch::take(Claim& claim, size_t most) {
   if (claim.records == 0 && !claim.error) return false;
   claim.number = nextClaim_++;
   nextRecord_ += claim.records;
+  if (options_.progressSeconds > 0) {
+    recordsTaken_ = nextRecord_;
+    inputShare_ = reader_.shareRead();
+  }
   if (remaining_ != kNoLimit) remaining_ -= claim.records;
   untilFlush_ -= interval_ > 0 ? claim.records : 0;
   noteBogus(claim);
@@ -316,8 +323,22 @@ void Batch::reportProgress() {
   if (std::chrono::duration<double>(now - lastReport_).count() < options_.progressSeconds) return;
   lastReport_ = now;
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  messages_.report(fmt::format("{} records after {:.1f} seconds, {:.4g} a second", recordsOut_, seconds,
-                               static_cast<double>(recordsOut_) / seconds));
+  const auto done = static_cast<double>(recordsOut_);
+  std::string text =
+      fmt::format("{} records after {:.1f} seconds, {:.4g} a second", recordsOut_, seconds, done / seconds);
+  if (const double all = expectedRecords(); all > 0 && done > 0)
+    text += fmt::format(", {:.1f}% done, {:.0f} seconds left", 100 * std::min(done / all, 1.),
+                        seconds * std::max(all / done - 1, 0.));
+  messages_.report(text);
+}
+
+// How many records there are in all, as far as it can be told: 0 if not. From a file, as many as its length
+// allows if they go on as they began.
+double Batch::expectedRecords() const {
+  if (options_.height > 0)
+    return static_cast<double>(options_.height) * static_cast<double>(std::max<int64_t>(options_.width, 1));
+  const double read = inputShare_;
+  return read > 0 ? static_cast<double>(recordsTaken_) / read : 0;
 }
 
 void Batch::stop(std::exception_ptr error) {

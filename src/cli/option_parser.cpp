@@ -237,8 +237,6 @@ void checkIrradiance(Options& options) {
 }
 
 void checkTogether(Options& options, bool mostGiven) {
-  if (options.ray.reflectionLimit <= 0 && options.ray.weightLimit <= 0)
-    throw rad::Error("zero ray weight in Russian roulette: -lw must be positive where -lr is not");
   if (!options.sphere.on) return;
   if (options.limitDistance) throw rad::Error("-ld needs ray mode (-S-): points have no direction vector");
   SphereOptions& sphere = options.sphere;

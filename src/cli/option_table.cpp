@@ -355,7 +355,8 @@ std::vector<OptionEntry> makeTable() {
        .group = Group::program,
        .value = +[](O& o) -> bool& { return o.ray.uncorrelated; },
        .remark = "uncorrelated Monte Carlo sampling|correlated quasi-Monte Carlo sampling",
-       .paragraph = "Switch for random samples without any relation; off, they are spread evenly."});
+       .paragraph = "Accepted as in rtrace; samples are random whatever it is.",
+       .support = Support::unused});
   add({.name = "-bv",
        .group = Group::program,
        .value = +[](O& o) -> bool& { return o.ray.backFacesVisible; },

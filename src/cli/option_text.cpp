@@ -208,8 +208,8 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-// The features in rtrace's words that hold here, and one of our own.
-constexpr std::array<std::string_view, 19> kFeatures = {"VirtualSources",
+// The features in rtrace's words that hold here.
+constexpr std::array<std::string_view, 21> kFeatures = {"VirtualSources",
                                                         "SecondarySources",
                                                         "SourceSubsampling",
                                                         "SourceVisibility",
@@ -218,16 +218,18 @@ constexpr std::array<std::string_view, 19> kFeatures = {"VirtualSources",
                                                         "RussianRoulette",
                                                         "SpecularSampling",
                                                         "MaterialMixtures",
-                                                        "Antimatter",
                                                         "BackFaceVisibility",
+                                                        "ScatteringModels=WGMD,Ashikhmin-Shirley",
                                                         "Aliases",
                                                         "Multiprocessing",
                                                         "IrradianceCalc",
                                                         "ImmediateIrradiance",
                                                         "DistanceLimiting",
+                                                        "AdaptiveShadowTesting",
                                                         "InputFormats=a,f,d",
                                                         "OutputFormats=a,f,d,c",
-                                                        "Outputs=o,d,v,V,w,W,l,L,c,p,n,N,s,m,M,r,x,R,X,~"};
+                                                        "Outputs=o,d,v,V,w,W,l,L,c,p,n,N,s,m,M,r,x,R,X,~",
+                                                        "OutputCS=RGB,XYZ,Y,S,M,prims,spec"};
 
 bool hasSubfeatures(std::string_view feature, std::string_view wanted) {
   const size_t equals = feature.find('=');

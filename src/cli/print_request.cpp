@@ -16,7 +16,8 @@ int printRequest(const Options& options, const Messages& messages) {
     writer.write(report.text);
     if (!report.missing.empty()) {
       writer.flush();
-      return messages.error(rad::Error("missing feature - " + report.missing));
+      messages.report("missing feature - " + report.missing);
+      return static_cast<int>(rad::Status::input);
     }
   }
   writer.flush();

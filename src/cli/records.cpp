@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -60,6 +61,14 @@ size_t RecordReader::read(std::vector<double>& numbers, size_t most) {
   const size_t count = format_ == NumberFormat::ascii ? readText(numbers, most) : readBinary(numbers, most);
   records_ += count;
   return count;
+}
+
+double RecordReader::shareRead() const {
+  struct stat status {};
+  if (fstat(fd_, &status) != 0 || !S_ISREG(status.st_mode)) return 0;
+  const off_t at = lseek(fd_, 0, SEEK_CUR);
+  if (at < 0 || status.st_size <= 0) return 0;
+  return static_cast<double>(at - static_cast<off_t>(end_ - begin_)) / static_cast<double>(status.st_size);
 }
 
 // Makes room and reads what there is, waiting for the first byte. False at the end of input or when

@@ -53,6 +53,9 @@ class RecordReader {
   uint64_t records() const { return records_; }
   uint64_t bytes() const { return bytes_; }
 
+  // How much of a regular file was returned, from 0 to 1; 0 for other input.
+  double shareRead() const;
+
   // How many numbers the first line of text has, once it was read: rays given as points (or points as rays)
   // can be told from it. Empty for binary input.
   std::optional<int> numbersOnFirstLine() const { return firstLine_; }

@@ -114,6 +114,8 @@ bool PathTracer::continueRay(Ray& child, RayKind kind, const Ray& parent, Rgb& c
   if (!(child.weight > 0)) return false;
   if (child.kinds & kShadow) return true;
   if (o.reflectionLimit > 0) return child.weight >= o.weightLimit && child.level <= o.reflectionLimit;
+  if (!(o.weightLimit > 0))
+    throw rad::Error("zero ray weight in Russian roulette: -lw must be positive where -lr is not");
   if (o.reflectionLimit < 0 && child.level > -o.reflectionLimit) return false;
   if (child.weight >= o.weightLimit) return true;
   if (random_.uniform() * o.weightLimit > child.weight) return false;
@@ -147,7 +149,9 @@ void PathTracer::findHit(Ray& ray) {
     ray.u = hit.u;
     ray.v = hit.v;
     ray.path = hit.path;
-  } else if (!(ray.farthest > kSamePlace)) {
+  } else if (ray.farthest > kSamePlace) {
+    ray.point = along(ray.origin, ray.farthest, ray.direction);
+  } else {
     seesDistant(ray);
   }
 }

@@ -326,6 +326,29 @@ TEST(RunRecords, ReportsProgress) {
   runRecords(reader, writer, options, messages, nullptr,
              [](const Record&, unsigned, std::string&) { std::this_thread::sleep_for(15ms); });
   EXPECT_NE(contents(log.path).find("\nrsphere: 1 records after 0.0 seconds, "), std::string::npos);
+  EXPECT_NE(contents(log.path).find(" a second, 100.0% done, 0 seconds left\n"), std::string::npos);
+}
+
+// From a pipe the end is known where -y says so.
+TEST(RunRecords, ProgressOfAPipeHasAnEndOnlyWithScanlines) {
+  for (const bool scanlines : {false, true}) {
+    Options options = scanlines ? parse({"rsphere", "-t", "0.01", "-x", "2", "-y", "2", "s.oct"})
+                                : parse({"rsphere", "-t", "0.01", "s.oct"});
+    Pipe in;
+    const TemporaryFile out, log;
+    options.errorFile = log.path;
+    Messages messages("rsphere");
+    messages.use(options);
+    in.put("1 2 3 1 2 3 1 2 3 1 2 3");
+    in.closeIn();
+    RecordReader reader(in.out, NumberFormat::ascii, 3);
+    RecordWriter writer(out.descriptor);
+    runRecords(reader, writer, options, messages, nullptr,
+               [](const Record&, unsigned, std::string&) { std::this_thread::sleep_for(15ms); });
+    const std::string text = contents(log.path);
+    EXPECT_NE(text.find(" a second"), std::string::npos);
+    EXPECT_EQ(text.find("50.0% done") != std::string::npos, scanlines);
+  }
 }
 
 // Signals end a process: a child is one to spare. It answers two records and then waits for input, or is

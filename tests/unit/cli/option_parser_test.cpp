@@ -170,12 +170,6 @@ TEST(ParseOptions, WhatNeedsRaysIsRefusedInSphereMode) {
             "-ld needs ray mode (-S-): points have no direction vector");
 }
 
-TEST(ParseOptions, RussianRouletteNeedsAWeight) {
-  EXPECT_NE(faultOfOptions({"rtrace", "-lw", "0", "s.oct"}), "no fault");
-  EXPECT_NE(faultOfOptions({"rtrace", "-lw", "0", "-lr", "0", "s.oct"}), "no fault");
-  EXPECT_NO_THROW(parse({"rtrace", "-lw", "0", "-lr", "8", "s.oct"}));
-}
-
 TEST(ParseOptions, MostDirectionsFollowTheBase) {
   EXPECT_EQ(parse({"rsphere", "s.oct"}).sphere.mostDirections, 4096);
   EXPECT_EQ(parse({"rsphere", "-Sn", "10000", "s.oct"}).sphere.mostDirections, 20000);

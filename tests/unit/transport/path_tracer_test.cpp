@@ -340,6 +340,28 @@ TEST(Limits, ReflectionsAndWeightEndPathsWhereTheyAreTold) {
   expectMean(seen(-10, .2), all, 1.3);
 }
 
+// As in rtrace: only where a path would be gambled for.
+TEST(Limits, RussianRouletteNeedsAWeight) {
+  const std::string lamp = light(1) + "lamp sphere bulb\n0\n0\n4 0 0 5 .5\n";
+  RayOptions options;
+  options.weightLimit = 0;
+  Traced diffuse(lamp + plastic("paint", .5) + floor("paint"), options);
+  EXPECT_GT(diffuse.value(V3d(0, 0, 1), kDown), 0);
+  Traced mirror(lamp + "void metal paint\n0\n0\n5 .9 .9 .9 1 0\n" + floor("paint"), options);
+  EXPECT_THROW(mirror.value(V3d(0, 0, 1), kDown), rad::Error);
+  options.reflectionLimit = 4;
+  Traced limited(lamp + "void metal paint\n0\n0\n5 .9 .9 .9 1 0\n" + floor("paint"), options);
+  EXPECT_GT(limited.value(V3d(0, 0, 1), kDown), 0);
+}
+
+// rtrace -h -ld -op (6.1a): the end of a ray that meets nothing as far as it goes.
+TEST(Limits, LimitedRaysEndWhereTheyAreLimited) {
+  Traced empty(light(1) + "lamp sphere bulb\n0\n0\n4 0 0 5 .5\n");
+  EXPECT_EQ(empty.tracer().cast(kOrigin, kUp, 3).point, V3d(0, 0, 3));
+  EXPECT_EQ(empty.tracer().cast(kOrigin, kDown, 0).point, kOrigin);
+  EXPECT_EQ(empty.tracer().cast(kOrigin, kUp, 7).point, V3d(0, 0, 4.5));
+}
+
 // Russian roulette may cost variance, never the mean.
 TEST(Limits, RouletteKeepsTheMean) {
   const std::string scene =
