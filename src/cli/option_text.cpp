@@ -209,7 +209,7 @@ std::string escaped(std::string_view text) {
 }
 
 // The features in rtrace's words that hold here.
-constexpr std::array<std::string_view, 21> kFeatures = {"VirtualSources",
+constexpr std::array<std::string_view, 22> kFeatures = {"VirtualSources",
                                                         "SecondarySources",
                                                         "SourceSubsampling",
                                                         "SourceVisibility",
@@ -220,6 +220,7 @@ constexpr std::array<std::string_view, 21> kFeatures = {"VirtualSources",
                                                         "MaterialMixtures",
                                                         "BackFaceVisibility",
                                                         "ScatteringModels=WGMD,Ashikhmin-Shirley",
+                                                        "Instancing=Octree,TriangleMesh",
                                                         "Aliases",
                                                         "Multiprocessing",
                                                         "IrradianceCalc",
