@@ -1,5 +1,6 @@
 #include "importance/error_estimate.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace rsphere {
@@ -54,13 +55,21 @@ Rgb spreadVariance(std::span<const DirectionSample> samples) {
 
 Rgb partsVariance(std::span<const SeenSources::Sample> samples) {
   if (samples.size() < 2) return Rgb(0, 0, 0);
-  const double n = static_cast<double>(samples.size());
-  double part = 0;
-  for (const SeenSources::Sample& s : samples) part += s.part / n;
+  // The grid's rows one after the other: neighbours of a row, and the first that lie one beside the other in
+  // successive rows.
   Rgb sum(0, 0, 0);
+  size_t pairs = 0;
+  const size_t columns = static_cast<size_t>(std::count_if(
+      samples.begin(), samples.end(), [&](const auto& s) { return s.row == samples.front().row; }));
+  const auto add = [&](size_t i, size_t k) {
+    sum +=
+        squared(samples[i].direction.value * samples[i].part - samples[k].direction.value * samples[k].part);
+    ++pairs;
+  };
   for (size_t i = 1; i < samples.size(); ++i)
-    sum += squared(samples[i].direction.value - samples[i - 1].direction.value);
-  return sum * (kEvenParts * .5 * n / (n - 1) * part * part);
+    if (samples[i].row == samples[i - 1].row) add(i, i - 1);
+  for (size_t i = columns; i < samples.size(); ++i) add(i, i - columns);
+  return sum * (kEvenParts * .5 * static_cast<double>(samples.size()) / static_cast<double>(pairs));
 }
 
 }  // namespace rsphere

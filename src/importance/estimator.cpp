@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
+#include "importance/near_lights.h"
 #include "importance/surface_point.h"
 #include "rad_parser/error.h"
 #include "sphere/directions.h"
@@ -18,10 +20,10 @@ constexpr double kPi = std::numbers::pi;
 // to .7.
 constexpr double kUnevenShare = .6;
 
-// Rays to measure how the radiance varies on the special objects, together and for each of them; and those at
-// a point for the mean that it is held against.
-constexpr size_t kRaysForContrast = 8192, kFewestRaysAnObject = 16, kMostRaysAnObject = 256;
-constexpr int kRaysAPoint = 32, kRaysForSurroundings = 1024;
+// Rays to measure how the radiance varies on the special objects of one modifier, on all of them together at
+// most, and around; and those at a point for the mean that it is held against.
+constexpr size_t kRaysAModifier = 64, kRaysForContrast = 1024, kRaysForSurroundings = 256;
+constexpr int kRaysAPoint = 32;
 
 // More directions than this times the base's density are not sent anywhere: the last factor of two in density
 // would be paid for by everything else.
@@ -50,6 +52,7 @@ class Values {
     squares_ += value * value;
     ++count_;
   }
+  int count() const { return count_; }
   double mean() const { return count_ > 0 ? sum_ / count_ : 0; }
   double deviation() const {
     return count_ > 1 ? std::sqrt(std::max(0., (squares_ - sum_ * sum_ / count_) / (count_ - 1))) : 0;
@@ -90,44 +93,67 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
 }
 
 // Rays that start just before a point of an object and hit it from even directions: what its image is like on
-// average, wherever it will be looked at from.
+// average, wherever it will be looked at from. Objects with the same modifier share theirs, but for those
+// near to a light source: they differ less than so few rays could tell.
 void SphereEstimator::measureContrasts() {
-  deviations_.assign(special_.size(), 0);
-  if (special_.empty()) return;
   const Scene& scene = transport_.scene();
+  std::map<std::pair<bool, int32_t>, std::vector<uint32_t>> alike;  // by nearness and modifier
+  std::vector<bool> near(scene.surfaces.size(), false);
+  for (const uint32_t i : surfacesNearLights(scene, transport_.lights())) {
+    near[i] = true;
+    alike[{true, scene.surfaces[i].modifier}].push_back(i);
+  }
+  for (const SpecialObject& object : special_)
+    if (!near[object.surface])
+      alike[{false, scene.surfaces[object.surface].modifier}].push_back(object.surface);
+  if (alike.empty()) return;
   PathTracer tracer(transport_);
   measureSurroundings(tracer);
-  const int rays = static_cast<int>(std::clamp(kRaysForContrast / std::max<size_t>(special_.size(), 1),
-                                               kFewestRaysAnObject, kMostRaysAnObject));
-  for (size_t i = 0; i < special_.size(); ++i) {
-    const auto surface = static_cast<int32_t>(special_[i].surface);
-    Random random(mixBits(special_[i].surface));
+  const size_t rays = std::clamp<size_t>(kRaysForContrast / alike.size(), 2, kRaysAModifier);
+  for (const auto& [kind, surfaces] : alike) {
+    Random random(mixBits(surfaces[0]));
     Values values;
-    for (int k = 0; k < rays; ++k) {
+    for (size_t k = 0; k < rays; ++k) {
+      const uint32_t surface = surfaces[k * surfaces.size() / rays];
       const SurfacePoint at = samplePoint(scene.surfaces[surface].shape, scene.vertices, random);
-      const V3d away = awayFrom(at.normal, (k + random.uniform()) / rays, random.uniform());
+      // What is flat is seen from both sides.
+      const bool behind = !std::holds_alternative<Sphere>(scene.surfaces[surface].shape) && k % 2;
+      const V3d away = awayFrom(behind ? -at.normal : at.normal, random.uniform(), random.uniform());
       const Ray ray = tracer.trace(at.point + at.clearance * away, -away, 0, random.bits());
-      if (ray.surface == surface && !sources_.shown(tracer)) values.add(brightness(ray.value));
+      if (ray.surface == static_cast<int32_t>(surface) && !sources_.shown(tracer))
+        values.add(brightness(ray.value));
     }
-    deviations_[i] = values.deviation();
+    for (const uint32_t surface : surfaces) candidates_.push_back({surface, values.deviation()});
   }
 }
 
-// What is seen around from points of the scene's surfaces, each surface as often as any other.
+// What is seen around from points of the scene's surfaces, each surface as often as any other. Two paths a
+// direction tell the noise of paths, which evenness does not lower, from what varies with direction.
 void SphereEstimator::measureSurroundings(PathTracer& tracer) {
   const Scene& scene = transport_.scene();
-  Random random(mixBits(scene.surfaces.size()));
+  Random random(mixBits(scene.outermost().size()));
   Values values;
-  for (int k = 0; k < kRaysForSurroundings; ++k) {
+  double noise = 0;
+  for (size_t k = 0; k < kRaysForSurroundings; ++k) {
     const auto surfaces = static_cast<double>(scene.outermost().size());
     const auto i = static_cast<size_t>(random.uniform() * surfaces);
-    if (std::holds_alternative<Distant>(scene.surfaces[i].shape)) continue;
+    if (!isPlain(scene.surfaces[i].shape)) continue;
     const SurfacePoint at = samplePoint(scene.surfaces[i].shape, scene.vertices, random);
     const V3d away = awayFrom(at.normal, random.uniform(), random.uniform());
-    const Ray ray = tracer.trace(at.point + at.clearance * away, away, 0, random.bits());
-    if (!sources_.shown(tracer)) values.add(brightness(ray.value));
+    double seen[2];
+    bool apart = false;
+    for (double& value : seen) {
+      value = brightness(tracer.trace(at.point + at.clearance * away, away, 0, random.bits()).value);
+      apart = apart || sources_.shown(tracer);
+    }
+    if (apart) continue;
+    values.add((seen[0] + seen[1]) / 2);
+    noise += (seen[0] - seen[1]) * (seen[0] - seen[1]) / 2;
   }
-  if (values.mean() > 0) usualDeviation_ = kUnevenShare * values.deviation() / values.mean();
+  if (!(values.mean() > 0)) return;
+  noise /= static_cast<double>(values.count());
+  const double uneven = std::max(0., std::pow(values.deviation(), 2) - noise / 2);
+  usualDeviation_ = std::sqrt(noise + kUnevenShare * kUnevenShare * uneven) / values.mean();
 }
 
 PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& w) const {
@@ -242,7 +268,7 @@ void SphereEstimator::sampleAsPaper(const V3d& point, uint64_t seed, Workspace& 
 // is lost without trace.
 void SphereEstimator::chooseTargets(const V3d& point, uint64_t seed, size_t most, Workspace& w) const {
   w.targets.clear();
-  if (special_.empty() || most == 0) return;
+  if (candidates_.empty() || most == 0) return;
   const Scene& scene = transport_.scene();
   double mean = 0;
   Random random(mixBits(seed));
@@ -251,16 +277,17 @@ void SphereEstimator::chooseTargets(const V3d& point, uint64_t seed, size_t most
     const double z = 1 - 2 * (i + random.uniform()) / kRaysAPoint, angle = 2 * kPi * random.uniform();
     const double r = std::sqrt(std::max(0., 1 - z * z));
     const Ray ray = w.tracer.trace(point, V3d(r * std::cos(angle), r * std::sin(angle), z), 0, random.bits());
-    if (!sources_.shown(w.tracer)) mean += brightness(ray.value) / kRaysAPoint;
+    if (!sources_.shown(w.tracer, w.images)) mean += brightness(ray.value) / kRaysAPoint;
   }
   const double usual = usualDeviation_ * mean;
   const double baseDensity = static_cast<double>(w.directions.size()) / (4 * kPi);
   double sum = 0;
-  for (size_t i = 0; i < special_.size(); ++i) {
-    if (!(deviations_[i] > usual)) continue;
-    const double contrast = std::min(usual > 0 ? deviations_[i] / usual : kMostContrast, kMostContrast) - 1;
-    Workspace::Target target{silhouetteOf(scene.surfaces[special_[i].surface].shape, scene.vertices, point),
-                             0, 0};
+  for (const Candidate& candidate : candidates_) {
+    if (!(candidate.deviation > usual)) continue;
+    const double contrast =
+        std::min(usual > 0 ? candidate.deviation / usual : kMostContrast, kMostContrast) - 1;
+    Workspace::Target target{silhouetteOf(scene.surfaces[candidate.surface].shape, scene.vertices, point), 0,
+                             0};
     if (!(target.silhouette.regionSolidAngle() > 0)) continue;
     target.density = contrast * baseDensity * options_.densityFactor;
     target.expected = target.density * target.silhouette.regionSolidAngle();
@@ -282,8 +309,8 @@ void SphereEstimator::sampleSilhouettes(const V3d& point, uint64_t seed, Workspa
   // Sources that are seen directly.
   w.sources.clear();
   double seen = 0;
-  if (sources_.any())
-    sources_.sample(point, std::max<size_t>(base / 4, 16), mixBits(seed + 1), w.tracer, w.sources);
+  sources_.findImages(point, std::max<size_t>(base / 4, 16), w.images);
+  sources_.sample(point, w.images, mixBits(seed + 1), w.tracer, w.sources);
   for (const SeenSources::Sample& s : w.sources) {
     seen += s.direction.solidAngle;
     w.samples.push_back(s.direction);
@@ -304,7 +331,7 @@ void SphereEstimator::sampleSilhouettes(const V3d& point, uint64_t seed, Workspa
   const auto send = [&](const V3d& d, double baseCell, uint64_t raySeed) {
     const double solidAngle = 1 / (1 / baseCell + extraDensity(d));
     traceInto(w, point, d, solidAngle, raySeed);
-    if (sources_.shown(w.tracer)) {
+    if (sources_.shown(w.tracer, w.images)) {
       w.samples.back().solidAngle = 0;
       w.samples.back().value = Rgb(0, 0, 0);
     } else {
@@ -346,7 +373,7 @@ void SphereEstimator::addVariances(size_t firstBase, Workspace& w) const {
   for (size_t i = 1; i < w.runs.size(); ++i)
     w.variance += spreadVariance(samples.subspan(w.runs[i - 1], w.runs[i] - w.runs[i - 1]));
   for (size_t i = 0, next = 0; i < w.sources.size(); i = next) {
-    while (next < w.sources.size() && w.sources[next].source == w.sources[i].source) ++next;
+    while (next < w.sources.size() && w.sources[next].image == w.sources[i].image) ++next;
     w.variance += partsVariance(std::span(w.sources).subspan(i, next - i));
   }
 }

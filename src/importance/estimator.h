@@ -55,6 +55,7 @@ class SphereEstimator {
     // Of the set that is being sampled:
     std::vector<V3d> directions, dynamic;  // of the base, and to special objects
     std::vector<Target> targets;
+    std::vector<SeenSources::Image> images;
     std::vector<SeenSources::Sample> sources;
     std::vector<size_t> rest;   // samples that showed no source that is integrated apart
     std::vector<bool> counted;  // which base directions are among them
@@ -91,8 +92,13 @@ class SphereEstimator {
   bool standardError_;
   Neighbours neighbours_;  // of the base, where errors are wanted
   std::vector<SpecialObject> special_;
-  double usualDeviation_ = 1;       // of one base direction's radiance, as a share of the mean, sources apart
-  std::vector<double> deviations_;  // by special object: standard deviation of the radiance on it, W/sr/m2
+  // What may get directions of its own with -Sw c: special objects, and what is near to a light source.
+  struct Candidate {
+    uint32_t surface = 0;  // index in Scene::surfaces
+    double deviation = 0;  // of the radiance on it, W/sr/m2
+  };
+  std::vector<Candidate> candidates_;
+  double usualDeviation_ = 1;  // of one base direction's radiance, as a share of the mean, sources apart
 };
 
 // The quantities of PointAnswer (all but its standard error) from weighted directions: sums over L w, L w d

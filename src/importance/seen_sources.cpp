@@ -3,67 +3,274 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "importance/silhouette.h"
+#include <optional>
 
 namespace rsphere {
 namespace {
-// Parts of a source smaller than this, against their distance, would be more than 64 for most of them.
-constexpr double kSmallestPart = .02;
+
+constexpr double kPi = std::numbers::pi;
+
+// An image gets no more rays than this, and than its parts would have that are kSmallestPart wide.
+constexpr double kUsualRays = 16, kSmallestPart = .02;
+
+// Of n parts of a half hidden image those on the edge are uncertain: its error falls with n^-3/4, and rays
+// are best spread by light^.8.
+constexpr double kByLight = .8;
+
+// Images in mirrors that are looked for at a point, at most.
+constexpr size_t kMostMirrored = 4096;
+
+// Directions by which a region's share that a shape fills is counted; they cost no rays.
+constexpr size_t kShareTries = 1024;
+
+// The share of light that a surface mirrors sharply, as a rule; 0: it never does.
+struct SharpReflectance {
+  double cosine = 1;
+
+  double fresnel() const { return .04 + .96 * std::pow(1 - cosine, 5); }  // Schlick's, of glass
+  double operator()(const Mirror& m) const { return maxChannel(m.reflectance); }
+  double operator()(const Glass&) const { return std::min(1., 2 * fresnel()); }
+  double operator()(const Dielectric&) const { return fresnel(); }
+  double operator()(const Interface&) const { return fresnel(); }
+  double operator()(const Opaque& m) const { return m.roughness > 0 ? 0 : m.specularity; }
+  double operator()(const Trans& m) const { return m.roughness > 0 ? 0 : m.specularity; }
+  template <class Source>
+  double operator()(const Source&) const {
+    return 0;
+  }
+};
+
+double planeOffset(const Shape& shape) {
+  if (const auto* polygon = std::get_if<Polygon>(&shape)) return polygon->offset;
+  const Ring& ring = std::get<Ring>(shape);
+  return ring.normal.dot(ring.center);
+}
+
+bool emitsBehind(const Shape& shape, const V3d& point) {
+  const V3d* normal = planeNormal(shape);
+  return normal && normal->dot(point) <= planeOffset(shape);
+}
+
+// Whether the region of a polygon is the polygon itself.
+bool isConvexPolygon(const Shape& shape, const Silhouette& s) {
+  return std::holds_alternative<Polygon>(shape) &&
+         std::abs(s.regionSolidAngle() - s.solidAngle()) <= 1e-9 * s.solidAngle();
+}
+
+bool hits(const Scene& scene, const Shape& shape, const V3d& point, const V3d& direction, ShapeHit& hit) {
+  if (const auto* polygon = std::get_if<Polygon>(&shape))
+    return intersect(*polygon, scene.vertices, point, direction, kFarAway, hit);
+  if (const auto* sphere = std::get_if<Sphere>(&shape))
+    return intersect(*sphere, point, direction, kFarAway, hit);
+  if (const auto* cone = std::get_if<Cone>(&shape)) return intersect(*cone, point, direction, kFarAway, hit);
+  if (const auto* ring = std::get_if<Ring>(&shape)) return intersect(*ring, point, direction, kFarAway, hit);
+  hit = {kFarAway, -direction, 1};
+  return true;
+}
+
+struct Plane {
+  V3d normal{0, 0, 1};
+  double offset = 0;
+
+  explicit Plane(const Shape& flat) : normal(*planeNormal(flat)), offset(planeOffset(flat)) {}
+  double height(const V3d& p) const { return normal.dot(p) - offset; }
+  V3d mirrored(const V3d& p) const { return p - 2 * height(p) * normal; }
+  V3d mirroredDirection(const V3d& d) const { return d - 2 * normal.dot(d) * normal; }
+};
+
+V3d evenly(size_t i, double shift1, double shift2) {
+  const double a = shift1 + .7548776662466927 * static_cast<double>(i);
+  const double b = shift2 + .5698402909980532 * static_cast<double>(i);
+  return V3d(a - std::floor(a), b - std::floor(b), 0);
+}
+
+double lightFrom(const Scene& scene, const Surface& surface) {
+  if (surface.goal) return 1;
+  const auto radiance = sourceRadiance(*scene.materialOf(surface));
+  return radiance ? brightness(*radiance) : 0;
+}
+
 }  // namespace
 
 SeenSources::SeenSources(const Transport& transport) : transport_(transport) {
   const Scene& scene = transport.scene();
-  for (const LightSource& light : transport.lights().all()) {
-    const Surface& surface = scene.surfaces[light.surface];
+  apart_.assign(scene.surfaces.size(), false);
+  const auto lights = transport.lights().all();
+  for (uint32_t i = 0; i < lights.size(); ++i) {
+    const Surface& surface = scene.surfaces[lights[i].surface];
     const Material* material = scene.materialOf(surface);
-    bool apart = !(material && std::holds_alternative<Illum>(*material));
-    if (light.distant) apart = apart && light.cosHalfAngle > std::cos(kWidestDistant);
-    // What is seen by way of a relay is left to the other directions.
-    if (light.map == LightSource::Map::square || light.isVirtual()) apart = false;
-    apart_.push_back(apart);
-    any_ = any_ || apart;
+    // What is seen by way of a relay is found here as an image.
+    if (lights[i].isVirtual() || (material && std::holds_alternative<Illum>(*material))) continue;
+    if (lights[i].distant && !(lights[i].cosHalfAngle > std::cos(kWidestDistant))) continue;
+    apart_[lights[i].surface] = true;
+    sources_.push_back(i);
+  }
+  if (sources_.empty()) return;
+  std::vector<std::pair<double, int32_t>> mirrors;  // by area
+  for (size_t i = 0; i < scene.outermost().size(); ++i) {
+    const Surface& surface = scene.surfaces[i];
+    const Material* material = scene.materialOf(surface);
+    if (!material || !planeNormal(surface.shape) || !(std::visit(SharpReflectance{}, *material) > 0))
+      continue;
+    const auto* polygon = std::get_if<Polygon>(&surface.shape);
+    const double area = polygon ? polygon->area : kPi * std::pow(std::get<Ring>(surface.shape).outer, 2);
+    mirrors.push_back({-area, static_cast<int32_t>(i)});
+  }
+  std::sort(mirrors.begin(), mirrors.end());
+  for (const auto& [area, surface] : mirrors)
+    if ((mirrors_.size() + 1) * sources_.size() <= kMostMirrored) mirrors_.push_back(surface);
+}
+
+bool SeenSources::shown(const PathTracer& tracer, const std::vector<Image>& images) const {
+  const PathTracer::Shown& s = tracer.shown();
+  if (s.source == kNone || !apart_[s.source]) return false;
+  const auto lights = transport_.lights().all();
+  return s.mirror == kNone || std::any_of(images.begin(), images.end(), [&](const Image& image) {
+           return image.mirror == s.mirror && lights[image.source].surface == s.source;
+         });
+}
+
+void SeenSources::findImages(const V3d& point, size_t most, std::vector<Image>& images) const {
+  images.clear();
+  const Scene& scene = transport_.scene();
+  for (const uint32_t i : sources_) {
+    const Surface& surface = scene.surfaces[transport_.lights().all()[i].surface];
+    if (emitsBehind(surface.shape, point)) continue;
+    Image image;
+    image.source = i;
+    image.region = silhouetteOf(surface.shape, scene.vertices, point);
+    image.solidAngle = image.region.regionSolidAngle();
+    if (!(image.solidAngle > 0)) continue;
+    image.filled = std::holds_alternative<Sphere>(surface.shape) ||
+                   std::holds_alternative<Distant>(surface.shape) ||
+                   isConvexPolygon(surface.shape, image.region);
+    image.rays = std::pow(lightFrom(scene, surface) * image.solidAngle, kByLight);
+    images.push_back(std::move(image));
+  }
+  const size_t straight = images.size();
+  addMirrored(point, images);
+  double sum = 0;
+  for (const Image& image : images) sum += image.rays;
+  for (size_t i = 0; i < images.size(); ++i) {
+    Image& image = images[i];
+    const double enough = std::max(kUsualRays, image.solidAngle / (kSmallestPart * kSmallestPart));
+    image.rays = std::min(image.rays / sum * static_cast<double>(most), enough);
+    if (i < straight && straight <= most) image.rays = std::max(image.rays, 1.);
+  }
+  images.erase(
+      std::remove_if(images.begin() + straight, images.end(), [](const Image& i) { return i.rays < .5; }),
+      images.end());
+}
+
+// From the point's mirror image the source is seen through the mirror as through a window.
+void SeenSources::addMirrored(const V3d& point, std::vector<Image>& images) const {
+  const Scene& scene = transport_.scene();
+  const auto lights = transport_.lights().all();
+  for (const int32_t m : mirrors_) {
+    const Surface& mirror = scene.surfaces[m];
+    const Material& material = *scene.materialOf(mirror);
+    const Plane plane(mirror.shape);
+    const double height = plane.height(point), side = height < 0 ? -1 : 1;
+    if (height < 0 && std::holds_alternative<Mirror>(material)) continue;
+    const V3d behind = plane.mirrored(point);
+    std::optional<Silhouette> window;
+    for (const uint32_t i : sources_) {
+      const LightSource& light = lights[i];
+      if (light.surface == m) continue;
+      const double before = light.distant ? side * plane.normal.dot(light.center) + light.sinHalfAngle
+                                          : side * plane.height(light.center) + light.radius;
+      const Surface& surface = scene.surfaces[light.surface];
+      if (before <= 0 || emitsBehind(surface.shape, behind)) continue;
+      if (!window) window = silhouetteOf(mirror.shape, scene.vertices, behind);
+      if (!(window->regionSolidAngle() > 0)) break;
+      Image image;
+      image.source = i;
+      image.mirror = m;
+      image.region = silhouetteOf(surface.shape, scene.vertices, behind).within(*window);
+      image.solidAngle = image.region.regionSolidAngle();
+      if (!(image.solidAngle > 0)) continue;
+      const double cosine = std::abs(plane.normal.dot(image.region.sample(.5, .5)));
+      image.rays = std::pow(
+          lightFrom(scene, surface) * image.solidAngle * std::visit(SharpReflectance{cosine}, material),
+          kByLight);
+      images.push_back(std::move(image));
+    }
   }
 }
 
-void SeenSources::sample(const V3d& point, size_t most, uint64_t seed, PathTracer& tracer,
-                         std::vector<Sample>& samples) const {
+void SeenSources::sample(const V3d& point, const std::vector<Image>& images, uint64_t seed,
+                         PathTracer& tracer, std::vector<Sample>& samples) const {
+  Random random(seed);
+  // Fewer than one ray: some of the images, each standing for others like it.
+  double due = random.uniform();
+  for (size_t i = 0; i < images.size(); ++i) {
+    const Image& image = images[i];
+    size_t rays = static_cast<size_t>(image.rays);
+    double solidAngle = image.solidAngle;
+    if (image.rays < 1) {
+      due += image.rays;
+      if (due < 1) continue;
+      --due;
+      rays = 1;
+      solidAngle /= image.rays;
+    }
+    const size_t first = samples.size();
+    sampleImage(point, image, rays, solidAngle, random.bits(), tracer, samples);
+    for (size_t k = first; k < samples.size(); ++k) samples[k].image = i;
+  }
+}
+
+void SeenSources::sampleImage(const V3d& point, const Image& image, size_t rays, double solidAngle,
+                              uint64_t seed, PathTracer& tracer, std::vector<Sample>& samples) const {
   const Scene& scene = transport_.scene();
-  const auto lights = transport_.lights().all();
-  std::vector<SourceSample> aims;
-  // A shadow ray costs a tenth of another direction, and something half in front of a source is all that is
-  // left of the error here: from where -ds begins, parts are made smaller as long as they are few enough, or
-  // larger.
-  SourceSampling how{std::clamp(transport_.options().sourceSubstructuring, kSmallestPart, 1.), 1, false};
-  const auto aim = [&] {
-    aims.clear();
-    Random random(seed);
-    for (uint32_t i = 0; i < lights.size(); ++i)
-      if (apart_[i]) transport_.lights().sample(i, point, how, random, aims);
-    return aims.size() <= most;
-  };
-  const double step = std::sqrt(2.);
-  bool few = aim();
-  for (; few && how.largest > kSmallestPart; few = aim()) how.largest /= step;
-  for (; !few && how.largest > 0; few = aim()) how.largest = how.largest < 8 ? how.largest * step : 0;
-  for (size_t begin = 0; begin < aims.size();) {
-    size_t end = begin;
-    double sum = 0;
-    for (; end < aims.size() && aims[end].source == aims[begin].source; ++end) sum += aims[end].solidAngle;
-    const LightSource& light = lights[aims[begin].source];
-    double scale = 1;
-    if (!light.distant && light.map != LightSource::Map::tube && sum > 0)
-      scale = silhouetteOf(scene.surfaces[light.surface].shape, scene.vertices, point).solidAngle() / sum;
-    for (; begin < end; ++begin) {
-      const SourceSample& to = aims[begin];
+  const LightSource& light = transport_.lights().all()[image.source];
+  const Shape& shape = scene.surfaces[light.surface].shape;
+  Random random(seed);
+  const bool mirrored = image.mirror != kNone;
+  const Shape* mirror = mirrored ? &scene.surfaces[image.mirror].shape : nullptr;
+  double share = 1;
+  ShapeHit hit;
+  if (!image.filled && !mirrored) {
+    const double shift1 = random.uniform(), shift2 = random.uniform();
+    size_t met = 0;
+    for (size_t i = 0; i < kShareTries; ++i) {
+      const V3d u = evenly(i, shift1, shift2);
+      met += hits(scene, shape, point, image.region.sample(u.x, u.y), hit) && hit.cosine > 0;
+    }
+    if (met == 0) return;
+    share = static_cast<double>(met) / kShareTries;
+  }
+  const size_t tries = std::max<size_t>(1, static_cast<size_t>(static_cast<double>(rays) / share));
+  const auto rows = static_cast<size_t>(std::sqrt(static_cast<double>(tries)));
+  const size_t columns = tries / rows, first = samples.size();
+  for (size_t row = 0; row < rows; ++row)
+    for (size_t column = 0; column < columns; ++column) {
       Sample s;
-      s.source = to.source;
-      s.part = to.solidAngle * scale;
-      s.ray = tracer.traceToSource(point, to, mixBits(seed + begin));
-      const bool seen = tracer.shownSource() == static_cast<int32_t>(to.source);
-      s.direction = {to.direction, seen ? s.part : 0, seen ? s.ray.value : Rgb(0, 0, 0), true};
+      s.row = row;
+      V3d& direction = s.direction.direction;
+      direction = image.region.sample((row + random.uniform()) / rows, (column + random.uniform()) / columns);
+      const uint64_t raySeed = random.bits();
+      if (mirrored) {
+        direction = Plane(*mirror).mirroredDirection(direction);
+        s.ray = tracer.trace(point, direction, 0, raySeed);
+      } else {
+        if (!hits(scene, shape, point, direction, hit) || !(hit.cosine > 0)) continue;
+        s.ray = tracer.traceToSource(
+            point, {direction, 0, hit.distance, hit.cosine, hit.normal, image.source}, raySeed);
+      }
+      s.direction.toSource = true;
+      s.direction.value = Rgb(0, 0, 0);
+      if (tracer.shown() == PathTracer::Shown{light.surface, image.mirror}) {
+        s.direction.value = s.ray.value;
+        s.direction.solidAngle = 1;
+      }
       samples.push_back(s);
     }
+  // What is known of the whole is shared by those that met it.
+  const double part = solidAngle * share / static_cast<double>(std::max<size_t>(1, samples.size() - first));
+  for (size_t i = first; i < samples.size(); ++i) {
+    samples[i].part = part;
+    samples[i].direction.solidAngle *= part;
   }
 }
 

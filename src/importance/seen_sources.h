@@ -1,11 +1,12 @@
 #pragma once
-// Light sources as they are seen directly from a point: few, small, bright, and known, so that they are
-// integrated by themselves rather than left to chance. All directions fall in two classes: those in which
-// such a source shows, directly or straight through panes, and the rest. This samples the first class; others
-// leave it out.
+// Light sources as they are seen from a point, straight or in something flat that mirrors: few, small,
+// bright, and known, so that they are integrated by themselves rather than left to chance. All directions
+// fall in two classes: those in which such an image of a source shows (also through panes), and the rest.
+// This samples the first class; others leave it out.
 #include <vector>
 
 #include "importance/direction_sample.h"
+#include "importance/silhouette.h"
 #include "transport/path_tracer.h"
 
 namespace rsphere {
@@ -13,40 +14,60 @@ namespace rsphere {
 class SeenSources {
  public:
   // Chooses the sources that are integrated apart: all that a view shows as sources (not illum), but for
-  // distant ones wider than kWidestDistant and polygons that are not convex, whose sampling would not be
-  // even. Keeps a reference to transport.
+  // distant ones wider than kWidestDistant; and the flat surfaces that may mirror them. Keeps a reference to
+  // transport.
   explicit SeenSources(const Transport& transport);
 
-  bool any() const { return any_; }
+  // Where a source may be seen from a point.
+  struct Image {
+    uint32_t source = 0;     // index in LightSources
+    int32_t mirror = kNone;  // index in Scene::surfaces; kNone: seen straight
+    Silhouette region;
+    double solidAngle = 0;  // sr, if nothing hides it
+    bool filled = true;     // the region shows nothing else
+    double rays = 0;        // to be spent on it, on average
+  };
 
-  // Whether the last primary ray of the tracer showed a source that is integrated apart.
+  // The images that are integrated apart at a point, with about `most` rays for all of them by the light that
+  // each may send. Mirrored ones that are not worth half a ray are left to the other directions.
+  void findImages(const V3d& point, size_t most, std::vector<Image>& images) const;
+
+  // Whether the last primary ray of the tracer showed one of a point's images.
+  bool shown(const PathTracer& tracer, const std::vector<Image>& images) const;
+
+  // Whether it showed a source straight that is integrated apart wherever it is seen from.
   bool shown(const PathTracer& tracer) const {
-    return tracer.shownSource() != kNone && apart_[tracer.shownSource()];
+    const PathTracer::Shown& s = tracer.shown();
+    return s.source != kNone && s.mirror == kNone && apart_[s.source];
   }
 
-  // One traced direction to a source.
+  // One traced direction to an image.
   struct Sample {
     DirectionSample direction;  // solidAngle 0 where something hides the source
     double part = 0;            // what it would be if nothing did, sr
     Ray ray;
-    uint32_t source = 0;  // index in LightSources
+    size_t image = 0;  // index in images
+    size_t row = 0;    // of the grid that lies on it
   };
 
-  // Directions to the sources, each with the solid angle it stands for and the radiance along it. Split as
-  // -ds says, but into no more than about `most` in all. Where a source is seen whole its solid angles sum to
-  // its exact one (plane and round sources). Unbiased up to the ratio of two sums over a source's own parts,
-  // which is 1 within a percent.
-  void sample(const V3d& point, size_t most, uint64_t seed, PathTracer& tracer,
+  // Directions to the images, each with the solid angle it stands for and the radiance along it; one in each
+  // cell of a grid that is even by solid angle. Where an image is seen whole its solid angles sum to its own,
+  // exact for polygons, spheres and distant sources, within 0.1% for others. Unbiased.
+  void sample(const V3d& point, const std::vector<Image>& images, uint64_t seed, PathTracer& tracer,
               std::vector<Sample>& samples) const;
 
  private:
+  void addMirrored(const V3d& point, std::vector<Image>& images) const;
+  void sampleImage(const V3d& point, const Image& image, size_t rays, double solidAngle, uint64_t seed,
+                   PathTracer& tracer, std::vector<Sample>& samples) const;
+
   const Transport& transport_;
-  std::vector<bool> apart_;  // by index in LightSources
-  bool any_ = false;
+  std::vector<bool> apart_;        // by surface
+  std::vector<uint32_t> sources_;  // those apart, index in LightSources
+  std::vector<int32_t> mirrors_;   // index in Scene::surfaces
 };
 
-// Half angle (radians) up to which a distant source is integrated apart: 6 degrees, a sun and its halo; one
-// ray is all that it gets.
+// Half angle (radians) up to which a distant source is integrated apart: 6 degrees, a sun and its halo.
 inline constexpr double kWidestDistant = .1;
 
 }  // namespace rsphere

@@ -75,6 +75,18 @@ V3d sampleTriangle(const V3d& a, const V3d& b, const V3d& c, double solidAngle, 
   return alongArc(b, std::cos(angle) * a + std::sin(angle) * e, u2);
 }
 
+// The corners of a polygon around a circle (world), its sides touching it.
+void addCircle(std::vector<V3d>& corners, const V3d& center, const V3d& axis, double radius) {
+  constexpr int kCorners = 16;
+  V3d x, y;
+  frame(axis, x, y);
+  const double around = radius / std::cos(kPi / kCorners) * (1 + kRounding);
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2 * kPi * i / kCorners;
+    corners.push_back(center + around * (std::cos(angle) * x + std::sin(angle) * y));
+  }
+}
+
 }  // namespace
 
 double polygonSolidAngle(std::span<const V3d> vertices, const V3d& point) {
@@ -113,42 +125,113 @@ void Silhouette::setBall(const V3d& center, double radius, const V3d& point) {
   solidAngle_ = regionSolidAngle_;
 }
 
-void Silhouette::setPolygon(const Polygon& polygon, std::span<const V3d> vertices, const V3d& point) {
-  solidAngle_ = polygonSolidAngle(vertices, point);
-  if (!(solidAngle_ > 0)) return;
-  const bool front = polygon.normal.dot(point - vertices[0]) > 0;
-  // Seen from the front, vertices run counterclockwise around the ray; normals of the sides then point
-  // inwards.
-  const double inward = front ? -1 : 1;
+// A region between the sides of a convex polygon, its corners (world) in order. False where it is too small
+// or not convex; axis and versine are set even then.
+bool Silhouette::setConvex(std::span<const V3d> corners, const V3d& point) {
+  corners_.clear();
+  sides_.clear();
+  shares_.clear();
+  double sum = 0;
+  for (size_t i = 2; i < corners.size(); ++i) {
+    sum += triangleSolidAngle(corners[0], corners[i - 1], corners[i], point);
+    shares_.push_back(std::abs(sum));
+  }
+  // Seen counterclockwise, the sides' normals point inwards.
+  const double inward = sum < 0 ? -1 : 1;
   V3d middle(0, 0, 0);
-  for (size_t i = 0; i < vertices.size(); ++i) {
-    const V3d towards = vertices[i] - point;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const V3d towards = corners[i] - point;
     if (!(towards.length() > 0)) continue;
     corners_.push_back(towards.normalized());
     middle += corners_.back();
-    const V3d side = inward * towards.cross(vertices[(i + 1) % vertices.size()] - vertices[i]);
+    const V3d side = inward * towards.cross(corners[(i + 1) % corners.size()] - corners[i]);
     if (side.length() > 0) sides_.push_back(side.normalized());
   }
-  V3d axis = middle.length() > 0 ? middle.normalized() : V3d(0, 0, 0);
-  double versine = 0;
-  for (const V3d& corner : corners_) versine = std::max(versine, (corner - axis).length2() / 2);
+  axis_ = middle.length() > 0 ? middle.normalized() : V3d(0, 0, 0);
+  versine_ = 0;
+  for (const V3d& corner : corners_) versine_ = std::max(versine_, (corner - axis_).length2() / 2);
   const double outside = largestReentrance(corners_, sides_);
-  if (versine > kTiny && outside <= 100 * kRounding) {
-    // Arcs between corners that are nearly across from one another magnify the rounding of their ends.
-    slack_ = outside + 2 * kRounding / std::max(1 - versine, 1e-7);
-    for (size_t i = 2; i < vertices.size(); ++i) {
-      regionSolidAngle_ += std::abs(triangleSolidAngle(vertices[0], vertices[i - 1], vertices[i], point));
-      shares_.push_back(regionSolidAngle_);
-    }
-    if (std::abs(regionSolidAngle_ - solidAngle_) <= 1e-9 * solidAngle_) return;
-  }
+  // Arcs between corners that are nearly across from one another magnify the rounding of their ends.
+  slack_ = outside + 2 * kRounding / std::max(1 - versine_, 1e-7);
+  regionSolidAngle_ = std::abs(sum);
+  return corners_.size() == corners.size() && versine_ > kTiny && outside <= 100 * kRounding && sum != 0 &&
+         std::is_sorted(shares_.begin(), shares_.end());
+}
+
+void Silhouette::setPolygon(const Polygon& polygon, std::span<const V3d> vertices, const V3d& point) {
+  solidAngle_ = polygonSolidAngle(vertices, point);
+  if (!(solidAngle_ > 0)) return;
+  if (setConvex(vertices, point) && std::abs(regionSolidAngle_ - solidAngle_) <= 1e-9 * solidAngle_) return;
   // A cap that holds the corners holds the sides too only where it is at most a hemisphere; one side of a
   // plane never fills more.
-  if (versine > 1) {
-    axis = front ? -polygon.normal : polygon.normal;
-    versine = 1;
+  if (versine_ > 1) {
+    axis_ = polygon.normal.dot(point - vertices[0]) > 0 ? -polygon.normal : polygon.normal;
+    versine_ = 1;
   }
-  setCap(axis, versine);
+  setCap(axis_, versine_);
+}
+
+// The convex hull of points as they are seen, found in the plane across their middle (Andrew's monotone
+// chain). False where they reach too far around.
+bool Silhouette::setHull(std::span<const V3d> points, const V3d& point) {
+  V3d middle(0, 0, 0), x, y;
+  for (const V3d& p : points) middle += p - point;
+  if (!(middle.length() > 0)) return false;
+  middle.normalize();
+  frame(middle, x, y);
+  struct Seen {
+    double x, y;
+    size_t index;
+  };
+  std::vector<Seen> seen;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const V3d towards = points[i] - point;
+    const double depth = towards.dot(middle);
+    if (!(depth > std::cos(kWidestHull) * towards.length())) return false;
+    seen.push_back({towards.dot(x) / depth, towards.dot(y) / depth, i});
+  }
+  std::sort(seen.begin(), seen.end(),
+            [](const Seen& a, const Seen& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  const auto turn = [](const Seen& a, const Seen& b, const Seen& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  };
+  std::vector<Seen> hull;
+  for (const bool back : {false, true}) {
+    const size_t begin = hull.size();
+    for (size_t i = 0; i < seen.size(); ++i) {
+      const Seen& next = seen[back ? seen.size() - 1 - i : i];
+      while (hull.size() >= begin + 2 && turn(hull[hull.size() - 2], hull.back(), next) <= 0) hull.pop_back();
+      hull.push_back(next);
+    }
+    hull.pop_back();
+  }
+  std::vector<V3d> corners;
+  for (const Seen& s : hull) corners.push_back(points[s.index]);
+  return corners.size() >= 3 && setConvex(corners, point);
+}
+
+Silhouette Silhouette::within(const Silhouette& other) const {
+  const Silhouette& smaller = regionSolidAngle_ <= other.regionSolidAngle_ ? *this : other;
+  if (corners_.empty() || other.corners_.empty()) return smaller;
+  // Sutherland and Hodgman's clipping; corners need not be of unit length.
+  std::vector<V3d> corners = corners_, kept;
+  for (const V3d& side : other.sides_) {
+    kept.clear();
+    for (size_t i = 0; i < corners.size(); ++i) {
+      const V3d& a = corners[i];
+      const V3d& b = corners[(i + 1) % corners.size()];
+      const double atA = side.dot(a), atB = side.dot(b);
+      if (atA >= 0) kept.push_back(a);
+      if ((atA > 0 && atB < 0) || (atA < 0 && atB > 0))
+        kept.push_back((a * std::abs(atB) + b * std::abs(atA)).normalized());
+    }
+    corners.swap(kept);
+  }
+  Silhouette both;
+  if (corners.size() < 3) return both;
+  if (!both.setConvex(corners, V3d(0, 0, 0))) return smaller;
+  both.solidAngle_ = both.regionSolidAngle_;
+  return both;
 }
 
 bool Silhouette::contains(const V3d& direction) const {
@@ -177,14 +260,27 @@ Silhouette silhouetteOf(const Shape& shape, std::span<const V3d> vertices, const
   Silhouette s;
   if (const auto* sphere = std::get_if<Sphere>(&shape)) {
     s.setBall(sphere->center, sphere->radius, point);
+  } else if (const auto* distant = std::get_if<Distant>(&shape)) {
+    const double sine = std::sin(distant->halfAngle / 2);
+    s.setCap(distant->direction, 2 * sine * sine);
+    s.solidAngle_ = s.regionSolidAngle_;
   } else if (const auto* cone = std::get_if<Cone>(&shape)) {
-    s.setBall(cone->base + cone->length / 2 * cone->axis,
-              std::hypot(cone->length / 2, std::max(cone->radius0, cone->radius1)), point);
+    std::vector<V3d> around;
+    addCircle(around, cone->base, cone->axis, cone->radius0);
+    addCircle(around, cone->base + cone->length * cone->axis, cone->axis, cone->radius1);
+    if (!s.setHull(around, point))
+      s.setBall(cone->base + cone->length / 2 * cone->axis,
+                std::hypot(cone->length / 2, std::max(cone->radius0, cone->radius1)), point);
+    s.solidAngle_ = s.regionSolidAngle_;
   } else if (const auto* ring = std::get_if<Ring>(&shape)) {
     const double height = ring->normal.dot(point - ring->center);
     if (liesInPlane(height, std::max(largestCoordinate(point), largestCoordinate(ring->center)))) return s;
-    s.setBall(ring->center, ring->outer, point);
-    if (s.versine_ > 1) s.setCap(height > 0 ? -ring->normal : ring->normal, 1);
+    std::vector<V3d> around;
+    addCircle(around, ring->center, ring->normal, ring->outer);
+    if (!s.setHull(around, point)) {
+      s.setBall(ring->center, ring->outer, point);
+      if (s.versine_ > 1) s.setCap(height > 0 ? -ring->normal : ring->normal, 1);
+    }
     s.solidAngle_ = s.regionSolidAngle_;
   } else if (const auto* polygon = std::get_if<Polygon>(&shape)) {
     const auto around = vertices.subspan(polygon->firstVertex, polygon->vertices);

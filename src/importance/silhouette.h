@@ -8,16 +8,18 @@
 namespace rsphere {
 
 // A region on the sphere of directions that holds every direction in which the object can be seen, and can be
-// sampled evenly: a cap, or a convex spherical polygon. For spheres and convex polygons it is the silhouette
-// itself; for other shapes a cap around it.
+// sampled evenly: a cap, or a convex spherical polygon. For spheres, distant sources and convex polygons it
+// is the silhouette itself; for rings, cones and cylinders the convex hull of their circles' polygons (1.5%
+// wider at most, but for a ring's hole) where they are seen within a cone of kWidestHull, else a cap around
+// them; for other polygons a cap.
 class Silhouette {
  public:
   // No direction at all.
   Silhouette() = default;
 
   // What the object itself fills, sr: exact to rounding for spheres and polygons (0 in the polygon's plane, 4
-  // pi inside a sphere), for cones, cylinders and rings the cap that bounds it. Vertices out of a polygon's
-  // plane count where rays meet it, in its mean plane.
+  // pi inside a sphere), for cones, cylinders and rings the region's. Vertices out of a polygon's plane count
+  // where rays meet it, in its mean plane.
   double solidAngle() const { return solidAngle_; }
   // What the region fills, sr; not less than solidAngle().
   double regionSolidAngle() const { return regionSolidAngle_; }
@@ -30,12 +32,17 @@ class Silhouette {
   // "Stratified Sampling of Spherical Triangles" (SIGGRAPH 1995). REQUIRES regionSolidAngle() > 0.
   V3d sample(double u1, double u2) const;
 
+  // The directions of both regions, exactly where both are polygons; else the smaller region of the two.
+  Silhouette within(const Silhouette& other) const;
+
   friend Silhouette silhouetteOf(const Shape& shape, std::span<const V3d> vertices, const V3d& point);
 
  private:
   void setCap(const V3d& axis, double versine);
   void setBall(const V3d& center, double radius, const V3d& point);
   void setPolygon(const Polygon& polygon, std::span<const V3d> vertices, const V3d& point);
+  bool setConvex(std::span<const V3d> corners, const V3d& point);
+  bool setHull(std::span<const V3d> points, const V3d& point);
 
   double solidAngle_ = 0, regionSolidAngle_ = 0;
   V3d axis_{0, 0, 1};
@@ -47,7 +54,10 @@ class Silhouette {
   std::vector<double> shares_;  // cumulative solid angles of the triangles around corner 0
 };
 
-// The silhouette of a shape as seen from a point (world). vertices: Scene::vertices. Not for Distant.
+// Half angle (radians) around their middle up to which hulls are made.
+inline constexpr double kWidestHull = 1.2;
+
+// The silhouette of a shape as seen from a point (world). vertices: Scene::vertices.
 Silhouette silhouetteOf(const Shape& shape, std::span<const V3d> vertices, const V3d& point);
 
 // Solid angle of a plane polygon, concave or with holes by a seam, as seen from a point, sr: 0 where the

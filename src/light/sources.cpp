@@ -235,8 +235,8 @@ void LightSources::sample(uint32_t index, const V3d& point, const SourceSampling
       sample.cosine = hit.cosine;
       sample.normal = hit.normal;
     }
-    if (how.asLight && source.reach > 0 && length > source.reach) return;
-    if (how.asLight && source.spot && !source.distant) {
+    if (source.reach > 0 && length > source.reach) return;
+    if (source.spot && !source.distant) {
       if (outsideSpot(*source.spot, direction)) return;
       // The light comes from a focus behind the surface.
       const double nearer = length / (length + source.spot->focalLength);
@@ -246,7 +246,7 @@ void LightSources::sample(uint32_t index, const V3d& point, const SourceSampling
   };
 
   const double distance = source.distant ? 1e10 : towards.length();
-  if (how.asLight && source.reach > 0 && distance > source.reach + source.radius) return;
+  if (source.reach > 0 && distance > source.reach + source.radius) return;
   if (source.isVirtual() && -towards.dot(source.beam) < source.cosBeam * distance) return;
   // A round source: directions spread as the projected solid angle around its middle, so that one ray at the
   // middle is exact for a surface that faces it, and jittered rays are for every surface.

@@ -71,9 +71,6 @@ struct SourceSample {
 struct SourceSampling {
   double largest = 0;  // size over distance of a part, at most; 0: not split
   double jitter = 0;   // share of a part that its ray may lie in, 0 to 1
-  // As a light source is sampled by rtrace: glow within its reach, spotlights from their focus. Else as it is
-  // seen.
-  bool asLight = true;
 };
 
 class LightSources {

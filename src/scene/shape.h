@@ -89,6 +89,17 @@ template <class S>
 inline constexpr bool kIsPlain = std::is_same_v<S, Polygon> || std::is_same_v<S, Sphere> ||
                                  std::is_same_v<S, Cone> || std::is_same_v<S, Ring>;
 
+inline bool isPlain(const Shape& shape) {
+  return std::visit([](const auto& form) { return kIsPlain<std::decay_t<decltype(form)>>; }, shape);
+}
+
+// The normal of polygons and rings; null for what is not plane.
+inline const V3d* planeNormal(const Shape& shape) {
+  if (const auto* polygon = std::get_if<Polygon>(&shape)) return &polygon->normal;
+  const auto* ring = std::get_if<Ring>(&shape);
+  return ring ? &ring->normal : nullptr;
+}
+
 // Each returns whether the ray from origin along the unit vector direction meets the shape farther than
 // kSamePlace and not beyond farthest (the first such place), and fills hit only then. Rounding: distances are
 // right to a few ulp of the largest coordinate that takes part. A ray within kSamePlace of parallel to a

@@ -25,12 +25,12 @@ Ray PathTracer::traceToSource(const V3d& point, const SourceSample& sample, uint
       ray.normal = sample.normal;
       ray.cosine = sample.cosine;
       primaryDirection_ = sample.direction;
-      shownSource_ = kNone;
+      shown_ = {};
       shadeSurface(ray);
       return ray;
     }
   }
-  shownSource_ = kNone;
+  shown_ = {};
   return Ray{};
 }
 

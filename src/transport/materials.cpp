@@ -162,9 +162,21 @@ void PathTracer::emit(Ray& ray, const Rgb& radiance, const Glow* glow, int32_t b
   }
   applyModifiers(ray, behind);
   ray.value = radiance * ray.pattern;
-  if (!(ray.kinds & ~(kPrimary | kTransmitted)) &&
-      (ray.direction - primaryDirection_).length2() < kStraight * kStraight)
-    shownSource_ = t_.lightOf(ray.surface);
+  // Straight on, or mirrored once.
+  const unsigned others = ray.kinds & ~(kPrimary | kTransmitted);
+  if (t_.lightOf(ray.surface) == kNone || others != (ray.mirror == kNone ? 0u : kReflected)) return;
+  if (shown_.source != kNone && (shown_.mirror == kNone || ray.mirror != kNone)) return;
+  if (isStraight(ray)) shown_ = {ray.surface, ray.mirror};
+}
+
+// Whether a ray goes where the primary ray went, but for what mirrored it.
+bool PathTracer::isStraight(const Ray& ray) const {
+  V3d direction = primaryDirection_;
+  if (ray.mirror != kNone) {
+    const V3d& normal = *planeNormal(t_.scene().surfaces[ray.mirror].shape);
+    direction -= 2 * normal.dot(direction) * normal;
+  }
+  return (ray.direction - direction).length2() < kStraight * kStraight;
 }
 
 }  // namespace rsphere

@@ -60,7 +60,7 @@ Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance i
 Ray PathTracer::trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed) {
   random_ = Random(seed);
   primaryDirection_ = direction;
-  shownSource_ = kNone;
+  shown_ = {};
   Ray ray;
   ray.extinction = t_.options().mediumExtinction;
   ray.origin = origin;
@@ -102,7 +102,12 @@ bool PathTracer::continueRay(Ray& child, RayKind kind, const Ray& parent, Rgb& c
   if (kind & kReflections) {
     ++child.level;
     child.farthest = 0;
+    if (kind == kReflected && !(parent.kinds & ~(kPrimary | kTransmitted)) && parent.surface != kNone &&
+        static_cast<size_t>(parent.surface) < t_.scene().outermost().size() &&
+        planeNormal(t_.scene().surfaces[parent.surface].shape))
+      child.mirror = parent.surface;
   } else {
+    child.mirror = parent.mirror;
     child.aimedAt = parent.aimedAt;
     child.farthest = parent.farthest > kSamePlace ? parent.farthest - parent.length : 0;
   }
@@ -224,6 +229,7 @@ void PathTracer::pass(Ray& ray) {
   child.extinction = ray.extinction;
   if (observer_) child.contribution = ray.contribution * passing(ray.extinction, ray.length);
   child.aimedAt = ray.aimedAt;
+  child.mirror = ray.mirror;
   child.weight = ray.weight;
   double length = ray.length;
   const auto shorten = [&](double by) {

@@ -82,12 +82,18 @@ class PathTracer {
   Ray trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed);
 
   // The radiance along a primary ray to a light source, as trace() would have it, at the price of a shadow
-  // ray where nothing that could let light pass is in between. Whether it shows the source: shownSource().
+  // ray where nothing that could let light pass is in between. Whether it shows the source: shown().
   Ray traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed);
 
-  // The light source (index in LightSources) whose own light the last primary ray showed, at its end or
-  // straight on through panes; kNone where it showed none.
-  int32_t shownSource() const { return shownSource_; }
+  // The light source whose own light the last primary ray showed, at its end or straight on through panes,
+  // mirrored once by something flat or not at all. Of several the one that was not mirrored, or else the
+  // first.
+  struct Shown {
+    int32_t source = kNone;  // index in Scene::surfaces; kNone: none was shown
+    int32_t mirror = kNone;  // what mirrored it
+    bool operator==(const Shown&) const = default;
+  };
+  const Shown& shown() const { return shown_; }
 
   // From now on trace() shows every ray to the observer, descendants before their ancestors, the primary ray
   // last (but not under -I, where it meets nothing); Ray::depth counts its ancestors. Shadow rays are shown
@@ -149,6 +155,7 @@ class PathTracer {
   bool shadeMaterial(Ray& ray, const Spotlight& material, int32_t behind);
 
   bool countedByDirect(const Ray& ray, const Glow* glow) const;
+  bool isStraight(const Ray& ray) const;
   void emit(Ray& ray, const Rgb& radiance, const Glow* glow, int32_t behind = kNone);
   bool shadeDiffusing(Ray& ray, const Scattering& scattering, const Interaction& at);
   bool shadeBoundary(Ray& ray, const Scattering& scattering);
@@ -172,7 +179,7 @@ class PathTracer {
   const Transport& t_;
   Random random_{0};
   V3d primaryDirection_{0, 0, 1};
-  int32_t shownSource_ = kNone;
+  Shown shown_;
   RayObserver observer_;
   bool allShadowRays_ = false;
   FunctionScratch functionScratch_;

@@ -18,6 +18,8 @@ struct Ray {
   double pathLength = 0;      // of its ancestors
   double shadowLength = 0;    // of those of them that were shadow rays
   int32_t aimedAt = kNone;    // light source that a shadow ray goes to
+  int32_t mirror = kNone;     // the flat surface that mirrored the primary ray into this one, nothing else
+                              // having turned it; an index in Scene::surfaces
   bool unobstructed = false;  // of a shadow ray: it meets what it is aimed at, and nothing else
   Rgb extinction{0, 0, 0};    // of the medium it passes, per unit length
   Rgb contribution{1, 1, 1};  // share of its radiance, at its origin, in that of the primary ray
