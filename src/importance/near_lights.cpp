@@ -28,6 +28,7 @@ std::vector<uint32_t> surfacesNearLights(const Scene& scene, const LightSources&
   std::vector<const LightSource*> near;
   std::vector<bool> shines(scene.surfaces.size(), false);
   for (const LightSource& light : lights.all()) {
+    if (light.isVirtual()) continue;
     shines[light.surface] = true;
     if (!light.distant) near.push_back(&light);
   }

@@ -51,8 +51,9 @@ bool emitsBehind(const Shape& shape, const V3d& point) {
   return normal && normal->dot(point) <= planeOffset(shape);
 }
 
-// Whether the region of a polygon is the polygon itself.
-bool isConvexPolygon(const Shape& shape, const Silhouette& s) {
+// Whether a shape's region shows nothing but the shape.
+bool fills(const Shape& shape, const Silhouette& s) {
+  if (std::holds_alternative<Sphere>(shape) || std::holds_alternative<Distant>(shape)) return true;
   return std::holds_alternative<Polygon>(shape) &&
          std::abs(s.regionSolidAngle() - s.solidAngle()) <= 1e-9 * s.solidAngle();
 }
@@ -141,9 +142,7 @@ void SeenSources::findImages(const V3d& point, size_t most, std::vector<Image>& 
     image.region = silhouetteOf(surface.shape, scene.vertices, point);
     image.solidAngle = image.region.regionSolidAngle();
     if (!(image.solidAngle > 0)) continue;
-    image.filled = std::holds_alternative<Sphere>(surface.shape) ||
-                   std::holds_alternative<Distant>(surface.shape) ||
-                   isConvexPolygon(surface.shape, image.region);
+    image.filled = fills(surface.shape, image.region);
     image.rays = std::pow(lightFrom(scene, surface) * image.solidAngle, kByLight);
     images.push_back(std::move(image));
   }
@@ -186,7 +185,9 @@ void SeenSources::addMirrored(const V3d& point, std::vector<Image>& images) cons
       Image image;
       image.source = i;
       image.mirror = m;
-      image.region = silhouetteOf(surface.shape, scene.vertices, behind).within(*window);
+      image.region = silhouetteOf(surface.shape, scene.vertices, behind);
+      image.filled = fills(surface.shape, image.region);
+      image.region = image.region.within(*window);
       image.solidAngle = image.region.regionSolidAngle();
       if (!(image.solidAngle > 0)) continue;
       const double cosine = std::abs(plane.normal.dot(image.region.sample(.5, .5)));
@@ -228,14 +229,15 @@ void SeenSources::sampleImage(const V3d& point, const Image& image, size_t rays,
   Random random(seed);
   const bool mirrored = image.mirror != kNone;
   const Shape* mirror = mirrored ? &scene.surfaces[image.mirror].shape : nullptr;
+  const V3d eye = mirrored ? Plane(*mirror).mirrored(point) : point;
   double share = 1;
-  ShapeHit hit;
-  if (!image.filled && !mirrored) {
+  ShapeHit on;
+  if (!image.filled) {
     const double shift1 = random.uniform(), shift2 = random.uniform();
     size_t met = 0;
     for (size_t i = 0; i < kShareTries; ++i) {
       const V3d u = evenly(i, shift1, shift2);
-      met += hits(scene, shape, point, image.region.sample(u.x, u.y), hit) && hit.cosine > 0;
+      met += hits(scene, shape, eye, image.region.sample(u.x, u.y), on) && on.cosine > 0;
     }
     if (met == 0) return;
     share = static_cast<double>(met) / kShareTries;
@@ -250,13 +252,14 @@ void SeenSources::sampleImage(const V3d& point, const Image& image, size_t rays,
       V3d& direction = s.direction.direction;
       direction = image.region.sample((row + random.uniform()) / rows, (column + random.uniform()) / columns);
       const uint64_t raySeed = random.bits();
+      const bool hit = hits(scene, shape, eye, direction, on) && on.cosine > 0;
+      if (!hit) continue;
       if (mirrored) {
         direction = Plane(*mirror).mirroredDirection(direction);
         s.ray = tracer.trace(point, direction, 0, raySeed);
       } else {
-        if (!hits(scene, shape, point, direction, hit) || !(hit.cosine > 0)) continue;
-        s.ray = tracer.traceToSource(
-            point, {direction, 0, hit.distance, hit.cosine, hit.normal, image.source}, raySeed);
+        s.ray = tracer.traceToSource(point, {direction, 0, on.distance, on.cosine, on.normal, image.source},
+                                     raySeed);
       }
       s.direction.toSource = true;
       s.direction.value = Rgb(0, 0, 0);
