@@ -44,6 +44,7 @@ struct Irregularity {
     return m.directional ? std::max(sharp, lobe(1, kSharpRoughness)) : sharp;
   }
   double operator()(const WgmdFunction& m) const { return std::max(lobe(m.reflected), lobe(m.transmitted)); }
+  double operator()(const BsdfMaterial& m) const { return m.aperture ? 1 : 0; }
   double operator()(const Dielectric&) const { return 1; }
   double operator()(const Interface&) const { return 1; }
   double operator()(const Glass&) const { return 1; }

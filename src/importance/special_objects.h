@@ -9,13 +9,13 @@
 namespace rsphere {
 
 // How irregular a material scatters: 1 for what shows a sharp image of its surroundings (mirror, dielectric,
-// interface, glass), else the share of light it reflects or transmits specularly, made smaller by roughness a
-// (rms slope of facets) as 1 / (1 + (a / kSharpRoughness)^2): a highlight that is spread wide is no peak; of
-// two roughnesses (plastic2, metal2, trans2, WGMDfunc), by the root of both factors; ashik2's powers n are
-// taken for roughnesses sqrt(2 / (n + 1)), where its lobe has the same peak. Where a function decides, the
-// most that may be is taken: all of the light, and sharp (BRTDfunc, WGMDfunc); but the directional scattering
-// of plasfunc, its kin and BRTDfunc is given no width at all, and is taken for kSharpRoughness. 0 for diffuse
-// materials and light sources.
+// interface, glass; aBSDF, whose data are meant to have a peak straight on), else the share of light it
+// reflects or transmits specularly, made smaller by roughness a (rms slope of facets) as 1 / (1 + (a /
+// kSharpRoughness)^2): a highlight that is spread wide is no peak; of two roughnesses (plastic2, metal2,
+// trans2, WGMDfunc), by the root of both factors; ashik2's powers n are taken for roughnesses sqrt(2 / (n +
+// 1)), where its lobe has the same peak. Where a function decides, the most that may be is taken: all of the
+// light, and sharp (BRTDfunc, WGMDfunc); but the directional scattering of plasfunc, its kin and BRTDfunc is
+// given no width at all, and is taken for kSharpRoughness. 0 for diffuse materials, BSDF and light sources.
 double irregularity(const Material& material);
 
 // A polished surface's highlight is as sharp as the directions are dense (0.08 rad for 2048) at about this

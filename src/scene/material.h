@@ -93,6 +93,14 @@ struct WgmdFunction {
   int32_t functions = -1;
 };
 
+// BSDF and aBSDF: scattering from an XML file, and diffuse colours added to it.
+struct BsdfMaterial {
+  bool aperture = false;  // aBSDF: what goes straight on is told apart
+  bool proxy = false;     // BSDF with a thickness other than the word 0: stands for geometry that it hides
+  Rgb diffuseFront{0, 0, 0}, diffuseBack{0, 0, 0}, diffuseTransmitted{0, 0, 0};
+  int32_t functions = -1;
+};
+
 // What a surface is to rays that it does not concern (illum, mirror).
 struct Alternate {
   enum class Kind : uint8_t { none, pass, modifier } kind = Kind::none;
@@ -126,6 +134,6 @@ struct Spotlight {
 
 using Material =
     std::variant<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
-                 Dielectric, Interface, Glass, Mirror, Light, Illum, Glow, Spotlight>;
+                 BsdfMaterial, Dielectric, Interface, Glass, Mirror, Light, Illum, Glow, Spotlight>;
 
 }  // namespace rsphere

@@ -241,6 +241,12 @@ class Builder {
                             componentModifier(i, 8, diffusesThrough),
                             scene_.description.string(primitive(i), 5) != "0"};
       }
+      case Type::bsdf:
+        needAtLeast(i, 6);
+        return bsdf(i);
+      case Type::absdf:
+        needAtLeast(i, 5);
+        return bsdf(i);
       case Type::dielectric:
         needReals(i, 5);
         if (!(reals(i)[3] > 0)) fail(i, "refractive index must be above 0");
@@ -279,6 +285,18 @@ class Builder {
       default:
         fail(i, "this type is not supported yet");
     }
+  }
+
+  Material bsdf(uint32_t i) const {
+    const size_t count = reals(i).size();
+    if (count > 9 || count % 3) fail(i, fmt::format("expected 0, 3, 6 or 9 real arguments, got {}", count));
+    BsdfMaterial m;
+    m.aperture = primitive(i).type == Type::absdf;
+    m.proxy = !m.aperture && scene_.description.string(primitive(i), 0) != "0";
+    if (count >= 3) m.diffuseFront = color(i, 0);
+    if (count >= 6) m.diffuseBack = color(i, 3);
+    if (count >= 9) m.diffuseTransmitted = color(i, 6);
+    return m;
   }
 
   Material anisotropic(uint32_t i) const {
@@ -689,6 +707,7 @@ bool isTransparent(const Material& material) {
   if (const auto* m = std::get_if<Anisotropic>(&material)) return m->trans;
   if (const auto* m = std::get_if<BrtdFunction>(&material)) return m->transmits;
   if (const auto* m = std::get_if<WgmdFunction>(&material)) return m->transmits;
+  if (const auto* m = std::get_if<BsdfMaterial>(&material)) return m->aperture || m->proxy;
   return std::holds_alternative<Trans>(material) || std::holds_alternative<Dielectric>(material) ||
          std::holds_alternative<Interface>(material) || std::holds_alternative<Glass>(material);
 }

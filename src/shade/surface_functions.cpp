@@ -117,6 +117,10 @@ class SurfaceFunctions::Maker {
         return brtd();
       case Type::wgmdfunc:
         return wgmd();
+      case Type::bsdf:
+        return bsdf(1);
+      case Type::absdf:
+        return bsdf(0);
       default:
         fail("this type is not supported yet");
     }
@@ -351,6 +355,20 @@ class SurfaceFunctions::Maker {
     return finish(std::move(f), std::move(s), 13);
   }
 
+  // file: which string argument the XML file's name is; before it there may be a thickness.
+  std::unique_ptr<Function> bsdf(size_t file) const {
+    auto f = std::make_unique<Function>();
+    Scatterer s;
+    s.bsdf = shared(functions_.bsdfs_, word(file), [&] {
+      const std::string path = find(word(file), "BSDF");
+      return BsdfData(rad::BsdfFile::parse(read(path, "BSDF"), path, functions_.warn_), path,
+                      functions_.warn_);
+    });
+    s.orientation = expressions(*f, file + 4, file + 1, 3);
+    if (file > 0) s.thickness = expressions(*f, file + 4, 0, 1);
+    return finish(std::move(f), std::move(s), file + 5);
+  }
+
   std::unique_ptr<Function> finish(std::unique_ptr<Function> f, Scatterer s, size_t transform) const {
     f->results = 3;
     f->what = std::move(s);
@@ -429,13 +447,16 @@ void SurfaceFunctions::setInputs(const Function& f, const FunctionPoint& at, Fun
   if (needs & bits(CrP, 3)) put(&in[CrP], at.color);
 }
 
-bool SurfaceFunctions::computed(int32_t modifier, const Function& f, const FunctionScratch& scratch) const {
+void SurfaceFunctions::warn(int32_t modifier, std::string_view problem) const {
+  if (!warn_ || ready(modifier).warned.exchange(true)) return;
+  const std::lock_guard lock(mutex_);
+  warn_(fmt::format("{}: {}", scene_.place(scene_.modifiers[static_cast<size_t>(modifier)].primitive),
+                    problem));
+}
+
+bool SurfaceFunctions::computed(int32_t modifier, const FunctionScratch& scratch) const {
   if (scratch.state.faults == 0) return true;
-  if (warn_ && !f.warned.exchange(true)) {
-    const std::lock_guard lock(mutex_);
-    warn_(fmt::format("{}: compute error",
-                      scene_.place(scene_.modifiers[static_cast<size_t>(modifier)].primitive)));
-  }
+  warn(modifier, "compute error");
   return false;
 }
 
@@ -477,7 +498,7 @@ bool SurfaceFunctions::evaluate(int32_t modifier, const Function& f, const Funct
       correct(image->corrections, found.data());
     }
   }
-  return computed(modifier, f, scratch);
+  return computed(modifier, scratch);
 }
 
 Rgb SurfaceFunctions::pattern(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const {
@@ -509,7 +530,7 @@ std::array<double, 3> SurfaceFunctions::three(int32_t modifier, ProgramPointer S
   scratch.state.faults = 0;
   std::array<double, 3> v{};
   (std::get<Scatterer>(f.what).*program)->evaluate({scratch.inputs, realsOf(modifier), {}}, scratch.state, v);
-  return computed(modifier, f, scratch) ? v : std::array<double, 3>{};
+  return computed(modifier, scratch) ? v : std::array<double, 3>{};
 }
 
 V3d SurfaceFunctions::orientation(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const {
@@ -518,6 +539,29 @@ V3d SurfaceFunctions::orientation(int32_t modifier, const FunctionPoint& at, Fun
   const V3d own(v[0], v[1], v[2]);
   // As for rtrace, an instance turns the point and the normal that it is computed from, but not the result.
   return f.moved ? f.placement.toOuter.vector(own) : own;
+}
+
+double SurfaceFunctions::thickness(int32_t modifier, const FunctionPoint& at,
+                                   FunctionScratch& scratch) const {
+  const Function& f = ready(modifier);
+  setInputs(f, at, scratch);
+  scratch.state.faults = 0;
+  const double own =
+      std::get<Scatterer>(f.what).thickness->evaluate({scratch.inputs, realsOf(modifier), {}}, scratch.state);
+  if (!computed(modifier, scratch)) return 0;
+  const Placement* placement = placementOf(f, at, scratch);
+  return placement ? own * std::abs(placement->toOuter.scale) : own;
+}
+
+V3d SurfaceFunctions::up(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const {
+  const auto v = three(modifier, &Scatterer::orientation, at, scratch);
+  const Placement* placement = placementOf(ready(modifier), at, scratch);
+  const V3d own(v[0], v[1], v[2]);
+  return placement ? placement->directionToOuter(own) : own;
+}
+
+const BsdfData& SurfaceFunctions::bsdf(int32_t modifier) const {
+  return *std::get<Scatterer>(ready(modifier).what).bsdf;
 }
 
 std::array<double, 3> SurfaceFunctions::reflection(int32_t modifier, const FunctionPoint& at,
@@ -552,7 +596,7 @@ Rgb SurfaceFunctions::distribution(int32_t modifier, const FunctionPoint& at, co
   for (int i = 0; i < (s.gray ? 1 : 3) && state.faults == 0; ++i)
     if (s.distribution[static_cast<size_t>(i)])
       value[i] = s.distribution[static_cast<size_t>(i)]->evaluate(point, state);
-  if (!computed(modifier, f, scratch)) return Rgb(0, 0, 0);
+  if (!computed(modifier, scratch)) return Rgb(0, 0, 0);
   return s.gray ? Rgb(value.x, value.x, value.x) : value;
 }
 

@@ -21,6 +21,7 @@
 #include "rad_parser/font_file.h"
 #include "rad_parser/xform.h"
 #include "scene/scene.h"
+#include "shade/bsdf.h"
 #include "shade/picture.h"
 
 namespace rsphere {
@@ -74,6 +75,12 @@ class SurfaceFunctions {
   // The direction in the world that highlights are oriented by (ux uy uz), of any length: plastic2, metal2,
   // trans2, ashik2, WGMDfunc.
   V3d orientation(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
+  // BSDF, aBSDF: the direction in the world that is up, of any length.
+  V3d up(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
+  // BSDF: the thickness of what it hides, in the world, positive behind its front.
+  double thickness(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
+  // BSDF, aBSDF: the file's data.
+  const BsdfData& bsdf(int32_t modifier) const;
   // BRTDfunc: the coefficients of what is sharply reflected and transmitted. WGMDfunc: share, roughness along
   // and across of the reflected and the transmitted lobe.
   std::array<double, 3> reflection(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
@@ -83,6 +90,9 @@ class SurfaceFunctions {
   // (sr) in direction toSource (unit, world) that is scattered towards the ray.
   Rgb distribution(int32_t modifier, const FunctionPoint& at, const V3d& toSource, double solidAngle,
                    FunctionScratch& scratch) const;
+
+  // Warns of something wrong with a modifier, of the first such thing only.
+  void warn(int32_t modifier, std::string_view problem) const;
 
  private:
   using ProgramPointer = std::shared_ptr<const rad::calc::Program>;
@@ -116,6 +126,8 @@ class SurfaceFunctions {
   // Of a material; null for what its type does not have.
   struct Scatterer {
     ProgramPointer orientation, reflection, transmission;  // of three numbers each
+    ProgramPointer thickness;
+    std::shared_ptr<const BsdfData> bsdf;
     // One for each channel, or the first for all: of the direction to a source and its solid angle, with a
     // table's value before these where there is one.
     std::array<ProgramPointer, 3> distribution;
@@ -149,7 +161,7 @@ class SurfaceFunctions {
   const Placement* placementOf(const Function& f, const FunctionPoint& at, FunctionScratch& scratch) const;
   void setInputs(const Function& f, const FunctionPoint& at, FunctionScratch& scratch) const;
   // Whether nothing went wrong since the faults were cleared; warns where it did.
-  bool computed(int32_t modifier, const Function& f, const FunctionScratch& scratch) const;
+  bool computed(int32_t modifier, const FunctionScratch& scratch) const;
   std::array<double, 3> three(int32_t modifier, ProgramPointer Scatterer::*program, const FunctionPoint& at,
                               FunctionScratch& scratch) const;
   // The function's numbers; false where they can't be computed, which is warned of.
@@ -167,6 +179,7 @@ class SurfaceFunctions {
   mutable Cache<rad::DataFile> data_;
   mutable Cache<Picture> pictures_;
   mutable Cache<rad::FontFile> fonts_;
+  mutable Cache<BsdfData> bsdfs_;
 };
 
 }  // namespace rsphere

@@ -145,6 +145,7 @@ class PathTracer {
   bool shadeMaterial(Ray& ray, const FunctionScatterer& material, int32_t behind);
   bool shadeMaterial(Ray& ray, const BrtdFunction& material, int32_t behind);
   bool shadeMaterial(Ray& ray, const WgmdFunction& material, int32_t behind);
+  bool shadeMaterial(Ray& ray, const BsdfMaterial& material, int32_t behind);
   bool shadeMaterial(Ray& ray, const Dielectric& material, int32_t behind);
   bool shadeMaterial(Ray& ray, const Interface& material, int32_t behind);
   bool shadeMaterial(Ray& ray, const Glass& material, int32_t behind);
@@ -160,6 +161,9 @@ class PathTracer {
   bool shadeDiffusing(Ray& ray, const Scattering& scattering, const Interaction& at);
   bool shadeBoundary(Ray& ray, const Scattering& scattering);
   bool useAlternate(Ray& ray, const Alternate& alternate);
+  void sampleBsdf(Ray& ray, struct BsdfHit& hit, RayKind kind);
+  Rgb directedBsdf(const Ray& ray, const struct BsdfHit& hit, const V3d& toSource, double solidAngle);
+  V3d jittered(const V3d& view, double projectedSolidAngle);
   bool passesBack(Ray& ray);
   bool shadeElliptic(Ray& ray, const AnisotropicScattering& scattering, const Interaction& at);
   bool shadeByFunction(Ray& ray, const FunctionScattering& scattering, const Interaction& at,
