@@ -97,33 +97,31 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
 // near to a light source: they differ less than so few rays could tell.
 void SphereEstimator::measureContrasts() {
   const Scene& scene = transport_.scene();
-  std::map<std::pair<bool, int32_t>, std::vector<uint32_t>> alike;  // by nearness and modifier
+  std::map<std::pair<bool, int32_t>, std::vector<SpecialObject>> alike;  // by nearness and modifier
   std::vector<bool> near(scene.surfaces.size(), false);
   for (const uint32_t i : surfacesNearLights(scene, transport_.lights())) {
     near[i] = true;
-    alike[{true, scene.surfaces[i].modifier}].push_back(i);
+    alike[{true, scene.surfaces[i].modifier}].push_back({i});
   }
   for (const SpecialObject& object : special_)
-    if (!near[object.surface])
-      alike[{false, scene.surfaces[object.surface].modifier}].push_back(object.surface);
+    if (!near[object.surface]) alike[{false, scene.surfaces[object.surface].modifier}].push_back(object);
   if (alike.empty()) return;
   PathTracer tracer(transport_);
   measureSurroundings(tracer);
   const size_t rays = std::clamp<size_t>(kRaysForContrast / alike.size(), 2, kRaysAModifier);
-  for (const auto& [kind, surfaces] : alike) {
-    Random random(mixBits(surfaces[0]));
+  for (const auto& [kind, objects] : alike) {
+    Random random(mixBits(objects[0].surface));
     Values values;
     for (size_t k = 0; k < rays; ++k) {
-      const uint32_t surface = surfaces[k * surfaces.size() / rays];
-      const SurfacePoint at = samplePoint(scene.surfaces[surface].shape, scene.vertices, random);
+      const SpecialObject& object = objects[k * objects.size() / rays];
+      const SurfacePoint at = samplePoint(scene, object, random);
       // What is flat is seen from both sides.
-      const bool behind = !std::holds_alternative<Sphere>(scene.surfaces[surface].shape) && k % 2;
+      const bool behind = !std::holds_alternative<Sphere>(shapeOf(scene, object)) && k % 2;
       const V3d away = awayFrom(behind ? -at.normal : at.normal, random.uniform(), random.uniform());
       const Ray ray = tracer.trace(at.point + at.clearance * away, -away, 0, random.bits());
-      if (ray.surface == static_cast<int32_t>(surface) && !sources_.shown(tracer))
-        values.add(brightness(ray.value));
+      if (shows(scene, object, ray.surface) && !sources_.shown(tracer)) values.add(brightness(ray.value));
     }
-    for (const uint32_t surface : surfaces) candidates_.push_back({surface, values.deviation()});
+    for (const SpecialObject& object : objects) candidates_.push_back({object, values.deviation()});
   }
 }
 
@@ -137,8 +135,9 @@ void SphereEstimator::measureSurroundings(PathTracer& tracer) {
   for (size_t k = 0; k < kRaysForSurroundings; ++k) {
     const auto surfaces = static_cast<double>(scene.outermost().size());
     const auto i = static_cast<size_t>(random.uniform() * surfaces);
-    if (!isPlain(scene.surfaces[i].shape)) continue;
-    const SurfacePoint at = samplePoint(scene.surfaces[i].shape, scene.vertices, random);
+    if (std::holds_alternative<Distant>(scene.surfaces[i].shape)) continue;
+    const SurfacePoint at = samplePoint(scene, scene.surfaces[i], random);
+    if (!(at.clearance > 0)) continue;
     const V3d away = awayFrom(at.normal, random.uniform(), random.uniform());
     double seen[2];
     bool apart = false;
@@ -223,7 +222,7 @@ void SphereEstimator::sampleAsPaper(const V3d& point, uint64_t seed, Workspace& 
   };
   std::vector<Wanted> wanted;
   for (const SpecialObject& object : special_) {
-    Silhouette s = silhouetteOf(scene.surfaces[object.surface].shape, scene.vertices, point);
+    Silhouette s = silhouetteOf(scene, object, point);
     const auto count = static_cast<size_t>(std::min(object.density * s.solidAngle() + .5, 1e9));
     if (count > 0) wanted.push_back({std::move(s), count});
   }
@@ -286,8 +285,7 @@ void SphereEstimator::chooseTargets(const V3d& point, uint64_t seed, size_t most
     if (!(candidate.deviation > usual)) continue;
     const double contrast =
         std::min(usual > 0 ? candidate.deviation / usual : kMostContrast, kMostContrast) - 1;
-    Workspace::Target target{silhouetteOf(scene.surfaces[candidate.surface].shape, scene.vertices, point), 0,
-                             0};
+    Workspace::Target target{silhouetteOf(scene, candidate.object, point), 0, 0};
     if (!(target.silhouette.regionSolidAngle() > 0)) continue;
     target.density = contrast * baseDensity * options_.densityFactor;
     target.expected = target.density * target.silhouette.regionSolidAngle();

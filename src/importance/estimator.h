@@ -94,7 +94,7 @@ class SphereEstimator {
   std::vector<SpecialObject> special_;
   // What may get directions of its own with -Sw c: special objects, and what is near to a light source.
   struct Candidate {
-    uint32_t surface = 0;  // index in Scene::surfaces
+    SpecialObject object;
     double deviation = 0;  // of the radiance on it, W/sr/m2
   };
   std::vector<Candidate> candidates_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 
 namespace rsphere {
 namespace {
@@ -102,19 +103,172 @@ std::string why(const Material& material, double irregularity) {
   return "irregular by type";
 }
 
+std::span<const V3d> verticesOf(const Scene& scene, const SpecialObject& object) {
+  return object.placed ? object.placed->vertices : scene.vertices;
+}
+
+class Finder {
+ public:
+  Finder(const Scene& scene, double factor) : scene_(scene), factor_(factor), balls_(scene) {}
+
+  std::vector<SpecialObject> find() {
+    size_t placedObjects = 0;
+    for (const Surface& s : scene_.outermost()) placedObjects += contentsOf(s).objects;
+    const bool each = placedObjects <= kMostPlacedObjects;
+    for (uint32_t i = 0; i < scene_.outermost().size(); ++i) {
+      if (each || contentsOf(scene_.surfaces[i]).objects == 0)
+        add(i, nullptr);
+      else
+        addAround(i);
+    }
+    return std::move(objects_);
+  }
+
+ private:
+  // What is special in an instance or a mesh that does not stand for its contents.
+  struct Contents {
+    size_t objects = 0;
+    uint32_t mostIrregular = 0;  // surface
+    double irregularity = 0;
+  };
+
+  // A surface has the look of its own modifier, if it has any, rather than of what it brings in.
+  bool standsForContents(const Surface& s) const {
+    return scene_.description.primitives[s.primitive].modifier != rad::kVoid;
+  }
+  double irregularityOf(uint32_t surface) const {
+    return mostIrregular(scene_, scene_.surfaces[surface].modifier).irregularity;
+  }
+
+  void count(Contents& contents, uint32_t surface, size_t objects, double irregularity) const {
+    if (irregularity < kSpecialIrregularity) return;
+    contents.objects += objects;
+    if (irregularity > contents.irregularity) {
+      contents.mostIrregular = surface;
+      contents.irregularity = irregularity;
+    }
+  }
+
+  Contents contentsOf(const Surface& s) {
+    if (standsForContents(s)) return {};
+    Contents contents;
+    if (const auto* mesh = std::get_if<MeshInstance>(&s.shape)) {
+      for (const int32_t faces : scene_.meshes[mesh->mesh].facesOf)
+        if (faces != kNone)
+          count(contents, static_cast<uint32_t>(faces), 1, irregularityOf(static_cast<uint32_t>(faces)));
+    } else if (const auto* instance = std::get_if<Instance>(&s.shape)) {
+      return contentsOfGroup(instance->group);
+    }
+    return contents;
+  }
+
+  Contents contentsOfGroup(uint32_t index) {
+    const auto known = groups_.find(index);
+    if (known != groups_.end()) return known->second;
+    const SurfaceGroup& group = scene_.groups[index];
+    Contents contents;
+    for (uint32_t i = group.firstSurface; i < group.firstSurface + group.surfaces; ++i) {
+      const Contents inner = contentsOf(scene_.surfaces[i]);
+      if (inner.objects > 0)
+        count(contents, inner.mostIrregular, inner.objects, inner.irregularity);
+      else
+        count(contents, i, 1, irregularityOf(i));
+    }
+    return groups_[index] = contents;
+  }
+
+  void addObject(uint32_t surface, double irregularity, std::optional<PlacedShape> placedShape,
+                 bool several = false) {
+    if (irregularity >= kSpecialIrregularity)
+      objects_.push_back({surface, irregularity, irregularity * kDirectionsPerSr * factor_,
+                          std::move(placedShape), several});
+  }
+  void addBall(uint32_t surface, double irregularity, const Sphere& ball, const Placement& placement,
+               bool several = false) {
+    if (ball.radius > 0) addObject(surface, irregularity, PlacedShape{placed(ball, placement), {}}, several);
+  }
+
+  Sphere ballOf(const Surface& s) {
+    if (const auto* instance = std::get_if<Instance>(&s.shape)) return balls_.ofGroup(instance->group);
+    return balls_.ofMesh(std::get<MeshInstance>(s.shape).mesh);
+  }
+
+  // A surface, and what it brings in, one by one. at: what it lies in itself; null: the world.
+  void add(uint32_t index, const Placement* at) {
+    const Surface& s = scene_.surfaces[index];
+    const auto* instance = std::get_if<Instance>(&s.shape);
+    const auto* mesh = std::get_if<MeshInstance>(&s.shape);
+    if (instance || mesh) {
+      const Placement& own = scene_.placements[instance ? instance->placement : mesh->placement];
+      const Placement all = at ? within(*at, own) : own;
+      if (standsForContents(s)) {
+        if (irregularityOf(index) >= kSpecialIrregularity)
+          addBall(index, irregularityOf(index), ballOf(s), all);
+      } else if (contentsOf(s).objects > 0) {
+        addContents(s, all);
+      }
+    } else if (!std::holds_alternative<Distant>(s.shape)) {
+      const double value = irregularityOf(index);
+      if (value < kSpecialIrregularity) return;
+      addObject(index, value, at ? std::optional(placed(s.shape, scene_.vertices, *at)) : std::nullopt);
+    }
+  }
+
+  void addContents(const Surface& s, const Placement& placement) {
+    if (const auto* instance = std::get_if<Instance>(&s.shape)) {
+      const SurfaceGroup& group = scene_.groups[instance->group];
+      for (uint32_t i = group.firstSurface; i < group.firstSurface + group.surfaces; ++i) add(i, &placement);
+      return;
+    }
+    const uint32_t mesh = std::get<MeshInstance>(s.shape).mesh;
+    const std::vector<int32_t>& facesOf = scene_.meshes[mesh].facesOf;
+    for (size_t m = 0; m < facesOf.size(); ++m)
+      if (facesOf[m] != kNone)
+        addBall(static_cast<uint32_t>(facesOf[m]), irregularityOf(static_cast<uint32_t>(facesOf[m])),
+                balls_.ofFaces(mesh, m), placement);
+  }
+
+  // One ball around everything in an outermost instance or mesh.
+  void addAround(uint32_t index) {
+    const Surface& s = scene_.surfaces[index];
+    const Contents contents = contentsOf(s);
+    const auto* instance = std::get_if<Instance>(&s.shape);
+    const uint32_t placement = instance ? instance->placement : std::get<MeshInstance>(s.shape).placement;
+    addBall(contents.mostIrregular, contents.irregularity, ballOf(s), scene_.placements[placement], true);
+  }
+
+  const Scene& scene_;
+  double factor_;
+  BoundingBalls balls_;
+  std::map<uint32_t, Contents> groups_;
+  std::vector<SpecialObject> objects_;
+};
+
 }  // namespace
 
 double irregularity(const Material& material) { return std::visit(Irregularity{}, material); }
 
 std::vector<SpecialObject> findSpecialObjects(const Scene& scene, double factor) {
-  std::vector<SpecialObject> objects;
-  for (uint32_t i = 0; i < scene.outermost().size(); ++i) {
-    const Surface& s = scene.surfaces[i];
-    if (std::holds_alternative<Distant>(s.shape)) continue;
-    const double value = mostIrregular(scene, s.modifier).irregularity;
-    if (value >= kSpecialIrregularity) objects.push_back({i, value, value * kDirectionsPerSr * factor});
-  }
-  return objects;
+  return Finder(scene, factor).find();
+}
+
+const Shape& shapeOf(const Scene& scene, const SpecialObject& object) {
+  return object.placed ? object.placed->shape : scene.surfaces[object.surface].shape;
+}
+
+bool shows(const Scene& scene, const SpecialObject& object, int32_t surface) {
+  if (surface == kNone) return false;
+  if (!object.several) return static_cast<uint32_t>(surface) == object.surface;
+  const int32_t modifier = scene.surfaces[static_cast<size_t>(surface)].modifier;
+  return mostIrregular(scene, modifier).irregularity >= kSpecialIrregularity;
+}
+
+Silhouette silhouetteOf(const Scene& scene, const SpecialObject& object, const V3d& point) {
+  return silhouetteOf(shapeOf(scene, object), verticesOf(scene, object), point);
+}
+
+SurfacePoint samplePoint(const Scene& scene, const SpecialObject& object, Random& random) {
+  return samplePoint(shapeOf(scene, object), verticesOf(scene, object), random);
 }
 
 std::string specialObjectsText(const Scene& scene, const std::vector<SpecialObject>& objects) {

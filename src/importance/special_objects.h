@@ -1,9 +1,12 @@
 #pragma once
 // Which objects are looked at with directions of their own, and how closely.
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "importance/placed_shape.h"
+#include "importance/silhouette.h"
 #include "scene/scene.h"
 
 namespace rsphere {
@@ -33,12 +36,33 @@ inline constexpr double kDirectionsPerSr = 32000;
 struct SpecialObject {
   uint32_t surface = 0;  // index in Scene::surfaces
   double irregularity = 0;
-  double density = 0;  // directions per sr
+  double density = 0;                   // directions per sr
+  std::optional<PlacedShape> placed{};  // in the world, where that is not the surface's own shape
+  bool several = false;                 // `placed` is a ball around others than `surface` too
 };
 
+// Beyond so many special objects in octrees and meshes each outermost instance is one object: silhouettes are
+// computed for all of them at every point.
+inline constexpr size_t kMostPlacedObjects = 4096;
+
 // Every surface whose material, or one that its modifiers may stand for, is special; in the order of the
-// scene. Distant sources are none. factor: -Sk.
+// scene. Distant sources are none. Those in octrees are placed in the world, as shapes of their own; those in
+// meshes are a ball for each material of a mesh, and so is an instance whose own modifier is special. Beyond
+// kMostPlacedObjects, a ball around each outermost instance that holds any, by its most irregular one.
+// factor: -Sk.
 std::vector<SpecialObject> findSpecialObjects(const Scene& scene, double factor);
+
+// The object's shape in the world, or the ball around it.
+const Shape& shapeOf(const Scene& scene, const SpecialObject& object);
+
+// Whether a hit on this surface (index in Scene::surfaces) is one on the object.
+bool shows(const Scene& scene, const SpecialObject& object, int32_t surface);
+
+// The object as it is seen from a point (world).
+Silhouette silhouetteOf(const Scene& scene, const SpecialObject& object, const V3d& point);
+
+// A point on the object, or on the ball around it (world).
+SurfacePoint samplePoint(const Scene& scene, const SpecialObject& object, Random& random);
 
 // A line for each: surface, material with its type, place, density and why; for -Sl.
 std::string specialObjectsText(const Scene& scene, const std::vector<SpecialObject>& objects);

@@ -1,0 +1,116 @@
+#include "importance/placed_shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rsphere {
+namespace {
+
+Box3d boxAround(const Sphere& ball) { return ball.radius > 0 ? bounds(ball) : Box3d(); }
+
+Sphere ballAround(const Box3d& box) {
+  if (box.isEmpty()) return {V3d(0, 0, 0), 0, false};
+  // Rounding may leave a corner outside by an ulp of its coordinates.
+  const double reach = box.min.length() + box.max.length();
+  return {box.center(), box.size().length() / 2 + 1e-15 * reach, false};
+}
+
+SurfacePoint pointOnTriangle(const rad::Mesh& mesh, Random& random) {
+  if (mesh.triangles.empty()) return {};
+  const auto i = static_cast<size_t>(random.uniform() * static_cast<double>(mesh.triangles.size()));
+  const auto& v = mesh.triangles[i].vertices;
+  const V3d a = mesh.position(v[0]), ab = mesh.position(v[1]) - a, ac = mesh.position(v[2]) - a;
+  const double root = std::sqrt(random.uniform()), t = random.uniform();
+  const V3d normal = ab.cross(ac);
+  const double area = normal.length() / 2;
+  if (!(area > 0)) return {};
+  return {a + root * (1 - t) * ab + root * t * ac, normal / (2 * area),
+          std::max(std::sqrt(area) * 1e-3, 4 * kSamePlace)};
+}
+
+SurfacePoint placed(const SurfacePoint& inner, const Placement& placement) {
+  return {placement.toOuter.point(inner.point), placement.directionToOuter(inner.normal),
+          inner.clearance * placement.toOuter.scale};
+}
+
+}  // namespace
+
+Sphere placed(const Sphere& ball, const Placement& placement) {
+  return {placement.toOuter.point(ball.center), ball.radius * placement.toOuter.scale, ball.inward};
+}
+
+PlacedShape placed(const Shape& shape, std::span<const V3d> vertices, const Placement& placement) {
+  PlacedShape result;
+  const double scale = placement.toOuter.scale;
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+    result.shape = placed(*sphere, placement);
+  } else if (const auto* ring = std::get_if<Ring>(&shape)) {
+    result.shape = Ring{placement.toOuter.point(ring->center), placement.directionToOuter(ring->normal),
+                        ring->inner * scale, ring->outer * scale};
+  } else if (const auto* cone = std::get_if<Cone>(&shape)) {
+    result.shape = Cone{placement.toOuter.point(cone->base),
+                        placement.directionToOuter(cone->axis),
+                        cone->length * scale,
+                        cone->radius0 * scale,
+                        cone->radius1 * scale,
+                        cone->inward};
+  } else if (const auto* polygon = std::get_if<Polygon>(&shape)) {
+    for (const V3d& v : vertices.subspan(polygon->firstVertex, polygon->vertices))
+      result.vertices.push_back(placement.toOuter.point(v));
+    // A mirror image goes round the other way.
+    if (placement.toOuter.matrix.determinant() < 0)
+      std::reverse(result.vertices.begin(), result.vertices.end());
+    result.shape = makePolygon(result.vertices, 0, polygon->vertices);
+  }
+  return result;
+}
+
+SurfacePoint samplePoint(const Scene& scene, const Surface& surface, Random& random) {
+  if (const auto* mesh = std::get_if<MeshInstance>(&surface.shape))
+    return placed(pointOnTriangle(scene.meshes[mesh->mesh].data, random), scene.placements[mesh->placement]);
+  if (const auto* instance = std::get_if<Instance>(&surface.shape)) {
+    const SurfaceGroup& group = scene.groups[instance->group];
+    if (group.surfaces == 0) return {};
+    const auto i = static_cast<uint32_t>(random.uniform() * group.surfaces);
+    return placed(samplePoint(scene, scene.surfaces[group.firstSurface + i], random),
+                  scene.placements[instance->placement]);
+  }
+  return samplePoint(surface.shape, scene.vertices, random);
+}
+
+Sphere BoundingBalls::ofGroup(uint32_t index) {
+  const auto known = groups_.find(index);
+  if (known != groups_.end()) return known->second;
+  const SurfaceGroup& group = scene_.groups[index];
+  Box3d box;
+  for (uint32_t i = group.firstSurface; i < group.firstSurface + group.surfaces; ++i)
+    box.extendBy(boxOf(scene_.surfaces[i]));
+  return groups_[index] = ballAround(box);
+}
+
+Box3d BoundingBalls::boxOf(const Surface& surface) {
+  if (const auto* instance = std::get_if<Instance>(&surface.shape))
+    return boxAround(placed(ofGroup(instance->group), scene_.placements[instance->placement]));
+  if (const auto* mesh = std::get_if<MeshInstance>(&surface.shape))
+    return boxAround(placed(ofMesh(mesh->mesh), scene_.placements[mesh->placement]));
+  return bounds(surface.shape, scene_.vertices);
+}
+
+const BoundingBalls::MeshBalls& BoundingBalls::meshBalls(uint32_t index) {
+  const auto known = meshes_.find(index);
+  if (known != meshes_.end()) return known->second;
+  const rad::Mesh& mesh = scene_.meshes[index].data;
+  Box3d all;
+  std::vector<Box3d> byMaterial(scene_.meshes[index].facesOf.size());
+  for (const rad::Mesh::Triangle& t : mesh.triangles)
+    for (const uint32_t v : t.vertices) {
+      const V3d at = mesh.position(v);
+      all.extendBy(at);
+      if (t.material != rad::Mesh::kNoMaterial) byMaterial[static_cast<size_t>(t.material)].extendBy(at);
+    }
+  MeshBalls balls{ballAround(all), {}};
+  for (const Box3d& box : byMaterial) balls.byMaterial.push_back(ballAround(box));
+  return meshes_[index] = std::move(balls);
+}
+
+}  // namespace rsphere
