@@ -175,10 +175,6 @@ void setWavelengths(Options& options, const OptionEntry& entry, std::span<const 
   options.color.longest = std::max(*a, *b);
 }
 
-bool allZero(std::span<const std::string> words) {
-  return std::all_of(words.begin(), words.end(), [](const std::string& w) { return rad::parseReal(w) == 0; });
-}
-
 std::string formatLine(const Options& o) {
   return fmt::format("-f{}{}\t\t\t\t", static_cast<char>(o.in), static_cast<char>(o.out));
 }
@@ -512,10 +508,9 @@ std::vector<OptionEntry> makeTable() {
        .range = kNotNegative,
        .unit = "1/length",
        .remark = "mist extinction coefficient",
-       .paragraph = "Extinction of a medium that fills the scene.",
-       .support = Support::refused,
-       .reason = "light is not scattered in a medium",
-       .harmless = allZero,
+       .paragraph =
+           "Extinction of a medium that fills the scene. Light from sources is scattered in it where mist "
+           "names them.",
        .line =
            +[](const O& o) {
              const Rgb& c = o.ray.mediumExtinction;
@@ -527,16 +522,16 @@ std::vector<OptionEntry> makeTable() {
        .value = +[](O& o) -> Rgb& { return o.ray.mediumAlbedo; },
        .range = kFraction,
        .remark = "mist scattering albedo",
-       .paragraph = "Share of the extinction that is scattered. Changes nothing without -me.",
-       .support = Support::unused});
+       .paragraph = "Share of the extinction that is scattered, the rest is absorbed. Of indirect light the "
+                    "medium scatters what -av says."});
   add({.name = "-mg",
        .arguments = "gecc",
        .group = Group::medium,
        .value = +[](O& o) -> double& { return o.ray.mediumEccentricity; },
        .range = {-1, 1},
        .remark = "mist scattering eccentricity",
-       .paragraph = "Eccentricity of Henyey and Greenstein's phase function. Changes nothing without -me.",
-       .support = Support::unused});
+       .paragraph = "Eccentricity g of Henyey and Greenstein's phase function: 0 scatters evenly, near 1 "
+                    "straight on. Below 0 counts as 0."});
   add({.name = "-ms",
        .arguments = "sampdist",
        .group = Group::medium,
@@ -544,8 +539,8 @@ std::vector<OptionEntry> makeTable() {
        .range = kNotNegative,
        .unit = "length",
        .remark = "mist sampling distance",
-       .paragraph = "Distance of samples in a medium. Changes nothing without -me.",
-       .support = Support::unused});
+       .paragraph = "Length of a ray through mist for each sample of a source that it scatters, at most 16 "
+                    "samples. 0: one sample in all."});
   add({.name = "-cs",
        .arguments = "Ns",
        .group = Group::color,

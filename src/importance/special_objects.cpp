@@ -50,6 +50,9 @@ struct Irregularity {
   double operator()(const Interface&) const { return 1; }
   double operator()(const Glass&) const { return 1; }
   double operator()(const Mirror&) const { return 1; }
+  double operator()(const Prism&) const { return 1; }
+  double operator()(const Antimatter&) const { return 0; }
+  double operator()(const Mist&) const { return 0; }
   double operator()(const Light&) const { return 0; }
   double operator()(const Illum&) const { return 0; }
   double operator()(const Glow&) const { return 0; }

@@ -19,6 +19,7 @@ struct Projection {
   V3d normal;
   double offset;
   V3d shift;
+  bool isMirror;
 
   double height(const V3d& p) const { return p.dot(normal) - offset; }
   V3d point(const V3d& p) const { return p + height(p) * shift; }
@@ -43,7 +44,9 @@ int32_t relayMaterial(const Scene& scene, const Surface& surface) {
     modifier = illum->alternate.modifier;
     material = scene.materialAt(modifier);
   }
-  return material && std::holds_alternative<Mirror>(*material) ? modifier : kNone;
+  const bool relays =
+      material && (std::holds_alternative<Mirror>(*material) || std::holds_alternative<Prism>(*material));
+  return relays ? modifier : kNone;
 }
 
 // The farthest that the source reaches from its middle along a unit vector.
@@ -73,8 +76,9 @@ bool isPlane(const LightSource& source) {
 
 class Images {
  public:
-  Images(const Scene& scene, const rad::Warn& warn, std::vector<LightSource>& sources)
-      : scene_(scene), sources_(sources) {
+  Images(const Scene& scene, const SurfaceFunctions& functions, const rad::Warn& warn,
+         std::vector<LightSource>& sources)
+      : scene_(scene), functions_(functions), sources_(sources) {
     for (uint32_t i = 0; i < scene.outermost().size(); ++i) addRelay(i, warn);
   }
 
@@ -85,13 +89,16 @@ class Images {
       // A relay does not see its own images, nor the light of its own surface.
       if (relays_[r].surface == sources_[source].surface) continue;
       if (!lights(source, relays_[r])) continue;
-      const auto projection = project(sources_[source], relays_[r]);
-      if (!projection) continue;
-      relayOf_.resize(sources_.size());
-      relayOf_.push_back(r);
-      sources_.push_back(imageOf(sources_[source], relays_[r], *projection));
-      sources_.back().relayed = static_cast<int32_t>(source);
-      addImages(sources_.size() - 1, relays - 1);
+      for (int image = 0; image < imagesBy(relays_[r]); ++image) {
+        const auto projection = project(sources_[source], relays_[r], image);
+        if (!projection) continue;
+        relayOf_.resize(sources_.size());
+        relayOf_.push_back(r);
+        sources_.push_back(imageOf(sources_[source], relays_[r], *projection));
+        sources_.back().relayed = static_cast<int32_t>(source);
+        sources_.back().image = image;
+        addImages(sources_.size() - 1, relays - 1);
+      }
     }
   }
 
@@ -140,11 +147,41 @@ class Images {
     return most;
   }
 
-  std::optional<Projection> project(const LightSource& source, const Relay& relay) const {
+  int imagesBy(const Relay& relay) const {
+    const auto* prism = std::get_if<Prism>(scene_.materialAt(relay.modifier));
+    return prism ? prism->images : 1;
+  }
+
+  std::optional<Projection> project(const LightSource& source, const Relay& relay, int image) {
+    if (std::holds_alternative<Prism>(*scene_.materialAt(relay.modifier)))
+      return projectByPrism(source, relay, image);
     const double before =
         source.center.dot(relay.normal) - (source.distant ? 0 : relay.offset) + extent(source, relay.normal);
     if (before <= kTiny) return std::nullopt;  // behind the mirror
-    return Projection{relay.normal, relay.offset, -2. * relay.normal};
+    return Projection{relay.normal, relay.offset, -2. * relay.normal, true};
+  }
+
+  // The shear, and the mirror where the light stays on its side, by which a ray from the source's middle
+  // through the relay's middle seems to come from where the prism turns it.
+  std::optional<Projection> projectByPrism(const LightSource& source, const Relay& relay, int image) {
+    FunctionPoint at;
+    at.point = relay.center + (relay.offset - relay.center.dot(relay.normal)) * relay.normal;
+    const V3d way = source.distant ? -source.center : at.point - source.center;
+    at.distance = at.shadowDistance = way.length();
+    if (!(at.distance > 0)) return std::nullopt;
+    at.direction = way / at.distance;
+    at.normal = relay.normal;
+    at.cosine = -at.direction.dot(relay.normal);
+    ShapeHit hit;
+    const V3d before = at.point - at.direction;
+    if (std::abs(at.cosine) <= kTiny ||
+        !intersect(scene_.surfaces[relay.surface].shape, scene_.vertices, before, at.direction, 2, hit))
+      return std::nullopt;
+    const auto [share, direction] = functions_.redirection(relay.modifier, image, at, scratch_);
+    const double in = -at.cosine, out = direction.dot(relay.normal);
+    if (share <= kTiny || std::abs(out) <= kTiny) return std::nullopt;
+    return Projection{relay.normal, relay.offset, (std::abs(in / out) * direction - at.direction) / in,
+                      false};
   }
 
   // Whether light of a source can reach the relay at all.
@@ -198,7 +235,11 @@ class Images {
     image.v = projection.vector(source.v);
     for (V3d& p : image.fanVertices) p = projection.point(p);
     if (isPlane(source)) image.normal = projection.vector(source.normal).normalized();
-    if (image.spot) image.spot->aim = projection.vector(image.spot->aim).normalized();
+    if (image.spot) {
+      image.spot->aim = projection.vector(image.spot->aim).normalized();
+      // A shear makes no cone of a cone; the lamp itself is asked in the end.
+      if (!projection.isMirror) image.spot->solidAngle = 4 * kPi;
+    }
     if (source.distant) {
       image.center = projection.vector(source.center).normalized();
       return image;
@@ -218,6 +259,8 @@ class Images {
   }
 
   const Scene& scene_;
+  const SurfaceFunctions& functions_;
+  FunctionScratch scratch_;
   std::vector<LightSource>& sources_;
   std::vector<Relay> relays_;
   std::vector<size_t> relayOf_;  // by source: index in relays_ of the last one of a virtual source
@@ -225,10 +268,10 @@ class Images {
 
 }  // namespace
 
-void addVirtualSources(const Scene& scene, int relays, const SurfaceFunctions&, const rad::Warn& warn,
-                       std::vector<LightSource>& sources) {
+void addVirtualSources(const Scene& scene, int relays, const SurfaceFunctions& functions,
+                       const rad::Warn& warn, std::vector<LightSource>& sources) {
   if (relays <= 0 || sources.empty()) return;
-  Images images(scene, warn, sources);
+  Images images(scene, functions, warn, sources);
   const size_t real = sources.size();
   for (size_t i = 0; i < real; ++i) images.addImages(i, relays);
 }

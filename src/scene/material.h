@@ -1,7 +1,9 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <variant>
+#include <vector>
 
 #include "cli/rgb.h"
 
@@ -111,6 +113,28 @@ struct Mirror {
   Alternate alternate;
 };
 
+// prism1 and prism2: what is seen in a plane surface comes from one or two directions that functions say.
+struct Prism {
+  int images = 1;
+  int32_t functions = -1;
+};
+// Between its front and its back, surfaces of some modifiers are not there. cut: shades the places where its
+// back cuts through a volume that they enclose; Kind::pass leaves those open.
+struct Antimatter {
+  uint64_t clips = 0;  // those modifiers, as Surface::clip has them
+  Alternate cut{Alternate::Kind::pass};
+};
+// A volume that absorbs and scatters light. sources: whose light is scattered, as "mirror>lamp" by way of a
+// relay.
+struct Mist {
+  Rgb extinction{0, 0, 0};                          // per unit length, on top of what the medium around has
+  bool hasAlbedo = false, hasEccentricity = false;  // else those of the medium around hold
+  Rgb albedo{0, 0, 0};                              // share of the extinction that is scattered
+  double eccentricity = 0;                          // of Henyey and Greenstein's phase function
+  std::vector<std::string> sources;
+  uint32_t number = 0;  // among the scene's mists
+};
+
 struct Light {
   Rgb radiance;  // W/sr/m2
 };
@@ -132,8 +156,8 @@ struct Spotlight {
       0;  // length of the aim vector as given: the light comes from this far behind the surface
 };
 
-using Material =
-    std::variant<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
-                 BsdfMaterial, Dielectric, Interface, Glass, Mirror, Light, Illum, Glow, Spotlight>;
+using Material = std::variant<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction,
+                              WgmdFunction, BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism,
+                              Antimatter, Mist, Light, Illum, Glow, Spotlight>;
 
 }  // namespace rsphere

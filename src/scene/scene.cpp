@@ -42,6 +42,10 @@ class Builder {
     }
     checkNesting();
     for (size_t i = 0; i < meshes_.size(); ++i) addMesh(meshes_[i]);
+    for (Surface& surface : scene_.surfaces) {
+      const auto clip = clipOf_.find(primitive(surface.primitive).modifier);
+      if (clip != clipOf_.end()) surface.clip = clip->second;
+    }
     return std::move(scene_);
   }
 
@@ -86,12 +90,17 @@ class Builder {
 
   // ---- modifiers
 
+  // Index in the description of the latest definition of a modifier before primitive i; rad::kVoid: none.
+  int32_t definedBefore(uint32_t i, std::string_view name) {
+    if (!index_) index_.emplace(scene_.description, firstPrimitive_);
+    return index_->before(name, static_cast<int32_t>(i));
+  }
+
   // The modifier that a string argument of primitive i names: its latest definition before i; kNone for void.
   int32_t named(uint32_t i, size_t argument) {
     const std::string_view name = scene_.description.string(primitive(i), argument);
     if (name == "void") return kNone;
-    if (!index_) index_.emplace(scene_.description, firstPrimitive_);
-    const int32_t described = index_->before(name, static_cast<int32_t>(i));
+    const int32_t described = definedBefore(i, name);
     if (described == rad::kVoid) fail(i, fmt::format("undefined modifier \"{}\"", printable(name)));
     // A ray that meets modifiers within each other goes as deep, and takes up to 2^depth ways.
     if (depth_ == kDeepest) fail(i, fmt::format("modifiers name each other more than {} deep", kDeepest));
@@ -99,6 +108,42 @@ class Builder {
     const int32_t converted = modifier(described);
     --depth_;
     return converted;
+  }
+
+  Antimatter antimatter(uint32_t i) {
+    needAtLeast(i, 1);
+    Antimatter made;
+    for (uint32_t k = 0; k < primitive(i).strings; ++k) {
+      const std::string_view name = scene_.description.string(primitive(i), k);
+      if (name == "void") continue;
+      const int32_t described = definedBefore(i, name);
+      if (described == rad::kVoid) {
+        warn(i, fmt::format("unknown modifier \"{}\"", printable(name)));
+        continue;
+      }
+      const auto [clip, added] = clipOf_.try_emplace(described, uint64_t{1} << (clipOf_.size() % 64));
+      if (added && clipOf_.size() > 64) fail(i, "more than 64 modifiers are clipped by antimatter");
+      made.clips |= clip->second;
+      if (k == 0) made.cut = {Alternate::Kind::modifier, named(i, 0)};
+    }
+    return made;
+  }
+
+  Mist mist(uint32_t i) {
+    const auto r = reals(i);
+    if (r.size() > 7) fail(i, fmt::format("expected at most 7 real arguments, got {}", r.size()));
+    if (primitive(i).strings > 32)
+      fail(i, fmt::format("expected at most 32 light sources, got {}", primitive(i).strings));
+    Mist made;
+    if (r.size() > 2) made.extinction = color(i, 0);
+    made.hasAlbedo = r.size() > 5;
+    if (made.hasAlbedo) made.albedo = color(i, 3);
+    made.hasEccentricity = r.size() > 6;
+    if (made.hasEccentricity) made.eccentricity = r[6];
+    for (uint32_t k = 0; k < primitive(i).strings; ++k)
+      made.sources.emplace_back(scene_.description.string(primitive(i), k));
+    made.number = mists_++;
+    return made;
   }
 
   // What mirror and illum name.
@@ -264,6 +309,16 @@ class Builder {
         needReals(i, 3);
         needStrings(i, 1);
         return Mirror{color(i, 0), alternate(i)};
+      case Type::prism1:
+        needAtLeast(i, 5);
+        return Prism{1};
+      case Type::prism2:
+        needAtLeast(i, 9);
+        return Prism{2};
+      case Type::antimatter:
+        return antimatter(i);
+      case Type::mist:
+        return mist(i);
       case Type::light:
         needReals(i, 3);
         return Light{color(i, 0)};
@@ -665,9 +720,11 @@ class Builder {
   std::unordered_map<std::string, uint32_t> octreeNumbers_, meshNumbers_;
   std::vector<int> heights_;  // by group
   uint32_t facesName_ = kNoWord;
-  std::optional<rad::ModifierIndex> index_;  // made when a modifier is first named by a string argument
-  int depth_ = 0;                            // of such names within each other
-  std::vector<int32_t> modifierOf_;          // by index in the description; kUnknown: not looked at
+  std::optional<rad::ModifierIndex> index_;       // made when a modifier is first named by a string argument
+  int depth_ = 0;                                 // of such names within each other
+  std::unordered_map<int32_t, uint64_t> clipOf_;  // Surface::clip of a modifier, by index in the description
+  uint32_t mists_ = 0;
+  std::vector<int32_t> modifierOf_;  // by index in the description; kUnknown: not looked at
 };
 
 }  // namespace
@@ -704,6 +761,7 @@ std::string Scene::place(uint32_t i) const {
 }
 
 bool isTransparent(const Material& material) {
+  if (std::holds_alternative<Mist>(material)) return true;
   if (const auto* m = std::get_if<Anisotropic>(&material)) return m->trans;
   if (const auto* m = std::get_if<BrtdFunction>(&material)) return m->transmits;
   if (const auto* m = std::get_if<WgmdFunction>(&material)) return m->transmits;

@@ -45,6 +45,7 @@ struct Surface {
   int32_t modifier = kNone;  // index in Scene::modifiers; kNone: void
   int32_t material = kNone;  // the first material of the chain that modifier begins, or else the mixture that
                              // ends it: what ties between surfaces and light sources go by. kNone: none
+  uint64_t clip = 0;         // the bit of its modifier in Antimatter::clips; 0: no antimatter names it
   bool goal = false;         // emits importance 1 from its front, besides what its material does
   bool smoothed = false;  // its modifier is called "Phong": what perturbs normals bends nothing that passes
 };

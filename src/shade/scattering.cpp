@@ -94,14 +94,14 @@ Rgb extinctionOf(const Rgb& transmission, const Rgb& pattern) {
   return e;
 }
 
-// Reflection and refraction at a boundary. inner, outer: indices and extinctions beyond the front's back and
+// Reflection and refraction at a boundary. inner, outer: indices and media beyond the front's back and
 // before it.
-Scattering scatterAtBoundary(const Interaction& at, double inner, const Rgb& innerExtinction, double outer,
-                             const Rgb& outerExtinction, bool basic) {
+Scattering scatterAtBoundary(const Interaction& at, double inner, const Medium& innerMedium, double outer,
+                             const Medium& outerMedium, bool basic) {
   Scattering s;
   beginScattering(s, at, 0);
   s.knowsMedium = true;
-  s.extinction = at.front ? outerExtinction : innerExtinction;
+  s.medium = at.front ? outerMedium : innerMedium;
   const double ratio = at.front ? outer / inner : inner / outer;
   double cosineBeyond = 0;
   const double reflectance = fresnelReflectance(s.cosine, ratio, cosineBeyond);
@@ -113,12 +113,11 @@ Scattering scatterAtBoundary(const Interaction& at, double inner, const Rgb& inn
     V3d d = ratio * at.direction + bend * s.normal;
     if (perturbed(at) && d.dot(at.normal) >= -kNegligible) d = ratio * at.direction + bend * at.normal;
     s.sharp.add({d.normalized(), Rgb(transmittance, transmittance, transmittance), kRefracted,
-                 image || std::abs(ratio - 1) <= kNegligible, true,
-                 at.front ? innerExtinction : outerExtinction});
+                 image || std::abs(ratio - 1) <= kNegligible, true, at.front ? innerMedium : outerMedium});
   }
   if (!(at.kinds & kShadow))
     s.sharp.add({safelyMirrored(at, s.normal, s.cosine), Rgb(reflectance, reflectance, reflectance),
-                 kReflected, image, true, s.extinction});
+                 kReflected, image, true, s.medium});
   return s;
 }
 
@@ -195,17 +194,16 @@ Scattering scatter(const Trans& material, const Interaction& at, double specular
   return s;
 }
 
-Scattering scatter(const Dielectric& material, const Interaction& at, const Rgb& outerExtinction,
-                   bool basic) {
+Scattering scatter(const Dielectric& material, const Interaction& at, const Medium& outer, bool basic) {
   // Hartmann's formula at a mean wavelength of 500 nm.
   return scatterAtBoundary(at, material.refraction + material.hartmann / 500,
-                           extinctionOf(material.transmission, at.pattern), 1, outerExtinction, basic);
+                           {extinctionOf(material.transmission, at.pattern)}, 1, outer, basic);
 }
 
 Scattering scatter(const Interface& material, const Interaction& at, bool basic) {
-  return scatterAtBoundary(at, material.innerRefraction, extinctionOf(material.innerTransmission, at.pattern),
-                           material.outerRefraction, extinctionOf(material.outerTransmission, at.pattern),
-                           basic);
+  return scatterAtBoundary(at, material.innerRefraction,
+                           {extinctionOf(material.innerTransmission, at.pattern)}, material.outerRefraction,
+                           {extinctionOf(material.outerTransmission, at.pattern)}, basic);
 }
 
 Scattering scatter(const Glass& material, const Interaction& at) {

@@ -26,16 +26,22 @@ struct Interaction {
   unsigned kinds = kPrimary;  // of the ray and its ancestors
 };
 
+// What a ray passes through between surfaces.
+struct Medium {
+  Rgb extinction{0, 0, 0};  // per unit length
+  Rgb albedo{0, 0, 0};      // share of it that is scattered
+  double eccentricity = 0;  // of Henyey and Greenstein's phase function
+};
+
 // A ray that goes on without being sampled. lengthCounts: whether what is seen this way is an image at its
-// own distance, so that the length goes on (rtrace -ol, -oR, -oX). extinction: of the medium it enters, per
-// unit length.
+// own distance, so that the length goes on (rtrace -ol, -oR, -oX).
 struct SharpPath {
   V3d direction{0, 0, 0};
   Rgb coefficient{0, 0, 0};
   RayKind kind = kReflected;
   bool lengthCounts = false;
   bool entersMedium = false;
-  Rgb extinction{0, 0, 0};
+  Medium medium{};
 };
 
 struct SharpPaths {
@@ -68,14 +74,14 @@ struct Scattering {
 
   // Where the medium that the ray came through is told by the surface it hit.
   bool knowsMedium = false;
-  Rgb extinction{0, 0, 0};
+  Medium medium{};
 };
 
 // specularThreshold: -st, lobes whose share is not above it are not sampled but added to the indirect light.
 Scattering scatter(const Opaque& material, const Interaction& at, double specularThreshold);
 Scattering scatter(const Trans& material, const Interaction& at, double specularThreshold);
 // basic: radiance over n^2, which passes a boundary unsqueezed, as importance does (Veach 1997, section 5.2).
-Scattering scatter(const Dielectric& material, const Interaction& at, const Rgb& outerExtinction,
+Scattering scatter(const Dielectric& material, const Interaction& at, const Medium& outer,
                    bool basic = false);
 Scattering scatter(const Interface& material, const Interaction& at, bool basic = false);
 Scattering scatter(const Glass& material, const Interaction& at);

@@ -121,6 +121,10 @@ class SurfaceFunctions::Maker {
         return bsdf(1);
       case Type::absdf:
         return bsdf(0);
+      case Type::prism1:
+        return redirector(1);
+      case Type::prism2:
+        return redirector(2);
       default:
         fail("this type is not supported yet");
     }
@@ -369,6 +373,17 @@ class SurfaceFunctions::Maker {
     return finish(std::move(f), std::move(s), file + 5);
   }
 
+  std::unique_ptr<Function> redirector(size_t images) {
+    available_ = calc::kPrismInputs;
+    auto f = std::make_unique<Function>();
+    const size_t file = 4 * images;
+    Redirector r;
+    for (size_t i = 0; i < images; ++i) r.programs[i] = expressions(*f, file, 4 * i, 4);
+    f->what = std::move(r);
+    setTransform(*f, file + 1);
+    return f;
+  }
+
   std::unique_ptr<Function> finish(std::unique_ptr<Function> f, Scatterer s, size_t transform) const {
     f->results = 3;
     f->what = std::move(s);
@@ -445,6 +460,7 @@ void SurfaceFunctions::setInputs(const Function& f, const FunctionPoint& at, Fun
   if (needs & bits(NxP, 3)) put(&in[NxP], direction(at.perturbedNormal));
   in[RdotP] = at.perturbedCosine;
   if (needs & bits(CrP, 3)) put(&in[CrP], at.color);
+  if (needs & bits(DxA, 3)) put(&in[DxA], direction(at.toTarget));
 }
 
 void SurfaceFunctions::warn(int32_t modifier, std::string_view problem) const {
@@ -598,6 +614,24 @@ Rgb SurfaceFunctions::distribution(int32_t modifier, const FunctionPoint& at, co
       value[i] = s.distribution[static_cast<size_t>(i)]->evaluate(point, state);
   if (!computed(modifier, scratch)) return Rgb(0, 0, 0);
   return s.gray ? Rgb(value.x, value.x, value.x) : value;
+}
+
+SurfaceFunctions::Redirection SurfaceFunctions::redirection(int32_t modifier, int image,
+                                                            const FunctionPoint& at,
+                                                            FunctionScratch& scratch) const {
+  const Function& f = ready(modifier);
+  setInputs(f, at, scratch);
+  scratch.state.faults = 0;
+  std::array<double, 4> v{};
+  std::get<Redirector>(f.what).programs[static_cast<size_t>(image)]->evaluate(
+      {scratch.inputs, realsOf(modifier), {}}, scratch.state, v);
+  const V3d own(v[1], v[2], v[3]);
+  const Placement* placement = placementOf(f, at, scratch);
+  const V3d direction = placement ? placement->directionToOuter(own) : own;
+  const double length = direction.length();
+  if (!(length > 0)) ++scratch.state.faults;
+  if (!computed(modifier, scratch)) return {};
+  return {v[0], direction / length};
 }
 
 }  // namespace rsphere

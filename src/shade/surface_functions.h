@@ -40,6 +40,7 @@ struct FunctionPoint {
   V3d perturbedNormal{0, 0, 1};  // unit, on the ray's side
   double perturbedCosine = 1;    // -perturbedNormal . direction
   Rgb color{1, 1, 1};            // of the material with its pattern; of BRTDfunc, the pattern's
+  V3d toTarget{0, 0, 0};         // for redirection(): to the light source that the ray is for (unit), or 0
 };
 
 // What one thread needs for its evaluations.
@@ -91,6 +92,15 @@ class SurfaceFunctions {
   Rgb distribution(int32_t modifier, const FunctionPoint& at, const V3d& toSource, double solidAngle,
                    FunctionScratch& scratch) const;
 
+  // prism1, prism2: the share of what is seen by way of an image (0 or 1), and the direction (world, unit)
+  // that the ray goes on in.
+  struct Redirection {
+    double coefficient = 0;
+    V3d direction{0, 0, 0};
+  };
+  Redirection redirection(int32_t modifier, int image, const FunctionPoint& at,
+                          FunctionScratch& scratch) const;
+
   // Warns of something wrong with a modifier, of the first such thing only.
   void warn(int32_t modifier, std::string_view problem) const;
 
@@ -136,9 +146,14 @@ class SurfaceFunctions {
     std::vector<ProgramPointer> coordinates;  // of the same four arguments
   };
 
+  // A coefficient and a direction for each image.
+  struct Redirector {
+    std::array<ProgramPointer, 2> programs;
+  };
+
   // A modifier made ready.
   struct Function {
-    std::variant<Values, Data, Image, Text, Scatterer> what;
+    std::variant<Values, Data, Image, Text, Scatterer, Redirector> what;
     size_t results = 1;   // 1 or 3
     uint64_t needs = 0;   // inputs, by bits
     bool moved = false;   // whether it has a transform

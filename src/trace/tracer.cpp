@@ -22,12 +22,13 @@ struct Occluder {
 
 bool stopsFromBehind(const Material& material) {
   // A light source stops rays to other sources from both sides, whatever -bv says; so do materials with
-  // functions.
+  // functions, and prisms.
   if (const auto* brtd = std::get_if<BrtdFunction>(&material)) return !brtd->transmits;
   if (const auto* wgmd = std::get_if<WgmdFunction>(&material)) return !wgmd->transmits;
   return std::holds_alternative<Anisotropic>(material) || std::holds_alternative<Ashikhmin>(material) ||
          std::holds_alternative<FunctionScatterer>(material) || std::holds_alternative<Light>(material) ||
-         std::holds_alternative<Glow>(material) || std::holds_alternative<Spotlight>(material);
+         std::holds_alternative<Glow>(material) || std::holds_alternative<Spotlight>(material) ||
+         std::holds_alternative<Prism>(material);
 }
 
 bool stopsFromFront(const Material& material) {
@@ -52,8 +53,8 @@ Occluder makeOccluder(const Scene& scene, uint32_t i, bool backFacesVisible) {
   o.hasMaterial = true;
   const Material* material = scene.materialOf(surface);
   o.transparent = material && isTransparent(*material);
-  // An alternate or a mixture has to be asked.
-  if (material && !meetsMixture(scene, surface)) {
+  // An alternate, antimatter or a mixture has to be asked.
+  if (material && surface.clip == 0 && !meetsMixture(scene, surface)) {
     o.opaqueFront = stopsFromFront(*material);
     o.opaqueBack = stopsFromBehind(*material) || (o.opaqueFront && backFacesVisible);
   }

@@ -24,9 +24,11 @@ Ray PathTracer::traceToSource(const V3d& point, const SourceSample& sample, uint
       if (!light.distant) ray.point = point + sample.distance * sample.direction;
       ray.normal = sample.normal;
       ray.cosine = sample.cosine;
+      ray.medium = t_.medium();
       primaryDirection_ = sample.direction;
       shown_ = {};
       shadeSurface(ray);
+      participate(ray);
       return ray;
     }
   }
@@ -51,7 +53,7 @@ Rgb PathTracer::sourceValue(const Ray& ray, const SourceSample& sample) {
   }
   if (sample.cosine < 0) return Rgb(0, 0, 0);
   const Modifier& modifier = scene.modifiers[surface.material];
-  const Rgb passed = passing(ray.extinction, sample.distance);
+  const Rgb passed = passing(ray.medium.extinction * (Rgb(1, 1, 1) - ray.medium.albedo), sample.distance);
   if (surface.goal) return passed;
   if (surface.modifier == surface.material && modifier.next == kNone)
     return *sourceRadiance(std::get<Material>(modifier.content)) * passed;
@@ -71,15 +73,30 @@ Rgb PathTracer::sourceValue(const Ray& ray, const SourceSample& sample) {
   return child.value * passed;
 }
 
+// What of a sample's radiance gets to the ray's end; false where none does. to.value: what would if nothing
+// were in the way.
+bool PathTracer::arrives(const Ray& ray, const Contribution& to, Rgb& value) {
+  const LightSource& light = t_.lights().all()[to.sample.source];
+  const bool toSurface = !light.distant || light.isVirtual();
+  const Shadow shadow = t_.tracer().shadow(ray.point, to.sample.direction, to.sample.distance,
+                                           toSurface ? light.surface : kNone);
+  const bool follow = shadow == Shadow::unsure || (shadow == Shadow::clear && light.isVirtual());
+  if (follow || allShadowRays_) value = valueFromSource(ray, to);  // allShadowRays_: to be shown
+  if (shadow == Shadow::blocked) return false;
+  if (!follow) value = to.value;
+  return !follow || maxChannel(value) > kNegligible;
+}
+
 // What a shadow ray brings through all that may let light pass.
 Rgb PathTracer::valueFromSource(const Ray& ray, const Contribution& to) {
-  const bool through = (ray.cosine > 0) != (ray.normal.dot(to.direction) > 0);
+  const V3d& direction = to.sample.direction;
+  const bool through = (ray.cosine > 0) != (ray.normal.dot(direction) > 0);
   Ray child;
   Rgb whole(1, 1, 1);
   if (!continueRay(child, through ? kTransmittedShadow : kReflectedShadow, ray, whole)) return Rgb(0, 0, 0);
   child.contribution *= to.coefficient;
-  child.aimedAt = static_cast<int32_t>(to.source);
-  child.direction = to.direction;
+  child.aimedAt = static_cast<int32_t>(to.sample.source);
+  child.direction = direction;
   evaluate(child);
   return child.value;
 }
@@ -95,11 +112,9 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf) {
   for (const SourceSample& sample : samples_) {
     const Rgb coefficient = coefficientOf(sample.direction, sample.solidAngle);
     if (isBlack(coefficient)) continue;
-    const Rgb value = sourceValue(ray, sample) * coefficient;
-    const double bright = brightness(value);
-    if (bright > 0)
-      contributions_.push_back(
-          {sample.direction, coefficient, value, bright, sample.distance, sample.source});
+    const Rgb value = sourceValue(ray, sample);
+    const double bright = brightness(value * coefficient);
+    if (bright > 0) contributions_.push_back({sample, coefficient, value, bright});
   }
   if (contributions_.empty()) return;
 
@@ -122,26 +137,15 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf) {
       if (ahead < threshold * brightness(ray.value)) break;
     }
     const Contribution& c = contributions_[tested];
-    const LightSource& light = t_.lights().all()[c.source];
-    const bool toSurface = !light.distant || light.isVirtual();
-    const Shadow shadow =
-        t_.tracer().shadow(ray.point, c.direction, c.distance, toSurface ? light.surface : kNone);
-    const bool follow = shadow == Shadow::unsure || (shadow == Shadow::clear && light.isVirtual());
-    if (allShadowRays_ && !follow) valueFromSource(ray, c);  // to be shown
-    if (shadow == Shadow::blocked) continue;
-    if (!follow) {
-      ray.value += c.value;
-      ++visible;
-      continue;
-    }
-    const Rgb value = valueFromSource(ray, c);
-    if (maxChannel(value) <= kNegligible) continue;
+    Rgb value;
+    if (!arrives(ray, c, value)) continue;
     ray.value += value * c.coefficient;
     ++visible;
   }
   // Sources too weak to be tested are let through as often as those that were.
   const double share = tested ? static_cast<double>(visible) / static_cast<double>(tested) : .5;
-  for (; tested < count; ++tested) ray.value += contributions_[tested].value * share;
+  for (; tested < count; ++tested)
+    ray.value += contributions_[tested].value * contributions_[tested].coefficient * share;
 }
 
 }  // namespace rsphere

@@ -8,7 +8,7 @@
 namespace rsphere {
 
 bool PathTracer::shadeBoundary(Ray& ray, const Scattering& scattering) {
-  ray.extinction = scattering.extinction;
+  ray.medium = scattering.medium;
   followSharp(ray, scattering.sharp);
   return true;
 }
@@ -36,7 +36,7 @@ void PathTracer::followSharp(Ray& ray, const SharpPaths& sharp) {
     Rgb coefficient = path.coefficient;
     if (isBlack(coefficient) || !continueRay(child, path.kind, ray, coefficient)) continue;
     child.direction = path.direction;
-    if (path.entersMedium) child.extinction = path.extinction;
+    if (path.entersMedium) child.medium = path.medium;
     evaluate(child);
     child.value *= coefficient;
     ray.value += child.value;

@@ -37,8 +37,7 @@ bool PathTracer::shadeMaterial(Ray& ray, const Trans& material, int32_t behind) 
 bool PathTracer::shadeMaterial(Ray& ray, const Dielectric& material, int32_t behind) {
   applyModifiers(ray, behind);
   const Interaction at = interaction(ray);
-  return shadeBoundary(ray, scatter(material, at, at.front ? ray.extinction : t_.options().mediumExtinction,
-                                    t_.basicRadiance()));
+  return shadeBoundary(ray, scatter(material, at, at.front ? ray.medium : t_.medium(), t_.basicRadiance()));
 }
 
 bool PathTracer::shadeMaterial(Ray& ray, const Interface& material, int32_t behind) {
@@ -100,6 +99,33 @@ void PathTracer::relay(Ray& ray, RayKind kind, const V3d& direction, Rgb coeffic
   child.direction = direction.normalized();
   evaluate(child);
   ray.value += child.value * coefficient;
+}
+
+bool PathTracer::shadeMaterial(Ray& ray, const Prism& material, int32_t) {
+  const LightSource* target = targetOf(ray);
+  if (target && target->surface != ray.surface) return true;
+  FunctionPoint at = functionPoint(ray);
+  if (target) {
+    const LightSource& source = t_.lights().all()[target->relayed];
+    at.toTarget = (source.distant ? source.center : source.center - ray.point).normalized();
+  }
+  for (int image = 0; image < material.images; ++image) {
+    if (target && target->image != image) continue;
+    const auto [share, direction] =
+        t_.functions().redirection(material.functions, image, at, functionScratch_);
+    Rgb coefficient(share, share, share);
+    if (target) {
+      relay(ray, kTransmitted, direction, coefficient);
+      continue;
+    }
+    Ray child;
+    if (share == 0 || !continueRay(child, kTransmitted, ray, coefficient)) continue;
+    child.direction = direction;
+    evaluate(child);
+    ray.value += child.value * coefficient;
+    if (interaction(ray).flat) ray.unmirroredLength = ray.length + apparentLength(child);
+  }
+  return true;
 }
 
 bool PathTracer::useAlternate(Ray& ray, const Alternate& alternate) {

@@ -48,6 +48,7 @@ Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance i
     const auto radiance = sourceRadiance(*material);
     if (radiance && maxChannel(*radiance) > kNegligible) distant_.push_back(static_cast<int32_t>(i));
   }
+  findScatterers(warn);
   const bool including = !options.ambientIncluded.empty();
   const auto& names = including ? options.ambientIncluded : options.ambientExcluded;
   if (names.empty()) return;
@@ -62,7 +63,7 @@ Ray PathTracer::trace(const V3d& origin, const V3d& direction, double farthest, 
   primaryDirection_ = direction;
   shown_ = {};
   Ray ray;
-  ray.extinction = t_.options().mediumExtinction;
+  ray.medium = t_.medium();
   ray.origin = origin;
   ray.direction = direction;
   if (t_.irradiance() == Irradiance::point) {
@@ -90,15 +91,7 @@ Ray PathTracer::cast(const V3d& origin, const V3d& direction, double farthest) {
 // radiance in the parent's; raised where the path survived Russian roulette, so that the mean stays right.
 bool PathTracer::continueRay(Ray& child, RayKind kind, const Ray& parent, Rgb& coefficient) {
   const RayOptions& o = t_.options();
-  child.origin = parent.point;
-  child.kind = kind;
-  child.kinds = parent.kinds | kind;
-  child.level = parent.level;
-  child.ambientLevel = parent.ambientLevel;
-  child.depth = parent.depth + 1;
-  child.pathLength = parent.pathLength + parent.length;
-  if (parent.kinds & kShadow) child.shadowLength = parent.shadowLength + parent.length;
-  child.extinction = parent.extinction;
+  inherit(child, parent, kind);
   if (kind & kReflections) {
     ++child.level;
     child.farthest = 0;
@@ -111,10 +104,10 @@ bool PathTracer::continueRay(Ray& child, RayKind kind, const Ray& parent, Rgb& c
     child.aimedAt = parent.aimedAt;
     child.farthest = parent.farthest > kSamePlace ? parent.farthest - parent.length : 0;
   }
-  if (observer_)
-    child.contribution = parent.contribution * coefficient * passing(parent.extinction, parent.length);
+  child.contribution *= coefficient;
   child.weight = parent.weight * std::min(1., maxChannel(coefficient));
-  const double depth = maxChannel(parent.extinction) * parent.length;
+  const Rgb& extinction = parent.medium.extinction;
+  const double depth = std::min({extinction.x, extinction.y, extinction.z}) * parent.length;
   if (depth > .1) child.weight *= std::exp(-depth);
   if (!(child.weight > 0)) return false;
   if (child.kinds & kShadow) return true;
@@ -217,17 +210,13 @@ bool PathTracer::seesDistant(Ray& ray) {
 // The ray goes on as if it had hit nothing.
 void PathTracer::pass(Ray& ray) {
   Ray child;
+  inherit(child, ray, kTransmitted);
+  passOn(child, ray);
+}
+
+// child: what ray becomes beyond the surface, straight on and with all its weight.
+void PathTracer::passOn(Ray& child, Ray& ray) {
   child.direction = ray.direction;
-  child.origin = ray.point;
-  child.kind = kTransmitted;
-  child.kinds = ray.kinds | kTransmitted;
-  child.level = ray.level;
-  child.ambientLevel = ray.ambientLevel;
-  child.depth = ray.depth + 1;
-  child.pathLength = ray.pathLength + ray.length;
-  if (ray.kinds & kShadow) child.shadowLength = ray.shadowLength + ray.length;
-  child.extinction = ray.extinction;
-  if (observer_) child.contribution = ray.contribution * passing(ray.extinction, ray.length);
   child.aimedAt = ray.aimedAt;
   child.mirror = ray.mirror;
   child.weight = ray.weight;
@@ -241,7 +230,7 @@ void PathTracer::pass(Ray& ray) {
   // Surfaces of nothing at all are gone through here, however many there are, rather than one inside the
   // other, unless each is to be shown.
   while (!observer_ && child.surface != kNone && t_.scene().surfaces[child.surface].modifier == kNone &&
-         child.length < kFarAway) {
+         child.length < kFarAway && !isMedium(child.medium.extinction)) {
     length += child.length;
     child.pathLength += child.length;
     if (child.kinds & kShadow) child.shadowLength += child.length;
@@ -262,7 +251,7 @@ void PathTracer::finish(Ray& ray) {
   // Not those that only ask what light there would be; shadow rays that meet nothing have just missed their
   // source, by rounding.
   if (observer_ && !ray.unobstructed && (ray.aimedAt == kNone || ray.surface != kNone)) observer_(ray);
-  ray.value *= passing(ray.extinction, ray.length);
+  participate(ray);
 }
 
 RayAnswer answerOf(const Scene& scene, const Ray& ray) {
@@ -303,7 +292,7 @@ RayAnswer answerOf(const Scene& scene, const Ray& ray) {
 RayAnswer branchAnswer(const Transport& transport, const Ray& ray) {
   RayAnswer a = answerOf(transport.scene(), ray);
   a.rayWeight = ray.weight;
-  a.contribution = ray.contribution * passing(ray.extinction, ray.length);
+  a.contribution = ray.contribution * passedBy(ray);
   const bool dark = ray.value.x + ray.value.y + ray.value.z <= 3 * kNegligible;
   if (ray.aimedAt != kNone && dark && transport.lights().all()[ray.aimedAt].surface != ray.surface)
     a.contribution = Rgb(0, 0, 0);

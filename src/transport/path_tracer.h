@@ -7,6 +7,7 @@
 // Russian roulette below -lw, so that the mean stays right.
 #include <functional>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "cli/answer.h"
@@ -42,10 +43,20 @@ class Transport {
   int32_t lightOf(int32_t surface) const { return lightOf_[surface]; }
   // Whether indirect light is computed on the surface (-ae, -ai).
   bool isAmbient(int32_t surface) const { return surface == kNone || ambient_.empty() || ambient_[surface]; }
+  // Of what no mist and no dielectric fills (-me -ma -mg).
+  Medium medium() const {
+    return {options_.mediumExtinction, options_.mediumAlbedo, options_.mediumEccentricity};
+  }
+  // Light sources that some mist names, as indices in LightSources; and which of these one does.
+  const std::vector<uint32_t>& scatterers() const { return scatterers_; }
+  const std::vector<uint16_t>& scatterersOf(const Mist& mist) const { return scatterersOf_[mist.number]; }
   // Surfaces of type source that shine, in the order of the scene.
   const std::vector<int32_t>& distant() const { return distant_; }
 
  private:
+  void findScatterers(const rad::Warn& warn);
+  std::optional<uint32_t> sourceNamed(std::string_view name) const;
+
   const Scene& scene_;
   RayOptions options_;
   Irradiance irradiance_;
@@ -55,7 +66,9 @@ class Transport {
   LightSources lights_;
   std::vector<int32_t> lightOf_;
   std::vector<int32_t> distant_;
-  std::vector<bool> ambient_;  // by surface; empty: all of them
+  std::vector<uint32_t> scatterers_;
+  std::vector<std::vector<uint16_t>> scatterersOf_;  // by Mist::number
+  std::vector<bool> ambient_;                        // by surface; empty: all of them
 };
 
 // The share of a source's radiance that leaves along a ray, for the source's direction (unit) and the solid
@@ -109,11 +122,9 @@ class PathTracer {
 
  private:
   struct Contribution {
-    V3d direction;
+    SourceSample sample;
     Rgb coefficient, value;
     double brightness;
-    double distance;
-    uint32_t source;
   };
 
   bool continueRay(Ray& child, RayKind kind, const Ray& parent, Rgb& coefficient);
@@ -127,6 +138,9 @@ class PathTracer {
   void pass(Ray& ray);
   void finish(Ray& ray);
   Rgb valueFromSource(const Ray& ray, const Contribution& to);
+  void passOn(Ray& child, Ray& ray);
+  void participate(Ray& ray);
+  void addScattered(Ray& ray);
 
   bool applyModifier(Ray& ray, int32_t modifier);
   bool shadeMixture(Ray& ray, int32_t modifier, const Mixture& mixture);
@@ -150,6 +164,9 @@ class PathTracer {
   bool shadeMaterial(Ray& ray, const Interface& material, int32_t behind);
   bool shadeMaterial(Ray& ray, const Glass& material, int32_t behind);
   bool shadeMaterial(Ray& ray, const Mirror& material, int32_t behind);
+  bool shadeMaterial(Ray& ray, const Prism& material, int32_t behind);
+  bool shadeMaterial(Ray& ray, const Antimatter& material, int32_t behind);
+  bool shadeMaterial(Ray& ray, const Mist& material, int32_t behind);
   bool shadeMaterial(Ray& ray, const Light& material, int32_t behind);
   bool shadeMaterial(Ray& ray, const Illum& material, int32_t behind);
   bool shadeMaterial(Ray& ray, const Glow& material, int32_t behind);
@@ -178,6 +195,7 @@ class PathTracer {
   void addIndirect(Ray& ray, const V3d& normal, const Interaction& at, RayKind kind, const Rgb& coefficient);
   void addDirect(Ray& ray, DirectCoefficient coefficientOf);
   Rgb sourceValue(const Ray& ray, const SourceSample& sample);
+  bool arrives(const Ray& ray, const Contribution& to, Rgb& value);
   Interaction interaction(const Ray& ray) const;
 
   const Transport& t_;

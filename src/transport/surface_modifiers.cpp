@@ -6,7 +6,8 @@ namespace rsphere {
 
 void PathTracer::shadeHit(Ray& ray) {
   ray.unmirroredLength = ray.length;
-  if (shadeSurface(ray)) return;
+  const bool clipped = (t_.scene().surfaces[ray.surface].clip & ray.clips) != 0;
+  if (!clipped && shadeSurface(ray)) return;
   if (std::holds_alternative<Distant>(t_.scene().surfaces[ray.surface].shape)) return;
   pass(ray);
 }
@@ -42,7 +43,7 @@ bool PathTracer::shade(Ray& ray, int32_t modifier) {
       pass(ray);
       return true;
     }
-    if (meters && !isLightSource(*material)) {
+    if (meters && !isLightSource(*material) && !std::holds_alternative<Antimatter>(*material)) {
       ray.pattern = Rgb(1, 1, 1);
       return shadeMaterial(ray, kIrradianceMeter, kNone);
     }

@@ -94,7 +94,7 @@ TEST(Energy, BoundariesSplitLightWithoutLoss) {
 
 TEST(Dielectric, ReflectsAsTextbooksSay) {
   const Dielectric water{Rgb(1, 1, 1), 1.33, 0}, crown{Rgb(1, 1, 1), 1.5, 0};
-  const Rgb air(0, 0, 0);
+  const Medium air;
   // At right angles ((n-1)/(n+1))^2: 4% for glass, 2% for water.
   EXPECT_NEAR(coefficient(scatter(crown, arriving(1), air), kReflected), .04, 1e-12);
   EXPECT_NEAR(coefficient(scatter(water, arriving(1), air), kReflected), std::pow(.33 / 2.33, 2), 1e-12);
@@ -111,7 +111,7 @@ TEST(Dielectric, RefractsAsSnellSays) {
     Interaction at = arriving(between(random, .05, 1));
     at.front = i % 2;
     const double n = 1.5, ratio = at.front ? 1 / n : n;
-    const Scattering s = scatter(Dielectric{Rgb(1, 1, 1), n, 0}, at, Rgb(0, 0, 0));
+    const Scattering s = scatter(Dielectric{Rgb(1, 1, 1), n, 0}, at, {});
     const double sine = ratio * std::sqrt(1 - at.cosine * at.cosine);
     const SharpPath* refracted = find(s, kRefracted);
     if (sine >= 1) {
@@ -133,20 +133,20 @@ TEST(Dielectric, TellsTheMediumOnBothSides) {
   const Dielectric tinted{Rgb(.5, 1, .25), 1.5, 0};
   const Rgb haze(.1, .2, .3);
   Interaction at = arriving(.8);
-  const Scattering in = scatter(tinted, at, haze);
-  EXPECT_EQ(in.extinction, haze);
+  const Scattering in = scatter(tinted, at, {haze});
+  EXPECT_EQ(in.medium.extinction, haze);
   EXPECT_TRUE(find(in, kRefracted)->entersMedium);
-  EXPECT_NEAR(find(in, kRefracted)->extinction.x, std::log(2.), 1e-15);
-  EXPECT_EQ(find(in, kRefracted)->extinction.y, 0);
-  EXPECT_EQ(find(in, kReflected)->extinction, haze);
+  EXPECT_NEAR(find(in, kRefracted)->medium.extinction.x, std::log(2.), 1e-15);
+  EXPECT_EQ(find(in, kRefracted)->medium.extinction.y, 0);
+  EXPECT_EQ(find(in, kReflected)->medium.extinction, haze);
   at.front = false;
-  const Scattering out = scatter(tinted, at, haze);
-  EXPECT_NEAR(out.extinction.z, std::log(4.), 1e-15);
-  EXPECT_EQ(find(out, kRefracted)->extinction, haze);
+  const Scattering out = scatter(tinted, at, {haze});
+  EXPECT_NEAR(out.medium.extinction.z, std::log(4.), 1e-15);
+  EXPECT_EQ(find(out, kRefracted)->medium.extinction, haze);
 }
 
 TEST(Dielectric, HartmannsConstantRaisesTheIndex) {
-  const Scattering s = scatter(Dielectric{Rgb(1, 1, 1), 1.48, 10}, arriving(1), Rgb(0, 0, 0));
+  const Scattering s = scatter(Dielectric{Rgb(1, 1, 1), 1.48, 10}, arriving(1), {});
   EXPECT_NEAR(coefficient(s, kReflected), .04, 1e-12) << "1.48 + 10/500";
 }
 
@@ -221,7 +221,7 @@ TEST(Plastic, PolishedFollowsFresnelWithinHalfAPercent) {
     const double approximate =
         coefficient(scatter(Opaque{Rgb(0, 0, 0), clear, 0, false}, arriving(cosine), kSampleAll), kReflected);
     const double exact =
-        coefficient(scatter(Dielectric{Rgb(1, 1, 1), 1.5, 0}, arriving(cosine), Rgb(0, 0, 0)), kReflected);
+        coefficient(scatter(Dielectric{Rgb(1, 1, 1), 1.5, 0}, arriving(cosine), {}), kReflected);
     EXPECT_NEAR(approximate, exact, .005);
   }
 }
