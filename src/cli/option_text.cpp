@@ -209,28 +209,30 @@ std::string escaped(std::string_view text) {
 }
 
 // The features in rtrace's words that hold here.
-constexpr std::array<std::string_view, 22> kFeatures = {"VirtualSources",
-                                                        "SecondarySources",
-                                                        "SourceSubsampling",
-                                                        "SourceVisibility",
-                                                        "AmbientModifierSelection",
-                                                        "PathTracing",
-                                                        "RussianRoulette",
-                                                        "SpecularSampling",
-                                                        "MaterialMixtures",
-                                                        "BackFaceVisibility",
-                                                        "ScatteringModels=WGMD,Ashikhmin-Shirley",
-                                                        "Instancing=Octree,TriangleMesh",
-                                                        "Aliases",
-                                                        "Multiprocessing",
-                                                        "IrradianceCalc",
-                                                        "ImmediateIrradiance",
-                                                        "DistanceLimiting",
-                                                        "AdaptiveShadowTesting",
-                                                        "InputFormats=a,f,d",
-                                                        "OutputFormats=a,f,d,c",
-                                                        "Outputs=o,d,v,V,w,W,l,L,c,p,n,N,s,m,M,r,x,R,X,~",
-                                                        "OutputCS=RGB,XYZ,Y,S,M,prims,spec"};
+constexpr std::array<std::string_view, 23> kFeatures = {
+    "VirtualSources",
+    "SecondarySources",
+    "SourceSubsampling",
+    "SourceVisibility",
+    "AmbientModifierSelection",
+    "PathTracing",
+    "RussianRoulette",
+    "SpecularSampling",
+    "MaterialMixtures",
+    "BackFaceVisibility",
+    "ScatteringModels=WGMD,Ashikhmin-Shirley",
+    "TabulatedBSDFs=DataFile,KlemsXML,TensorTreeXML,+ViewPeakExtraction",
+    "Instancing=Octree,TriangleMesh",
+    "Aliases",
+    "Multiprocessing",
+    "IrradianceCalc",
+    "ImmediateIrradiance",
+    "DistanceLimiting",
+    "AdaptiveShadowTesting",
+    "InputFormats=a,f,d",
+    "OutputFormats=a,f,d,c",
+    "Outputs=o,d,v,V,w,W,l,L,c,p,n,N,s,m,M,r,x,R,X,~",
+    "OutputCS=RGB,XYZ,Y,S,M,prims,spec"};
 
 bool hasSubfeatures(std::string_view feature, std::string_view wanted) {
   const size_t equals = feature.find('=');

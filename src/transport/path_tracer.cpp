@@ -58,6 +58,14 @@ Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance i
                    names.end()) == including;
 }
 
+bool Transport::isDark() const {
+  if (scene_.importance || !lights_.all().empty() || !isBlack(options_.ambientValue)) return false;
+  return std::none_of(scene_.modifiers.begin(), scene_.modifiers.end(), [](const Modifier& modifier) {
+    const auto* material = std::get_if<Material>(&modifier.content);
+    return material && std::holds_alternative<Glow>(*material);
+  });
+}
+
 Ray PathTracer::trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed) {
   random_ = Random(seed);
   primaryDirection_ = direction;

@@ -50,6 +50,8 @@ class Transport {
   // Light sources that some mist names, as indices in LightSources; and which of these one does.
   const std::vector<uint32_t>& scatterers() const { return scatterers_; }
   const std::vector<uint16_t>& scatterersOf(const Mist& mist) const { return scatterersOf_[mist.number]; }
+  // Whether nothing can give light: no light sources, no glow, no ambient value, no goals.
+  bool isDark() const;
   // Surfaces of type source that shine, in the order of the scene.
   const std::vector<int32_t>& distant() const { return distant_; }
 
@@ -90,8 +92,8 @@ class PathTracer {
   // Radiance along a primary ray (W/sr/m2), or irradiance (W/m2) as Transport::irradiance says: on the
   // surface that is hit, or on an imagined one just ahead that faces the ray (see inputRay() for where -I
   // starts). direction: unit. farthest: 0 for no limit (-ld, world units). The seed decides every random
-  // number of the path. Throws rad::Error where a path goes through too many surfaces one after the other, and
-  // where Russian roulette has no weight to go by (-lw 0).
+  // number of the path. Throws rad::Error where a path goes through too many surfaces one after the other,
+  // and where Russian roulette has no weight to go by (-lw 0).
   Ray trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed);
 
   // The radiance along a primary ray to a light source, as trace() would have it, at the price of a shadow

@@ -37,6 +37,20 @@ double irradianceAt(Traced& traced, const V3d& point, const V3d& normal, uint64_
   return traced.value(point + 1.1e-4 * normal, -normal, seed);
 }
 
+// ---- light at all
+
+// Glow and an ambient value light a scene as well as lamps do.
+TEST(Light, IsMissedOnlyWhereNothingCanGiveIt) {
+  const std::string walls = plastic("paint", .5) + floor("paint");
+  RayOptions ambient;
+  ambient.ambientValue = Rgb(0, .1, 0);
+  EXPECT_TRUE(Traced(walls).transport().isDark());
+  EXPECT_FALSE(Traced(walls, ambient).transport().isDark());
+  EXPECT_FALSE(Traced(walls + light(1) + "lamp sphere bulb\n0\n0\n4 0 0 5 .5\n").transport().isDark());
+  EXPECT_FALSE(Traced(walls + glow(1, 0) + "sky source all\n0\n0\n4 0 0 1 360\n").transport().isDark());
+  EXPECT_TRUE(Traced(walls + light(1)).transport().isDark());  // not used
+}
+
 // ---- enclosures
 
 TEST(Enclosure, OfGlowIsSeenAsItIs) {

@@ -1,0 +1,28 @@
+#include "transport/answer_rays.h"
+
+#include <memory>
+#include <vector>
+
+namespace rsphere {
+
+AnswerRecord answerRays(const Transport& transport, const Options& options, const AnswerWriter& writer,
+                        const rad::Warn& warn) {
+  auto tracers = std::make_shared<std::vector<PathTracer>>(threadCount(options), PathTracer(transport));
+  const bool trees = !options.treeOutputs.empty(), value = trees || needsValue(options.outputs);
+  if (value && transport.isDark()) warn("no light sources found");
+  return [&, tracers, trees, value](const Record& record, unsigned worker, std::string& bytes) {
+    const InputRay in = inputRay(record.numbers.data(), options.irradiance);
+    if (record.bogus) return writer.write(bytes, bogusAnswer(in), record.index);
+    PathTracer& tracer = (*tracers)[worker];
+    const auto writeBranch = [&](const Ray& ray) {
+      writer.writeBranch(bytes, branchAnswer(transport, ray), ray.depth);
+    };
+    if (trees) tracer.observe(writeBranch, options.treeShadows);
+    const double farthest = options.limitDistance ? in.length : 0;
+    const Ray ray = value ? tracer.trace(in.origin, in.direction, farthest, seedOf(record.numbers))
+                          : tracer.cast(in.origin, in.direction, farthest);
+    writer.write(bytes, answerOf(transport.scene(), ray), record.index);
+  };
+}
+
+}  // namespace rsphere
