@@ -209,7 +209,7 @@ std::string escaped(std::string_view text) {
 }
 
 // The features in rtrace's words that hold here.
-constexpr std::array<std::string_view, 23> kFeatures = {
+constexpr std::array<std::string_view, 25> kFeatures = {
     "VirtualSources",
     "SecondarySources",
     "SourceSubsampling",
@@ -219,6 +219,7 @@ constexpr std::array<std::string_view, 23> kFeatures = {
     "RussianRoulette",
     "SpecularSampling",
     "MaterialMixtures",
+    "Antimatter",
     "BackFaceVisibility",
     "ScatteringModels=WGMD,Ashikhmin-Shirley",
     "TabulatedBSDFs=DataFile,KlemsXML,TensorTreeXML,+ViewPeakExtraction",
@@ -228,6 +229,7 @@ constexpr std::array<std::string_view, 23> kFeatures = {
     "IrradianceCalc",
     "ImmediateIrradiance",
     "DistanceLimiting",
+    "ParticipatingMedia=Mist",
     "AdaptiveShadowTesting",
     "InputFormats=a,f,d",
     "OutputFormats=a,f,d,c",
