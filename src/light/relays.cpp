@@ -230,6 +230,7 @@ class Images {
 
   static LightSource imageOf(const LightSource& source, const Relay& relay, const Projection& projection) {
     LightSource image = source;
+    image.hitsWhereAimed = false;
     image.surface = relay.surface;
     image.u = projection.vector(source.u);
     image.v = projection.vector(source.v);

@@ -54,12 +54,16 @@ void setSquare(LightSource& source) {
   source.v *= half;
 }
 
+// Vertices out of the plane by more than rounding leave the image of the square beside the mean plane.
+bool isFlat(const Polygon& polygon) { return polygon.thickness <= 1e-9 * std::sqrt(polygon.area); }
+
 void setShape(LightSource& source, const Polygon& polygon, const Scene& scene) {
   const auto v = std::span(scene.vertices).subspan(polygon.firstVertex, polygon.vertices);
   source.normal = polygon.normal;
   source.area = polygon.area;
   for (const V3d& p : v) source.center += p / static_cast<double>(v.size());
   for (const V3d& p : v) source.radius = std::max(source.radius, (p - source.center).length());
+  source.hitsWhereAimed = isFlat(polygon);
   if (isParallelogram(v)) {
     source.map = LightSource::Map::parallelogram;
     source.u = (v[1] - v[0]) / 2;
@@ -69,7 +73,10 @@ void setShape(LightSource& source, const Polygon& polygon, const Scene& scene) {
   // Not convex: a square of the same area around the centre, of which some samples miss.
   setSquare(source);
   source.map = LightSource::Map::square;
-  if (!isConvex(v, polygon.normal)) return;
+  if (!isConvex(v, polygon.normal)) {
+    source.hitsWhereAimed = false;
+    return;
+  }
   source.map = LightSource::Map::fan;
   source.fanVertices.assign(v.begin(), v.end());
   double sum = 0;
@@ -225,7 +232,11 @@ void LightSources::sample(uint32_t index, const V3d& point, const SourceSampling
   // source that it is aimed at, which the reach is measured to.
   const auto add = [&](const V3d& direction, double omega, double length) {
     SourceSample sample{direction, omega, 1e10, 1, -direction, index};
-    if (!source.distant || source.isVirtual()) {
+    if (source.hitsWhereAimed) {
+      sample.distance = length;
+      sample.cosine = -direction.dot(source.normal);
+      sample.normal = source.normal;
+    } else if (!source.distant || source.isVirtual()) {
       ShapeHit hit;
       // A virtual source's relay lies before its image.
       const double farthest = source.isVirtual() && !source.distant ? length + source.radius : 1e10;
@@ -247,6 +258,8 @@ void LightSources::sample(uint32_t index, const V3d& point, const SourceSampling
 
   const double distance = source.distant ? 1e10 : towards.length();
   if (source.reach > 0 && distance > source.reach + source.radius) return;
+  const double wholly = !source.distant ? source.radius : source.cosHalfAngle > 0 ? source.sinHalfAngle : 1;
+  if (towards.dot(how.front) < -wholly) return;
   if (source.isVirtual() && -towards.dot(source.beam) < source.cosBeam * distance) return;
   // A round source: directions spread as the projected solid angle around its middle, so that one ray at the
   // middle is exact for a surface that faces it, and jittered rays are for every surface.

@@ -52,6 +52,8 @@ struct LightSource {
   double area = 0;              // of plane sources; of a tube's length times its diameter
   std::vector<double> fanArea;  // cumulative shares of the fan's triangles
   std::vector<V3d> fanVertices;
+  // A real one, plane and whole: what is aimed at the square's image on it hits it there.
+  bool hitsWhereAimed = false;
 };
 
 // One ray towards a source. solidAngle (sr) is what it stands for; the sum over a source's samples estimates
@@ -71,6 +73,8 @@ struct SourceSample {
 struct SourceSampling {
   double largest = 0;  // size over distance of a part, at most; 0: not split
   double jitter = 0;   // share of a part that its ray may lie in, 0 to 1
+  // Not 0: sources that lie wholly behind the plane through the point with this normal (unit) are left out.
+  V3d front{0, 0, 0};
 };
 
 class LightSources {

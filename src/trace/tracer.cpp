@@ -102,6 +102,7 @@ struct Query {
   int32_t source = kNone;
   const Occluder* standIn = nullptr;  // shadow(): what stands for the contents of the tree
   bool passable = false;              // shadow(): something was hit that may let light pass
+  uint32_t blocker = 0;               // shadow(): the tree's primitive that stopped the ray
 
   double reach() const { return best.occluder ? best.hit.distance + samePlace : farthest; }
   // Whether a hit at least as near as reach() has to give way to the best one.
@@ -170,6 +171,11 @@ class Tracer::Tree {
     rayHit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     embree::initContext(query.context);
     embree::intersect(tree_, query.context, rayHit);
+  }
+
+  // Whether this primitive, of a group's tree, stops the ray.
+  bool isBlocker(Query& query, uint32_t primitive) const {
+    return primitive < occluders_.size() && crossSurface(query, primitive);
   }
 
   // Whether the ray is surely stopped; if not, query.passable says whether it needs to be followed.
@@ -286,8 +292,9 @@ class Tracer::Tree {
     if (!arguments->valid[0]) return;
     const auto& self = *static_cast<const Tree*>(arguments->geometryUserPtr);
     auto& query = *reinterpret_cast<Query*>(arguments->context);
-    if ((self.*cross)(query, arguments->primID))
-      reinterpret_cast<RTCRay*>(arguments->ray)->tfar = -std::numeric_limits<float>::infinity();
+    if (!(self.*cross)(query, arguments->primID)) return;
+    query.blocker = arguments->primID;
+    reinterpret_cast<RTCRay*>(arguments->ray)->tfar = -std::numeric_limits<float>::infinity();
   }
 
   bool meetSurface(Query& query, uint32_t primitive) const {
@@ -489,7 +496,8 @@ Hit Tracer::nearest(const V3d& origin, const V3d& direction, double farthest) co
   return result;
 }
 
-Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, int32_t source) const {
+Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, int32_t source,
+                      uint32_t* blocker) const {
   if (embree_->groups.empty()) return Shadow::clear;
   const Tree& tree = *embree_->groups[0];
   Query query;
@@ -503,7 +511,11 @@ Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, 
     query.best.hit = {distance, V3d(0, 0, 0), 1};
     query.farthest += kSamePlace;
   }
-  if (tree.blocks(query)) return Shadow::blocked;
+  if (blocker && tree.isBlocker(query, *blocker)) return Shadow::blocked;
+  if (tree.blocks(query)) {
+    if (blocker) *blocker = query.blocker;
+    return Shadow::blocked;
+  }
   return query.passable ? Shadow::unsure : Shadow::clear;
 }
 

@@ -79,7 +79,7 @@ bool PathTracer::arrives(const Ray& ray, const Contribution& to, Rgb& value) {
   const LightSource& light = t_.lights().all()[to.sample.source];
   const bool toSurface = !light.distant || light.isVirtual();
   const Shadow shadow = t_.tracer().shadow(ray.point, to.sample.direction, to.sample.distance,
-                                           toSurface ? light.surface : kNone);
+                                           toSurface ? light.surface : kNone, &blockers_[to.sample.source]);
   const bool follow = shadow == Shadow::unsure || (shadow == Shadow::clear && light.isVirtual());
   if (follow || allShadowRays_) value = valueFromSource(ray, to);  // allShadowRays_: to be shown
   if (shadow == Shadow::blocked) return false;
@@ -101,12 +101,20 @@ Rgb PathTracer::valueFromSource(const Ray& ray, const Contribution& to) {
   return child.value;
 }
 
-void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf) {
+// count to the power of -dc. A power costs as much as a source's sample.
+size_t PathTracer::lookAheadOf(size_t count) {
+  for (size_t n = lookAheads_.size(); n <= count; ++n)
+    lookAheads_.push_back(
+        static_cast<size_t>(std::pow(static_cast<double>(n), t_.options().directCertainty) + .5));
+  return lookAheads_[count];
+}
+
+void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d& front) {
   const RayOptions& o = t_.options();
   samples_.clear();
   contributions_.clear();
   const SourceSampling how{o.sourceSubstructuring > kNegligible ? o.sourceSubstructuring / ray.weight : 0,
-                           o.directJitter};
+                           o.directJitter, front};
   for (uint32_t i = 0; i < t_.lights().all().size(); ++i)
     t_.lights().sample(i, ray.point, how, random_, samples_);
   for (const SourceSample& sample : samples_) {
@@ -122,12 +130,16 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf) {
   const double threshold = o.directThreshold / ray.weight;
   // How many of those still untested are taken together to decide whether they can matter (-dc).
   size_t lookAhead = count;
+  ranked_.resize(count);
+  for (uint32_t i = 0; i < count; ++i) ranked_[i] = {contributions_[i].brightness, i};
   if (threshold > 0) {
-    std::stable_sort(contributions_.begin(), contributions_.end(),
-                     [](const auto& a, const auto& b) { return a.brightness > b.brightness; });
-    remaining_.assign(count + 1, 0);
-    for (size_t i = count; i-- > 0;) remaining_[i] = remaining_[i + 1] + contributions_[i].brightness;
-    lookAhead = static_cast<size_t>(std::pow(static_cast<double>(count), o.directCertainty) + .5);
+    std::sort(ranked_.begin(), ranked_.end(), [](const Ranked& a, const Ranked& b) {
+      return a.brightness != b.brightness ? a.brightness > b.brightness : a.contribution < b.contribution;
+    });
+    remaining_.resize(count + 1);
+    remaining_[count] = 0;
+    for (size_t i = count; i-- > 0;) remaining_[i] = remaining_[i + 1] + ranked_[i].brightness;
+    lookAhead = lookAheadOf(count);
   }
   constexpr size_t kAlwaysTested = 2;
   size_t tested = 0, visible = 0;
@@ -136,7 +148,7 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf) {
       const double ahead = remaining_[tested] - remaining_[std::min(tested + lookAhead, count)];
       if (ahead < threshold * brightness(ray.value)) break;
     }
-    const Contribution& c = contributions_[tested];
+    const Contribution& c = contributions_[ranked_[tested].contribution];
     Rgb value;
     if (!arrives(ray, c, value)) continue;
     ray.value += value * c.coefficient;
@@ -144,8 +156,10 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf) {
   }
   // Sources too weak to be tested are let through as often as those that were.
   const double share = tested ? static_cast<double>(visible) / static_cast<double>(tested) : .5;
-  for (; tested < count; ++tested)
-    ray.value += contributions_[tested].value * contributions_[tested].coefficient * share;
+  for (; tested < count; ++tested) {
+    const Contribution& c = contributions_[ranked_[tested].contribution];
+    ray.value += c.value * c.coefficient * share;
+  }
 }
 
 }  // namespace rsphere

@@ -22,10 +22,15 @@ bool PathTracer::shadeDiffusing(Ray& ray, const Scattering& scattering, const In
   if (maxChannel(scattering.ambientTransmission) > kNegligible)
     addIndirect(ray, -scattering.normal, -at.normal, kTransmittedAmbient, scattering.ambientTransmission);
   if (!isBlack(scattering.diffuseReflection) || !isBlack(scattering.diffuseTransmission) ||
-      !isBlack(scattering.specularReflection) || !isBlack(scattering.specularTransmission))
-    addDirect(ray, [&, jitter = t_.options().directJitter](const V3d& toSource, double solidAngle) {
+      !isBlack(scattering.specularReflection) || !isBlack(scattering.specularTransmission)) {
+    const bool transmits =
+        !isBlack(scattering.diffuseTransmission) || !isBlack(scattering.specularTransmission);
+    const auto coefficientOf = [&, jitter = t_.options().directJitter](const V3d& toSource,
+                                                                       double solidAngle) {
       return directCoefficient(scattering, at, toSource, solidAngle, jitter);
-    });
+    };
+    addDirect(ray, coefficientOf, transmits ? V3d(0, 0, 0) : scattering.normal);
+  }
   return true;
 }
 

@@ -87,7 +87,8 @@ using RayObserver = std::function<void(const Ray& ray)>;
 // Traces one ray at a time; one a thread. The answer depends on the ray, the seed and Transport alone.
 class PathTracer {
  public:
-  explicit PathTracer(const Transport& transport) : t_(transport) {}
+  explicit PathTracer(const Transport& transport)
+      : t_(transport), blockers_(transport.lights().all().size(), Tracer::kNoBlocker) {}
 
   // Radiance along a primary ray (W/sr/m2), or irradiance (W/m2) as Transport::irradiance says: on the
   // surface that is hit, or on an imagined one just ahead that faces the ray (see inputRay() for where -I
@@ -195,7 +196,9 @@ class PathTracer {
   void sampleLobe(Ray& ray, RayKind kind, const Rgb& share, LobeSampler draw, int least = 1);
   void addIndirect(Ray& ray, const V3d& normal, const V3d& trueNormal, RayKind kind, const Rgb& coefficient);
   void addIndirect(Ray& ray, const V3d& normal, const Interaction& at, RayKind kind, const Rgb& coefficient);
-  void addDirect(Ray& ray, DirectCoefficient coefficientOf);
+  // front: the normal of a surface that lets no light through, whose coefficients are 0 behind it; or 0.
+  void addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d& front = V3d(0, 0, 0));
+  size_t lookAheadOf(size_t count);
   Rgb sourceValue(const Ray& ray, const SourceSample& sample);
   bool arrives(const Ray& ray, const Contribution& to, Rgb& value);
   Interaction interaction(const Ray& ray) const;
@@ -210,7 +213,14 @@ class PathTracer {
   // Scratch of addDirect, which never runs inside itself: shadow rays ask for no direct light.
   std::vector<SourceSample> samples_;
   std::vector<Contribution> contributions_;
+  struct Ranked {
+    double brightness;
+    uint32_t contribution;
+  };
+  std::vector<Ranked> ranked_;  // brightest first where not all are tested
   std::vector<double> remaining_;
+  std::vector<uint32_t> blockers_;  // by source: what stopped the last ray to it
+  std::vector<size_t> lookAheads_;  // by count; as far as they were asked for
 };
 
 // What rtrace's output letters say of a traced ray.
