@@ -35,7 +35,10 @@ void orient(EllipticLobe& lobe, const V3d& along, double roughnessAlong, double 
   lobe.tangents = tangents(lobe.normal, along);
   lobe.alongSquare = roughnessAlong * roughnessAlong;
   lobe.acrossSquare = roughnessAcross * roughnessAcross;
-  if (!lobe.tangents.given) lobe.alongSquare = lobe.acrossSquare = (lobe.alongSquare + lobe.acrossSquare) / 2;
+  if (lobe.tangents.given) return;
+  constexpr double kAlike = .001;  // roughnesses this close are one; RADIANCE's own figure
+  lobe.disoriented = std::abs(roughnessAlong - roughnessAcross) > kAlike;
+  lobe.alongSquare = lobe.acrossSquare = (lobe.alongSquare + lobe.acrossSquare) / 2;
 }
 
 double reflectedLobe(const EllipticLobe& lobe, const V3d& direction, const V3d& toSource, double widening) {

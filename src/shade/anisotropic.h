@@ -26,6 +26,8 @@ struct EllipticLobe {
   double alongSquare = 0, acrossSquare = 0;  // mean square slopes
   V3d transmitted{0, 0, 0};                  // the middle of a transmitted lobe
   bool sampled = false;
+  // Its roughnesses differ, and the surface has no direction to tell which is which.
+  bool disoriented = false;
 };
 
 // ambient: what indirect light is multiplied by: the share, and that of a lobe too weak to be sampled (-st)

@@ -12,6 +12,12 @@ constexpr int kMostTries =
 // successive rays evenly; ours depend on their own ray alone, and four make their mean as quiet.
 constexpr int kAshikhminSamples = 4;
 
+// Once a material, where a highlight is to be longer one way and no way within the surface is given.
+void warnOfOrientation(const SurfaceFunctions& functions, int32_t material, const AnisotropicScattering& s) {
+  if (s.reflected.disoriented || s.transmitted.disoriented)
+    functions.warn(material, "illegal orientation vector");
+}
+
 }  // namespace
 
 // Whether the ray goes on through a back that isn't to be seen (-bv).
@@ -37,7 +43,9 @@ bool PathTracer::shadeMaterial(Ray& ray, const Anisotropic& material, int32_t be
   turnRound(ray);
   const Interaction at = interaction(ray);
   const V3d along = t_.functions().orientation(material.functions, functionPoint(ray), functionScratch_);
-  return shadeElliptic(ray, scatter(material, at, along, t_.options().specularThreshold), at);
+  const AnisotropicScattering s = scatter(material, at, along, t_.options().specularThreshold);
+  warnOfOrientation(t_.functions(), material.functions, s);
+  return shadeElliptic(ray, s, at);
 }
 
 bool PathTracer::shadeElliptic(Ray& ray, const AnisotropicScattering& s, const Interaction& at) {

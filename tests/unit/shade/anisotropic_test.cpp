@@ -113,6 +113,9 @@ TEST(Anisotropic, WithoutADirectionIsRound) {
   const Interaction at = arriving(.7);
   const AnisotropicScattering s = scatter(shiny(.3, .1), at, V3d(0, 0, 2), kSampleAll);
   const AnisotropicScattering round = scatter(shiny(std::sqrt(.05), std::sqrt(.05)), at, kAlong, kSampleAll);
+  EXPECT_TRUE(s.reflected.disoriented);
+  EXPECT_FALSE(round.reflected.disoriented);
+  EXPECT_FALSE(scatter(shiny(.2, .2), at, V3d(0, 0, 2), kSampleAll).reflected.disoriented);
   Random random(33);
   for (int i = 0; i < 100; ++i) {
     const V3d d = upwards(random);
