@@ -34,7 +34,7 @@ pane polygon window 0 0 12 1.6 .2 .2 1.6 2 .2 1.6 2 2.2 1.6 .2 2.2
 void dielectric crystal 0 0 5 .9 .95 .98 1.5 0
 crystal sphere ball 0 0 4 2.9 1.2 1.3 .15
 void mirror silver 0 0 3 .9 .85 .8
-silver polygon mirror 0 0 12 3.98 1 .75 3.98 2.6 .75 3.98 2.6 2.2 3.98 1 2.2
+silver polygon mirror 0 0 12 3.98 1 .75 3.98 1 2.2 3.98 2.6 2.2 3.98 2.6 .75
 void plastic goal 0 0 5 .5 .35 .2 0 0
 goal polygon top 0 0 12 2.2 1.6 .7 3 1.6 .7 3 2.1 .7 2.2 2.1 .7
 )";
@@ -57,9 +57,11 @@ RayOptions finely(int bounces) {
 
 // Mean irradiance on the goal, by rays that start at its surface, with one bounce more than importance is
 // traced with: the goal itself is the first.
-Sample irradianceOnGoal(int bounces) {
+Sample irradianceOnGoal(int bounces, int relays = 2) {
   const Scene scene = sceneOf(room(true));
-  const Transport transport(scene, finely(bounces + 1), Irradiance::point);
+  RayOptions options = finely(bounces + 1);
+  options.directRelays = relays;
+  const Transport transport(scene, options, Irradiance::point);
   PathTracer tracer(transport);
   Random random(7);
   Sample sample;
@@ -102,6 +104,8 @@ TEST(Duality, IrradianceFromALampIsWhatImportancePredicts) {
       << importance.standardError();
   // Importance that is 5% too strong would have been noticed.
   EXPECT_GT(std::abs(light.mean() - 1.05 * importance.mean()), std::max(.01 * light.mean(), 3 * error));
+  // And so would the light that comes by way of the mirror.
+  EXPECT_LT(irradianceOnGoal(2, 0).mean(), .97 * light.mean());
 }
 
 TEST(Duality, BasicRadianceIsTheSameOutsideOfGlass) {
