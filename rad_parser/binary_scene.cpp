@@ -89,7 +89,7 @@ int64_t readPrimitives(BinaryReader& input, int width, uint32_t file, Descriptio
     const std::string_view name = input.string();
     if (!isSurface(type) && (name == "void" || name == "inherit"))
       throw damaged(fmt::format("no modifier can be named \"{}\"", name));
-    Primitive p = builder.begin(type, place, builder.intern(name), static_cast<int32_t>(modifier));
+    Primitive p = builder.begin(type, place, builder.internName(type, name), static_cast<int32_t>(modifier));
     for (uint32_t strings = input.count16(); strings > 0; --strings) builder.addString(p, input.string());
     p.reals = input.count16();
     for (uint32_t i = 0; i < p.reals; ++i) d.realArgs.push_back(input.real());

@@ -111,7 +111,6 @@ void append(Description& to, Description&& more, Place from) {
                   std::make_move_iterator(more.words.end()));
   for (uint32_t word : more.stringArgs) to.stringArgs.push_back(word + words);
   to.realArgs.insert(to.realArgs.end(), more.realArgs.begin(), more.realArgs.end());
-  to.primitives.reserve(to.primitives.size() + more.primitives.size());
   for (Primitive p : more.primitives) {
     if (p.modifier != kVoid) p.modifier += primitives;
     if (p.aliased != kVoid) p.aliased += primitives;

@@ -98,7 +98,8 @@ struct Cube {
 struct Description {
   std::vector<SourceFile> files;
   std::vector<Primitive> primitives;
-  std::vector<std::string> words;    // each distinct word once: names and string arguments
+  std::vector<std::string>
+      words;  // names and string arguments: each distinct one once, but for surfaces' names
   std::vector<uint32_t> stringArgs;  // indices in words
   std::vector<double> realArgs;
 

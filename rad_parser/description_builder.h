@@ -25,6 +25,11 @@ class DescriptionBuilder {
 
   uint32_t intern(std::string_view word) { return words_.intern(word); }
 
+  // A primitive's name. Those of surfaces name nothing, and are not looked for.
+  uint32_t internName(Type type, std::string_view word) {
+    return isSurface(type) ? words_.append(word) : words_.intern(word);
+  }
+
   // The definition of the modifier that is in force now; kVoid where there is none.
   int32_t modifier(std::string_view name) const;
 

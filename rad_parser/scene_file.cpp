@@ -238,7 +238,7 @@ class Reader {
       word = transform->nameOf(type, word, name_);
       type = transform->typeOf(type);
     }
-    Primitive p = builder_.begin(type, place, builder_.intern(word), modifier);
+    Primitive p = builder_.begin(type, place, builder_.internName(type, word), modifier);
     if (type == Type::alias)
       alias(text, p, inherits);
     else

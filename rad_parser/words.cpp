@@ -30,14 +30,24 @@ uint32_t WordTable::intern(std::string_view word) {
   const uint32_t hash = hashOf(word);
   size_t at = slotOf(word, hash);
   if (slots_[at].word != kNone) return slots_[at].word;
-  if (words_.size() >= kNone) throw Error("more different words than can be numbered");
-  if (2 * (words_.size() + 1) > slots_.size()) {
+  if (2 * (interned_ + 1) > slots_.size()) {
     grow();
     at = slotOf(word, hash);
   }
-  slots_[at] = {static_cast<uint32_t>(words_.size()), hash};
-  words_.emplace_back(word);
+  slots_[at] = {add(word), hash};
+  ++interned_;
   return slots_[at].word;
+}
+
+uint32_t WordTable::append(std::string_view word) {
+  if (appended_ == kNone || words_[appended_] != word) appended_ = add(word);
+  return appended_;
+}
+
+uint32_t WordTable::add(std::string_view word) {
+  if (words_.size() >= kNone) throw Error("more different words than can be numbered");
+  words_.emplace_back(word);
+  return static_cast<uint32_t>(words_.size() - 1);
 }
 
 void WordTable::grow() {

@@ -425,12 +425,28 @@ class Builder {
     return first;
   }
 
+  // Room for all surfaces from this primitive on: growing by doubling would touch twice the memory.
+  void reserve(uint32_t firstPrimitive) {
+    size_t surfaces = 0, coordinates = 0;
+    for (const Primitive& p : std::span(scene_.description.primitives).subspan(firstPrimitive)) {
+      surfaces += rad::isSurface(p.type);
+      if (p.type == Type::polygon) coordinates += p.reals;
+    }
+    const auto makeRoom = [](auto& list, size_t more) {
+      if (list.size() + more > list.capacity())
+        list.reserve(std::max(list.size() + more, 2 * list.capacity()));
+    };
+    makeRoom(scene_.surfaces, surfaces);
+    makeRoom(scene_.vertices, coordinates / 3);
+  }
+
   // The surfaces among the primitives from this one on.
   void addGroup(uint32_t firstPrimitive) {
     firstPrimitive_ = firstPrimitive;
     const auto& primitives = scene_.description.primitives;
     modifierOf_.resize(primitives.size(), kUnknown);
     SurfaceGroup group{static_cast<uint32_t>(scene_.surfaces.size()), 0};
+    reserve(firstPrimitive);
     for (uint32_t i = firstPrimitive; i < primitives.size(); ++i)
       if (rad::isSurface(primitives[i].type)) addSurface(i);
     group.surfaces = static_cast<uint32_t>(scene_.surfaces.size()) - group.firstSurface;
