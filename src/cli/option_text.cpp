@@ -209,7 +209,7 @@ std::string escaped(std::string_view text) {
 }
 
 // The features in rtrace's words that hold here.
-constexpr std::array<std::string_view, 25> kFeatures = {
+constexpr std::array<std::string_view, 26> kFeatures = {
     "VirtualSources",
     "SecondarySources",
     "SourceSubsampling",
@@ -225,6 +225,7 @@ constexpr std::array<std::string_view, 25> kFeatures = {
     "TabulatedBSDFs=DataFile,KlemsXML,TensorTreeXML,+ViewPeakExtraction",
     "Instancing=Octree,TriangleMesh",
     "Aliases",
+    "ShadowCache",
     "Multiprocessing",
     "IrradianceCalc",
     "ImmediateIrradiance",
