@@ -24,6 +24,8 @@ TEST(Irregularity, ByType) {
   EXPECT_EQ(irregularity(Dielectric{kGray, 1.5, 0}), 1);
   EXPECT_EQ(irregularity(Interface{kGray, 1.5, kGray, 1.3}), 1);
   EXPECT_EQ(irregularity(Glass{kGray, 1.52}), 1);
+  EXPECT_EQ(irregularity(BsdfMaterial{.aperture = true}), 1);
+  EXPECT_EQ(irregularity(BsdfMaterial{.proxy = true}), 0);
   EXPECT_EQ(irregularity(Light{kGray}), 0);
   EXPECT_EQ(irregularity(Illum{kGray, {}}), 0);
   EXPECT_EQ(irregularity(Glow{kGray, 0}), 0);

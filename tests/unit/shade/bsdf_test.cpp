@@ -170,7 +170,7 @@ TEST(Bsdf, AlbedoIsTheIntegralOfTheValues) {
       for (const DirectedScattering* part : {data.reflection(view.z > 0), data.transmission(view.z > 0)}) {
         if (!part || (part->turned(view) && std::string(name) == "tree3")) continue;
         // Points of a fine grid on the square that the cells are even in, and of rings for matrices.
-        constexpr int kSide = 512;
+        constexpr int kSide = 256;
         double sum = 0;
         for (int i = 0; i < kSide; ++i)
           for (int j = 0; j < kSide; ++j) {
@@ -184,6 +184,25 @@ TEST(Bsdf, AlbedoIsTheIntegralOfTheValues) {
         EXPECT_NEAR(part->albedo(view), integral, .02 * integral + 1e-4) << name << " " << view;
         EXPECT_LE(part->albedo(view), part->largestAlbedo() * 1.0001 + (part->turned(view) ? .3 : 0));
       }
+  }
+}
+
+// Of 1000 views each, where the file gives away no more than there is.
+TEST(Bsdf, NoEnergyIsMade) {
+  Random random(5);
+  for (const auto& [name, xml] : files()) {
+    std::vector<std::string> warnings;
+    const BsdfData data = dataOf(xml, &warnings);
+    EXPECT_TRUE(warnings.empty()) << name << ": " << warnings[0];
+    for (int i = 0; i < 1000; ++i) {
+      const V3d view = randomDirection(random);
+      const bool front = view.z > 0;
+      double all = brightness(data.diffuseReflectance(front) + data.diffuseTransmittance(front));
+      for (const DirectedScattering* part : {data.reflection(front), data.transmission(front)})
+        if (part) all += part->albedo(view);
+      EXPECT_LE(all, 1) << name << " " << view;
+      EXPECT_GE(all, 0) << name << " " << view;
+    }
   }
 }
 
