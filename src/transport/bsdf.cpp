@@ -59,6 +59,8 @@ bool PathTracer::shadeMaterial(Ray& ray, const BsdfMaterial& material, int32_t b
   hit.x.normalize();
   hit.y = hit.z.cross(hit.x);
   hit.view = hit.local(-ray.direction);
+  // Rounding must not turn a view along the surface to the other side.
+  hit.view.z = front ? std::max(hit.view.z, kNegligible) : std::min(hit.view.z, -kNegligible);
   hit.across = (front ? -thickness : thickness) * hit.at.normal;
   if (material.aperture && maxChannel(ray.pattern) > kNegligible) {
     hit.through = hit.data.through(hit.view);
@@ -132,7 +134,7 @@ void PathTracer::sampleBsdf(Ray& ray, BsdfHit& hit, RayKind kind) {
   const double spread = o.specularSampling;
   int samples = spread > 1.5 ? std::max(1, static_cast<int>(spread * ray.weight + .5)) : 1;
   if (o.weightLimit > 0)  // no more than can be followed
-    samples = std::clamp(static_cast<int>(std::min(1., share) * ray.weight / o.weightLimit), 1, samples);
+    samples = std::max(1, static_cast<int>(std::min<double>(samples, share * ray.weight / o.weightLimit)));
   // A single sample is drawn nearer to the middle where -ss is below 1.
   const auto place = [&](double u) { return spread < 1 ? .5 + spread * (u - .5) : u; };
   for (int i = 0; i < samples; ++i) {

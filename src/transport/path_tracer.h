@@ -84,6 +84,8 @@ using LobeSampler = FunctionRef<double(double u1, double u2, V3d& direction)>;
 // Gets a ray that is finished, but for what the medium in front of its hit takes away (rtrace's -ot, -oT).
 using RayObserver = std::function<void(const Ray& ray)>;
 
+struct BsdfHit;
+
 // Traces one ray at a time; one a thread. The answer depends on the ray, the seed and Transport alone.
 class PathTracer {
  public:
@@ -181,8 +183,8 @@ class PathTracer {
   bool shadeDiffusing(Ray& ray, const Scattering& scattering, const Interaction& at);
   bool shadeBoundary(Ray& ray, const Scattering& scattering);
   bool useAlternate(Ray& ray, const Alternate& alternate);
-  void sampleBsdf(Ray& ray, struct BsdfHit& hit, RayKind kind);
-  Rgb directedBsdf(const Ray& ray, const struct BsdfHit& hit, const V3d& toSource, double solidAngle);
+  void sampleBsdf(Ray& ray, BsdfHit& hit, RayKind kind);
+  Rgb directedBsdf(const Ray& ray, const BsdfHit& hit, const V3d& toSource, double solidAngle);
   V3d jittered(const V3d& view, double projectedSolidAngle);
   bool passesBack(Ray& ray);
   bool shadeElliptic(Ray& ray, const AnisotropicScattering& scattering, const Interaction& at);
