@@ -131,7 +131,8 @@ bool SeenSources::shown(const PathTracer& tracer, const std::vector<Image>& imag
          });
 }
 
-void SeenSources::findImages(const V3d& point, size_t most, std::vector<Image>& images) const {
+void SeenSources::findImages(const V3d& point, size_t most, double mirrorFactor,
+                             std::vector<Image>& images) const {
   images.clear();
   const Scene& scene = transport_.scene();
   for (const uint32_t i : sources_) {
@@ -147,7 +148,8 @@ void SeenSources::findImages(const V3d& point, size_t most, std::vector<Image>& 
     images.push_back(std::move(image));
   }
   const size_t straight = images.size();
-  addMirrored(point, images);
+  if (mirrorFactor > 0) addMirrored(point, images);
+  for (size_t i = straight; i < images.size(); ++i) images[i].rays *= mirrorFactor;
   double sum = 0;
   for (const Image& image : images) sum += image.rays;
   for (size_t i = 0; i < images.size(); ++i) {

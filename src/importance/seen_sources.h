@@ -29,8 +29,9 @@ class SeenSources {
   };
 
   // The images that are integrated apart at a point, with about `most` rays for all of them by the light that
-  // each may send. Mirrored ones that are not worth half a ray are left to the other directions.
-  void findImages(const V3d& point, size_t most, std::vector<Image>& images) const;
+  // each may send, times mirrorFactor for mirrored ones: those not worth half a ray are left to the other
+  // directions.
+  void findImages(const V3d& point, size_t most, double mirrorFactor, std::vector<Image>& images) const;
 
   // Whether the last primary ray of the tracer showed one of a point's images.
   bool shown(const PathTracer& tracer, const std::vector<Image>& images) const;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "light/spherical_triangle.h"
 #include "shade/scattering.h"
 
 namespace rsphere {
@@ -27,52 +28,12 @@ bool liesInPlane(double height, double coordinates) {
 
 double largestCoordinate(const V3d& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
-// Solid angle, with its sign, of a triangle as seen from a point. Differences of the corners keep their
-// digits where the triangle is small or far.
-double triangleSolidAngle(const V3d& a, const V3d& b, const V3d& c, const V3d& point) {
-  const V3d toA = a - point, toB = b - point, toC = c - point;
-  const double la = toA.length(), lb = toB.length(), lc = toC.length();
-  return 2 * std::atan2(toA.dot((b - a).cross(c - a)),
-                        la * lb * lc + toA.dot(toB) * lc + toB.dot(toC) * la + toC.dot(toA) * lb);
-}
-
 // How far a corner lies outside a side, at most: rounding where the polygon is convex.
 double largestReentrance(const std::vector<V3d>& corners, const std::vector<V3d>& sides) {
   double outside = 0;
   for (const V3d& side : sides)
     for (const V3d& corner : corners) outside = std::max(outside, -side.dot(corner));
   return outside;
-}
-
-// From b towards c along the great circle, so far that the sphere between its plane's slices across b is
-// passed evenly.
-V3d alongArc(const V3d& b, const V3d& c, double share) {
-  const V3d difference = c - b;
-  const double whole = difference.length2() / 2;  // 1 - cos without its cancellation
-  const V3d across = difference + whole * b;
-  const double length = across.length();
-  if (!(length > 0)) return b;
-  const double versine = share * whole;
-  return ((1 - versine) * b + std::sqrt(versine * (2 - versine)) / length * across).normalized();
-}
-
-// An even map from the square to the spherical triangle. Arvo's construction: first the corner of the
-// triangle that holds the share u1 of the area, on the side from a to c; then a point between it and b. The
-// corner is found from tan(area / 2) = (a . b x c) / (1 + a.b + b.c + c.a), solved for the half angle from a:
-// no difference of angles and pi, which has few digits left where the triangle is small.
-V3d sampleTriangle(const V3d& a, const V3d& b, const V3d& c, double solidAngle, double u1, double u2) {
-  const V3d across = (c - a) - (c - a).dot(a) * a;
-  const double length = across.length();
-  if (!(length > 0)) return alongArc(b, a, u2);
-  const V3d e = across / length;
-  const double half = u1 * solidAngle / 2;
-  // Where b lies near a or across from it, products keep their digits as differences and sums.
-  const bool near = a.dot(b) > 0;
-  const double onePlus = (a + b).length2() / 2, volume = std::abs(e.dot(a.cross(near ? b - a : b + a)));
-  const double whole = std::atan2(c.dot(e), c.dot(a));
-  const double angle = std::min(
-      whole, 2 * std::atan2(std::sin(half) * onePlus, std::cos(half) * volume - std::sin(half) * b.dot(e)));
-  return alongArc(b, std::cos(angle) * a + std::sin(angle) * e, u2);
 }
 
 // The corners of a polygon around a circle (world), its sides touching it.

@@ -1,10 +1,12 @@
 #include "light/sources.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "light/relays.h"
+#include "light/spherical_triangle.h"
 #include "shade/scattering.h"
 
 namespace rsphere {
@@ -151,6 +153,27 @@ V3d onPlane(const LightSource& source, double s, double t) {
   if (source.map == LightSource::Map::fan) return a == 0 && b == 0 ? source.center : onFan(source, s, t);
   if (source.map == LightSource::Map::disk) toDisk(a, b);
   return source.center + a * source.u + b * source.v;
+}
+
+std::array<V3d, 4> cornersOf(const LightSource& source, const Part& p) {
+  const auto at = [&](double s, double t) { return onPlane(source, s, t); };
+  return {at(p.s0, p.t0), at(p.s1, p.t0), at(p.s1, p.t1), at(p.s0, p.t1)};
+}
+
+// The share of a part that its ray may lie in.
+Part shrunk(const Part& p, double jitter) {
+  const double s = (1 - jitter) / 2 * (p.s1 - p.s0), t = (1 - jitter) / 2 * (p.t1 - p.t0);
+  return {p.s0 + s, p.s1 - s, p.t0 + t, p.t1 - t};
+}
+
+// Whether a part is so near that cosine / distance^2 differs much over it: rays that are spread by area would
+// scatter without bound.
+bool isNear(const LightSource& source, const Part& part, const V3d& point) {
+  constexpr double kNear = .5;
+  const double width =
+      2 * std::max(source.u.length() * (part.s1 - part.s0), source.v.length() * (part.t1 - part.t0));
+  const V3d middle = onPlane(source, (part.s0 + part.s1) / 2, (part.t0 + part.t1) / 2);
+  return width * width > kNear * kNear * (middle - point).length2();
 }
 
 // Splits until every part is small against its distance. size: largest size/distance allowed of a half-extent
@@ -325,7 +348,28 @@ void LightSources::sample(uint32_t index, const V3d& point, const SourceSampling
     default: {
       if (towards.dot(source.normal) >= 0) return;  // behind it
       const auto at = [&](double s, double t) { return onPlane(source, s, t); };
+      // Spread evenly over the part as it is seen.
+      const auto addNear = [&](Part part) {
+        const std::array<V3d, 4> whole = cornersOf(source, part);
+        const double below = triangleSolidAngle(whole[0], whole[1], whole[2], point);
+        const double above = triangleSolidAngle(whole[0], whole[2], whole[3], point);
+        const double omega = std::abs(below + above);
+        std::array<V3d, 4> aims = cornersOf(source, shrunk(part, jitter));
+        for (V3d& corner : aims) corner = (corner - point).normalized();
+        const double u = random.uniform() * omega, v = random.uniform();
+        const bool first = u < std::abs(below);
+        const double half = std::abs(first ? below : above);
+        if (!(half > 0)) return;
+        const V3d direction = sampleTriangle(
+            aims[0], aims[first ? 1 : 2], aims[first ? 2 : 3],
+            std::abs(triangleSolidAngle(aims[0], aims[first ? 1 : 2], aims[first ? 2 : 3], V3d(0, 0, 0))),
+            (first ? u : u - std::abs(below)) / half, v);
+        const double cosine = -direction.dot(source.normal);
+        if (cosine > kEdgeOn) add(direction, omega, source.normal.dot(point - source.center) / cosine);
+      };
       const auto use = [&](const Part& part) {
+        if (jitter > 0 && source.map == LightSource::Map::parallelogram && isNear(source, part, point))
+          return addNear(part);
         const V3d aim =
             at(jittered(part.s0, part.s1, jitter, random), jittered(part.t0, part.t1, jitter, random)) -
             point;
