@@ -23,7 +23,6 @@ constexpr double kUnevenShare = .6;
 // Rays to measure how the radiance varies on the special objects of one modifier, on all of them together at
 // most, and around; and those at a point for the mean that it is held against.
 constexpr size_t kRaysAModifier = 64, kRaysForContrast = 1024, kRaysForSurroundings = 256;
-constexpr size_t kFewestRaysASurface = 16;  // where there are few near to a light, each has its own
 constexpr int kRaysAPoint = 32;
 
 // More directions than this times the base's density are not sent anywhere: the last factor of two in density
@@ -98,13 +97,11 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
 // near to a light source: they differ less than so few rays could tell.
 void SphereEstimator::measureContrasts() {
   const Scene& scene = transport_.scene();
-  std::map<std::pair<bool, int32_t>, std::vector<SpecialObject>> alike;  // near ones; by modifier
+  std::map<std::pair<bool, int32_t>, std::vector<SpecialObject>> alike;  // by nearness and modifier
   std::vector<bool> near(scene.surfaces.size(), false);
-  const std::vector<uint32_t> nearLights = surfacesNearLights(scene, transport_.lights());
-  const bool few = nearLights.size() <= kRaysForContrast / kFewestRaysASurface;
-  for (const uint32_t i : nearLights) {
+  for (const uint32_t i : surfacesNearLights(scene, transport_.lights())) {
     near[i] = true;
-    alike[{true, few ? static_cast<int32_t>(i) : scene.surfaces[i].modifier}].push_back({i});
+    alike[{true, scene.surfaces[i].modifier}].push_back({i});
   }
   for (const SpecialObject& object : special_)
     if (!near[object.surface]) alike[{false, scene.surfaces[object.surface].modifier}].push_back(object);

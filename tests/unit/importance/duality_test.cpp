@@ -18,8 +18,8 @@ const V3d kLamp(1, 1.2, 1.9);
 constexpr double kLampRadius = .01, kLampRadiance = 1000;
 constexpr double kGoalHeight = .7, kGoalX = 2.2, kGoalY = 1.6, kGoalWidth = .8, kGoalDepth = .5;
 
-// A room of 4 x 3 x 2.5 m with a pane of glass and a glass ball between the lamp and the goal, and a mirror on
-// the wall behind the goal.
+// A room of 4 x 3 x 2.5 m with a pane of glass and a glass ball between the lamp and the goal, and a mirror
+// on the wall behind the goal.
 std::string room(bool lit) {
   std::string text = R"(
 void plastic wall 0 0 5 .6 .5 .4 0 0

@@ -204,6 +204,61 @@ TEST(Estimator, SameAnswerInAScaledScene) {
   }
 }
 
+// Under an even sky of 1 a convex object of chrome shows .9 wherever it is seen.
+double meanBeside(const std::string& object, const V3d& point, double* sum = nullptr) {
+  const Setting setting(
+      "void glow sky 0 0 4 1 1 1 0\nsky source dome 0 0 4 0 0 1 360\nvoid metal chrome 0 0 5 .9 .9 .9 1 0\n" +
+      object);
+  const SphereEstimator estimator(*setting.transport, setting.with(Weights::silhouettes, 512));
+  SphereEstimator::Workspace workspace(estimator);
+  const double mean = brightness(estimator.estimate(point, workspace).mean);
+  if (sum) *sum = sumOf(workspace.samples);
+  return mean;
+}
+
+TEST(Estimator, Extremes) {
+  struct Case {
+    const char* name;
+    std::string object;
+    V3d point;
+    double mean;
+  };
+  const auto beside = [](double solidAngle) { return 1 - .1 * solidAngle / (4 * kPi); };
+  const double quarter = 4 * kPi / 6;  // a square of 2 a side as seen from 1 before its middle
+  const auto square = [](double k, const V3d& o) {
+    return fmt::format("chrome polygon p 0 0 12 {} {} {} {} {} {} {} {} {} {} {} {}\n", o.x + k, o.y - k,
+                       o.z - k, o.x + k, o.y + k, o.z - k, o.x + k, o.y + k, o.z + k, o.x + k, o.y - k,
+                       o.z + k);
+  };
+  const V3d far(1e5, -1e5, 1e5);
+  const Case cases[] = {
+      {"nothing", "", V3d(1, 2, 3), 1},
+      {"square", square(1, V3d(0, 0, 0)), V3d(0, 0, 0), beside(quarter)},
+      {"small", square(1e-3, V3d(0, 0, 0)), V3d(0, 0, 0), beside(quarter)},
+      {"large", square(1e3, V3d(0, 0, 0)), V3d(0, 0, 0), beside(quarter)},
+      {"shifted", square(1, far), far, beside(quarter)},
+      {"minute sphere", "chrome sphere s 0 0 4 1000 0 0 1e-6\n", V3d(0, 0, 0), 1},
+      {"edge-on", square(1, V3d(0, 0, 0)), V3d(1, -5, 0), 1},
+      {"nearly edge-on", square(1, V3d(0, 0, 0)), V3d(1 - 1e-9, -5, 0), 1},
+      {"on a mirror", square(1, V3d(0, 0, 0)), V3d(1, .2, .3), 1},
+      // Metals mirror more at grazing angles.
+      {"just before a mirror", square(1, V3d(0, 0, 0)), V3d(1 - 1e-5, .2, .3), .958},
+      // What lies inside sees nothing.
+      {"on a sphere", "chrome sphere s 0 0 4 0 0 0 1\n", V3d(0, 0, 1), .5},
+      // Twice around is no more than outside.
+      {"wound twice", "chrome polygon p 0 0 24 1 -1 -1 1 1 -1 1 1 1 1 -1 1 1 -1 -1 1 1 -1 1 1 1 1 -1 1\n",
+       V3d(0, 0, 0), 1},
+  };
+  for (const Case& c : cases) {
+    double sum = 0;
+    EXPECT_NEAR(meanBeside(c.object, c.point, &sum), c.mean, .001) << c.name;
+    EXPECT_NEAR(sum, 4 * kPi, 1e-9) << c.name;
+  }
+  double sum = 0;
+  EXPECT_TRUE(std::isfinite(meanBeside("chrome bubble s 0 0 4 0 0 0 1\n", V3d(.1, .2, .3), &sum)));
+  EXPECT_NEAR(sum, 4 * kPi, 1e-9) << "inside a sphere";
+}
+
 TEST(Estimator, AloneInUniformLight) {
   const Setting setting("void glow sky 0 0 4 1 1 1 0\nsky source dome 0 0 4 0 0 1 360\n");
   for (const Weights weights : kAllWeights) {

@@ -307,5 +307,16 @@ TEST(Source, SolidAnglesOfSamplesSumUpToTheSources) {
   expectMean(mean(sceneOf(light("polygon s\n0\n0\n9 0 0 1 0 1 1 1 0 1\n"))), omega, 1.01);
 }
 
+// A millimetre before a panel of a metre, by area, single samples would count 1/distance^2: a deviation of 40.
+TEST(Sources, RightBeforeALargeSource) {
+  const Scene scene = sceneOf(light("polygon p\n0\n0\n12 -.5 -.5 0 -.5 .5 0 .5 .5 0 .5 -.5 0"));
+  const V3d point(.2, .1, -.001);
+  for (const V3d& normal : {kUp, V3d(1, 0, 0)}) {
+    const Sample e = meanIrradiance(scene, point, normal, {.2, 1}, 6000);
+    expectMean(e, normal.z > 0 ? kPi : kPi / 2, 1.1);
+    EXPECT_LT(e.standardError() * std::sqrt(6000.), 2.2);
+  }
+}
+
 }  // namespace
 }  // namespace rsphere
