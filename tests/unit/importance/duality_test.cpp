@@ -65,10 +65,10 @@ Sample irradianceOnGoal(int bounces, int relays = 2) {
   PathTracer tracer(transport);
   Random random(7);
   Sample sample;
-  for (int i = 0; i < 60; ++i)
-    for (int j = 0; j < 60; ++j) {
-      const V3d at(kGoalX + kGoalWidth * (i + random.uniform()) / 60,
-                   kGoalY + kGoalDepth * (j + random.uniform()) / 60, kGoalHeight + 1e-4);
+  for (int i = 0; i < 100; ++i)
+    for (int j = 0; j < 100; ++j) {
+      const V3d at(kGoalX + kGoalWidth * (i + random.uniform()) / 100,
+                   kGoalY + kGoalDepth * (j + random.uniform()) / 100, kGoalHeight + 1e-4);
       sample.add(tracer.trace(at, V3d(0, 0, -1), 0, random.bits()).value.y);
     }
   return sample;
