@@ -5,14 +5,6 @@
 namespace rsphere {
 namespace {
 
-Box3d boxOf(const Shape& shape, const Scene& scene) {
-  if (const auto* polygon = std::get_if<Polygon>(&shape))
-    return bounds(*polygon, std::span(scene.vertices).subspan(polygon->firstVertex, polygon->vertices));
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) return bounds(*sphere);
-  if (const auto* cone = std::get_if<Cone>(&shape)) return bounds(*cone);
-  return bounds(std::get<Ring>(shape));
-}
-
 double squaredDistance(const Box3d& box, const V3d& p) {
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
@@ -42,7 +34,7 @@ std::vector<uint32_t> surfacesNearLights(const Scene& scene, const LightSources&
   for (uint32_t i = 0; i < scene.outermost().size(); ++i) {
     const Surface& surface = scene.surfaces[i];
     if (shines[i] || !isPlain(surface.shape)) continue;
-    const Box3d box = boxOf(surface.shape, scene);
+    const Box3d box = bounds(surface.shape, scene.vertices);
     if (std::any_of(near.begin(), near.end(), [&](const LightSource* light) {
           const double reach = (1 + kNearLight) * light->radius;
           return squaredDistance(box, light->center) <= reach * reach;
