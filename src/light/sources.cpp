@@ -380,8 +380,10 @@ void LightSources::sample(uint32_t index, const V3d& point, const SourceSampling
         add(aim / length,
             source.area * (part.s1 - part.s0) * (part.t1 - part.t0) * cosine / (length * length), length);
       };
-      split(Part{}, kMostParts, allowed > 0 ? source.u.length() : 0, allowed > 0 ? source.v.length() : 0,
-            allowed, point, at, use);
+      // A disk counts as the square of its area, as for rtrace.
+      const double disk = source.map == LightSource::Map::disk ? std::sqrt(source.area) / 2 : 0;
+      const double u = disk > 0 ? disk : source.u.length(), v = disk > 0 ? disk : source.v.length();
+      split(Part{}, kMostParts, allowed > 0 ? u : 0, allowed > 0 ? v : 0, allowed, point, at, use);
     }
   }
 }
