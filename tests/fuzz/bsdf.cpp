@@ -1,8 +1,4 @@
 // BSDF files, and answers from what was read.
-//   clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -I. -Isrc -I/usr/include/Imath
-//     tests/fuzz/bsdf.cpp src/shade/bsdf.cpp rad_parser/{bsdf_file,description,number,words}.cpp
-//     -lImath -lfmt -lpugixml -o fuzz_bsdf
-//   ./fuzz_bsdf -timeout=20 -max_len=20000 tests/fuzz/corpus/bsdf
 #include "shade/bsdf.h"
 
 #include <cmath>

@@ -1,7 +1,4 @@
 // The expression language: files, expressions, evaluation. Errors are answers; crashes and hangs are not.
-//   clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -I. -I/usr/include/Imath
-//   tests/fuzz/calc.cpp
-//     rad_parser/calc_*.cpp -lfmt -o fuzz_calc && ./fuzz_calc -timeout=20 tests/fuzz/corpus/calc
 #include <algorithm>
 #include <cstdlib>
 

@@ -1,8 +1,4 @@
 // Data and font files, and answers from what was read.
-//   clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -I. -I/usr/include/Imath
-//   tests/fuzz/data_font.cpp
-//     rad_parser/{data_file,font_file,number_list,number}.cpp -lfmt -o fuzz_data_font
-//   ./fuzz_data_font -timeout=20 tests/fuzz/corpus/data_font
 #include <cmath>
 #include <string>
 

@@ -1,8 +1,4 @@
-// Meshes of any bytes, as octree.cpp has octrees. From the top folder:
-//   clang++ -O1 -g -std=c++20 -fsanitize=fuzzer,address,undefined -I. tests/fuzz/mesh.cpp
-//     $(ls rad_parser/*.cpp) -lfmt -lImath-3_1 -o fuzz_mesh
-//   ./fuzz_mesh -max_len=8192 -rss_limit_mb=512 -timeout=5 new_files tests/fuzz/corpus/mesh
-//   tests/scenes/octree
+// Meshes of any bytes, as octree.cpp has octrees.
 #include <cmath>
 #include <cstdlib>
 

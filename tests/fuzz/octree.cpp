@@ -1,9 +1,5 @@
 // Octrees of any bytes: a description that holds together, or rad::Error; never a crash, a hang or memory
-// beyond what the bytes justify. Scene files that an octree names are not opened. From the top folder:
-//   clang++ -O1 -g -std=c++20 -fsanitize=fuzzer,address,undefined -I. tests/fuzz/octree.cpp
-//     $(ls rad_parser/*.cpp) -lfmt -lImath-3_1 -o fuzz_octree
-//   ./fuzz_octree -max_len=8192 -rss_limit_mb=512 -timeout=5 new_files tests/fuzz/corpus/octree
-//   tests/scenes/octree
+// beyond what the bytes justify. Scene files that an octree names are not opened.
 #include <cstdlib>
 
 #include "memory_file.h"

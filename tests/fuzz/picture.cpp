@@ -1,7 +1,4 @@
 // RADIANCE pictures, and colours from what was read.
-//   clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -I. -Isrc -I/usr/include/Imath
-//   tests/fuzz/picture.cpp src/shade/picture.cpp -lfmt -o fuzz_picture
-//   ./fuzz_picture -timeout=20 tests/fuzz/corpus/picture
 #include "shade/picture.h"
 
 #include "memory_file.h"

@@ -1,0 +1,45 @@
+// Scene text, and what the tracer is given of it: a scene that holds together, or rad::Error. Commands are
+// off, so that a "!" line can be xform only.
+#include "scene/scene.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <string_view>
+
+#include "rad_parser/scene_file.h"
+
+namespace {
+
+bool within(int32_t index, size_t size) {
+  return index >= rsphere::kNone && index < static_cast<int64_t>(size);
+}
+
+void check(const rsphere::Scene& scene) {
+  for (const rsphere::Surface& surface : scene.surfaces) {
+    if (!within(surface.modifier, scene.modifiers.size()) ||
+        !within(surface.material, scene.modifiers.size()))
+      std::abort();
+    if (surface.primitive >= scene.description.primitives.size()) std::abort();
+    static_cast<void>(scene.place(surface.primitive));
+    static_cast<void>(scene.modifierName(surface));
+    static_cast<void>(scene.materialName(surface));
+  }
+  for (size_t i = 0; i < scene.modifiers.size(); ++i)
+    if (!within(scene.modifiers[i].next, scene.modifiers.size()) ||
+        scene.modifiers[i].next == static_cast<int32_t>(i))
+      std::abort();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  rad::ReadOptions options;
+  options.commands = false;
+  options.warn = [](std::string_view) {};
+  try {
+    check(rsphere::buildScene(rad::readSceneText(text, "fuzz.rad", options), options));
+  } catch (const rad::Error&) {
+  }
+  return 0;
+}
