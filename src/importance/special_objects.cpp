@@ -48,7 +48,7 @@ struct Irregularity {
   double operator()(const BsdfMaterial& m) const { return m.aperture ? 1 : 0; }
   double operator()(const Dielectric&) const { return 1; }
   double operator()(const Interface&) const { return 1; }
-  double operator()(const Glass&) const { return 1; }
+  double operator()(const Glass&) const { return kPane; }
   double operator()(const Mirror&) const { return 1; }
   double operator()(const Prism&) const { return 1; }
   double operator()(const Antimatter&) const { return 0; }

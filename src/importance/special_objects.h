@@ -11,27 +11,31 @@
 
 namespace rsphere {
 
-// How irregular a material scatters: 1 for what shows a sharp image of its surroundings (mirror, dielectric,
-// interface, glass; aBSDF, whose data are meant to have a peak straight on), else the share of light it
-// reflects or transmits specularly, made smaller by roughness a (rms slope of facets) as 1 / (1 + (a /
-// kSharpRoughness)^2): a highlight that is spread wide is no peak; of two roughnesses (plastic2, metal2,
-// trans2, WGMDfunc), by the root of both factors; ashik2's powers n are taken for roughnesses sqrt(2 / (n +
-// 1)), where its lobe has the same peak. Where a function decides, the most that may be is taken: all of the
-// light, and sharp (BRTDfunc, WGMDfunc); but the directional scattering of plasfunc, its kin and BRTDfunc is
-// given no width at all, and is taken for kSharpRoughness. 0 for diffuse materials, BSDF and light sources.
+// How irregular a material scatters: 1 for what shows a sharp image of its surroundings in another shape or
+// place (mirror, dielectric, interface; aBSDF, whose data are meant to have a peak straight on), kPane for
+// glass, else the share of light it reflects or transmits specularly, made smaller by roughness a (rms slope
+// of facets) as 1 / (1 + (a / kSharpRoughness)^2), as the height of the peak is; of two roughnesses
+// (plastic2, metal2, trans2, WGMDfunc), by the root of both factors; ashik2's powers n are taken for
+// roughnesses sqrt(2 / (n + 1)), where its lobe has the same peak. Where a function decides, the most that
+// may be is taken: all of the light, and sharp (BRTDfunc, WGMDfunc); but the directional scattering of
+// plasfunc, its kin and BRTDfunc is given no width at all, and is taken for kSharpRoughness. 0 for diffuse
+// materials, BSDF and light sources.
 double irregularity(const Material& material);
 
-// A polished surface's highlight is as sharp as the directions are dense (0.08 rad for 2048) at about this
-// roughness.
-inline constexpr double kSharpRoughness = .05;
-// Less irregular objects are treated as diffuse: 2% in a sharp image, what plain plastic at right angles has,
-// is kept.
-inline constexpr double kSpecialIrregularity = .02;
-
-// Directions per sr that an irregularity of 1 asks for, times -Sk. Chosen so that the paper's numbers come
-// out: with spheres of 0.1 m under the ceiling of an open-plan office, some 1000 directions for the larger
-// half of 1 to 100.
+// The paper gives neither densities nor the criterion's numbers, but what came of them: 2048 directions and
+// 1030 +- 176 more, 2200 to 3500 in all, with 1 to 100 small spheres in a furnished open-plan office. These
+// numbers are set so that examples/openplan gives 2200 to 3500 too, at every one of its points:
+//
+// Directions per sr that an irregularity of 1 asks for, times -Sk: 1000 for a hundred spheres of 0.1 m.
 inline constexpr double kDirectionsPerSr = 32000;
+// A highlight is called sharp where no more than some 16 such directions fall in it, four across: it fills 4 pi
+// a^2 sr.
+inline constexpr double kSharpRoughness = .0065;
+// A pane's glass: what is seen straight through is no smaller than without it, and its mirror image is faint.
+// Gets 64 directions per sr, a few hundred at most, where as a mirror it would have taken all there are.
+inline constexpr double kPane = .002;
+// Less irregular objects are treated as diffuse: their 16 directions per sr are a tenth of the base's own.
+inline constexpr double kSpecialIrregularity = .0005;
 
 struct SpecialObject {
   uint32_t surface = 0;  // index in Scene::surfaces

@@ -64,5 +64,24 @@ TEST(Accuracy, OnePercentWithFiveHundredDirections) {
   EXPECT_GT(equal, .03) << "the same number of directions with equal weights would pass";
 }
 
+// The paper, section 5: 2048 fixed directions and at most 4096 came to between 2200 and 3500, with 1 to 100
+// spheres.
+TEST(PaperRule, SendsAsManyDirectionsAsThePaper) {
+  for (const int spheres : {1, 30, 100}) {
+    const std::string command = "!" RSPHERE_TESTS "/../examples/openplan/generate " + std::to_string(spheres);
+    const Scene scene = buildScene(rad::readScene(std::vector<std::string>{command}, {}));
+    const auto objects = findSpecialObjects(scene, 1);
+    for (double x = 2.6; x < 17; x += 3.8)
+      for (double y = 1.75; y < 14; y += 2.1) {
+        double directions = 2048;
+        for (const SpecialObject& object : objects)
+          directions +=
+              std::floor(object.density * silhouetteOf(scene, object, V3d(x, y, 1.2)).solidAngle() + .5);
+        EXPECT_GT(directions, 2200) << spheres << " spheres, " << x << ' ' << y;
+        EXPECT_LT(directions, 3500) << spheres << " spheres, " << x << ' ' << y;
+      }
+  }
+}
+
 }  // namespace
 }  // namespace rsphere

@@ -124,7 +124,7 @@ TEST(PlacedSpecialObjects, TooManyAreTakenTogether) {
   ASSERT_EQ(objects.size(), 1001u);
   EXPECT_FALSE(objects[0].several);
   EXPECT_TRUE(objects[1].several);
-  EXPECT_EQ(scene.surfaceName(scene.surfaces[objects[1].surface]), "p1");
+  EXPECT_EQ(scene.surfaceName(scene.surfaces[objects[1].surface]), "s1");
   const Tracer tracer(scene, true);
   Random random(5);
   for (int i = 0; i < 200; ++i) {

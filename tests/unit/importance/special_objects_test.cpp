@@ -23,7 +23,7 @@ TEST(Irregularity, ByType) {
   EXPECT_EQ(irregularity(Mirror{kGray, {}}), 1);
   EXPECT_EQ(irregularity(Dielectric{kGray, 1.5, 0}), 1);
   EXPECT_EQ(irregularity(Interface{kGray, 1.5, kGray, 1.3}), 1);
-  EXPECT_EQ(irregularity(Glass{kGray, 1.52}), 1);
+  EXPECT_EQ(irregularity(Glass{kGray, 1.52}), kPane);
   EXPECT_EQ(irregularity(BsdfMaterial{.aperture = true}), 1);
   EXPECT_EQ(irregularity(BsdfMaterial{.proxy = true}), 0);
   EXPECT_EQ(irregularity(Light{kGray}), 0);
@@ -79,9 +79,9 @@ TEST(Irregularity, OfFunctionsByWhatIsKnown) {
   EXPECT_EQ(of("void BRTDfunc M 10 Rdot .2 .1 0 .3 0 0 0 0 . 0 9 .1 .1 .1 0 0 0 0 0 0"), 1);
   const std::string nine = " . 0 9 .1 .1 .1 0 0 0 0 0 0";
   EXPECT_EQ(of("void WGMDfunc M 13 void 0 0 0 void 0 0 0 void 0 0 1" + nine), 0);
-  EXPECT_EQ(of("void WGMDfunc M 13 void .2 0 0 void .4 .05 .05 void 0 0 1" + nine), .2);
-  EXPECT_EQ(of("void WGMDfunc M 13 void Rdot 0 0 void .4 .05 .05 void 0 0 1" + nine), 1);
-  EXPECT_EQ(of("void WGMDfunc M 13 void .2 .05 Rdot void 0 0 0 void 0 0 1" + nine), .2 / std::sqrt(2));
+  EXPECT_EQ(of("void WGMDfunc M 13 void .2 0 0 void .4 .0065 .0065 void 0 0 1" + nine), .2);
+  EXPECT_EQ(of("void WGMDfunc M 13 void Rdot 0 0 void .4 .0065 .0065 void 0 0 1" + nine), 1);
+  EXPECT_EQ(of("void WGMDfunc M 13 void .2 .0065 Rdot void 0 0 0 void 0 0 1" + nine), .2 / std::sqrt(2));
 }
 
 constexpr const char* kRoom =
