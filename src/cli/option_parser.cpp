@@ -29,6 +29,8 @@ struct Use {
   std::vector<std::string> words;  // behind its own word
 };
 
+const Companion kNoCompanion;
+
 std::vector<std::string> splitWords(std::istream& in) { return {std::istream_iterator<std::string>(in), {}}; }
 
 // The command line with a place in it, where words are replaced by what they stand for.
@@ -90,8 +92,7 @@ bool startsWith(std::string_view text, std::string_view head) { return text.subs
 
 // The option a word names, whole first, then as a switch, then as a name with its value behind it. Null:
 // none.
-const OptionEntry* findOption(std::string_view word) {
-  const auto table = optionTable();
+const OptionEntry* findOption(std::span<const OptionEntry> table, std::string_view word) {
   for (const OptionEntry& entry : table)
     if (!entry.glued && entry.name == word) return &entry;
   for (const OptionEntry& entry : table)
@@ -260,28 +261,30 @@ std::optional<bool> switched(std::string_view suffix, bool before) {
   return std::nullopt;
 }
 
-Options parseOptions(std::span<const std::string> given) {
+namespace {
+
+// Reads a command line into options, and answers which options it has.
+std::vector<Use> parse(std::span<const std::string> given, const Companion& companion, Options& options) {
   const std::string called = given.empty() ? "rsphere" : given[0];
-  const std::string program = called.substr(called.rfind('/') + 1);
+  options.program = called.substr(called.rfind('/') + 1);
   Words words(given.subspan(given.empty() ? 0 : 1));
   if (!words.atEnd() && words.word() == "-features") {
-    Options options;
-    options.program = program;
     options.request = Request::features;
     words.take();
     options.features.assign(words.rest().begin(), words.rest().end());
-    return options;
+    return {};
   }
   std::vector<Use> uses;
   Request request = Request::answers;
-  bool sphereMode = program != "rtrace", mostGiven = false;
+  bool sphereMode = companion.sphereMode && options.program != "rtrace", mostGiven = false;
   for (words.expand(); !words.atEnd() && startsWith(words.word(), "-"); words.expand()) {
     const std::string word = words.take();
     if (word == "-version") request = Request::version;
     if (word == "-defaults") request = Request::defaults;
     if (word == "-help") request = Request::help;
     if (request != Request::answers) break;
-    const OptionEntry* entry = findOption(word);
+    const OptionEntry* entry = findOption(companion.own, word);
+    if (entry == nullptr) entry = findOption(optionTable(), word);
     if (entry == nullptr) commandLineError(word);
     Use use{entry, word.substr(entry->name.size()), {}};
     if (entry->alsoGlued && !use.rest.empty()) use.words.push_back(use.rest);
@@ -293,7 +296,8 @@ Options parseOptions(std::span<const std::string> given) {
     mostGiven |= entry->name == "-Sx";
     uses.push_back(std::move(use));
   }
-  Options options = modeDefaults(sphereMode);
+  const std::string program = options.program;
+  options = modeDefaults(sphereMode);
   options.program = program;
   options.request = request;
   options.words.assign(words.before().begin(), words.before().end());
@@ -313,7 +317,26 @@ Options parseOptions(std::span<const std::string> given) {
   if (request == Request::answers) checkColorOutput(options);
   checkIrradiance(options);
   checkTogether(options, mostGiven);
+  return uses;
+}
+
+}  // namespace
+
+Options parseOptions(std::span<const std::string> words) {
+  Options options;
+  parse(words, kNoCompanion, options);
   return options;
+}
+
+std::vector<UsedOption> parseCompanion(std::span<const std::string> words, const Companion& companion,
+                                       Options& options) {
+  std::vector<UsedOption> used;
+  for (const Use& use : parse(words, companion, options)) {
+    const bool restIsWord = use.entry->alsoGlued && !use.rest.empty();
+    used.push_back({use.entry, {std::string(use.entry->name) + (restIsWord ? "" : use.rest)}});
+    used.back().words.insert(used.back().words.end(), use.words.begin(), use.words.end());
+  }
+  return used;
 }
 
 Options parseOptions(int argc, char** argv) {

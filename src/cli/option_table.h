@@ -21,7 +21,8 @@ enum class Group : uint8_t {
   medium,
   color,
   trees,
-  program
+  program,
+  companion  // of another program on the same library
 };
 
 // What happens when an option is used: it works; it is accepted and changes nothing; or the program stops and
@@ -96,6 +97,30 @@ Options modeDefaults(bool sphereMode);
 // on; and "option '-ap' is not supported: ..." for what rtrace has and rsphere has not.
 Options parseOptions(std::span<const std::string> words);
 Options parseOptions(int argc, char** argv);
+
+// A program beside rsphere that takes all options of rsphere and some of its own. Their entries' values are
+// kept in what it derives from Options, which is then what parseCompanion() has to be given.
+struct Companion {
+  std::span<const OptionEntry> own{};
+  std::string_view usage{};  // what stands on its command line after the name
+  bool sphereMode = true;    // what holds where -S does not say
+};
+
+// An option as a command line has it, and its words: the first is the option itself.
+struct UsedOption {
+  const OptionEntry* entry;
+  std::vector<std::string> words;
+};
+
+// As parseOptions(), for a companion. Sets the part of `options` that is Options and those of its own that
+// are given; answers the options given, in their order.
+std::vector<UsedOption> parseCompanion(std::span<const std::string> words, const Companion& companion,
+                                       Options& options);
+
+// What -help and -defaults print of a companion, and its options as a part of its manual.
+std::string companionHelp(const Companion& companion, Options& options);
+std::string companionDefaults(const Companion& companion, Options& options);
+std::string companionManual(const Companion& companion, Options& defaults);
 
 // What -defaults prints: every option with its present value, in option syntax. Without the remarks (from '#'
 // on) it can be read back by @file.

@@ -144,6 +144,8 @@ std::string_view groupName(Group group) {
       return "Ray trees";
     case Group::program:
       return "Program";
+    case Group::companion:
+      return "";
   }
   return "";
 }
@@ -173,8 +175,8 @@ std::string valueOf(const OptionEntry& entry, Options& options) {
   return "";
 }
 
-// What the manual says behind the paragraph: unit, range and default.
-std::string facts(const OptionEntry& entry) {
+// What the manual says behind the paragraph of the unit and the range.
+std::string unitAndRange(const OptionEntry& entry) {
   std::string text;
   if (!entry.unit.empty()) text += fmt::format("Unit: {}. ", entry.unit);
   const bool low =
@@ -183,6 +185,12 @@ std::string facts(const OptionEntry& entry) {
       std::isfinite(entry.range.highest) && entry.range.highest != std::numeric_limits<int>::max();
   if (low && high) text += fmt::format("From {} to {}. ", entry.range.lowest, entry.range.highest);
   if (low && !high) text += fmt::format("At least {}. ", entry.range.lowest);
+  return text;
+}
+
+// The same with the default.
+std::string facts(const OptionEntry& entry) {
+  std::string text = unitAndRange(entry);
   Options rays = modeDefaults(false), spheres = modeDefaults(true);
   const std::string ray = valueOf(entry, rays), sphere = valueOf(entry, spheres);
   if (entry.name == "-S" || ray.empty()) return text;
@@ -206,6 +214,33 @@ std::string escaped(std::string_view text) {
   }
   if (!out.empty() && (out[0] == '.' || out[0] == '\'')) out.insert(0, "\\&");
   return out;
+}
+
+std::string helpLine(const OptionEntry& entry, Options& values) {
+  const bool isSwitch = std::holds_alternative<SwitchValue>(entry.value);
+  const std::string use = fmt::format("{}{}{}", entry.name,
+                                      isSwitch      ? "[+|-]"
+                                      : entry.glued ? ""
+                                                    : " ",
+                                      entry.arguments);
+  const std::string value = valueOf(entry, values);
+  return fmt::format("  {:<20} {}{}\n", use,
+                     isSwitch ? entry.remark.substr(0, entry.remark.find('|')) : entry.remark,
+                     value.empty() ? "" : fmt::format(" [{}]", value));
+}
+
+// An option's part of a manual; `more` stands behind its paragraph.
+std::string manualEntry(const OptionEntry& entry, const std::string& more) {
+  const bool isSwitch = std::holds_alternative<SwitchValue>(entry.value);
+  std::string text = fmt::format(".TP\n.BI {}{}\n", escaped(entry.name),
+                                 isSwitch ? " [+|\\-]"
+                                 : entry.arguments.empty()
+                                     ? ""
+                                     : fmt::format(" \"{}{}\"", entry.glued ? "" : " ", entry.arguments));
+  text += escaped(entry.paragraph);
+  if (entry.support == Support::refused) text += escaped(fmt::format(" Not supported: {}.", entry.reason));
+  if (!more.empty()) text += '\n' + escaped(more.substr(0, more.size() - 1));
+  return text + '\n';
 }
 
 // The features in rtrace's words that hold here.
@@ -271,16 +306,7 @@ std::string helpText(const Options& options) {
     text += fmt::format("\n{}:\n", groupName(group));
     for (const OptionEntry& entry : optionTable()) {
       if (entry.group != group || entry.support == Support::refused) continue;
-      const bool isSwitch = std::holds_alternative<SwitchValue>(entry.value);
-      const std::string use = fmt::format("{}{}{}", entry.name,
-                                          isSwitch      ? "[+|-]"
-                                          : entry.glued ? ""
-                                                        : " ",
-                                          entry.arguments);
-      const std::string value = valueOf(entry, values);
-      text += fmt::format("  {:<20} {}{}\n", use,
-                          isSwitch ? entry.remark.substr(0, entry.remark.find('|')) : entry.remark,
-                          value.empty() ? "" : fmt::format(" [{}]", value));
+      text += helpLine(entry, values);
     }
   }
   return text +
@@ -317,19 +343,40 @@ std::string manualText() {
     text += fmt::format(".SS {}\n", groupName(group));
     for (const OptionEntry& entry : optionTable()) {
       if (entry.group != group) continue;
-      const bool isSwitch = std::holds_alternative<SwitchValue>(entry.value);
-      text += fmt::format(".TP\n.BI {}{}\n", escaped(entry.name),
-                          isSwitch ? " [+|\\-]"
-                          : entry.arguments.empty()
-                              ? ""
-                              : fmt::format(" \"{}{}\"", entry.glued ? "" : " ", entry.arguments));
-      text += escaped(entry.paragraph);
-      if (entry.support == Support::refused)
-        text += escaped(fmt::format(" Not supported: {}.", entry.reason));
-      if (const std::string more = facts(entry); !more.empty())
-        text += '\n' + escaped(more.substr(0, more.size() - 1));
-      text += '\n';
+      text += manualEntry(entry, facts(entry));
     }
+  }
+  return text;
+}
+
+std::string companionHelp(const Companion& companion, Options& options) {
+  std::string text = fmt::format("usage: {} {}\n\n", options.program, companion.usage);
+  for (const OptionEntry& entry : companion.own) text += helpLine(entry, options);
+  return text + fmt::format("\nThe other options are those of rsphere: see rsphere -help and {}(1).\n",
+                            options.program);
+}
+
+std::string companionDefaults(const Companion& companion, Options& options) {
+  std::string text = defaultsText(options);
+  for (const OptionEntry& entry : companion.own) {
+    if (const std::string line = lineOf(entry, options); !line.empty()) {
+      const auto* value = std::get_if<SwitchValue>(&entry.value);
+      const size_t bar = entry.remark.find('|');
+      text += fmt::format("{}# {}\n", line,
+                          value == nullptr    ? entry.remark
+                          : (*value)(options) ? entry.remark.substr(0, bar)
+                                              : entry.remark.substr(bar + 1));
+    }
+  }
+  return text;
+}
+
+std::string companionManual(const Companion& companion, Options& defaults) {
+  std::string text;
+  for (const OptionEntry& entry : companion.own) {
+    const std::string value = valueOf(entry, defaults);
+    text +=
+        manualEntry(entry, unitAndRange(entry) + (value.empty() ? "" : fmt::format("Default: {}. ", value)));
   }
   return text;
 }

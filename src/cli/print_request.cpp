@@ -24,4 +24,16 @@ int printRequest(const Options& options, const Messages& messages) {
   return 0;
 }
 
+int printRequest(const Companion& companion, Options& options, const Messages& messages) {
+  RecordWriter writer(1);
+  if (options.request == Request::defaults)
+    writer.write(companionDefaults(companion, options));
+  else if (options.request == Request::help)
+    writer.write(companionHelp(companion, options));
+  else
+    return printRequest(options, messages);
+  writer.flush();
+  return 0;
+}
+
 }  // namespace rsphere

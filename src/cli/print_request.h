@@ -1,6 +1,6 @@
 #pragma once
 #include "cli/messages.h"
-#include "cli/options.h"
+#include "cli/option_table.h"
 
 namespace rsphere {
 
@@ -8,5 +8,8 @@ namespace rsphere {
 // the exit status: 1, with a message, where a feature is missing. Throws what RecordWriter throws. REQUIRES:
 // options.request is not Request::answers.
 int printRequest(const Options& options, const Messages& messages);
+
+// The same for a companion.
+int printRequest(const Companion& companion, Options& options, const Messages& messages);
 
 }  // namespace rsphere

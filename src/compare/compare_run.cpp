@@ -1,0 +1,222 @@
+#include "compare/compare_run.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "cli/answer_writer.h"
+#include "cli/batch.h"
+#include "cli/records.h"
+#include "compare/comparison.h"
+#include "compare/original.h"
+#include "compare/report.h"
+#include "importance/estimator.h"
+#include "measure/records_file.h"
+#include "measure/work.h"
+#include "rad_parser/scene_file.h"
+#include "sphere/directions.h"
+
+namespace rsphere {
+namespace {
+
+// The random numbers of a repeat; the first has those of rsphere itself.
+uint64_t seedOfRepeat(uint64_t seed, size_t repeat) { return repeat == 0 ? seed : mixBits(seed + repeat); }
+
+// Records without a direction ask rtrace to flush; there is nothing to compare.
+std::vector<double> withoutBogus(const std::vector<double>& rays) {
+  std::vector<double> kept;
+  for (size_t i = 0; i < rays.size(); i += 6)
+    if (V3d(rays[i + 3], rays[i + 4], rays[i + 5]).length2() != 0)
+      kept.insert(kept.end(), rays.begin() + static_cast<ptrdiff_t>(i),
+                  rays.begin() + static_cast<ptrdiff_t>(i) + 6);
+  return kept;
+}
+
+Answers answerRays(const Transport& transport, const CompareOptions& options, std::span<const double> rays) {
+  Answers answers{rays.size() / 6, static_cast<size_t>(options.repeats), {}};
+  answers.values.resize(answers.records * answers.repeats);
+  std::vector<PathTracer> tracers(threadCount(options), PathTracer(transport));
+  forEachIndex(answers.records, options, nullptr, [&](size_t i, unsigned worker) {
+    const std::span<const double> numbers = rays.subspan(6 * i, 6);
+    const InputRay in = inputRay(numbers.data(), options.irradiance);
+    const double farthest = options.limitDistance ? in.length : 0;
+    for (size_t r = 0; r < answers.repeats; ++r)
+      answers.values[r * answers.records + i] =
+          tracers[worker].trace(in.origin, in.direction, farthest, seedOfRepeat(seedOf(numbers), r)).value;
+  });
+  return answers;
+}
+
+Answers answerPoints(const Transport& transport, const CompareOptions& options,
+                     std::span<const double> points) {
+  Answers answers{points.size() / 3, static_cast<size_t>(options.repeats), {}};
+  answers.values.resize(answers.records * answers.repeats);
+  for (size_t r = 0; r < answers.repeats; ++r) {
+    SphereOptions sphere = options.sphere;
+    sphere.rotation += r;
+    const SphereEstimator estimator(transport, sphere);
+    std::vector<SphereEstimator::Workspace> workspaces;
+    for (unsigned k = 0; k < threadCount(options); ++k) workspaces.emplace_back(estimator);
+    forEachIndex(answers.records, options, nullptr, [&](size_t i, unsigned worker) {
+      const V3d point(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
+      answers.values[r * answers.records + i] = estimator.estimate(point, workspaces[worker]).mean;
+    });
+  }
+  return answers;
+}
+
+// The records `repeats` times over, in one run: equal records get other random numbers each time.
+Answers originalRays(Original& original, std::span<const double> rays, size_t repeats) {
+  std::vector<double> all;
+  for (size_t r = 0; r < repeats; ++r) all.insert(all.end(), rays.begin(), rays.end());
+  const std::vector<double> numbers = original.answers(all, "v", 3);
+  Answers answers{rays.size() / 6, repeats, {}};
+  for (size_t i = 0; i < numbers.size(); i += 3)
+    answers.values.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+  return answers;
+}
+
+// The mean of the irradiance of planes that face all ways is F/4, and pi times the mean radiance F/4pi.
+Answers originalPoints(Original& original, const CompareOptions& options, std::span<const double> points) {
+  const auto repeats = static_cast<size_t>(options.repeats),
+             count = static_cast<size_t>(options.orientations);
+  std::vector<double> rays;
+  for (size_t r = 0; r < repeats; ++r) {
+    const auto facing = rotatedDirections(baseDirections(count), options.sphere.rotation + r + 1);
+    for (size_t i = 0; i < points.size(); i += 3)
+      for (const V3d& d : facing)
+        rays.insert(rays.end(), {points[i], points[i + 1], points[i + 2], d.x, d.y, d.z});
+  }
+  const std::vector<double> numbers = original.answers(rays, "v", 3);
+  Answers answers{points.size() / 3, repeats, {}};
+  for (size_t i = 0; i < numbers.size(); i += 3 * count) {
+    Rgb sum(0, 0, 0);
+    for (size_t k = i; k < i + 3 * count; k += 3) sum += Rgb(numbers[k], numbers[k + 1], numbers[k + 2]);
+    answers.values.push_back(sum / (std::numbers::pi * static_cast<double>(count)));
+  }
+  return answers;
+}
+
+// One bounce more, as the plane's own gathering counts as one; few rays from each plane, as there are many.
+std::vector<std::string> pointOptions(const Options& options, std::span<const UsedOption> used) {
+  std::vector<std::string> words = originalOptions(options, used);
+  const std::vector<std::string> more{
+      "-I+", "-ab", std::to_string(options.ray.ambientBounces + 1), "-ad", "16", "-as", "0"};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+void refuseWhatPointsHave(const CompareOptions& options) {
+  const SphereOptions& sphere = options.sphere;
+  if (!sphere.goals.empty() || sphere.basicRadiance)
+    throw rad::Error("-Sg and -Sb: the original knows no importance to compare with");
+  if (!options.ray.sourcesVisible)
+    throw rad::Error("-dv-: the original's irradiance has the light of sources; compare rays");
+}
+
+std::string worstText(const CompareOptions& options, const Comparison& comparison, const Answers& ours,
+                      const Answers& original, std::span<const double> numbers, const Transport& transport,
+                      Original& program) {
+  const size_t per = options.sphere.on ? 3 : 6;
+  const auto count = std::min(static_cast<size_t>(options.worst), comparison.worst.size());
+  if (count == 0) return "";
+  const bool hits = !options.sphere.on && options.irradiance != Irradiance::point;
+  std::vector<double> rays;
+  for (size_t k = 0; k < count; ++k) {
+    const auto record = numbers.subspan(per * comparison.worst[k], per);
+    rays.insert(rays.end(), record.begin(), record.end());
+  }
+  const auto names = hits ? program.surfaces(rays) : std::vector<std::string>(count);
+  PathTracer tracer(transport);
+  std::string text = "Worst records (brightness, means of the repeats)\n";
+  for (size_t k = 0; k < count; ++k) {
+    const size_t i = comparison.worst[k];
+    const auto mean = [&](const Answers& answers) {
+      double sum = 0;
+      for (size_t r = 0; r < answers.repeats; ++r) sum += brightness(answers.of(i, r));
+      return sum / static_cast<double>(answers.repeats);
+    };
+    text += fmt::format("{:>8}: {:.4e}, original {:.4e}, {:+.2f}% +- {:.2f}%  at", i + 1, mean(ours),
+                        mean(original), 100 * comparison.records[i].difference,
+                        100 * comparison.records[i].error);
+    for (size_t c = 0; c < per; ++c) text += fmt::format(" {:g}", rays[per * k + c]);
+    if (hits) {
+      const InputRay in = inputRay(&rays[per * k], options.irradiance);
+      const Ray hit = tracer.cast(in.origin, in.direction, options.limitDistance ? in.length : 0);
+      const RayAnswer answer = answerOf(transport.scene(), hit);
+      text += answer.surface == names[k] ? fmt::format("  hits {}", names[k])
+                                         : fmt::format("  hits {}, original {}", answer.surface, names[k]);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+CompareStatus runCompare(CompareOptions options, std::span<const UsedOption> used, const Messages& messages) {
+  if (options.scene.size() < 2)
+    throw rad::Error("missing argument: a scene and a file of records are needed");
+  if (options.sphere.on) refuseWhatPointsHave(options);
+  const OriginalProgram program = findOriginal();
+  const std::string recordsName = options.scene.back();
+  options.scene.pop_back();
+  std::vector<double> numbers = readRecords(recordsName, options);
+  const size_t perRecord = options.sphere.on ? 3 : 6;
+  if (!options.sphere.on) numbers = withoutBogus(numbers);
+  const size_t records = numbers.size() / perRecord;
+  if (records == 0) throw rad::Error(fmt::format("{}: no record has a direction", recordsName));
+  if (!options.differences.empty() && (options.width < 1 || options.height < 1 ||
+                                       static_cast<size_t>(options.width * options.height) != records))
+    throw rad::Error(fmt::format("-Cp: {} records are no picture of -x {} times -y {}", records,
+                                 options.width, options.height));
+  if (options.ray.ambientBounces > 0 && options.ray.ambientAccuracy > 0)
+    messages.warning(
+        "the original keeps indirect light in a cache, whose error shows as bias, and repeats use it again: "
+        "-aa 0 compares without");
+
+  const double start = processSeconds();
+  const rad::Warn warn = [&](std::string_view text) { messages.warning(text); };
+  const rad::ReadOptions read{options.commands, warn};
+  const Scene scene = buildScene(rad::readScene(options.scene, read), read, options.sphere.goals);
+  const bool isOctree = scene.description.cube.has_value();
+  const Transport transport(scene, options.ray, options.irradiance, options.sphere.basicRadiance, warn);
+  const Answers ours =
+      options.sphere.on ? answerPoints(transport, options, numbers) : answerRays(transport, options, numbers);
+  const double ourSeconds = processSeconds() - start;
+
+  Original original(program, options.scene, isOctree,
+                    options.sphere.on ? pointOptions(options, used) : originalOptions(options, used));
+  const Answers theirs = options.sphere.on ? originalPoints(original, options, numbers)
+                                           : originalRays(original, numbers, ours.repeats);
+  const Comparison comparison =
+      compare(ours, theirs, options.tolerance, options.shareBeyond, !options.sphere.on);
+
+  RecordWriter out(1);
+  out.write(fmt::format("{} {}, {} repeats, beside {} ({})\n", records, options.sphere.on ? "points" : "rays",
+                        options.repeats, program.path, program.version));
+  out.write(figuresText(comparison, options.tolerance));
+  out.write(histogramText(comparison.records, options.tolerance));
+  out.write(worstText(options, comparison, ours, theirs, numbers, transport, original));
+  out.write(fmt::format("CPU time of all repeats, loading included: rsphere {:.2f} s, the original {:.2f} s",
+                        ourSeconds, original.seconds()));
+  out.write(isOctree ? "\n" : fmt::format(", oconv {:.2f} s\n", original.octreeSeconds()));
+  out.flush();
+  if (!options.differences.empty())
+    writeDifferences(options.differences, options.width, options.height, comparison.records,
+                     options.tolerance);
+  switch (comparison.verdict) {
+    case Verdict::same:
+    case Verdict::small:
+      return CompareStatus::same;
+    case Verdict::undecided:
+      return CompareStatus::undecided;
+    case Verdict::differs:
+      break;
+  }
+  return CompareStatus::differs;
+}
+
+}  // namespace rsphere

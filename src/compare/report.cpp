@@ -1,0 +1,118 @@
+#include "compare/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "image/codec.h"
+#include "rad_parser/error.h"
+
+namespace rsphere {
+namespace {
+
+std::string percent(double x) {
+  const double size = std::abs(100 * x);
+  if (size >= 1000) return fmt::format("{:.2g}%", 100 * x);
+  return fmt::format("{:.{}f}%", 100 * x, size >= 10 || size == 0 ? 1 : size >= .1 ? 2 : 4);
+}
+std::string signedPercent(double x) { return (x < 0 ? "" : "+") + percent(x); }
+
+std::string wordsOf(const ChannelComparison& c) {
+  switch (c.verdict) {
+    case Verdict::same:
+      return "the same but for noise";
+    case Verdict::small:
+      return "a bias below the tolerance";
+    case Verdict::undecided:
+      return "noise could hide more than the tolerance";
+    case Verdict::differs:
+      return c.beyond > 0 ? fmt::format("differs: {} records whatever the noise", c.beyond)
+                          : "differs: a bias above the tolerance";
+  }
+  return "";
+}
+
+std::string_view conclusion(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::same:
+      return "No difference but noise";
+    case Verdict::small:
+      return "Within the tolerance: a bias that is certain, but smaller";
+    case Verdict::undecided:
+      return "Undecided: noise could hide a difference above the tolerance; more repeats (-Cr) or samples "
+             "tell";
+    case Verdict::differs:
+      return "They differ";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string figuresText(const Comparison& comparison, double tolerance) {
+  std::string text = fmt::format(
+      "{:<6}{:>11}{:>9}{:>10}{:>9}{:>10}{:>9}{:>9}{:>9}{:>9}{:>9}\n"
+      "{:<6}{:>11}{:>9}{:>10}{:>9}{:>10}{:>9}{:>9}{:>9}{:>9}{:>9}\n",
+      "", "original", "mean", "+-", "records", "of it", "half", "90%", "99%", "all", "within", "", "mean",
+      "differs", "", "rms", "noise", "below", "below", "below", "below", percent(tolerance));
+  constexpr std::array kNames = {"red", "green", "blue"};
+  for (size_t i = 0; i < 3; ++i) {
+    const ChannelComparison& c = comparison.channels[i];
+    text += fmt::format("{:<6}{:>11.4e}{:>9}{:>10}{:>9}{:>10}", kNames[i], c.originalMean,
+                        signedPercent(c.bias), percent(c.biasError), percent(c.rms), percent(c.noiseRms));
+    for (const double p : c.percentiles) text += fmt::format("{:>9}", percent(p));
+    text += fmt::format("{:>9}\n", percent(c.shareWithin));
+  }
+  const ChannelComparison& green = comparison.channels[1];
+  text += fmt::format("Noise of one answer (rms, green): rsphere {}, the original {}\n",
+                      percent(green.ourNoise), percent(green.originalNoise));
+  for (size_t i = 0; i < 3; ++i) text += fmt::format("{}: {}\n", kNames[i], wordsOf(comparison.channels[i]));
+  return text + fmt::format("{}.\n", conclusion(comparison.verdict));
+}
+
+std::string histogramText(std::span<const RecordDifference> records, double tolerance) {
+  const double unit = tolerance > 0 ? tolerance : 1e-6;
+  constexpr std::array kEdges = {-8., -4., -2., -1., -.5, .5, 1., 2., 4., 8.};  // times the tolerance
+  constexpr int kWidest = 50;
+  std::array<size_t, kEdges.size() + 1> counts{};
+  for (const RecordDifference& r : records)
+    ++counts[static_cast<size_t>(std::lower_bound(kEdges.begin(), kEdges.end(), r.difference / unit) -
+                                 kEdges.begin())];
+  const size_t most = *std::max_element(counts.begin(), counts.end());
+  std::string text = "Relative difference of records (brightness)\n";
+  for (size_t k = 0; k < counts.size(); ++k) {
+    const std::string low = k > 0 ? signedPercent(kEdges[k - 1] * unit) : "less";
+    const std::string high = k < kEdges.size() ? signedPercent(kEdges[k] * unit) : "more";
+    const auto width = (counts[k] * kWidest + most - 1) / most;
+    text += fmt::format("{:>9} to {:<9}{:>9}  {}\n", low, high, counts[k], std::string(width, '#'));
+  }
+  return text;
+}
+
+void writeDifferences(const std::string& name, int64_t width, int64_t height,
+                      std::span<const RecordDifference> records, double tolerance) {
+  const auto check = [&](std::string why) {
+    std::replace(why.begin(), why.end(), '\n', ' ');
+    if (!why.empty())
+      throw rad::Error(fmt::format("cannot write picture \"{}\": {}", name, why), rad::Status::system);
+  };
+  std::string format;
+  check(imageCodec().formatOf(name, format));
+  const bool sizes = format == "openexr" || format == "hdr" || format == "tiff";
+  constexpr double kFullColor = 10;  // tolerances
+  std::vector<float> pixels;
+  pixels.reserve(records.size() * 3);
+  for (const RecordDifference& r : records) {
+    const double size = std::abs(r.difference);
+    const double pale = 1 - std::min(1., size / (kFullColor * (tolerance > 0 ? tolerance : 1e-6)));
+    const std::array<double, 3> color = sizes              ? std::array{size, size, size}
+                                        : r.difference > 0 ? std::array{1., pale, pale}
+                                                           : std::array{pale, pale, 1.};
+    for (const double c : color) pixels.push_back(static_cast<float>(c));
+  }
+  check(imageCodec().write(name, static_cast<int>(width), static_cast<int>(height), sizes, pixels.data()));
+}
+
+}  // namespace rsphere

@@ -1,0 +1,34 @@
+#include "measure/records_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "cli/records.h"
+#include "rad_parser/error.h"
+
+namespace rsphere {
+
+std::vector<double> readRecords(const std::string& name, const Options& options) {
+  struct Descriptor {
+    int fd;
+    ~Descriptor() {
+      if (fd > 0) close(fd);
+    }
+  };
+  const Descriptor file{name == "-" ? 0 : open(name.c_str(), O_RDONLY | O_CLOEXEC)};
+  if (file.fd < 0)
+    throw rad::Error(fmt::format("cannot open \"{}\": {}", name, std::strerror(errno)), rad::Status::system);
+  RecordReader reader(file.fd, options.in, options.sphere.on ? 3 : 6, name == "-" ? "stdin" : name);
+  std::vector<double> numbers;
+  constexpr size_t kAtOnce = 4096;
+  while (reader.read(numbers, kAtOnce) > 0) {
+  }
+  if (numbers.empty()) throw rad::Error(fmt::format("{}: no records", name));
+  return numbers;
+}
+
+}  // namespace rsphere

@@ -1,0 +1,127 @@
+#include "compare/comparison.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/support/statistics.h"
+
+namespace rsphere {
+namespace {
+
+double normal(Random& random) {
+  const double r = std::sqrt(-2 * std::log(1 - random.uniform()));
+  return r * std::cos(2 * std::numbers::pi * random.uniform());
+}
+
+// Records from 1 to 2 with a relative noise and bias.
+Answers answersOf(size_t records, size_t repeats, double noise, double bias, uint64_t seed) {
+  Random random(seed);
+  Answers answers{records, repeats, {}};
+  for (size_t r = 0; r < repeats; ++r)
+    for (size_t i = 0; i < records; ++i) {
+      const double value = 1 + static_cast<double>(i) / static_cast<double>(records);
+      Rgb color;
+      for (int c = 0; c < 3; ++c) color[c] = value * (1 + bias) * (1 + noise * normal(random));
+      answers.values.push_back(color);
+    }
+  return answers;
+}
+
+constexpr double kTolerance = .002, kShare = .001;
+
+Comparison ofBias(double bias, double noise, uint64_t seed, double tolerance = kTolerance) {
+  return compare(answersOf(300, 8, noise, bias, mixBits(seed)), answersOf(300, 8, noise, 0, mixBits(~seed)),
+                 tolerance, kShare, true);
+}
+
+TEST(Compare, TellsABiasFromNoise) {
+  EXPECT_EQ(ofBias(.005, .01, 1).verdict, Verdict::differs);
+  EXPECT_EQ(ofBias(0, .01, 2).verdict, Verdict::same);
+}
+
+TEST(Compare, ABiasBelowTheToleranceIsSmall) {
+  const Comparison comparison = ofBias(.005, .01, 3, .01);
+  EXPECT_EQ(comparison.verdict, Verdict::small);
+  EXPECT_NEAR(comparison.channels[1].bias, .005, 4 * comparison.channels[1].biasError);
+}
+
+TEST(Compare, TooMuchNoiseIsUndecided) {
+  EXPECT_EQ(ofBias(0, .3, 4).verdict, Verdict::undecided);
+  EXPECT_EQ(ofBias(.005, .3, 4).verdict, Verdict::undecided);
+}
+
+// kFalseAlarm is for all channels together; the spoiled twin, a tenth of the noise as bias, alarms always.
+TEST(Compare, FalseAlarmsAreAsRareAsSaid) {
+  int alarms = 0, spoiled = 0;
+  constexpr int kRuns = 300;
+  for (uint64_t seed = 0; seed < kRuns; ++seed) {
+    const auto is = [&](double bias) {
+      return compare(answersOf(40, 4, .01, bias, mixBits(seed)), answersOf(40, 4, .01, 0, mixBits(~seed)),
+                     .01, kShare, true)
+                 .verdict != Verdict::same;
+    };
+    alarms += is(0);
+    spoiled += is(.005);
+  }
+  EXPECT_LE(alarms, 3);  // .3 expected; more than 3 once in 4000
+  EXPECT_GT(spoiled, kRuns / 2);
+}
+
+// Where records share their noise, as points that share directions do, only whole repeats tell.
+TEST(Compare, SharedNoiseIsNoBias) {
+  int alarms = 0, naive = 0;
+  for (uint64_t seed = 0; seed < 200; ++seed) {
+    Random random(mixBits(seed));
+    Answers ours = answersOf(50, 6, .001, 0, seed), theirs = answersOf(50, 6, .001, 0, ~seed);
+    for (size_t r = 0; r < ours.repeats; ++r) {
+      const double shared = 1 + .01 * normal(random);
+      for (size_t i = 0; i < ours.records; ++i) ours.values[r * ours.records + i] *= shared;
+    }
+    alarms += compare(ours, theirs, .5, kShare, false).verdict != Verdict::same;
+    naive += compare(ours, theirs, .5, kShare, true).verdict != Verdict::same;
+  }
+  EXPECT_LE(alarms, 3);
+  EXPECT_GT(naive, 100);
+}
+
+TEST(Compare, FindsTheRecordThatDiffers) {
+  Answers ours = answersOf(300, 8, .003, 0, 5), theirs = answersOf(300, 8, .003, 0, 6);
+  for (size_t r = 0; r < ours.repeats; ++r) ours.values[r * 300 + 123] *= 1.1;
+  const Comparison comparison = compare(ours, theirs, .05, 0, true);
+  EXPECT_EQ(comparison.worst[0], 123u);
+  EXPECT_EQ(comparison.channels[0].beyond, 1u);
+  EXPECT_EQ(comparison.verdict, Verdict::differs);
+  EXPECT_NEAR(comparison.records[123].difference, .1, .01);
+  // One of 300 may be beyond it; it is a bias of the mean all the same.
+  EXPECT_EQ(compare(ours, theirs, .05, .004, true).verdict, Verdict::small);
+}
+
+TEST(Compare, FiguresAreThoseOfTheDefinition) {
+  const Answers ours{4,
+                     2,
+                     {Rgb(1, 1, 1), Rgb(2, 2, 2), Rgb(3, 3, 3), Rgb(4.4, 4.4, 4.4), Rgb(1, 1, 1),
+                      Rgb(2, 2, 2), Rgb(3, 3, 3), Rgb(4.4, 4.4, 4.4)}};
+  const Answers theirs{4,
+                       2,
+                       {Rgb(1, 1, 1), Rgb(2, 2, 2), Rgb(3, 3, 3), Rgb(4, 4, 4), Rgb(1, 1, 1), Rgb(2, 2, 2),
+                        Rgb(3, 3, 3), Rgb(4, 4, 4)}};
+  const ChannelComparison c = compare(ours, theirs, .05, 0, true).channels[0];
+  EXPECT_NEAR(c.bias, .04, 1e-12);
+  EXPECT_EQ(c.biasError, 0);
+  EXPECT_NEAR(c.rms, .05, 1e-12);
+  EXPECT_EQ(c.shareWithin, .75);
+  EXPECT_EQ(c.beyond, 1u);
+  EXPECT_NEAR(c.percentiles[3], .1, 1e-12);
+  EXPECT_EQ(c.percentiles[0], 0);
+}
+
+// Records that are black by the original count against the mean.
+TEST(Compare, DarkRecordsHaveAScale) {
+  const Answers ours{2, 2, {Rgb(.01, 0, 0), Rgb(1, 0, 0), Rgb(.01, 0, 0), Rgb(1, 0, 0)}};
+  const Answers theirs{2, 2, {Rgb(0, 0, 0), Rgb(1, 0, 0), Rgb(0, 0, 0), Rgb(1, 0, 0)}};
+  const Comparison comparison = compare(ours, theirs, .05, 0, true);
+  EXPECT_NEAR(comparison.channels[0].percentiles[3], .01 / (kDarkest * .5), 1e-9);
+  EXPECT_EQ(comparison.channels[1].verdict, Verdict::same);
+}
+
+}  // namespace
+}  // namespace rsphere
