@@ -1,0 +1,208 @@
+#include "trade/trade_run.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+
+#include "cli/records.h"
+#include "measure/records_file.h"
+#include "rad_parser/scene_file.h"
+#include "trade/ladder.h"
+#include "trade/trade_report.h"
+#include "trade/trials.h"
+
+namespace rsphere {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Rotations of the reference begin here, those of settings at 1: none is used by both.
+constexpr uint64_t kReferenceRotation = uint64_t{1} << 30;
+// Repeats of the reference: its error is not known with fewer, and more help nobody.
+constexpr size_t kLeastRotations = 8, kMostRotations = 100000;
+// Answers whose estimates are asked for, of each setting, at least.
+constexpr size_t kEstimates = 8;
+constexpr double kUsualAccuracy = .01;
+
+std::vector<double> chosenPoints(const std::vector<double>& all, int most) {
+  const size_t count = all.size() / 3, chosen = std::min(count, static_cast<size_t>(most));
+  std::vector<double> points;
+  for (size_t k = 0; k < chosen; ++k) {
+    const auto from = all.begin() + static_cast<ptrdiff_t>(3 * (k * count / chosen));
+    points.insert(points.end(), from, from + 3);
+  }
+  return points;
+}
+
+class Trade {
+ public:
+  Trade(const TradeOptions& options, std::span<const UsedOption> used, const Messages& messages,
+        StopSignals& signals)
+      : options_(options), used_(used), messages_(messages), signals_(signals) {}
+
+  void run();
+
+ private:
+  Options optionsOf(std::span<const std::string> words) const;
+  bool measure(std::span<const std::string> words, const Options& options, Trials& trials,
+               Trial& trial) const;
+  std::optional<Reference> makeReference(Trials& trials, double target) const;
+  void progress(const std::string& text) const;
+  void report(const std::vector<Figures>& all, const Reference& reference, double accuracy) const;
+  std::string pasteLine(std::span<const std::string> words) const;
+
+  const TradeOptions& options_;
+  std::span<const UsedOption> used_;
+  const Messages& messages_;
+  StopSignals& signals_;
+};
+
+// What is given, with a setting's words behind it: they count.
+Options Trade::optionsOf(std::span<const std::string> words) const {
+  std::vector<std::string> line{options_.program};
+  line.insert(line.end(), options_.words.begin(), options_.words.end());
+  line.insert(line.end(), {"-S+", "-Sa", "0"});
+  line.insert(line.end(), words.begin(), words.end());
+  line.insert(line.end(), options_.scene.begin(), options_.scene.end());
+  TradeOptions options;
+  parseCompanion(line, tradeCompanion(), options);
+  return options;
+}
+
+bool Trade::measure(std::span<const std::string> words, const Options& given, Trials& trials,
+                    Trial& trial) const {
+  trial.words.assign(words.begin(), words.end());
+  Options options = given;
+  const bool estimates = options.sphere.accuracy > 0;
+  const auto repeats = static_cast<uint64_t>(options_.repeats);
+  for (uint64_t r = 1; r <= repeats; ++r) {
+    options.sphere.rotation = given.sphere.rotation + r;
+    if (!trials.run(options, estimates, true, trial)) return false;
+  }
+  const double count = static_cast<double>(trial.answers.values.size());
+  trial.seconds /= count;
+  trial.directions /= count;
+  for (uint64_t r = repeats + 1; trial.estimates.size() < kEstimates; ++r) {
+    options.sphere.rotation = given.sphere.rotation + r;
+    if (!trials.run(options, true, false, trial)) return false;
+  }
+  return true;
+}
+
+// Empty where a signal came before there was one.
+std::optional<Reference> Trade::makeReference(Trials& trials, double target) const {
+  Options options = optionsOf(referenceWords());
+  Trial trial;
+  std::optional<Reference> reference;
+  for (uint64_t r = 0; r < kMostRotations; ++r) {
+    options.sphere.rotation = kReferenceRotation + r;
+    if (!trials.run(options, false, false, trial)) return std::nullopt;
+    if (r + 1 < kLeastRotations) continue;
+    reference.emplace(trial.answers);
+    progress(fmt::format("reference: {} rotations, {:.3f}% of {:.3f}%", r + 1, 100 * reference->error(),
+                         100 * target));
+    if (reference->error() <= target) break;
+  }
+  return reference;
+}
+
+void Trade::progress(const std::string& text) const {
+  if (options_.progressSeconds > 0 || isatty(2) == 1) messages_.report(text);
+}
+
+// The command with the setting, as it can be typed: without what the setting says otherwise.
+std::string Trade::pasteLine(std::span<const std::string> words) const {
+  std::string line = "rsphere";
+  for (const UsedOption& option : used_) {
+    const std::string_view name = option.entry->name;
+    if (option.entry->group == Group::companion || name == "-Sa" || name == "-S" || name == "-t" ||
+        std::find(words.begin(), words.end(), name) != words.end())
+      continue;
+    for (const std::string& word : option.words) line += ' ' + word;
+  }
+  for (const std::string& word : words) line += ' ' + word;
+  for (size_t i = 0; i + 1 < options_.scene.size(); ++i) line += ' ' + options_.scene[i];
+  return line + " < " + options_.scene.back();
+}
+
+void writeFile(const std::string& name, const std::string& text) {
+  if (name.empty()) return;
+  std::ofstream file(name, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw rad::Error(fmt::format("cannot write \"{}\"", name), rad::Status::system);
+}
+
+void Trade::report(const std::vector<Figures>& all, const Reference& reference, double accuracy) const {
+  std::string text = fmt::format(
+      "{} points; reference: {} rotations of \"{}\", relative standard error {:.3f}% (mean over the points "
+      "{:.3f}%)\n",
+      reference.points(), reference.repeats(), fmt::join(referenceWords(), " "), 100 * reference.error(),
+      100 * reference.meanError());
+  text += tradeTable(all);
+  const auto most = std::min_element(all.begin(), all.end(),
+                                     [](const Figures& a, const Figures& b) { return a.rms < b.rms; });
+  if (const auto found = cheapest(all, accuracy)) {
+    text += fmt::format("\nThe fastest for an rms error of {:g}% (95% sure: {:.3f}%):\n  {}\n",
+                        100 * accuracy, 100 * all[*found].rmsAtMost, pasteLine(all[*found].words));
+  } else {
+    text += fmt::format("\nNone is sure to have an rms error of {:g}%; the nearest, with {:.3f}%:\n  {}\n",
+                        100 * accuracy, 100 * most->rms, pasteLine(most->words));
+  }
+  RecordWriter out(1);
+  out.write(text);
+  out.flush();
+  writeFile(options_.table, tradeCsv(all, reference));
+  writeFile(
+      options_.plot,
+      tradePlot(all, fmt::format("{}: {} points",
+                                 fmt::join(std::span(options_.scene).first(options_.scene.size() - 1), " "),
+                                 reference.points())));
+}
+
+void Trade::run() {
+  const double accuracy = options_.sphere.accuracy > 0 ? options_.sphere.accuracy : kUsualAccuracy;
+  std::vector<std::vector<std::string>> settings = ladder(options_);
+  std::vector<Options> parsed;
+  for (const auto& words : settings) parsed.push_back(optionsOf(words));
+  const std::vector<double> points =
+      chosenPoints(readRecords(options_.scene.back(), options_), options_.mostPoints);
+
+  const rad::Warn warn = [&](std::string_view text) { messages_.warning(text); };
+  const rad::ReadOptions read{options_.commands, warn};
+  const Scene scene =
+      buildScene(rad::readScene(std::span(options_.scene).first(options_.scene.size() - 1), read), read,
+                 options_.sphere.goals);
+  signals_.defer(true);
+  Trials trials(scene, points, signals_);
+  const double target = options_.referenceError > 0 ? options_.referenceError : accuracy / 10;
+  const std::optional<Reference> reference = makeReference(trials, target);
+  std::vector<Figures> all;
+  const auto start = Clock::now();
+  for (size_t i = 0; reference && i < settings.size(); ++i) {
+    Trial trial;
+    if (!measure(settings[i], parsed[i], trials, trial)) break;
+    all.push_back(figuresOf(trial, *reference));
+    progress(fmt::format("setting {} of {}: {:.1f} ms a point, {:.3f}%; {:.0f} s", i + 1, settings.size(),
+                         1e3 * all.back().seconds, 100 * all.back().rms,
+                         std::chrono::duration<double>(Clock::now() - start).count()));
+  }
+  markBest(all);
+  if (!all.empty()) report(all, *reference, accuracy);
+  signals_.defer(false);
+  if (signals_.raised()) throw rad::Error(signals_.name(), rad::Status::signal);
+}
+
+}  // namespace
+
+void runTrade(const TradeOptions& options, std::span<const UsedOption> used, const Messages& messages,
+              StopSignals& signals) {
+  if (options.scene.size() < 2) throw rad::Error("missing argument: a scene and a file of points are needed");
+  if (!options.sphere.on) throw rad::Error("-S-: rays have no settings of sphere mode to choose among");
+  Trade(options, used, messages, signals).run();
+}
+
+}  // namespace rsphere
