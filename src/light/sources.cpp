@@ -171,19 +171,20 @@ Part shrunk(const Part& p, double jitter) {
 bool isNear(const LightSource& source, const Part& part, const V3d& point) {
   constexpr double kNear = .5;
   const double width =
-      2 * std::max(source.u.length() * (part.s1 - part.s0), source.v.length() * (part.t1 - part.t0));
+      2 * std::max(source.extentU * (part.s1 - part.s0), source.extentV * (part.t1 - part.t0));
   const V3d middle = onPlane(source, (part.s0 + part.s1) / 2, (part.t0 + part.t1) / 2);
   return width * width > kNear * kNear * (middle - point).length2();
 }
 
-// Splits until every part is small against its distance. size: largest size/distance allowed of a half-extent
-// pair.
+// Splits until every part is small against its distance: its half-extents u and v at most `allowed` times
+// that.
 template <class Position, class Use>
 void split(const Part& part, int most, double u, double v, double allowed, const V3d& from,
            const Position& position, const Use& use) {
   if (most >= 2) {
-    const double distance = (position((part.s0 + part.s1) / 2, (part.t0 + part.t1) / 2) - from).length();
-    if (distance * allowed < std::max(u, v)) {
+    const V3d towards = position((part.s0 + part.s1) / 2, (part.t0 + part.t1) / 2) - from;
+    const double larger = std::max(u, v);
+    if (towards.length2() * allowed * allowed < larger * larger) {
       Part a = part, b = part;
       if (u > v) {
         a.s1 = b.s0 = (part.s0 + part.s1) / 2;
@@ -208,26 +209,48 @@ double jittered(double from, double to, double jitter, Random& random) {
 }  // namespace
 
 LightSources::LightSources(const Scene& scene) : scene_(scene) {
+  findSources();
+  measureParts();
+}
+
+LightSources::LightSources(const Scene& scene, int relays, const SurfaceFunctions& functions,
+                           const rad::Warn& warn)
+    : scene_(scene) {
+  findSources();
+  addVirtualSources(scene, relays, functions, warn, sources_);
+  measureParts();
+}
+
+void LightSources::measureParts() {
+  for (LightSource& source : sources_) {
+    source.extentU = source.u.length();
+    source.extentV = source.v.length();
+    // A disk counts as the square of its area, as for rtrace.
+    if (source.map == LightSource::Map::disk) source.extentU = source.extentV = std::sqrt(source.area) / 2;
+  }
+}
+
+void LightSources::findSources() {
   const auto add = [&](uint32_t surface) -> LightSource& {
     LightSource& source = sources_.emplace_back();
     source.surface = static_cast<int32_t>(surface);
     std::visit(
         [&](const auto& shape) {
           using S = std::decay_t<decltype(shape)>;
-          if constexpr (kIsPlain<S> || std::is_same_v<S, Distant>) setShape(source, shape, scene);
+          if constexpr (kIsPlain<S> || std::is_same_v<S, Distant>) setShape(source, shape, scene_);
         },
-        scene.surfaces[surface].shape);
+        scene_.surfaces[surface].shape);
     return source;
   };
   // As for rtrace, what shines in octrees and meshes is only seen.
-  for (uint32_t i = 0; i < scene.outermost().size(); ++i) {
-    const Surface& surface = scene.surfaces[i];
+  for (uint32_t i = 0; i < scene_.outermost().size(); ++i) {
+    const Surface& surface = scene_.surfaces[i];
     if (surface.material == kNone) continue;
-    if (scene.importance) {
-      if (surface.goal && canBeAimedAt(surface.shape, scene)) add(i);
+    if (scene_.importance) {
+      if (surface.goal && canBeAimedAt(surface.shape, scene_)) add(i);
       continue;
     }
-    const Material* material = scene.materialOf(surface);
+    const Material* material = scene_.materialOf(surface);
     if (!material) continue;
     const std::optional<Rgb> radiance = sourceRadiance(*material);
     if (!radiance || maxChannel(*radiance) <= 0) continue;
@@ -237,12 +260,6 @@ LightSources::LightSources(const Scene& scene) : scene_(scene) {
     if (const auto* glow = std::get_if<Glow>(material)) source.reach = glow->reach;
     if (const auto* spot = std::get_if<Spotlight>(material)) source.spot = *spot;
   }
-}
-
-LightSources::LightSources(const Scene& scene, int relays, const SurfaceFunctions& functions,
-                           const rad::Warn& warn)
-    : LightSources(scene) {
-  addVirtualSources(scene, relays, functions, warn, sources_);
 }
 
 void LightSources::sample(uint32_t index, const V3d& point, const SourceSampling& how, Random& random,
@@ -279,6 +296,8 @@ void LightSources::sample(uint32_t index, const V3d& point, const SourceSampling
     samples.push_back(sample);
   };
 
+  const bool plane = source.map <= LightSource::Map::fan;
+  if (plane && towards.dot(source.normal) >= 0) return;  // behind it
   const double distance = source.distant ? 1e10 : towards.length();
   if (source.reach > 0 && distance > source.reach + source.radius) return;
   const double wholly = !source.distant ? source.radius : source.cosHalfAngle > 0 ? source.sinHalfAngle : 1;
@@ -321,7 +340,7 @@ void LightSources::sample(uint32_t index, const V3d& point, const SourceSampling
 
     case LightSource::Map::tube: {
       const V3d axis = source.u.normalized();
-      const double halfLength = source.u.length();
+      const double halfLength = source.extentU;
       const double radius = source.area / (4 * halfLength);
       const double along = towards.dot(axis);
       const double fromAxis = (towards - along * axis).length();
@@ -339,14 +358,15 @@ void LightSources::sample(uint32_t index, const V3d& point, const SourceSampling
                 (length * length),
             length);
       };
-      // Too close to be split with profit: its width counts as much as its length.
-      split(Part{}, fromAxis <= 2 * radius ? 1 : kMostParts, allowed > 0 ? halfLength : 0, 0, allowed, point,
-            at, use);
+      // Nearer than that its width counts as much as its length: it is not split with profit.
+      if (allowed > 0 && fromAxis > 2 * radius)
+        split(Part{}, kMostParts, halfLength, 0, allowed, point, at, use);
+      else
+        use(Part{});
       return;
     }
 
     default: {
-      if (towards.dot(source.normal) >= 0) return;  // behind it
       const auto at = [&](double s, double t) { return onPlane(source, s, t); };
       // Spread evenly over the part as it is seen.
       const auto addNear = [&](Part part) {
@@ -380,10 +400,10 @@ void LightSources::sample(uint32_t index, const V3d& point, const SourceSampling
         add(aim / length,
             source.area * (part.s1 - part.s0) * (part.t1 - part.t0) * cosine / (length * length), length);
       };
-      // A disk counts as the square of its area, as for rtrace.
-      const double disk = source.map == LightSource::Map::disk ? std::sqrt(source.area) / 2 : 0;
-      const double u = disk > 0 ? disk : source.u.length(), v = disk > 0 ? disk : source.v.length();
-      split(Part{}, kMostParts, allowed > 0 ? u : 0, allowed > 0 ? v : 0, allowed, point, at, use);
+      if (allowed > 0)
+        split(Part{}, kMostParts, source.extentU, source.extentV, allowed, point, at, use);
+      else
+        use(Part{});
     }
   }
 }

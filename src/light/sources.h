@@ -48,9 +48,10 @@ struct LightSource {
     cone            // distant
   } map = Map::parallelogram;
   V3d u{0, 0, 0}, v{0, 0, 0};
-  V3d normal{0, 0, 0};          // of plane sources
-  double area = 0;              // of plane sources; of a tube's length times its diameter
-  std::vector<double> fanArea;  // cumulative shares of the fan's triangles
+  double extentU = 0, extentV = 0;  // half of what its parts are measured by
+  V3d normal{0, 0, 0};              // of plane sources
+  double area = 0;                  // of plane sources; of a tube's length times its diameter
+  std::vector<double> fanArea;      // cumulative shares of the fan's triangles
   std::vector<V3d> fanVertices;
   // A real one, plane and whole: what is aimed at the square's image on it hits it there.
   bool hitsWhereAimed = false;
@@ -96,6 +97,9 @@ class LightSources {
               std::vector<SourceSample>& samples) const;
 
  private:
+  void findSources();
+  void measureParts();
+
   const Scene& scene_;
   std::vector<LightSource> sources_;
 };

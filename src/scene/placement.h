@@ -26,11 +26,20 @@ Placement within(const Placement& outer, const Placement& inner);
 // The box around a placed box.
 Box3d placed(const Placement& placement, const Box3d& box);
 
-// The placements between the world and a thing that is placed within others, the outermost first.
+// The placements between the world and a thing that is placed within others, the outermost first. Every ray
+// has one, most of them empty: what is not used is neither set nor copied.
 struct PlacementPath {
   static constexpr size_t kDeepest = 16;  // instances within each other beyond this are refused
   uint8_t count = 0;
-  std::array<uint32_t, kDeepest> placements{};  // indices in Scene::placements; `count` of them
+  std::array<uint32_t, kDeepest> placements;  // indices in Scene::placements; `count` of them
+
+  PlacementPath() {}
+  PlacementPath(const PlacementPath& other) { *this = other; }
+  PlacementPath& operator=(const PlacementPath& other) {
+    count = other.count;
+    for (uint8_t i = 0; i < count; ++i) placements[i] = other.placements[i];
+    return *this;
+  }
 };
 
 }  // namespace rsphere

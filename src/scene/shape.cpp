@@ -36,14 +36,19 @@ Polygon makePolygon(std::span<const V3d> all, uint32_t first, uint32_t count) {
   const V3d n(std::abs(polygon.normal.x), std::abs(polygon.normal.y), std::abs(polygon.normal.z));
   polygon.axis = n.y > n.x ? 1 : 0;
   if (n.z > n[polygon.axis]) polygon.axis = 2;
+  Box3d box;
+  for (const V3d& v : vertices) box.extendBy(v);
+  polygon.extent = box.size().x + box.size().y + box.size().z - box.size()[polygon.axis];
   return polygon;
 }
 
-bool inside(const Polygon& polygon, std::span<const V3d> all, const V3d& point, double tolerance) {
-  const int xi = polygon.axis == 2 ? 0 : polygon.axis + 1;
-  const int yi = xi == 2 ? 0 : xi + 1;
-  const double x = point[xi], y = point[yi];
-  const auto vertices = all.subspan(polygon.firstVertex, polygon.vertices);
+namespace {
+
+// The cross product of a point that counts as on an edge, at most. size: of what it is computed from.
+double onEdge(double tolerance, double size) { return (tolerance + kRounding * size) * size; }
+
+// inside() for a point that is in line with an edge, if not on it.
+bool insideClosely(std::span<const V3d> vertices, int xi, int yi, double x, double y, double tolerance) {
   bool odd = false;
   const V3d* from = &vertices.back();
   for (const V3d& to : vertices) {
@@ -60,25 +65,43 @@ bool inside(const Polygon& polygon, std::span<const V3d> all, const V3d& point, 
     // The point lies in the edge's box: on the edge, or clearly on one side of it?
     const double cross = x0 * y1 - x1 * y0;
     const double size = std::abs(x0) + std::abs(x1) + std::abs(y0) + std::abs(y1);
-    if (std::abs(cross) <= (tolerance + kRounding * size) * size) return true;
+    if (std::abs(cross) <= onEdge(tolerance, size)) return true;
     odd ^= crosses && (cross > 0) == (y1 > y0);
   }
   return odd;
 }
 
-bool intersect(const Polygon& polygon, std::span<const V3d> vertices, const V3d& origin, const V3d& direction,
-               double farthest, ShapeHit& hit) {
-  const double cosine = -polygon.normal.dot(direction);
-  if (std::abs(cosine) <= kSamePlace) return false;
-  const double t = (polygon.normal.dot(origin) - polygon.offset) / cosine;
-  if (!within(t, farthest) || polygon.area == 0) return false;
+}  // namespace
+
+// Without branches that depend on where the point is: half of them would be guessed wrongly.
+bool inside(const Polygon& polygon, std::span<const V3d> all, const V3d& point, double tolerance) {
+  const int xi = polygon.axis == 2 ? 0 : polygon.axis + 1;
+  const int yi = xi == 2 ? 0 : xi + 1;
+  const double x = point[xi], y = point[yi];
+  const auto vertices = all.subspan(polygon.firstVertex, polygon.vertices);
+  // Enough for every edge whose box the point is in.
+  const double near = onEdge(tolerance, polygon.extent + 4 * tolerance);
+  bool odd = false, close = false;
+  double x0 = vertices.back()[xi] - x, y0 = vertices.back()[yi] - y;
+  for (const V3d& to : vertices) {
+    const double x1 = to[xi] - x, y1 = to[yi] - y;
+    const double cross = x0 * y1 - x1 * y0;
+    close |= std::abs(cross) <= near;
+    odd ^= ((y0 > 0) != (y1 > 0)) & ((cross > 0) == (y1 > 0));
+    x0 = x1;
+    y0 = y1;
+  }
+  return close ? insideClosely(vertices, xi, yi, x, y, tolerance) : odd;
+}
+
+bool meetsInside(const Polygon& polygon, std::span<const V3d> vertices, const V3d& origin,
+                 const V3d& direction, double distance, double cosine) {
+  if (polygon.area == 0) return false;
   // How far apart two polygons that meet at an edge may see one ray: each has it at its own rounded distance.
   // Points that near an edge are inside both, or light would leak between them.
-  const double size = std::abs(origin.x) + std::abs(origin.y) + std::abs(origin.z) + t;
+  const double size = std::abs(origin.x) + std::abs(origin.y) + std::abs(origin.z) + distance;
   const double tolerance = 2 * kRounding * size / std::abs(cosine);
-  if (!inside(polygon, vertices, origin + t * direction, tolerance)) return false;
-  hit = {t, polygon.normal, cosine};
-  return true;
+  return inside(polygon, vertices, origin + distance * direction, tolerance);
 }
 
 bool intersect(const Sphere& sphere, const V3d& origin, const V3d& direction, double farthest,

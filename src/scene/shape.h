@@ -2,6 +2,7 @@
 #include <Imath/ImathBox.h>
 #include <Imath/ImathVec.h>
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <type_traits>
@@ -34,6 +35,7 @@ struct Polygon {
   double area = 0;                         // 0: the polygon is never hit
   int axis = 2;                            // the largest component of normal, left out in the inside test
   double thickness = 0;                    // largest distance of a vertex from the plane
+  double extent = 0;                       // sum of the box's sizes along the other two axes
 };
 
 // inward: the front is inside (bubble).
@@ -104,8 +106,8 @@ inline const V3d* planeNormal(const Shape& shape) {
 // kSamePlace and not beyond farthest (the first such place), and fills hit only then. Rounding: distances are
 // right to a few ulp of the largest coordinate that takes part. A ray within kSamePlace of parallel to a
 // plane misses it (as RADIANCE).
-bool intersect(const Polygon& polygon, std::span<const V3d> vertices, const V3d& origin, const V3d& direction,
-               double farthest, ShapeHit& hit);
+inline bool intersect(const Polygon& polygon, std::span<const V3d> vertices, const V3d& origin,
+                      const V3d& direction, double farthest, ShapeHit& hit);
 bool intersect(const Sphere& sphere, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit);
 bool intersect(const Cone& cone, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit);
 bool intersect(const Ring& ring, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit);
@@ -127,5 +129,21 @@ Polygon makePolygon(std::span<const V3d> vertices, uint32_t first, uint32_t coun
 // Whether a point of the polygon's plane lies inside; points on the boundary count as inside, and those
 // within tolerance (world units) and rounding of it.
 bool inside(const Polygon& polygon, std::span<const V3d> vertices, const V3d& point, double tolerance = 0);
+
+// Whether a ray that meets the polygon's plane at this distance and cosine (of ShapeHit) meets it inside.
+bool meetsInside(const Polygon& polygon, std::span<const V3d> vertices, const V3d& origin,
+                 const V3d& direction, double distance, double cosine);
+
+// The plane here, where callers can see it: most polygons that a ray is tried with are missed by their plane.
+inline bool intersect(const Polygon& polygon, std::span<const V3d> vertices, const V3d& origin,
+                      const V3d& direction, double farthest, ShapeHit& hit) {
+  const double cosine = -polygon.normal.dot(direction);
+  if (std::abs(cosine) <= kSamePlace) return false;
+  const double t = (polygon.normal.dot(origin) - polygon.offset) / cosine;
+  if (!(t > kSamePlace && t <= farthest)) return false;
+  if (!meetsInside(polygon, vertices, origin, direction, t, cosine)) return false;
+  hit = {t, polygon.normal, cosine};
+  return true;
+}
 
 }  // namespace rsphere

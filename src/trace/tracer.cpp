@@ -70,10 +70,8 @@ bool wins(const Occluder& a, double cosineA, const Occluder& b, double cosineB) 
   return a.surface < b.surface;
 }
 
-// Moves up by one step of single precision and the rounding of what led there.
-float roundUp(double x) {
-  return std::nextafter(static_cast<float>(x * (1 + 1e-6)), std::numeric_limits<float>::infinity());
-}
+// Moves a length up, by more than rounding to single precision, 2^-24, and what led there move it down.
+float roundUp(double x) { return static_cast<float>(x * (1 + 1e-6)); }
 
 // Whether an instance or a mesh hides what it brings in behind a modifier of its own.
 bool standsForContents(const Occluder& o) { return o.modifier != rad::kVoid; }
@@ -128,11 +126,11 @@ class Tracer::Tree {
     occluders_.reserve(group.surfaces);
     for (uint32_t i = group.firstSurface; i < group.firstSurface + group.surfaces; ++i) {
       const Box3d box = boundsOf(scene.surfaces[i]);
-      if (box.isEmpty()) continue;
+      primitives_ += !box.isEmpty();
       bounds_.extendBy(box);
       occluders_.push_back(makeOccluder(scene, i, backFacesVisible));
     }
-    build(device, occluders_.size(), onIntersect<&Tree::meetSurface>, onOccluded<&Tree::crossSurface>);
+    build(device, group.surfaces, onIntersect<&Tree::meetSurface>, onOccluded<&Tree::crossSurface>);
   }
 
   // The triangles of a mesh.
@@ -142,9 +140,9 @@ class Tracer::Tree {
     for (size_t i = 0; i < mesh.facesOf.size(); ++i)
       if (mesh.facesOf[i] != kNone)
         occluders_[i] = makeOccluder(scene, static_cast<uint32_t>(mesh.facesOf[i]), backFacesVisible);
-    const size_t triangles = mesh.data.triangles.size();
-    for (uint32_t i = 0; i < triangles; ++i) bounds_.extendBy(rsphere::bounds(mesh.data, i));
-    build(device, triangles, onIntersect<&Tree::meetTriangle>, onOccluded<&Tree::crossTriangle>);
+    primitives_ = mesh.data.triangles.size();
+    for (uint32_t i = 0; i < primitives_; ++i) bounds_.extendBy(rsphere::bounds(mesh.data, i));
+    build(device, primitives_, onIntersect<&Tree::meetTriangle>, onOccluded<&Tree::crossTriangle>);
   }
 
   ~Tree() {
@@ -154,14 +152,10 @@ class Tracer::Tree {
   Tree& operator=(const Tree&) = delete;
 
   const Box3d& bounds() const { return bounds_; }
-  size_t primitives() const { return mesh_ ? mesh_->data.triangles.size() : occluders_.size(); }
+  size_t primitives() const { return primitives_; }
 
-  // What stands for a surface of this tree; null where it can't be hit.
-  const Occluder* occluderOf(uint32_t surface) const {
-    const auto at = std::lower_bound(occluders_.begin(), occluders_.end(), surface,
-                                     [](const Occluder& o, uint32_t s) { return o.surface < s; });
-    return at != occluders_.end() && at->surface == surface ? &*at : nullptr;
-  }
+  // What stands for a surface of this tree, of a group.
+  const Occluder& occluderOf(uint32_t surface) const { return occluders_[surface - occluders_[0].surface]; }
 
   // Sets query.best where something is nearer, as Tracer::nearest() has it.
   void nearest(Query& query) const {
@@ -237,9 +231,13 @@ class Tracer::Tree {
   static void writeBounds(const RTCBoundsFunctionArguments* arguments) {
     const auto& self = *static_cast<const Tree*>(arguments->geometryUserPtr);
     const Box3d box = self.boundsOf(arguments->primID);
+    RTCBounds& out = *arguments->bounds_o;
+    if (box.isEmpty()) {  // left out by Embree
+      out.lower_x = std::numeric_limits<float>::infinity(), out.upper_x = -out.lower_x;
+      return;
+    }
     const V3d low = box.min - self.center_ - V3d(self.padding_),
               high = box.max - self.center_ + V3d(self.padding_);
-    RTCBounds& out = *arguments->bounds_o;
     out.lower_x = roundDown(low.x), out.lower_y = roundDown(low.y), out.lower_z = roundDown(low.z);
     out.upper_x = -roundDown(-high.x), out.upper_y = -roundDown(-high.y), out.upper_z = -roundDown(-high.z);
   }
@@ -249,12 +247,11 @@ class Tracer::Tree {
   bool aim(Query& query, RTCRay& ray) const {
     if (!tree_) return false;
     const V3d m = query.origin - center_;
-    const double b = m.dot(query.direction);
-    const double c = m.length();
-    query.start = c > 2 * radius_ ? -b - radius_ : 0;
-    if (c > 2 * radius_) {
+    query.start = 0;
+    if (m.length2() > 4 * radius_ * radius_) {
+      const double b = m.dot(query.direction);
       if (b > 0 || (m - b * query.direction).length() > radius_) return false;
-      query.start = std::max(query.start, 0.);
+      query.start = std::max(-b - radius_, 0.);
     }
     const V3d begin = m + query.start * query.direction;
     ray.org_x = static_cast<float>(begin.x);
@@ -297,15 +294,22 @@ class Tracer::Tree {
     reinterpret_cast<RTCRay*>(arguments->ray)->tfar = -std::numeric_limits<float>::infinity();
   }
 
+  // Polygons, of which most scenes consist, without the detour by way of a visitor.
+  bool meets(const Query& query, const Surface& surface, ShapeHit& hit) const {
+    const auto meet = [&](const auto& shape) {
+      return intersect(shape, scene_.vertices, query.origin, query.direction, query.reach(), hit);
+    };
+    const auto* polygon = std::get_if<Polygon>(&surface.shape);
+    return polygon ? meet(*polygon) : meet(surface.shape);
+  }
+
   bool meetSurface(Query& query, uint32_t primitive) const {
     const Occluder& occluder = occluders_[primitive];
     const Surface& surface = scene_.surfaces[occluder.surface];
     if (const Contents contents = contentsOf(surface); contents.tree)
       return meetContents(query, occluder, contents);
     ShapeHit hit;
-    if (!intersect(surface.shape, scene_.vertices, query.origin, query.direction, query.reach(), hit) ||
-        query.loses(occluder, hit))
-      return false;
+    if (!meets(query, surface, hit) || query.loses(occluder, hit)) return false;
     query.best.occluder = &occluder;
     query.best.hit = hit;
     query.best.path.count = query.best.modifierPath = query.depth;
@@ -382,8 +386,7 @@ class Tracer::Tree {
     if (const Contents contents = contentsOf(surface); contents.tree)
       return crossContents(query, own, contents);
     ShapeHit hit;
-    return intersect(surface.shape, scene_.vertices, query.origin, query.direction, query.reach(), hit) &&
-           crosses(query, occluder, hit);
+    return meets(query, surface, hit) && crosses(query, occluder, hit);
   }
 
   bool crossTriangle(Query& query, uint32_t primitive) const {
@@ -409,8 +412,9 @@ class Tracer::Tree {
   const Scene& scene_;
   std::span<const std::unique_ptr<Tree>> groups_, meshes_;
   const Mesh* mesh_ = nullptr;
-  // Of a group: by Embree's primitive number, ascending by surface. Of a mesh: by material.
+  // Of a group: of each of its surfaces, by Embree's primitive number. Of a mesh: by material.
   std::vector<Occluder> occluders_;
+  size_t primitives_ = 0;
   Box3d bounds_;
   V3d center_{0, 0, 0};
   double radius_ = 0;   // of a sphere around everything
@@ -507,15 +511,16 @@ Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, 
   query.source = source;
   if (source != kNone) {
     // The front is what shines; the tie with whatever lies on the source is decided for that side.
-    query.best.occluder = tree.occluderOf(static_cast<uint32_t>(source));
+    query.best.occluder = &tree.occluderOf(static_cast<uint32_t>(source));
     query.best.hit = {distance, V3d(0, 0, 0), 1};
     query.farthest += kSamePlace;
   }
   if (blocker && tree.isBlocker(query, *blocker)) return Shadow::blocked;
-  if (tree.blocks(query)) {
-    if (blocker) *blocker = query.blocker;
-    return Shadow::blocked;
-  }
+  const bool blocked = tree.blocks(query);
+  // Where a ray gets through, the next one mostly does so too: trying the old blocker would cost more than it
+  // saves.
+  if (blocker) *blocker = blocked ? query.blocker : kNoBlocker;
+  if (blocked) return Shadow::blocked;
   return query.passable ? Shadow::unsure : Shadow::clear;
 }
 

@@ -59,9 +59,9 @@ class Tracer {
 
   // What lies between origin and a light source's surface at the given distance along direction. source:
   // index of that surface; a distant source is no surface to hit, and distance is kFarAway.
-  // blocker: what stopped the ray before, to be tried first (kNoBlocker: nothing), and then what stopped this
-  // one: rays to one source, one after the other, are often stopped by the same surface. The answer does not
-  // depend on it.
+  // blocker: what stopped the ray before, to be tried first, and then what stopped this one (kNoBlocker:
+  // nothing): rays to one source, one after the other, are often stopped by the same surface. The answer does
+  // not depend on it.
   Shadow shadow(const V3d& origin, const V3d& direction, double distance, int32_t source,
                 uint32_t* blocker = nullptr) const;
   static constexpr uint32_t kNoBlocker = ~0u;

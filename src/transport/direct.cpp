@@ -38,9 +38,7 @@ Ray PathTracer::traceToSource(const V3d& point, const SourceSample& sample, uint
 
 // The radiance of a source along a shadow ray that is not stopped.
 Rgb PathTracer::sourceValue(const Ray& ray, const SourceSample& sample) {
-  const Scene& scene = t_.scene();
   const LightSource& light = t_.lights().all()[sample.source];
-  const Surface& surface = scene.surfaces[light.surface];
   if (light.isVirtual()) {
     Ray child;
     Rgb whole(1, 1, 1);
@@ -52,11 +50,8 @@ Rgb PathTracer::sourceValue(const Ray& ray, const SourceSample& sample) {
     return child.value;
   }
   if (sample.cosine < 0) return Rgb(0, 0, 0);
-  const Modifier& modifier = scene.modifiers[surface.material];
   const Rgb passed = passing(ray.medium.extinction * (Rgb(1, 1, 1) - ray.medium.albedo), sample.distance);
-  if (surface.goal) return passed;
-  if (surface.modifier == surface.material && modifier.next == kNone)
-    return *sourceRadiance(std::get<Material>(modifier.content)) * passed;
+  if (const Rgb* radiance = t_.constantRadiance(sample.source)) return *radiance * passed;
   Ray child;
   child.origin = ray.point;
   child.direction = sample.direction;
@@ -64,22 +59,23 @@ Rgb PathTracer::sourceValue(const Ray& ray, const SourceSample& sample) {
   child.kinds = ray.kinds | kReflectedShadow;
   child.aimedAt = static_cast<int32_t>(sample.source);
   child.pathLength = ray.pathLength + ray.length;
-  child.surface = t_.lights().all()[sample.source].surface;
+  child.surface = light.surface;
   child.length = sample.distance;
   child.point = sample.distance < kFarAway ? child.origin + sample.distance * child.direction : child.origin;
   child.normal = sample.normal;
   child.cosine = sample.cosine;
-  shade(child, surface.modifier);
+  shade(child, t_.scene().surfaces[light.surface].modifier);
   return child.value * passed;
 }
 
 // What of a sample's radiance gets to the ray's end; false where none does. to.value: what would if nothing
 // were in the way.
 bool PathTracer::arrives(const Ray& ray, const Contribution& to, Rgb& value) {
-  const LightSource& light = t_.lights().all()[to.sample.source];
+  const SourceSample& sample = *to.sample;
+  const LightSource& light = t_.lights().all()[sample.source];
   const bool toSurface = !light.distant || light.isVirtual();
-  const Shadow shadow = t_.tracer().shadow(ray.point, to.sample.direction, to.sample.distance,
-                                           toSurface ? light.surface : kNone, &blockers_[to.sample.source]);
+  const Shadow shadow = t_.tracer().shadow(ray.point, sample.direction, sample.distance,
+                                           toSurface ? light.surface : kNone, &blockers_[sample.source]);
   const bool follow = shadow == Shadow::unsure || (shadow == Shadow::clear && light.isVirtual());
   if (follow || allShadowRays_) value = valueFromSource(ray, to);  // allShadowRays_: to be shown
   if (shadow == Shadow::blocked) return false;
@@ -89,13 +85,13 @@ bool PathTracer::arrives(const Ray& ray, const Contribution& to, Rgb& value) {
 
 // What a shadow ray brings through all that may let light pass.
 Rgb PathTracer::valueFromSource(const Ray& ray, const Contribution& to) {
-  const V3d& direction = to.sample.direction;
+  const V3d& direction = to.sample->direction;
   const bool through = (ray.cosine > 0) != (ray.normal.dot(direction) > 0);
   Ray child;
   Rgb whole(1, 1, 1);
   if (!continueRay(child, through ? kTransmittedShadow : kReflectedShadow, ray, whole)) return Rgb(0, 0, 0);
   child.contribution *= to.coefficient;
-  child.aimedAt = static_cast<int32_t>(to.sample.source);
+  child.aimedAt = static_cast<int32_t>(to.sample->source);
   child.direction = direction;
   evaluate(child);
   return child.value;
@@ -113,6 +109,7 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d&
   const RayOptions& o = t_.options();
   samples_.clear();
   contributions_.clear();
+  ranked_.clear();
   const SourceSampling how{o.sourceSubstructuring > kNegligible ? o.sourceSubstructuring / ray.weight : 0,
                            o.directJitter, front};
   for (uint32_t i = 0; i < t_.lights().all().size(); ++i)
@@ -122,7 +119,9 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d&
     if (isBlack(coefficient)) continue;
     const Rgb value = sourceValue(ray, sample);
     const double bright = brightness(value * coefficient);
-    if (bright > 0) contributions_.push_back({sample, coefficient, value, bright});
+    if (!(bright > 0)) continue;
+    ranked_.push_back({bright, static_cast<uint32_t>(contributions_.size())});
+    contributions_.push_back({&sample, coefficient, value});
   }
   if (contributions_.empty()) return;
 
@@ -130,8 +129,6 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d&
   const double threshold = o.directThreshold / ray.weight;
   // How many of those still untested are taken together to decide whether they can matter (-dc).
   size_t lookAhead = count;
-  ranked_.resize(count);
-  for (uint32_t i = 0; i < count; ++i) ranked_[i] = {contributions_[i].brightness, i};
   if (threshold > 0) {
     std::sort(ranked_.begin(), ranked_.end(), [](const Ranked& a, const Ranked& b) {
       return a.brightness != b.brightness ? a.brightness > b.brightness : a.contribution < b.contribution;

@@ -39,8 +39,16 @@ Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance i
       functions_(scene, warn, options.definitions),
       lights_(scene, options.directRelays, functions_, warn),
       lightOf_(scene.surfaces.size(), kNone) {
-  for (size_t i = 0; i < lights_.all().size(); ++i)
-    if (!lights_.all()[i].isVirtual()) lightOf_[lights_.all()[i].surface] = static_cast<int32_t>(i);
+  constantRadiance_.resize(lights_.all().size());
+  for (size_t i = 0; i < lights_.all().size(); ++i) {
+    if (lights_.all()[i].isVirtual()) continue;
+    lightOf_[lights_.all()[i].surface] = static_cast<int32_t>(i);
+    const Surface& surface = scene.surfaces[lights_.all()[i].surface];
+    if (surface.goal)
+      constantRadiance_[i] = Rgb(1, 1, 1);
+    else if (surface.modifier == surface.material && scene.modifiers[surface.material].next == kNone)
+      constantRadiance_[i] = sourceRadiance(*scene.materialOf(surface));
+  }
   for (size_t i = 0; i < scene.surfaces.size(); ++i) {
     const Surface& s = scene.surfaces[i];
     const Material* material = scene.materialOf(s);

@@ -41,6 +41,11 @@ class Transport {
   bool basicRadiance() const { return basicRadiance_; }
   // Index in LightSources of a surface's own light, or kNone.
   int32_t lightOf(int32_t surface) const { return lightOf_[surface]; }
+  // The radiance that a light source has whatever it is seen from, by index in LightSources; null where that
+  // is to be computed.
+  const Rgb* constantRadiance(uint32_t source) const {
+    return constantRadiance_[source] ? &*constantRadiance_[source] : nullptr;
+  }
   // Whether indirect light is computed on the surface (-ae, -ai).
   bool isAmbient(int32_t surface) const { return surface == kNone || ambient_.empty() || ambient_[surface]; }
   // Of what no mist and no dielectric fills (-me -ma -mg).
@@ -67,6 +72,7 @@ class Transport {
   SurfaceFunctions functions_;
   LightSources lights_;
   std::vector<int32_t> lightOf_;
+  std::vector<std::optional<Rgb>> constantRadiance_;
   std::vector<int32_t> distant_;
   std::vector<uint32_t> scatterers_;
   std::vector<std::vector<uint16_t>> scatterersOf_;  // by Mist::number
@@ -127,9 +133,8 @@ class PathTracer {
 
  private:
   struct Contribution {
-    SourceSample sample;
+    const SourceSample* sample;
     Rgb coefficient, value;
-    double brightness;
   };
 
   bool continueRay(Ray& child, RayKind kind, const Ray& parent, Rgb& coefficient);
@@ -219,7 +224,7 @@ class PathTracer {
     double brightness;
     uint32_t contribution;
   };
-  std::vector<Ranked> ranked_;  // brightest first where not all are tested
+  std::vector<Ranked> ranked_;  // of the contributions, brightest first where not all are tested
   std::vector<double> remaining_;
   std::vector<uint32_t> blockers_;  // by source: what stopped the last ray to it
   std::vector<size_t> lookAheads_;  // by count; as far as they were asked for

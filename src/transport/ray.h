@@ -10,11 +10,20 @@
 
 namespace rsphere {
 
-// Light sources whose light is scattered into a ray, as positions in Transport::scatterers().
+// Light sources whose light is scattered into a ray, as positions in Transport::scatterers(). What is not
+// used is neither set nor copied.
 struct ScatteringSources {
   static constexpr size_t kMost = 32;  // RADIANCE's own figure
   uint8_t count = 0;
-  std::array<uint16_t, kMost> source{};
+  std::array<uint16_t, kMost> source;
+
+  ScatteringSources() {}
+  ScatteringSources(const ScatteringSources& other) { *this = other; }
+  ScatteringSources& operator=(const ScatteringSources& other) {
+    count = other.count;
+    for (uint8_t i = 0; i < count; ++i) source[i] = other.source[i];
+    return *this;
+  }
 
   bool contains(uint16_t s) const { return std::find(begin(), end(), s) != end(); }
   // False where there is no room for another.
@@ -53,7 +62,7 @@ struct Ray {
   bool unobstructed = false;    // of a shadow ray: it meets what it is aimed at, and nothing else
   const Ray* parent = nullptr;  // null: a primary ray, or one that what came before does not matter to
   Medium medium{};              // that it passes
-  ScatteringSources scatterers{};
+  ScatteringSources scatterers;
   const Ray* mist = nullptr;  // that entered the innermost mist around this one
   uint64_t clips = 0;         // Surface::clip of surfaces that are not there for it
   uint64_t clipsBeyond = 0;   // and for what goes on beyond the surface it hits

@@ -120,7 +120,7 @@ void PathTracer::addScattered(Ray& ray) {
         const Rgb coefficient = scattered * passed * toRay;
         const Rgb unobstructed = sourceValue(at, sample);
         Rgb value;
-        if (isBlack(unobstructed) || !arrives(at, {sample, coefficient, unobstructed, 0}, value)) continue;
+        if (isBlack(unobstructed) || !arrives(at, {&sample, coefficient, unobstructed}, value)) continue;
         ray.value += value * coefficient;
       }
     }
