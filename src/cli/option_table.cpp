@@ -794,6 +794,17 @@ std::vector<OptionEntry> makeTable() {
        .value = +[](O& o) -> bool& { return o.sphere.everyDirection; },
        .remark = "every direction|mean of directions",
        .paragraph = "Switch for a record of every direction instead of the mean of a point; see OUTPUT."});
+  add({.name = "-Ss",
+       .arguments = "N",
+       .group = Group::sphere,
+       .value = +[](O& o) -> int& { return o.ray.chosenSources; },
+       .range = kCount,
+       .remark = "light sources tested at a surface",
+       .paragraph = "Of all light sources test N (fewer for rays of less weight) at a surface whose radiance "
+                    "is even, drawn "
+                    "at random in proportion to what each would bring if nothing were in its way; -dt, -dc, "
+                    "-dj and -ds then "
+                    "do not count there. 0: all of them. Holds in ray mode as well."});
   add({.name = "-Sr",
        .arguments = "N",
        .group = Group::sphere,

@@ -25,6 +25,7 @@ struct RayOptions {
   double directJitter = 0;           // -dj  0 to 1
   double sourceSubstructuring = .2;  // -ds  largest size/distance of a source's part; 0: not divided
   int directRelays = 2;              // -dr
+  int chosenSources = 0;             // -Ss  tested at a surface, drawn at random; 0: all of them
   int directPretest = 512;           // -dp
   bool sourcesVisible = true;        // -dv  whether a directly seen source is its radiance, not black
   // specular

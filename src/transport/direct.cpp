@@ -159,4 +159,27 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d&
   }
 }
 
+// As addDirect(), from -Ss sources drawn at random: what each of them brings stands for all.
+void PathTracer::addDirectOfChosen(Ray& ray, DirectCoefficient coefficientOf, const V3d& front) {
+  const double sum = t_.choice().weigh(ray.point, front, sourceWeights_);
+  if (!(sum > 0)) return;
+  const int draws = std::max(1, static_cast<int>(t_.options().chosenSources * ray.weight + .5));
+  const double step = sum / draws;
+  double next = random_.uniform() * step, passed = 0;
+  for (uint32_t i = 0; i < sourceWeights_.size(); ++i) {
+    for (passed += sourceWeights_[i]; next < passed; next += step) {
+      samples_.clear();
+      t_.lights().sample(i, ray.point, {0, 1, front}, random_, samples_);
+      for (const SourceSample& sample : samples_) {
+        const Rgb coefficient = coefficientOf(sample.direction, sample.solidAngle);
+        if (isBlack(coefficient)) continue;
+        const Contribution c{&sample, coefficient, sourceValue(ray, sample)};
+        Rgb value;
+        if (maxChannel(c.value) > 0 && arrives(ray, c, value))
+          ray.value += value * coefficient * (step / sourceWeights_[i]);
+      }
+    }
+  }
+}
+
 }  // namespace rsphere

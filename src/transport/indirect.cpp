@@ -6,6 +6,17 @@
 #include "transport/ray_functions.h"
 
 namespace rsphere {
+namespace {
+
+// Whether no direction of light is far brighter than others: the peak of a lobe, share / (4 pi alpha^2) at
+// normal incidence, against what is diffuse, share / pi.
+bool isEven(const Scattering& s) {
+  constexpr double kMost = 4;
+  return maxChannel(s.specularReflection + s.specularTransmission) <=
+         kMost * 4 * s.alpha2 * maxChannel(s.diffuseReflection + s.diffuseTransmission);
+}
+
+}  // namespace
 
 bool PathTracer::shadeBoundary(Ray& ray, const Scattering& scattering) {
   ray.medium = scattering.medium;
@@ -29,7 +40,11 @@ bool PathTracer::shadeDiffusing(Ray& ray, const Scattering& scattering, const In
                                                                        double solidAngle) {
       return directCoefficient(scattering, at, toSource, solidAngle, jitter);
     };
-    addDirect(ray, coefficientOf, transmits ? V3d(0, 0, 0) : scattering.normal);
+    const V3d front = transmits ? V3d(0, 0, 0) : scattering.normal;
+    if (t_.options().chosenSources > 0 && isEven(scattering))
+      addDirectOfChosen(ray, coefficientOf, front);
+    else
+      addDirect(ray, coefficientOf, front);
   }
   return true;
 }

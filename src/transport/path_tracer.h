@@ -12,6 +12,7 @@
 
 #include "cli/answer.h"
 #include "cli/options.h"
+#include "light/source_choice.h"
 #include "light/sources.h"
 #include "scene/random.h"
 #include "scene/scene.h"
@@ -35,6 +36,7 @@ class Transport {
   const Scene& scene() const { return scene_; }
   const Tracer& tracer() const { return tracer_; }
   const LightSources& lights() const { return lights_; }
+  const SourceChoice& choice() const { return choice_; }
   const SurfaceFunctions& functions() const { return functions_; }
   const RayOptions& options() const { return options_; }
   Irradiance irradiance() const { return irradiance_; }
@@ -71,6 +73,7 @@ class Transport {
   Tracer tracer_;
   SurfaceFunctions functions_;
   LightSources lights_;
+  SourceChoice choice_;
   std::vector<int32_t> lightOf_;
   std::vector<std::optional<Rgb>> constantRadiance_;
   std::vector<int32_t> distant_;
@@ -205,6 +208,7 @@ class PathTracer {
   void addIndirect(Ray& ray, const V3d& normal, const Interaction& at, RayKind kind, const Rgb& coefficient);
   // front: the normal of a surface that lets no light through, whose coefficients are 0 behind it; or 0.
   void addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d& front = V3d(0, 0, 0));
+  void addDirectOfChosen(Ray& ray, DirectCoefficient coefficientOf, const V3d& front);
   size_t lookAheadOf(size_t count);
   Rgb sourceValue(const Ray& ray, const SourceSample& sample);
   bool arrives(const Ray& ray, const Contribution& to, Rgb& value);
@@ -226,6 +230,7 @@ class PathTracer {
   };
   std::vector<Ranked> ranked_;  // of the contributions, brightest first where not all are tested
   std::vector<double> remaining_;
+  std::vector<double> sourceWeights_;
   std::vector<uint32_t> blockers_;  // by source: what stopped the last ray to it
   std::vector<size_t> lookAheads_;  // by count; as far as they were asked for
 };

@@ -1,0 +1,81 @@
+#include "light/source_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "shade/scattering.h"
+
+namespace rsphere {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Of the source itself, or of what a relay shows an image of, for patterns and reflectances of 1.
+double brightnessOf(const Scene& scene, std::span<const LightSource> all, uint32_t index) {
+  while (all[index].isVirtual()) index = static_cast<uint32_t>(all[index].relayed);
+  if (scene.importance) return 1;
+  return brightness(*sourceRadiance(*scene.materialOf(scene.surfaces[all[index].surface])));
+}
+
+// The distance of a source's middle before a surface, or what is left of it where some of the source is
+// behind.
+double before(double height, double radius) {
+  return height >= radius ? height : std::max(0., height + radius) / 2;
+}
+
+}  // namespace
+
+SourceChoice::SourceChoice(const Scene& scene, const LightSources& lights) {
+  const std::span<const LightSource> all = lights.all();
+  near_.resize(all.size());
+  for (uint32_t i = 0; i < all.size(); ++i) {
+    const LightSource& source = all[i];
+    const double bright = brightnessOf(scene, all, i);
+    if (source.distant) {
+      near_[i] = {V3d(0, 0, 0), V3d(0, 0, 0), 0, 1, 0};
+      distant_.push_back({i, source.center, bright * 2 * kPi * (1 - source.cosHalfAngle),
+                          source.cosHalfAngle > 0 ? source.sinHalfAngle : 1});
+      continue;
+    }
+    const double area = source.area > 0 ? source.area : kPi * source.radius * source.radius;
+    const bool plane = source.normal != V3d(0, 0, 0);
+    near_[i] = {source.center, source.normal, bright * area, source.radius, plane ? 0. : 1.};
+    if (source.reach > 0 || source.spot) restricted_.push_back({i, source.reach, source.spot});
+  }
+}
+
+double SourceChoice::weigh(const V3d& point, const V3d& front, std::vector<double>& weights) const {
+  weights.resize(near_.size());
+  const double anySide = front == V3d(0, 0, 0) ? 1 : 0;
+  for (size_t i = 0; i < near_.size(); ++i) {
+    const Near& s = near_[i];
+    const V3d towards = s.center - point;
+    // Not nearer than the source is large: beyond, more of it is seen from the side.
+    const double square = std::max(towards.length2(), s.radius * s.radius);
+    const double distance = std::sqrt(square);
+    const double above = -towards.dot(s.normal);
+    const double facing =
+        s.everywhere * distance + (above > 0 ? above + s.radius * s.radius * s.radius / (2 * square) : 0);
+    const double cosine = anySide * distance + before(towards.dot(front), s.radius) * (1 - anySide);
+    weights[i] = s.power * facing * cosine / (square * square);
+  }
+  for (const Distant& s : distant_)
+    weights[s.source] = s.power * (anySide > 0 ? 1 : before(s.direction.dot(front), s.sine));
+  for (const Restricted& r : restricted_) {
+    const Near& s = near_[r.source];
+    const V3d towards = s.center - point;
+    const double distance = towards.length();
+    const bool tooFar = r.reach > 0 && distance > r.reach + s.radius;
+    // Of all directions to the source, the one that lies deepest in the cone.
+    const double deepest =
+        distance > s.radius ? (r.spot ? r.spot->aim.dot(towards) : 0) / distance - s.radius / distance : -1;
+    const bool outside = r.spot && r.spot->solidAngle < 2 * kPi * (1 + deepest);
+    if (tooFar || outside) weights[r.source] = 0;
+  }
+  double sum = 0;
+  for (const double w : weights) sum += w;
+  return sum;
+}
+
+}  // namespace rsphere

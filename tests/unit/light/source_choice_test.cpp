@@ -1,0 +1,80 @@
+#include "light/source_choice.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/unit/support/scene_of.h"
+
+namespace rsphere {
+namespace {
+
+constexpr const char* kEverySort =
+    "void light bright\n0\n0\n3 5 5 5\n"
+    "void glow near\n0\n0\n4 2 2 2 3\n"
+    "void spotlight beam\n0\n0\n7 9 9 9 40 0 0 -1\n"
+    "bright polygon panel\n0\n0\n12 0 0 3 0 1 3 2 1 3 2 0 3\n"
+    "bright sphere bulb\n0\n0\n4 3 3 1 .2\n"
+    "bright cylinder tube\n0\n0\n7 -1 -1 2 -1 2 2 .05\n"
+    "bright ring disk\n0\n0\n8 1 3 2.5 .3 .2 -1 0 .4\n"
+    "near polygon patch\n0\n0\n12 -1 3 0 0 3 0 0 3 1 -1 3 1\n"
+    "beam ring spot\n0\n0\n8 2 2 3 0 0 -1 0 .2\n"
+    "bright source sun\n0\n0\n4 1 1 1 3\n"
+    "bright source half\n0\n0\n4 0 1 1 170\n";
+
+// What has no weight is never drawn: a sample of it would be lost.
+TEST(SourceChoice, WeighsAllThatCanBeSampled) {
+  const Scene scene = sceneOf(kEverySort);
+  const LightSources lights(scene);
+  const SourceChoice choice(scene, lights);
+  Random random(1);
+  std::vector<double> weights;
+  std::vector<SourceSample> samples;
+  std::vector<int> met(lights.all().size(), 0), unweighed(lights.all().size(), 0);
+  for (int i = 0; i < 20000; ++i) {
+    const V3d point(6 * random.uniform() - 2, 6 * random.uniform() - 2, 6 * random.uniform() - 2);
+    const V3d away(random.uniform() - .5, random.uniform() - .5, random.uniform() - .5);
+    const V3d front = i % 3 ? away.normalized() : V3d(0, 0, 0);
+    choice.weigh(point, front, weights);
+    for (uint32_t k = 0; k < weights.size(); ++k) {
+      samples.clear();
+      lights.sample(k, point, {0, 1, front}, random, samples);
+      const bool counts = !samples.empty() && (i % 3 == 0 || samples[0].direction.dot(front) > 0);
+      ASSERT_GE(weights[k], 0);
+      ASSERT_TRUE(weights[k] > 0 || !counts) << "source " << k << " from " << point << " before " << front;
+      met[k] += counts;
+      unweighed[k] += weights[k] == 0;
+    }
+  }
+  for (size_t k = 0; k < met.size(); ++k) EXPECT_GT(met[k], 100) << "source " << k;
+  EXPECT_GT(unweighed[0], 100) << "behind it";
+  EXPECT_GT(unweighed[4], 100) << "beyond its reach";
+  EXPECT_GT(unweighed[5], 100) << "outside its spot";
+}
+
+// The better weights fit what sources bring, the less answers scatter: from afar they are what they bring.
+TEST(SourceChoice, WeighsByIrradiance) {
+  const Scene scene = sceneOf(
+      "void light lamp\n0\n0\n3 2 2 2\nvoid light strong\n0\n0\n3 7 7 7\n"
+      "lamp polygon panel\n0\n0\n12 0 0 3 0 .2 3 .3 .2 3 .3 0 3\n"
+      "strong sphere bulb\n0\n0\n4 2 1 4 .1\n"
+      "lamp ring disk\n0\n0\n8 -3 0 3 1 0 -1 0 .1\n"
+      "strong cylinder tube\n0\n0\n7 -.2 -3 2 .2 -3 2 .01\n"
+      "lamp source sun\n0\n0\n4 1 0 1 1\n");
+  const LightSources lights(scene);
+  const SourceChoice choice(scene, lights);
+  Random random(1);
+  std::vector<double> weights;
+  choice.weigh(V3d(0, 0, 0), V3d(0, 0, 1), weights);
+  for (uint32_t k = 0; k < weights.size(); ++k) {
+    std::vector<SourceSample> samples;
+    lights.sample(k, V3d(0, 0, 0), {}, random, samples);
+    ASSERT_EQ(samples.size(), 1u);
+    const double irradiance = (k == 1 || k == 3 ? 7 : 2) * samples[0].solidAngle * samples[0].direction.z;
+    EXPECT_NEAR(weights[k], irradiance, .05 * irradiance) << "source " << k;
+  }
+}
+
+}  // namespace
+}  // namespace rsphere
