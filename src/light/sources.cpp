@@ -104,6 +104,7 @@ void setShape(LightSource& source, const Sphere& sphere, const Scene&) {
   source.map = LightSource::Map::ball;
   source.center = sphere.center;
   source.radius = sphere.radius;
+  source.hitsWhereAimed = !sphere.inward;
 }
 
 void setShape(LightSource& source, const Cone& cone, const Scene&) {
@@ -177,12 +178,12 @@ bool isNear(const LightSource& source, const Part& part, const V3d& point) {
 }
 
 // Splits until every part is small against its distance: its half-extents u and v at most `allowed` times
-// that.
+// that. Each part is used with the way from there to its middle.
 template <class Position, class Use>
 void split(const Part& part, int most, double u, double v, double allowed, const V3d& from,
            const Position& position, const Use& use) {
+  const V3d towards = position((part.s0 + part.s1) / 2, (part.t0 + part.t1) / 2) - from;
   if (most >= 2) {
-    const V3d towards = position((part.s0 + part.s1) / 2, (part.t0 + part.t1) / 2) - from;
     const double larger = std::max(u, v);
     if (towards.length2() * allowed * allowed < larger * larger) {
       Part a = part, b = part;
@@ -198,12 +199,12 @@ void split(const Part& part, int most, double u, double v, double allowed, const
       return;
     }
   }
-  use(part);
+  use(part, towards);
 }
 
 double jittered(double from, double to, double jitter, Random& random) {
   const double middle = (from + to) / 2;
-  return jitter > 0 ? middle + jitter * (random.uniform() - .5) * (to - from) : middle;
+  return middle + jitter * (random.uniform() - .5) * (to - from);
 }
 
 }  // namespace
@@ -272,7 +273,9 @@ void LightSources::sample(uint32_t index, const V3d& point, const SourceSampling
   // source that it is aimed at, which the reach is measured to.
   const auto add = [&](const V3d& direction, double omega, double length) {
     SourceSample sample{direction, omega, 1e10, 1, -direction, index};
-    if (source.hitsWhereAimed) {
+    if (source.hitsWhereAimed && source.map == LightSource::Map::ball && jitter <= 0) {
+      sample.distance = length - source.radius;
+    } else if (source.hitsWhereAimed && source.map != LightSource::Map::ball) {
       sample.distance = length;
       sample.cosine = -direction.dot(source.normal);
       sample.normal = source.normal;
@@ -346,8 +349,9 @@ void LightSources::sample(uint32_t index, const V3d& point, const SourceSampling
       const double fromAxis = (towards - along * axis).length();
       if (fromAxis <= radius) return;  // inside, or looking at an open end
       const auto at = [&](double s, double) { return source.center + (2 * s - 1) * source.u; };
-      const auto use = [&](const Part& part) {
-        const V3d middle = at(jittered(part.s0, part.s1, jitter, random), 0) - point;
+      const auto use = [&](const Part& part, const V3d& unjittered) {
+        const V3d middle =
+            jitter > 0 ? at(jittered(part.s0, part.s1, jitter, random), 0) - point : unjittered;
         const V3d across = axis.cross(middle).normalized();
         const double side = jitter > 0 ? jitter * (2 * random.uniform() - 1) * radius : 0;
         const V3d aim = middle + side * across;
@@ -359,10 +363,8 @@ void LightSources::sample(uint32_t index, const V3d& point, const SourceSampling
             length);
       };
       // Nearer than that its width counts as much as its length: it is not split with profit.
-      if (allowed > 0 && fromAxis > 2 * radius)
-        split(Part{}, kMostParts, halfLength, 0, allowed, point, at, use);
-      else
-        use(Part{});
+      const bool divided = allowed > 0 && fromAxis > 2 * radius;
+      split(Part{}, divided ? kMostParts : 1, halfLength, 0, allowed, point, at, use);
       return;
     }
 
@@ -387,12 +389,13 @@ void LightSources::sample(uint32_t index, const V3d& point, const SourceSampling
         const double cosine = -direction.dot(source.normal);
         if (cosine > kEdgeOn) add(direction, omega, source.normal.dot(point - source.center) / cosine);
       };
-      const auto use = [&](const Part& part) {
+      const auto use = [&](const Part& part, const V3d& middle) {
         if (jitter > 0 && source.map == LightSource::Map::parallelogram && isNear(source, part, point))
           return addNear(part);
-        const V3d aim =
-            at(jittered(part.s0, part.s1, jitter, random), jittered(part.t0, part.t1, jitter, random)) -
-            point;
+        const V3d aim = jitter > 0 ? at(jittered(part.s0, part.s1, jitter, random),
+                                        jittered(part.t0, part.t1, jitter, random)) -
+                                         point
+                                   : middle;
         const double length = aim.length();
         if (!(length > 0)) return;
         const double cosine = -aim.dot(source.normal) / length;
@@ -400,10 +403,7 @@ void LightSources::sample(uint32_t index, const V3d& point, const SourceSampling
         add(aim / length,
             source.area * (part.s1 - part.s0) * (part.t1 - part.t0) * cosine / (length * length), length);
       };
-      if (allowed > 0)
-        split(Part{}, kMostParts, source.extentU, source.extentV, allowed, point, at, use);
-      else
-        use(Part{});
+      split(Part{}, allowed > 0 ? kMostParts : 1, source.extentU, source.extentV, allowed, point, at, use);
     }
   }
 }

@@ -53,7 +53,8 @@ struct LightSource {
   double area = 0;                  // of plane sources; of a tube's length times its diameter
   std::vector<double> fanArea;      // cumulative shares of the fan's triangles
   std::vector<V3d> fanVertices;
-  // A real one, plane and whole: what is aimed at the square's image on it hits it there.
+  // A real one, plane and whole: what is aimed at the square's image on it hits it there. Or a sphere that
+  // shines outward.
   bool hitsWhereAimed = false;
 };
 

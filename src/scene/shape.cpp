@@ -126,6 +126,10 @@ bool intersect(const Sphere& sphere, const V3d& origin, const V3d& direction, do
 
 bool intersect(const Cone& cone, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit) {
   const V3d m = origin - cone.base;
+  // Most are missed by far: the ray's line passes the axis farther off than any of its radii.
+  const V3d across = direction.cross(cone.axis);
+  const double widest = std::max(cone.radius0, cone.radius1), off = m.dot(across);
+  if (off * off > 1.000001 * widest * widest * across.length2() + 1e-12 * m.length2()) return false;
   const double mAxis = m.dot(cone.axis), dAxis = direction.dot(cone.axis);
   V3d mAcross = m - mAxis * cone.axis;
   const V3d dAcross = direction - dAxis * cone.axis;
@@ -163,10 +167,10 @@ bool intersect(const Cone& cone, const V3d& origin, const V3d& direction, double
     if (!within(t, farthest)) continue;
     const double along = mAxis + t * dAxis;
     if (along < 0 || along > cone.length) continue;
-    const V3d across = mAcross + t * dAcross;
-    const double distance = across.length();
+    const V3d radial = mAcross + t * dAcross;
+    const double distance = radial.length();
     if (!(distance > 0)) continue;  // the tip has no normal
-    V3d outward = across / distance - slope * cone.axis;
+    V3d outward = radial / distance - slope * cone.axis;
     outward /= std::sqrt(1 + slope * slope);
     hit.distance = t;
     hit.normal = cone.inward ? -outward : outward;

@@ -98,9 +98,10 @@ struct Query {
   uint8_t depth = 0;              // of the tree: placements that lead to it
   Found best;                     // shadow(): the source itself, where it is a surface
   int32_t source = kNone;
-  const Occluder* standIn = nullptr;  // shadow(): what stands for the contents of the tree
-  bool passable = false;              // shadow(): something was hit that may let light pass
-  uint32_t blocker = 0;               // shadow(): the tree's primitive that stopped the ray
+  const Occluder* standIn = nullptr;   // shadow(): what stands for the contents of the tree
+  bool passable = false;               // shadow(): something was hit that may let light pass
+  uint32_t from = Tracer::kNoBlocker;  // the tree's primitive that the ray begins on and can't meet again
+  uint32_t blocker = 0;                // shadow(): the tree's primitive that stopped the ray
 
   double reach() const { return best.occluder ? best.hit.distance + samePlace : farthest; }
   // Whether a hit at least as near as reach() has to give way to the best one.
@@ -278,7 +279,7 @@ class Tracer::Tree {
     if (!arguments->valid[0]) return;
     const auto& self = *static_cast<const Tree*>(arguments->geometryUserPtr);
     auto& query = *reinterpret_cast<Query*>(arguments->context);
-    if (!(self.*meet)(query, arguments->primID)) return;
+    if (arguments->primID == query.from || !(self.*meet)(query, arguments->primID)) return;
     auto& rayHit = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
     rayHit.ray.tfar = std::min(rayHit.ray.tfar, roundUp(query.reach() - query.start + self.padding_));
     rayHit.hit.geomID = arguments->geomID;
@@ -289,7 +290,7 @@ class Tracer::Tree {
     if (!arguments->valid[0]) return;
     const auto& self = *static_cast<const Tree*>(arguments->geometryUserPtr);
     auto& query = *reinterpret_cast<Query*>(arguments->context);
-    if (!(self.*cross)(query, arguments->primID)) return;
+    if (arguments->primID == query.from || !(self.*cross)(query, arguments->primID)) return;
     query.blocker = arguments->primID;
     reinterpret_cast<RTCRay*>(arguments->ray)->tfar = -std::numeric_limits<float>::infinity();
   }
@@ -471,13 +472,22 @@ size_t Tracer::primitives() const {
   return sum;
 }
 
-Hit Tracer::nearest(const V3d& origin, const V3d& direction, double farthest) const {
+// The primitive of the world's tree that a plane surface is.
+uint32_t Tracer::planePrimitive(int32_t surface) const {
+  if (surface == kNone || static_cast<size_t>(surface) >= scene_.outermost().size() ||
+      !planeNormal(scene_.surfaces[surface].shape))
+    return kNoBlocker;
+  return static_cast<uint32_t>(surface);
+}
+
+Hit Tracer::nearest(const V3d& origin, const V3d& direction, double farthest, int32_t from) const {
   Hit result;
   if (embree_->groups.empty()) return result;
   Query query;
   query.origin = origin;
   query.direction = direction;
   query.farthest = farthest;
+  query.from = planePrimitive(from);
   embree_->groups[0]->nearest(query);
   const Found& found = query.best;
   if (!found.occluder) return result;
@@ -501,7 +511,7 @@ Hit Tracer::nearest(const V3d& origin, const V3d& direction, double farthest) co
 }
 
 Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, int32_t source,
-                      uint32_t* blocker) const {
+                      uint32_t* blocker, int32_t from) const {
   if (embree_->groups.empty()) return Shadow::clear;
   const Tree& tree = *embree_->groups[0];
   Query query;
@@ -509,6 +519,7 @@ Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, 
   query.direction = direction;
   query.farthest = distance;
   query.source = source;
+  query.from = planePrimitive(from);
   if (source != kNone) {
     // The front is what shines; the tie with whatever lies on the source is decided for that side.
     query.best.occluder = &tree.occluderOf(static_cast<uint32_t>(source));

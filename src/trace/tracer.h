@@ -55,15 +55,18 @@ class Tracer {
   // is made: one with a material, then one that no ray can pass, then one hit from its front, then the one
   // with the later modifier. What is hit in an octree or a mesh counts as the surface that brings it in where
   // that one has a modifier of its own.
-  Hit nearest(const V3d& origin, const V3d& direction, double farthest = kFarAway) const;
+  // from: index of a surface that the ray begins on; where it is plane, the ray cannot meet it again. The
+  // answer depends on it by rounding alone.
+  Hit nearest(const V3d& origin, const V3d& direction, double farthest = kFarAway,
+              int32_t from = kNone) const;
 
   // What lies between origin and a light source's surface at the given distance along direction. source:
   // index of that surface; a distant source is no surface to hit, and distance is kFarAway.
   // blocker: what stopped the ray before, to be tried first, and then what stopped this one (kNoBlocker:
   // nothing): rays to one source, one after the other, are often stopped by the same surface. The answer does
-  // not depend on it.
+  // not depend on it. from: as for nearest().
   Shadow shadow(const V3d& origin, const V3d& direction, double distance, int32_t source,
-                uint32_t* blocker = nullptr) const;
+                uint32_t* blocker = nullptr, int32_t from = kNone) const;
   static constexpr uint32_t kNoBlocker = ~0u;
 
   // What there is to hit, each octree and mesh counted once.
@@ -75,6 +78,8 @@ class Tracer {
  private:
   class Tree;
   struct Embree;
+  uint32_t planePrimitive(int32_t surface) const;
+
   const Scene& scene_;
   std::unique_ptr<Embree> embree_;
   Box3d bounds_;

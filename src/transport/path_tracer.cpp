@@ -150,7 +150,8 @@ void PathTracer::evaluate(Ray& ray) {
 void PathTracer::findHit(Ray& ray) {
   if (ray.unobstructed) return findTarget(ray);
   const Hit hit =
-      t_.tracer().nearest(ray.origin, ray.direction, ray.farthest > kSamePlace ? ray.farthest : kFarAway);
+      t_.tracer().nearest(ray.origin, ray.direction, ray.farthest > kSamePlace ? ray.farthest : kFarAway,
+                          ray.parent ? ray.parent->surface : kNone);
   ray.surface = hit.surface;
   ray.point = ray.origin;
   ray.normal = -ray.direction;
