@@ -319,10 +319,12 @@ void SphereEstimator::sampleSilhouettes(const V3d& point, uint64_t seed, Workspa
   // even.
   const size_t used = base + w.sources.size();
   chooseTargets(point, mixBits(seed + 2), most > used ? most - used : 0, w);
+  w.index.clear();
+  for (uint32_t i = 0; i < w.targets.size(); ++i) w.index.add(i, w.targets[i].silhouette);
   const auto extraDensity = [&](const V3d& d) {
     double density = 0;
-    for (const Workspace::Target& t : w.targets)
-      if (t.silhouette.contains(d)) density += t.density;
+    for (const uint32_t i : w.index.near(d))
+      if (w.targets[i].silhouette.contains(d)) density += w.targets[i].density;
     return density;
   };
   double total = 0;

@@ -24,6 +24,7 @@
 #include "importance/error_estimate.h"
 #include "importance/seen_sources.h"
 #include "importance/silhouette.h"
+#include "importance/silhouette_index.h"
 #include "importance/special_objects.h"
 #include "sphere/voronoi.h"
 #include "transport/path_tracer.h"
@@ -55,6 +56,7 @@ class SphereEstimator {
     // Of the set that is being sampled:
     std::vector<V3d> directions, dynamic;  // of the base, and to special objects
     std::vector<Target> targets;
+    SilhouetteIndex index;  // of the targets, by their places there
     std::vector<SeenSources::Image> images;
     std::vector<SeenSources::Sample> sources;
     std::vector<size_t> rest;   // samples that showed no source that is integrated apart

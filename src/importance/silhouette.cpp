@@ -201,6 +201,14 @@ bool Silhouette::contains(const V3d& direction) const {
                      [&](const V3d& side) { return side.dot(direction) >= -slack_; });
 }
 
+Silhouette::Cap Silhouette::surroundingCap() const {
+  const bool polygon = !corners_.empty();
+  // A cap around the corners holds the sides too as long as it is at most half of the sphere.
+  if (polygon && versine_ > 1) return {axis_, kPi};
+  const double chord = polygon ? std::sqrt(2 * versine_) : std::sqrt(squaredChord_);
+  return {axis_, 2 * std::asin(std::min(1., chord / 2)) + (polygon ? slack_ : 0)};
+}
+
 V3d Silhouette::sample(double u1, double u2) const {
   if (corners_.empty()) {
     const double v = u1 * versine_;

@@ -32,6 +32,13 @@ class Silhouette {
   // "Stratified Sampling of Spherical Triangles" (SIGGRAPH 1995). REQUIRES regionSolidAngle() > 0.
   V3d sample(double u1, double u2) const;
 
+  // A cap that holds the region, and its half angle (radians; pi: it may be anywhere).
+  struct Cap {
+    V3d axis{0, 0, 1};
+    double angle = 0;
+  };
+  Cap surroundingCap() const;
+
   // The directions of both regions, exactly where both are polygons; else the smaller region of the two.
   Silhouette within(const Silhouette& other) const;
 
