@@ -183,6 +183,7 @@ CompareStatus runCompare(CompareOptions options, std::span<const UsedOption> use
   const Scene scene = buildScene(rad::readScene(options.scene, read), read, options.sphere.goals);
   const bool isOctree = scene.description.cube.has_value();
   const Transport transport(scene, options.ray, options.irradiance, options.sphere.basicRadiance, warn);
+  if (transport.isDark()) messages.warning("no light sources found");
   const Answers ours =
       options.sphere.on ? answerPoints(transport, options, numbers) : answerRays(transport, options, numbers);
   const double ourSeconds = processSeconds() - start;

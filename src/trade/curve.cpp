@@ -37,6 +37,10 @@ Reference::Reference(const RepeatedAnswers& answers) : repeats_(answers.repeats(
   meanError_ = meansOfRepeats(answers, [&](size_t i, double x) { return x / scales_[i]; }).standardError();
 }
 
+bool Reference::isDark() const {
+  return std::all_of(means_.begin(), means_.end(), [](double mean) { return mean == 0; });
+}
+
 Figures figuresOf(const Trial& trial, const Reference& reference) {
   Figures f;
   f.words = trial.words;

@@ -27,6 +27,8 @@ class Reference {
   double error() const { return error_; }
   double meanError() const { return meanError_; }
   size_t points() const { return means_.size(); }
+  // Whether all means are 0.
+  bool isDark() const;
   size_t repeats() const { return repeats_; }
 
  private:

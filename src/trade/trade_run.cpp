@@ -46,9 +46,8 @@ class Trade {
   void run();
 
  private:
-  Options optionsOf(std::span<const std::string> words) const;
-  bool measure(std::span<const std::string> words, const Options& options, Trials& trials,
-               Trial& trial) const;
+  Setting settingOf(std::span<const std::string> words) const;
+  bool measure(std::span<const std::string> words, const Setting& given, Trials& trials, Trial& trial) const;
   std::optional<Reference> makeReference(Trials& trials, double target) const;
   void progress(const std::string& text) const;
   void report(const std::vector<Figures>& all, const Reference& reference, double accuracy) const;
@@ -61,45 +60,54 @@ class Trade {
 };
 
 // What is given, with a setting's words behind it: they count.
-Options Trade::optionsOf(std::span<const std::string> words) const {
+Setting Trade::settingOf(std::span<const std::string> words) const {
   std::vector<std::string> line{options_.program};
   line.insert(line.end(), options_.words.begin(), options_.words.end());
   line.insert(line.end(), {"-S+", "-Sa", "0"});
   line.insert(line.end(), words.begin(), words.end());
   line.insert(line.end(), options_.scene.begin(), options_.scene.end());
   TradeOptions options;
-  parseCompanion(line, tradeCompanion(), options);
-  return options;
+  Setting setting;
+  for (const UsedOption& option : parseCompanion(line, tradeCompanion(), options)) {
+    const OptionEntry& entry = *option.entry;
+    if (entry.group == Group::sphere && entry.name != "-Ss" && entry.name != "-Sb") continue;
+    for (const std::string& word : option.words) setting.rays += word + ' ';
+  }
+  setting.options = options;
+  setting.options.sphere.everyDirection = false;  // would only cost time
+  return setting;
 }
 
-bool Trade::measure(std::span<const std::string> words, const Options& given, Trials& trials,
+bool Trade::measure(std::span<const std::string> words, const Setting& given, Trials& trials,
                     Trial& trial) const {
   trial.words.assign(words.begin(), words.end());
-  Options options = given;
-  const bool estimates = options.sphere.accuracy > 0;
+  Setting setting = given;
+  uint64_t& rotation = setting.options.sphere.rotation;
+  const uint64_t first = rotation;
+  const bool estimates = setting.options.sphere.accuracy > 0;
   const auto repeats = static_cast<uint64_t>(options_.repeats);
   for (uint64_t r = 1; r <= repeats; ++r) {
-    options.sphere.rotation = given.sphere.rotation + r;
-    if (!trials.run(options, estimates, true, trial)) return false;
+    rotation = first + r;
+    if (!trials.run(setting, estimates, true, trial)) return false;
   }
   const double count = static_cast<double>(trial.answers.values.size());
   trial.seconds /= count;
   trial.directions /= count;
   for (uint64_t r = repeats + 1; trial.estimates.size() < kEstimates; ++r) {
-    options.sphere.rotation = given.sphere.rotation + r;
-    if (!trials.run(options, true, false, trial)) return false;
+    rotation = first + r;
+    if (!trials.run(setting, true, false, trial)) return false;
   }
   return true;
 }
 
 // Empty where a signal came before there was one.
 std::optional<Reference> Trade::makeReference(Trials& trials, double target) const {
-  Options options = optionsOf(referenceWords());
+  Setting setting = settingOf(referenceWords());
   Trial trial;
   std::optional<Reference> reference;
   for (uint64_t r = 0; r < kMostRotations; ++r) {
-    options.sphere.rotation = kReferenceRotation + r;
-    if (!trials.run(options, false, false, trial)) return std::nullopt;
+    setting.options.sphere.rotation = kReferenceRotation + r;
+    if (!trials.run(setting, false, false, trial)) return std::nullopt;
     if (r + 1 < kLeastRotations) continue;
     reference.emplace(trial.answers);
     progress(fmt::format("reference: {} rotations, {:.3f}% of {:.3f}%", r + 1, 100 * reference->error(),
@@ -166,8 +174,8 @@ void Trade::report(const std::vector<Figures>& all, const Reference& reference, 
 void Trade::run() {
   const double accuracy = options_.sphere.accuracy > 0 ? options_.sphere.accuracy : kUsualAccuracy;
   std::vector<std::vector<std::string>> settings = ladder(options_);
-  std::vector<Options> parsed;
-  for (const auto& words : settings) parsed.push_back(optionsOf(words));
+  std::vector<Setting> parsed;
+  for (const auto& words : settings) parsed.push_back(settingOf(words));
   const std::vector<double> points =
       chosenPoints(readRecords(options_.scene.back(), options_), options_.mostPoints);
 
@@ -180,6 +188,8 @@ void Trade::run() {
   Trials trials(scene, points, signals_);
   const double target = options_.referenceError > 0 ? options_.referenceError : accuracy / 10;
   const std::optional<Reference> reference = makeReference(trials, target);
+  if (reference && reference->isDark())
+    messages_.warning("no light arrives at the points: no errors to tell");
   std::vector<Figures> all;
   const auto start = Clock::now();
   for (size_t i = 0; reference && i < settings.size(); ++i) {

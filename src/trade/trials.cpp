@@ -3,25 +3,22 @@
 #include <algorithm>
 
 #include "cli/batch.h"
-#include "cli/option_table.h"
 #include "measure/work.h"
 
 namespace rsphere {
 
-// Settings that differ in sphere mode's own options share one: it holds the tree of all surfaces.
-const Transport& Trials::transportOf(const Options& options) {
-  Options key = options;
-  key.sphere = SphereOptions{};
-  key.sphere.basicRadiance = options.sphere.basicRadiance;
-  auto& transport = transports_[defaultsText(key)];
+// One holds the tree of all surfaces.
+const Transport& Trials::transportOf(const Setting& setting) {
+  auto& transport = transports_[setting.rays];
   if (!transport)
-    transport =
-        std::make_unique<Transport>(scene_, options.ray, Irradiance::none, options.sphere.basicRadiance);
+    transport = std::make_unique<Transport>(scene_, setting.options.ray, Irradiance::none,
+                                            setting.options.sphere.basicRadiance);
   return *transport;
 }
 
-bool Trials::run(const Options& options, bool standardErrors, bool timed, Trial& trial) {
-  const Transport& transport = transportOf(options);
+bool Trials::run(const Setting& setting, bool standardErrors, bool timed, Trial& trial) {
+  const Options& options = setting.options;
+  const Transport& transport = transportOf(setting);
   const double begin = threadSeconds();
   const SphereEstimator estimator(transport, options.sphere, standardErrors);
   const double setup = threadSeconds() - begin;

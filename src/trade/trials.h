@@ -10,6 +10,13 @@
 
 namespace rsphere {
 
+// A setting's options, and those of its words that rays depend on: settings with the same can share a
+// Transport.
+struct Setting {
+  Options options;
+  std::string rays;
+};
+
 // Runs settings on a scene's points.
 class Trials {
  public:
@@ -17,18 +24,18 @@ class Trials {
   Trials(const Scene& scene, std::span<const double> points, const StopSignals& signals)
       : scene_(scene), points_(points), signals_(signals) {}
 
-  // Answers all points once, with the rotation of options. standardErrors: whether estimates are wanted. Adds
-  // to trial.answers, and to the sums of its seconds and directions where `timed`. False, and nothing added,
-  // where a signal came.
-  bool run(const Options& options, bool standardErrors, bool timed, Trial& trial);
+  // Answers all points once, with the rotation of its options. standardErrors: whether estimates are wanted.
+  // Adds to trial.answers, and to the sums of its seconds and directions where `timed`. False, and nothing
+  // added, where a signal came.
+  bool run(const Setting& setting, bool standardErrors, bool timed, Trial& trial);
 
  private:
-  const Transport& transportOf(const Options& options);
+  const Transport& transportOf(const Setting& setting);
 
   const Scene& scene_;
   std::span<const double> points_;
   const StopSignals& signals_;
-  std::map<std::string, std::unique_ptr<Transport>> transports_;  // by what -defaults prints of their options
+  std::map<std::string, std::unique_ptr<Transport>> transports_;  // by Setting::rays
 };
 
 }  // namespace rsphere

@@ -41,6 +41,11 @@ TEST(Reference, KnowsItsError) {
   EXPECT_EQ(reference.repeats(), 64u);
 }
 
+TEST(Reference, KnowsTheDark) {
+  EXPECT_TRUE(Reference({2, {0, 0, 0, 0}}).isDark());
+  EXPECT_FALSE(Reference({2, {0, 0, 0, 1}}).isDark());
+}
+
 TEST(Figures, AreThoseOfNoiseAndBias) {
   const Reference exact(answersOf(2, 0, 0, 1));
   const Figures f = figuresOf(trialOf(.01, .02, 2), exact);
