@@ -69,11 +69,6 @@ double extent(const LightSource& source, const V3d& along) {
   }
 }
 
-bool isPlane(const LightSource& source) {
-  return source.map != LightSource::Map::cone && source.map != LightSource::Map::ball &&
-         source.map != LightSource::Map::tube;
-}
-
 class Images {
  public:
   Images(const Scene& scene, const SurfaceFunctions& functions, const rad::Warn& warn,
@@ -202,7 +197,7 @@ class Images {
     if (source.reach > 0 && (relay.center - source.center).length() > source.reach) return false;
     if (source.spot && !meetsCone(source, source.spot->aim, 1 - source.spot->solidAngle / (2 * kPi), relay))
       return false;
-    if (!isPlane(source)) return true;
+    if (!source.isPlane()) return true;
     return mostOver(relay, [&](const V3d& p) { return (p - source.center).dot(source.normal); }) > kTiny;
   }
 
@@ -235,7 +230,7 @@ class Images {
     image.u = projection.vector(source.u);
     image.v = projection.vector(source.v);
     for (V3d& p : image.fanVertices) p = projection.point(p);
-    if (isPlane(source)) image.normal = projection.vector(source.normal).normalized();
+    if (source.isPlane()) image.normal = projection.vector(source.normal).normalized();
     if (image.spot) {
       image.spot->aim = projection.vector(image.spot->aim).normalized();
       // A shear makes no cone of a cone; the lamp itself is asked in the end.

@@ -224,6 +224,7 @@ LightSources::LightSources(const Scene& scene, int relays, const SurfaceFunction
 
 void LightSources::measureParts() {
   for (LightSource& source : sources_) {
+    source.outermost = !source.distant ? source.radius : source.cosHalfAngle > 0 ? source.sinHalfAngle : 1;
     source.extentU = source.u.length();
     source.extentV = source.v.length();
     // A disk counts as the square of its area, as for rtrace.
@@ -263,11 +264,12 @@ void LightSources::findSources() {
   }
 }
 
-void LightSources::sample(uint32_t index, const V3d& point, const SourceSampling& how, Random& random,
-                          std::vector<SourceSample>& samples) const {
+// towards: as sample() has it, for a source that the tests there leave.
+void LightSources::sampleParts(uint32_t index, const V3d& point, const V3d& towards,
+                               const SourceSampling& how, Random& random,
+                               std::vector<SourceSample>& samples) const {
   const LightSource& source = sources_[index];
   const double jitter = how.jitter;
-  const V3d towards = source.distant ? source.center : source.center - point;
 
   // Adds a sample, where the ray hits the source. omega: what it stands for. length: to the place inside the
   // source that it is aimed at, which the reach is measured to.
@@ -299,12 +301,8 @@ void LightSources::sample(uint32_t index, const V3d& point, const SourceSampling
     samples.push_back(sample);
   };
 
-  const bool plane = source.map <= LightSource::Map::fan;
-  if (plane && towards.dot(source.normal) >= 0) return;  // behind it
   const double distance = source.distant ? 1e10 : towards.length();
   if (source.reach > 0 && distance > source.reach + source.radius) return;
-  const double wholly = !source.distant ? source.radius : source.cosHalfAngle > 0 ? source.sinHalfAngle : 1;
-  if (towards.dot(how.front) < -wholly) return;
   if (source.isVirtual() && -towards.dot(source.beam) < source.cosBeam * distance) return;
   // A round source: directions spread as the projected solid angle around its middle, so that one ray at the
   // middle is exact for a surface that faces it, and jittered rays are for every surface.

@@ -36,6 +36,7 @@ struct LightSource {
   double cosBeam = -1;
 
   bool isVirtual() const { return relayed != kNone; }
+  bool isPlane() const { return map <= Map::fan; }
 
   // How the unit square lies on the source.
   enum class Map : uint8_t {
@@ -49,6 +50,7 @@ struct LightSource {
   } map = Map::parallelogram;
   V3d u{0, 0, 0}, v{0, 0, 0};
   double extentU = 0, extentV = 0;  // half of what its parts are measured by
+  double outermost = 0;             // how far its points are out from center, along any direction
   V3d normal{0, 0, 0};              // of plane sources
   double area = 0;                  // of plane sources; of a tube's length times its diameter
   std::vector<double> fanArea;      // cumulative shares of the fan's triangles
@@ -95,9 +97,18 @@ class LightSources {
   // left out; one to a virtual source is only followed to the first relay: what comes back from there may be
   // nothing.
   void sample(uint32_t source, const V3d& point, const SourceSampling& how, Random& random,
-              std::vector<SourceSample>& samples) const;
+              std::vector<SourceSample>& samples) const {
+    // Most are turned away or behind the surface: told here, without a call.
+    const LightSource& light = sources_[source];
+    const V3d towards = light.distant ? light.center : light.center - point;
+    if (light.isPlane() && towards.dot(light.normal) >= 0) return;
+    if (towards.dot(how.front) < -light.outermost) return;
+    sampleParts(source, point, towards, how, random, samples);
+  }
 
  private:
+  void sampleParts(uint32_t source, const V3d& point, const V3d& towards, const SourceSampling& how,
+                   Random& random, std::vector<SourceSample>& samples) const;
   void findSources();
   void measureParts();
 

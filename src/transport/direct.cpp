@@ -76,7 +76,7 @@ bool PathTracer::arrives(const Ray& ray, const Contribution& to, Rgb& value) {
   const bool toSurface = !light.distant || light.isVirtual();
   const Shadow shadow =
       t_.tracer().shadow(ray.point, sample.direction, sample.distance, toSurface ? light.surface : kNone,
-                         &blockers_[sample.source], ray.surface);
+                         &blockerOf(ray.surface, sample.source), ray.surface);
   const bool follow = shadow == Shadow::unsure || (shadow == Shadow::clear && light.isVirtual());
   if (follow || allShadowRays_) value = valueFromSource(ray, to);  // allShadowRays_: to be shown
   if (shadow == Shadow::blocked) return false;

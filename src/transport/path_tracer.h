@@ -99,7 +99,7 @@ struct BsdfHit;
 class PathTracer {
  public:
   explicit PathTracer(const Transport& transport)
-      : t_(transport), blockers_(transport.lights().all().size(), Tracer::kNoBlocker) {}
+      : t_(transport), blockers_(size_t{1} << kBlockerBits, Tracer::kNoBlocker) {}
 
   // Radiance along a primary ray (W/sr/m2), or irradiance (W/m2) as Transport::irradiance says: on the
   // surface that is hit, or on an imagined one just ahead that faces the ray (see inputRay() for where -I
@@ -211,6 +211,10 @@ class PathTracer {
   void addDirectOfChosen(Ray& ray, DirectCoefficient coefficientOf, const V3d& front);
   size_t lookAheadOf(size_t count);
   Rgb sourceValue(const Ray& ray, const SourceSample& sample);
+  uint32_t& blockerOf(int32_t surface, uint32_t source) {
+    const uint64_t both = (uint64_t{static_cast<uint32_t>(surface)} << 32) | source;
+    return blockers_[(both * 0x9e3779b97f4a7c15u) >> (64 - kBlockerBits)];  // Fibonacci hashing
+  }
   bool arrives(const Ray& ray, const Contribution& to, Rgb& value);
   Interaction interaction(const Ray& ray) const;
 
@@ -231,7 +235,9 @@ class PathTracer {
   std::vector<Ranked> ranked_;  // of the contributions, brightest first where not all are tested
   std::vector<double> remaining_;
   std::vector<double> sourceWeights_;
-  std::vector<uint32_t> blockers_;  // by source: what stopped the last ray to it
+  // What stopped the last ray from a surface to a source, at a hash of the two.
+  static constexpr int kBlockerBits = 12;
+  std::vector<uint32_t> blockers_;
   std::vector<size_t> lookAheads_;  // by count; as far as they were asked for
 };
 
