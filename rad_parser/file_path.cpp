@@ -4,8 +4,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
-#include <vector>
+#include <filesystem>
+#include <system_error>
 
 namespace rad {
 namespace {
@@ -35,6 +37,40 @@ bool isDirectory(const std::string& path) {
 
 }  // namespace
 
+FileAccess FileAccess::foldersOf(std::span<const std::string> given) {
+  FileAccess access;
+  std::vector<std::string>& folders = access.folders_.emplace();
+  const auto add = [&](std::filesystem::path folder) {
+    std::error_code missing;
+    folder = std::filesystem::canonical(folder.empty() ? "." : folder, missing);
+    if (!missing) folders.push_back((folder / "").string());
+  };
+  const std::string path = libraryPath();
+  for (std::string_view rest = path;;) {
+    const size_t colon = std::min(rest.find(':'), rest.size());
+    add(rest.substr(0, colon));
+    if (colon == rest.size()) break;
+    rest.remove_prefix(colon + 1);
+  }
+  for (const std::string& name : given)
+    if (!name.starts_with('!'))
+      add(directoryOf(::access(name.c_str(), F_OK) == 0 ? name : findFile(name, path).value_or(name)));
+  return access;
+}
+
+bool FileAccess::allows(const std::string& path) const {
+  if (!folders_) return true;
+  std::error_code missing;
+  const std::filesystem::path file = std::filesystem::canonical(path, missing);
+  if (missing || !std::filesystem::is_regular_file(file, missing)) return false;
+  return std::any_of(folders_->begin(), folders_->end(),
+                     [&](const std::string& folder) { return file.native().starts_with(folder); });
+}
+
+std::string_view FileAccess::remark() const {
+  return folders_ ? " (with -Sc- in the folders of the scene files and of RAYPATH only)" : "";
+}
+
 std::string libraryPath() {
   const char* path = std::getenv("RAYPATH");
   return path ? path : ".:/usr/local/lib/ray";
@@ -53,12 +89,12 @@ std::string directoryOf(std::string_view path) {
   return std::string(path.substr(0, slash == 0 ? 1 : slash));
 }
 
-std::optional<std::string> findFile(std::string_view name, std::string_view searchPath,
-                                    std::string_view base) {
+std::optional<std::string> findFile(std::string_view name, std::string_view searchPath, std::string_view base,
+                                    const FileAccess& access) {
   if (name.empty() || name.find('\0') != name.npos) return {};
   if (name[0] == '/' || name[0] == '.' || name[0] == '~') {
     std::optional<std::string> path = name[0] == '~' ? inHome(name) : joinPath(base, name);
-    if (path && !readable(*path)) path.reset();
+    if (path && !(readable(*path) && access.allows(*path))) path.reset();
     return path;
   }
   for (;;) {
@@ -66,7 +102,7 @@ std::optional<std::string> findFile(std::string_view name, std::string_view sear
     std::string_view directory = searchPath.substr(0, colon);
     if (directory == ".") directory = {};  // "desk.rad" is a better name in messages than "./desk.rad"
     std::string path = joinPath(base, joinPath(directory, name));
-    if (readable(path) && !isDirectory(path)) return path;
+    if (readable(path) && !isDirectory(path) && access.allows(path)) return path;
     if (colon == searchPath.size()) return {};
     searchPath.remove_prefix(colon + 1);
   }

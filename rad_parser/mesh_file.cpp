@@ -220,9 +220,11 @@ std::optional<Imath::V2d> Mesh::uv(uint32_t vertex) const {
   return Imath::V2d(at(0), at(1));
 }
 
-Mesh readMesh(const std::string& name, const Warn& warn) {
-  const std::optional<std::string> path = findFile(name, libraryPath());
-  if (!path) throw Error(fmt::format("{}: cannot find mesh file", printable(name, 4096)), Status::system);
+Mesh readMesh(const std::string& name, const Warn& warn, const FileAccess& access) {
+  const std::optional<std::string> path = findFile(name, libraryPath(), {}, access);
+  if (!path)
+    throw Error(fmt::format("{}: cannot find mesh file{}", printable(name, 4096), access.remark()),
+                Status::system);
   const OpenFile file(*path);
   if (file.descriptor() < 0)
     throw Error(fmt::format("{}: cannot open mesh file: {}", printable(*path, 4096), std::strerror(errno)),

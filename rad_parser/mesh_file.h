@@ -9,6 +9,7 @@
 
 #include "rad_parser/description.h"
 #include "rad_parser/error.h"
+#include "rad_parser/file_path.h"
 
 namespace rad {
 
@@ -64,6 +65,6 @@ Imath::V3d decodeDirection(uint32_t code);
 // is not found or cannot be read, Status::input for what is no mesh, or is truncated or damaged, with the
 // byte where it was noticed. Warns where there are no triangles, and of unknown types. Memory is in
 // proportion to the data (16 bytes a triangle, 12 to 24 a vertex), not to the counts that they announce.
-Mesh readMesh(const std::string& name, const Warn& warn = {});
+Mesh readMesh(const std::string& name, const Warn& warn = {}, const FileAccess& access = {});
 
 }  // namespace rad

@@ -60,8 +60,11 @@ class Reader {
   }
 
   void octreeFile(const std::string& name) {
-    const std::optional<std::string> found = findFile(name, libraryPath());
-    if (!found) throw Error(printable(name, 4096) + ": cannot find octree file", Status::system);
+    const std::optional<std::string> found = findFile(name, libraryPath(), {}, options_.files);
+    if (!found)
+      throw Error(
+          fmt::format("{}: cannot find octree file{}", printable(name, 4096), options_.files.remark()),
+          Status::system);
     const OpenFile input(*found);
     if (input.descriptor() < 0)
       throw Error(
@@ -91,6 +94,9 @@ class Reader {
     readOctree(input, file, builder_, options_.warn, [&](const std::string& scene) {
       if (scene.starts_with('!')) return command(scene.substr(1), {file, 0}, {});
       const uint32_t sceneFile = builder_.addFile(scene, {file, 0});
+      if (!options_.files.allows(scene))
+        throw builder_.error({sceneFile, 0}, fmt::format("cannot open scene file{}", options_.files.remark()),
+                             Status::system);
       const OpenFile opened(scene);
       if (opened.descriptor() < 0)
         throw builder_.error({sceneFile, 0},
@@ -169,13 +175,17 @@ class Reader {
     std::vector<std::pair<std::string, uint32_t>>
         seen;  // files by path: an array reads the same ones again and again
     try {
-      forEachPass(words, context.directory, [&](const XformPass& pass) {
+      forEachPass(words, context.directory, options_.files, [&](const XformPass& pass) {
+        if (++passes_ > kMostPasses)
+          throw builder_.error(place, fmt::format("xform: more than {} copies in all", kMostPasses));
         const Transform nested =
             context.transform ? within(*context.transform, pass.transform) : pass.transform;
         for (const std::string& name : pass.files) {
-          const auto path = findFile(name, libraryPath(), context.directory);
+          const auto path = findFile(name, libraryPath(), context.directory, options_.files);
           if (!path)
-            throw builder_.error(place, fmt::format("xform: cannot find file \"{}\"", printable(name, 4096)),
+            throw builder_.error(place,
+                                 fmt::format("xform: cannot find file \"{}\"{}", printable(name, 4096),
+                                             options_.files.remark()),
                                  Status::system);
           auto known =
               std::find_if(seen.begin(), seen.end(), [&](const auto& s) { return s.first == *path; });
@@ -313,6 +323,7 @@ class Reader {
   const ReadOptions& options_;
   const bool alone_;
   DescriptionBuilder builder_;
+  int64_t passes_ = 0;           // of all xform commands
   std::string modifier_, name_;  // of the primitive at hand; kept for their memory
 };
 

@@ -5,12 +5,14 @@
 
 #include "rad_parser/description.h"
 #include "rad_parser/error.h"
+#include "rad_parser/file_path.h"
 
 namespace rad {
 
 struct ReadOptions {
   bool commands = true;  // -Sc: whether '!command' lines may run through the shell (xform never needs it)
   Warn warn;
+  FileAccess files;  // those that scene files may name; the names given to read first are not asked about
 };
 
 // Files and commands within each other beyond this are refused: a file that reads itself would never end.

@@ -408,8 +408,9 @@ std::vector<std::vector<std::string>> readArgumentFile(const std::string& path, 
 
 class Passes {
  public:
-  Passes(const std::string& directory, const std::function<void(const XformPass&)>& pass)
-      : directory_(directory), pass_(pass) {}
+  Passes(const std::string& directory, const FileAccess& access,
+         const std::function<void(const XformPass&)>& pass)
+      : directory_(directory), access_(access), pass_(pass) {}
 
   void run(const std::vector<std::string>& words, int nested) {
     if (nested > kDeepest) throw fault("argument files within each other without end");
@@ -429,7 +430,12 @@ class Passes {
       throw fault("missing file for -f");
     if (words[at + 1] == "-") throw fault("-f - would read standard input, which a scene must not");
     int k = 0;
-    for (const auto& line : readArgumentFile(joinPath(directory_, words[at + 1]), words[at + 1])) {
+    const std::string path = joinPath(directory_, words[at + 1]);
+    if (!access_.allows(path))
+      throw XformFault(fmt::format("xform: cannot read argument file \"{}\"{}", printable(words[at + 1]),
+                                   access_.remark()),
+                       Status::system);
+    for (const auto& line : readArgumentFile(path, words[at + 1])) {
       std::vector<std::string> longer(words.begin(), words.begin() + at);
       longer.insert(longer.end(), line.begin(), line.end());
       longer.insert(longer.end(), words.begin() + at + 2, words.end());
@@ -500,15 +506,16 @@ class Passes {
   }
 
   const std::string& directory_;
+  const FileAccess& access_;
   const std::function<void(const XformPass&)>& pass_;
   int64_t done_ = 0;
 };
 
 }  // namespace
 
-void forEachPass(std::span<const std::string> words, const std::string& directory,
+void forEachPass(std::span<const std::string> words, const std::string& directory, const FileAccess& access,
                  const std::function<void(const XformPass&)>& pass) {
-  Passes(directory, pass).run({words.begin(), words.end()}, 0);
+  Passes(directory, access, pass).run({words.begin(), words.end()}, 0);
 }
 
 }  // namespace rad

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "rad_parser/description_builder.h"
+#include "rad_parser/file_path.h"
 
 namespace rad {
 
@@ -87,11 +88,12 @@ class XformFault : public Error {
 // (-a) and line of its argument files (-f). words: the command's, "xform" first. directory: where argument
 // files' names start. Throws XformFault for what xform(1) does not allow, for standard input where a file is
 // needed
-// ("-f -", or no file named), and beyond kMostPasses; what pass throws goes through.
-void forEachPass(std::span<const std::string> words, const std::string& directory,
+// ("-f -", or no file named), for argument files that access does not allow, and beyond kMostPasses; what
+// pass throws goes through.
+void forEachPass(std::span<const std::string> words, const std::string& directory, const FileAccess& access,
                  const std::function<void(const XformPass&)>& pass);
 
-// A command that repeats more often is refused: it would run for hours.
+// A command, or a scene, that repeats more often is refused: it would run for hours.
 inline constexpr int64_t kMostPasses = 10'000'000;
 
 }  // namespace rad

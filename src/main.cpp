@@ -3,6 +3,7 @@
 #include "cli/answer_writer.h"
 #include "cli/batch.h"
 #include "cli/header.h"
+#include "cli/memory_limit.h"
 #include "cli/messages.h"
 #include "cli/option_table.h"
 #include "cli/print_request.h"
@@ -15,9 +16,18 @@
 namespace rsphere {
 namespace {
 
+// Where scene files come from a stranger (-Sc-), they name files only where the command line does.
+rad::FileAccess filesAllowed(const Options& options) {
+  if (options.commands) return {};
+  std::vector<std::string> given = options.scene;
+  for (const SharedDefinitions& shared : options.ray.definitions)
+    if (shared.isFile) given.push_back(shared.text);
+  return rad::FileAccess::foldersOf(given);
+}
+
 void answer(const Options& options, const Messages& messages, StopSignals& signals) {
   const rad::Warn warn = [&](std::string_view text) { messages.warning(text); };
-  const rad::ReadOptions read{options.commands, warn};
+  const rad::ReadOptions read{options.commands, warn, filesAllowed(options)};
   const Scene scene = buildScene(rad::readScene(options.scene, read), read, options.sphere.goals);
   RecordWriter writer(1);
   if (options.sphere.listSpecial) {
@@ -48,6 +58,7 @@ int main(int argc, char** argv) {
   const std::string program = called.substr(called.rfind('/') + 1);
   Messages messages(program);
   try {
+    limitMemory();
     StopSignals signals(program);
     const Options options = parseOptions(argc, argv);
     messages.use(options);

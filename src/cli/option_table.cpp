@@ -821,7 +821,11 @@ std::vector<OptionEntry> makeTable() {
        .remark = "scene commands on|scene commands off",
        .paragraph =
            "Switch for whether commands in scene files (lines with !) may run. xform always works: it needs "
-           "no other program. Holds in ray mode as well."});
+           "no other program. Off, for scenes of strangers, it also keeps the files that scene files name "
+           "(xform, octrees, meshes, data, pictures, fonts, functions, BSDFs) to regular files in the "
+           "folders "
+           "of what the command line names and of RAYPATH, or below them, wherever symbolic links may point. "
+           "Holds in ray mode as well."});
   add({.name = "-Sv",
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.sphere.verify; },

@@ -30,6 +30,7 @@ class Builder {
   Builder(rad::Description description, const rad::ReadOptions& options)
       : options_(options), warn_(options.warn) {
     scene_.description = std::move(description);
+    scene_.files = options.files;
   }
 
   Scene build() {
@@ -498,7 +499,7 @@ class Builder {
 
   // Reads a mesh; each material that it uses becomes the modifier of faces of its own.
   void addMesh(const NamedFile& named) {
-    rad::Mesh data = read(named.namedBy, [&] { return rad::readMesh(named.file, warn_); });
+    rad::Mesh data = read(named.namedBy, [&] { return rad::readMesh(named.file, warn_, options_.files); });
     std::vector<bool> used(data.materials.primitives.size());
     for (const rad::Mesh::Triangle& t : data.triangles)
       if (t.material != rad::Mesh::kNoMaterial) used[static_cast<size_t>(t.material)] = true;

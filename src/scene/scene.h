@@ -65,6 +65,7 @@ struct Mesh {
 // What the tracer needs of a scene, and only what this scene requires: used modifiers, surfaces that can be
 // hit.
 struct Scene {
+  rad::FileAccess files;             // those that its modifiers may name
   rad::Description description;      // of octrees and meshes too, behind the scene's own
   std::vector<Surface> surfaces;     // by groups, then the MeshFaces
   std::vector<SurfaceGroup> groups;  // [0]: the scene itself

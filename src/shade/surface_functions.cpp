@@ -33,8 +33,8 @@ std::optional<std::string> readFile(const std::string& path) {
   return std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
 }
 
-std::optional<calc::SourceText> loadFunctionFile(std::string_view name) {
-  const auto path = rad::findFile(name, rad::libraryPath());
+std::optional<calc::SourceText> loadFunctionFile(std::string_view name, const rad::FileAccess& access) {
+  const auto path = rad::findFile(name, rad::libraryPath(), {}, access);
   if (!path) return std::nullopt;
   auto text = readFile(*path);
   if (!text) return std::nullopt;
@@ -148,9 +148,10 @@ class SurfaceFunctions::Maker {
 
   // The text of a file along RAYPATH, and its path.
   std::string find(std::string_view name, std::string_view kind) const {
-    const auto path = rad::findFile(name, rad::libraryPath());
+    const auto path = rad::findFile(name, rad::libraryPath(), {}, scene_.files);
     if (!path)
-      fail(fmt::format("cannot find {} file \"{}\"", kind, rad::printable(name)), rad::Status::system);
+      fail(fmt::format("cannot find {} file \"{}\"{}", kind, rad::printable(name), scene_.files.remark()),
+           rad::Status::system);
     return *path;
   }
   std::string read(const std::string& path, std::string_view kind) const {
@@ -405,7 +406,9 @@ SurfaceFunctions::SurfaceFunctions(const Scene& scene, rad::Warn warn,
     : scene_(scene),
       warn_(std::move(warn)),
       ready_(scene.modifiers.size()),
-      library_(calc::sceneInterface(), loadFunctionFile, warn_) {
+      library_(
+          calc::sceneInterface(),
+          [&files = scene.files](std::string_view name) { return loadFunctionFile(name, files); }, warn_) {
   for (const SharedDefinitions& shared : definitions)
     if (shared.isFile)
       library_.include(shared.text);

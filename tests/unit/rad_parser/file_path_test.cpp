@@ -70,4 +70,31 @@ TEST(FilePath, Parts) {
   EXPECT_EQ(rad::joinPath("", "b"), "b");
 }
 
+TEST(FileAccess, FoldersOfTheNamesGivenAndOfRaypath) {
+  const TestFolder folder;
+  const std::string scene = folder.write("scene/room.rad", "");
+  const std::string below = folder.write("scene/lib/chair.rad", "");
+  const std::string other = folder.write("scenery/chair.rad", "");
+  std::filesystem::create_symlink(other, folder.path("scene/link.rad"));
+  const rad::FileAccess access = rad::FileAccess::foldersOf(std::vector<std::string>{scene});
+  EXPECT_TRUE(access.allows(scene));
+  EXPECT_TRUE(access.allows(below));
+  EXPECT_TRUE(access.allows(folder.path("scenery/../scene/lib/chair.rad")));
+  EXPECT_FALSE(access.allows(other));  // its folder's name begins like the one allowed
+  EXPECT_FALSE(access.allows(folder.path("scene/../scenery/chair.rad")));
+  EXPECT_FALSE(access.allows(folder.path("scene/link.rad")));
+  EXPECT_FALSE(access.allows(folder.path("scene/none.rad")));
+  EXPECT_FALSE(access.allows(folder.path("scene/lib")));
+  EXPECT_FALSE(access.allows("/dev/zero"));
+  EXPECT_EQ(findFile(other, ".", {}, access), std::nullopt);
+  EXPECT_EQ(findFile("chair.rad", folder.path("scenery") + ":" + folder.path("scene/lib"), {}, access),
+            below);
+  EXPECT_FALSE(access.remark().empty());
+}
+
+TEST(FileAccess, AnywhereUnlessAskedOtherwise) {
+  EXPECT_TRUE(rad::FileAccess().allows("/dev/zero"));
+  EXPECT_TRUE(rad::FileAccess().remark().empty());
+}
+
 }  // namespace
