@@ -11,8 +11,8 @@ namespace rad {
 
 struct ReadOptions {
   bool commands = true;  // -Sc: whether '!command' lines may run through the shell (xform never needs it)
-  Warn warn;
-  FileAccess files;  // those that scene files may name; the names given to read first are not asked about
+  Warn warn{};
+  FileAccess files{};  // those that scene files may name; the names given to read first are not asked about
 };
 
 // Files and commands within each other beyond this are refused: a file that reads itself would never end.

@@ -7,27 +7,18 @@
 #include "cli/messages.h"
 #include "cli/option_table.h"
 #include "cli/print_request.h"
+#include "cli/read_options.h"
 #include "cli/records.h"
 #include "cli/stop_signals.h"
 #include "importance/answer_points.h"
-#include "rad_parser/scene_file.h"
 #include "transport/answer_rays.h"
 
 namespace rsphere {
 namespace {
 
-// Where scene files come from a stranger (-Sc-), they name files only where the command line does.
-rad::FileAccess filesAllowed(const Options& options) {
-  if (options.commands) return {};
-  std::vector<std::string> given = options.scene;
-  for (const SharedDefinitions& shared : options.ray.definitions)
-    if (shared.isFile) given.push_back(shared.text);
-  return rad::FileAccess::foldersOf(given);
-}
-
 void answer(const Options& options, const Messages& messages, StopSignals& signals) {
   const rad::Warn warn = [&](std::string_view text) { messages.warning(text); };
-  const rad::ReadOptions read{options.commands, warn, filesAllowed(options)};
+  const rad::ReadOptions read = readOptions(options, warn);
   const Scene scene = buildScene(rad::readScene(options.scene, read), read, options.sphere.goals);
   RecordWriter writer(1);
   if (options.sphere.listSpecial) {

@@ -10,11 +10,14 @@
 #include <condition_variable>
 #include <exception>
 #include <limits>
+#include <list>
 #include <map>
 #include <mutex>
 #include <system_error>
 #include <thread>
 #include <vector>
+
+#include "cli/worker_thread.h"
 
 namespace rsphere {
 namespace {
@@ -129,14 +132,13 @@ void Batch::run() {
   reader_.whenWaiting([this](bool waiting) { waitingForInput(waiting); });
   writer_.holdUntilFlush(interval_ > 1);
   {
-    std::vector<std::jthread> others;
+    std::list<WorkerThread> workers;
     try {
-      for (unsigned i = 1; i < threads_; ++i) others.emplace_back([this, i] { work(i); });
+      for (unsigned i = 0; i < threads_; ++i) workers.emplace_back([this, i] { work(i); });
     } catch (const std::system_error& error) {
       stop(std::make_exception_ptr(rad::Error(
           fmt::format("cannot start {} threads: {}", threads_, error.what()), rad::Status::system)));
     }
-    work(0);
   }
   reader_.whenWaiting({});
   reader_.interruptBy({});

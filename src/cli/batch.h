@@ -30,7 +30,7 @@ using AnswerRecord = std::function<void(const Record& record, unsigned worker, s
 unsigned threadCount(const Options& options);
 
 // Reads records to the end of input (or to the -y'th scanline of -x records), has them answered by -n
-// threads, this one among them, and writes the answers in the order of the input, whatever the number of
+// threads of its own, and writes the answers in the order of the input, whatever the number of
 // threads.
 // - Flush: after every -x records where -y is 0, and after every record where -x is 1; after a bogus record;
 // and, unless

@@ -29,6 +29,7 @@ constexpr unsigned kPatience = 15;  // seconds to finish in, as rtrace has them
 struct State {
   std::atomic<int> raised{0};  // the first signal
   std::atomic<bool> deferred{false};
+  std::atomic<bool> told{false};  // the message is somebody else's by now
   std::atomic<int> messageFd{2};
   int pipe[2] = {-1, -1};
   std::array<std::string, kSignals.size()> messages;
@@ -47,11 +48,11 @@ void occupyStandardDescriptors() {
 
 void onSignal(int number) {
   const int error = errno;
-  int none = 0;
-  if (!state.raised.compare_exchange_strong(none, number)) _exit(kStatus);
-  if (!state.deferred) {
-    for (size_t i = 0; i < kSignals.size(); ++i)
-      if (kSignals[i].number == number) {
+  int first = 0;
+  const bool again = !state.raised.compare_exchange_strong(first, number);
+  if (again || !state.deferred) {
+    for (size_t i = 0; i < kSignals.size() && !state.told; ++i)
+      if (kSignals[i].number == (again ? first : number)) {
         const std::string& text = state.messages[i];
         [[maybe_unused]] const ssize_t n = write(state.messageFd, text.data(), text.size());
       }
@@ -70,6 +71,7 @@ StopSignals::StopSignals(const std::string& program) {
     throw rad::Error("cannot make a pipe for signals", rad::Status::system);
   state.raised = 0;
   state.deferred = false;
+  state.told = false;
   state.messageFd = 2;
   for (size_t i = 0; i < kSignals.size(); ++i) {
     state.messages[i] = program + ": signal - " + kSignals[i].text + "\n";
@@ -99,6 +101,7 @@ bool StopSignals::raised() const { return state.raised != 0; }
 int StopSignals::descriptor() const { return state.pipe[0]; }
 
 std::string StopSignals::name() const {
+  state.told = true;
   for (const Named& signal : kSignals)
     if (signal.number == state.raised) return signal.text;
   return {};

@@ -26,7 +26,8 @@ class StopSignals {
   bool raised() const;
   int descriptor() const;
 
-  // "Terminate" and so on, as rtrace words them. Empty if no signal came.
+  // "Terminate" and so on, as rtrace words them; the message is then the caller's to give. Empty if no signal
+  // came.
   std::string name() const;
 };
 

@@ -8,6 +8,7 @@
 
 #include "cli/answer_writer.h"
 #include "cli/batch.h"
+#include "cli/read_options.h"
 #include "cli/records.h"
 #include "compare/comparison.h"
 #include "compare/original.h"
@@ -179,7 +180,7 @@ CompareStatus runCompare(CompareOptions options, std::span<const UsedOption> use
 
   const double start = processSeconds();
   const rad::Warn warn = [&](std::string_view text) { messages.warning(text); };
-  const rad::ReadOptions read{options.commands, warn};
+  const rad::ReadOptions read = readOptions(options, warn);
   const Scene scene = buildScene(rad::readScene(options.scene, read), read, options.sphere.goals);
   const bool isOctree = scene.description.cube.has_value();
   const Transport transport(scene, options.ray, options.irradiance, options.sphere.basicRadiance, warn);

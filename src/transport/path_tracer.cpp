@@ -1,9 +1,11 @@
 #include "transport/path_tracer.h"
 
 #include <fmt/format.h>
+#include <pthread.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "transport/ray_functions.h"
 
@@ -13,11 +15,35 @@ namespace {
 constexpr double kMeterLength =
     1e-5;  // -I: world units from the ray's origin to its imagined surface, as rtrace
 
-// Rays are traced one inside the other. The deepest takes about 8 MB of stack, what a thread has.
-constexpr int kDeepest = 4000;
+// Rays are traced one inside the other. The deepest takes 40 MB of stack at most; runRecords() gives its
+// threads more.
+constexpr int kDeepest = 20500;
+// What the work at one surface may need of it, tracing a ray through octrees within octrees included.
+constexpr uintptr_t kStackReserve = 512 << 10;
+
+// Where this thread's stack ends. Asked of the system once a thread.
+uintptr_t stackEnd() {
+  thread_local const uintptr_t end = [] {
+    pthread_attr_t attributes;
+    void* lowest = nullptr;
+    size_t size = 0;
+    if (pthread_getattr_np(pthread_self(), &attributes) != 0) return uintptr_t{0};
+    pthread_attr_getstack(&attributes, &lowest, &size);
+    pthread_attr_destroy(&attributes);
+    return reinterpret_cast<uintptr_t>(lowest);
+  }();
+  return end;
+}
+
 void checkDepth(const Ray& ray) {
   if (ray.depth > kDeepest)
     throw rad::Error(fmt::format("a ray goes through more than {} surfaces one after the other", kDeepest));
+  if (reinterpret_cast<uintptr_t>(__builtin_frame_address(0)) < stackEnd() + kStackReserve)
+    throw rad::Error(
+        fmt::format("a ray goes through {} surfaces one after the other: more than the thread's stack "
+                    "has room for",
+                    ray.depth),
+        rad::Status::system);
 }
 
 // Rounded once: where a plane lies at 0, what is left of the coordinate tells on which side of it the point

@@ -104,8 +104,9 @@ class PathTracer {
   // Radiance along a primary ray (W/sr/m2), or irradiance (W/m2) as Transport::irradiance says: on the
   // surface that is hit, or on an imagined one just ahead that faces the ray (see inputRay() for where -I
   // starts). direction: unit. farthest: 0 for no limit (-ld, world units). The seed decides every random
-  // number of the path. Throws rad::Error where a path goes through too many surfaces one after the other,
-  // and where Russian roulette has no weight to go by (-lw 0).
+  // number of the path. Throws rad::Error where a path goes through more than 20500 surfaces one after the
+  // other, or more than this thread's stack has room for (2 kB each at most), and where Russian roulette has
+  // no weight to go by (-lw 0).
   Ray trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed);
 
   // The radiance along a primary ray to a light source, as trace() would have it, at the price of a shadow
