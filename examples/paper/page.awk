@@ -99,9 +99,9 @@ END {
       whole(high_v), whole(low_c), whole(high_c), part[1] == "light" ? "" : part[2] == "low" ? "68 to 93%" : "65 to 76%"
   }
   print "\nThe ratio follows the number of directions, and the cells, which were a good part of the time when the paper was written,"
-  print "cost .2 ms a point: something only where rays are as cheap as those of importance, a microsecond each. There ours takes"
-  print "longer than equal weights, as to find which silhouettes hold a direction takes as long as to trace it. But a time says"
-  print "nothing without the error that it buys."
+  print "cost .2 ms a point: something only where rays are as cheap as those of importance at low quality, a microsecond each. There"
+  print "ours takes as long as equal weights or longer, with fewer directions: to find which silhouettes hold a direction costs"
+  print "about as much as to trace it. But a time says nothing without the error that it buys."
 
   print "\n## Errors, and time at equal error\n"
   print "50 spheres. The last column is the time, as a share of what equal weights take for the same error (a power law through"

@@ -37,7 +37,8 @@ std::vector<std::string> usualLines(const TradeOptions& options) {
   }
   for (const int base : {256, 1024, 4096})
     lines.push_back(directions('c', base) + (options.ray.ambientBounces > 0 ? " -ad 1 -Ss 1" : " -Ss 1"));
-  if (options.ray.ambientBounces > 0) lines.push_back(directions('c', 1024) + " -ad 1 -Ss 2 -lw .5");
+  if (options.ray.ambientBounces > 0)
+    for (const int base : {512, 2048, 8192}) lines.push_back(directions('c', base) + " -ad 1 -Ss 2 -lw .5");
   for (const double accuracy : {.02, .005})
     lines.push_back(fmt::format("-Sw c -Sn 256 -Sx 65536 -Sa {}", accuracy));
   if (options.bounces)
