@@ -4,11 +4,11 @@
 #include <atomic>
 #include <ctime>
 #include <exception>
+#include <list>
 #include <mutex>
-#include <thread>
-#include <vector>
 
 #include "cli/batch.h"
+#include "cli/worker_thread.h"
 
 namespace rsphere {
 namespace {
@@ -48,11 +48,10 @@ bool forEachIndex(size_t count, const Options& options, const StopSignals* signa
     }
   };
   {
-    std::vector<std::jthread> others;
+    std::list<WorkerThread> workers;
     const auto threads =
         static_cast<unsigned>(std::min<size_t>(threadCount(options), std::max<size_t>(count, 1)));
-    for (unsigned i = 1; i < threads; ++i) others.emplace_back(run, i);
-    run(0);
+    for (unsigned i = 0; i < threads; ++i) workers.emplace_back([&run, i] { run(i); });
   }
   if (error) std::rethrow_exception(error);
   return !stopped;

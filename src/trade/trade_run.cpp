@@ -7,6 +7,7 @@
 #include <chrono>
 #include <fstream>
 
+#include "cli/read_options.h"
 #include "cli/records.h"
 #include "measure/records_file.h"
 #include "rad_parser/scene_file.h"
@@ -180,7 +181,7 @@ void Trade::run() {
       chosenPoints(readRecords(options_.scene.back(), options_), options_.mostPoints);
 
   const rad::Warn warn = [&](std::string_view text) { messages_.warning(text); };
-  const rad::ReadOptions read{options_.commands, warn};
+  const rad::ReadOptions read = readOptions(options_, warn);
   const Scene scene =
       buildScene(rad::readScene(std::span(options_.scene).first(options_.scene.size() - 1), read), read,
                  options_.sphere.goals);
