@@ -455,9 +455,9 @@ std::vector<OptionEntry> makeTable() {
        .value = +[](O& o) -> int& { return o.ray.ambientWeight; },
        .range = kCount,
        .remark = "ambient value weight",
-       .paragraph = "Accepted as in rtrace. As no indirect values are kept from one record to the next, the "
-                    "ambient value "
-                    "stays as -av has it."});
+       .paragraph =
+           "Accepted as in rtrace. As an answer does not depend on those before it, the ambient value "
+           "stays as -av has it."});
   add({.name = "-ab",
        .arguments = "N",
        .group = Group::indirect,
@@ -473,16 +473,21 @@ std::vector<OptionEntry> makeTable() {
        .range = kNotNegative,
        .remark = "ambient accuracy",
        .paragraph =
-           "Accepted as in rtrace, but indirect light is computed anew at every point, without a cache, "
-           "whatever acc is: as rtrace does with 0. Thus an answer depends neither on those before it nor on "
-           "-n."});
+           "Error that interpolation of indirect light may bring, as a share of it; 0: none, it is computed "
+           "anew at every point. It is interpolated between places that the scene and the options fix, "
+           "closer "
+           "to each other where the light changes: thus an answer depends neither on those before it nor on "
+           "-n. Outsides of curved surfaces have such places, too; their insides, meshes and surfaces "
+           "smaller "
+           "than -ar resolves have none, and what goes through a medium or antimatter gets none."});
   add({.name = "-ar",
        .arguments = "res",
        .group = Group::indirect,
        .value = +[](O& o) -> int& { return o.ray.ambientResolution; },
        .range = kCount,
        .remark = "ambient resolution",
-       .paragraph = "Accepted as in rtrace; without a cache it changes nothing."});
+       .paragraph = "Interpolated places are at least the scene's size times -aa over res apart; errors grow "
+                    "where surfaces are closer to each other than the size over res."});
   add({.name = "-ad",
        .arguments = "N",
        .group = Group::indirect,
@@ -621,8 +626,8 @@ std::vector<OptionEntry> makeTable() {
        .value = +[](O& o) -> std::string& { return o.ray.ambientFile; },
        .remark = "ambient file, unused",
        .paragraph =
-           "Accepted as in rtrace. There is no cache of indirect light, so the file is neither read nor "
-           "written.",
+           "Accepted as in rtrace. What is interpolated is not kept from one run to the next: the file is "
+           "neither read nor written.",
        .support = Support::unused});
   add({.name = "-ae",
        .arguments = "mod",

@@ -106,6 +106,7 @@ void PathTracer::addIndirect(Ray& ray, const V3d& normal, const V3d& trueNormal,
     ray.value += coefficient * o.ambientValue;
     return;
   }
+  if (t_.field() && addInterpolated(ray, normal, trueNormal, coefficient)) return;
   int side = 1;
   if (ray.ambientLevel == 0) {
     // No more directions than can be followed: each would fall below the weight limit and most of them end.

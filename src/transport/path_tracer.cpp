@@ -84,6 +84,8 @@ Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance i
     if (radiance && maxChannel(*radiance) > kNegligible) distant_.push_back(static_cast<int32_t>(i));
   }
   findScatterers(warn);
+  if (options.ambientAccuracy > 0 && options.ambientBounces > 0 && options.ambientDivisions > 0)
+    field_ = std::make_unique<IrradianceField>(scene, tracer_.bounds(), options);
   const bool including = !options.ambientIncluded.empty();
   const auto& names = including ? options.ambientIncluded : options.ambientExcluded;
   if (names.empty()) return;

@@ -2,10 +2,11 @@
 // Radiance along a ray: direct light from the sources, sharp reflections and refractions, samples of rough
 // ones, and indirect light.
 //
-// Indirect light is computed without a cache whatever -aa says: -ad directions over the hemisphere,
-// stratified, at the first diffuse surface of a path, one at every later one. Paths end at -ab bounces and by
-// Russian roulette below -lw, so that the mean stays right.
+// Indirect light is interpolated in a field (-aa, irradiance_field.h), or else gathered anew: -ad directions
+// over the hemisphere, stratified, at the first diffuse surface of a path, one at every later one. Paths end
+// at -ab bounces and by Russian roulette below -lw, so that the mean stays right.
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,7 @@
 #include "shade/surface_functions.h"
 #include "trace/tracer.h"
 #include "transport/function_ref.h"
+#include "transport/irradiance_field.h"
 #include "transport/ray.h"
 
 namespace rsphere {
@@ -61,6 +63,8 @@ class Transport {
   bool isDark() const;
   // Surfaces of type source that shine, in the order of the scene.
   const std::vector<int32_t>& distant() const { return distant_; }
+  // Where indirect light is interpolated; null where it is not (-aa 0). Tracing adds to it.
+  IrradianceField* field() const { return field_.get(); }
 
  private:
   void findScatterers(const rad::Warn& warn);
@@ -80,6 +84,7 @@ class Transport {
   std::vector<uint32_t> scatterers_;
   std::vector<std::vector<uint16_t>> scatterersOf_;  // by Mist::number
   std::vector<bool> ambient_;                        // by surface; empty: all of them
+  std::unique_ptr<IrradianceField> field_;
 };
 
 // The share of a source's radiance that leaves along a ray, for the source's direction (unit) and the solid
@@ -207,6 +212,9 @@ class PathTracer {
   void sampleLobe(Ray& ray, RayKind kind, const Rgb& share, LobeSampler draw, int least = 1);
   void addIndirect(Ray& ray, const V3d& normal, const V3d& trueNormal, RayKind kind, const Rgb& coefficient);
   void addIndirect(Ray& ray, const V3d& normal, const Interaction& at, RayKind kind, const Rgb& coefficient);
+  bool addInterpolated(Ray& ray, const V3d& normal, const V3d& trueNormal, const Rgb& coefficient);
+  GatheredLight gather(const GatherSite& site, int bounce, uint64_t seed, int depth);
+  SiteLooker::Surroundings survey(const GatherSite& site, double farthest);
   // front: the normal of a surface that lets no light through, whose coefficients are 0 behind it; or 0.
   void addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d& front = V3d(0, 0, 0));
   void addDirectOfChosen(Ray& ray, DirectCoefficient coefficientOf, const V3d& front);

@@ -49,6 +49,7 @@ inline RayOptions unbiased(int bounces = 0) {
   o.directJitter = 1;
   o.specularThreshold = 0;
   o.ambientBounces = bounces;
+  o.ambientAccuracy = 0;
   o.ambientDivisions = 1;
   o.ambientSuperSamples = 0;
   o.reflectionLimit = -1000;

@@ -1,0 +1,131 @@
+// Indirect light from the field of interpolation (-aa).
+#include <algorithm>
+#include <cmath>
+
+#include "transport/irradiance_field.h"
+#include "transport/path_tracer.h"
+#include "transport/ray_functions.h"
+
+namespace rsphere {
+namespace {
+
+// The cosine of the greatest tilt of the normal that light is interpolated for.
+constexpr double kLeastUpright = .7;
+
+// The height over the plane of the rays that look for what stands around a site, as the tangent.
+constexpr double kSurveyHeights[] = {.09, .36};
+
+}  // namespace
+
+// Whether the field has what addIndirect() asks for, and added it.
+bool PathTracer::addInterpolated(Ray& ray, const V3d& normal, const V3d& trueNormal, const Rgb& coefficient) {
+  IrradianceField& field = *t_.field();
+  // Sites see what the world sees: nothing cut away, and no medium of its own around them.
+  if (ray.mist || ray.clips || ray.clipsBeyond || ray.scatterers.count ||
+      ray.medium.extinction != t_.medium().extinction)
+    return false;
+  if (normal.dot(trueNormal) < kLeastUpright) return false;
+  FieldPlace place;
+  place.point = ray.point;
+  place.normal = trueNormal;
+  place.bounce = ray.ambientLevel;
+  place.surface = ray.surface;
+  if (ray.path.count > 0) place.scale = t_.scene().placementOf(ray.path).toOuter.scale;
+  struct Looker final : SiteLooker {
+    PathTracer& tracer;
+    int depth;
+    Looker(PathTracer& t, int d) : tracer(t), depth(d) {}
+    GatheredLight gather(const GatherSite& site, int bounce, uint64_t seed) override {
+      return tracer.gather(site, bounce, seed, depth);
+    }
+    Surroundings survey(const GatherSite& site, double farthest) override {
+      return tracer.survey(site, farthest);
+    }
+    bool sees(const V3d& from, const V3d& to) override {
+      const V3d way = to - from;
+      const double length = way.length();
+      return !(length > kSamePlace) ||
+             tracer.t_.tracer().nearest(from, way / length, length).surface == kNone;
+    }
+  } looker(*this, ray.depth);
+  GatheredLight light;
+  if (!field.find(place, looker, light)) return false;
+  const double upright = normal.dot(trueNormal);
+  const V3f aslant(normal - upright * trueNormal);
+  for (int c = 0; c < 3; ++c) {
+    const double mean = light.mean[c], tilted = upright * mean + light.perTilt[c].dot(aslant);
+    ray.value[c] += coefficient[c] * std::clamp(tilted, .05 * mean, 3 * mean);
+  }
+  return true;
+}
+
+SiteLooker::Surroundings PathTracer::survey(const GatherSite& site, double farthest) {
+  V3d x, y;
+  frame(site.normal, x, y);
+  SiteLooker::Surroundings standing{};
+  for (int k = 0; k < SiteLooker::kAzimuths; ++k) {
+    const double angle = 2 * kPi * k / SiteLooker::kAzimuths;
+    const V3d along = std::cos(angle) * x + std::sin(angle) * y;
+    for (const double height : kSurveyHeights) {
+      const V3d direction = (along + height * site.normal).normalized();
+      const double cosine = direction.dot(along);
+      const Hit hit = t_.tracer().nearest(site.point, direction, farthest / cosine);
+      if (hit.surface != kNone)
+        standing[k] = std::max(standing[k], static_cast<float>(1 / (hit.distance * cosine)));
+    }
+  }
+  return standing;
+}
+
+// What a site of the field gets. depth: of the ray that asks; nothing but the limit of nesting depends on it.
+GatheredLight PathTracer::gather(const GatherSite& site, int bounce, uint64_t seed, int depth) {
+  const RayOptions& o = t_.options();
+  const Random before = random_;
+  RayObserver observer = std::move(observer_);
+  observer_ = nullptr;
+
+  Ray root;
+  root.medium = t_.medium();
+  root.point = site.point;
+  root.normal = site.normal;
+  root.length = 0;
+  root.depth = depth;
+  root.level = root.ambientLevel = bounce;
+  root.weight = std::pow(.25, bounce);
+  V3d x, y;
+  frame(site.normal, x, y);
+  const HemisphereCells cells(std::max(4, static_cast<int>(o.ambientDivisions * root.weight + .5)));
+  const int count = cells.count();
+  std::vector<Rgb> radiance(count, Rgb(0, 0, 0));
+  std::vector<double> distance(count, kFarAway);
+  std::vector<int> rays(count, 1);
+  const auto send = [&](int cell, uint64_t number) {
+    random_ = Random(mixBits(seed ^ number * 0x9e3779b97f4a7c15u));
+    const double u1 = random_.uniform(), u2 = random_.uniform();
+    Rgb coefficient = Rgb(1, 1, 1) / count;
+    Ray child;
+    child.direction = cells.direction(cell, u1, u2, x, y, site.normal);
+    if (!continueRay(child, kReflectedAmbient, root, coefficient)) return;
+    ++child.ambientLevel;
+    evaluate(child);
+    radiance[cell] += child.value * coefficient * count;
+    distance[cell] = std::min(distance[cell], child.length);
+  };
+  for (int i = 0; i < count; ++i) send(i, i);
+  const int more = static_cast<int>(o.ambientSuperSamples * root.weight);
+  if (more > 0) {
+    std::vector<double> bright(count);
+    for (int i = 0; i < count; ++i) bright[i] = brightness(radiance[i]);
+    const std::vector<int> extra = cells.refinement(bright, more);
+    for (int i = 0; i < count; ++i) {
+      for (int k = 0; k < extra[i]; ++k) send(i, static_cast<uint64_t>(count) * (k + 1) + i);
+      rays[i] += extra[i];
+      radiance[i] /= rays[i];
+    }
+  }
+  random_ = before;
+  observer_ = std::move(observer);
+  return cells.sum(radiance, rays, distance, t_.field()->finestSpacing() / 2, x, y);
+}
+
+}  // namespace rsphere

@@ -1,0 +1,482 @@
+#include "transport/irradiance_field.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "scene/random.h"
+#include "shade/scattering.h"
+
+namespace rsphere {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kNormalStep = 1e-9;  // planes whose normals differ by less are one
+
+constexpr int32_t kCurved = INT32_MAX;  // in a key, where planes have a component of their normal
+
+// Standard errors that corners may differ by.
+constexpr double kChance = 1.5;
+
+// Where something stands, as a share of the way to a place: nearer than that hides it, even if there is a gap
+// below; farther than that does not.
+constexpr double kHidden = 1.1, kFree = .5;
+
+constexpr int kBeyondFinest = 2;  // divisions more where corners are hidden
+
+// The lattice lies askew to what people model in round numbers.
+constexpr double kSkew[3] = {.6180339887, .7548776662, .5698402910};
+
+float luminance(const V3f& color) { return static_cast<float>(brightness(Rgb(color.x, color.y, color.z))); }
+V3f luminanceOf(const V3f (&change)[3]) {
+  return static_cast<float>(kRedWeight) * change[0] + static_cast<float>(kGreenWeight) * change[1] +
+         static_cast<float>(kBlueWeight) * change[2];
+}
+
+GatheredLight dark() {
+  GatheredLight light;
+  for (int k = 0; k < 3; ++k) light.perLength[k] = light.perTilt[k] = V3f(0, 0, 0);
+  return light;
+}
+
+}  // namespace
+
+uint64_t IrradianceField::Key::hash() const {
+  const auto pair = [](int32_t a, int32_t b) {
+    return static_cast<uint64_t>(static_cast<uint32_t>(a)) << 32 | static_cast<uint32_t>(b);
+  };
+  uint64_t h = mixBits(pair(i, j) ^ static_cast<uint64_t>(offset) * 0x9e3779b97f4a7c15u);
+  h = mixBits(h ^ pair(normal[0], normal[1]));
+  return mixBits(h ^ pair(normal[2], level * 64 + bounce));
+}
+
+// How the lattice lies on a surface. Coordinates u, v are world units on it, or nearly so.
+struct IrradianceField::Chart {
+  enum class Kind : uint8_t { plane, ball, cone } kind = Kind::plane;
+  std::array<int32_t, 3> key{};
+  int64_t offsetKey = 0;
+  double u = 0, v = 0;  // of the place
+  double radius = 0;    // of what is curved
+  // plane: the largest component of the normal, and the other two, which the lattice lies along. ball: of the
+  // direction from the center, with its sign.
+  int axis = 2, axisU = 0, axisV = 1;
+  double sign = 1;
+  V3d normal{0, 0, 1};
+  double offset = 0;
+  const Sphere* ball = nullptr;
+  const Cone* cone = nullptr;
+};
+
+struct IrradianceField::Site {
+  Key key;
+  GatherSite at;
+  SiteLooker::Surroundings standing{};
+  std::atomic<const GatheredLight*> light{nullptr};
+
+  ~Site() { delete light.load(std::memory_order_relaxed); }
+
+  // How far a point is, in what lies free in its direction. Between two azimuths one over the distance is
+  // interpolated, as it runs along a wall.
+  double nearness(const V3d& point) const {
+    constexpr int kAzimuths = SiteLooker::kAzimuths;
+    V3d x, y;
+    frame(at.normal, x, y);
+    const V3d way = point - at.point;
+    const double along = way.dot(x), across = way.dot(y);
+    double azimuth = std::atan2(across, along) * (kAzimuths / (2 * kPi));
+    if (azimuth < 0) azimuth += kAzimuths;
+    const int low = static_cast<int>(azimuth) % kAzimuths;
+    const double share = azimuth - std::floor(azimuth);
+    const double inverse = (1 - share) * standing[low] + share * standing[(low + 1) % kAzimuths];
+    return std::hypot(along, across) * inverse;
+  }
+};
+
+// A square of the lattice, and those that it is divided into.
+struct IrradianceField::Cell {
+  std::array<Site*, 4> corners{};    // at (0, 0), (1, 0), (0, 1), (1, 1)
+  unsigned unsure = 0;               // bits of those that may be hidden from some of the square
+  std::atomic<float> roughness{-1};  // with all corners; negative: not known yet
+  std::array<std::atomic<Cell*>, 4> parts{};
+
+  ~Cell() {
+    for (auto& part : parts) delete part.load(std::memory_order_relaxed);
+  }
+};
+
+IrradianceField::IrradianceField(const Scene& scene, const Box3d& bounds, const RayOptions& options)
+    : scene_(scene), accuracy_(options.ambientAccuracy), cells_(16), sites_(16) {
+  double magnitude = 0;
+  if (!bounds.isEmpty()) {
+    const V3d extent = bounds.size();
+    size_ = std::max({extent.x, extent.y, extent.z});
+    origin_ = bounds.min;
+    for (int c = 0; c < 3; ++c)
+      magnitude = std::max({magnitude, std::abs(bounds.min[c]), std::abs(bounds.max[c])});
+  }
+  if (!(size_ > 0)) size_ = 1;
+  planeStep_ = std::max(1e-6 * size_, 1e-12 * magnitude);
+  // RADIANCE's own meaning of -ar.
+  const double resolution = std::max(options.ambientResolution, 1);
+  const double finest = size_ * std::min(accuracy_, .5) / resolution;
+  const double coarsest = std::min(32 * finest, .1 * size_);
+  spacing_.push_back(coarsest);
+  while (spacing_.back() > finest * 1.5 && spacing_.size() < 16) spacing_.push_back(spacing_.back() / 2);
+  extents_.resize(scene.surfaces.size());
+  for (size_t i = 0; i < extents_.size(); ++i) {
+    const Shape& shape = scene.surfaces[i].shape;
+    if (!planeNormal(shape)) continue;
+    const Box3d box = rsphere::bounds(shape, scene.vertices);
+    extents_[i] = {V3f(box.center()), static_cast<float>(box.size().length())};
+  }
+}
+
+IrradianceField::~IrradianceField() = default;
+
+void IrradianceField::setPlane(const FieldPlace& place, Chart& chart) const {
+  for (int c = 0; c < 3; ++c) {
+    chart.key[c] = static_cast<int32_t>(std::lround(place.normal[c] / kNormalStep));
+    chart.normal[c] = chart.key[c] * kNormalStep;
+  }
+  for (int c = 0; c < 3; ++c)
+    if (std::abs(chart.normal[c]) > std::abs(chart.normal[chart.axis])) chart.axis = c;
+  chart.normal.normalize();
+  const V3d local = place.point - origin_;
+  // Three eighths: away from where the offsets of planes in round numbers lie.
+  chart.offsetKey = static_cast<int64_t>(std::floor(chart.normal.dot(local) / planeStep_ + .375));
+  // In front of all that count as this plane.
+  chart.offset = (static_cast<double>(chart.offsetKey) + 1.5) * planeStep_;
+  chart.axisU = (chart.axis + 1) % 3;
+  chart.axisV = (chart.axis + 2) % 3;
+  chart.u = local[chart.axisU];
+  chart.v = local[chart.axisV];
+}
+
+// False for what has no lattice.
+bool IrradianceField::chartOf(const FieldPlace& place, Chart& chart) const {
+  if (place.surface == kNone || planeNormal(scene_.surfaces[place.surface].shape)) {
+    setPlane(place, chart);
+    return true;
+  }
+  if (place.scale != 0) return false;
+  const Shape& shape = scene_.surfaces[place.surface].shape;
+  chart.key = {place.surface, 0, kCurved};
+  if (const auto* ball = std::get_if<Sphere>(&shape)) {
+    const V3d out = place.point - ball->center;
+    if (out.dot(place.normal) < 0) return false;
+    chart.kind = Chart::Kind::ball;
+    chart.ball = ball;
+    chart.radius = ball->radius;
+    for (int c = 0; c < 3; ++c)
+      if (std::abs(out[c]) > std::abs(out[chart.axis])) chart.axis = c;
+    chart.axisU = (chart.axis + 1) % 3;
+    chart.axisV = (chart.axis + 2) % 3;
+    chart.sign = out[chart.axis] < 0 ? -1 : 1;
+    chart.key[1] = chart.axis * 2 + (chart.sign < 0);
+    const double scale = ball->radius / std::abs(out[chart.axis]);
+    chart.u = out[chart.axisU] * scale;
+    chart.v = out[chart.axisV] * scale;
+    return true;
+  }
+  const auto* cone = std::get_if<Cone>(&shape);
+  if (!cone) return false;
+  const V3d out = place.point - cone->base;
+  V3d x, y;
+  frame(cone->axis, x, y);
+  if (out.dot(x) * place.normal.dot(x) + out.dot(y) * place.normal.dot(y) < 0) return false;
+  chart.kind = Chart::Kind::cone;
+  chart.cone = cone;
+  chart.radius = std::max(cone->radius0, cone->radius1);
+  chart.u = std::atan2(out.dot(y), out.dot(x)) * chart.radius;
+  chart.v = out.dot(cone->axis);
+  return true;
+}
+
+GatherSite IrradianceField::siteAt(const Chart& chart, double u, double v) const {
+  GatherSite site;
+  switch (chart.kind) {
+    case Chart::Kind::plane: {
+      V3d p;
+      p[chart.axisU] = u;
+      p[chart.axisV] = v;
+      p[chart.axis] = (chart.offset - chart.normal[chart.axisU] * u - chart.normal[chart.axisV] * v) /
+                      chart.normal[chart.axis];
+      site = {origin_ + p, chart.normal};
+      break;
+    }
+    case Chart::Kind::ball: {
+      V3d out;
+      out[chart.axis] = chart.sign * chart.radius;
+      out[chart.axisU] = u;
+      out[chart.axisV] = v;
+      out.normalize();
+      site = {chart.ball->center + (chart.radius + planeStep_) * out, out};
+      break;
+    }
+    case Chart::Kind::cone: {
+      const Cone& cone = *chart.cone;
+      V3d x, y;
+      frame(cone.axis, x, y);
+      const double angle = u / chart.radius;
+      const V3d out = std::cos(angle) * x + std::sin(angle) * y;
+      const double slope = (cone.radius1 - cone.radius0) / cone.length;
+      // Beyond the tip the site lies on the axis; the tip hides it.
+      const double radius = std::max(0., cone.radius0 + slope * v);
+      const V3d normal = (out - slope * cone.axis).normalized();
+      site = {cone.base + v * cone.axis + radius * out + planeStep_ * normal, normal};
+      break;
+    }
+  }
+  return site;
+}
+
+IrradianceField::Site& IrradianceField::site(const Key& key, const GatherSite& at, SiteLooker& looker) {
+  return sites_.findOrAdd(key, [&] {
+    auto made = std::make_unique<Site>();
+    made->key = key;
+    made->at = at;
+    made->standing = looker.survey(at, 4 * spacing_.front());
+    return made;
+  });
+}
+
+// i, j: in steps of the finest spacing.
+IrradianceField::Site& IrradianceField::corner(const Chart& chart, int64_t i, int64_t j, int bounce,
+                                               SiteLooker& looker) {
+  const Key key{chart.key, static_cast<int32_t>(i),      static_cast<int32_t>(j),
+                0,         static_cast<int16_t>(bounce), chart.offsetKey};
+  const double step = spacing_.back();
+  return site(key,
+              siteAt(chart, (static_cast<double>(i) - kSkew[chart.axisU]) * step,
+                     (static_cast<double>(j) - kSkew[chart.axisV]) * step),
+              looker);
+}
+
+const GatheredLight& IrradianceField::lightOf(Site& site, SiteLooker& looker) {
+  if (const GatheredLight* light = site.light.load(std::memory_order_acquire)) return *light;
+  auto gathered = std::make_unique<GatheredLight>(looker.gather(site.at, site.key.bounce, site.key.hash()));
+  const GatheredLight* first = nullptr;
+  if (site.light.compare_exchange_strong(first, gathered.get(), std::memory_order_acq_rel))
+    return *gathered.release();
+  return *first;
+}
+
+// Whether nothing hides a place from a site. The ray runs a little above both, for it is no matter what lies
+// flat on the surface.
+bool IrradianceField::serves(const Site& site, const FieldPlace& place, SiteLooker& looker) const {
+  const double nearness = site.nearness(place.point);
+  if (nearness > kHidden) return false;
+  const double height =
+      (place.point - site.at.point).length() * (.03 + .15 * (place.normal - site.at.normal).length());
+  return looker.sees(site.at.point + height * site.at.normal, place.point + height * place.normal);
+}
+
+// The corners of a square that serve a place, and what they have.
+struct IrradianceField::Corners {
+  std::array<const GatheredLight*, 4> light{};
+  std::array<V3d, 4> point;
+  unsigned served = 0;
+
+  bool has(int corner) const { return served >> corner & 1; }
+
+  // How much the light between the corners differs from what interpolation says, in the error allowed: the
+  // change of the gradients tells of curvature, what the gradients do not explain of edges. What may be
+  // chance does not count: more corners would not help.
+  double roughness(double tolerance) const {
+    constexpr int kEdges[4][2] = {{0, 1}, {2, 3}, {0, 2}, {1, 3}};
+    double level = 0, error = 0;
+    for (int c = 0; c < 4; ++c)
+      if (has(c)) level += luminance(light[c]->mean) / std::popcount(served);
+    for (const auto& [a, b] : kEdges) {
+      if (!has(a) || !has(b)) continue;
+      const V3f way(point[b] - point[a]);
+      const double before = luminanceOf(light[a]->perLength).dot(way);
+      const double after = luminanceOf(light[b]->perLength).dot(way);
+      const double step = luminance(light[b]->mean) - luminance(light[a]->mean);
+      const double chance = kChance * std::hypot(light[a]->noise, light[b]->noise);
+      const double slopeChance =
+          kChance * std::hypot(light[a]->noisePerLength, light[b]->noisePerLength) * way.length();
+      error = std::max({error, (std::abs(after - before) - slopeChance) / 8,
+                        (std::abs(step - (before + after) / 2) - chance - slopeChance / 2) / 4,
+                        (std::abs(step) - chance) / 6});
+    }
+    return level > 0 ? error / (tolerance * level) : 0;
+  }
+
+  // Interpolated with these weights, which need not sum up to 1, and shifted by the mean change per length
+  // where those that are hidden leave the place aside. shift: the relative error to be expected of that.
+  GatheredLight at(const V3d& place, const std::array<double, 4>& weights, double& shift) const {
+    double sum = 0;
+    for (int c = 0; c < 4; ++c)
+      if (has(c)) sum += weights[c];
+    GatheredLight result = dark();
+    V3d middle(0, 0, 0);
+    float inverseReach = 0;
+    for (int c = 0; c < 4; ++c) {
+      if (!has(c)) continue;
+      const float w = static_cast<float>(weights[c] / sum);
+      inverseReach += w / light[c]->reach;
+      result.mean += light[c]->mean * w;
+      middle += point[c] * (weights[c] / sum);
+      for (int k = 0; k < 3; ++k) {
+        result.perLength[k] += light[c]->perLength[k] * w;
+        result.perTilt[k] += light[c]->perTilt[k] * w;
+      }
+    }
+    shift = 0;
+    if (served == 15) return result;
+    const V3f aside(place - middle);
+    const float level = luminance(result.mean);
+    if (level > 0) {
+      const double linear = std::abs(luminanceOf(result.perLength).dot(aside)) / level;
+      shift = std::max(linear, 1.5 * static_cast<double>(aside.length2()) * inverseReach * inverseReach);
+    }
+    for (int k = 0; k < 3; ++k) {
+      const float base = result.mean[k];
+      result.mean[k] = std::clamp(base + result.perLength[k].dot(aside), .05f * base, 4 * base);
+    }
+    return result;
+  }
+};
+
+namespace {
+
+void blend(GatheredLight& into, const GatheredLight& light, float share) {
+  into.mean += share * light.mean;
+  for (int k = 0; k < 3; ++k) into.perTilt[k] += share * light.perTilt[k];
+}
+
+// The share of an answer that a square gives: all below roughness 1, none above 1.5.
+double shareOf(double roughness) { return std::clamp(3 - 2 * roughness, 0., 1.); }
+
+}  // namespace
+
+bool IrradianceField::find(const FieldPlace& place, SiteLooker& looker, GatheredLight& light) {
+  Chart chart;
+  if (!chartOf(place, chart)) return false;
+  // Light that came by way of more bounces counts for less.
+  const double tolerance = accuracy_ / 3 * std::pow(3, place.bounce);
+  const int last = static_cast<int>(spacing_.size()) - 1;
+  const int finest = std::max(0, last - 2 * place.bounce);
+  const int beyond = finest + (place.bounce == 0 ? kBeyondFinest : 0);
+  int level = 0;
+  if (chart.kind != Chart::Kind::plane) {
+    while (level < finest && spacing_[level] > chart.radius) ++level;
+    if (spacing_[level] > chart.radius) return false;
+  } else if (place.surface != kNone) {
+    const double extent = extents_[place.surface].size * (place.scale != 0 ? place.scale : 1);
+    // As many values as there are questions help nobody.
+    if (extent < spacing_[finest]) return false;
+    if (extent < spacing_[0]) {
+      if (place.scale == 0 && single(place, chart, tolerance, looker, light)) return true;
+      while (level < finest && spacing_[level] > extent) ++level;
+    }
+  }
+
+  const double stepU = chart.u / spacing_.back() + kSkew[chart.axisU],
+               stepV = chart.v / spacing_.back() + kSkew[chart.axisV];
+  int64_t size = int64_t{1} << (last - level);  // of a square, in steps of the finest spacing
+  const auto floorTo = [](double x, int64_t n) {
+    return static_cast<int64_t>(std::floor(x / static_cast<double>(n))) * n;
+  };
+  int64_t i = floorTo(stepU, size), j = floorTo(stepV, size);
+  if (std::max(std::abs(i), std::abs(j)) > INT32_MAX / 2) return false;
+  const auto makeCell = [&] {
+    auto made = std::make_unique<Cell>();
+    for (int c = 0; c < 4; ++c)
+      made->corners[c] = &corner(chart, i + (c & 1) * size, j + (c >> 1) * size, place.bounce, looker);
+    for (int c = 0; c < 4; ++c)
+      for (int step = 0; step <= 8; ++step) {
+        // From one neighbouring corner past the opposite one to the other.
+        const double far = std::min(step, 4) / 4., near = std::min(8 - step, 4) / 4.;
+        const double a = (c & 1) ? 1 - near : near, b = (c >> 1) ? 1 - far : far;
+        const V3d there = (1 - b) * ((1 - a) * made->corners[0]->at.point + a * made->corners[1]->at.point) +
+                          b * ((1 - a) * made->corners[2]->at.point + a * made->corners[3]->at.point);
+        if (made->corners[c]->nearness(there) > kFree) made->unsure |= 1u << c;
+      }
+    return made;
+  };
+  const Key key{chart.key,
+                static_cast<int32_t>(i),
+                static_cast<int32_t>(j),
+                static_cast<int16_t>(level),
+                static_cast<int16_t>(place.bounce),
+                chart.offsetKey};
+  Cell* cell = &cells_.findOrAdd(key, makeCell);
+
+  light = dark();
+  double missing = 1;
+  for (;; ++level) {
+    Corners corners;
+    for (int c = 0; c < 4; ++c) {
+      if ((cell->unsure >> c & 1) && !serves(*cell->corners[c], place, looker)) continue;
+      corners.served |= 1u << c;
+      corners.light[c] = &lightOf(*cell->corners[c], looker);
+      corners.point[c] = cell->corners[c]->at.point;
+    }
+    const double side = static_cast<double>(size);
+    const double a = std::clamp((stepU - static_cast<double>(i)) / side, 0., 1.);
+    const double b = std::clamp((stepV - static_cast<double>(j)) / side, 0., 1.);
+    const std::array<double, 4> weights{(1 - a) * (1 - b), a * (1 - b), (1 - a) * b, a * b};
+    double served = 0;
+    for (int c = 0; c < 4; ++c)
+      if (corners.has(c)) served += weights[c];
+    if (served > 1e-6) {
+      double roughness = corners.served == 15 ? cell->roughness.load(std::memory_order_relaxed) : -1.;
+      if (roughness < 0) {
+        roughness = static_cast<float>(corners.roughness(tolerance));
+        if (corners.served == 15)
+          cell->roughness.store(static_cast<float>(roughness), std::memory_order_relaxed);
+      }
+      double shift = 0;
+      const GatheredLight here = corners.at(place.point, weights, shift);
+      roughness = std::max(roughness, shift / tolerance);
+      const bool accept = level >= (corners.served == 15 ? finest : beyond);
+      const double share = accept ? 1 : shareOf(roughness);
+      blend(light, here, static_cast<float>(missing * share));
+      missing *= 1 - share;
+      if (missing <= 0) return true;
+    }
+    if (size == 1 || level >= beyond) break;
+    size /= 2;
+    const int right = stepU >= static_cast<double>(i + size), up = stepV >= static_cast<double>(j + size);
+    i += right * size;
+    j += up * size;
+    std::atomic<Cell*>& part = cell->parts[2 * up + right];
+    Cell* next = part.load(std::memory_order_acquire);
+    if (!next) {
+      auto made = makeCell();
+      if (part.compare_exchange_strong(next, made.get(), std::memory_order_acq_rel)) next = made.release();
+    }
+    cell = next;
+  }
+  if (missing >= 1) return false;
+  const GatheredLight found = light;
+  light = dark();
+  blend(light, found, static_cast<float>(1 / (1 - missing)));
+  return true;
+}
+
+// One value serves a surface that is small enough.
+bool IrradianceField::single(const FieldPlace& place, const Chart& chart, double tolerance,
+                             SiteLooker& looker, GatheredLight& light) {
+  const Extent& extent = extents_[place.surface];
+  V3d center = V3d(extent.center);
+  center += (chart.offset - chart.normal.dot(center - origin_)) * chart.normal;
+  const Key key{chart.key, place.surface, 0, 1, static_cast<int16_t>(place.bounce), chart.offsetKey};
+  Site& middle = site(key, {center, chart.normal}, looker);
+  if (middle.nearness(place.point) > kFree && !serves(middle, place, looker)) return false;
+  const GatheredLight& there = lightOf(middle, looker);
+  const double change = luminanceOf(there.perLength).length() * extent.size / 2;
+  if (change > 2 * tolerance * luminance(there.mean)) return false;
+  Corners corners;
+  corners.light[0] = &there;
+  corners.point[0] = center;
+  corners.served = 1;
+  double shift = 0;
+  light = corners.at(place.point, {1, 0, 0, 0}, shift);
+  return true;
+}
+
+}  // namespace rsphere

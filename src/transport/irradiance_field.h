@@ -1,0 +1,112 @@
+#pragma once
+// Indirect light by interpolation (-aa above 0), as a field that is computed where it is asked for.
+//
+// Every plane that is asked about has a square lattice, fixed by the scene and the options alone, and so have
+// spheres and cones from outside. A square whose corners tell that the light between them is smooth answers
+// with what lies between its corners; others are divided in four, down to the finest spacing that -aa and -ar
+// allow. What a corner has is gathered when it is first needed, with random numbers that its own place seeds.
+// So an answer depends on the place and the direction that are asked for, not on what was asked before, or by
+// whom.
+//
+// A corner need not lie on a surface: the light that its plane gets is smooth in free space. It only serves
+// places that nothing hides from it. Short rays along its plane tell whether something stands around it;
+// where something does, a ray from the corner to the place decides.
+//
+// Threads: any number may ask at once, and nobody waits. Two that need the same corner at the same time may
+// both gather; the values are the same, and the first is kept.
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "cli/options.h"
+#include "scene/scene.h"
+#include "transport/hemisphere.h"
+#include "transport/insert_once.h"
+
+namespace rsphere {
+
+// What is asked: the indirect light that arrives at a point of a surface, or of an imagined one.
+struct FieldPlace {
+  V3d point{0, 0, 0};
+  V3d normal{0, 0, 1};      // unit, on the side that the light arrives at
+  int bounce = 0;           // indirect bounces that led here
+  int32_t surface = kNone;  // the surface that it lies on; kNone: a plane that is only imagined
+  double scale = 0;         // of what holds the surface; 0: the world itself does
+};
+
+// How sites are looked at. Every answer depends on nothing but the arguments.
+class SiteLooker {
+ public:
+  static constexpr int kAzimuths = 24;
+  // For each azimuth around a site, at equal angles from its frame's x towards its y: one over the distance
+  // along its plane at which something stands there, 0 where nothing does.
+  using Surroundings = std::array<float, kAzimuths>;
+
+  virtual GatheredLight gather(const GatherSite& site, int bounce, uint64_t seed) = 0;
+  virtual Surroundings survey(const GatherSite& site, double farthest) = 0;
+  // Whether nothing is between two points.
+  virtual bool sees(const V3d& from, const V3d& to) = 0;
+
+ protected:
+  ~SiteLooker() = default;
+};
+
+class IrradianceField {
+ public:
+  // Keeps a reference to the scene. bounds: of all that can be hit.
+  IrradianceField(const Scene& scene, const Box3d& bounds, const RayOptions& options);
+  ~IrradianceField();
+
+  // The light at a place: its mean, and its change when the normal tilts. False where nothing in the field
+  // serves the place, which then has to be gathered for itself: surfaces that are much smaller than the
+  // finest spacing, insides of curved ones, and meshes.
+  bool find(const FieldPlace& place, SiteLooker& looker, GatheredLight& light);
+
+  // The least distance between corners (world units): what is nearer than that is not resolved.
+  double finestSpacing() const { return spacing_.back(); }
+
+  // Values gathered and kept.
+  size_t size() const { return sites_.size(); }
+
+ private:
+  struct Key {
+    std::array<int32_t, 3> normal{};  // of the plane; or a surface, a part of it, and kCurved
+    int32_t i = 0, j = 0;
+    int16_t level = 0, bounce = 0;
+    int64_t offset = 0;
+    bool operator==(const Key&) const = default;
+    uint64_t hash() const;
+  };
+  struct Chart;
+  struct Site;
+  struct Cell;
+  struct Corners;
+
+  bool chartOf(const FieldPlace& place, Chart& chart) const;
+  void setPlane(const FieldPlace& place, Chart& chart) const;
+  GatherSite siteAt(const Chart& chart, double u, double v) const;
+  Site& site(const Key& key, const GatherSite& at, SiteLooker& looker);
+  Site& corner(const Chart& chart, int64_t i, int64_t j, int bounce, SiteLooker& looker);
+  const GatheredLight& lightOf(Site& site, SiteLooker& looker);
+  bool serves(const Site& site, const FieldPlace& place, SiteLooker& looker) const;
+  bool single(const FieldPlace& place, const Chart& chart, double tolerance, SiteLooker& looker,
+              GatheredLight& light);
+
+  const Scene& scene_;
+  double accuracy_;
+  double size_ = 1;              // the longest side of the bounds
+  double planeStep_ = 0;         // offsets that differ by less are one plane's
+  V3d origin_{0, 0, 0};          // of the lattices
+  std::vector<double> spacing_;  // by level, each half of the one before
+  struct Extent {
+    V3f center{0, 0, 0};
+    float size = 0;  // across
+  };
+  std::vector<Extent> extents_;  // of flat surfaces, in the coordinates of what holds them
+  InsertOnce<Key, Cell> cells_;
+  InsertOnce<Key, Site> sites_;
+};
+
+}  // namespace rsphere

@@ -1,0 +1,151 @@
+#include "transport/irradiance_field.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <thread>
+
+#include "scene/random.h"
+#include "tests/unit/transport/transport_fixture.h"
+
+namespace rsphere {
+namespace {
+
+// A lamp in the ceiling of a room of 4 m, and a thin wall that divides a dark part off.
+constexpr const char* kRoom = R"(
+void plastic wall 0 0 5 .5 .5 .5 0 0
+void light lamp 0 0 3 10 10 10
+lamp polygon ceiling_lamp 0 0 12 1 1 2.99 1 2 2.99 2 2 2.99 2 1 2.99
+wall polygon floor 0 0 12 0 0 0 6 0 0 6 4 0 0 4 0
+wall polygon ceiling 0 0 12 0 0 3 0 4 3 6 4 3 6 0 3
+wall polygon south 0 0 12 0 0 0 0 0 3 6 0 3 6 0 0
+wall polygon north 0 0 12 0 4 0 6 4 0 6 4 3 0 4 3
+wall polygon west 0 0 12 0 0 0 0 4 0 0 4 3 0 0 3
+wall polygon east 0 0 12 6 0 0 6 0 3 6 4 3 6 4 0
+wall polygon thin 0 0 12 4 0 0 4 4 0 4 4 3 4 0 3
+wall sphere ball 0 0 4 1 3 .5 .3
+)";
+
+RayOptions interpolated(double accuracy, int bounces = 2) {
+  RayOptions o = unbiased(bounces);
+  o.directJitter = 0;
+  o.ambientAccuracy = accuracy;
+  o.ambientResolution = 64;
+  o.ambientDivisions = 256;
+  o.ambientSuperSamples = 0;
+  return o;
+}
+
+// Light that arrives from a half space of radiance 1 + a.d, as a function of the direction d.
+struct LinearLight {
+  HemisphereCells cells{512};
+  GatheredLight gather(const V3d& a, double distance) const {
+    std::vector<Rgb> radiance(cells.count());
+    const V3d x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+    for (int i = 0; i < cells.count(); ++i)
+      radiance[i] = Rgb(1, 1, 1) * (1 + a.dot(cells.direction(i, .5, .5, x, y, z)));
+    return cells.sum(radiance, std::vector<int>(cells.count(), 1),
+                     std::vector<double>(cells.count(), distance), 0, x, y);
+  }
+};
+
+TEST(Hemisphere, SumsWhatIntegralsGive) {
+  const LinearLight light;
+  const GatheredLight flat = light.gather(V3d(0, 0, 0), 2);
+  EXPECT_NEAR(flat.mean.x, 1, 1e-6);
+  EXPECT_NEAR(flat.perTilt[0].length(), 0, 1e-6);
+  EXPECT_NEAR(flat.noise, 0, 1e-6);
+  EXPECT_NEAR(flat.reach, 2, 1e-6);
+  // Over the hemisphere, the integrals of d_x^2 and of cos^2 are two thirds of pi.
+  const GatheredLight linear = light.gather(V3d(.3, -.2, .5), 2);
+  EXPECT_NEAR(linear.mean.x, 1 + .5 * 2 / 3, .01);
+  EXPECT_NEAR(linear.perTilt[0].x, .3 * 2 / 3, .01);
+  EXPECT_NEAR(linear.perTilt[0].y, -.2 * 2 / 3, .01);
+  // A large wall in +x that is brighter: more light nearer to it.
+  EXPECT_GT(linear.perLength[0].x, 0);
+  EXPECT_LT(linear.perLength[0].y, 0);
+}
+
+// A ceiling of height 1 above a plane, bright where x > 0: the light at x is 1/2 + x / (2 sqrt(1 + x^2)), its
+// slope at 0 a half.
+TEST(Hemisphere, SlopeUnderHalfACeilingIsAHalf) {
+  const HemisphereCells cells(4096);
+  std::vector<Rgb> radiance(cells.count());
+  std::vector<double> distance(cells.count());
+  const V3d x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+  for (int i = 0; i < cells.count(); ++i) {
+    const V3d d = cells.direction(i, .5, .5, x, y, z);
+    distance[i] = 1 / d.z;
+    radiance[i] = d.x > 0 ? Rgb(1, 1, 1) : Rgb(0, 0, 0);
+  }
+  const GatheredLight light = cells.sum(radiance, std::vector<int>(cells.count(), 1), distance, 0, x, y);
+  EXPECT_NEAR(light.mean.x, .5, .01);
+  EXPECT_NEAR(light.perLength[0].x, .5, .03);
+  EXPECT_NEAR(light.perLength[0].y, 0, .02);
+}
+
+TEST(Hemisphere, MoreRaysGoWhereNeighboursDiffer) {
+  const HemisphereCells cells(400);
+  std::vector<double> bright(cells.count(), 1);
+  EXPECT_EQ(cells.refinement(bright, 50), std::vector<int>(cells.count(), 0));
+  bright[200] = 100;
+  const std::vector<int> more = cells.refinement(bright, 50);
+  int sum = 0;
+  for (const int n : more) sum += n;
+  EXPECT_EQ(sum, 50);
+  EXPECT_EQ(more[200], 0) << "its own value has no say";
+  EXPECT_GT(more[201], 0);
+}
+
+double relativeDifference(Traced& a, Traced& b, const V3d& origin, const V3d& direction) {
+  const double expected = b.mean(origin, direction, 16).mean();
+  return a.value(origin, direction) / expected - 1;
+}
+
+TEST(IrradianceField, AgreesWithWhatIsGatheredAnew) {
+  Traced field(kRoom, interpolated(.15)), anew(kRoom, interpolated(0));
+  double sum = 0;
+  int count = 0;
+  for (double x = .3; x < 3.9; x += .5)
+    for (double y = .3; y < 4; y += .5) {
+      const double error = relativeDifference(field, anew, V3d(x, y, 1.5), V3d(.1, .05, -1));
+      EXPECT_LT(std::abs(error), .15) << x << ' ' << y;
+      sum += error;
+      ++count;
+    }
+  EXPECT_LT(std::abs(sum / count), .01);
+  ASSERT_TRUE(field.transport().field());
+  EXPECT_GT(field.transport().field()->size(), 10u);
+}
+
+TEST(IrradianceField, LeavesTheDarkBehindAThinWall) {
+  Traced field(kRoom, interpolated(.15));
+  for (const double x : {4.001, 4.01, 4.1, 4.3, 5.}) {
+    EXPECT_EQ(field.value(V3d(x, 2, 1), V3d(0, 0, -1)), 0) << x;
+    EXPECT_GT(field.value(V3d(8 - x, 2, 1), V3d(0, 0, -1)), .05) << 8 - x;
+  }
+}
+
+TEST(IrradianceField, AnswersTheSameInAnyOrderAndForAnyThread) {
+  std::vector<V3d> places;
+  Random random(5);
+  for (int i = 0; i < 40; ++i)
+    places.emplace_back(.2 + 3.6 * random.uniform(), .2 + 3.6 * random.uniform(), 1.5);
+  const V3d down = V3d(.2, .1, -1).normalized();
+  Traced forwards(kRoom, interpolated(.2)), shared(kRoom, interpolated(.2));
+  std::vector<Rgb> expected;
+  for (const V3d& p : places) expected.push_back(forwards.color(p, down, 7));
+  const auto work = [&](bool backwards) {
+    PathTracer tracer(shared.transport());
+    for (size_t i = 0; i < places.size(); ++i) {
+      const size_t k = backwards ? places.size() - 1 - i : i;
+      EXPECT_EQ(tracer.trace(places[k], down, 0, 7).value, expected[k]);
+    }
+  };
+  std::thread other(work, true);
+  work(false);
+  other.join();
+}
+
+}  // namespace
+}  // namespace rsphere
