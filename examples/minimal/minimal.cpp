@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
 
     RayOptions rays;
     rays.ambientBounces = 2;
+    rays.ambientAccuracy = 0;
     rays.ambientDivisions = 1;  // of thousands of directions, each needs one indirect path
     const Transport transport(scene, rays, Irradiance::none);
 

@@ -45,6 +45,7 @@ goal polygon top 0 0 12 2.2 1.6 .7 3 1.6 .7 3 2.1 .7 2.2 2.1 .7
 RayOptions finely(int bounces) {
   RayOptions o;
   o.ambientBounces = bounces;
+  o.ambientAccuracy = 0;
   o.ambientDivisions = 4;
   o.ambientSuperSamples = 0;
   o.directThreshold = 0;
