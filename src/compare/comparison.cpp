@@ -39,11 +39,11 @@ std::vector<Pair> pairsOf(const Values& ours, const Values& original, size_t rec
   return pairs;
 }
 
-// What differences of a record are relative to.
+// What differences of a record are relative to: half of what both say, since an accident of one program that
+// is also in the scale would make its noise look smaller than the other's.
 double scaleOf(const Pair& pair, double mean) {
-  const double own = std::abs(pair.original.mean()), least = kDarkest * std::abs(mean);
-  const double scale = std::max(own, least);
-  return scale > 0 ? scale : std::max(std::abs(pair.ours.mean()), 1e-300);
+  const double own = std::abs(pair.original.mean() + pair.ours.mean()) / 2;
+  return std::max({own, kDarkest * std::abs(mean), 1e-300});
 }
 
 double meanOf(const std::vector<Pair>& pairs, Spread Pair::*program) {

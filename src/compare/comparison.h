@@ -23,8 +23,9 @@ enum class Verdict {
   differs     // a bias above the tolerance is certain, or more records are beyond it than may be
 };
 
-// Of one channel. Relative to the original's mean; relative differences of a record to its own value by the
-// original, or to kDarkest of the mean where that is less. Of records, means over the repeats are meant.
+// Of one channel. Relative to the original's mean; relative differences of a record to the mean of
+// both programs' values, or to kDarkest of the mean where that is less. Of records, means over the repeats
+// are meant.
 struct ChannelComparison {
   double ourMean = 0, originalMean = 0;
   double bias = 0, biasError = 0;          // of the mean, relative, with its standard error
