@@ -258,6 +258,29 @@ TEST(Tracer, TellsShadowsAsALoopOverAllSurfacesDoes) {
   }
 }
 
+// Curved surfaces can be met again from where they were met; what is named and plane is left out even where a
+// ray begins before it.
+TEST(Tracer, LeavesOutThePlaneSurfaceThatARayBeginsOnAndNoOther) {
+  const Scene scene = sceneOf(clutter(V3d(0, 0, 0), 90));
+  const Tracer tracer(scene, true);
+  Random random(16);
+  int again = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const V3d origin = onGrid(randomPoint(random, 11)), direction = randomDirection(random);
+    const Hit first = tracer.nearest(origin, direction);
+    if (first.surface == kNone) continue;
+    const V3d point = origin + first.distance * direction, onward = randomDirection(random);
+    const Hit next = tracer.nearest(point, onward, kFarAway, first.surface);
+    EXPECT_EQ(next.surface, tracer.nearest(point, onward).surface);
+    EXPECT_EQ(tracer.shadow(point, onward, kFarAway, kNone, nullptr, first.surface),
+              tracer.shadow(point, onward, kFarAway, kNone));
+    again += next.surface == first.surface;
+    const bool plane = planeNormal(scene.surfaces[first.surface].shape) != nullptr;
+    EXPECT_EQ(tracer.nearest(origin, direction, kFarAway, first.surface).surface == first.surface, !plane);
+  }
+  EXPECT_GT(again, 20) << "too few to tell";
+}
+
 // A source is not in its own shadow, nor in that of what lies under it.
 TEST(Tracer, TieAtTheSourceDecidesItsShadow) {
   const auto shadowAt = [](const std::string& surfaces) {
