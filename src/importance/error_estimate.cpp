@@ -54,22 +54,29 @@ Rgb spreadVariance(std::span<const DirectionSample> samples) {
 }
 
 Rgb partsVariance(std::span<const SeenSources::Sample> samples) {
-  if (samples.size() < 2) return Rgb(0, 0, 0);
   // The grid's rows one after the other: neighbours of a row, and the first that lie one beside the other in
   // successive rows.
-  Rgb sum(0, 0, 0);
+  Rgb sum(0, 0, 0), edges(0, 0, 0);
   size_t pairs = 0;
+  for (const auto& s : samples) {
+    const double clear = static_cast<double>(s.clear) / s.aimed;
+    edges += squared(s.direction.value * s.part) * (kEvenParts * clear * (1 - clear) / s.aimed);
+  }
   const size_t columns = static_cast<size_t>(std::count_if(
       samples.begin(), samples.end(), [&](const auto& s) { return s.row == samples.front().row; }));
   const auto add = [&](size_t i, size_t k) {
-    sum +=
-        squared(samples[i].direction.value * samples[i].part - samples[k].direction.value * samples[k].part);
     ++pairs;
+    // What shadow rays told is no chance of the directions'.
+    const double clear = static_cast<double>(samples[i].clear * samples[k].clear) /
+                         static_cast<double>(samples[i].aimed * samples[k].aimed);
+    sum += clear * squared(samples[i].direction.value * samples[i].part -
+                           samples[k].direction.value * samples[k].part);
   };
   for (size_t i = 1; i < samples.size(); ++i)
     if (samples[i].row == samples[i - 1].row) add(i, i - 1);
   for (size_t i = columns; i < samples.size(); ++i) add(i, i - columns);
-  return sum * (kEvenParts * .5 * static_cast<double>(samples.size()) / static_cast<double>(pairs));
+  if (pairs == 0) return edges;
+  return edges + sum * (kEvenParts * .5 * static_cast<double>(samples.size()) / static_cast<double>(pairs));
 }
 
 }  // namespace rsphere

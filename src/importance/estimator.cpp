@@ -5,7 +5,6 @@
 #include <map>
 #include <numbers>
 
-#include "importance/near_lights.h"
 #include "importance/surface_point.h"
 #include "rad_parser/error.h"
 #include "sphere/directions.h"
@@ -25,6 +24,10 @@ constexpr double kUnevenShare = .6;
 constexpr size_t kRaysAModifier = 64, kRaysForContrast = 1024, kRaysForSurroundings = 256;
 constexpr int kRaysAPoint = 32;
 
+// Glances for each base direction. Each takes .2 to .5 us, a followed direction 5 to 100.
+// Not more than kMostGlances where the base alone is not.
+constexpr size_t kGlances = 4, kMostGlances = 65536;
+
 // More directions than this times the base's density are not sent anywhere: the last factor of two in density
 // would be paid for by everything else.
 constexpr double kMostContrast = 200;
@@ -43,6 +46,21 @@ V3d awayFrom(const V3d& normal, double u1, double u2) {
   const double radius = std::sqrt(u1), angle = 2 * kPi * u2;
   return radius * std::cos(angle) * x + radius * std::sin(angle) * y +
          std::sqrt(std::max(0., 1 - u1)) * normal;
+}
+
+// Adds what sums to `excess` over all solid angles: in proportion to the guesses, or evenly where all are 0.
+void shareOut(const Rgb& excess, std::span<const Rgb> guesses, std::vector<DirectionSample>& samples) {
+  Rgb guessed(0, 0, 0);
+  double solidAngle = 0;
+  for (size_t i = 0; i < samples.size(); ++i) {
+    guessed += guesses[i] * samples[i].solidAngle;
+    solidAngle += samples[i].solidAngle;
+  }
+  for (int c = 0; c < 3; ++c) {
+    const double scale = guessed[c] > 0 ? excess[c] / guessed[c] : 0,
+                 shift = guessed[c] > 0 || !(solidAngle > 0) ? 0 : excess[c] / solidAngle;
+    for (size_t i = 0; i < samples.size(); ++i) samples[i].value[c] += scale * guesses[i][c] + shift;
+  }
 }
 
 class Values {
@@ -89,27 +107,28 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
   if (equal) return;
   if (options.weights == Weights::voronoi) base_.emplace(directions_);
   special_ = findSpecialObjects(transport.scene(), options.densityFactor);
-  if (options.weights == Weights::silhouettes) measureContrasts();
+  if (options.weights != Weights::silhouettes || !(options.densityFactor > 0)) return;
+  measureContrasts();
+  std::vector<bool> unguessed = sources_.apart();
+  for (const int32_t mirror : sources_.mirrors()) unguessed[static_cast<size_t>(mirror)] = true;
+  guess_.emplace(transport, unguessed);
+  const size_t glances = std::min(kGlances * count, std::max(count, kMostGlances));
+  glances_ = rotatedDirections(baseDirections(glances), options.rotation);
+  fitGlances_ = baseDirections(RadianceGuess::kFitGlances);
 }
 
 // Rays that start just before a point of an object and hit it from even directions: what its image is like on
-// average, wherever it will be looked at from. Objects with the same modifier share theirs, but for those
-// near to a light source: they differ less than so few rays could tell.
+// average, wherever it will be looked at from. Objects with the same modifier share theirs.
 void SphereEstimator::measureContrasts() {
   const Scene& scene = transport_.scene();
-  std::map<std::pair<bool, int32_t>, std::vector<SpecialObject>> alike;  // by nearness and modifier
-  std::vector<bool> near(scene.surfaces.size(), false);
-  for (const uint32_t i : surfacesNearLights(scene, transport_.lights())) {
-    near[i] = true;
-    alike[{true, scene.surfaces[i].modifier}].push_back({i});
-  }
+  std::map<int32_t, std::vector<SpecialObject>> alike;  // by modifier
   for (const SpecialObject& object : special_)
-    if (!near[object.surface]) alike[{false, scene.surfaces[object.surface].modifier}].push_back(object);
+    alike[scene.surfaces[object.surface].modifier].push_back(object);
   if (alike.empty()) return;
   PathTracer tracer(transport_);
   measureSurroundings(tracer);
   const size_t rays = std::clamp<size_t>(kRaysForContrast / alike.size(), 2, kRaysAModifier);
-  for (const auto& [kind, objects] : alike) {
+  for (const auto& [modifier, objects] : alike) {
     Random random(mixBits(objects[0].surface));
     Values values;
     for (size_t k = 0; k < rays; ++k) {
@@ -158,6 +177,8 @@ void SphereEstimator::measureSurroundings(PathTracer& tracer) {
 PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& w) const {
   w.samples.clear();
   w.rays.clear();
+  w.guesses.clear();
+  w.excess = Moments();
   Rgb variance(0, 0, 0);
   uint64_t sets = 0;
   bool reached = false;
@@ -175,9 +196,13 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& w) const {
   const double share = 1 / static_cast<double>(sets);
   if (sets > 1)
     for (DirectionSample& s : w.samples) s.solidAngle *= share;
-  PointAnswer answer = integrate(point, w.samples);
+  Moments moments;
+  for (const DirectionSample& s : w.samples) moments.add(s.direction, s.value * s.solidAngle);
+  moments.add(w.excess, share);
+  PointAnswer answer = moments.answer(point, w.samples.size());
   for (int i = 0; i < 3; ++i) answer.standardError[i] = std::sqrt(variance[i]) * share / (4 * kPi);
   answer.reached = options_.accuracy <= 0 || reached;
+  if (!w.guesses.empty()) shareOut(w.excess.total * share, w.guesses, w.samples);
   return answer;
 }
 
@@ -186,6 +211,8 @@ void SphereEstimator::sampleSet(const V3d& point, uint64_t set, Workspace& w) co
                                mixBits(options_.rotation + (set << 32)));
   w.variance = Rgb(0, 0, 0);
   w.directions = set == 0 ? directions_ : rotatedDirections(directions_, mixBits(seed));
+  if (guess_ && set > 0) w.turnedGlances = rotatedDirections(glances_, mixBits(seed));
+  w.glances = set == 0 ? glances_ : w.turnedGlances;
   w.rest.clear();
   w.counted.assign(w.directions.size(), true);
   switch (options_.weights) {
@@ -261,24 +288,32 @@ void SphereEstimator::sampleAsPaper(const V3d& point, uint64_t seed, Workspace& 
                             {std::move(cells.first), std::move(cells.neighbour)}, w.counted);
 }
 
-// Which special objects get directions of their own, and how many on average: in proportion to their
-// silhouettes and to how much more the radiance varies on them than around (Neyman's allocation; the base's
-// own share is already there). Where that is more than `most` all are scaled alike, so that nothing special
-// is lost without trace.
-void SphereEstimator::chooseTargets(const V3d& point, uint64_t seed, size_t most, Workspace& w) const {
-  w.targets.clear();
-  if (candidates_.empty() || most == 0) return;
-  const Scene& scene = transport_.scene();
-  double mean = 0;
+// Rays that take no other part: what the guess is fitted to, and what special objects are held against.
+void SphereEstimator::lookAround(const V3d& point, uint64_t seed, Workspace& w) const {
+  w.traced.clear();
+  w.around = 0;
   Random random(mixBits(seed));
   for (int i = 0; i < kRaysAPoint; ++i) {
     // Stratified in height: the sphere's equal-area slices.
     const double z = 1 - 2 * (i + random.uniform()) / kRaysAPoint, angle = 2 * kPi * random.uniform();
     const double r = std::sqrt(std::max(0., 1 - z * z));
-    const Ray ray = w.tracer.trace(point, V3d(r * std::cos(angle), r * std::sin(angle), z), 0, random.bits());
-    if (!sources_.shown(w.tracer, w.images)) mean += brightness(ray.value) / kRaysAPoint;
+    const V3d direction(r * std::cos(angle), r * std::sin(angle), z);
+    const Ray ray = w.tracer.trace(point, direction, 0, random.bits());
+    if (sources_.shown(w.tracer, w.images)) continue;
+    w.traced.push_back({direction, ray.value});
+    w.around += brightness(ray.value) / kRaysAPoint;
   }
-  const double usual = usualDeviation_ * mean;
+}
+
+// Which special objects get directions of their own, and how many on average: in proportion to their
+// silhouettes and to how much more the radiance varies on them than around (Neyman's allocation; the base's
+// own share is already there). Where that is more than `most` all are scaled alike, so that nothing special
+// is lost without trace.
+void SphereEstimator::chooseTargets(const V3d& point, size_t most, Workspace& w) const {
+  w.targets.clear();
+  if (candidates_.empty() || most == 0) return;
+  const Scene& scene = transport_.scene();
+  const double usual = usualDeviation_ * w.around;
   const double baseDensity = static_cast<double>(w.directions.size()) / (4 * kPi);
   double sum = 0;
   for (const Candidate& candidate : candidates_) {
@@ -318,7 +353,8 @@ void SphereEstimator::sampleSilhouettes(const V3d& point, uint64_t seed, Workspa
   // Base and dynamic directions, each with the solid angle that it stands for where all that were sent are
   // even.
   const size_t used = base + w.sources.size();
-  chooseTargets(point, mixBits(seed + 2), most > used ? most - used : 0, w);
+  if (guess_) lookAround(point, mixBits(seed + 2), w);
+  chooseTargets(point, most > used ? most - used : 0, w);
   w.index.clear();
   for (uint32_t i = 0; i < w.targets.size(); ++i) w.index.add(i, w.targets[i].silhouette);
   const auto extraDensity = [&](const V3d& d) {
@@ -363,38 +399,80 @@ void SphereEstimator::sampleSilhouettes(const V3d& point, uint64_t seed, Workspa
   // All stand for the sphere but for the sources' part of it.
   const double scale = total > 0 ? std::max(0., 4 * kPi - seen) / total : 0;
   for (const size_t i : w.rest) w.samples[i].solidAngle *= scale;
+  if (guess_) glance(point, mixBits(seed + 4), w);
   if (standardError_) addVariances(firstBase, w);
 }
 
+// What is guessed of the last set's directions, and how much more or less many glances find of it.
+void SphereEstimator::glance(const V3d& point, uint64_t seed, Workspace& w) const {
+  w.guesses.resize(w.samples.size(), Rgb(0, 0, 0));
+  const auto local =
+      guess_->fit(point, rotatedDirections(fitGlances_, mixBits(seed)), w.traced, mixBits(seed + 1));
+  for (const size_t i : w.rest) {
+    const DirectionSample& s = w.samples[i];
+    w.guesses[i] = guess_->along(point, s.direction, local);
+    w.excess.add(s.direction, w.guesses[i] * -s.solidAngle);
+  }
+  const double solidAngle = 4 * kPi / static_cast<double>(w.glances.size());
+  for (const V3d& direction : w.glances)
+    w.excess.add(direction, guess_->along(point, direction, local) * solidAngle);
+}
+
 void SphereEstimator::addVariances(size_t firstBase, Workspace& w) const {
-  const std::span<const DirectionSample> samples(w.samples);
-  w.variance = baseVariance(samples.subspan(firstBase, w.directions.size()), neighbours_, w.counted);
+  // What is left to the directions; of the rest only what glances, being more, do not tell.
+  w.unguessed.assign(w.samples.begin() + static_cast<ptrdiff_t>(firstBase), w.samples.end());
+  if (guess_) {
+    w.guessed = w.unguessed;
+    for (size_t i = 0; i < w.guessed.size(); ++i) {
+      w.guessed[i].value = w.guesses[firstBase + i];
+      w.unguessed[i].value -= w.guesses[firstBase + i];
+    }
+    const double even =
+        std::pow(static_cast<double>(w.glances.size()) / static_cast<double>(w.directions.size()), -1.5);
+    w.variance +=
+        even * baseVariance(std::span(w.guessed).first(w.directions.size()), neighbours_, w.counted);
+  }
+  const std::span<const DirectionSample> samples(w.unguessed);
+  w.variance += baseVariance(samples.first(w.directions.size()), neighbours_, w.counted);
   w.runs.push_back(w.samples.size());
   for (size_t i = 1; i < w.runs.size(); ++i)
-    w.variance += spreadVariance(samples.subspan(w.runs[i - 1], w.runs[i] - w.runs[i - 1]));
+    w.variance += spreadVariance(samples.subspan(w.runs[i - 1] - firstBase, w.runs[i] - w.runs[i - 1]));
   for (size_t i = 0, next = 0; i < w.sources.size(); i = next) {
     while (next < w.sources.size() && w.sources[next].image == w.sources[i].image) ++next;
     w.variance += partsVariance(std::span(w.sources).subspan(i, next - i));
   }
 }
 
-PointAnswer integrate(const V3d& point, const std::vector<DirectionSample>& samples) {
+void Moments::add(const V3d& d, const Rgb& part) {
+  total += part;
+  cylindrical += part * std::sqrt(std::max(0., 1 - d.z * d.z));
+  for (int axis = 0; axis < 3; ++axis) facing[2 * axis + (d[axis] < 0)] += part * std::abs(d[axis]);
+  light += brightness(part) * d;
+}
+
+void Moments::add(const Moments& other, double share) {
+  total += other.total * share;
+  cylindrical += other.cylindrical * share;
+  for (int i = 0; i < 6; ++i) facing[i] += other.facing[i] * share;
+  light += other.light * share;
+}
+
+PointAnswer Moments::answer(const V3d& point, size_t directions) const {
   PointAnswer a;
   a.point = point;
-  a.directions = samples.size();
-  std::fill(std::begin(a.facing), std::end(a.facing), Rgb(0, 0, 0));
-  Rgb total(0, 0, 0);
-  for (const DirectionSample& s : samples) {
-    const Rgb part = s.value * s.solidAngle;
-    const V3d& d = s.direction;
-    total += part;
-    a.cylindricalIrradiance += part * (std::sqrt(std::max(0., 1 - d.z * d.z)) / kPi);
-    for (int axis = 0; axis < 3; ++axis) a.facing[2 * axis + (d[axis] < 0)] += part * std::abs(d[axis]);
-    a.lightVector += brightness(part) * d;
-  }
+  a.directions = directions;
   a.mean = total / (4 * kPi);
   a.scalarIrradiance = total / 4.;
+  a.cylindricalIrradiance = cylindrical / kPi;
+  std::copy(std::begin(facing), std::end(facing), std::begin(a.facing));
+  a.lightVector = light;
   return a;
+}
+
+PointAnswer integrate(const V3d& point, const std::vector<DirectionSample>& samples) {
+  Moments moments;
+  for (const DirectionSample& s : samples) moments.add(s.direction, s.value * s.solidAngle);
+  return moments.answer(point, samples.size());
 }
 
 RayAnswer directionAnswer(const Scene& scene, const DirectionSample& sample, const Ray& ray) {

@@ -8,20 +8,25 @@
 // - Light sources that are seen directly are integrated by themselves (seen_sources.h): they are nearly all
 // the error.
 // - Cells keep to the silhouettes. The cell of a base direction is its Voronoi cell on the sphere; inside a
-// silhouette
-//   it is shared with the dynamic directions that were sent there, in proportion to their numbers, and
-//   outside it is not touched. Plain cells reach over the silhouette's edge from the dense side and bias the
-//   mean by a percent.
+// silhouette it is shared with the dynamic directions that were sent there, in proportion to their numbers,
+// and outside it is not touched. Plain cells reach over the silhouette's edge from the dense side and bias
+// the mean by a percent.
 // - How many directions a special object gets follows from how much the radiance on it varies, against that
-// of the
-//   surroundings, measured by rays that take no other part, so that the mean stays unbiased.
+// of the surroundings, measured by rays that take no other part, so that the mean stays unbiased.
+// - Many glances, rays that are not followed beyond what they hit, tell what can be guessed of diffuse
+// surfaces (radiance_guess.h): their unshadowed or fully shadowed light, and their edges. Only what differs
+// from the guess is left to the directions.
+#include <algorithm>
+#include <iterator>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "cli/answer.h"
 #include "cli/options.h"
 #include "importance/direction_sample.h"
 #include "importance/error_estimate.h"
+#include "importance/radiance_guess.h"
 #include "importance/seen_sources.h"
 #include "importance/silhouette.h"
 #include "importance/silhouette_index.h"
@@ -30,6 +35,19 @@
 #include "transport/path_tracer.h"
 
 namespace rsphere {
+
+// Integrals over directions that PointAnswer has.
+struct Moments {
+  Rgb total{0, 0, 0}, cylindrical{0, 0, 0};  // of L, and of L sin(angle to z)
+  Rgb facing[6];                             // of L |cos|, for +x -x +y -y +z -z
+  V3d light{0, 0, 0};                        // of L d, brightness
+
+  Moments() { std::fill(std::begin(facing), std::end(facing), Rgb(0, 0, 0)); }
+  // part: radiance times solid angle.
+  void add(const V3d& direction, const Rgb& part);
+  void add(const Moments& other, double share);
+  PointAnswer answer(const V3d& point, size_t directions) const;
+};
 
 // What all threads share. Keeps a reference to transport.
 class SphereEstimator {
@@ -43,8 +61,10 @@ class SphereEstimator {
   struct Workspace {
     explicit Workspace(const SphereEstimator& estimator) : tracer(estimator.transport_) {}
     PathTracer tracer;
-    std::vector<DirectionSample> samples;  // of the last point
-    std::vector<Ray> rays;                 // what they hit, in the same order; kept with -Sd only
+    // Of the last point. Where glances found more or less than the directions' own guesses say, what is
+    // guessed of each is scaled so that solid angles times radiances sum to the answer's.
+    std::vector<DirectionSample> samples;
+    std::vector<Ray> rays;  // what they hit, in the same order; kept with -Sd only
 
    private:
     friend class SphereEstimator;
@@ -55,6 +75,10 @@ class SphereEstimator {
     };
     // Of the set that is being sampled:
     std::vector<V3d> directions, dynamic;  // of the base, and to special objects
+    std::vector<V3d> turnedGlances;
+    std::span<const V3d> glances;
+    std::vector<RadianceGuess::Traced> traced;  // by rays that take no other part
+    double around = 0;                          // mean brightness of these
     std::vector<Target> targets;
     SilhouetteIndex index;  // of the targets, by their places there
     std::vector<SeenSources::Image> images;
@@ -63,6 +87,10 @@ class SphereEstimator {
     std::vector<bool> counted;  // which base directions are among them
     std::vector<size_t> runs;   // where each target's directions begin in samples
     Rgb variance{0, 0, 0};      // of the integral of radiance
+    std::vector<DirectionSample> unguessed, guessed;  // parts of the base's samples
+    // Of all sets so far:
+    std::vector<Rgb> guesses;  // of samples' radiances; empty: none are made
+    Moments excess;            // of what glances found, over what the directions' own guesses say
     VoronoiWorkspace voronoi;
   };
 
@@ -80,7 +108,9 @@ class SphereEstimator {
   void sampleEqually(const V3d& point, uint64_t seed, Workspace& w) const;
   void sampleAsPaper(const V3d& point, uint64_t seed, Workspace& w) const;
   void sampleSilhouettes(const V3d& point, uint64_t seed, Workspace& w) const;
-  void chooseTargets(const V3d& point, uint64_t seed, size_t most, Workspace& w) const;
+  void chooseTargets(const V3d& point, size_t most, Workspace& w) const;
+  void lookAround(const V3d& point, uint64_t seed, Workspace& w) const;
+  void glance(const V3d& point, uint64_t seed, Workspace& w) const;
   void addVariances(size_t firstBase, Workspace& w) const;
   void measureContrasts();
   void measureSurroundings(PathTracer& tracer);
@@ -94,17 +124,19 @@ class SphereEstimator {
   bool standardError_;
   Neighbours neighbours_;  // of the base, where errors are wanted
   std::vector<SpecialObject> special_;
-  // What may get directions of its own with -Sw c: special objects, and what is near to a light source.
+  // What may get directions of its own with -Sw c.
   struct Candidate {
     SpecialObject object;
     double deviation = 0;  // of the radiance on it, W/sr/m2
   };
   std::vector<Candidate> candidates_;
+  std::optional<RadianceGuess> guess_;
+  std::vector<V3d> glances_, fitGlances_;
   double usualDeviation_ = 1;  // of one base direction's radiance, as a share of the mean, sources apart
 };
 
-// The quantities of PointAnswer (all but its standard error) from weighted directions: sums over L w, L w d
-// and so on. Definitions: answer.h.
+// The quantities of PointAnswer (all but its standard error) from weighted directions. Definitions:
+// answer.h.
 PointAnswer integrate(const V3d& point, const std::vector<DirectionSample>& samples);
 
 // One direction of a point as -Sd prints it.

@@ -249,20 +249,18 @@ void SeenSources::sampleImage(const V3d& point, const Image& image, size_t rays,
   const size_t columns = tries / rows, first = samples.size();
   for (size_t row = 0; row < rows; ++row)
     for (size_t column = 0; column < columns; ++column) {
+      if (!mirrored) {
+        sampleCell(point, image, {row, column, rows, columns}, random, tracer, samples);
+        continue;
+      }
       Sample s;
       s.row = row;
       V3d& direction = s.direction.direction;
       direction = image.region.sample((row + random.uniform()) / rows, (column + random.uniform()) / columns);
       const uint64_t raySeed = random.bits();
-      const bool hit = hits(scene, shape, eye, direction, on) && on.cosine > 0;
-      if (!hit) continue;
-      if (mirrored) {
-        direction = Plane(*mirror).mirroredDirection(direction);
-        s.ray = tracer.trace(point, direction, 0, raySeed);
-      } else {
-        s.ray = tracer.traceToSource(point, {direction, 0, on.distance, on.cosine, on.normal, image.source},
-                                     raySeed);
-      }
+      if (!hits(scene, shape, eye, direction, on) || !(on.cosine > 0)) continue;
+      direction = Plane(*mirror).mirroredDirection(direction);
+      s.ray = tracer.trace(point, direction, 0, raySeed);
       s.direction.toSource = true;
       s.direction.value = Rgb(0, 0, 0);
       if (tracer.shown() == PathTracer::Shown{light.surface, image.mirror}) {
@@ -272,11 +270,54 @@ void SeenSources::sampleImage(const V3d& point, const Image& image, size_t rays,
       samples.push_back(s);
     }
   // What is known of the whole is shared by those that met it.
-  const double part = solidAngle * share / static_cast<double>(std::max<size_t>(1, samples.size() - first));
+  int aimed = 0;
+  for (size_t i = first; i < samples.size(); ++i) aimed += samples[i].aimed;
+  const double each = solidAngle * share / std::max(1, aimed);
   for (size_t i = first; i < samples.size(); ++i) {
-    samples[i].part = part;
-    samples[i].direction.solidAngle *= part;
+    samples[i].part = each * samples[i].aimed;
+    samples[i].direction.solidAngle *= each * samples[i].clear;
   }
+}
+
+// Shadow rays to all of a cell of the image's grid; one direction for those that nothing opaque stops, or for
+// all where each is stopped.
+void SeenSources::sampleCell(const V3d& point, const Image& image, const Cell& cell, Random& random,
+                             PathTracer& tracer, std::vector<Sample>& samples) const {
+  const LightSource& light = transport_.lights().all()[image.source];
+  const Shape& shape = transport_.scene().surfaces[light.surface].shape;
+  Sample s;
+  s.row = cell.row;
+  s.aimed = s.clear = 0;
+  ShapeHit on, chosen;
+  for (size_t i = 0; i < kShadowsAlong; ++i)
+    for (size_t k = 0; k < kShadowsAcross; ++k) {
+      const double u = (cell.row + (i + random.uniform()) / kShadowsAlong) / cell.rows,
+                   v = (cell.column + (k + random.uniform()) / kShadowsAcross) / cell.columns;
+      const V3d direction = image.region.sample(u, v);
+      const double lot = random.uniform();
+      if (!hits(transport_.scene(), shape, point, direction, on) || !(on.cosine > 0)) continue;
+      ++s.aimed;
+      const bool clear =
+          transport_.tracer().shadow(point, direction, on.distance, light.surface) != Shadow::blocked;
+      s.clear += clear;
+      // One of n with equal chances: the nth replaces the one before with a chance of 1/n.
+      if (clear ? lot * s.clear < 1 : s.clear == 0 && lot * s.aimed < 1) {
+        s.direction.direction = direction;
+        chosen = on;
+      }
+    }
+  if (s.aimed == 0) return;
+  s.ray = tracer.traceToSource(
+      point, {s.direction.direction, 0, chosen.distance, chosen.cosine, chosen.normal, image.source},
+      random.bits());
+  s.direction.toSource = true;
+  s.direction.value = Rgb(0, 0, 0);
+  s.direction.solidAngle = 0;
+  if (tracer.shown() == PathTracer::Shown{light.surface, kNone}) {
+    s.direction.value = s.ray.value;
+    s.direction.solidAngle = 1;
+  }
+  samples.push_back(s);
 }
 
 }  // namespace rsphere

@@ -42,31 +42,47 @@ class SeenSources {
     return s.source != kNone && s.mirror == kNone && apart_[s.source];
   }
 
+  // Surfaces whose sources are integrated apart where they are seen straight, by index in Scene::surfaces;
+  // and those that may mirror them.
+  const std::vector<bool>& apart() const { return apart_; }
+  const std::vector<int32_t>& mirrors() const { return mirrors_; }
+
   // One traced direction to an image.
   struct Sample {
     DirectionSample direction;  // solidAngle 0 where something hides the source
     double part = 0;            // what it would be if nothing did, sr
+    int aimed = 1, clear = 1;   // shadow rays to its part, and those that nothing stopped
     Ray ray;
     size_t image = 0;  // index in images
     size_t row = 0;    // of the grid that lies on it
   };
 
   // Directions to the images, each with the solid angle it stands for and the radiance along it; one in each
-  // cell of a grid that is even by solid angle. Where an image is seen whole its solid angles sum to its own,
-  // exact for polygons, spheres and distant sources, within 0.1% for others. Unbiased.
+  // cell of a grid that is even by solid angle. Of an image that is seen straight 2 x 2 shadow rays
+  // tell how much of the cell is hidden, and one of those that nothing stopped is followed. Where an image is
+  // seen whole its solid angles sum to its own, exact for polygons, spheres and distant sources, within 0.1%
+  // for others. Unbiased.
   void sample(const V3d& point, const std::vector<Image>& images, uint64_t seed, PathTracer& tracer,
               std::vector<Sample>& samples) const;
 
  private:
+  struct Cell {
+    size_t row = 0, column = 0, rows = 1, columns = 1;
+  };
   void addMirrored(const V3d& point, std::vector<Image>& images) const;
   void sampleImage(const V3d& point, const Image& image, size_t rays, double solidAngle, uint64_t seed,
                    PathTracer& tracer, std::vector<Sample>& samples) const;
+  void sampleCell(const V3d& point, const Image& image, const Cell& cell, Random& random, PathTracer& tracer,
+                  std::vector<Sample>& samples) const;
 
   const Transport& transport_;
   std::vector<bool> apart_;        // by surface
   std::vector<uint32_t> sources_;  // those apart, index in LightSources
   std::vector<int32_t> mirrors_;   // index in Scene::surfaces
 };
+
+// Shadow rays for each direction to a source that is seen straight.
+inline constexpr size_t kShadowsAlong = 2, kShadowsAcross = 2;
 
 // Half angle (radians) up to which a distant source is integrated apart: 6 degrees, a sun and its halo.
 inline constexpr double kWidestDistant = .1;

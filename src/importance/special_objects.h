@@ -28,8 +28,8 @@ double irregularity(const Material& material);
 //
 // Directions per sr that an irregularity of 1 asks for, times -Sk: 1000 for a hundred spheres of 0.1 m.
 inline constexpr double kDirectionsPerSr = 32000;
-// A highlight is called sharp where no more than some 16 such directions fall in it, four across: it fills 4 pi
-// a^2 sr.
+// A highlight is called sharp where no more than some 16 such directions fall in it, four across: it fills 4
+// pi a^2 sr.
 inline constexpr double kSharpRoughness = .0065;
 // A pane's glass: what is seen straight through is no smaller than without it, and its mirror image is faint.
 // Gets 64 directions per sr, a few hundred at most, where as a mirror it would have taken all there are.

@@ -1,0 +1,224 @@
+#include "importance/radiance_guess.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace rsphere {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Sources that send most are guessed with, others count as light from around.
+constexpr size_t kMostLights = 32;
+
+// Shadow rays by which the share of a source's light that arrives is estimated.
+constexpr double kShadowRays = 12;
+
+// Where a source adds more than this times the mean guess, shadow rays to kSeenSide^2 fixed places on it
+// replace its share: a few percent of the glances, where most of the light is.
+constexpr double kBright = 16;
+constexpr int kSeenSide = 2;
+
+// Nearer than this times its radius the shape of a source with four corners matters: its factor is then
+// exact, and else that of a small surface, up to a seventh off at grazing angles: that is close enough for a
+// guess.
+constexpr double kNear = 3;
+
+// Irradiance by a triangle or parallelogram of radiance 1, what is below the horizon left out: Lambert's sum
+// over its sides. corners: from the place. normal: unit, of the place.
+template <size_t N>
+double irradianceFrom(const std::array<V3d, N>& corners, const V3d& normal) {
+  std::array<V3d, 2 * N> kept;
+  size_t n = 0;
+  for (size_t i = 0; i < N; ++i) {
+    const V3d &a = corners[i], &b = corners[(i + 1) % N];
+    const double atA = normal.dot(a), atB = normal.dot(b);
+    if (atA > 0) kept[n++] = a;
+    if ((atA > 0) != (atB > 0)) kept[n++] = a + (b - a) * (atA / (atA - atB));
+  }
+  double sum = 0;
+  for (size_t i = 0; i < n; ++i) {
+    const V3d across = kept[i].cross(kept[(i + 1) % n]);
+    const double sine = across.length();
+    if (sine > 0) sum += std::atan2(sine, kept[i].dot(kept[(i + 1) % n])) * normal.dot(across) / sine;
+  }
+  return std::abs(sum) / 2;
+}
+
+double middleOf(std::vector<double>& values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+RadianceGuess::RadianceGuess(const Transport& transport, const std::vector<bool>& unguessed)
+    : transport_(transport) {
+  const Scene& scene = transport.scene();
+  reflectance_.assign(scene.surfaces.size(), Rgb(0, 0, 0));
+  for (size_t i = 0; i < scene.surfaces.size(); ++i) {
+    const Material* material = scene.materialOf(scene.surfaces[i]);
+    if (!material || unguessed[i]) continue;
+    if (const auto* m = std::get_if<Opaque>(material)) reflectance_[i] = m->color * (1 - m->specularity);
+  }
+  const auto lights = transport.lights().all();
+  for (uint32_t i = 0; i < lights.size(); ++i) {
+    if (lights[i].isVirtual()) continue;
+    const Surface& surface = scene.surfaces[lights[i].surface];
+    const Material* material = scene.materialOf(surface);
+    const std::optional<Rgb> radiance = surface.goal ? Rgb(1, 1, 1)
+                                        : material   ? sourceRadiance(*material)
+                                                     : std::nullopt;
+    if (radiance && brightness(*radiance) > 0) lights_.push_back({i, *radiance, 0});
+  }
+}
+
+RadianceGuess::Place RadianceGuess::placeAlong(const V3d& point, const V3d& direction) const {
+  const Hit hit = transport_.tracer().nearest(point, direction);
+  if (hit.surface == kNone) return {};
+  return {point + hit.distance * direction, hit.cosine < 0 ? -hit.normal : hit.normal,
+          reflectance_[hit.surface]};
+}
+
+// Irradiance for a radiance of 1 where nothing is in between, sr.
+double RadianceGuess::factor(uint32_t source, const Place& at) const {
+  const LightSource& light = transport_.lights().all()[source];
+  if (light.distant) return 2 * kPi * (1 - light.cosHalfAngle) * std::max(0., at.normal.dot(light.center));
+  const V3d to = light.center - at.point;
+  if (at.normal.dot(to) <= -light.radius) return 0;
+  const double squared = to.length2(), distance = std::sqrt(squared);
+  if (light.reach > 0 && distance - light.radius > light.reach) return 0;
+  if (light.spot && outsideSpot(*light.spot, to / distance)) return 0;
+  const double cosine = std::max(0., at.normal.dot(to) / distance);
+  if (light.map == LightSource::Map::ball)
+    return kPi * light.radius * light.radius * cosine / std::max(squared, light.radius * light.radius);
+  if (light.map == LightSource::Map::tube) return light.area * cosine / (squared + light.area / kPi);
+  if (light.map == LightSource::Map::cone) return 0;
+  const double front = -light.normal.dot(to) / distance;
+  if (!(front > 0)) return 0;
+  if (light.map == LightSource::Map::disk) return light.area * cosine * front / (squared + light.area / kPi);
+  if (light.map == LightSource::Map::fan) {
+    double sum = 0;
+    const auto& v = light.fanVertices;
+    for (size_t i = 2; i < v.size(); ++i)
+      sum += irradianceFrom<3>({v[0] - at.point, v[i - 1] - at.point, v[i] - at.point}, at.normal);
+    return sum;
+  }
+  if (distance > kNear * light.radius) return light.area * cosine * front / squared;
+  const V3d &u = light.u, &v = light.v;
+  return irradianceFrom<4>({to - u - v, to + u - v, to + u + v, to - u + v}, at.normal);
+}
+
+double RadianceGuess::sent(const Light& light, const Place& at) const {
+  return factor(light.source, at) / kPi * brightness(light.radiance * at.reflectance);
+}
+
+// Of some places on the source that do not depend on chance, the share that is seen.
+double RadianceGuess::seenFrom(const Place& at, uint32_t source) const {
+  const LightSource& light = transport_.lights().all()[source];
+  const bool wide = !light.distant && light.u.length2() > 0 && light.v.length2() > 0;
+  const int side = wide ? kSeenSide : 1;
+  int seen = 0, asked = 0;
+  for (int i = 0; i < side; ++i)
+    for (int k = 0; k < side; ++k) {
+      const double s = (2 * i + 1.) / side - 1, t = (2 * k + 1.) / side - 1;
+      V3d to = light.distant ? light.center : light.center - at.point;
+      if (wide) to += s * light.u + t * light.v;
+      const double distance = to.length();
+      to /= distance;
+      if (!(at.normal.dot(to) > 0)) continue;
+      ++asked;
+      seen += transport_.tracer().shadow(at.point, to, light.distant ? kFarAway : distance, light.surface) !=
+              Shadow::blocked;
+    }
+  return asked ? static_cast<double>(seen) / asked : 0;
+}
+
+// sent: brightness that would come back from each place if nothing hid the light.
+double RadianceGuess::shareThatArrives(const Light& light, std::span<const double> sent,
+                                       std::span<const Place> places, Random& random) const {
+  double sum = 0;
+  for (const double s : sent) sum += s;
+  const int32_t surface = transport_.lights().all()[light.source].surface;
+  std::vector<SourceSample> samples;
+  int asked = 0, arrived = 0;
+  double due = random.uniform();
+  for (size_t i = 0; i < places.size(); ++i) {
+    const Place& at = places[i];
+    due += sent[i] / sum * kShadowRays;
+    if (due < 1) continue;
+    due -= std::floor(due);
+    samples.clear();
+    transport_.lights().sample(light.source, at.point, {0, 1, at.normal}, random, samples);
+    ++asked;
+    if (samples.empty()) continue;
+    const SourceSample& s = samples[0];
+    arrived += transport_.tracer().shadow(at.point, s.direction, s.distance, surface) != Shadow::blocked;
+  }
+  return asked ? static_cast<double>(arrived) / asked : 0;
+}
+
+RadianceGuess::Local RadianceGuess::fit(const V3d& point, std::span<const V3d> glances,
+                                        std::span<const Traced> traced, uint64_t seed) const {
+  Local local;
+  Random random(seed);
+  std::vector<Place> places;
+  for (const V3d& direction : glances) {
+    Place at = placeAlong(point, direction);
+    if (brightness(at.reflectance) > 0) places.push_back(at);
+  }
+  std::vector<std::pair<double, size_t>> order;
+  std::vector<double> back(lights_.size() * places.size());
+  for (size_t i = 0; i < lights_.size(); ++i) {
+    double sum = 0;
+    for (size_t k = 0; k < places.size(); ++k)
+      sum += back[i * places.size() + k] = sent(lights_[i], places[k]);
+    if (sum > 0) order.push_back({-sum, i});
+  }
+  std::sort(order.begin(), order.end());
+  if (order.size() > kMostLights) order.resize(kMostLights);
+  double arriving = 0;
+  for (const auto& [sum, i] : order) {
+    Light light = lights_[i];
+    light.share =
+        shareThatArrives(light, std::span(back).subspan(i * places.size(), places.size()), places, random);
+    if (!(light.share > 0)) continue;
+    local.lights.push_back(light);
+    arriving += light.share * -sum;
+  }
+  local.bright = kBright * arriving / static_cast<double>(std::max<size_t>(1, glances.size()));
+  // The middle one rather than the mean: few directions by chance see what is very bright.
+  std::vector<double> around[3];
+  for (const Traced& t : traced) {
+    const Place at = placeAlong(point, t.direction);
+    if (!(brightness(at.reflectance) > 0)) continue;
+    const Rgb rest = t.radiance - direct(at, local);
+    for (int c = 0; c < 3; ++c)
+      if (at.reflectance[c] > 0) around[c].push_back(rest[c] / at.reflectance[c]);
+  }
+  for (int c = 0; c < 3; ++c) local.ambient[c] = std::max(0., middleOf(around[c]));
+  return local;
+}
+
+Rgb RadianceGuess::direct(const Place& at, const Local& local) const {
+  Rgb sum(0, 0, 0);
+  for (const Light& light : local.lights) {
+    const double irradiance = factor(light.source, at);
+    if (!(irradiance > 0)) continue;
+    const Rgb radiance = light.radiance * at.reflectance * (irradiance / kPi);
+    sum += radiance * (brightness(radiance) > local.bright ? seenFrom(at, light.source) : light.share);
+  }
+  return sum;
+}
+
+Rgb RadianceGuess::along(const V3d& point, const V3d& direction, const Local& local) const {
+  const Place at = placeAlong(point, direction);
+  if (!(brightness(at.reflectance) > 0)) return Rgb(0, 0, 0);
+  return direct(at, local) + local.ambient * at.reflectance;
+}
+
+}  // namespace rsphere

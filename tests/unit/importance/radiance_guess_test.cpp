@@ -1,0 +1,184 @@
+#include "importance/radiance_guess.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <span>
+#include <string>
+
+#include "cli/option_table.h"
+#include "importance/estimator.h"
+#include "rad_parser/scene_file.h"
+#include "sphere/directions.h"
+#include "tests/unit/support/statistics.h"
+
+namespace rsphere {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+struct Setting {
+  Scene scene;
+  Options options = modeDefaults(true);
+  std::unique_ptr<Transport> transport;
+
+  explicit Setting(const std::string& text, int bounces = 0, bool goal = false)
+      : scene([&] {
+          const std::string goals[] = {"goal"};
+          return buildScene(rad::readSceneText(text, "room.rad"), {},
+                            goal ? std::span<const std::string>(goals) : std::span<const std::string>());
+        }()) {
+    options.ray.ambientBounces = bounces;
+    options.ray.sourceSubstructuring = .05;
+    transport = std::make_unique<Transport>(scene, options.ray, Irradiance::none);
+  }
+  RadianceGuess guess() const {
+    std::vector<bool> lights(scene.surfaces.size(), false);
+    for (const LightSource& l : transport->lights().all()) lights[l.surface] = true;
+    return RadianceGuess(*transport, lights);
+  }
+};
+
+constexpr const char* kMaterials =
+    "void plastic gray 0 0 5 .6 .5 .4 0 0\nvoid metal steel 0 0 5 .6 .6 .6 .5 .1\nvoid mirror silver 0 0 3 "
+    ".9 .9 .9\nvoid light lamp 0 0 3 20 20 20\nvoid plastic goal 0 0 5 .4 .25 .15 0 0\n";
+constexpr const char* kFloor = "gray polygon floor 0 0 12 -9 -9 0 9 -9 0 9 9 0 -9 9 0\n";
+
+// Where nothing is in between, the guess is the light of every kind of source.
+TEST(RadianceGuess, IsTheRadianceWhereNothingIsHidden) {
+  struct Case {
+    const char* lamp;
+    double tolerance;
+  };
+  for (const Case& c :
+       {Case{"lamp polygon l 0 0 12 1 1 2 1 2 2 3 2 2 3 1 2\n", .16},
+        Case{"lamp polygon l 0 0 9 1 1 2 1 2 2 3 2 2\n", .04}, Case{"lamp sphere l 0 0 4 1 1 2 .2\n", .04},
+        Case{"lamp ring l 0 0 8 1 1 2 0 0 -1 0 .3\n", .05}, Case{"lamp source l 0 0 4 .5 .2 1 2\n", .01}}) {
+    const Setting setting(std::string(kMaterials) + kFloor + c.lamp);
+    const RadianceGuess guess = setting.guess();
+    const V3d point(.5, .2, 1);
+    const auto local = guess.fit(point, baseDirections(RadianceGuess::kFitGlances), {}, 1);
+    PathTracer tracer(*setting.transport);
+    for (double x = -3; x < 6; x += .7)
+      for (double y = -3; y < 6; y += .7) {
+        const V3d direction = (V3d(x, y, 0) - point).normalized();
+        double traced = 0;
+        for (uint64_t seed = 0; seed < 32; ++seed)
+          traced += tracer.trace(point, direction, 0, seed).value.y / 32;
+        EXPECT_NEAR(guess.along(point, direction, local).y / traced, 1, c.tolerance)
+            << c.lamp << x << ' ' << y;
+      }
+  }
+}
+
+TEST(RadianceGuess, KnowsNothingOfMirrorsLightsAndNothing) {
+  const Setting setting(
+      std::string(kMaterials) +
+      "silver sphere m 0 0 4 2 0 0 .5\nlamp sphere l 0 0 4 0 0 3 .5\nsteel sphere s 0 0 4 0 2 0 .5\n");
+  const RadianceGuess guess = setting.guess();
+  const V3d point(0, 0, 0);
+  const auto local = guess.fit(point, baseDirections(RadianceGuess::kFitGlances), {}, 1);
+  EXPECT_EQ(guess.along(point, V3d(1, 0, 0), local), Rgb(0, 0, 0));
+  EXPECT_EQ(guess.along(point, V3d(0, 0, 1), local), Rgb(0, 0, 0));
+  EXPECT_EQ(guess.along(point, V3d(0, 0, -1), local), Rgb(0, 0, 0));
+  EXPECT_GT(guess.along(point, V3d(0, 1, 0), local).y, 0) << "the diffuse half of steel";
+}
+
+// What no light of the source reaches is not expected to have any.
+TEST(RadianceGuess, LeavesOutSourcesThatAreShutOut) {
+  const std::string lid = "gray polygon lid 0 0 12 -99 -99 3 99 -99 3 99 99 3 -99 99 3\n";
+  const std::string sun = "lamp source l 0 0 4 0 0 1 1\n";
+  const V3d point(0, 0, 1);
+  for (const bool shut : {false, true}) {
+    const Setting setting(std::string(kMaterials) + kFloor + (shut ? lid : "") + sun);
+    const RadianceGuess guess = setting.guess();
+    const auto local = guess.fit(point, baseDirections(RadianceGuess::kFitGlances), {}, 1);
+    EXPECT_EQ(local.lights.empty(), shut);
+    EXPECT_EQ(guess.along(point, V3d(0, 0, -1), local).y > 0, !shut);
+  }
+}
+
+// A desk that is the goal, with a partition beside it.
+std::string deskBesideGoal() {
+  std::string text = kMaterials;
+  const auto wall = [&](const char* p) { text += fmt::format("gray polygon w 0 0 12 {}\n", p); };
+  wall("0 0 0 6 0 0 6 5 0 0 5 0");
+  wall("0 5 3 6 5 3 6 0 3 0 0 3");
+  wall("0 0 0 0 0 3 6 0 3 6 0 0");
+  wall("6 0 0 6 0 3 6 5 3 6 5 0");
+  wall("6 5 0 6 5 3 0 5 3 0 5 0");
+  wall("0 5 0 0 5 3 0 0 3 0 0 0");
+  wall("1.9 2.34 0 1.9 2.34 1.4 3.7 2.34 1.4 3.7 2.34 0");
+  return text + "goal polygon top 0 0 12 2 1.5 .74 3.6 1.5 .74 3.6 2.3 .74 2 2.3 .74\n";
+}
+
+struct Spread {
+  Sample mean;
+  size_t directions = 0;
+  double relative(int rotations) const {
+    return mean.standardError() * std::sqrt(static_cast<double>(rotations)) / mean.mean();
+  }
+};
+Spread spreadOf(const Setting& setting, double density, int base, int rotations) {
+  Spread spread;
+  SphereOptions o = setting.options.sphere;
+  o.baseDirections = base;
+  o.mostDirections = 2 * base;
+  o.densityFactor = density;
+  for (int k = 1; k <= rotations; ++k) {
+    o.rotation = static_cast<uint64_t>(k);
+    const SphereEstimator estimator(*setting.transport, o);
+    SphereEstimator::Workspace workspace(estimator);
+    const PointAnswer a = estimator.estimate(V3d(2.8, 1.2, 1.2), workspace);
+    spread.mean.add(brightness(a.mean));
+    spread.directions = a.directions;
+    double sum = 0;
+    for (const DirectionSample& s : workspace.samples) sum += s.solidAngle * brightness(s.value);
+    EXPECT_NEAR(sum / (4 * kPi), brightness(a.mean), 1e-9 * brightness(a.mean));
+  }
+  return spread;
+}
+
+// Without -Sk 0 nothing is guessed and nothing gets directions of its own.
+TEST(RadianceGuess, HalvesTheErrorBesideAGoalWithoutBias) {
+  const Setting setting(deskBesideGoal(), 0, true);
+  const Spread ours = spreadOf(setting, 1, 400, 60), equal = spreadOf(setting, 0, 400, 60);
+  EXPECT_LE(ours.directions, equal.directions);
+  EXPECT_LT(2 * ours.relative(60), equal.relative(60));
+  const double error = std::hypot(ours.mean.standardError(), equal.mean.standardError());
+  EXPECT_LT(std::abs(ours.mean.mean() - equal.mean.mean()), 3 * error);
+  EXPECT_GT(std::abs(1.01 * ours.mean.mean() - equal.mean.mean()), 3 * error)
+      << "would not see an error of 1%";
+}
+
+// Half of the source is hidden, at a slant: shadow rays tell how much, few directions as they are.
+TEST(SeenSources, HowMuchIsHiddenByShadowRays) {
+  const Setting setting(std::string(kMaterials) +
+                        "lamp polygon l 0 0 12 -1 -1 3 -1 1 3 1 1 3 1 -1 3\n"
+                        "gray polygon o 0 0 9 -3 -1.3 1.5 3 1.7 1.5 -3 9 1.5\n");
+  Sample mean;
+  SphereOptions o = setting.options.sphere;
+  o.baseDirections = 64;
+  o.mostDirections = 128;
+  for (uint64_t k = 1; k <= 60; ++k) {
+    o.rotation = k;
+    const SphereEstimator estimator(*setting.transport, o);
+    SphereEstimator::Workspace workspace(estimator);
+    double seen = 0;
+    estimator.estimate(V3d(0, 0, 0), workspace);
+    for (const DirectionSample& s : workspace.samples) seen += s.toSource ? s.solidAngle : 0;
+    mean.add(seen);
+  }
+  // The occluder's edge as it is seen on the lamp, twice as far.
+  const auto edge = [](double x) { return 2 * (-1.3 + .5 * (x / 2 + 3)); };
+  const V3d visible[] = {V3d(-1, -1, 3), V3d(1, -1, 3), V3d(1, edge(1), 3), V3d(-1, edge(-1), 3)};
+  const double exact = polygonSolidAngle(visible, V3d(0, 0, 0));
+  EXPECT_NEAR(mean.mean() / exact, 1, 3 * mean.standardError() / exact);
+  EXPECT_LT(mean.standardError() * std::sqrt(60.) / exact, .03) << "one direction a part: .05";
+}
+
+}  // namespace
+}  // namespace rsphere
