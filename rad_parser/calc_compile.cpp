@@ -530,7 +530,7 @@ class Compiler {
     const Symbol& s = symbol(index);
     if (s.definition != nullptr && s.definition->isFunction()) return userCall(tree, scope, *s.definition);
     if (s.library != nullptr) return libraryCall(tree, scope, *s.library);
-    if (s.host != nullptr) return hostCall(tree, scope, *s.host);
+    if (s.host != nullptr && input_.hasHosts) return hostCall(tree, scope, *s.host);
     return fail(tree, scope, fmt::format("undefined function \"{}()\"", s.name));
   }
 

@@ -33,6 +33,7 @@ struct CompileInput {
   std::span<const Symbol> symbols;
   size_t inputs = 0;           // number of the renderer's variables: $1 .. $inputs
   uint64_t available = ~0ull;  // bit i: $(i+1) has a meaning here; the others are undefined variables
+  bool hasHosts = true;        // else the renderer's functions are undefined
   std::optional<std::span<const double>> reals;  // arg(n), where it is known now
   std::string place;                             // of the expressions, for messages
 };

@@ -123,13 +123,53 @@ struct Library::Tables {
       tree.index = refer(tree.text, context);
       const Symbol& s = symbols[static_cast<size_t>(tree.index)];
       const Definition* d = s.definition;
-      if (d != nullptr && d->constant && !d->isFunction() && d->body.kind == Kind::number) {
-        setNumber(tree, d->body.number);
-      }
+      if (d == nullptr || !d->constant || d->isFunction()) return;
+      const std::optional<double> value =
+          d->body.kind == Kind::number ? d->body.number : constantValue(tree, placeOf(tree, file, line));
+      if (value) setNumber(tree, *value);
       return;
     }
     for (Syntax& inner : tree.args) bind(inner, context, file, line);
-    fold(tree, line != 0 ? fmt::format("{}:{}", file, tree.line) : file);
+    fold(tree, placeOf(tree, file, line));
+  }
+
+  static std::string placeOf(const Syntax& tree, const std::string& file, uint32_t line) {
+    return line != 0 ? fmt::format("{}:{}", file, tree.line) : file;
+  }
+
+  // The value of what is constant by its definition; nullopt where it can't be told yet, since it uses what
+  // is undefined so far or what is defined with '=': then it stays as it is. Throws Error where its value is
+  // another for each ray: of a constant that makes no sense, and rtrace refuses it.
+  std::optional<double> constantValue(const Syntax& tree, const std::string& place) {
+    std::shared_ptr<const Program> program;
+    try {
+      program = compileExpressions(compileInput(place), {&tree, 1});
+    } catch (const Error&) {
+      return std::nullopt;  // reported if it is ever needed
+    }
+    State state;
+    if (program->isConstant()) return program->evaluate({}, state);
+    if (needsRay(tree, place)) {
+      throw Error(
+          fmt::format("{}: constant expression uses what depends on the ray or the primitive", place));
+    }
+    return std::nullopt;
+  }
+
+  // Whether a tree that compiles has no value without a ray, a primitive's arguments and the renderer's
+  // functions.
+  bool needsRay(const Syntax& tree, const std::string& place) {
+    CompileInput input = compileInput(place);
+    input.hasHosts = false;
+    input.available = 0;
+    input.reals = std::span<const double>();
+    try {
+      State state;
+      compileExpressions(input, {&tree, 1})->evaluate({}, state);
+    } catch (const Error&) {
+      return true;
+    }
+    return false;
   }
 
   static void setNumber(Syntax& tree, double number) {
@@ -186,20 +226,12 @@ struct Library::Tables {
           return isNumber(s) || isConstantFunction(s);
         });
         if (!closed) break;
-        // What looks constant may yet use what is not: then it stays as it is.
-        std::shared_ptr<const Program> program;
-        try {
-          program = compileExpressions(compileInput(place), {&tree, 1});
-        } catch (const Error&) {
-          break;  // reported if it is ever needed
-        }
-        if (!program->isConstant()) break;
-        State state;
-        const double value = program->evaluate({}, state);
+        const std::optional<double> value = constantValue(tree, place);
+        if (!value) break;
         const Symbol& callee = symbols[static_cast<size_t>(tree.args[0].index)];
         // A library function of numbers: the compiler has done it, silently.
         if (callee.definition == nullptr) refuse(faultsOf(*callee.library, tree));
-        setNumber(tree, value);
+        setNumber(tree, *value);
         break;
       }
       default:

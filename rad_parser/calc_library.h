@@ -22,7 +22,9 @@
 // Source: RADIANCE file formats, "Function File Format", "Language Features".
 //
 // Constants. A variable defined with ':' that is a number by then is replaced by its value where it is used
-// further down, and so is the call of a function defined with ':' whose arguments are constants.
+// further down, and so is the call of a function defined with ':' whose arguments are constants. Where such a
+// value would be another for each ray (it uses inputs, arg() or the renderer's functions) the use is an
+// error.
 namespace rad::calc {
 
 struct SourceText {

@@ -80,6 +80,25 @@ TEST(CalcScope, ConstantsKeepTheValueOfTheirPlace) {
   EXPECT_EQ(files.warnings[0], "a.cal:1: constant \"c`a\" redefined");
 }
 
+// RADIANCE 6.1a: "ray parameter used in constant expression", and for arg() "illegal constant in .cal file?".
+TEST(CalcScope, ConstantsOfARayAreRefusedWhereTheyAreUsed) {
+  Files files;
+  files.hosts = {{"ray", 1, 1, [](const Point& at, std::span<const double>) { return at.inputs[0]; }}};
+  const std::string why = ": constant expression uses what depends on the ray or the primitive";
+  files.files["a.cal"] =
+      "k : x; f(t) : x*t; chosen(t) : if(t, 2, x); m = y; km : m; late : further; further = 4; a : arg(1); h "
+      ": ray(1); v = 1;";
+  EXPECT_EQ(files.value("a.cal", "v"), 1);
+  EXPECT_EQ(files.value("a.cal", "f(y)"), .125);
+  EXPECT_EQ(files.value("a.cal", "chosen(1)"), 2);
+  EXPECT_EQ(files.value("a.cal", "late"), 4);
+  for (const char* use : {"-k", "f(1)", "chosen(-1)", "km", "a", "h"}) {
+    EXPECT_EQ(files.error("a.cal", use), "room.rad:3" + why) << use;
+  }
+  files.files["b.cal"] = "f(t) : x*t;\ng = f(2);";
+  EXPECT_EQ(files.error("b.cal", "1"), "b.cal:2" + why);
+}
+
 TEST(CalcScope, InputsAreVariablesThatMayBeMissing) {
   Files files;
   EXPECT_EQ(files.value("$1+y*10+$3"), 3.25);

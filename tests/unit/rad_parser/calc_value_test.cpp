@@ -357,12 +357,15 @@ class RandomFile {
   explicit RandomFile(uint32_t seed) : random_(seed) {
     for (int i = 0; i < 4; ++i) {
       parameters_ = {};
-      text += "v" + std::to_string(i) + (pick(3) ? " = " : " : ") + tree(3) + ";\n";
-      ++variables_;
+      constant_ = pick(4) == 0;
+      text += "v" + std::to_string(i) + (constant_ ? " : " : " = ") + tree(constant_ ? 2 : 3) + ";\n";
+      variables_.push_back(constant_);
       parameters_ = {"a", "b"};
-      text += "f" + std::to_string(i) + "(a, b)" + (pick(3) ? " = " : " : ") + tree(3) + ";\n";
-      ++functions_;
+      constant_ = pick(4) == 0;
+      text += "f" + std::to_string(i) + "(a, b)" + (constant_ ? " : " : " = ") + tree(constant_ ? 2 : 3) + ";\n";
+      functions_.push_back(constant_);
     }
+    constant_ = false;
     parameters_ = {"a"};
     text += "h(g, a) = g(a, " + tree(1) + ")*.5 + g(" + tree(1) + ", a);\n";
     parameters_ = {"n", "a"};
@@ -377,8 +380,8 @@ class RandomFile {
       if (kind == 0) return std::to_string(pick(40) / 8. - 1.13).substr(0, 5);
       if (kind == 1 && !parameters_.empty())
         return parameters_[static_cast<size_t>(pick(2)) % parameters_.size()];
-      if (kind == 2 && variables_ > 0) return "v" + std::to_string(pick(variables_));
-      return std::string(1, "xyz"[pick(3)]);
+      if (kind == 2 && isThere(variables_)) return "v" + std::to_string(one(variables_));
+      return constant_ ? "." + std::to_string(pick(90)) : std::string(1, "xyz"[pick(3)]);
     }
     const auto t = [&] { return tree(depth - 1); };
     switch (pick(18)) {
@@ -406,7 +409,7 @@ class RandomFile {
         return "(" + t() + ")/(" + t() + ")";
       case 11:
       case 12:
-        if (functions_ > 0) return "f" + std::to_string(pick(functions_)) + "(" + t() + ", " + t() + ")";
+        if (isThere(functions_)) return "f" + std::to_string(one(functions_)) + "(" + t() + ", " + t() + ")";
         return "cos(" + t() + ")";
       case 13:
         if (complete_) return "h(f" + std::to_string(pick(4)) + ", " + t() + ")";
@@ -426,9 +429,21 @@ class RandomFile {
   std::string text;
 
  private:
+  // Of what has been defined, by whether it is constant: a constant may use only constants.
+  bool isThere(const std::vector<bool>& defined) const {
+    return std::any_of(defined.begin(), defined.end(), [&](bool c) { return c || !constant_; });
+  }
+  int one(const std::vector<bool>& defined) {
+    while (true) {
+      const auto i = static_cast<size_t>(pick(static_cast<int>(defined.size())));
+      if (defined[i] || !constant_) return static_cast<int>(i);
+    }
+  }
+
   std::mt19937 random_;
   std::vector<std::string> parameters_;
-  int variables_ = 0, functions_ = 0;
+  std::vector<bool> variables_, functions_;
+  bool constant_ = false;  // what is being written is a constant
   bool complete_ = false;
 };
 
