@@ -161,6 +161,7 @@ struct Library::Tables {
   bool needsRay(const Syntax& tree, const std::string& place) {
     CompileInput input = compileInput(place);
     input.hasHosts = false;
+    input.inputs = 0;
     input.available = 0;
     input.reals = std::span<const double>();
     try {

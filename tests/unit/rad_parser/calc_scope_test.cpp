@@ -87,12 +87,12 @@ TEST(CalcScope, ConstantsOfARayAreRefusedWhereTheyAreUsed) {
   const std::string why = ": constant expression uses what depends on the ray or the primitive";
   files.files["a.cal"] =
       "k : x; f(t) : x*t; chosen(t) : if(t, 2, x); m = y; km : m; late : further; further = 4; a : arg(1); h "
-      ": ray(1); v = 1;";
+      ": ray(1); c : $1; v = 1;";
   EXPECT_EQ(files.value("a.cal", "v"), 1);
   EXPECT_EQ(files.value("a.cal", "f(y)"), .125);
   EXPECT_EQ(files.value("a.cal", "chosen(1)"), 2);
   EXPECT_EQ(files.value("a.cal", "late"), 4);
-  for (const char* use : {"-k", "f(1)", "chosen(-1)", "km", "a", "h"}) {
+  for (const char* use : {"-k", "f(1)", "chosen(-1)", "km", "a", "h", "c"}) {
     EXPECT_EQ(files.error("a.cal", use), "room.rad:3" + why) << use;
   }
   files.files["b.cal"] = "f(t) : x*t;\ng = f(2);";
