@@ -181,10 +181,10 @@ void Trade::run() {
       chosenPoints(readRecords(options_.scene.back(), options_), options_.mostPoints);
 
   const rad::Warn warn = [&](std::string_view text) { messages_.warning(text); };
-  const rad::ReadOptions read = readOptions(options_, warn);
-  const Scene scene =
-      buildScene(rad::readScene(std::span(options_.scene).first(options_.scene.size() - 1), read), read,
-                 options_.sphere.goals);
+  Options scenes = options_;
+  scenes.scene.pop_back();  // the points: with -Sc- their folder is none of the scene's
+  const rad::ReadOptions read = readOptions(scenes, warn);
+  const Scene scene = buildScene(rad::readScene(scenes.scene, read), read, options_.sphere.goals);
   signals_.defer(true);
   Trials trials(scene, points, signals_);
   const double target = options_.referenceError > 0 ? options_.referenceError : accuracy / 10;
