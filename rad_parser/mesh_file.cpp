@@ -230,7 +230,9 @@ Mesh readMesh(const std::string& name, const Warn& warn, const FileAccess& acces
     throw Error(fmt::format("{}: cannot open mesh file: {}", printable(*path, 4096), std::strerror(errno)),
                 Status::system);
   BinaryReader input(file.descriptor(), *path, "mesh");
-  return Reader(input, warn).read();
+  Mesh mesh = Reader(input, warn).read();
+  file.requireUnchanged(*path);
+  return mesh;
 }
 
 }  // namespace rad

@@ -1,8 +1,12 @@
 #pragma once
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <string>
+#include <string_view>
+
+#include "rad_parser/description.h"
 
 namespace rad {
 
@@ -10,7 +14,9 @@ namespace rad {
 // opened.
 class OpenFile {
  public:
-  explicit OpenFile(const std::string& path) : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+  explicit OpenFile(const std::string& path) : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (descriptor_ >= 0) fstat(descriptor_, &begin_);
+  }
   ~OpenFile() {
     if (descriptor_ >= 0) close(descriptor_);
   }
@@ -18,8 +24,20 @@ class OpenFile {
   OpenFile& operator=(const OpenFile&) = delete;
   int descriptor() const { return descriptor_; }
 
+  // Throws Error where somebody has written to the file since it was opened: what was read may be neither
+  // what was there nor what is. Changes that leave its length are seen by its time, which some systems keep
+  // to 10 ms.
+  void requireUnchanged(std::string_view name) const {
+    struct stat now {};
+    if (!S_ISREG(begin_.st_mode) || fstat(descriptor_, &now) != 0) return;
+    if (now.st_size != begin_.st_size || now.st_mtim.tv_sec != begin_.st_mtim.tv_sec ||
+        now.st_mtim.tv_nsec != begin_.st_mtim.tv_nsec)
+      throw Error(printable(name, 4096) + ": changed while it was read", Status::system);
+  }
+
  private:
   int descriptor_;
+  struct stat begin_ {};
 };
 
 }  // namespace rad

@@ -54,9 +54,12 @@ class Reader {
                               name.ends_with(".oct") ? "octree" : "scene", std::strerror(errno)),
                   Status::system);
     const std::string ahead = readBeginning(input.descriptor());
-    if ((!ahead.empty() || name.ends_with(".oct")) && octree(input.descriptor(), file, ahead)) return;
-    TextSource text(input.descriptor(), file, builder_, ahead);
-    all(text, {}, file);
+    const bool mayBeOctree = !ahead.empty() || name.ends_with(".oct");
+    if (!mayBeOctree || !octree(input.descriptor(), file, ahead)) {
+      TextSource text(input.descriptor(), file, builder_, ahead);
+      all(text, {}, file);
+    }
+    input.requireUnchanged(found.value_or(name));
   }
 
   void octreeFile(const std::string& name) {
@@ -73,6 +76,7 @@ class Reader {
     const uint32_t file = builder_.addFile(*found);
     const std::string ahead = readBeginning(input.descriptor());
     if (!octree(input.descriptor(), file, ahead)) throw Error(printable(*found, 4096) + ": not an octree");
+    input.requireUnchanged(*found);
   }
 
   void memory(std::string_view text, std::string_view name) {
@@ -106,6 +110,7 @@ class Reader {
                              Status::system);
       TextSource text(opened.descriptor(), sceneFile, builder_);
       all(text, {}, sceneFile);
+      opened.requireUnchanged(scene);
     });
     return true;
   }
@@ -201,6 +206,7 @@ class Reader {
           const Context inner{pass.changesDirectory ? directoryOf(*path) : context.directory, &nested,
                               context.depth + 1};
           all(text, inner, known->second, again);
+          input.requireUnchanged(*path);
         }
       });
     } catch (const XformFault& fault) {
