@@ -479,7 +479,8 @@ std::vector<OptionEntry> makeTable() {
            "to each other where the light changes: thus an answer depends neither on those before it nor on "
            "-n. Outsides of curved surfaces have such places, too; their insides, meshes and surfaces "
            "smaller "
-           "than -ar resolves have none, and what goes through a medium or antimatter gets none."});
+           "than -ar resolves have none, and what goes through a medium or antimatter gets none. Beyond the "
+           "first diffuse surface of a path one direction tells, whatever -aa is."});
   add({.name = "-ar",
        .arguments = "res",
        .group = Group::indirect,
@@ -505,7 +506,9 @@ std::vector<OptionEntry> makeTable() {
        .range = kCount,
        .unit = "rays",
        .remark = "ambient super-samples",
-       .paragraph = "Rays sent besides those of -ad, where their values change most."});
+       .paragraph =
+           "Rays sent besides those of -ad, where their values change most; at most four times -ad where "
+           "indirect light is interpolated."});
   add({.name = "-me",
        .arguments = "rext gext bext",
        .group = Group::medium,

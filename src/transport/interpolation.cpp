@@ -15,6 +15,13 @@ constexpr double kLeastUpright = .7;
 // The height over the plane of the rays that look for what stands around a site, as the tangent.
 constexpr double kSurveyHeights[] = {.09, .36};
 
+// Two rings of eight.
+constexpr int kReachRays = 16;
+
+// A site has as many divisions at least, or else what -ad asks for; and at most this many times -ad of
+// super-samples: -as has a default that is meant for more.
+constexpr int kLeastRays = 48, kMoreRays = 4;
+
 }  // namespace
 
 // Whether the field has what addIndirect() asks for, and added it.
@@ -24,20 +31,26 @@ bool PathTracer::addInterpolated(Ray& ray, const V3d& normal, const V3d& trueNor
   if (ray.mist || ray.clips || ray.clipsBeyond || ray.scatterers.count ||
       ray.medium.extinction != t_.medium().extinction)
     return false;
+  // Beyond the first diffuse surface one path tells: as many corners as rays ask from all over the scene
+  // would cost far more than they save, and what differs is averaged in the corner.
+  if (ray.ambientLevel > 0) return false;
+  // Beyond the first diffuse surface one path tells: what it has of chance is averaged at the site, and
+  // values all over the scene would cost more than they save.
+  if (ray.ambientLevel > 0) return false;
   if (normal.dot(trueNormal) < kLeastUpright) return false;
   FieldPlace place;
   place.point = ray.point;
   place.normal = trueNormal;
-  place.bounce = ray.ambientLevel;
   place.surface = ray.surface;
   if (ray.path.count > 0) place.scale = t_.scene().placementOf(ray.path).toOuter.scale;
   struct Looker final : SiteLooker {
     PathTracer& tracer;
     int depth;
     Looker(PathTracer& t, int d) : tracer(t), depth(d) {}
-    GatheredLight gather(const GatherSite& site, int bounce, uint64_t seed) override {
-      return tracer.gather(site, bounce, seed, depth);
+    GatheredLight gather(const GatherSite& site, double share, uint64_t seed) override {
+      return tracer.gather(site, share, seed, depth);
     }
+    double reach(const GatherSite& site, double nearest) override { return tracer.reach(site, nearest); }
     Surroundings survey(const GatherSite& site, double farthest) override {
       return tracer.survey(site, farthest);
     }
@@ -77,8 +90,27 @@ SiteLooker::Surroundings PathTracer::survey(const GatherSite& site, double farth
   return standing;
 }
 
+double PathTracer::reach(const GatherSite& site, double nearest) {
+  // By projected solid angle, in the frame of the site.
+  static const auto directions = [] {
+    const HemisphereCells cells(kReachRays);
+    std::array<V3d, kReachRays> of;
+    for (int i = 0; i < kReachRays; ++i)
+      of[i] = cells.direction(i, .5, .5, V3d(1, 0, 0), V3d(0, 1, 0), V3d(0, 0, 1));
+    return of;
+  }();
+  V3d x, y;
+  frame(site.normal, x, y);
+  double inverse = 0;
+  for (const V3d& d : directions) {
+    const Hit hit = t_.tracer().nearest(site.point, d.x * x + d.y * y + d.z * site.normal);
+    if (hit.surface != kNone) inverse += 1 / std::max(hit.distance, nearest);
+  }
+  return inverse > 0 ? kReachRays / inverse : kFarAway;
+}
+
 // What a site of the field gets. depth: of the ray that asks; nothing but the limit of nesting depends on it.
-GatheredLight PathTracer::gather(const GatherSite& site, int bounce, uint64_t seed, int depth) {
+GatheredLight PathTracer::gather(const GatherSite& site, double share, uint64_t seed, int depth) {
   const RayOptions& o = t_.options();
   const Random before = random_;
   RayObserver observer = std::move(observer_);
@@ -90,11 +122,14 @@ GatheredLight PathTracer::gather(const GatherSite& site, int bounce, uint64_t se
   root.normal = site.normal;
   root.length = 0;
   root.depth = depth;
-  root.level = root.ambientLevel = bounce;
-  root.weight = std::pow(.25, bounce);
   V3d x, y;
   frame(site.normal, x, y);
-  const HemisphereCells cells(std::max(4, static_cast<int>(o.ambientDivisions * root.weight + .5)));
+  // No more directions than can be followed: those below the weight limit would mostly end.
+  const double ratio =
+      std::min<double>(kMoreRays, static_cast<double>(o.ambientSuperSamples) / o.ambientDivisions);
+  const double divisions = std::min(o.ambientDivisions * share, 1 / (o.weightLimit * (1 + ratio)));
+  const HemisphereCells cells(
+      static_cast<int>(std::max(divisions, std::min<double>(o.ambientDivisions, kLeastRays))));
   const int count = cells.count();
   std::vector<Rgb> radiance(count, Rgb(0, 0, 0));
   std::vector<double> distance(count, kFarAway);
@@ -112,14 +147,14 @@ GatheredLight PathTracer::gather(const GatherSite& site, int bounce, uint64_t se
     distance[cell] = std::min(distance[cell], child.length);
   };
   for (int i = 0; i < count; ++i) send(i, i);
-  const int more = static_cast<int>(o.ambientSuperSamples * root.weight);
+  const int more = static_cast<int>(divisions * ratio);
   if (more > 0) {
     std::vector<double> bright(count);
     for (int i = 0; i < count; ++i) bright[i] = brightness(radiance[i]);
-    const std::vector<int> extra = cells.refinement(bright, more);
+    const std::vector<int> again = cells.refinement(bright, more);
     for (int i = 0; i < count; ++i) {
-      for (int k = 0; k < extra[i]; ++k) send(i, static_cast<uint64_t>(count) * (k + 1) + i);
-      rays[i] += extra[i];
+      for (int k = 0; k < again[i]; ++k) send(i, static_cast<uint64_t>(count) * (k + 1) + i);
+      rays[i] += again[i];
       radiance[i] /= rays[i];
     }
   }

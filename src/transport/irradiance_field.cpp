@@ -14,6 +14,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kNormalStep = 1e-9;  // planes whose normals differ by less are one
 
+constexpr int32_t kSingle = 1;          // in the key of a site that serves a whole surface, as its level
 constexpr int32_t kCurved = INT32_MAX;  // in a key, where planes have a component of their normal
 
 // Standard errors that corners may differ by.
@@ -24,6 +25,17 @@ constexpr double kChance = 1.5;
 constexpr double kHidden = 1.1, kFree = .5;
 
 constexpr int kBeyondFinest = 2;  // divisions more where corners are hidden
+
+// From level to level, the rays of corners and the error that is allowed: the smaller the squares, the less
+// of a picture they are. Found by trial on three rooms.
+constexpr double kFewerRays = .82, kMoreError = 1.6;
+
+// The widest square that is asked about a place beside something, in mean distances of what the place sees.
+constexpr double kReaches = 2;
+constexpr double kBeside = .85;  // what a place is from a corner, in the way to what stands there
+
+// Of a square's side, from each corner: where that corner tells alone if it can.
+constexpr double kAlone = .4;
 
 // The lattice lies askew to what people model in round numbers.
 constexpr double kSkew[3] = {.6180339887, .7548776662, .5698402910};
@@ -48,7 +60,7 @@ uint64_t IrradianceField::Key::hash() const {
   };
   uint64_t h = mixBits(pair(i, j) ^ static_cast<uint64_t>(offset) * 0x9e3779b97f4a7c15u);
   h = mixBits(h ^ pair(normal[0], normal[1]));
-  return mixBits(h ^ pair(normal[2], level * 64 + bounce));
+  return mixBits(h ^ pair(normal[2], level));
 }
 
 // How the lattice lies on a surface. Coordinates u, v are world units on it, or nearly so.
@@ -242,20 +254,27 @@ IrradianceField::Site& IrradianceField::site(const Key& key, const GatherSite& a
 }
 
 // i, j: in steps of the finest spacing.
-IrradianceField::Site& IrradianceField::corner(const Chart& chart, int64_t i, int64_t j, int bounce,
-                                               SiteLooker& looker) {
-  const Key key{chart.key, static_cast<int32_t>(i),      static_cast<int32_t>(j),
-                0,         static_cast<int16_t>(bounce), chart.offsetKey};
-  const double step = spacing_.back();
+IrradianceField::Site& IrradianceField::corner(const Chart& chart, int64_t i, int64_t j, SiteLooker& looker) {
+  const Key key{chart.key, static_cast<int32_t>(i), static_cast<int32_t>(j), 0, chart.offsetKey};
+  const double step = spacing_.back() / (1 << kBeyondFinest);
   return site(key,
               siteAt(chart, (static_cast<double>(i) - kSkew[chart.axisU]) * step,
                      (static_cast<double>(j) - kSkew[chart.axisV]) * step),
               looker);
 }
 
+// Corners of small squares tell about little, and are many: they get fewer rays, level by level.
+double IrradianceField::shareOfRays(const Key& key) const {
+  if (key.level == kSingle) return 1;
+  const int divisions = static_cast<int>(spacing_.size()) - 1 + kBeyondFinest -
+                        std::countr_zero(static_cast<uint32_t>(key.i | key.j));
+  return std::pow(kFewerRays, std::max(0, divisions));
+}
+
 const GatheredLight& IrradianceField::lightOf(Site& site, SiteLooker& looker) {
   if (const GatheredLight* light = site.light.load(std::memory_order_acquire)) return *light;
-  auto gathered = std::make_unique<GatheredLight>(looker.gather(site.at, site.key.bounce, site.key.hash()));
+  auto gathered =
+      std::make_unique<GatheredLight>(looker.gather(site.at, shareOfRays(site.key), site.key.hash()));
   const GatheredLight* first = nullptr;
   if (site.light.compare_exchange_strong(first, gathered.get(), std::memory_order_acq_rel))
     return *gathered.release();
@@ -267,9 +286,23 @@ const GatheredLight& IrradianceField::lightOf(Site& site, SiteLooker& looker) {
 bool IrradianceField::serves(const Site& site, const FieldPlace& place, SiteLooker& looker) const {
   const double nearness = site.nearness(place.point);
   if (nearness > kHidden) return false;
+  if (nearness < kFree) return true;
   const double height =
       (place.point - site.at.point).length() * (.03 + .15 * (place.normal - site.at.normal).length());
   return looker.sees(site.at.point + height * site.at.normal, place.point + height * place.normal);
+}
+
+// The light at a place near a site by its changes alone; false where they are not to be trusted so far.
+bool extrapolate(const GatheredLight& light, const V3d& to, double tolerance, GatheredLight& result) {
+  const V3f aside(to);
+  const double level = luminance(light.mean), way = aside.length() / light.reach;
+  if (!(level > 0) || 2 * light.noise > tolerance * level || 1.5 * way * way > tolerance ||
+      std::abs(luminanceOf(light.perLength).dot(aside)) > 3 * tolerance * level)
+    return false;
+  result = light;
+  for (int k = 0; k < 3; ++k)
+    result.mean[k] += std::clamp(light.perLength[k].dot(aside), -.5f * light.mean[k], .5f * light.mean[k]);
+  return true;
 }
 
 // The corners of a square that serve a place, and what they have.
@@ -352,14 +385,48 @@ double shareOf(double roughness) { return std::clamp(3 - 2 * roughness, 0., 1.);
 
 }  // namespace
 
+std::unique_ptr<IrradianceField::Cell> IrradianceField::makeCell(const Chart& chart, int64_t i, int64_t j,
+                                                                 int64_t size, SiteLooker& looker) {
+  auto made = std::make_unique<Cell>();
+  for (int c = 0; c < 4; ++c)
+    made->corners[c] = &corner(chart, i + (c & 1) * size, j + (c >> 1) * size, looker);
+  for (int c = 0; c < 4; ++c)
+    for (int step = 0; step <= 8; ++step) {
+      // From one neighbouring corner past the opposite one to the other.
+      const double far = std::min(step, 4) / 4., near = std::min(8 - step, 4) / 4.;
+      const double a = (c & 1) ? 1 - near : near, b = (c >> 1) ? 1 - far : far;
+      const V3d there = (1 - b) * ((1 - a) * made->corners[0]->at.point + a * made->corners[1]->at.point) +
+                        b * ((1 - a) * made->corners[2]->at.point + a * made->corners[3]->at.point);
+      if (made->corners[c]->nearness(there) > kFree) made->unsure |= 1u << c;
+    }
+  return made;
+}
+
+// What the nearest corners alone tell of a place: one of them, and within a strip half way to the next two,
+// or four. False where any of these does not tell enough.
+bool IrradianceField::nearby(const Cell& cell, const V3d& point, double a, double b, double tolerance,
+                             SiteLooker& looker, GatheredLight& light) {
+  const auto sharpen = [](double x) { return std::clamp((x - kAlone) / (1 - 2 * kAlone), 0., 1.); };
+  a = sharpen(a);
+  b = sharpen(b);
+  const double weights[4] = {(1 - a) * (1 - b), a * (1 - b), (1 - a) * b, a * b};
+  light = dark();
+  for (int c = 0; c < 4; ++c) {
+    GatheredLight there;
+    if (weights[c] == 0) continue;
+    Site& site = *cell.corners[c];
+    if (!extrapolate(lightOf(site, looker), point - site.at.point, tolerance, there)) return false;
+    blend(light, there, static_cast<float>(weights[c]));
+  }
+  return true;
+}
+
 bool IrradianceField::find(const FieldPlace& place, SiteLooker& looker, GatheredLight& light) {
   Chart chart;
   if (!chartOf(place, chart)) return false;
-  // Light that came by way of more bounces counts for less.
-  const double tolerance = accuracy_ / 3 * std::pow(3, place.bounce);
-  const int last = static_cast<int>(spacing_.size()) - 1;
-  const int finest = std::max(0, last - 2 * place.bounce);
-  const int beyond = finest + (place.bounce == 0 ? kBeyondFinest : 0);
+  const double tolerance = accuracy_ / 3;
+  const int finest = static_cast<int>(spacing_.size()) - 1;
+  const int last = finest + kBeyondFinest;
   int level = 0;
   if (chart.kind != Chart::Kind::plane) {
     while (level < finest && spacing_[level] > chart.radius) ++level;
@@ -374,71 +441,65 @@ bool IrradianceField::find(const FieldPlace& place, SiteLooker& looker, Gathered
     }
   }
 
-  const double stepU = chart.u / spacing_.back() + kSkew[chart.axisU],
-               stepV = chart.v / spacing_.back() + kSkew[chart.axisV];
-  int64_t size = int64_t{1} << (last - level);  // of a square, in steps of the finest spacing
+  // In steps of the least spacing there is.
+  const double least = spacing_.back() / (1 << kBeyondFinest);
+  const double stepU = chart.u / least + kSkew[chart.axisU], stepV = chart.v / least + kSkew[chart.axisV];
+  if (std::max(std::abs(stepU), std::abs(stepV)) > INT32_MAX / 2) return false;
+  int64_t size = int64_t{1} << (last - level);  // of a square
   const auto floorTo = [](double x, int64_t n) {
     return static_cast<int64_t>(std::floor(x / static_cast<double>(n))) * n;
   };
   int64_t i = floorTo(stepU, size), j = floorTo(stepV, size);
-  if (std::max(std::abs(i), std::abs(j)) > INT32_MAX / 2) return false;
-  const auto makeCell = [&] {
-    auto made = std::make_unique<Cell>();
-    for (int c = 0; c < 4; ++c)
-      made->corners[c] = &corner(chart, i + (c & 1) * size, j + (c >> 1) * size, place.bounce, looker);
-    for (int c = 0; c < 4; ++c)
-      for (int step = 0; step <= 8; ++step) {
-        // From one neighbouring corner past the opposite one to the other.
-        const double far = std::min(step, 4) / 4., near = std::min(8 - step, 4) / 4.;
-        const double a = (c & 1) ? 1 - near : near, b = (c >> 1) ? 1 - far : far;
-        const V3d there = (1 - b) * ((1 - a) * made->corners[0]->at.point + a * made->corners[1]->at.point) +
-                          b * ((1 - a) * made->corners[2]->at.point + a * made->corners[3]->at.point);
-        if (made->corners[c]->nearness(there) > kFree) made->unsure |= 1u << c;
-      }
-    return made;
-  };
-  const Key key{chart.key,
-                static_cast<int32_t>(i),
-                static_cast<int32_t>(j),
-                static_cast<int16_t>(level),
-                static_cast<int16_t>(place.bounce),
-                chart.offsetKey};
-  Cell* cell = &cells_.findOrAdd(key, makeCell);
+  const Key key{chart.key, static_cast<int32_t>(i), static_cast<int32_t>(j), level, chart.offsetKey};
+  Cell* cell = &cells_.findOrAdd(key, [&] { return makeCell(chart, i, j, size, looker); });
 
   light = dark();
-  double missing = 1;
-  for (;; ++level) {
-    Corners corners;
-    for (int c = 0; c < 4; ++c) {
-      if ((cell->unsure >> c & 1) && !serves(*cell->corners[c], place, looker)) continue;
-      corners.served |= 1u << c;
-      corners.light[c] = &lightOf(*cell->corners[c], looker);
-      corners.point[c] = cell->corners[c]->at.point;
-    }
+  GatheredLight near;
+  double missing = 1, allowed = std::pow(kMoreError, level);
+  double widest = 0;  // of the squares that can tell about a place with so much around it; 0: not known yet
+  for (;; ++level, allowed *= kMoreError) {
     const double side = static_cast<double>(size);
     const double a = std::clamp((stepU - static_cast<double>(i)) / side, 0., 1.);
     const double b = std::clamp((stepV - static_cast<double>(j)) / side, 0., 1.);
-    const std::array<double, 4> weights{(1 - a) * (1 - b), a * (1 - b), (1 - a) * b, a * b};
-    double served = 0;
-    for (int c = 0; c < 4; ++c)
-      if (corners.has(c)) served += weights[c];
-    if (served > 1e-6) {
-      double roughness = corners.served == 15 ? cell->roughness.load(std::memory_order_relaxed) : -1.;
-      if (roughness < 0) {
-        roughness = static_cast<float>(corners.roughness(tolerance));
-        if (corners.served == 15)
-          cell->roughness.store(static_cast<float>(roughness), std::memory_order_relaxed);
-      }
-      double shift = 0;
-      const GatheredLight here = corners.at(place.point, weights, shift);
-      roughness = std::max(roughness, shift / tolerance);
-      const bool accept = level >= (corners.served == 15 ? finest : beyond);
-      const double share = accept ? 1 : shareOf(roughness);
-      blend(light, here, static_cast<float>(missing * share));
-      missing *= 1 - share;
-      if (missing <= 0) return true;
+    if (!cell->unsure && nearby(*cell, place.point, a, b, tolerance * allowed, looker, near)) {
+      blend(light, near, static_cast<float>(missing));
+      return true;
     }
-    if (size == 1 || level >= beyond) break;
+    bool beside = false;
+    for (int c = 0; c < 4; ++c)
+      beside |= (cell->unsure >> c & 1) && cell->corners[c]->nearness(place.point) > kBeside;
+    if (beside && widest == 0)
+      widest = kReaches * looker.reach({place.point + planeStep_ * place.normal, place.normal}, least / 4);
+    if (!beside || side * least <= widest) {
+      Corners corners;
+      for (int c = 0; c < 4; ++c) {
+        if ((cell->unsure >> c & 1) && !serves(*cell->corners[c], place, looker)) continue;
+        corners.served |= 1u << c;
+        corners.light[c] = &lightOf(*cell->corners[c], looker);
+        corners.point[c] = cell->corners[c]->at.point;
+      }
+      const std::array<double, 4> weights{(1 - a) * (1 - b), a * (1 - b), (1 - a) * b, a * b};
+      double served = 0;
+      for (int c = 0; c < 4; ++c)
+        if (corners.has(c)) served += weights[c];
+      if (served > 1e-6) {
+        double roughness = corners.served == 15 ? cell->roughness.load(std::memory_order_relaxed) : -1.;
+        if (roughness < 0) {
+          roughness = static_cast<float>(corners.roughness(tolerance));
+          if (corners.served == 15)
+            cell->roughness.store(static_cast<float>(roughness), std::memory_order_relaxed);
+        }
+        double shift = 0;
+        const GatheredLight here = corners.at(place.point, weights, shift);
+        roughness = std::max(roughness, shift / tolerance) / allowed;
+        const bool accept = level >= (corners.served == 15 ? finest : last);
+        const double share = accept ? 1 : shareOf(roughness);
+        blend(light, here, static_cast<float>(missing * share));
+        missing *= 1 - share;
+        if (missing <= 0) return true;
+      }
+    }
+    if (level == last) break;
     size /= 2;
     const int right = stepU >= static_cast<double>(i + size), up = stepV >= static_cast<double>(j + size);
     i += right * size;
@@ -446,7 +507,7 @@ bool IrradianceField::find(const FieldPlace& place, SiteLooker& looker, Gathered
     std::atomic<Cell*>& part = cell->parts[2 * up + right];
     Cell* next = part.load(std::memory_order_acquire);
     if (!next) {
-      auto made = makeCell();
+      auto made = makeCell(chart, i, j, size, looker);
       if (part.compare_exchange_strong(next, made.get(), std::memory_order_acq_rel)) next = made.release();
     }
     cell = next;
@@ -464,7 +525,7 @@ bool IrradianceField::single(const FieldPlace& place, const Chart& chart, double
   const Extent& extent = extents_[place.surface];
   V3d center = V3d(extent.center);
   center += (chart.offset - chart.normal.dot(center - origin_)) * chart.normal;
-  const Key key{chart.key, place.surface, 0, 1, static_cast<int16_t>(place.bounce), chart.offsetKey};
+  const Key key{chart.key, place.surface, 0, kSingle, chart.offsetKey};
   Site& middle = site(key, {center, chart.normal}, looker);
   if (middle.nearness(place.point) > kFree && !serves(middle, place, looker)) return false;
   const GatheredLight& there = lightOf(middle, looker);

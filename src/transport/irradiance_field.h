@@ -31,7 +31,6 @@ namespace rsphere {
 struct FieldPlace {
   V3d point{0, 0, 0};
   V3d normal{0, 0, 1};      // unit, on the side that the light arrives at
-  int bounce = 0;           // indirect bounces that led here
   int32_t surface = kNone;  // the surface that it lies on; kNone: a plane that is only imagined
   double scale = 0;         // of what holds the surface; 0: the world itself does
 };
@@ -44,8 +43,12 @@ class SiteLooker {
   // along its plane at which something stands there, 0 where nothing does.
   using Surroundings = std::array<float, kAzimuths>;
 
-  virtual GatheredLight gather(const GatherSite& site, int bounce, uint64_t seed) = 0;
+  // share: of the rays that the options ask for.
+  virtual GatheredLight gather(const GatherSite& site, double share, uint64_t seed) = 0;
   virtual Surroundings survey(const GatherSite& site, double farthest) = 0;
+  // The harmonic mean of the distances to what is seen from a site, by projected solid angle and in few
+  // directions; what is nearer than `nearest` counts as being there (world units).
+  virtual double reach(const GatherSite& site, double nearest) = 0;
   // Whether nothing is between two points.
   virtual bool sees(const V3d& from, const V3d& to) = 0;
 
@@ -74,7 +77,7 @@ class IrradianceField {
   struct Key {
     std::array<int32_t, 3> normal{};  // of the plane; or a surface, a part of it, and kCurved
     int32_t i = 0, j = 0;
-    int16_t level = 0, bounce = 0;
+    int32_t level = 0;
     int64_t offset = 0;
     bool operator==(const Key&) const = default;
     uint64_t hash() const;
@@ -88,9 +91,13 @@ class IrradianceField {
   void setPlane(const FieldPlace& place, Chart& chart) const;
   GatherSite siteAt(const Chart& chart, double u, double v) const;
   Site& site(const Key& key, const GatherSite& at, SiteLooker& looker);
-  Site& corner(const Chart& chart, int64_t i, int64_t j, int bounce, SiteLooker& looker);
+  Site& corner(const Chart& chart, int64_t i, int64_t j, SiteLooker& looker);
   const GatheredLight& lightOf(Site& site, SiteLooker& looker);
+  double shareOfRays(const Key& key) const;
   bool serves(const Site& site, const FieldPlace& place, SiteLooker& looker) const;
+  std::unique_ptr<Cell> makeCell(const Chart& chart, int64_t i, int64_t j, int64_t size, SiteLooker& looker);
+  bool nearby(const Cell& cell, const V3d& point, double a, double b, double tolerance, SiteLooker& looker,
+              GatheredLight& light);
   bool single(const FieldPlace& place, const Chart& chart, double tolerance, SiteLooker& looker,
               GatheredLight& light);
 

@@ -2,9 +2,9 @@
 // Radiance along a ray: direct light from the sources, sharp reflections and refractions, samples of rough
 // ones, and indirect light.
 //
-// Indirect light is interpolated in a field (-aa, irradiance_field.h), or else gathered anew: -ad directions
-// over the hemisphere, stratified, at the first diffuse surface of a path, one at every later one. Paths end
-// at -ab bounces and by Russian roulette below -lw, so that the mean stays right.
+// Indirect light at the first diffuse surface of a path is interpolated in a field (-aa, irradiance_field.h),
+// or else gathered anew: -ad directions over the hemisphere, stratified; one direction at every later surface.
+// Paths end at -ab bounces and by Russian roulette below -lw, so that the mean stays right.
 #include <functional>
 #include <memory>
 #include <optional>
@@ -213,7 +213,8 @@ class PathTracer {
   void addIndirect(Ray& ray, const V3d& normal, const V3d& trueNormal, RayKind kind, const Rgb& coefficient);
   void addIndirect(Ray& ray, const V3d& normal, const Interaction& at, RayKind kind, const Rgb& coefficient);
   bool addInterpolated(Ray& ray, const V3d& normal, const V3d& trueNormal, const Rgb& coefficient);
-  GatheredLight gather(const GatherSite& site, int bounce, uint64_t seed, int depth);
+  GatheredLight gather(const GatherSite& site, double share, uint64_t seed, int depth);
+  double reach(const GatherSite& site, double nearest);
   SiteLooker::Surroundings survey(const GatherSite& site, double farthest);
   // front: the normal of a surface that lets no light through, whose coefficients are 0 behind it; or 0.
   void addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d& front = V3d(0, 0, 0));
