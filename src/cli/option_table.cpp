@@ -759,7 +759,11 @@ std::vector<OptionEntry> makeTable() {
        .remark = "density factor",
        .paragraph =
            "Multiplies the density of directions (1/sr) that the materials of special objects ask for: "
-           "mirrors, glass and others whose radiance has peaks."});
+           "mirrors, glass and others whose radiance has peaks. 0, with -Sw c: equal weights but for the "
+           "light "
+           "sources that are seen directly; nothing is guessed of diffuse surfaces, and no indirect ray is "
+           "aimed "
+           "at where much light falls on little."});
   add({.name = "-Sa",
        .arguments = "acc",
        .group = Group::sphere,

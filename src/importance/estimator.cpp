@@ -5,7 +5,7 @@
 #include <map>
 #include <numbers>
 
-#include "importance/surface_point.h"
+#include "light/surface_point.h"
 #include "rad_parser/error.h"
 #include "sphere/directions.h"
 
@@ -108,6 +108,11 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
   if (options.weights == Weights::voronoi) base_.emplace(directions_);
   special_ = findSpecialObjects(transport.scene(), options.densityFactor);
   if (options.weights != Weights::silhouettes || !(options.densityFactor > 0)) return;
+  const RayOptions& rays = transport.options();
+  if (rays.ambientBounces > 0 && rays.ambientDivisions > 0) {
+    auto spots = std::make_unique<BrightSpots>(transport.scene(), transport.tracer(), transport.lights());
+    if (!spots->empty()) spots_ = std::move(spots);
+  }
   measureContrasts();
   std::vector<bool> unguessed = sources_.apart();
   for (const int32_t mirror : sources_.mirrors()) unguessed[static_cast<size_t>(mirror)] = true;
@@ -125,7 +130,7 @@ void SphereEstimator::measureContrasts() {
   for (const SpecialObject& object : special_)
     alike[scene.surfaces[object.surface].modifier].push_back(object);
   if (alike.empty()) return;
-  PathTracer tracer(transport_);
+  PathTracer tracer(transport_, spots_.get());
   measureSurroundings(tracer);
   const size_t rays = std::clamp<size_t>(kRaysForContrast / alike.size(), 2, kRaysAModifier);
   for (const auto& [modifier, objects] : alike) {

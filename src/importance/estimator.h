@@ -13,11 +13,13 @@
 // the mean by a percent.
 // - How many directions a special object gets follows from how much the radiance on it varies, against that
 // of the surroundings, measured by rays that take no other part, so that the mean stays unbiased.
+// - Indirect rays are aimed at where much light falls on little (transport/bright_spots.h).
 // - Many glances, rays that are not followed beyond what they hit, tell what can be guessed of diffuse
 // surfaces (radiance_guess.h): their unshadowed or fully shadowed light, and their edges. Only what differs
 // from the guess is left to the directions.
 #include <algorithm>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -59,7 +61,8 @@ class SphereEstimator {
 
   // What one thread needs.
   struct Workspace {
-    explicit Workspace(const SphereEstimator& estimator) : tracer(estimator.transport_) {}
+    explicit Workspace(const SphereEstimator& estimator)
+        : tracer(estimator.transport_, estimator.spots_.get()) {}
     PathTracer tracer;
     // Of the last point. Where glances found more or less than the directions' own guesses say, what is
     // guessed of each is scaled so that solid angles times radiances sum to the answer's.
@@ -131,6 +134,7 @@ class SphereEstimator {
   };
   std::vector<Candidate> candidates_;
   std::optional<RadianceGuess> guess_;
+  std::unique_ptr<const BrightSpots> spots_;  // null where light falls evenly
   std::vector<V3d> glances_, fitGlances_;
   double usualDeviation_ = 1;  // of one base direction's radiance, as a share of the mean, sources apart
 };

@@ -3,7 +3,7 @@
 #include <map>
 #include <vector>
 
-#include "importance/surface_point.h"
+#include "light/surface_point.h"
 #include "scene/scene.h"
 
 namespace rsphere {

@@ -17,9 +17,10 @@ constexpr size_t kMostLights = 32;
 constexpr double kShadowRays = 12;
 
 // Where a source adds more than this times the mean guess, shadow rays to kSeenSide^2 fixed places on it
-// replace its share: a few percent of the glances, where most of the light is.
+// replace its share: a few percent of the glances, where most of the light is. Where only some of them see
+// it, to kPenumbraSide^2: beside a goal penumbrae are most of what the guess misses.
 constexpr double kBright = 16;
-constexpr int kSeenSide = 2;
+constexpr int kSeenSide = 2, kPenumbraSide = 4;
 
 // Nearer than this times its radius the shape of a source with four corners matters: its factor is then
 // exact, and else that of a small surface, up to a seventh off at grazing angles: that is close enough for a
@@ -121,21 +122,25 @@ double RadianceGuess::sent(const Light& light, const Place& at) const {
 double RadianceGuess::seenFrom(const Place& at, uint32_t source) const {
   const LightSource& light = transport_.lights().all()[source];
   const bool wide = !light.distant && light.u.length2() > 0 && light.v.length2() > 0;
-  const int side = wide ? kSeenSide : 1;
-  int seen = 0, asked = 0;
-  for (int i = 0; i < side; ++i)
-    for (int k = 0; k < side; ++k) {
-      const double s = (2 * i + 1.) / side - 1, t = (2 * k + 1.) / side - 1;
-      V3d to = light.distant ? light.center : light.center - at.point;
-      if (wide) to += s * light.u + t * light.v;
-      const double distance = to.length();
-      to /= distance;
-      if (!(at.normal.dot(to) > 0)) continue;
-      ++asked;
-      seen += transport_.tracer().shadow(at.point, to, light.distant ? kFarAway : distance, light.surface) !=
-              Shadow::blocked;
-    }
-  return asked ? static_cast<double>(seen) / asked : 0;
+  const auto share = [&](int side) {
+    int seen = 0, asked = 0;
+    for (int i = 0; i < side; ++i)
+      for (int k = 0; k < side; ++k) {
+        const double s = (2 * i + 1.) / side - 1, t = (2 * k + 1.) / side - 1;
+        V3d to = light.distant ? light.center : light.center - at.point;
+        if (wide) to += s * light.u + t * light.v;
+        const double distance = to.length();
+        to /= distance;
+        if (!(at.normal.dot(to) > 0)) continue;
+        ++asked;
+        seen += transport_.tracer().shadow(at.point, to, light.distant ? kFarAway : distance,
+                                           light.surface) != Shadow::blocked;
+      }
+    return asked ? static_cast<double>(seen) / asked : 0;
+  };
+  if (!wide) return share(1);
+  const double roughly = share(kSeenSide);
+  return roughly > 0 && roughly < 1 ? share(kPenumbraSide) : roughly;
 }
 
 // sent: brightness that would come back from each place if nothing hid the light.

@@ -117,18 +117,32 @@ void PathTracer::addIndirect(Ray& ray, const V3d& normal, const V3d& trueNormal,
   }
   V3d x, y;
   frame(normal, x, y);
+  BrightSpots::Aim aim;
+  if (spots_) spots_->aim(ray.point, normal, aim);
   const Rgb share = coefficient / (static_cast<double>(side) * side);
   for (int i = 0; i < side; ++i)
     for (int j = 0; j < side; ++j) {
-      // By projected solid angle, so that every direction counts the same (Malley's method).
-      const double radius = std::sqrt((i + random_.uniform()) / side);
-      const double angle = 2 * kPi * (j + random_.uniform()) / side;
-      const double height = std::sqrt(std::max(0., 1 - radius * radius));
       Ray child;
-      child.direction = radius * std::cos(angle) * x + radius * std::sin(angle) * y + height * normal;
-      if (child.direction.dot(trueNormal) <= 0) continue;
+      if (aim.share > 0 && random_.uniform() < aim.share) {
+        child.direction = spots_->sample(aim, random_.uniform(), random_.uniform(), random_.uniform());
+      } else {
+        // By projected solid angle, so that every direction counts the same (Malley's method).
+        const double radius = std::sqrt((i + random_.uniform()) / side);
+        const double angle = 2 * kPi * (j + random_.uniform()) / side;
+        const double height = std::sqrt(std::max(0., 1 - radius * radius));
+        child.direction = radius * std::cos(angle) * x + radius * std::sin(angle) * y + height * normal;
+      }
+      const double cosine = child.direction.dot(normal);
+      if (cosine <= 0 || child.direction.dot(trueNormal) <= 0) continue;
       Rgb c = share;
       if (!continueRay(child, kind, ray, c)) continue;
+      // Only now: what is aimed has less of a share because it brings more, and is not to end for it.
+      if (aim.share > 0) {
+        const double part =
+            1 / (1 - aim.share + aim.share * kPi / cosine * spots_->density(aim, child.direction));
+        c *= part;
+        child.contribution *= part;
+      }
       ++child.ambientLevel;
       evaluate(child);
       ray.value += child.value * c;

@@ -22,6 +22,7 @@
 #include "shade/scattering.h"
 #include "shade/surface_functions.h"
 #include "trace/tracer.h"
+#include "transport/bright_spots.h"
 #include "transport/function_ref.h"
 #include "transport/irradiance_field.h"
 #include "transport/ray.h"
@@ -103,8 +104,9 @@ struct BsdfHit;
 // Traces one ray at a time; one a thread. The answer depends on the ray, the seed and Transport alone.
 class PathTracer {
  public:
-  explicit PathTracer(const Transport& transport)
-      : t_(transport), blockers_(size_t{1} << kBlockerBits, Tracer::kNoBlocker) {}
+  // spots: where indirect light is gathered (not interpolated), directions are aimed at them; null: nowhere.
+  explicit PathTracer(const Transport& transport, const BrightSpots* spots = nullptr)
+      : t_(transport), spots_(spots), blockers_(size_t{1} << kBlockerBits, Tracer::kNoBlocker) {}
 
   // Radiance along a primary ray (W/sr/m2), or irradiance (W/m2) as Transport::irradiance says: on the
   // surface that is hit, or on an imagined one just ahead that faces the ray (see inputRay() for where -I
@@ -229,6 +231,7 @@ class PathTracer {
   Interaction interaction(const Ray& ray) const;
 
   const Transport& t_;
+  const BrightSpots* spots_;
   Random random_{0};
   V3d primaryDirection_{0, 0, 1};
   Shown shown_;

@@ -1,4 +1,4 @@
-#include "importance/surface_point.h"
+#include "light/surface_point.h"
 
 #include <gtest/gtest.h>
 
