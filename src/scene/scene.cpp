@@ -47,6 +47,7 @@ class Builder {
       const auto clip = clipOf_.find(primitive(surface.primitive).modifier);
       if (clip != clipOf_.end()) surface.clip = clip->second;
     }
+    dropSurfaceNumbers();
     return std::move(scene_);
   }
 
@@ -439,6 +440,20 @@ class Builder {
     };
     makeRoom(scene_.surfaces, surfaces);
     makeRoom(scene_.vertices, coordinates / 3);
+  }
+
+  // Shapes have been made of surfaces' numbers, a fifth of a large scene: those of modifiers alone are asked
+  // for again.
+  void dropSurfaceNumbers() {
+    rad::Description& d = scene_.description;
+    std::vector<double> kept;
+    for (Primitive& p : d.primitives) {
+      if (rad::isSurface(p.type)) p.reals = 0;
+      const auto reals = d.reals(p);
+      p.firstReal = kept.size();
+      kept.insert(kept.end(), reals.begin(), reals.end());
+    }
+    d.realArgs = std::move(kept);
   }
 
   // The surfaces among the primitives from this one on.

@@ -66,7 +66,8 @@ struct Mesh {
 // hit.
 struct Scene {
   rad::FileAccess files;             // those that its modifiers may name
-  rad::Description description;      // of octrees and meshes too, behind the scene's own
+  rad::Description description;      // of octrees and meshes too, behind the scene's own; without the
+                                     // surfaces' numbers
   std::vector<Surface> surfaces;     // by groups, then the MeshFaces
   std::vector<SurfaceGroup> groups;  // [0]: the scene itself
   std::vector<Mesh> meshes;
