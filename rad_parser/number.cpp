@@ -1,7 +1,7 @@
 #include "rad_parser/number.h"
 
 #include <algorithm>
-#include <charconv>
+#include <array>
 
 namespace rad {
 namespace {
@@ -26,14 +26,56 @@ bool tooSmall(std::string_view digits) {
   return exponent + static_cast<int64_t>(point) - static_cast<int64_t>(first) < 0;
 }
 
+// Powers of ten up to 22 are exact in a double: 5^22 < 2^53.
+constexpr std::array<double, 23> kPowers = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                            1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                            1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+
 }  // namespace
+
+// A whole number below 10^15 and a power of ten up to 10^22 are exact, so that one multiplication or division
+// rounds correctly (Clinger, "How to Read Floating Point Numbers Accurately", PLDI 1990). The library has the
+// rest.
+std::from_chars_result readReal(const char* first, const char* last, double& value) {
+  const char* at = first;
+  const bool negative = at != last && *at == '-';
+  at += negative;
+  uint64_t digits = 0;
+  const char* const whole = at;
+  for (; at != last && isDigit(*at); ++at) digits = 10 * digits + static_cast<uint64_t>(*at - '0');
+  ptrdiff_t count = at - whole, exponent = 0;
+  if (at != last && *at == '.') {
+    const char* const fraction = ++at;
+    for (; at != last && isDigit(*at); ++at) digits = 10 * digits + static_cast<uint64_t>(*at - '0');
+    exponent = fraction - at;
+    count -= exponent;
+  }
+  if (at != last && (*at == 'e' || *at == 'E')) {
+    ++at;
+    const bool down = at != last && *at == '-';
+    at += at != last && (*at == '-' || *at == '+');
+    const char* const power = at;
+    ptrdiff_t size = 0;
+    for (; at != last && isDigit(*at) && at - power < 3; ++at) size = 10 * size + (*at - '0');
+    if (at == power || (at != last && isDigit(*at))) count = 0;
+    exponent += down ? -size : size;
+  }
+  constexpr auto kLargest = static_cast<ptrdiff_t>(kPowers.size()) - 1;
+  if (count == 0 || count > 15 || exponent < -kLargest || exponent > kLargest)
+    return std::from_chars(first, last, value);
+  const auto integer = static_cast<double>(digits);
+  const double size = exponent < 0 ? integer / kPowers[static_cast<size_t>(-exponent)]
+                                   : integer * kPowers[static_cast<size_t>(exponent)];
+  value = negative ? -size : size;
+  return {at, std::errc()};
+}
 
 std::optional<double> parseReal(std::string_view word) {
   const bool negative = word.starts_with('-');
   if (negative || word.starts_with('+')) word.remove_prefix(1);
   if (word.empty() || (!isDigit(word[0]) && word[0] != '.')) return {};  // from_chars would take inf and nan
   double value = 0;
-  const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const auto [end, fault] = readReal(word.data(), word.data() + word.size(), value);
   if (end != word.data() + word.size()) return {};
   if (fault == std::errc::result_out_of_range) {
     if (!tooSmall(word)) return {};

@@ -167,7 +167,7 @@ bool TextSource::real(double& value) {
     const char* digits = next_ + (*next_ == '+');
     const char* first = digits + (digits == next_ && *digits == '-');
     if (first < end_ && (('0' <= *first && *first <= '9') || *first == '.')) {
-      const auto [last, fault] = std::from_chars(digits, end_, value);
+      const auto [last, fault] = readReal(digits, end_, value);
       if (fault == std::errc() && last != end_ && kindOf(*last) == space) {
         next_ = last;
         return true;

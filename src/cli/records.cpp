@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 
@@ -129,7 +128,7 @@ size_t RecordReader::readText(std::vector<double>& numbers, size_t most) {
       const char* digits = at + (*at == '+');
       const char* start = digits + (digits == at && *at == '-');
       if (start < stop && startsNumber(*start)) {
-        const auto [end, error] = std::from_chars(digits, stop, x);
+        const auto [end, error] = rad::readReal(digits, stop, x);
         if (error == std::errc() && end < stop && isSpace(*end)) next = end;
       }
     }

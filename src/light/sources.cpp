@@ -367,41 +367,49 @@ void LightSources::sampleParts(uint32_t index, const V3d& point, const V3d& towa
     }
 
     default: {
-      const auto at = [&](double s, double t) { return onPlane(source, s, t); };
-      // Spread evenly over the part as it is seen.
-      const auto addNear = [&](Part part) {
-        const std::array<V3d, 4> whole = cornersOf(source, part);
-        const double below = triangleSolidAngle(whole[0], whole[1], whole[2], point);
-        const double above = triangleSolidAngle(whole[0], whole[2], whole[3], point);
-        const double omega = std::abs(below + above);
-        std::array<V3d, 4> aims = cornersOf(source, shrunk(part, jitter));
-        for (V3d& corner : aims) corner = (corner - point).normalized();
-        const double u = random.uniform() * omega, v = random.uniform();
-        const bool first = u < std::abs(below);
-        const double half = std::abs(first ? below : above);
-        if (!(half > 0)) return;
-        const V3d direction = sampleTriangle(
-            aims[0], aims[first ? 1 : 2], aims[first ? 2 : 3],
-            std::abs(triangleSolidAngle(aims[0], aims[first ? 1 : 2], aims[first ? 2 : 3], V3d(0, 0, 0))),
-            (first ? u : u - std::abs(below)) / half, v);
-        const double cosine = -direction.dot(source.normal);
-        if (cosine > kEdgeOn) add(direction, omega, source.normal.dot(point - source.center) / cosine);
+      // at: the place on the source of a place on the unit square.
+      const auto addPlane = [&](const auto& at) {
+        // Spread evenly over the part as it is seen.
+        const auto addNear = [&](Part part) {
+          const std::array<V3d, 4> whole = cornersOf(source, part);
+          const double below = triangleSolidAngle(whole[0], whole[1], whole[2], point);
+          const double above = triangleSolidAngle(whole[0], whole[2], whole[3], point);
+          const double omega = std::abs(below + above);
+          std::array<V3d, 4> aims = cornersOf(source, shrunk(part, jitter));
+          for (V3d& corner : aims) corner = (corner - point).normalized();
+          const double u = random.uniform() * omega, v = random.uniform();
+          const bool first = u < std::abs(below);
+          const double half = std::abs(first ? below : above);
+          if (!(half > 0)) return;
+          const V3d direction = sampleTriangle(
+              aims[0], aims[first ? 1 : 2], aims[first ? 2 : 3],
+              std::abs(triangleSolidAngle(aims[0], aims[first ? 1 : 2], aims[first ? 2 : 3], V3d(0, 0, 0))),
+              (first ? u : u - std::abs(below)) / half, v);
+          const double cosine = -direction.dot(source.normal);
+          if (cosine > kEdgeOn) add(direction, omega, source.normal.dot(point - source.center) / cosine);
+        };
+        const auto use = [&](const Part& part, const V3d& middle) {
+          if (jitter > 0 && source.map == LightSource::Map::parallelogram && isNear(source, part, point))
+            return addNear(part);
+          const V3d aim = jitter > 0 ? at(jittered(part.s0, part.s1, jitter, random),
+                                          jittered(part.t0, part.t1, jitter, random)) -
+                                           point
+                                     : middle;
+          const double length = aim.length();
+          if (!(length > 0)) return;
+          const double cosine = -aim.dot(source.normal) / length;
+          if (cosine <= kEdgeOn) return;
+          add(aim / length,
+              source.area * (part.s1 - part.s0) * (part.t1 - part.t0) * cosine / (length * length), length);
+        };
+        split(Part{}, allowed > 0 ? kMostParts : 1, source.extentU, source.extentV, allowed, point, at, use);
       };
-      const auto use = [&](const Part& part, const V3d& middle) {
-        if (jitter > 0 && source.map == LightSource::Map::parallelogram && isNear(source, part, point))
-          return addNear(part);
-        const V3d aim = jitter > 0 ? at(jittered(part.s0, part.s1, jitter, random),
-                                        jittered(part.t0, part.t1, jitter, random)) -
-                                         point
-                                   : middle;
-        const double length = aim.length();
-        if (!(length > 0)) return;
-        const double cosine = -aim.dot(source.normal) / length;
-        if (cosine <= kEdgeOn) return;
-        add(aim / length,
-            source.area * (part.s1 - part.s0) * (part.t1 - part.t0) * cosine / (length * length), length);
-      };
-      split(Part{}, allowed > 0 ? kMostParts : 1, source.extentU, source.extentV, allowed, point, at, use);
+      // By far the most, and a call for every place would cost as much as the rest.
+      if (source.map == LightSource::Map::parallelogram || source.map == LightSource::Map::square)
+        return addPlane([&](double s, double t) {
+          return source.center + (2 * s - 1) * source.u + (2 * t - 1) * source.v;
+        });
+      return addPlane([&](double s, double t) { return onPlane(source, s, t); });
     }
   }
 }

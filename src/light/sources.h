@@ -98,15 +98,21 @@ class LightSources {
   // nothing.
   void sample(uint32_t source, const V3d& point, const SourceSampling& how, Random& random,
               std::vector<SourceSample>& samples) const {
-    // Most are turned away or behind the surface: told here, without a call.
+    // Most are turned away or behind the surface, and most images shine elsewhere: told here, without a call.
     const LightSource& light = sources_[source];
     const V3d towards = light.distant ? light.center : light.center - point;
     if (light.isPlane() && towards.dot(light.normal) >= 0) return;
     if (towards.dot(how.front) < -light.outermost) return;
+    if (light.cosBeam > 0 && surelyBeside(light, towards)) return;
     sampleParts(source, point, towards, how, random, samples);
   }
 
  private:
+  // Whether a point is out of a virtual source's beam, by more than rounding. Without a root.
+  static bool surelyBeside(const LightSource& light, const V3d& towards) {
+    const double along = -towards.dot(light.beam);
+    return along < 0 || along * along < (1 - 1e-12) * light.cosBeam * light.cosBeam * towards.length2();
+  }
   void sampleParts(uint32_t source, const V3d& point, const V3d& towards, const SourceSampling& how,
                    Random& random, std::vector<SourceSample>& samples) const;
   void findSources();

@@ -1,9 +1,13 @@
 #include "rad_parser/number.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <charconv>
 #include <clocale>
 #include <cmath>
+#include <random>
 #include <string>
 
 namespace {
@@ -38,6 +42,59 @@ TEST(Number, OtherWordsAreNoReals) {
   for (const char* word : {"",    ".",   "-",    "+",   "+-5",  "-+5",   "1,5", "1e", "1e+", "e5",
                            ".e5", "inf", "-inf", "nan", "0x10", "1.2.3", "12a", " 1", "1 ",  "1f"})
     EXPECT_FALSE(parseReal(word)) << word;
+}
+
+TEST(Number, ReadAtTheBeginningOfATextAsByTheLibrary) {
+  const auto compare = [](const std::string& text) {
+    double ours = 7, theirs = 7;
+    const char* const first = text.data();
+    const auto [end, error] = rad::readReal(first, first + text.size(), ours);
+    const auto [libraryEnd, libraryError] = std::from_chars(first, first + text.size(), theirs);
+    EXPECT_EQ(end - first, libraryEnd - first) << text;
+    EXPECT_EQ(error, libraryError) << text;
+    EXPECT_EQ(std::bit_cast<uint64_t>(ours), std::bit_cast<uint64_t>(theirs)) << text;
+  };
+  for (const char* text : {"",
+                           ".",
+                           "-",
+                           "-.",
+                           "1",
+                           "-0",
+                           "-0.0e5",
+                           "1.",
+                           ".5",
+                           "1e",
+                           "1e+",
+                           "1e-x",
+                           "1.5e3 ",
+                           "1e22",
+                           "1e23",
+                           "1e-22",
+                           "1e-23",
+                           "1e0022",
+                           "1.e5.3",
+                           "1..2",
+                           "1e999",
+                           "1e-99",
+                           "inf",
+                           "nan",
+                           "+1",
+                           "0x1",
+                           "e5",
+                           "1E5,",
+                           "--1",
+                           "1-1",
+                           "999999999999999e22",
+                           "9007199254740993",
+                           "123456789012345.6e-3",
+                           "00000000000000000001"})
+    compare(text);
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 20000; ++i) {
+    const auto any = std::bit_cast<double>(random());
+    compare(i % 2 ? fmt::format("{:.{}g} 2", any, 1 + i % 17) : fmt::format("{:.{}e}", any, i % 17));
+    compare(fmt::format("{:.{}f}", 1e-5 * static_cast<double>(static_cast<int32_t>(random())), i % 12));
+  }
 }
 
 TEST(Number, Integers) {
