@@ -121,14 +121,22 @@ double RadianceGuess::sent(const Light& light, const Place& at) const {
 // Of some places on the source that do not depend on chance, the share that is seen.
 double RadianceGuess::seenFrom(const Place& at, uint32_t source) const {
   const LightSource& light = transport_.lights().all()[source];
-  const bool wide = !light.distant && light.u.length2() > 0 && light.v.length2() > 0;
+  const bool ball = light.map == LightSource::Map::ball;
+  V3d u = light.u, v = light.v;
+  if (ball) {
+    // A square across the view that is as large as the ball's disk.
+    frame((light.center - at.point).normalized(), u, v);
+    u *= .886 * light.radius;
+    v *= .886 * light.radius;
+  }
+  const bool wide = !light.distant && u.length2() > 0 && v.length2() > 0;
   const auto share = [&](int side) {
     int seen = 0, asked = 0;
     for (int i = 0; i < side; ++i)
       for (int k = 0; k < side; ++k) {
         const double s = (2 * i + 1.) / side - 1, t = (2 * k + 1.) / side - 1;
         V3d to = light.distant ? light.center : light.center - at.point;
-        if (wide) to += s * light.u + t * light.v;
+        if (wide) to += s * u + t * v;
         const double distance = to.length();
         to /= distance;
         if (!(at.normal.dot(to) > 0)) continue;
