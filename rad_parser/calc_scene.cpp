@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "rad_parser/prism_panel.h"
 
 namespace rad::calc {
 namespace {
@@ -89,6 +92,61 @@ double sourcePhi(const Point& point, std::span<const double> arguments) {
   }
 }
 
+// What leaves the prism panel that the real arguments describe (their meaning: fprism.cal), for light along
+// the ray: of the rank-th strongest direction x, y, z (0, 1, 2) or the share (3). which: above .5, counted
+// are those that go on, else all; below -1.5, those that come back. Where the ray is meant for a light
+// source, what goes elsewhere counts nothing, and the second is the first. Too few directions: (1, 0, 0) and
+// 0. Source: rtrace's answers.
+double fprismValue(const Point& point, std::span<const double> arguments) {
+  constexpr const char* name = "fprism_val";
+  const auto argument = [&](size_t n) { return real(point, n, name); };
+  PrismPanel panel;
+  panel.a = argument(1);
+  panel.b = argument(2);
+  panel.height = argument(4);  // the third is its thickness, which changes nothing
+  panel.index = argument(5);
+  panel.threshold = argument(6);
+  const int coated = kindOf(argument(7));
+  panel.coated = coated == 1   ? PrismPanel::Coated::upper
+                 : coated == 2 ? PrismPanel::Coated::lower
+                               : PrismPanel::Coated::nothing;
+  panel.coating = coated == 4 ? 0 : argument(8);
+  panel.tolerance = argument(9);
+  const double aim = argument(10);
+  const bool isPanel = panel.a >= 0 && panel.b >= 0 && panel.a + panel.b > 0 && panel.height > 0 &&
+                       panel.index >= 1 && panel.threshold >= 0 && panel.threshold < 1 &&
+                       (coated == 1 || coated == 2 || coated == 4) && panel.coating >= 0 &&
+                       panel.coating <= 1 && panel.tolerance > 0 && aim >= 0;
+  if (!isPanel) throw Error(fmt::format("{}(): the real arguments are no prism panel", name));
+  const auto in = [&](Input first) {
+    return Imath::V3d(point.inputs[first], point.inputs[first + 1], point.inputs[first + 2]);
+  };
+  const Imath::V3d direction = in(Dx), target = in(DxA);
+  const auto whole = [&](size_t n) {
+    return static_cast<int>(std::trunc(std::clamp(arguments[n], -1e6, 1e6) + .5));
+  };
+  const int what = whole(0), which = whole(1);
+  if (what < 0 || what > 3) throw Error(fmt::format("{}(): the first argument must be 0, 1, 2 or 3", name));
+  PanelRays found;
+  if (direction.x != 0) found = raysThrough(panel, direction.normalized());
+  int rank = whole(2);
+  const auto angle = [](const Imath::V3d& v) { return std::atan2(v.y, v.x); };
+  if (target.length2() > 0) {
+    if (rank == 2) rank = 1;
+    for (PanelRay& ray : found.all()) {
+      if (std::abs(angle(ray.direction) - angle(target)) > aim) ray.share = 0;
+    }
+  }
+  std::stable_sort(found.all().begin(), found.all().end(),
+                   [](const PanelRay& r, const PanelRay& s) { return r.share > s.share; });
+  const double side = direction.x < 0 ? -which : which;
+  for (const PanelRay& ray : found.all()) {
+    if (ray.direction.x * side < 0 || --rank != 0) continue;
+    return what == 3 ? ray.share : ray.direction[what];
+  }
+  return what == 0 && direction.x != 0 ? 1 : 0;
+}
+
 }  // namespace
 
 Interface sceneInterface() {
@@ -98,7 +156,8 @@ Interface sceneInterface() {
               "Lv", "NxP", "NyP", "NzP", "RdotP", "CrP", "CgP", "CbP", "DxA", "DyA", "DzA"};
   i.hosts = {{"source_corr", 2, bits({Dx, Dy, Dz, Px, Py, Pz, Rdot, Ts}), sourceCorrection},
              {"source_theta", 1, bits({Dz}), sourceTheta},
-             {"source_phi", 1, bits({Dx, Dy}), sourcePhi}};
+             {"source_phi", 1, bits({Dx, Dy}), sourcePhi},
+             {"fprism_val", 3, bits({Dx, Dy, Dz, DxA, DyA, DzA}), fprismValue}};
   i.preludeName = "rayinit.cal";
   i.preludeText = kRayinit;
   return i;

@@ -57,7 +57,8 @@ inline constexpr uint64_t kMaterialInputs = (uint64_t{1} << DxA) - 1;
 inline constexpr uint64_t kPrismInputs = kPointInputs | (uint64_t{7} << DxA);
 
 // The inputs in their order, the functions source_corr(value, kind), source_theta(any), source_phi(symmetry)
-// of ies2rad, and our rayinit.cal, which one along RAYPATH replaces.
+// of ies2rad, fprism_val(what, which, rank) of prism panels, and our rayinit.cal, which one along RAYPATH
+// replaces.
 Interface sceneInterface();
 
 // Our rayinit.cal.

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "cli/rgb.h"
+#include "measure/statistics.h"
 #include "scene/random.h"
 
 namespace rsphere {
@@ -15,26 +16,12 @@ namespace rsphere {
 // seeds are fixed.
 inline constexpr double kMostSigmas = 4;
 
-// Mean of independent values, with its standard error (Welford's updates).
-class Sample {
+// Mean of independent values, as tests compare it.
+class Sample : public Spread {
  public:
-  void add(double x) {
-    ++count_;
-    const double before = x - mean_;
-    mean_ += before / static_cast<double>(count_);
-    squares_ += before * (x - mean_);
-  }
-  double mean() const { return mean_; }
   // Not below the rounding of the sum: values that do not vary are compared to that.
-  double standardError() const {
-    const auto n = static_cast<double>(count_);
-    return std::max(std::sqrt(squares_ / (n * (n - 1))), 1e-12 * std::abs(mean_));
-  }
-  double sigmas(double expected) const { return (mean_ - expected) / standardError(); }
-
- private:
-  size_t count_ = 0;
-  double mean_ = 0, squares_ = 0;
+  double standardError() const { return std::max(Spread::standardError(), 1e-12 * std::abs(mean())); }
+  double sigmas(double expected) const { return (mean() - expected) / standardError(); }
 };
 
 // That the mean is the expected one, and that this test would have told it from one that is off by the
