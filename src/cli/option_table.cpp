@@ -627,11 +627,15 @@ std::vector<OptionEntry> makeTable() {
        .arguments = "file",
        .group = Group::indirect,
        .value = +[](O& o) -> std::string& { return o.ray.ambientFile; },
-       .remark = "ambient file, unused",
+       .remark = "ambient file",
        .paragraph =
-           "Accepted as in rtrace. What is interpolated is not kept from one run to the next: the file is "
-           "neither read nor written.",
-       .support = Support::unused});
+           "Keeps in the file what is interpolated from, for later runs and for others at the same time: it "
+           "is read first, and added to, now and then and at the end; a process that is killed does no harm. "
+           "No answer changes by it. A file that was made for another scene or with other options, by "
+           "another "
+           "version, or by RADIANCE is not used and left as it is, with a warning. Only with -aa and -ab "
+           "above "
+           "0."});
   add({.name = "-ae",
        .arguments = "mod",
        .group = Group::indirect,

@@ -31,9 +31,6 @@ bool PathTracer::addInterpolated(Ray& ray, const V3d& normal, const V3d& trueNor
   if (ray.mist || ray.clips || ray.clipsBeyond || ray.scatterers.count ||
       ray.medium.extinction != t_.medium().extinction)
     return false;
-  // Beyond the first diffuse surface one path tells: as many corners as rays ask from all over the scene
-  // would cost far more than they save, and what differs is averaged in the corner.
-  if (ray.ambientLevel > 0) return false;
   // Beyond the first diffuse surface one path tells: what it has of chance is averaged at the site, and
   // values all over the scene would cost more than they save.
   if (ray.ambientLevel > 0) return false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 #include "scene/random.h"
@@ -23,6 +24,8 @@ constexpr double kChance = 1.5;
 // Where something stands, as a share of the way to a place: nearer than that hides it, even if there is a gap
 // below; farther than that does not.
 constexpr double kHidden = 1.1, kFree = .5;
+
+constexpr size_t kBetweenSaves = 256;  // values that a process that is killed may lose
 
 constexpr int kBeyondFinest = 2;  // divisions more where corners are hidden
 
@@ -85,6 +88,7 @@ struct IrradianceField::Site {
   GatherSite at;
   SiteLooker::Surroundings standing{};
   std::atomic<const GatheredLight*> light{nullptr};
+  Site* nextFresh = nullptr;
 
   ~Site() { delete light.load(std::memory_order_relaxed); }
 
@@ -144,7 +148,81 @@ IrradianceField::IrradianceField(const Scene& scene, const Box3d& bounds, const 
   }
 }
 
-IrradianceField::~IrradianceField() = default;
+IrradianceField::~IrradianceField() { save(true); }
+
+// The key, then the numbers of the light, as the machine has them.
+AmbientFile::Record IrradianceField::recordOf(const Key& key, const GatheredLight& light) {
+  std::array<int32_t, 6> whole{key.normal[0], key.normal[1], key.normal[2], key.i, key.j, key.level};
+  std::array<float, 24> numbers;
+  size_t n = 0;
+  const auto put = [&](const V3f& v) {
+    for (int c = 0; c < 3; ++c) numbers[n++] = v[c];
+  };
+  put(light.mean);
+  for (int k = 0; k < 3; ++k) put(light.perLength[k]);
+  for (int k = 0; k < 3; ++k) put(light.perTilt[k]);
+  for (const float x : {light.noise, light.noisePerLength, light.reach}) numbers[n++] = x;
+  AmbientFile::Record record;
+  static_assert(sizeof whole + sizeof key.offset + sizeof numbers == sizeof record);
+  std::memcpy(record.data(), &whole, sizeof whole);
+  std::memcpy(record.data() + sizeof whole, &key.offset, sizeof key.offset);
+  std::memcpy(record.data() + sizeof whole + sizeof key.offset, &numbers, sizeof numbers);
+  return record;
+}
+
+void IrradianceField::fromRecord(const AmbientFile::Record& record, Key& key, GatheredLight& light) {
+  std::array<int32_t, 6> whole;
+  std::array<float, 24> numbers;
+  std::memcpy(&whole, record.data(), sizeof whole);
+  std::memcpy(&key.offset, record.data() + sizeof whole, sizeof key.offset);
+  std::memcpy(&numbers, record.data() + sizeof whole + sizeof key.offset, sizeof numbers);
+  key.normal = {whole[0], whole[1], whole[2]};
+  key.i = whole[3];
+  key.j = whole[4];
+  key.level = whole[5];
+  size_t n = 0;
+  const auto get = [&](V3f& v) {
+    for (int c = 0; c < 3; ++c) v[c] = numbers[n++];
+  };
+  get(light.mean);
+  for (int k = 0; k < 3; ++k) get(light.perLength[k]);
+  for (int k = 0; k < 3; ++k) get(light.perTilt[k]);
+  for (float* x : {&light.noise, &light.noisePerLength, &light.reach}) *x = numbers[n++];
+}
+
+void IrradianceField::keepIn(std::unique_ptr<AmbientFile> file) {
+  file_ = std::move(file);
+  if (!file_) return;
+  for (const AmbientFile::Record& record : file_->take()) {
+    Key key;
+    GatheredLight light;
+    fromRecord(record, key, light);
+    known_.emplace(key, light);
+  }
+}
+
+void IrradianceField::addFresh(Site* first, Site* last) {
+  last->nextFresh = fresh_.load(std::memory_order_relaxed);
+  while (!fresh_.compare_exchange_weak(last->nextFresh, first, std::memory_order_release,
+                                       std::memory_order_relaxed)) {
+  }
+}
+
+// Writes to the file what is new. wait: for other processes that write to it, too.
+void IrradianceField::save(bool wait) {
+  if (!file_) return;
+  const std::unique_lock lock(writing_, std::try_to_lock);
+  if (!lock.owns_lock()) return;
+  Site* const first = fresh_.exchange(nullptr, std::memory_order_acquire);
+  if (!first) return;
+  std::vector<AmbientFile::Record> records;
+  Site* last = first;
+  for (Site* site = first; site; site = site->nextFresh) {
+    records.push_back(recordOf(site->key, *site->light.load(std::memory_order_acquire)));
+    last = site;
+  }
+  if (!file_->add(records, wait)) addFresh(first, last);
+}
 
 void IrradianceField::setPlane(const FieldPlace& place, Chart& chart) const {
   for (int c = 0; c < 3; ++c) {
@@ -273,12 +351,17 @@ double IrradianceField::shareOfRays(const Key& key) const {
 
 const GatheredLight& IrradianceField::lightOf(Site& site, SiteLooker& looker) {
   if (const GatheredLight* light = site.light.load(std::memory_order_acquire)) return *light;
-  auto gathered =
-      std::make_unique<GatheredLight>(looker.gather(site.at, shareOfRays(site.key), site.key.hash()));
+  const auto known = known_.find(site.key);
+  auto gathered = std::make_unique<GatheredLight>(
+      known != known_.end() ? known->second : looker.gather(site.at, shareOfRays(site.key), site.key.hash()));
   const GatheredLight* first = nullptr;
-  if (site.light.compare_exchange_strong(first, gathered.get(), std::memory_order_acq_rel))
-    return *gathered.release();
-  return *first;
+  if (!site.light.compare_exchange_strong(first, gathered.get(), std::memory_order_acq_rel)) return *first;
+  const GatheredLight& light = *gathered.release();
+  if (file_ && known == known_.end()) {
+    addFresh(&site, &site);
+    if ((gathered_.fetch_add(1, std::memory_order_relaxed) + 1) % kBetweenSaves == 0) save(false);
+  }
+  return light;
 }
 
 // Whether nothing hides a place from a site. The ray runs a little above both, for it is no matter what lies

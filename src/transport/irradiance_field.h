@@ -18,10 +18,13 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <unordered_map>
 #include <vector>
 
 #include "cli/options.h"
 #include "scene/scene.h"
+#include "transport/ambient_file.h"
 #include "transport/hemisphere.h"
 #include "transport/insert_once.h"
 
@@ -60,7 +63,11 @@ class IrradianceField {
  public:
   // Keeps a reference to the scene. bounds: of all that can be hit.
   IrradianceField(const Scene& scene, const Box3d& bounds, const RayOptions& options);
-  ~IrradianceField();
+  ~IrradianceField();  // what is new goes to the file
+
+  // Takes from the file what was gathered in earlier runs, and adds to it what is new, now and then and at
+  // the end. Before the first find().
+  void keepIn(std::unique_ptr<AmbientFile> file);
 
   // The light at a place: its mean, and its change when the normal tilts. False where nothing in the field
   // serves the place, which then has to be gathered for itself: surfaces that are much smaller than the
@@ -70,7 +77,7 @@ class IrradianceField {
   // The least distance between corners (world units): what is nearer than that is not resolved.
   double finestSpacing() const { return spacing_.back(); }
 
-  // Values gathered and kept.
+  // Sites known.
   size_t size() const { return sites_.size(); }
 
  private:
@@ -81,6 +88,9 @@ class IrradianceField {
     int64_t offset = 0;
     bool operator==(const Key&) const = default;
     uint64_t hash() const;
+  };
+  struct KeyHash {
+    size_t operator()(const Key& key) const { return key.hash(); }
   };
   struct Chart;
   struct Site;
@@ -94,6 +104,10 @@ class IrradianceField {
   Site& corner(const Chart& chart, int64_t i, int64_t j, SiteLooker& looker);
   const GatheredLight& lightOf(Site& site, SiteLooker& looker);
   double shareOfRays(const Key& key) const;
+  void addFresh(Site* first, Site* last);
+  void save(bool wait);
+  static AmbientFile::Record recordOf(const Key& key, const GatheredLight& light);
+  static void fromRecord(const AmbientFile::Record& record, Key& key, GatheredLight& light);
   bool serves(const Site& site, const FieldPlace& place, SiteLooker& looker) const;
   std::unique_ptr<Cell> makeCell(const Chart& chart, int64_t i, int64_t j, int64_t size, SiteLooker& looker);
   bool nearby(const Cell& cell, const V3d& point, double a, double b, double tolerance, SiteLooker& looker,
@@ -114,6 +128,11 @@ class IrradianceField {
   std::vector<Extent> extents_;  // of flat surfaces, in the coordinates of what holds them
   InsertOnce<Key, Cell> cells_;
   InsertOnce<Key, Site> sites_;
+  std::unordered_map<Key, GatheredLight, KeyHash> known_;  // of earlier runs
+  std::unique_ptr<AmbientFile> file_;
+  std::mutex writing_;                 // nobody waits for it
+  std::atomic<Site*> fresh_{nullptr};  // not in the file yet; a list through Site::nextFresh
+  std::atomic<size_t> gathered_{0};
 };
 
 }  // namespace rsphere

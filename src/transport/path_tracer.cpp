@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "cli/version.h"
+#include "scene/fingerprint.h"
 #include "transport/ray_functions.h"
 
 namespace rsphere {
@@ -53,6 +55,32 @@ V3d along(const V3d& origin, double distance, const V3d& direction) {
              std::fma(distance, direction.z, origin.z));
 }
 
+// Of all that gathered light follows from besides the scene, this version of the program among it.
+uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAccess& access) {
+  Fingerprint print;
+  print.add(kVersion);
+  for (const double x :
+       {o.directThreshold, o.directCertainty, o.directJitter, o.sourceSubstructuring, o.specularSampling,
+        o.specularThreshold, o.ambientAccuracy, o.weightLimit, o.mediumEccentricity, o.mediumSampling})
+    print.add(x);
+  for (const Rgb& color : {o.ambientValue, o.mediumExtinction, o.mediumAlbedo})
+    for (int c = 0; c < 3; ++c) print.add(static_cast<double>(color[c]));
+  for (const int n : {o.directRelays, o.chosenSources, o.directPretest, o.ambientBounces, o.ambientResolution,
+                      o.ambientDivisions, o.ambientSuperSamples, o.reflectionLimit})
+    print.add(static_cast<uint64_t>(n));
+  for (const bool b : {o.sourcesVisible, o.backFacesVisible, o.uncorrelated, basicRadiance})
+    print.add(uint64_t{b});
+  for (const auto* names : {&o.ambientExcluded, &o.ambientIncluded}) {
+    print.add(uint64_t{names->size()});
+    for (const std::string& name : *names) print.add(name);
+  }
+  for (const SharedDefinitions& definitions : o.definitions) {
+    print.add(definitions.text);
+    if (definitions.isFile) addFile(print, definitions.text, access);
+  }
+  return print.value();
+}
+
 }  // namespace
 
 Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance irradiance, bool basicRadiance,
@@ -86,6 +114,9 @@ Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance i
   findScatterers(warn);
   if (options.ambientAccuracy > 0 && options.ambientBounces > 0 && options.ambientDivisions > 0)
     field_ = std::make_unique<IrradianceField>(scene, tracer_.bounds(), options);
+  if (field_ && !options.ambientFile.empty())
+    field_->keepIn(AmbientFile::open(options.ambientFile, fingerprint(scene),
+                                     fingerprint(options, basicRadiance, scene.files), warn));
   const bool including = !options.ambientIncluded.empty();
   const auto& names = including ? options.ambientIncluded : options.ambientExcluded;
   if (names.empty()) return;

@@ -3,8 +3,8 @@
 // ones, and indirect light.
 //
 // Indirect light at the first diffuse surface of a path is interpolated in a field (-aa, irradiance_field.h),
-// or else gathered anew: -ad directions over the hemisphere, stratified; one direction at every later surface.
-// Paths end at -ab bounces and by Russian roulette below -lw, so that the mean stays right.
+// or else gathered anew: -ad directions over the hemisphere, stratified; one direction at every later
+// surface. Paths end at -ab bounces and by Russian roulette below -lw, so that the mean stays right.
 #include <functional>
 #include <memory>
 #include <optional>
