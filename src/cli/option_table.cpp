@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <iomanip>
 #include <iterator>
 
 #include "cli/option_words.h"
@@ -24,17 +25,29 @@ constexpr double kLargestInt = std::numeric_limits<int>::max();
 constexpr Range kNotNegative{0, kInfinity};
 constexpr Range kFraction{0, 1};
 constexpr Range kCount{0, kLargestInt};
+constexpr int kLongestModifier = 65536;  // bytes, as in scene text
+constexpr size_t kMostModifiers = 1000000;
 
 // The words of a file named on the command line, found along RAYPATH as rtrace does.
 std::vector<std::string> modifierFile(const OptionEntry& entry, const std::string& name) {
+  const auto what = [&] {
+    return fmt::format("{} {} file \"{}\"", entry.name[1] == 'a' ? "ambient" : "trace",
+                       entry.name[2] == 'E' ? "exclude" : "include", name);
+  };
   const auto path = rad::findFile(name, rad::libraryPath());
+  errno = path ? 0 : ENOENT;
   std::ifstream file(path.value_or(name));
-  if (!path || !file)
-    throw rad::Error(
-        fmt::format("cannot open {} {} file \"{}\": {}", entry.name[1] == 'a' ? "ambient" : "trace",
-                    entry.name[2] == 'E' ? "exclude" : "include", name, std::strerror(path ? errno : ENOENT)),
-        rad::Status::system);
-  return {std::istream_iterator<std::string>(file), {}};
+  std::vector<std::string> words;
+  for (std::string word; path && file >> std::setw(kLongestModifier + 1) >> word;) {
+    words.push_back(word);
+    // A device without end has more or longer words.
+    if (words.size() > kMostModifiers || word.size() > size_t{kLongestModifier})
+      throw rad::Error(
+          fmt::format("{} has too {} words", what(), word.size() > kLongestModifier ? "long" : "many"));
+  }
+  if (errno != 0 && (!path || !file.is_open() || file.bad()))
+    throw rad::Error(fmt::format("cannot open {}: {}", what(), std::strerror(errno)), rad::Status::system);
+  return words;
 }
 
 // -ae and -aE name modifiers without indirect light, -ai and -aI the only ones with it; -te.. those in ray
@@ -814,7 +827,7 @@ std::vector<OptionEntry> makeTable() {
        .arguments = "N",
        .group = Group::sphere,
        .value = +[](O& o) -> int& { return o.ray.chosenSources; },
-       .range = kCount,
+       .range = {0, 1e6},
        .remark = "light sources tested at a surface",
        .paragraph = "Of all light sources test N (fewer for rays of less weight) at a surface whose radiance "
                     "is even, drawn "

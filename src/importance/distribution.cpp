@@ -186,7 +186,7 @@ std::string pictureName(const std::string& pattern, uint64_t record) {
       name += number;
       numbered = true;
     } else {
-      throw rad::Error(fmt::format("picture \"{}\": % stands for one %d, %4d or %04d, or %%%%", pattern));
+      throw rad::Error(fmt::format("picture \"{}\": % stands for one %d, %4d or %04d, or %%", pattern));
     }
     i = end;
   }

@@ -201,6 +201,10 @@ TEST(ParseOptions, AmbientModifiersAreOneKindOnly) {
   EXPECT_EQ(options.ray.ambientIncluded, (Names{"b", "c", "d", "e"}));
   EXPECT_EQ(faultOfOptions({"rtrace", "-aE", "/no/file", "s.oct"}, rad::Status::system),
             "cannot open ambient exclude file \"/no/file\": No such file or directory");
+  EXPECT_EQ(faultOfOptions({"rtrace", "-aI", "/tmp", "s.oct"}, rad::Status::system),
+            "cannot open ambient include file \"/tmp\": Is a directory");
+  EXPECT_EQ(faultOfOptions({"rtrace", "-tE", "/dev/zero", "s.oct"}),
+            "trace exclude file \"/dev/zero\" has too long words");
 }
 
 TEST(ParseOptions, SceneTakesTheRest) {
