@@ -3,6 +3,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <string>
 #include <string_view>
 
@@ -23,6 +25,20 @@ class OpenFile {
   OpenFile(const OpenFile&) = delete;
   OpenFile& operator=(const OpenFile&) = delete;
   int descriptor() const { return descriptor_; }
+
+  // All that it has from where it is read to. Throws Error where that cannot be read, as a folder cannot.
+  std::string contents(std::string_view name) const {
+    std::string bytes;
+    if (S_ISREG(begin_.st_mode)) bytes.reserve(static_cast<size_t>(begin_.st_size));
+    char block[1 << 16];
+    for (ssize_t got = 1; got != 0;) {
+      got = read(descriptor_, block, sizeof block);
+      if (got < 0 && errno != EINTR)
+        throw Error(printable(name, 4096) + ": cannot read: " + std::strerror(errno), Status::system);
+      if (got > 0) bytes.append(block, static_cast<size_t>(got));
+    }
+    return bytes;
+  }
 
   // Throws Error where somebody has written to the file since it was opened: what was read may be neither
   // what was there nor what is. Changes that leave its length are seen by its time, which some systems keep

@@ -1,10 +1,10 @@
 #include "scene/fingerprint.h"
 
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <unordered_set>
+
+#include "rad_parser/open_file.h"
 
 namespace rsphere {
 
@@ -19,11 +19,10 @@ void Fingerprint::add(std::string_view text) {
 
 void addFile(Fingerprint& print, std::string_view name, const rad::FileAccess& access) {
   const auto path = rad::findFile(name, rad::libraryPath(), {}, access);
-  std::ifstream file;
-  if (path) file.open(*path, std::ios::binary);
-  print.add(uint64_t{file.is_open()});
-  if (file.is_open())
-    print.add(std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()));
+  const rad::OpenFile file(path.value_or(""));
+  const bool isOpen = file.descriptor() >= 0;
+  print.add(uint64_t{isOpen});
+  if (isOpen) print.add(file.contents(*path));
 }
 
 namespace {

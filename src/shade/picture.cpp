@@ -7,12 +7,11 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string_view>
 
 #include "rad_parser/error.h"
+#include "rad_parser/open_file.h"
 
 namespace rsphere {
 namespace {
@@ -196,9 +195,10 @@ Weights weightsAt(double position, size_t count) {
 }  // namespace
 
 Picture Picture::read(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw rad::Error(fmt::format("{}: cannot open picture file", path), rad::Status::system);
-  const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const rad::OpenFile file(path);
+  if (file.descriptor() < 0)
+    throw rad::Error(fmt::format("{}: cannot open picture file", path), rad::Status::system);
+  const std::string bytes = file.contents(path);
   const Header header = readHeader(bytes, path);
   const Layout& layout = header.layout;
   // A run of the densest code, two bytes for 127 values of a channel, is 16 pixels a byte; of the old one

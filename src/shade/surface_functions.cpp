@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <span>
 
 #include "rad_parser/file_path.h"
+#include "rad_parser/open_file.h"
 
 namespace rsphere {
 namespace {
@@ -28,9 +27,9 @@ void put(double* to, const V3d& v) {
 }
 
 std::optional<std::string> readFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return std::nullopt;
-  return std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+  const rad::OpenFile file(path);
+  if (file.descriptor() < 0) return std::nullopt;
+  return file.contents(path);
 }
 
 std::optional<calc::SourceText> loadFunctionFile(std::string_view name, const rad::FileAccess& access) {
