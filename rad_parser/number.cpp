@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstring>
 
 namespace rad {
 namespace {
@@ -31,6 +33,34 @@ constexpr std::array<double, 23> kPowers = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  
                                             1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                             1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
+// By how many digits were read together.
+constexpr std::array<uint64_t, 9> kScale = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
+
+// Reads on through digits, eight at a time where there are as many characters: how many of these are digits
+// is then told without a branch for each.
+const char* readDigits(const char* at, const char* last, uint64_t& value) {
+  static_assert(std::endian::native == std::endian::little);
+  while (last - at >= 8) {
+    uint64_t text = 0;
+    std::memcpy(&text, at, 8);
+    text ^= 0x3030303030303030;  // a digit's character is its value now
+    const uint64_t others = ((text + 0x0606060606060606) | text) & 0xf0f0f0f0f0f0f0f0;
+    const int count = others ? std::countr_zero(others) / 8 : 8;
+    if (count == 0) return at;
+    // As if there were zeros before them; pairs, then fours, then all eight.
+    text <<= 64 - 8 * count;
+    text = text * 10 + (text >> 8);
+    text = ((text & 0x000000ff000000ff) * (100 + (uint64_t{1000000} << 32)) +
+            (text >> 16 & 0x000000ff000000ff) * (1 + (uint64_t{10000} << 32))) >>
+           32;
+    value = value * kScale[static_cast<size_t>(count)] + text;
+    at += count;
+    if (count < 8) return at;
+  }
+  for (; at != last && isDigit(*at); ++at) value = 10 * value + static_cast<uint64_t>(*at - '0');
+  return at;
+}
+
 }  // namespace
 
 // A whole number below 10^15 and a power of ten up to 10^22 are exact, so that one multiplication or division
@@ -46,7 +76,7 @@ std::from_chars_result readReal(const char* first, const char* last, double& val
   ptrdiff_t count = at - whole, exponent = 0;
   if (at != last && *at == '.') {
     const char* const fraction = ++at;
-    for (; at != last && isDigit(*at); ++at) digits = 10 * digits + static_cast<uint64_t>(*at - '0');
+    at = readDigits(at, last, digits);
     exponent = fraction - at;
     count -= exponent;
   }

@@ -320,6 +320,36 @@ void LightSources::sampleParts(uint32_t index, const V3d& point, const V3d& towa
   // Parts are measured by their half-extents.
   const double allowed = how.largest / 2;
 
+  // The middle of a plane part, `aim` away.
+  const auto addMiddle = [&](const V3d& aim, double length, double area) {
+    if (!(length > 0)) return;
+    const double cosine = -aim.dot(source.normal) / length;
+    if (cosine <= kEdgeOn) return;
+    const double omega = area * cosine / (length * length);
+    const V3d direction = aim / length;
+    if (!source.hitsWhereAimed || source.reach > 0 || source.spot) return add(direction, omega, length);
+    samples.push_back({direction, omega, length, -direction.dot(source.normal), source.normal, index});
+  };
+  // As split(), of a plane source that its two vectors span. middle: the way to a part's.
+  const auto addMiddles = [&](const auto& self, const V3d& middle, const V3d& u, const V3d& v, double extentU,
+                              double extentV, double area, int most) -> void {
+    const double larger = std::max(extentU, extentV), length2 = middle.length2();
+    if (most < 2 || !(length2 * allowed * allowed < larger * larger))
+      return addMiddle(middle, std::sqrt(length2), area);
+    if (extentU > extentV) {
+      const V3d half = .5 * u;
+      self(self, middle - half, half, v, extentU / 2, extentV, area / 2, most / 2);
+      self(self, middle + half, half, v, extentU / 2, extentV, area / 2, most / 2);
+    } else {
+      const V3d half = .5 * v;
+      self(self, middle - half, u, half, extentU, extentV / 2, area / 2, most / 2);
+      self(self, middle + half, u, half, extentU, extentV / 2, area / 2, most / 2);
+    }
+  };
+  if (jitter <= 0 && source.map <= LightSource::Map::square)
+    return addMiddles(addMiddles, towards, source.u, source.v, source.extentU, source.extentV, source.area,
+                      allowed > 0 ? kMostParts : 1);
+
   switch (source.map) {
     case LightSource::Map::cone:
       if (source.cosHalfAngle < kEdgeOn) {
@@ -395,12 +425,7 @@ void LightSources::sampleParts(uint32_t index, const V3d& point, const V3d& towa
                                           jittered(part.t0, part.t1, jitter, random)) -
                                            point
                                      : middle;
-          const double length = aim.length();
-          if (!(length > 0)) return;
-          const double cosine = -aim.dot(source.normal) / length;
-          if (cosine <= kEdgeOn) return;
-          add(aim / length,
-              source.area * (part.s1 - part.s0) * (part.t1 - part.t0) * cosine / (length * length), length);
+          addMiddle(aim, aim.length(), source.area * (part.s1 - part.s0) * (part.t1 - part.t0));
         };
         split(Part{}, allowed > 0 ? kMostParts : 1, source.extentU, source.extentV, allowed, point, at, use);
       };

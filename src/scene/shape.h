@@ -18,11 +18,11 @@ using Imath::V3d;
 inline constexpr double kSamePlace = 1e-6;
 
 // Where a ray meets a shape. normal: unit, on the front side, whichever side was hit; cosine = -normal .
-// direction, positive where the front was hit.
+// direction, positive where the front was hit. Not set before: there is one on the way of every ray.
 struct ShapeHit {
-  double distance = 0;
-  V3d normal{0, 0, 0};
-  double cosine = 0;
+  double distance;
+  V3d normal;
+  double cosine;
 };
 
 // A plane polygon, concave or with holes by a seam. Its inside is where a line to infinity crosses the

@@ -155,7 +155,12 @@ class PixelReader {
 
 // Each mantissa stands for the middle of its step. Source: RADIANCE file formats, "Picture File Format".
 void decode(const Rgbe& pixel, float* rgb) {
-  const float step = pixel[3] ? std::ldexp(1.f, pixel[3] - 136) : 0;
+  static const std::array<float, 256> steps = [] {
+    std::array<float, 256> s{};
+    for (int exponent = 1; exponent < 256; ++exponent) s[exponent] = std::ldexp(1.f, exponent - 136);
+    return s;
+  }();
+  const float step = steps[pixel[3]];
   for (size_t i = 0; i < 3; ++i) rgb[i] = (static_cast<float>(pixel[i]) + .5f) * step;
 }
 

@@ -83,7 +83,7 @@ struct Found {
   PlacementPath path;        // of where it is, from the world's coordinates
   uint8_t modifierPath = 0;  // how many of these place its modifiers
   const rad::Mesh* mesh = nullptr;
-  uint32_t triangle = 0;
+  uint32_t triangle;  // of the mesh
   TriangleHit triangleHit;
 };
 
@@ -98,10 +98,11 @@ struct Query {
   uint8_t depth = 0;              // of the tree: placements that lead to it
   Found best;                     // shadow(): the source itself, where it is a surface
   int32_t source = kNone;
-  const Occluder* standIn = nullptr;   // shadow(): what stands for the contents of the tree
-  bool passable = false;               // shadow(): something was hit that may let light pass
-  uint32_t from = Tracer::kNoBlocker;  // the tree's primitive that the ray begins on and can't meet again
-  uint32_t blocker = 0;                // shadow(): the tree's primitive that stopped the ray
+  const Occluder* standIn = nullptr;  // shadow(): what stands for the contents of the tree
+  bool passable = false;              // shadow(): something was hit that may let light pass
+  // The tree's primitives that the ray begins on, and that it goes to: what it cannot meet in between.
+  uint32_t from = Tracer::kNoBlocker, target = Tracer::kNoBlocker;
+  uint32_t blocker = 0;  // shadow(): the tree's primitive that stopped the ray
 
   double reach() const { return best.occluder ? best.hit.distance + samePlace : farthest; }
   // Whether a hit at least as near as reach() has to give way to the best one.
@@ -290,27 +291,30 @@ class Tracer::Tree {
     if (!arguments->valid[0]) return;
     const auto& self = *static_cast<const Tree*>(arguments->geometryUserPtr);
     auto& query = *reinterpret_cast<Query*>(arguments->context);
-    if (arguments->primID == query.from || !(self.*cross)(query, arguments->primID)) return;
+    if (arguments->primID == query.from || arguments->primID == query.target ||
+        !(self.*cross)(query, arguments->primID))
+      return;
     query.blocker = arguments->primID;
     reinterpret_cast<RTCRay*>(arguments->ray)->tfar = -std::numeric_limits<float>::infinity();
   }
 
-  // Polygons, of which most scenes consist, without the detour by way of a visitor.
-  bool meets(const Query& query, const Surface& surface, ShapeHit& hit) const {
-    const auto meet = [&](const auto& shape) {
-      return intersect(shape, scene_.vertices, query.origin, query.direction, query.reach(), hit);
-    };
-    const auto* polygon = std::get_if<Polygon>(&surface.shape);
-    return polygon ? meet(*polygon) : meet(surface.shape);
+  bool meets(const Query& query, const auto& shape, ShapeHit& hit) const {
+    return intersect(shape, scene_.vertices, query.origin, query.direction, query.reach(), hit);
   }
 
+  // Polygons, of which most scenes consist, without the detour by way of a visitor.
   bool meetSurface(Query& query, uint32_t primitive) const {
     const Occluder& occluder = occluders_[primitive];
     const Surface& surface = scene_.surfaces[occluder.surface];
-    if (const Contents contents = contentsOf(surface); contents.tree)
-      return meetContents(query, occluder, contents);
     ShapeHit hit;
-    if (!meets(query, surface, hit) || query.loses(occluder, hit)) return false;
+    if (const auto* polygon = std::get_if<Polygon>(&surface.shape)) {
+      if (!meets(query, *polygon, hit)) return false;
+    } else if (const Contents contents = contentsOf(surface); contents.tree) {
+      return meetContents(query, occluder, contents);
+    } else if (!meets(query, surface.shape, hit)) {
+      return false;
+    }
+    if (query.loses(occluder, hit)) return false;
     query.best.occluder = &occluder;
     query.best.hit = hit;
     query.best.path.count = query.best.modifierPath = query.depth;
@@ -384,10 +388,12 @@ class Tracer::Tree {
     const Occluder& occluder = query.standIn ? *query.standIn : own;
     if (static_cast<int32_t>(occluder.surface) == query.source) return false;
     const Surface& surface = scene_.surfaces[own.surface];
+    ShapeHit hit;
+    if (const auto* polygon = std::get_if<Polygon>(&surface.shape))
+      return meets(query, *polygon, hit) && crosses(query, occluder, hit);
     if (const Contents contents = contentsOf(surface); contents.tree)
       return crossContents(query, own, contents);
-    ShapeHit hit;
-    return meets(query, surface, hit) && crosses(query, occluder, hit);
+    return meets(query, surface.shape, hit) && crosses(query, occluder, hit);
   }
 
   bool crossTriangle(Query& query, uint32_t primitive) const {
@@ -521,6 +527,7 @@ Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, 
   query.source = source;
   query.from = planePrimitive(from);
   if (source != kNone) {
+    query.target = static_cast<uint32_t>(source);
     // The front is what shines; the tie with whatever lies on the source is decided for that side.
     query.best.occluder = &tree.occluderOf(static_cast<uint32_t>(source));
     query.best.hit = {distance, V3d(0, 0, 0), 1};

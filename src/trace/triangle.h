@@ -9,7 +9,7 @@ namespace rsphere {
 
 struct TriangleHit {
   ShapeHit hit;
-  double weight1 = 0, weight2 = 0;  // barycentric, of the triangle's vertices 1 and 2
+  double weight1, weight2;  // barycentric, of the triangle's vertices 1 and 2
 };
 
 // As the intersect() of shape.h. Rays within rounding (1e-15 of the distance) of an edge count as inside, so

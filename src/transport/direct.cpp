@@ -109,32 +109,44 @@ size_t PathTracer::lookAheadOf(size_t count) {
 void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d& front) {
   const RayOptions& o = t_.options();
   samples_.clear();
-  contributions_.clear();
-  ranked_.clear();
   const SourceSampling how{o.sourceSubstructuring > kNegligible ? o.sourceSubstructuring / ray.weight : 0,
                            o.directJitter, front};
   for (uint32_t i = 0; i < t_.lights().all().size(); ++i)
     t_.lights().sample(i, ray.point, how, random_, samples_);
+  if (contributions_.size() < samples_.size()) {
+    contributions_.resize(samples_.size());
+    ranked_.resize(samples_.size());
+  }
+  const double threshold = o.directThreshold / ray.weight;
+  // A few are in order as they come: each is moved before those that are darker.
+  constexpr size_t kFew = 32;
+  const bool ordered = threshold > 0 && samples_.size() <= kFew;
+  const bool clear = !isMedium(ray.medium.extinction);
+  uint32_t count = 0;
   for (const SourceSample& sample : samples_) {
     const Rgb coefficient = coefficientOf(sample.direction, sample.solidAngle);
     if (isBlack(coefficient)) continue;
-    const Rgb value = sourceValue(ray, sample);
+    const Rgb* constant = clear && sample.cosine >= 0 ? t_.constantRadiance(sample.source) : nullptr;
+    const Rgb value = constant ? *constant : sourceValue(ray, sample);
     const double bright = brightness(value * coefficient);
     if (!(bright > 0)) continue;
-    ranked_.push_back({bright, static_cast<uint32_t>(contributions_.size())});
-    contributions_.push_back({&sample, coefficient, value});
+    contributions_[count] = {&sample, coefficient, value};
+    size_t place = count;
+    if (ordered)
+      for (; place > 0 && ranked_[place - 1].brightness < bright; --place)
+        ranked_[place] = ranked_[place - 1];
+    ranked_[place] = {bright, count++};
   }
-  if (contributions_.empty()) return;
+  if (count == 0) return;
 
-  const size_t count = contributions_.size();
-  const double threshold = o.directThreshold / ray.weight;
   // How many of those still untested are taken together to decide whether they can matter (-dc).
   size_t lookAhead = count;
   if (threshold > 0) {
-    std::sort(ranked_.begin(), ranked_.end(), [](const Ranked& a, const Ranked& b) {
-      return a.brightness != b.brightness ? a.brightness > b.brightness : a.contribution < b.contribution;
-    });
-    remaining_.resize(count + 1);
+    if (!ordered)
+      std::sort(ranked_.begin(), ranked_.begin() + count, [](const Ranked& a, const Ranked& b) {
+        return a.brightness != b.brightness ? a.brightness > b.brightness : a.contribution < b.contribution;
+      });
+    if (remaining_.size() <= count) remaining_.resize(count + 1);
     remaining_[count] = 0;
     for (size_t i = count; i-- > 0;) remaining_[i] = remaining_[i + 1] + ranked_[i].brightness;
     lookAhead = lookAheadOf(count);
@@ -143,7 +155,7 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d&
   size_t tested = 0, visible = 0;
   for (; tested < count; ++tested) {
     if (threshold > 0 && tested >= kAlwaysTested) {
-      const double ahead = remaining_[tested] - remaining_[std::min(tested + lookAhead, count)];
+      const double ahead = remaining_[tested] - remaining_[std::min<size_t>(tested + lookAhead, count)];
       if (ahead < threshold * brightness(ray.value)) break;
     }
     const Contribution& c = contributions_[ranked_[tested].contribution];

@@ -238,7 +238,8 @@ class PathTracer {
   RayObserver observer_;
   bool allShadowRays_ = false;
   FunctionScratch functionScratch_;
-  // Scratch of addDirect, which never runs inside itself: shadow rays ask for no direct light.
+  // Scratch of addDirect, which never runs inside itself: shadow rays ask for no direct light. Behind what it
+  // has filled is what was there before.
   std::vector<SourceSample> samples_;
   std::vector<Contribution> contributions_;
   struct Ranked {
