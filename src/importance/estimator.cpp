@@ -24,13 +24,17 @@ constexpr double kUnevenShare = .6;
 constexpr size_t kRaysAModifier = 64, kRaysForContrast = 1024, kRaysForSurroundings = 256;
 constexpr int kRaysAPoint = 32;
 
-// Glances for each base direction. Each takes .2 to .5 us, a followed direction 5 to 100.
+// Glances for each base direction. Each takes .15 to .5 us, a followed direction 1 to 100.
 // Not more than kMostGlances where the base alone is not.
 constexpr size_t kGlances = 4, kMostGlances = 65536;
 
 // More directions than this times the base's density are not sent anywhere: the last factor of two in density
 // would be paid for by everything else.
 constexpr double kMostContrast = 200;
+
+// Share of the base directions' variance that an image of a source may add where it gets no directions of its
+// own; deviation within what is taken for the image, against its brightness.
+constexpr double kLeastGlint = 1e-3, kGlintDeviation = .5;
 
 // An additive sequence of two dimensions, as even as it can be (Roberts 2018, the plastic number).
 V3d evenly(size_t i, double shift1, double shift2) {
@@ -114,6 +118,7 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
     if (!spots->empty()) spots_ = std::move(spots);
   }
   measureContrasts();
+  glints_.emplace(transport, special_);
   std::vector<bool> unguessed = sources_.apart();
   for (const int32_t mirror : sources_.mirrors()) unguessed[static_cast<size_t>(mirror)] = true;
   guess_.emplace(transport, unguessed);
@@ -219,6 +224,7 @@ void SphereEstimator::sampleSet(const V3d& point, uint64_t set, Workspace& w) co
   if (guess_ && set > 0) w.turnedGlances = rotatedDirections(glances_, mixBits(seed));
   w.glances = set == 0 ? glances_ : w.turnedGlances;
   w.rest.clear();
+  w.places.clear();
   w.counted.assign(w.directions.size(), true);
   switch (options_.weights) {
     case Weights::homogeneous:
@@ -305,7 +311,7 @@ void SphereEstimator::lookAround(const V3d& point, uint64_t seed, Workspace& w) 
     const V3d direction(r * std::cos(angle), r * std::sin(angle), z);
     const Ray ray = w.tracer.trace(point, direction, 0, random.bits());
     if (sources_.shown(w.tracer, w.images)) continue;
-    w.traced.push_back({direction, ray.value});
+    w.traced.push_back({guess_->placeOf(point, direction, w.tracer.firstHit()), ray.value});
     w.around += brightness(ray.value) / kRaysAPoint;
   }
 }
@@ -316,6 +322,7 @@ void SphereEstimator::lookAround(const V3d& point, uint64_t seed, Workspace& w) 
 // is lost without trace.
 void SphereEstimator::chooseTargets(const V3d& point, size_t most, Workspace& w) const {
   w.targets.clear();
+  w.glints.clear();
   if (candidates_.empty() || most == 0) return;
   const Scene& scene = transport_.scene();
   const double usual = usualDeviation_ * w.around;
@@ -327,6 +334,16 @@ void SphereEstimator::chooseTargets(const V3d& point, size_t most, Workspace& w)
         std::min(usual > 0 ? candidate.deviation / usual : kMostContrast, kMostContrast) - 1;
     Workspace::Target target{silhouetteOf(scene, candidate.object, point), 0, 0};
     if (!(target.silhouette.regionSolidAngle() > 0)) continue;
+    target.density = contrast * baseDensity * options_.densityFactor;
+    target.expected = target.density * target.silhouette.regionSolidAngle();
+    sum += target.expected;
+    w.targets.push_back(std::move(target));
+  }
+  if (usual > 0) glints_->find(point, kLeastGlint * 4 * kPi * usual * usual, w.glints);
+  for (Glint& glint : w.glints) {
+    const double contrast = std::min(kGlintDeviation * glint.brightness / usual, kMostContrast) - 1;
+    if (!(contrast > 0)) continue;
+    Workspace::Target target{std::move(glint.region), 0, 0};
     target.density = contrast * baseDensity * options_.densityFactor;
     target.expected = target.density * target.silhouette.regionSolidAngle();
     sum += target.expected;
@@ -378,6 +395,7 @@ void SphereEstimator::sampleSilhouettes(const V3d& point, uint64_t seed, Workspa
     } else {
       total += solidAngle;
       w.rest.push_back(w.samples.size() - 1);
+      if (guess_) w.places.push_back(guess_->placeOf(point, d, w.tracer.firstHit()));
     }
   };
   const size_t firstBase = w.samples.size();
@@ -413,9 +431,10 @@ void SphereEstimator::glance(const V3d& point, uint64_t seed, Workspace& w) cons
   w.guesses.resize(w.samples.size(), Rgb(0, 0, 0));
   const auto local =
       guess_->fit(point, rotatedDirections(fitGlances_, mixBits(seed)), w.traced, mixBits(seed + 1));
-  for (const size_t i : w.rest) {
+  for (size_t k = 0; k < w.rest.size(); ++k) {
+    const size_t i = w.rest[k];
     const DirectionSample& s = w.samples[i];
-    w.guesses[i] = guess_->along(point, s.direction, local);
+    w.guesses[i] = guess_->from(w.places[k], local);
     w.excess.add(s.direction, w.guesses[i] * -s.solidAngle);
   }
   const double solidAngle = 4 * kPi / static_cast<double>(w.glances.size());

@@ -28,6 +28,7 @@
 #include "cli/options.h"
 #include "importance/direction_sample.h"
 #include "importance/error_estimate.h"
+#include "importance/glints.h"
 #include "importance/radiance_guess.h"
 #include "importance/seen_sources.h"
 #include "importance/silhouette.h"
@@ -83,10 +84,12 @@ class SphereEstimator {
     std::vector<RadianceGuess::Traced> traced;  // by rays that take no other part
     double around = 0;                          // mean brightness of these
     std::vector<Target> targets;
+    std::vector<Glint> glints;
     SilhouetteIndex index;  // of the targets, by their places there
     std::vector<SeenSources::Image> images;
     std::vector<SeenSources::Sample> sources;
     std::vector<size_t> rest;   // samples that showed no source that is integrated apart
+    std::vector<RadianceGuess::Place> places;  // what they hit, in the same order
     std::vector<bool> counted;  // which base directions are among them
     std::vector<size_t> runs;   // where each target's directions begin in samples
     Rgb variance{0, 0, 0};      // of the integral of radiance
@@ -133,6 +136,7 @@ class SphereEstimator {
     double deviation = 0;  // of the radiance on it, W/sr/m2
   };
   std::vector<Candidate> candidates_;
+  std::optional<Glints> glints_;
   std::optional<RadianceGuess> guess_;
   std::unique_ptr<const BrightSpots> spots_;  // null where light falls evenly
   std::vector<V3d> glances_, fitGlances_;

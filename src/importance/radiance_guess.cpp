@@ -79,7 +79,10 @@ RadianceGuess::RadianceGuess(const Transport& transport, const std::vector<bool>
 }
 
 RadianceGuess::Place RadianceGuess::placeAlong(const V3d& point, const V3d& direction) const {
-  const Hit hit = transport_.tracer().nearest(point, direction);
+  return placeOf(point, direction, transport_.tracer().nearest(point, direction));
+}
+
+RadianceGuess::Place RadianceGuess::placeOf(const V3d& point, const V3d& direction, const Hit& hit) const {
   if (hit.surface == kNone) return {};
   return {point + hit.distance * direction, hit.cosine < 0 ? -hit.normal : hit.normal,
           reflectance_[hit.surface]};
@@ -207,7 +210,7 @@ RadianceGuess::Local RadianceGuess::fit(const V3d& point, std::span<const V3d> g
   // The middle one rather than the mean: few directions by chance see what is very bright.
   std::vector<double> around[3];
   for (const Traced& t : traced) {
-    const Place at = placeAlong(point, t.direction);
+    const Place& at = t.place;
     if (!(brightness(at.reflectance) > 0)) continue;
     const Rgb rest = t.radiance - direct(at, local);
     for (int c = 0; c < 3; ++c)
@@ -229,7 +232,10 @@ Rgb RadianceGuess::direct(const Place& at, const Local& local) const {
 }
 
 Rgb RadianceGuess::along(const V3d& point, const V3d& direction, const Local& local) const {
-  const Place at = placeAlong(point, direction);
+  return from(placeAlong(point, direction), local);
+}
+
+Rgb RadianceGuess::from(const Place& at, const Local& local) const {
   if (!(brightness(at.reflectance) > 0)) return Rgb(0, 0, 0);
   return direct(at, local) + local.ambient * at.reflectance;
 }

@@ -32,11 +32,20 @@ class RadianceGuess {
     double bright = 0;     // what a source adds in brightness from which on shadow rays are asked, W/sr/m2
   };
 
-  // A direction that was traced, and the radiance from there.
+  // What a direction hits; reflectance 0: nothing that is guessed.
+  struct Place {
+    V3d point{0, 0, 0}, normal{0, 0, 1};
+    Rgb reflectance{0, 0, 0};
+  };
+
+  // What a direction that was traced hit, and the radiance from there.
   struct Traced {
-    V3d direction{0, 0, 1};
+    Place place;
     Rgb radiance{0, 0, 0};
   };
+
+  // Where Tracer::nearest found hit from a point (world) in a direction.
+  Place placeOf(const V3d& point, const V3d& direction, const Hit& hit) const;
 
   // Fits the guess to what is seen from a point (world). glances: even directions, about kFitGlances of them.
   // The mean stays unbiased where neither glances nor traced take part in what is summed.
@@ -44,16 +53,12 @@ class RadianceGuess {
             uint64_t seed) const;
 
   // Of the radiance from there, W/sr/m2. Depends on the arguments alone.
+  Rgb from(const Place& place, const Local& local) const;
   Rgb along(const V3d& point, const V3d& direction, const Local& local) const;
 
   static constexpr size_t kFitGlances = 128;
 
  private:
-  // What a direction hits; reflectance 0: nothing that is guessed.
-  struct Place {
-    V3d point{0, 0, 0}, normal{0, 0, 1};
-    Rgb reflectance{0, 0, 0};
-  };
   Place placeAlong(const V3d& point, const V3d& direction) const;
   double factor(uint32_t source, const Place& at) const;
   double sent(const Light& light, const Place& at) const;

@@ -10,8 +10,9 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// An image gets no more rays than this, and than its parts would have that are kSmallestPart wide.
-constexpr double kUsualRays = 16, kSmallestPart = .02;
+// An image gets no more rays than this, than its parts would have that are kSmallestPart wide, and than its
+// even share in kAlways of all rays.
+constexpr double kUsualRays = 16, kSmallestPart = .02, kAlways = .125;
 
 // Of n parts of a half hidden image those on the edge are uncertain: its error falls with n^-3/4, and rays
 // are best spread by light^.8.
@@ -154,7 +155,9 @@ void SeenSources::findImages(const V3d& point, size_t most, double mirrorFactor,
   for (const Image& image : images) sum += image.rays;
   for (size_t i = 0; i < images.size(); ++i) {
     Image& image = images[i];
-    const double enough = std::max(kUsualRays, image.solidAngle / (kSmallestPart * kSmallestPart));
+    const double enough =
+        std::max({kUsualRays, image.solidAngle / (kSmallestPart * kSmallestPart),
+                  kAlways * static_cast<double>(most) / static_cast<double>(images.size())});
     image.rays = std::min(image.rays / sum * static_cast<double>(most), enough);
     if (i < straight && straight <= most) image.rays = std::max(image.rays, 1.);
   }

@@ -266,4 +266,11 @@ Silhouette silhouetteOf(const Shape& shape, std::span<const V3d> vertices, const
   return s;
 }
 
+Silhouette hullOf(std::span<const V3d> around, const V3d& point) {
+  Silhouette s;
+  if (!s.setHull(around, point)) return {};
+  s.solidAngle_ = s.regionSolidAngle_;
+  return s;
+}
+
 }  // namespace rsphere

@@ -43,6 +43,7 @@ class Silhouette {
   Silhouette within(const Silhouette& other) const;
 
   friend Silhouette silhouetteOf(const Shape& shape, std::span<const V3d> vertices, const V3d& point);
+  friend Silhouette hullOf(std::span<const V3d> around, const V3d& point);
 
  private:
   void setCap(const V3d& axis, double versine);
@@ -66,6 +67,10 @@ inline constexpr double kWidestHull = 1.2;
 
 // The silhouette of a shape as seen from a point (world). vertices: Scene::vertices.
 Silhouette silhouetteOf(const Shape& shape, std::span<const V3d> vertices, const V3d& point);
+
+// The convex hull of places (world) as seen from a point: empty where they do not span one, or one wider than
+// kWidestHull.
+Silhouette hullOf(std::span<const V3d> around, const V3d& point);
 
 // Solid angle of a plane polygon, concave or with holes by a seam, as seen from a point, sr: 0 where the
 // point lies in its plane, or so near (1e-12 world units, or rounding of the coordinates) that no ray from

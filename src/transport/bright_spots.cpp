@@ -234,7 +234,8 @@ void BrightSpots::keep(const Spot& spot) {
 
 // Of a spot comes what it would send as a small flat surface with its normal. Those that the place lies in or
 // near to are left out.
-void BrightSpots::aim(const V3d& point, const V3d& front, Aim& aim) const {
+__attribute__((target_clones("avx2", "default"))) void BrightSpots::aim(const V3d& point, const V3d& front,
+                                                                        Aim& aim) const {
   const auto atX = static_cast<float>(point.x - origin_.x), atY = static_cast<float>(point.y - origin_.y),
              atZ = static_cast<float>(point.z - origin_.z);
   const auto frontX = static_cast<float>(front.x), frontY = static_cast<float>(front.y),
@@ -272,7 +273,8 @@ V3d BrightSpots::sample(const Aim& aim, double u1, double u2, double u3) const {
   return onDisk(axis, std::sqrt(versine * (2 - versine)), 2 * kPi * u3) + (1 - versine) * axis;
 }
 
-double BrightSpots::density(const Aim& aim, const V3d& direction) const {
+__attribute__((target_clones("avx2", "default"))) double BrightSpots::density(const Aim& aim,
+                                                                              const V3d& direction) const {
   const auto dx = static_cast<float>(direction.x), dy = static_cast<float>(direction.y),
              dz = static_cast<float>(direction.z);
   std::array<bool, kMost> in;

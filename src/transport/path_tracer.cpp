@@ -138,6 +138,7 @@ Ray PathTracer::trace(const V3d& origin, const V3d& direction, double farthest, 
   random_ = Random(seed);
   primaryDirection_ = direction;
   shown_ = {};
+  firstHit_ = {};
   Ray ray;
   ray.medium = t_.medium();
   ray.origin = origin;
@@ -211,6 +212,7 @@ void PathTracer::findHit(Ray& ray) {
   const Hit hit =
       t_.tracer().nearest(ray.origin, ray.direction, ray.farthest > kSamePlace ? ray.farthest : kFarAway,
                           ray.parent ? ray.parent->surface : kNone);
+  if (ray.depth == 0) firstHit_ = hit;
   ray.surface = hit.surface;
   ray.point = ray.origin;
   ray.normal = -ray.direction;

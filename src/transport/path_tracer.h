@@ -130,6 +130,9 @@ class PathTracer {
   };
   const Shown& shown() const { return shown_; }
 
+  // What the last primary ray met first, as Tracer::nearest tells it.
+  const Hit& firstHit() const { return firstHit_; }
+
   // From now on trace() shows every ray to the observer, descendants before their ancestors, the primary ray
   // last (but not under -I, where it meets nothing); Ray::depth counts its ancestors. Shadow rays are shown
   // where they meet something that might let light pass, and all that meet something if allShadowRays. No
@@ -235,6 +238,7 @@ class PathTracer {
   Random random_{0};
   V3d primaryDirection_{0, 0, 1};
   Shown shown_;
+  Hit firstHit_;
   RayObserver observer_;
   bool allShadowRays_ = false;
   FunctionScratch functionScratch_;

@@ -1,0 +1,200 @@
+#include "importance/glints.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rsphere {
+namespace {
+
+// Of dielectrics, where they are met straight on.
+constexpr double kFresnel = .04;
+
+// Rougher ones spread an image of a source wider than it is.
+constexpr double kSmooth = .005;
+
+// Steps of regula falsi to where an image is, and the share of its angle that is exact enough.
+constexpr int kSteps = 20;
+constexpr double kExact = 1e-4;
+
+// What is seen wider than this from a ball, half of it against the distance, is divided, since its image is
+// curved; at most so often along each side.
+constexpr double kPart = .12, kMostParts = 16;
+
+// Polygons of more corners than this are taken for disks.
+constexpr size_t kMostCorners = 16;
+
+// How much wider than the source its edge is taken for; and where it is asked, against the way to the
+// corners, whether a part shines.
+constexpr double kWider = 1.1, kAside = .6;
+
+double reflectanceOf(const Material& material) {
+  if (const auto* m = std::get_if<Opaque>(&material))
+    return m->roughness <= kSmooth ? m->specularity * (m->metal ? brightness(m->color) : 1) : 0;
+  if (const auto* m = std::get_if<Mirror>(&material)) return brightness(m->reflectance);
+  const bool dielectric = std::holds_alternative<Dielectric>(material) ||
+                          std::holds_alternative<Interface>(material) ||
+                          std::holds_alternative<Glass>(material);
+  return dielectric ? kFresnel : 0;
+}
+
+// Where a sphere mirrors one place to another, as a normal of it: in the plane of both and the center, where
+// it halves the angle between them. to: a place, or a direction (unit) where distant.
+V3d mirrors(const Sphere& ball, const V3d& point, const V3d& to, bool distant) {
+  const V3d fromCenter = point - ball.center, a = fromCenter.normalized();
+  const V3d b = distant ? to : (to - ball.center).normalized(), across = b - a.dot(b) * a;
+  if (!(across.length2() > 1e-20)) return a;
+  const V3d side = across.normalized();
+  const double between = std::atan2(side.dot(b), a.dot(b));
+  const double away = fromCenter.length() / ball.radius,
+               inverse = distant ? 0 : ball.radius / (to - ball.center).length();
+  // Of the normal at an angle from a: the sine of how much farther it is from the one place than from the
+  // other, times what does not change its sign.
+  const auto excess = [&](double angle) {
+    const double rest = between - angle;
+    const double inX = std::cos(angle) * away - 1, inY = std::sin(angle) * away;
+    const double outX = std::cos(rest) - inverse, outY = std::sin(rest);
+    return inY * outX - inX * outY;
+  };
+  double low = 0, high = between, atLow = excess(low), atHigh = excess(high), angle = between / 2;
+  int last = 0;
+  for (int step = 0; step < kSteps && high - low > kExact * between; ++step) {
+    angle = atLow < 0 && atHigh > 0 ? (low * atHigh - high * atLow) / (atHigh - atLow) : (low + high) / 2;
+    const double at = excess(angle);
+    if (std::abs(at) <= kExact * kExact * (atHigh - atLow)) break;
+    // The Illinois rule: an end that stays counts half.
+    if (at < 0) {
+      low = angle;
+      atLow = at;
+      if (last < 0) atHigh /= 2;
+      last = -1;
+    } else {
+      high = angle;
+      atHigh = at;
+      if (last > 0) atLow /= 2;
+      last = 1;
+    }
+  }
+  return std::cos(angle) * a + std::sin(angle) * side;
+}
+
+// A source as seen from a ball, in parts whose images are not much curved: places, or directions (unit) where
+// it is distant.
+struct Part {
+  V3d middle;
+  std::vector<V3d> corners;
+};
+
+std::vector<Part> partsOf(const Scene& scene, const LightSource& source, const Sphere& ball) {
+  const auto* polygon = std::get_if<Polygon>(&scene.surfaces[source.surface].shape);
+  if (polygon && source.map != LightSource::Map::parallelogram && polygon->vertices <= kMostCorners) {
+    const auto first = scene.vertices.begin() + polygon->firstVertex;
+    return {{source.center, std::vector<V3d>(first, first + polygon->vertices)}};
+  }
+  const V3d away = source.distant ? source.center : source.center - ball.center;
+  const double distance = std::max(away.length() - ball.radius, kSamePlace);
+  V3d u = source.u, v = source.v;
+  if (source.map == LightSource::Map::tube) {
+    v = u.cross(away).normalized() * (source.area / (4 * u.length()));
+  } else if (!source.isPlane() || (polygon && source.map != LightSource::Map::parallelogram)) {
+    frame(polygon ? source.normal : away.normalized(), u, v);
+    const double radius = source.distant ? source.sinHalfAngle : source.radius;
+    u *= radius;
+    v *= radius;
+  }
+  const auto divided = [&](const V3d& half) {
+    return source.distant
+               ? 1
+               : static_cast<int>(std::min(std::ceil(half.length() / (kPart * distance)), kMostParts));
+  };
+  const int columns = divided(u), rows = divided(v);
+  u /= columns;
+  v /= rows;
+  std::vector<Part> parts;
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      const double alongU = 2 * column + 1 - columns, alongV = 2 * row + 1 - rows;
+      Part part{source.center + alongU * u + alongV * v, {}};
+      for (const auto& [x, y] :
+           {std::pair(1., 1.), std::pair(-1., 1.), std::pair(-1., -1.), std::pair(1., -1.)}) {
+        const V3d corner = part.middle + x * u + y * v;
+        part.corners.push_back(source.distant ? corner.normalized() : corner);
+      }
+      parts.push_back(std::move(part));
+    }
+  return parts;
+}
+
+}  // namespace
+
+Glints::Glints(const Transport& transport, std::span<const SpecialObject> objects) : transport_(transport) {
+  const Scene& scene = transport.scene();
+  for (const SpecialObject& object : objects) {
+    const auto* sphere = std::get_if<Sphere>(&shapeOf(scene, object));
+    const Surface& surface = scene.surfaces[object.surface];
+    if (!sphere || object.several || !std::holds_alternative<Sphere>(surface.shape)) continue;
+    const Material* material = scene.materialOf(surface);
+    const double reflectance = material ? reflectanceOf(*material) : 0;
+    if (reflectance > 0) balls_.push_back({*sphere, reflectance});
+  }
+  const auto all = transport.lights().all();
+  for (uint32_t i = 0; i < all.size(); ++i) {
+    if (all[i].isVirtual()) continue;
+    const Surface& surface = scene.surfaces[all[i].surface];
+    const Material* material = scene.materialOf(surface);
+    const auto radiance = surface.goal ? Rgb(1, 1, 1) : material ? sourceRadiance(*material) : std::nullopt;
+    if (radiance && brightness(*radiance) > 0) lights_.push_back({i, brightness(*radiance)});
+  }
+}
+
+// Whether the source shines from some of five places of a part to a place.
+bool Glints::shines(const LightSource& source, std::span<const V3d> corners, const V3d& middle,
+                    const V3d& at) const {
+  const auto seen = [&](const V3d& place) {
+    const V3d direction = source.distant ? place : place - at;
+    const double far = source.distant ? kFarAway : direction.length();
+    return transport_.tracer().shadow(at, direction.normalized(), far, source.surface) != Shadow::blocked;
+  };
+  return seen(middle) || std::any_of(corners.begin(), corners.end(), [&](const V3d& corner) {
+           return seen(middle + kAside * (corner - middle));
+         });
+}
+
+void Glints::find(const V3d& point, double least, std::vector<Glint>& found) const {
+  found.clear();
+  std::vector<V3d> around;
+  for (const auto& [ball, reflectance] : balls_) {
+    const double nearest = (point - ball.center).length() - ball.radius;
+    if (!(nearest > 1e-4 * ball.radius)) continue;
+    for (const Light& light : lights_) {
+      const LightSource& source = transport_.lights().all()[light.source];
+      const double distance =
+          source.distant ? kFarAway : (source.center - ball.center).length() - ball.radius;
+      if (!(distance > 0) || (source.reach > 0 && distance - source.radius > source.reach)) continue;
+      // An image is half as wide, at most, as the source is seen from the ball.
+      const double sine = source.distant ? source.sinHalfAngle : std::min(1., source.radius / distance);
+      const double halfWidth = ball.radius * sine / nearest, radiance = light.brightness * reflectance;
+      if (!(radiance * radiance * 4 * halfWidth * halfWidth > least)) continue;
+      for (const Part& part : partsOf(transport_.scene(), source, ball)) {
+        const V3d normal = mirrors(ball, point, part.middle, source.distant);
+        const V3d at = ball.center + (ball.radius + 2 * kSamePlace) * normal, in = point - at;
+        const V3d out = source.distant ? source.center : (part.middle - at).normalized();
+        if (!(normal.dot(in) > 0) || (source.isPlane() && source.normal.dot(out) >= 0)) continue;
+        if (source.spot && outsideSpot(*source.spot, out)) continue;
+        if (transport_.tracer().shadow(at, in.normalized(), in.length(), kNone) == Shadow::blocked) continue;
+        if (!shines(source, part.corners, part.middle, at)) continue;
+        around.clear();
+        for (size_t i = 0; i < part.corners.size(); ++i) {
+          const V3d corner = part.corners[i], next = part.corners[(i + 1) % part.corners.size()];
+          for (const double share : {0., .5}) {
+            const V3d place = part.middle + kWider * (corner + share * (next - corner) - part.middle);
+            around.push_back(ball.center + ball.radius * mirrors(ball, point, place, source.distant));
+          }
+        }
+        Silhouette region = hullOf(around, point);
+        if (region.regionSolidAngle() > 0) found.push_back({std::move(region), radiance});
+      }
+    }
+  }
+}
+
+}  // namespace rsphere
