@@ -114,9 +114,39 @@ void RecordReader::malformed(std::string_view word) const {
                                counted(perRecord_), shown(word)));
 }
 
+// What most text is, once the first line is behind: the records at hand that are all plain numbers. Stops
+// before the first that is not.
+size_t RecordReader::readPlain(std::vector<double>& numbers, size_t most) {
+  const char* at = block_.data() + begin_;
+  const char* const stop = block_.data() + end_;
+  uint64_t line = line_;
+  for (size_t count = 0;; ++count) {
+    begin_ = static_cast<size_t>(at - block_.data());
+    line_ = line;
+    if (count == most) return count;
+    std::array<double, kMostNumbers> record;
+    uint64_t numberLine = line;
+    for (int i = 0; i < perRecord_; ++i) {
+      for (; at < stop && isSpace(*at); ++at) line += *at == '\n';
+      const char* const digits = at + (at < stop && *at == '-');
+      if (digits == stop || !startsNumber(*digits)) return count;
+      const auto [end, error] = rad::readReal(at, stop, record[i]);
+      if (error != std::errc() || end == stop || !isSpace(*end)) return count;
+      numberLine = line;
+      at = end;
+    }
+    lastNumberLine_ = numberLine;
+    numbers.insert(numbers.end(), record.begin(), record.begin() + perRecord_);
+  }
+}
+
 size_t RecordReader::readText(std::vector<double>& numbers, size_t most) {
   size_t count = 0;
   while (count < most) {
+    if (partialCount_ == 0 && firstLine_) {
+      count += readPlain(numbers, most - count);
+      if (count == most) break;
+    }
     const char* at = block_.data() + begin_;
     const char* const stop = block_.data() + end_;
     for (; at < stop && isSpace(*at); ++at)

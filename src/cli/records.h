@@ -62,6 +62,7 @@ class RecordReader {
 
  private:
   size_t readText(std::vector<double>& numbers, size_t most);
+  size_t readPlain(std::vector<double>& numbers, size_t most);
   size_t readBinary(std::vector<double>& numbers, size_t most);
   bool refill();
   void newLine();

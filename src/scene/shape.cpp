@@ -1,7 +1,10 @@
 #include "scene/shape.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 namespace rsphere {
 namespace {
@@ -81,17 +84,20 @@ bool inside(const Polygon& polygon, std::span<const V3d> all, const V3d& point, 
   const auto vertices = all.subspan(polygon.firstVertex, polygon.vertices);
   // Enough for every edge whose box the point is in.
   const double near = onEdge(tolerance, polygon.extent + 4 * tolerance);
-  bool odd = false, close = false;
-  double x0 = vertices.back()[xi] - x, y0 = vertices.back()[yi] - y;
+  // Signs as bits: of the way from a vertex to the point, so that there is none where they are equal.
+  const auto sign = [](double v) { return std::bit_cast<uint64_t>(v); };
+  uint64_t odd = 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  double x0 = x - vertices.back()[xi], y0 = y - vertices.back()[yi];
   for (const V3d& to : vertices) {
-    const double x1 = to[xi] - x, y1 = to[yi] - y;
-    const double cross = x0 * y1 - x1 * y0;
-    close |= std::abs(cross) <= near;
-    odd ^= ((y0 > 0) != (y1 > 0)) & ((cross > 0) == (y1 > 0));
+    const double x1 = x - to[xi], y1 = y - to[yi];
+    const double cross = x1 * y0 - x0 * y1;
+    nearest = std::min(nearest, std::abs(cross));
+    odd ^= (sign(y0) ^ sign(y1)) & ~(sign(cross) ^ sign(y1));
     x0 = x1;
     y0 = y1;
   }
-  return close ? insideClosely(vertices, xi, yi, x, y, tolerance) : odd;
+  return nearest <= near ? insideClosely(vertices, xi, yi, x, y, tolerance) : odd >> 63 != 0;
 }
 
 bool meetsInside(const Polygon& polygon, std::span<const V3d> vertices, const V3d& origin,

@@ -18,6 +18,7 @@ struct Occluder {
   bool hasMaterial = false;
   bool transparent = false;
   bool opaqueFront = false, opaqueBack = false;  // surely lets no shadow ray pass when hit there
+  bool plane = false;
 };
 
 bool stopsFromBehind(const Material& material) {
@@ -49,6 +50,7 @@ Occluder makeOccluder(const Scene& scene, uint32_t i, bool backFacesVisible) {
   Occluder o;
   o.surface = i;
   o.modifier = scene.description.primitives[surface.primitive].modifier;
+  o.plane = planeNormal(surface.shape) != nullptr;
   if (surface.material == kNone) return o;
   o.hasMaterial = true;
   const Material* material = scene.materialOf(surface);
@@ -100,7 +102,8 @@ struct Query {
   int32_t source = kNone;
   const Occluder* standIn = nullptr;  // shadow(): what stands for the contents of the tree
   bool passable = false;              // shadow(): something was hit that may let light pass
-  // The tree's primitives that the ray begins on, and that it goes to: what it cannot meet in between.
+  // The tree's primitives that the ray begins on, which it cannot meet again where that is plane, and that it
+  // goes to.
   uint32_t from = Tracer::kNoBlocker, target = Tracer::kNoBlocker;
   uint32_t blocker = 0;  // shadow(): the tree's primitive that stopped the ray
 
@@ -250,12 +253,13 @@ class Tracer::Tree {
     if (!tree_) return false;
     const V3d m = query.origin - center_;
     query.start = 0;
+    V3d begin = m;
     if (m.length2() > 4 * radius_ * radius_) {
       const double b = m.dot(query.direction);
       if (b > 0 || (m - b * query.direction).length() > radius_) return false;
       query.start = std::max(-b - radius_, 0.);
+      begin += query.start * query.direction;
     }
-    const V3d begin = m + query.start * query.direction;
     ray.org_x = static_cast<float>(begin.x);
     ray.org_y = static_cast<float>(begin.y);
     ray.org_z = static_cast<float>(begin.z);
@@ -280,7 +284,7 @@ class Tracer::Tree {
     if (!arguments->valid[0]) return;
     const auto& self = *static_cast<const Tree*>(arguments->geometryUserPtr);
     auto& query = *reinterpret_cast<Query*>(arguments->context);
-    if (arguments->primID == query.from || !(self.*meet)(query, arguments->primID)) return;
+    if (self.isBegin(query, arguments->primID) || !(self.*meet)(query, arguments->primID)) return;
     auto& rayHit = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
     rayHit.ray.tfar = std::min(rayHit.ray.tfar, roundUp(query.reach() - query.start + self.padding_));
     rayHit.hit.geomID = arguments->geomID;
@@ -291,11 +295,15 @@ class Tracer::Tree {
     if (!arguments->valid[0]) return;
     const auto& self = *static_cast<const Tree*>(arguments->geometryUserPtr);
     auto& query = *reinterpret_cast<Query*>(arguments->context);
-    if (arguments->primID == query.from || arguments->primID == query.target ||
+    if (self.isBegin(query, arguments->primID) || arguments->primID == query.target ||
         !(self.*cross)(query, arguments->primID))
       return;
     query.blocker = arguments->primID;
     reinterpret_cast<RTCRay*>(arguments->ray)->tfar = -std::numeric_limits<float>::infinity();
+  }
+
+  bool isBegin(const Query& query, uint32_t primitive) const {
+    return primitive == query.from && occluders_[primitive].plane;
   }
 
   bool meets(const Query& query, const auto& shape, ShapeHit& hit) const {
@@ -478,14 +486,6 @@ size_t Tracer::primitives() const {
   return sum;
 }
 
-// The primitive of the world's tree that a plane surface is.
-uint32_t Tracer::planePrimitive(int32_t surface) const {
-  if (surface == kNone || static_cast<size_t>(surface) >= scene_.outermost().size() ||
-      !planeNormal(scene_.surfaces[surface].shape))
-    return kNoBlocker;
-  return static_cast<uint32_t>(surface);
-}
-
 Hit Tracer::nearest(const V3d& origin, const V3d& direction, double farthest, int32_t from) const {
   Hit result;
   if (embree_->groups.empty()) return result;
@@ -493,7 +493,7 @@ Hit Tracer::nearest(const V3d& origin, const V3d& direction, double farthest, in
   query.origin = origin;
   query.direction = direction;
   query.farthest = farthest;
-  query.from = planePrimitive(from);
+  query.from = static_cast<uint32_t>(from);  // as the world's tree has it
   embree_->groups[0]->nearest(query);
   const Found& found = query.best;
   if (!found.occluder) return result;
@@ -525,7 +525,7 @@ Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, 
   query.direction = direction;
   query.farthest = distance;
   query.source = source;
-  query.from = planePrimitive(from);
+  query.from = static_cast<uint32_t>(from);  // as the world's tree has it
   if (source != kNone) {
     query.target = static_cast<uint32_t>(source);
     // The front is what shines; the tie with whatever lies on the source is decided for that side.

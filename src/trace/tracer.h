@@ -78,7 +78,6 @@ class Tracer {
  private:
   class Tree;
   struct Embree;
-  uint32_t planePrimitive(int32_t surface) const;
 
   const Scene& scene_;
   std::unique_ptr<Embree> embree_;

@@ -9,8 +9,9 @@ AnswerRecord answerRays(const Transport& transport, const Options& options, cons
                         const rad::Warn& warn) {
   auto tracers = std::make_shared<std::vector<PathTracer>>(threadCount(options), PathTracer(transport));
   const bool trees = !options.treeOutputs.empty(), value = trees || needsValue(options.outputs);
+  const bool valueAlone = options.outputs == "v";
   if (value && transport.isDark()) warn("no light sources found");
-  return [&, tracers, trees, value](const Record& record, unsigned worker, std::string& bytes) {
+  return [&, tracers, trees, value, valueAlone](const Record& record, unsigned worker, std::string& bytes) {
     const InputRay in = inputRay(record.numbers.data(), options.irradiance);
     if (record.bogus) return writer.write(bytes, bogusAnswer(in), record.index);
     PathTracer& tracer = (*tracers)[worker];
@@ -21,7 +22,10 @@ AnswerRecord answerRays(const Transport& transport, const Options& options, cons
     const double farthest = options.limitDistance ? in.length : 0;
     const Ray ray = value ? tracer.trace(in.origin, in.direction, farthest, seedOf(record.numbers))
                           : tracer.cast(in.origin, in.direction, farthest);
-    writer.write(bytes, answerOf(transport.scene(), ray), record.index);
+    if (!valueAlone) return writer.write(bytes, answerOf(transport.scene(), ray), record.index);
+    RayAnswer answer;
+    answer.value = ray.value;
+    writer.write(bytes, answer, record.index);
   };
 }
 
