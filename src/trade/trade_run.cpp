@@ -74,6 +74,11 @@ Setting Trade::settingOf(std::span<const std::string> words) const {
     if (entry.group == Group::sphere && entry.name != "-Ss" && entry.name != "-Sb") continue;
     for (const std::string& word : option.words) setting.rays += word + ' ';
   }
+  // One scene is read, for all of them.
+  if (options.scene != options_.scene)
+    throw rad::Error(fmt::format("\"{}\" is no option", options.scene.front()));
+  if (options.sphere.goals != options_.sphere.goals)
+    throw rad::Error("-Sg holds for all settings: give it once");
   setting.options = options;
   setting.options.sphere.everyDirection = false;  // would only cost time
   return setting;
@@ -176,7 +181,15 @@ void Trade::run() {
   const double accuracy = options_.sphere.accuracy > 0 ? options_.sphere.accuracy : kUsualAccuracy;
   std::vector<std::vector<std::string>> settings = ladder(options_);
   std::vector<Setting> parsed;
-  for (const auto& words : settings) parsed.push_back(settingOf(words));
+  for (const auto& words : settings) {
+    try {
+      parsed.push_back(settingOf(words));
+    } catch (const rad::Error& error) {
+      if (options_.ladder.empty()) throw;
+      throw rad::Error(fmt::format("{}: {}: {}", options_.ladder, fmt::join(words, " "), error.what()),
+                       error.status());
+    }
+  }
   const std::vector<double> points =
       chosenPoints(readRecords(options_.scene.back(), options_), options_.mostPoints);
 
