@@ -449,7 +449,7 @@ struct Tracer::Embree {
 };
 
 Tracer::Tracer(const Scene& scene, bool backFacesVisible)
-    : scene_(scene), embree_(std::make_unique<Embree>()) {
+    : scene_(scene), backFacesVisible_(backFacesVisible), embree_(std::make_unique<Embree>()) {
   Embree& e = *embree_;
   const auto fail = [] { throw rad::Error("cannot build the ray tracing tree", rad::Status::system); };
   size_t primitives = scene.surfaces.size();
@@ -514,6 +514,11 @@ Hit Tracer::nearest(const V3d& origin, const V3d& direction, double farthest, in
     smooth = scene_.placements[found.path.placements[i]].directionToOuter(smooth);
   result.perturbation = smooth - result.normal;
   return result;
+}
+
+bool Tracer::stopsShadows(int32_t surface, bool front) const {
+  const Occluder o = makeOccluder(scene_, static_cast<uint32_t>(surface), backFacesVisible_);
+  return front ? o.opaqueFront : o.opaqueBack;
 }
 
 Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, int32_t source,

@@ -69,6 +69,10 @@ class Tracer {
                 uint32_t* blocker = nullptr, int32_t from = kNone) const;
   static constexpr uint32_t kNoBlocker = ~0u;
 
+  // Whether a surface stops every shadow ray that meets its front, or its back. Other rays may get through
+  // all the same: through prisms, and through the backs of light sources where they are not seen (-bv).
+  bool stopsShadows(int32_t surface, bool front) const;
+
   // What there is to hit, each octree and mesh counted once.
   size_t primitives() const;
 
@@ -80,6 +84,7 @@ class Tracer {
   struct Embree;
 
   const Scene& scene_;
+  bool backFacesVisible_;
   std::unique_ptr<Embree> embree_;
   Box3d bounds_;
 };

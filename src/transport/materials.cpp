@@ -195,8 +195,13 @@ void PathTracer::emit(Ray& ray, const Rgb& radiance, const Glow* glow, int32_t b
   if (isStraight(ray)) shown_ = {ray.surface, ray.mirror};
 }
 
-// Whether a ray goes where the primary ray went, but for what mirrored it.
+// Whether a ray goes where the primary ray went, but for what mirrored it, and through nothing that stops
+// shadow rays: those that are sent to the source have to find it, too.
 bool PathTracer::isStraight(const Ray& ray) const {
+  for (const Ray* before = ray.parent; before; before = before->parent)
+    if (before->surface != kNone && before->surface != ray.mirror &&
+        t_.tracer().stopsShadows(before->surface, before->cosine > 0))
+      return false;
   V3d direction = primaryDirection_;
   if (ray.mirror != kNone) {
     const V3d& normal = *planeNormal(t_.scene().surfaces[ray.mirror].shape);

@@ -120,8 +120,8 @@ class PathTracer {
   // ray where nothing that could let light pass is in between. Whether it shows the source: shown().
   Ray traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed);
 
-  // The light source whose own light the last primary ray showed, at its end or straight on through panes,
-  // mirrored once by something flat or not at all. Of several the one that was not mirrored, or else the
+  // The light source whose own light the last primary ray showed, at its end or straight on through panes
+  // that shadow rays pass as well, mirrored once by something flat or not at all. Of several the one that was not mirrored, or else the
   // first.
   struct Shown {
     int32_t source = kNone;  // index in Scene::surfaces; kNone: none was shown

@@ -65,6 +65,28 @@ TEST(SeenSources, SphereAndItsImageInAMirror) {
   EXPECT_NEAR(setting.apart(point) / exact, 1, 1e-9);
 }
 
+// What shadow rays do not pass and others do: nothing is sent to the lamp behind it, and it counts where
+// directions meet it.
+TEST(SeenSources, SphereBehindAPrismThatTurnsNothing) {
+  const Setting setting(
+      "void prism1 film 5 .6 Dx Dy Dz . 0 0\nfilm bubble b 0 0 4 0 0 3 1\nlamp sphere l 0 0 4 0 0 3 .5\n");
+  const double exact = 100 * .6 * capOf(.5, 3) / (4 * kPi);
+  Sample found;
+  for (uint64_t rotation = 0; rotation < 8; ++rotation)
+    found.add(setting.apart(V3d(0, 0, 0), 4096, rotation));
+  expectMean(found, exact, .5);
+}
+
+TEST(SeenSources, SphereBehindABackThatIsNotSeen) {
+  Setting setting("lamp polygon back 0 0 12 -2 -2 1 2 -2 1 2 2 1 -2 2 1\nlamp sphere l 0 0 4 0 0 3 .5\n");
+  setting.options.ray.backFacesVisible = false;
+  setting.transport = std::make_unique<Transport>(setting.scene, setting.options.ray, Irradiance::none);
+  Sample found;
+  for (uint64_t rotation = 0; rotation < 8; ++rotation)
+    found.add(setting.apart(V3d(0, 0, 0), 4096, rotation));
+  expectMean(found, 100 * capOf(.5, 3) / (4 * kPi), .5);
+}
+
 // Half of the lamp's image lies beyond the mirror's edge, y = 1 as seen from this point.
 TEST(SeenSources, ImageCutByTheMirrorsEdge) {
   const Setting setting(
