@@ -44,22 +44,30 @@ V3d mirrors(const Sphere& ball, const V3d& point, const V3d& to, bool distant) {
   const V3d b = distant ? to : (to - ball.center).normalized(), across = b - a.dot(b) * a;
   if (!(across.length2() > 1e-20)) return a;
   const V3d side = across.normalized();
-  const double between = std::atan2(side.dot(b), a.dot(b));
+  // An angle from a, as its cosine and sine: those of differences cost no more functions.
+  struct Turn {
+    double cosine, sine;
+  };
+  const Turn whole{a.dot(b), side.dot(b)};
+  const double between = std::atan2(whole.sine, whole.cosine);
   const double away = fromCenter.length() / ball.radius,
                inverse = distant ? 0 : ball.radius / (to - ball.center).length();
   // Of the normal at an angle from a: the sine of how much farther it is from the one place than from the
   // other, times what does not change its sign.
-  const auto excess = [&](double angle) {
-    const double rest = between - angle;
-    const double inX = std::cos(angle) * away - 1, inY = std::sin(angle) * away;
-    const double outX = std::cos(rest) - inverse, outY = std::sin(rest);
+  const auto excess = [&](const Turn& turn) {
+    const double inX = turn.cosine * away - 1, inY = turn.sine * away;
+    const double outX = whole.cosine * turn.cosine + whole.sine * turn.sine - inverse,
+                 outY = whole.sine * turn.cosine - whole.cosine * turn.sine;
     return inY * outX - inX * outY;
   };
-  double low = 0, high = between, atLow = excess(low), atHigh = excess(high), angle = between / 2;
+  Turn turn{1, 0};
+  double low = 0, high = between, atLow = excess(turn), atHigh = excess(whole);
   int last = 0;
-  for (int step = 0; step < kSteps && high - low > kExact * between; ++step) {
-    angle = atLow < 0 && atHigh > 0 ? (low * atHigh - high * atLow) / (atHigh - atLow) : (low + high) / 2;
-    const double at = excess(angle);
+  for (int step = 0; step < kSteps && (step == 0 || high - low > kExact * between); ++step) {
+    const double angle =
+        atLow < 0 && atHigh > 0 ? (low * atHigh - high * atLow) / (atHigh - atLow) : (low + high) / 2;
+    turn = {std::cos(angle), std::sin(angle)};
+    const double at = excess(turn);
     if (std::abs(at) <= kExact * kExact * (atHigh - atLow)) break;
     // The Illinois rule: an end that stays counts half.
     if (at < 0) {
@@ -74,7 +82,7 @@ V3d mirrors(const Sphere& ball, const V3d& point, const V3d& to, bool distant) {
       last = 1;
     }
   }
-  return std::cos(angle) * a + std::sin(angle) * side;
+  return turn.cosine * a + turn.sine * side;
 }
 
 // A source as seen from a ball, in parts whose images are not much curved: places, or directions (unit) where

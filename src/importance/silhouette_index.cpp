@@ -49,15 +49,19 @@ void SilhouetteIndex::clear() {
 
 void SilhouetteIndex::add(uint32_t number, const Silhouette& silhouette) {
   static const auto kCells = cellsOf<kSide>();
+  static const auto kFaces = cellsOf<1>();
   constexpr double kRounding = 1e-6;  // of a cosine: far more than what a direction or a cap is off by
   const auto [axis, angle] = silhouette.surroundingCap();
   const double cosine = std::cos(angle), sine = std::sin(angle);
-  for (size_t i = 0; i < cells_.size(); ++i) {
-    const Cell& cell = kCells[i];
-    // Nearer to one another than the sum of both angles.
-    if (angle + cell.radius >= M_PI ||
-        axis.dot(cell.middle) >= cosine * cell.cosine - sine * cell.sine - kRounding)
-      cells_[i].push_back(number);
+  // Nearer to one another than the sum of both angles.
+  const auto reaches = [&, axis = axis, angle = angle](const Cell& cell) {
+    return angle + cell.radius >= M_PI ||
+           axis.dot(cell.middle) >= cosine * cell.cosine - sine * cell.sine - kRounding;
+  };
+  for (size_t face = 0; face < kFaces.size(); ++face) {
+    if (!reaches(kFaces[face])) continue;
+    for (size_t i = face * kSide * kSide; i < (face + 1) * kSide * kSide; ++i)
+      if (reaches(kCells[i])) cells_[i].push_back(number);
   }
 }
 
