@@ -488,12 +488,12 @@ std::vector<OptionEntry> makeTable() {
        .paragraph =
            "Error that interpolation of indirect light may bring, as a share of it; 0: none, it is computed "
            "anew at every point. It is interpolated between places that the scene and the options fix, "
-           "closer "
-           "to each other where the light changes: thus an answer depends neither on those before it nor on "
-           "-n. Outsides of curved surfaces have such places, too; their insides, meshes and surfaces "
-           "smaller "
-           "than -ar resolves have none, and what goes through a medium or antimatter gets none. Beyond the "
-           "first diffuse surface of a path one direction tells, whatever -aa is."});
+           "closer to each other where the light changes: thus an answer depends neither on those before it "
+           "nor on -n. Outsides of curved surfaces have such places, too; their insides, meshes and surfaces "
+           "smaller than -ar resolves have none, and what goes through a medium or antimatter gets none. At "
+           "the second diffuse surface of a path it comes from places farther apart, a quarter of the rays "
+           "each; beyond it, and where surfaces are small, one direction tells. In sphere mode it is off "
+           "(-aa 0): see there."});
   add({.name = "-ar",
        .arguments = "res",
        .group = Group::indirect,

@@ -1,6 +1,7 @@
 // Indirect light from the field of interpolation (-aa).
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "transport/irradiance_field.h"
 #include "transport/path_tracer.h"
@@ -15,12 +16,13 @@ constexpr double kLeastUpright = .7;
 // The height over the plane of the rays that look for what stands around a site, as the tangent.
 constexpr double kSurveyHeights[] = {.09, .36};
 
-// Two rings of eight.
-constexpr int kReachRays = 16;
+// Two rings of four.
+constexpr int kReachRays = 8;
 
 // A site has as many divisions at least, or else what -ad asks for; and at most this many times -ad of
 // super-samples: -as has a default that is meant for more.
 constexpr int kLeastRays = 48, kMoreRays = 4;
+constexpr double kLeastOfSecond = 64;  // their chance is what all sites around have in common
 
 }  // namespace
 
@@ -31,9 +33,8 @@ bool PathTracer::addInterpolated(Ray& ray, const V3d& normal, const V3d& trueNor
   if (ray.mist || ray.clips || ray.clipsBeyond || ray.scatterers.count ||
       ray.medium.extinction != t_.medium().extinction)
     return false;
-  // Beyond the first diffuse surface one path tells: what it has of chance is averaged at the site, and
-  // values all over the scene would cost more than they save.
-  if (ray.ambientLevel > 0) return false;
+  // Beyond the second diffuse surface one path tells.
+  if (ray.ambientLevel > 1) return false;
   if (normal.dot(trueNormal) < kLeastUpright) return false;
   FieldPlace place;
   place.point = ray.point;
@@ -44,8 +45,8 @@ bool PathTracer::addInterpolated(Ray& ray, const V3d& normal, const V3d& trueNor
     PathTracer& tracer;
     int depth;
     Looker(PathTracer& t, int d) : tracer(t), depth(d) {}
-    GatheredLight gather(const GatherSite& site, double share, uint64_t seed) override {
-      return tracer.gather(site, share, seed, depth);
+    GatheredLight gather(const GatherSite& site, LightOf of, double share, uint64_t seed) override {
+      return tracer.gather(site, of, share, seed, depth);
     }
     double reach(const GatherSite& site, double nearest) override { return tracer.reach(site, nearest); }
     Surroundings survey(const GatherSite& site, double farthest) override {
@@ -58,6 +59,12 @@ bool PathTracer::addInterpolated(Ray& ray, const V3d& normal, const V3d& trueNor
              tracer.t_.tracer().nearest(from, way / length, length).surface == kNone;
     }
   } looker(*this, ray.depth);
+  if (ray.ambientLevel == 1) {
+    V3f mean;
+    if (!field.findSecond(place, looker, mean)) return false;
+    for (int c = 0; c < 3; ++c) ray.value[c] += coefficient[c] * mean[c];
+    return true;
+  }
   GatheredLight light;
   if (!field.find(place, looker, light)) return false;
   const double upright = normal.dot(trueNormal);
@@ -107,9 +114,10 @@ double PathTracer::reach(const GatherSite& site, double nearest) {
 }
 
 // What a site of the field gets. depth: of the ray that asks; nothing but the limit of nesting depends on it.
-GatheredLight PathTracer::gather(const GatherSite& site, double share, uint64_t seed, int depth) {
+GatheredLight PathTracer::gather(const GatherSite& site, LightOf of, double share, uint64_t seed, int depth) {
   const RayOptions& o = t_.options();
   const Random before = random_;
+  const BrightSpots* const spots = std::exchange(spots_, t_.spots());
   RayObserver observer = std::move(observer_);
   observer_ = nullptr;
 
@@ -119,14 +127,15 @@ GatheredLight PathTracer::gather(const GatherSite& site, double share, uint64_t 
   root.normal = site.normal;
   root.length = 0;
   root.depth = depth;
+  root.ambientLevel = of == LightOf::second;
   V3d x, y;
   frame(site.normal, x, y);
   // No more directions than can be followed: those below the weight limit would mostly end.
   const double ratio =
       std::min<double>(kMoreRays, static_cast<double>(o.ambientSuperSamples) / o.ambientDivisions);
   const double divisions = std::min(o.ambientDivisions * share, 1 / (o.weightLimit * (1 + ratio)));
-  const HemisphereCells cells(
-      static_cast<int>(std::max(divisions, std::min<double>(o.ambientDivisions, kLeastRays))));
+  const HemisphereCells cells(static_cast<int>(std::max(
+      divisions, of == LightOf::second ? kLeastOfSecond : std::min<double>(o.ambientDivisions, kLeastRays))));
   const int count = cells.count();
   std::vector<Rgb> radiance(count, Rgb(0, 0, 0));
   std::vector<double> distance(count, kFarAway);
@@ -141,7 +150,7 @@ GatheredLight PathTracer::gather(const GatherSite& site, double share, uint64_t 
     ++child.ambientLevel;
     evaluate(child);
     radiance[cell] += child.value * coefficient * count;
-    distance[cell] = std::min(distance[cell], child.length);
+    distance[cell] = std::min(distance[cell], apparentLength(child));
   };
   for (int i = 0; i < count; ++i) send(i, i);
   const int more = static_cast<int>(divisions * ratio);
@@ -156,6 +165,7 @@ GatheredLight PathTracer::gather(const GatherSite& site, double share, uint64_t 
     }
   }
   random_ = before;
+  spots_ = spots;
   observer_ = std::move(observer);
   return cells.sum(radiance, rays, distance, t_.field()->finestSpacing() / 2, x, y);
 }

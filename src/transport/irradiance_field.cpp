@@ -16,10 +16,11 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kNormalStep = 1e-9;  // planes whose normals differ by less are one
 
 constexpr int32_t kSingle = 1;          // in the key of a site that serves a whole surface, as its level
+constexpr int32_t kSecond = 1 << 8;     // added to the level in keys of what is of second surfaces
 constexpr int32_t kCurved = INT32_MAX;  // in a key, where planes have a component of their normal
 
 // Standard errors that corners may differ by.
-constexpr double kChance = 1.5;
+constexpr double kChance = .7;
 
 // Where something stands, as a share of the way to a place: nearer than that hides it, even if there is a gap
 // below; farther than that does not.
@@ -34,11 +35,22 @@ constexpr int kBeyondFinest = 2;  // divisions more where corners are hidden
 constexpr double kFewerRays = .82, kMoreError = 1.6;
 
 // The widest square that is asked about a place beside something, in mean distances of what the place sees.
-constexpr double kReaches = 2;
+constexpr double kReaches = 3;
 constexpr double kBeside = .85;  // what a place is from a corner, in the way to what stands there
 
 // Of a square's side, from each corner: where that corner tells alone if it can.
 constexpr double kAlone = .4;
+
+// At second surfaces: how wide squares are at least and how often they are divided; their share of rays, how
+// much more error is allowed, how near something may stand, and the least part of the corners that has to be
+// free of it.
+constexpr int kSecondDivisions = 1;
+constexpr double kSecondSpacing = .06;  // of the size of all
+constexpr double kSecondRays = .25, kSecondError = 3, kSecondHidden = .7, kSecondServed = .5;
+
+// Of the changes per length, what counts between corners: with a half of them, parabolas are met, but so is
+// their noise.
+constexpr float kSlopes = .3F;
 
 // The lattice lies askew to what people model in round numbers.
 constexpr double kSkew[3] = {.6180339887, .7548776662, .5698402910};
@@ -47,6 +59,16 @@ float luminance(const V3f& color) { return static_cast<float>(brightness(Rgb(col
 V3f luminanceOf(const V3f (&change)[3]) {
   return static_cast<float>(kRedWeight) * change[0] + static_cast<float>(kGreenWeight) * change[1] +
          static_cast<float>(kBlueWeight) * change[2];
+}
+
+// atan2(y, x) to .004.
+double quickAzimuth(double x, double y) {
+  const double ax = std::abs(x), ay = std::abs(y);
+  const double t = std::min(ax, ay) / std::max(std::max(ax, ay), 1e-300);
+  double angle = t * (kPi / 4 + .273 * (1 - t));
+  if (ay > ax) angle = kPi / 2 - angle;
+  if (x < 0) angle = kPi - angle;
+  return y < 0 ? -angle : angle;
 }
 
 GatheredLight dark() {
@@ -83,29 +105,36 @@ struct IrradianceField::Chart {
   const Cone* cone = nullptr;
 };
 
-struct IrradianceField::Site {
+struct IrradianceField::Value {
   Key key;
+  std::atomic<const GatheredLight*> light{nullptr};
+  std::atomic<bool> begun{false};  // somebody gathers it, or has
+  Value* nextFresh = nullptr;
+
+  ~Value() { delete light.load(std::memory_order_relaxed); }
+};
+
+struct IrradianceField::Site {
+  std::array<Value, 2> values;  // by LightOf
   GatherSite at;
   SiteLooker::Surroundings standing{};
-  std::atomic<const GatheredLight*> light{nullptr};
-  Site* nextFresh = nullptr;
 
-  ~Site() { delete light.load(std::memory_order_relaxed); }
+  V3d x, y;        // frame of the azimuths
+  float most = 0;  // of standing
 
-  // How far a point is, in what lies free in its direction. Between two azimuths one over the distance is
-  // interpolated, as it runs along a wall.
+  // How far a point is, in what lies free in its direction; where nothing stands near enough to matter, at
+  // least. Between two azimuths one over the distance is interpolated, as it runs along a wall.
   double nearness(const V3d& point) const {
     constexpr int kAzimuths = SiteLooker::kAzimuths;
-    V3d x, y;
-    frame(at.normal, x, y);
     const V3d way = point - at.point;
     const double along = way.dot(x), across = way.dot(y);
-    double azimuth = std::atan2(across, along) * (kAzimuths / (2 * kPi));
+    const double distance = std::sqrt(along * along + across * across);
+    if (distance * most <= kFree) return distance * most;
+    double azimuth = quickAzimuth(along, across) * (kAzimuths / (2 * kPi));
     if (azimuth < 0) azimuth += kAzimuths;
     const int low = static_cast<int>(azimuth) % kAzimuths;
     const double share = azimuth - std::floor(azimuth);
-    const double inverse = (1 - share) * standing[low] + share * standing[(low + 1) % kAzimuths];
-    return std::hypot(along, across) * inverse;
+    return distance * ((1 - share) * standing[low] + share * standing[(low + 1) % kAzimuths]);
   }
 };
 
@@ -139,6 +168,7 @@ IrradianceField::IrradianceField(const Scene& scene, const Box3d& bounds, const 
   const double coarsest = std::min(32 * finest, .1 * size_);
   spacing_.push_back(coarsest);
   while (spacing_.back() > finest * 1.5 && spacing_.size() < 16) spacing_.push_back(spacing_.back() / 2);
+  while (std::ldexp(spacing_[0], -secondLevel_) < kSecondSpacing * size_) --secondLevel_;
   extents_.resize(scene.surfaces.size());
   for (size_t i = 0; i < extents_.size(); ++i) {
     const Shape& shape = scene.surfaces[i].shape;
@@ -201,7 +231,7 @@ void IrradianceField::keepIn(std::unique_ptr<AmbientFile> file) {
   }
 }
 
-void IrradianceField::addFresh(Site* first, Site* last) {
+void IrradianceField::addFresh(Value* first, Value* last) {
   last->nextFresh = fresh_.load(std::memory_order_relaxed);
   while (!fresh_.compare_exchange_weak(last->nextFresh, first, std::memory_order_release,
                                        std::memory_order_relaxed)) {
@@ -213,13 +243,13 @@ void IrradianceField::save(bool wait) {
   if (!file_) return;
   const std::unique_lock lock(writing_, std::try_to_lock);
   if (!lock.owns_lock()) return;
-  Site* const first = fresh_.exchange(nullptr, std::memory_order_acquire);
+  Value* const first = fresh_.exchange(nullptr, std::memory_order_acquire);
   if (!first) return;
   std::vector<AmbientFile::Record> records;
-  Site* last = first;
-  for (Site* site = first; site; site = site->nextFresh) {
-    records.push_back(recordOf(site->key, *site->light.load(std::memory_order_acquire)));
-    last = site;
+  Value* last = first;
+  for (Value* value = first; value; value = value->nextFresh) {
+    records.push_back(recordOf(value->key, *value->light.load(std::memory_order_acquire)));
+    last = value;
   }
   if (!file_->add(records, wait)) addFresh(first, last);
 }
@@ -324,9 +354,12 @@ GatherSite IrradianceField::siteAt(const Chart& chart, double u, double v) const
 IrradianceField::Site& IrradianceField::site(const Key& key, const GatherSite& at, SiteLooker& looker) {
   return sites_.findOrAdd(key, [&] {
     auto made = std::make_unique<Site>();
-    made->key = key;
+    made->values[0].key = made->values[1].key = key;
+    made->values[1].key.level += kSecond;
     made->at = at;
-    made->standing = looker.survey(at, 4 * spacing_.front());
+    made->standing = looker.survey(at, 4 * std::ldexp(spacing_[0], -secondLevel_));
+    made->most = *std::max_element(made->standing.begin(), made->standing.end());
+    frame(at.normal, made->x, made->y);
     return made;
   });
 }
@@ -342,23 +375,27 @@ IrradianceField::Site& IrradianceField::corner(const Chart& chart, int64_t i, in
 }
 
 // Corners of small squares tell about little, and are many: they get fewer rays, level by level.
-double IrradianceField::shareOfRays(const Key& key) const {
+double IrradianceField::shareOfRays(const Key& key, LightOf of) const {
+  if (of == LightOf::second) return kSecondRays;
   if (key.level == kSingle) return 1;
   const int divisions = static_cast<int>(spacing_.size()) - 1 + kBeyondFinest -
                         std::countr_zero(static_cast<uint32_t>(key.i | key.j));
   return std::pow(kFewerRays, std::max(0, divisions));
 }
 
-const GatheredLight& IrradianceField::lightOf(Site& site, SiteLooker& looker) {
-  if (const GatheredLight* light = site.light.load(std::memory_order_acquire)) return *light;
-  const auto known = known_.find(site.key);
+const GatheredLight& IrradianceField::lightOf(Site& site, LightOf of, SiteLooker& looker) {
+  Value& value = site.values[static_cast<size_t>(of)];
+  if (const GatheredLight* light = value.light.load(std::memory_order_acquire)) return *light;
+  value.begun.store(true, std::memory_order_relaxed);
+  const auto known = known_.find(value.key);
   auto gathered = std::make_unique<GatheredLight>(
-      known != known_.end() ? known->second : looker.gather(site.at, shareOfRays(site.key), site.key.hash()));
+      known != known_.end() ? known->second
+                            : looker.gather(site.at, of, shareOfRays(value.key, of), value.key.hash()));
   const GatheredLight* first = nullptr;
-  if (!site.light.compare_exchange_strong(first, gathered.get(), std::memory_order_acq_rel)) return *first;
+  if (!value.light.compare_exchange_strong(first, gathered.get(), std::memory_order_acq_rel)) return *first;
   const GatheredLight& light = *gathered.release();
   if (file_ && known == known_.end()) {
-    addFresh(&site, &site);
+    addFresh(&value, &value);
     if ((gathered_.fetch_add(1, std::memory_order_relaxed) + 1) % kBetweenSaves == 0) save(false);
   }
   return light;
@@ -420,26 +457,55 @@ struct IrradianceField::Corners {
     return level > 0 ? error / (tolerance * level) : 0;
   }
 
+  // The same, kept where all four serve. cell: whose corners they are.
+  float roughness(Cell& cell, double tolerance) const {
+    if (served != 15) return static_cast<float>(roughness(tolerance));
+    float kept = cell.roughness.load(std::memory_order_relaxed);
+    if (kept < 0) {
+      kept = static_cast<float>(roughness(tolerance));
+      cell.roughness.store(kept, std::memory_order_relaxed);
+    }
+    return kept;
+  }
+
+  // Interpolated with these weights, which sum up to 1. middle: the place that they are of.
+  V3f mean(const std::array<double, 4>& weights, V3d& middle) const {
+    middle = V3d(0, 0, 0);
+    V3f result(0, 0, 0);
+    for (int c = 0; c < 4; ++c)
+      if (has(c)) middle += point[c] * weights[c];
+    for (int c = 0; c < 4; ++c) {
+      if (!has(c)) continue;
+      const V3f way(middle - point[c]);
+      const auto w = static_cast<float>(weights[c]);
+      for (int k = 0; k < 3; ++k) {
+        const float there = light[c]->mean[k];
+        result[k] += w * (there + kSlopes * std::clamp(light[c]->perLength[k].dot(way), -there, there));
+      }
+    }
+    return result;
+  }
+
   // Interpolated with these weights, which need not sum up to 1, and shifted by the mean change per length
   // where those that are hidden leave the place aside. shift: the relative error to be expected of that.
-  GatheredLight at(const V3d& place, const std::array<double, 4>& weights, double& shift) const {
+  GatheredLight at(const V3d& place, std::array<double, 4> weights, double& shift) const {
     double sum = 0;
     for (int c = 0; c < 4; ++c)
       if (has(c)) sum += weights[c];
     GatheredLight result = dark();
-    V3d middle(0, 0, 0);
     float inverseReach = 0;
     for (int c = 0; c < 4; ++c) {
+      weights[c] /= sum;
       if (!has(c)) continue;
-      const float w = static_cast<float>(weights[c] / sum);
+      const auto w = static_cast<float>(weights[c]);
       inverseReach += w / light[c]->reach;
-      result.mean += light[c]->mean * w;
-      middle += point[c] * (weights[c] / sum);
       for (int k = 0; k < 3; ++k) {
         result.perLength[k] += light[c]->perLength[k] * w;
         result.perTilt[k] += light[c]->perTilt[k] * w;
       }
     }
+    V3d middle;
+    result.mean = mean(weights, middle);
     shift = 0;
     if (served == 15) return result;
     const V3f aside(place - middle);
@@ -485,20 +551,89 @@ std::unique_ptr<IrradianceField::Cell> IrradianceField::makeCell(const Chart& ch
   return made;
 }
 
+// The light of those corners that serve. What another thread is at comes last: it may be there by then.
+void IrradianceField::lookUp(const Cell& cell, LightOf of, SiteLooker& looker, Corners& corners) {
+  for (int c = 0; c < 4; ++c) {
+    if (!corners.has(c)) continue;
+    Site& site = *cell.corners[c];
+    corners.point[c] = site.at.point;
+    const Value& value = site.values[static_cast<size_t>(of)];
+    if (!value.begun.load(std::memory_order_relaxed) || value.light.load(std::memory_order_relaxed))
+      corners.light[c] = &lightOf(site, of, looker);
+  }
+  for (int c = 0; c < 4; ++c)
+    if (corners.has(c) && !corners.light[c]) corners.light[c] = &lightOf(*cell.corners[c], of, looker);
+}
+
+// Where a place lies in the lattice.
+struct IrradianceField::Square {
+  Cell* cell = nullptr;
+  int64_t i = 0, j = 0, size = 0;  // in steps of the least spacing there is
+  double stepU = 0, stepV = 0;     // of the place
+
+  // Of the place within the square, from 0 to 1.
+  double across() const {
+    return std::clamp((stepU - static_cast<double>(i)) / static_cast<double>(size), 0., 1.);
+  }
+  double along() const {
+    return std::clamp((stepV - static_cast<double>(j)) / static_cast<double>(size), 0., 1.);
+  }
+  std::array<double, 4> weights() const {
+    const double a = across(), b = along();
+    return {(1 - a) * (1 - b), a * (1 - b), (1 - a) * b, a * b};
+  }
+};
+
+// False where the place is beyond all numbers.
+bool IrradianceField::begin(const Chart& chart, int level, LightOf of, SiteLooker& looker, Square& square) {
+  const int last = static_cast<int>(spacing_.size()) - 1 + kBeyondFinest;
+  const double least = spacing_.back() / (1 << kBeyondFinest);
+  square.stepU = chart.u / least + kSkew[chart.axisU];
+  square.stepV = chart.v / least + kSkew[chart.axisV];
+  if (std::max(std::abs(square.stepU), std::abs(square.stepV)) > INT32_MAX / 2) return false;
+  square.size = int64_t{1} << (last - level);
+  const auto floorTo = [](double x, int64_t n) {
+    return static_cast<int64_t>(std::floor(x / static_cast<double>(n))) * n;
+  };
+  square.i = floorTo(square.stepU, square.size);
+  square.j = floorTo(square.stepV, square.size);
+  const Key key{chart.key, static_cast<int32_t>(square.i), static_cast<int32_t>(square.j),
+                level + (of == LightOf::second ? kSecond : 0), chart.offsetKey};
+  square.cell =
+      &cells_.findOrAdd(key, [&] { return makeCell(chart, square.i, square.j, square.size, looker); });
+  return true;
+}
+
+// To the quarter of the square that the place lies in.
+void IrradianceField::descend(const Chart& chart, SiteLooker& looker, Square& square) {
+  square.size /= 2;
+  const int right = square.stepU >= static_cast<double>(square.i + square.size),
+            up = square.stepV >= static_cast<double>(square.j + square.size);
+  square.i += right * square.size;
+  square.j += up * square.size;
+  std::atomic<Cell*>& part = square.cell->parts[2 * up + right];
+  Cell* next = part.load(std::memory_order_acquire);
+  if (!next) {
+    auto made = makeCell(chart, square.i, square.j, square.size, looker);
+    if (part.compare_exchange_strong(next, made.get(), std::memory_order_acq_rel)) next = made.release();
+  }
+  square.cell = next;
+}
+
 // What the nearest corners alone tell of a place: one of them, and within a strip half way to the next two,
 // or four. False where any of these does not tell enough.
-bool IrradianceField::nearby(const Cell& cell, const V3d& point, double a, double b, double tolerance,
-                             SiteLooker& looker, GatheredLight& light) {
+bool IrradianceField::nearby(const Square& square, const V3d& point, double tolerance, SiteLooker& looker,
+                             GatheredLight& light) {
   const auto sharpen = [](double x) { return std::clamp((x - kAlone) / (1 - 2 * kAlone), 0., 1.); };
-  a = sharpen(a);
-  b = sharpen(b);
+  const double a = sharpen(square.across()), b = sharpen(square.along());
   const double weights[4] = {(1 - a) * (1 - b), a * (1 - b), (1 - a) * b, a * b};
   light = dark();
   for (int c = 0; c < 4; ++c) {
     GatheredLight there;
     if (weights[c] == 0) continue;
-    Site& site = *cell.corners[c];
-    if (!extrapolate(lightOf(site, looker), point - site.at.point, tolerance, there)) return false;
+    Site& site = *square.cell->corners[c];
+    if (!extrapolate(lightOf(site, LightOf::first, looker), point - site.at.point, tolerance, there))
+      return false;
     blend(light, there, static_cast<float>(weights[c]));
   }
   return true;
@@ -524,27 +659,18 @@ bool IrradianceField::find(const FieldPlace& place, SiteLooker& looker, Gathered
     }
   }
 
-  // In steps of the least spacing there is.
+  Square square;
+  if (!begin(chart, level, LightOf::first, looker, square)) return false;
   const double least = spacing_.back() / (1 << kBeyondFinest);
-  const double stepU = chart.u / least + kSkew[chart.axisU], stepV = chart.v / least + kSkew[chart.axisV];
-  if (std::max(std::abs(stepU), std::abs(stepV)) > INT32_MAX / 2) return false;
-  int64_t size = int64_t{1} << (last - level);  // of a square
-  const auto floorTo = [](double x, int64_t n) {
-    return static_cast<int64_t>(std::floor(x / static_cast<double>(n))) * n;
-  };
-  int64_t i = floorTo(stepU, size), j = floorTo(stepV, size);
-  const Key key{chart.key, static_cast<int32_t>(i), static_cast<int32_t>(j), level, chart.offsetKey};
-  Cell* cell = &cells_.findOrAdd(key, [&] { return makeCell(chart, i, j, size, looker); });
 
   light = dark();
   GatheredLight near;
   double missing = 1, allowed = std::pow(kMoreError, level);
   double widest = 0;  // of the squares that can tell about a place with so much around it; 0: not known yet
   for (;; ++level, allowed *= kMoreError) {
-    const double side = static_cast<double>(size);
-    const double a = std::clamp((stepU - static_cast<double>(i)) / side, 0., 1.);
-    const double b = std::clamp((stepV - static_cast<double>(j)) / side, 0., 1.);
-    if (!cell->unsure && nearby(*cell, place.point, a, b, tolerance * allowed, looker, near)) {
+    Cell* const cell = square.cell;
+    const double side = static_cast<double>(square.size);
+    if (!cell->unsure && nearby(square, place.point, tolerance * allowed, looker, near)) {
       blend(light, near, static_cast<float>(missing));
       return true;
     }
@@ -558,23 +684,17 @@ bool IrradianceField::find(const FieldPlace& place, SiteLooker& looker, Gathered
       for (int c = 0; c < 4; ++c) {
         if ((cell->unsure >> c & 1) && !serves(*cell->corners[c], place, looker)) continue;
         corners.served |= 1u << c;
-        corners.light[c] = &lightOf(*cell->corners[c], looker);
-        corners.point[c] = cell->corners[c]->at.point;
       }
-      const std::array<double, 4> weights{(1 - a) * (1 - b), a * (1 - b), (1 - a) * b, a * b};
+      lookUp(*cell, LightOf::first, looker, corners);
+      const std::array<double, 4> weights = square.weights();
       double served = 0;
       for (int c = 0; c < 4; ++c)
         if (corners.has(c)) served += weights[c];
       if (served > 1e-6) {
-        double roughness = corners.served == 15 ? cell->roughness.load(std::memory_order_relaxed) : -1.;
-        if (roughness < 0) {
-          roughness = static_cast<float>(corners.roughness(tolerance));
-          if (corners.served == 15)
-            cell->roughness.store(static_cast<float>(roughness), std::memory_order_relaxed);
-        }
         double shift = 0;
         const GatheredLight here = corners.at(place.point, weights, shift);
-        roughness = std::max(roughness, shift / tolerance) / allowed;
+        const double roughness =
+            std::max<double>(corners.roughness(*cell, tolerance), shift / tolerance) / allowed;
         const bool accept = level >= (corners.served == 15 ? finest : last);
         const double share = accept ? 1 : shareOf(roughness);
         blend(light, here, static_cast<float>(missing * share));
@@ -583,23 +703,52 @@ bool IrradianceField::find(const FieldPlace& place, SiteLooker& looker, Gathered
       }
     }
     if (level == last) break;
-    size /= 2;
-    const int right = stepU >= static_cast<double>(i + size), up = stepV >= static_cast<double>(j + size);
-    i += right * size;
-    j += up * size;
-    std::atomic<Cell*>& part = cell->parts[2 * up + right];
-    Cell* next = part.load(std::memory_order_acquire);
-    if (!next) {
-      auto made = makeCell(chart, i, j, size, looker);
-      if (part.compare_exchange_strong(next, made.get(), std::memory_order_acq_rel)) next = made.release();
-    }
-    cell = next;
+    descend(chart, looker, square);
   }
   if (missing >= 1) return false;
   const GatheredLight found = light;
   light = dark();
   blend(light, found, static_cast<float>(1 / (1 - missing)));
   return true;
+}
+
+bool IrradianceField::findSecond(const FieldPlace& place, SiteLooker& looker, V3f& mean) {
+  Chart chart;
+  if (!chartOf(place, chart)) return false;
+  // Single paths are as good where few of them arrive.
+  const bool flat = chart.kind == Chart::Kind::plane;
+  const double scale = place.scale != 0 ? place.scale : 1;
+  const double widest = std::ldexp(spacing_[0], -secondLevel_);
+  const double extent = !flat                    ? chart.radius
+                        : place.surface == kNone ? widest
+                                                 : extents_[place.surface].size * scale;
+  Square square;
+  if (extent < widest || !begin(chart, secondLevel_, LightOf::second, looker, square)) return false;
+  const double tolerance = kSecondError * accuracy_ / 3;
+  const int last = secondLevel_ + kSecondDivisions;
+  for (int level = secondLevel_;; ++level) {
+    Cell& cell = *square.cell;
+    const std::array<double, 4> weights = square.weights();
+    Corners corners;
+    double served = 0;
+    for (int c = 0; c < 4; ++c) {
+      if ((cell.unsure >> c & 1) && cell.corners[c]->nearness(place.point) > kSecondHidden) continue;
+      corners.served |= 1u << c;
+      served += weights[c];
+    }
+    if (served >= kSecondServed) {
+      lookUp(cell, LightOf::second, looker, corners);
+      if (level == last || corners.roughness(cell, tolerance) < 1) {
+        V3d middle;
+        double shift = 0;
+        mean = corners.served == 15 ? corners.mean(weights, middle)
+                                    : corners.at(place.point, weights, shift).mean;
+        return true;
+      }
+    }
+    if (level == last) return false;
+    descend(chart, looker, square);
+  }
 }
 
 // One value serves a surface that is small enough.
@@ -611,7 +760,7 @@ bool IrradianceField::single(const FieldPlace& place, const Chart& chart, double
   const Key key{chart.key, place.surface, 0, kSingle, chart.offsetKey};
   Site& middle = site(key, {center, chart.normal}, looker);
   if (middle.nearness(place.point) > kFree && !serves(middle, place, looker)) return false;
-  const GatheredLight& there = lightOf(middle, looker);
+  const GatheredLight& there = lightOf(middle, LightOf::first, looker);
   const double change = luminanceOf(there.perLength).length() * extent.size / 2;
   if (change > 2 * tolerance * luminance(there.mean)) return false;
   Corners corners;

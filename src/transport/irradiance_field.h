@@ -38,6 +38,10 @@ struct FieldPlace {
   double scale = 0;         // of what holds the surface; 0: the world itself does
 };
 
+// Whether light is asked for where a path meets its first diffuse surface, or the one after: that has a
+// bounce less to go, and only averages of it are seen.
+enum class LightOf : uint8_t { first, second };
+
 // How sites are looked at. Every answer depends on nothing but the arguments.
 class SiteLooker {
  public:
@@ -46,8 +50,8 @@ class SiteLooker {
   // along its plane at which something stands there, 0 where nothing does.
   using Surroundings = std::array<float, kAzimuths>;
 
-  // share: of the rays that the options ask for.
-  virtual GatheredLight gather(const GatherSite& site, double share, uint64_t seed) = 0;
+  // share: of the rays that the options ask for. Of all light, or of what arrives after a diffuse surface.
+  virtual GatheredLight gather(const GatherSite& site, LightOf of, double share, uint64_t seed) = 0;
   virtual Surroundings survey(const GatherSite& site, double farthest) = 0;
   // The harmonic mean of the distances to what is seen from a site, by projected solid angle and in few
   // directions; what is nearer than `nearest` counts as being there (world units).
@@ -74,6 +78,10 @@ class IrradianceField {
   // finest spacing, insides of curved ones, and meshes.
   bool find(const FieldPlace& place, SiteLooker& looker, GatheredLight& light);
 
+  // The mean light at a place of a second diffuse surface, where few rays tell it, the same all over a room:
+  // in the widest squares and those next to them. False where these do not tell.
+  bool findSecond(const FieldPlace& place, SiteLooker& looker, V3f& mean);
+
   // The least distance between corners (world units): what is nearer than that is not resolved.
   double finestSpacing() const { return spacing_.back(); }
 
@@ -93,8 +101,10 @@ class IrradianceField {
     size_t operator()(const Key& key) const { return key.hash(); }
   };
   struct Chart;
+  struct Value;
   struct Site;
   struct Cell;
+  struct Square;
   struct Corners;
 
   bool chartOf(const FieldPlace& place, Chart& chart) const;
@@ -102,15 +112,18 @@ class IrradianceField {
   GatherSite siteAt(const Chart& chart, double u, double v) const;
   Site& site(const Key& key, const GatherSite& at, SiteLooker& looker);
   Site& corner(const Chart& chart, int64_t i, int64_t j, SiteLooker& looker);
-  const GatheredLight& lightOf(Site& site, SiteLooker& looker);
-  double shareOfRays(const Key& key) const;
-  void addFresh(Site* first, Site* last);
+  const GatheredLight& lightOf(Site& site, LightOf of, SiteLooker& looker);
+  double shareOfRays(const Key& key, LightOf of) const;
+  void addFresh(Value* first, Value* last);
   void save(bool wait);
   static AmbientFile::Record recordOf(const Key& key, const GatheredLight& light);
   static void fromRecord(const AmbientFile::Record& record, Key& key, GatheredLight& light);
   bool serves(const Site& site, const FieldPlace& place, SiteLooker& looker) const;
   std::unique_ptr<Cell> makeCell(const Chart& chart, int64_t i, int64_t j, int64_t size, SiteLooker& looker);
-  bool nearby(const Cell& cell, const V3d& point, double a, double b, double tolerance, SiteLooker& looker,
+  bool begin(const Chart& chart, int level, LightOf of, SiteLooker& looker, Square& square);
+  void descend(const Chart& chart, SiteLooker& looker, Square& square);
+  void lookUp(const Cell& cell, LightOf of, SiteLooker& looker, Corners& corners);
+  bool nearby(const Square& square, const V3d& point, double tolerance, SiteLooker& looker,
               GatheredLight& light);
   bool single(const FieldPlace& place, const Chart& chart, double tolerance, SiteLooker& looker,
               GatheredLight& light);
@@ -121,6 +134,7 @@ class IrradianceField {
   double planeStep_ = 0;         // offsets that differ by less are one plane's
   V3d origin_{0, 0, 0};          // of the lattices
   std::vector<double> spacing_;  // by level, each half of the one before
+  int secondLevel_ = 0;          // of the widest squares at second surfaces; below 0: wider than spacing_[0]
   struct Extent {
     V3f center{0, 0, 0};
     float size = 0;  // across
@@ -130,8 +144,8 @@ class IrradianceField {
   InsertOnce<Key, Site> sites_;
   std::unordered_map<Key, GatheredLight, KeyHash> known_;  // of earlier runs
   std::unique_ptr<AmbientFile> file_;
-  std::mutex writing_;                 // nobody waits for it
-  std::atomic<Site*> fresh_{nullptr};  // not in the file yet; a list through Site::nextFresh
+  std::mutex writing_;                  // nobody waits for it
+  std::atomic<Value*> fresh_{nullptr};  // not in the file yet; a list through Value::nextFresh
   std::atomic<size_t> gathered_{0};
 };
 

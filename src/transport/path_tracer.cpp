@@ -114,6 +114,10 @@ Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance i
   findScatterers(warn);
   if (options.ambientAccuracy > 0 && options.ambientBounces > 0 && options.ambientDivisions > 0)
     field_ = std::make_unique<IrradianceField>(scene, tracer_.bounds(), options);
+  if (field_ && options.ambientBounces > 2) {
+    auto spots = std::make_unique<BrightSpots>(scene, tracer_, lights_);
+    if (!spots->empty()) spots_ = std::move(spots);
+  }
   if (field_ && !options.ambientFile.empty())
     field_->keepIn(AmbientFile::open(options.ambientFile, fingerprint(scene),
                                      fingerprint(options, basicRadiance, scene.files), warn));

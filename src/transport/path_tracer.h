@@ -66,6 +66,8 @@ class Transport {
   const std::vector<int32_t>& distant() const { return distant_; }
   // Where indirect light is interpolated; null where it is not (-aa 0). Tracing adds to it.
   IrradianceField* field() const { return field_.get(); }
+  // What its paths aim at; null where light falls evenly.
+  const BrightSpots* spots() const { return spots_.get(); }
 
  private:
   void findScatterers(const rad::Warn& warn);
@@ -86,6 +88,7 @@ class Transport {
   std::vector<std::vector<uint16_t>> scatterersOf_;  // by Mist::number
   std::vector<bool> ambient_;                        // by surface; empty: all of them
   std::unique_ptr<IrradianceField> field_;
+  std::unique_ptr<const BrightSpots> spots_;
 };
 
 // The share of a source's radiance that leaves along a ray, for the source's direction (unit) and the solid
@@ -218,7 +221,7 @@ class PathTracer {
   void addIndirect(Ray& ray, const V3d& normal, const V3d& trueNormal, RayKind kind, const Rgb& coefficient);
   void addIndirect(Ray& ray, const V3d& normal, const Interaction& at, RayKind kind, const Rgb& coefficient);
   bool addInterpolated(Ray& ray, const V3d& normal, const V3d& trueNormal, const Rgb& coefficient);
-  GatheredLight gather(const GatherSite& site, double share, uint64_t seed, int depth);
+  GatheredLight gather(const GatherSite& site, LightOf of, double share, uint64_t seed, int depth);
   double reach(const GatherSite& site, double nearest);
   SiteLooker::Surroundings survey(const GatherSite& site, double farthest);
   // front: the normal of a surface that lets no light through, whose coefficients are 0 behind it; or 0.

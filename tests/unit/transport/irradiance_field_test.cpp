@@ -147,5 +147,64 @@ TEST(IrradianceField, AnswersTheSameInAnyOrderAndForAnyThread) {
   other.join();
 }
 
+// Two diffuse surfaces on: the same mean as with single paths, of less spread.
+TEST(IrradianceField, TellsTheLightOfSecondSurfaces) {
+  for (const int bounces : {2, 4}) {
+    Traced field(kRoom, interpolated(.15, bounces)), anew(kRoom, interpolated(0, bounces));
+    double got = 0, expected = 0;
+    for (double x = .4; x < 3.9; x += .9)
+      for (double z = .4; z < 3; z += .7) {
+        got += field.value(V3d(x, 2, z), V3d(.1, -1, .05));
+        expected += anew.mean(V3d(x, 2, z), V3d(.1, -1, .05), 5).mean();
+      }
+    EXPECT_NEAR(got / expected, 1, .015) << bounces;
+    EXPECT_GT(std::abs(1.05 * got / expected - 1), .015) << "the spoiled twin";
+  }
+}
+
+// A pane before a window does not stand for what is seen through it: the change along a wall is that of a
+// bright half far outside.
+TEST(IrradianceField, LooksThroughPanes) {
+  const std::string room = R"(
+void plastic wall 0 0 5 .5 .5 .5 0 0
+void glow sky 0 0 4 10 10 10 0
+sky source heaven 0 0 4 0 0 1 180
+wall polygon south_low 0 0 12 0 0 0 0 0 1 6 0 1 6 0 0
+wall polygon south_high 0 0 12 0 0 2 0 0 3 6 0 3 6 0 2
+wall polygon north 0 0 12 0 4 0 6 4 0 6 4 3 0 4 3
+wall polygon floor 0 0 12 0 0 0 6 0 0 6 4 0 0 4 0
+wall polygon ceiling 0 0 12 0 0 3 0 4 3 6 4 3 6 0 3
+)";
+  const std::string pane = "void glass pane 0 0 3 1 1 1\npane polygon glass 0 0 12 0 0 1 6 0 1 6 0 2 0 0 2\n";
+  RayOptions o = interpolated(.2, 1);
+  o.ambientDivisions = 1024;
+  Traced open(room, o), glazed(room + pane, o);
+  for (double z = .3; z < 2.8; z += .35) {
+    const V3d from(3, 2, z), towards(.05, 1, 0);
+    const double expected = .92 * open.value(from, towards);
+    EXPECT_NEAR(glazed.value(from, towards) / expected, 1, .12) << z;
+  }
+}
+
+// -aw would have answers depend on those before; -av is what surfaces without computed light get (-ae), and
+// what paths end in.
+TEST(IrradianceField, AmbientValueAndExcludedSurfaces) {
+  RayOptions o = interpolated(.2);
+  const V3d origin(2, 2, 1.5), down(.2, .1, -1);
+  const double without = Traced(kRoom, o).value(origin, down);
+  o.ambientWeight = 64;
+  EXPECT_EQ(Traced(kRoom, o).value(origin, down), without);
+  o.ambientValue = Rgb(1, 1, 1);
+  EXPECT_GT(Traced(kRoom, o).value(origin, down), without);
+  o.ambientBounces = 0;
+  const double direct = Traced(kRoom, o).value(origin, down);
+  o.ambientBounces = 2;
+  o.ambientExcluded = {"wall"};
+  EXPECT_NEAR(Traced(kRoom, o).value(origin, down), direct, 1e-6);
+  o.ambientExcluded = {};
+  o.ambientIncluded = {"lamp"};
+  EXPECT_NEAR(Traced(kRoom, o).value(origin, down), direct, 1e-6);
+}
+
 }  // namespace
 }  // namespace rsphere
