@@ -189,6 +189,11 @@ TEST(ParseOptions, Words) {
   EXPECT_EQ(faultOfOptions({"rsphere", "-Sw", "x", "s.oct"}),
             "command line error at '-Sw': \"x\" is not h, v or c");
   EXPECT_EQ(faultOfOptions({"rsphere", "-Sr", "-1", "s.oct"}), "command line error at '-Sr'");
+  for (const char* number : {"nan", "-nan", "inf", "1e999"}) {
+    EXPECT_EQ(faultOfOptions({"rsphere", "-lw", number, "s.oct"}), "command line error at '-lw'");
+    EXPECT_EQ(faultOfOptions({"rsphere", "-av", "0", number, "0", "s.oct"}), "command line error at '-av'");
+    EXPECT_EQ(faultOfOptions({"rsphere", "-Sk", number, "s.oct"}), "command line error at '-Sk'");
+  }
   EXPECT_EQ(faultOfOptions({"rsphere", "-af", " ", "s.oct"}), "command line error at '-af'");
 }
 
