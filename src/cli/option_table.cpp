@@ -493,7 +493,10 @@ std::vector<OptionEntry> makeTable() {
            "smaller than -ar resolves have none, and what goes through a medium or antimatter gets none. At "
            "the second diffuse surface of a path it comes from places farther apart, a quarter of the rays "
            "each; beyond it, and where surfaces are small, one direction tells. In sphere mode it is off "
-           "(-aa 0): see there."});
+           "(-aa 0): directions meet surfaces all over the scene, and it pays for thousands of points at "
+           "best. On the open-plan office (-ab 3 -Sn 420 -Sx 650) rsphere-trade has 0.65% at 11 ms a point, "
+           "and with -aa .2 -ar 64 -ad 256 0.42% at 152 ms a point of three; of 400 points together it is 13 "
+           "and 63 ms a point."});
   add({.name = "-ar",
        .arguments = "res",
        .group = Group::indirect,
