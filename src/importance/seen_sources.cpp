@@ -14,6 +14,9 @@ constexpr double kPi = std::numbers::pi;
 // even share in kAlways of all rays.
 constexpr double kUsualRays = 16, kSmallestPart = .02, kAlways = .125;
 
+// Images in mirrors that get fewer rays than this, on average, are left to the base directions.
+constexpr double kFewestRays = .1;
+
 // Of n parts of a half hidden image those on the edge are uncertain: its error falls with n^-3/4, and rays
 // are best spread by light^.8.
 constexpr double kByLight = .8;
@@ -161,9 +164,9 @@ void SeenSources::findImages(const V3d& point, size_t most, double mirrorFactor,
     image.rays = std::min(image.rays / sum * static_cast<double>(most), enough);
     if (i < straight && straight <= most) image.rays = std::max(image.rays, 1.);
   }
-  images.erase(
-      std::remove_if(images.begin() + straight, images.end(), [](const Image& i) { return i.rays < .5; }),
-      images.end());
+  images.erase(std::remove_if(images.begin() + straight, images.end(),
+                              [](const Image& i) { return i.rays < kFewestRays; }),
+               images.end());
 }
 
 // From the point's mirror image the source is seen through the mirror as through a window.
