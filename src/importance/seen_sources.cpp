@@ -294,7 +294,7 @@ void SeenSources::sampleCell(const V3d& point, const Image& image, const Cell& c
   Sample s;
   s.row = cell.row;
   s.aimed = s.clear = 0;
-  ShapeHit on, chosen;
+  ShapeHit on, chosen{0, V3d(0, 0, 0), 0};
   for (size_t i = 0; i < kShadowsAlong; ++i)
     for (size_t k = 0; k < kShadowsAcross; ++k) {
       const double u = (cell.row + (i + random.uniform()) / kShadowsAlong) / cell.rows,
