@@ -30,6 +30,7 @@ struct State {
   std::atomic<int> raised{0};  // the first signal
   std::atomic<bool> deferred{false};
   std::atomic<bool> told{false};  // the message is somebody else's by now
+  std::atomic<bool> ending{false};
   std::atomic<int> messageFd{2};
   int pipe[2] = {-1, -1};
   std::array<std::string, kSignals.size()> messages;
@@ -51,6 +52,8 @@ void onSignal(int number) {
   int first = 0;
   const bool again = !state.raised.compare_exchange_strong(first, number);
   if (again || !state.deferred) {
+    // Another thread may be here already, and says it.
+    if (state.ending.exchange(true)) return;
     for (size_t i = 0; i < kSignals.size() && !state.told; ++i)
       if (kSignals[i].number == (again ? first : number)) {
         const std::string& text = state.messages[i];
@@ -72,6 +75,7 @@ StopSignals::StopSignals(const std::string& program) {
   state.raised = 0;
   state.deferred = false;
   state.told = false;
+  state.ending = false;
   state.messageFd = 2;
   for (size_t i = 0; i < kSignals.size(); ++i) {
     state.messages[i] = program + ": signal - " + kSignals[i].text + "\n";
