@@ -120,6 +120,7 @@ END {
       printf "| `%s` | %.0f | %.3g | %s | %s +- %s | %s | %s |\n", setting[key, i], directions[key, i], 1e3 * cost[key, i], \
         percent(rms[key, i]), percent(bias[key, i]), percent(bias_error[key, i]), percent(says[key, i]), share
       if (setting[key, i] ~ /-Sw c/ && setting[key, i] !~ /-Sk/) {
+        if (i == ours[key]) own_share[r] = cost[key, i] / equal_time(rms[key, i])
         low_share[r] = minimum(low_share[r], cost[key, i] / equal_time(rms[key, i]))
         high_share[r] = maximum(high_share[r], cost[key, i] / equal_time(rms[key, i]))
       }
@@ -163,10 +164,13 @@ END {
     whole(high_paper[3]), whole(low_paper[4]), whole(high_paper[4])
   print "  it does not help here: what errs is the light of sources (or of the goal) seen directly, for which it has half as many"
   print "  directions, not what 50 spheres of 10 cm reflect. Its plain cells reach over the edges of silhouettes, too."
-  printf "- Ours takes %s to %s of the time of equal weights at equal error for radiance (low quality), %s to %s (high).\n", \
+  printf "- Ours takes, at the paper's numbers of directions, %s (low quality) and %s (high) of the time of equal weights at\n", \
+    whole(own_share[1]), whole(own_share[2])
+  printf "  equal error for radiance, %s and %s for importance.\n", whole(own_share[3]), whole(own_share[4])
+  printf "- With other numbers of directions it is %s to %s (low) and %s to %s (high) for radiance.\n", \
     whole(low_share[1]), whole(high_share[1]), whole(low_share[2]), whole(high_share[2])
   print "  That is the integration of light sources by their own solid angle, more than directions to special objects."
-  printf "- For importance it is %s to %s (low) and %s to %s (high). The goal is one desktop: it is integrated apart where it\n", \
+  printf "- For importance it is then %s to %s (low) and %s to %s (high). The goal is one desktop: it is integrated apart where it\n", \
     whole(low_share[3]), whole(high_share[3]), whole(low_share[4]), whole(high_share[4])
   print "  is seen, and what errs then are the paths of indirect light, few of which bring much. None of the three is accurate"
   print "  there at the paper's numbers of directions, whatever a time ratio says."

@@ -343,7 +343,7 @@ void SphereEstimator::chooseTargets(const V3d& point, size_t most, Workspace& w)
   for (Glint& glint : w.glints) {
     const double contrast = std::min(kGlintDeviation * glint.brightness / usual, kMostContrast) - 1;
     if (!(contrast > 0)) continue;
-    Workspace::Target target{std::move(glint.region), 0, 0};
+    Workspace::Target target{std::move(glint.region), 0, 0, glint.continues};
     target.density = contrast * baseDensity * options_.densityFactor;
     target.expected = target.density * target.silhouette.regionSolidAngle();
     sum += target.expected;
@@ -412,7 +412,7 @@ void SphereEstimator::sampleSilhouettes(const V3d& point, uint64_t seed, Workspa
   for (const Workspace::Target& target : w.targets) {
     due += target.expected;
     const double shift1 = random.uniform(), shift2 = random.uniform();
-    w.runs.push_back(w.samples.size());
+    if (!target.continues) w.runs.push_back(w.samples.size());
     for (size_t i = 0; due >= 1; --due, ++i) {
       const V3d u = evenly(i, shift1, shift2);
       send(target.silhouette.sample(u.x, u.y), 4 * kPi / static_cast<double>(base),

@@ -74,8 +74,9 @@ class SphereEstimator {
     friend class SphereEstimator;
     struct Target {
       Silhouette silhouette;
-      double expected = 0;  // directions, on average
-      double density = 0;   // of them, per sr of its region
+      double expected = 0;     // directions, on average
+      double density = 0;      // of them, per sr of its region
+      bool continues = false;  // the target before: both are parts of one image
     };
     // Of the set that is being sampled:
     std::vector<V3d> directions, dynamic;  // of the base, and to special objects
@@ -88,11 +89,11 @@ class SphereEstimator {
     SilhouetteIndex index;  // of the targets, by their places there
     std::vector<SeenSources::Image> images;
     std::vector<SeenSources::Sample> sources;
-    std::vector<size_t> rest;   // samples that showed no source that is integrated apart
+    std::vector<size_t> rest;                  // samples that showed no source that is integrated apart
     std::vector<RadianceGuess::Place> places;  // what they hit, in the same order
-    std::vector<bool> counted;  // which base directions are among them
-    std::vector<size_t> runs;   // where each target's directions begin in samples
-    Rgb variance{0, 0, 0};      // of the integral of radiance
+    std::vector<bool> counted;                 // which base directions are among them
+    std::vector<size_t> runs;  // where directions to a target, or to all parts of one, begin in samples
+    Rgb variance{0, 0, 0};     // of the integral of radiance
     std::vector<DirectionSample> unguessed, guessed;  // parts of the base's samples
     // Of all sets so far:
     std::vector<Rgb> guesses;  // of samples' radiances; empty: none are made

@@ -182,6 +182,7 @@ void Glints::find(const V3d& point, double least, std::vector<Glint>& found) con
       const double sine = source.distant ? source.sinHalfAngle : std::min(1., source.radius / distance);
       const double halfWidth = ball.radius * sine / nearest, radiance = light.brightness * reflectance;
       if (!(radiance * radiance * 4 * halfWidth * halfWidth > least)) continue;
+      const size_t first = found.size();
       for (const Part& part : partsOf(transport_.scene(), source, ball)) {
         const V3d normal = mirrors(ball, point, part.middle, source.distant);
         const V3d at = ball.center + (ball.radius + 2 * kSamePlace) * normal, in = point - at;
@@ -199,7 +200,8 @@ void Glints::find(const V3d& point, double least, std::vector<Glint>& found) con
           }
         }
         Silhouette region = hullOf(around, point);
-        if (region.regionSolidAngle() > 0) found.push_back({std::move(region), radiance});
+        if (region.regionSolidAngle() > 0)
+          found.push_back({std::move(region), radiance, found.size() > first});
       }
     }
   }

@@ -14,7 +14,8 @@ namespace rsphere {
 // The image of a source or of a part of one: about what it fills.
 struct Glint {
   Silhouette region;
-  double brightness = 0;  // W/sr/m2, no more than
+  double brightness = 0;   // W/sr/m2, no more than
+  bool continues = false;  // another part of the image before it
 };
 
 class Glints {
