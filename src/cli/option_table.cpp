@@ -648,10 +648,8 @@ std::vector<OptionEntry> makeTable() {
            "Keeps in the file what is interpolated from, for later runs and for others at the same time: it "
            "is read first, and added to, now and then and at the end; a process that is killed does no harm. "
            "No answer changes by it. A file that was made for another scene or with other options, by "
-           "another "
-           "version, or by RADIANCE is not used and left as it is, with a warning. Only with -aa and -ab "
-           "above "
-           "0."});
+           "another version, or by RADIANCE is not used and left as it is, with a warning. Only with -aa "
+           "and -ab above 0."});
   add({.name = "-ae",
        .arguments = "mod",
        .group = Group::indirect,
@@ -780,10 +778,8 @@ std::vector<OptionEntry> makeTable() {
        .paragraph =
            "Multiplies the density of directions (1/sr) that the materials of special objects ask for: "
            "mirrors, glass and others whose radiance has peaks. 0, with -Sw c: equal weights but for the "
-           "light "
-           "sources that are seen directly; nothing is guessed of diffuse surfaces, and no indirect ray is "
-           "aimed "
-           "at where much light falls on little."});
+           "light sources that are seen directly; nothing is guessed of diffuse surfaces, and no indirect "
+           "ray is aimed at where much light falls on little."});
   add({.name = "-Sa",
        .arguments = "acc",
        .group = Group::sphere,

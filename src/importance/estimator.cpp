@@ -322,32 +322,23 @@ void SphereEstimator::lookAround(const V3d& point, uint64_t seed, Workspace& w) 
 // is lost without trace.
 void SphereEstimator::chooseTargets(const V3d& point, size_t most, Workspace& w) const {
   w.targets.clear();
-  w.glints.clear();
   if (candidates_.empty() || most == 0) return;
-  const Scene& scene = transport_.scene();
   const double usual = usualDeviation_ * w.around;
   const double baseDensity = static_cast<double>(w.directions.size()) / (4 * kPi);
   double sum = 0;
-  for (const Candidate& candidate : candidates_) {
-    if (!(candidate.deviation > usual)) continue;
-    const double contrast =
-        std::min(usual > 0 ? candidate.deviation / usual : kMostContrast, kMostContrast) - 1;
-    Workspace::Target target{silhouetteOf(scene, candidate.object, point), 0, 0};
-    if (!(target.silhouette.regionSolidAngle() > 0)) continue;
-    target.density = contrast * baseDensity * options_.densityFactor;
-    target.expected = target.density * target.silhouette.regionSolidAngle();
-    sum += target.expected;
-    w.targets.push_back(std::move(target));
-  }
-  if (usual > 0) glints_->find(point, kLeastGlint * 4 * kPi * usual * usual, w.glints);
-  for (Glint& glint : w.glints) {
-    const double contrast = std::min(kGlintDeviation * glint.brightness / usual, kMostContrast) - 1;
-    if (!(contrast > 0)) continue;
-    Workspace::Target target{std::move(glint.region), 0, 0, glint.continues};
-    target.density = contrast * baseDensity * options_.densityFactor;
-    target.expected = target.density * target.silhouette.regionSolidAngle();
-    sum += target.expected;
-    w.targets.push_back(std::move(target));
+  const auto add = [&](Silhouette silhouette, double deviation, bool continues) {
+    const double solidAngle = silhouette.regionSolidAngle();
+    if (!(deviation > usual) || !(solidAngle > 0)) return;
+    const double contrast = std::min(usual > 0 ? deviation / usual : kMostContrast, kMostContrast) - 1;
+    const double density = contrast * baseDensity * options_.densityFactor;
+    sum += density * solidAngle;
+    w.targets.push_back({std::move(silhouette), density * solidAngle, density, continues});
+  };
+  for (const Candidate& c : candidates_)
+    if (c.deviation > usual) add(silhouetteOf(transport_.scene(), c.object, point), c.deviation, false);
+  if (usual > 0) {
+    glints_->find(point, kLeastGlint * 4 * kPi * usual * usual, w.glints);
+    for (Glint& g : w.glints) add(std::move(g.region), kGlintDeviation * g.brightness, g.continues);
   }
   if (sum <= static_cast<double>(most)) return;
   const double scale = static_cast<double>(most) / sum;

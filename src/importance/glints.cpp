@@ -94,7 +94,8 @@ struct Part {
 
 std::vector<Part> partsOf(const Scene& scene, const LightSource& source, const Sphere& ball) {
   const auto* polygon = std::get_if<Polygon>(&scene.surfaces[source.surface].shape);
-  if (polygon && source.map != LightSource::Map::parallelogram && polygon->vertices <= kMostCorners) {
+  const bool outlined = polygon && source.map != LightSource::Map::parallelogram;
+  if (outlined && polygon->vertices <= kMostCorners) {
     const auto first = scene.vertices.begin() + polygon->firstVertex;
     return {{source.center, std::vector<V3d>(first, first + polygon->vertices)}};
   }
@@ -103,16 +104,15 @@ std::vector<Part> partsOf(const Scene& scene, const LightSource& source, const S
   V3d u = source.u, v = source.v;
   if (source.map == LightSource::Map::tube) {
     v = u.cross(away).normalized() * (source.area / (4 * u.length()));
-  } else if (!source.isPlane() || (polygon && source.map != LightSource::Map::parallelogram)) {
-    frame(polygon ? source.normal : away.normalized(), u, v);
+  } else if (outlined || !source.isPlane()) {
+    frame(outlined ? source.normal : away.normalized(), u, v);
     const double radius = source.distant ? source.sinHalfAngle : source.radius;
     u *= radius;
     v *= radius;
   }
   const auto divided = [&](const V3d& half) {
-    return source.distant
-               ? 1
-               : static_cast<int>(std::min(std::ceil(half.length() / (kPart * distance)), kMostParts));
+    if (source.distant) return 1;
+    return static_cast<int>(std::min(std::ceil(half.length() / (kPart * distance)), kMostParts));
   };
   const int columns = divided(u), rows = divided(v);
   u /= columns;
@@ -147,10 +147,8 @@ Glints::Glints(const Transport& transport, std::span<const SpecialObject> object
   const auto all = transport.lights().all();
   for (uint32_t i = 0; i < all.size(); ++i) {
     if (all[i].isVirtual()) continue;
-    const Surface& surface = scene.surfaces[all[i].surface];
-    const Material* material = scene.materialOf(surface);
-    const auto radiance = surface.goal ? Rgb(1, 1, 1) : material ? sourceRadiance(*material) : std::nullopt;
-    if (radiance && brightness(*radiance) > 0) lights_.push_back({i, brightness(*radiance)});
+    const double bright = brightness(sourceRadiance(scene, scene.surfaces[all[i].surface]));
+    if (bright > 0) lights_.push_back({i, bright});
   }
 }
 

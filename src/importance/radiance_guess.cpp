@@ -69,12 +69,8 @@ RadianceGuess::RadianceGuess(const Transport& transport, const std::vector<bool>
   const auto lights = transport.lights().all();
   for (uint32_t i = 0; i < lights.size(); ++i) {
     if (lights[i].isVirtual()) continue;
-    const Surface& surface = scene.surfaces[lights[i].surface];
-    const Material* material = scene.materialOf(surface);
-    const std::optional<Rgb> radiance = surface.goal ? Rgb(1, 1, 1)
-                                        : material   ? sourceRadiance(*material)
-                                                     : std::nullopt;
-    if (radiance && brightness(*radiance) > 0) lights_.push_back({i, *radiance, 0});
+    const Rgb radiance = sourceRadiance(scene, scene.surfaces[lights[i].surface]);
+    if (brightness(radiance) > 0) lights_.push_back({i, radiance, 0});
   }
 }
 

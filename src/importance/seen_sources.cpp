@@ -89,12 +89,6 @@ V3d evenly(size_t i, double shift1, double shift2) {
   return V3d(a - std::floor(a), b - std::floor(b), 0);
 }
 
-double lightFrom(const Scene& scene, const Surface& surface) {
-  if (surface.goal) return 1;
-  const auto radiance = sourceRadiance(*scene.materialOf(surface));
-  return radiance ? brightness(*radiance) : 0;
-}
-
 }  // namespace
 
 SeenSources::SeenSources(const Transport& transport) : transport_(transport) {
@@ -148,7 +142,7 @@ void SeenSources::findImages(const V3d& point, size_t most, double mirrorFactor,
     image.solidAngle = image.region.regionSolidAngle();
     if (!(image.solidAngle > 0)) continue;
     image.filled = fills(surface.shape, image.region);
-    image.rays = std::pow(lightFrom(scene, surface) * image.solidAngle, kByLight);
+    image.rays = std::pow(brightness(sourceRadiance(scene, surface)) * image.solidAngle, kByLight);
     images.push_back(std::move(image));
   }
   const size_t straight = images.size();
@@ -199,9 +193,9 @@ void SeenSources::addMirrored(const V3d& point, std::vector<Image>& images) cons
       image.solidAngle = image.region.regionSolidAngle();
       if (!(image.solidAngle > 0)) continue;
       const double cosine = std::abs(plane.normal.dot(image.region.sample(.5, .5)));
-      image.rays = std::pow(
-          lightFrom(scene, surface) * image.solidAngle * std::visit(SharpReflectance{cosine}, material),
-          kByLight);
+      image.rays = std::pow(brightness(sourceRadiance(scene, surface)) * image.solidAngle *
+                                std::visit(SharpReflectance{cosine}, material),
+                            kByLight);
       images.push_back(std::move(image));
     }
   }

@@ -14,8 +14,7 @@ constexpr double kPi = std::numbers::pi;
 // Of the source itself, or of what a relay shows an image of, for patterns and reflectances of 1.
 double brightnessOf(const Scene& scene, std::span<const LightSource> all, uint32_t index) {
   while (all[index].isVirtual()) index = static_cast<uint32_t>(all[index].relayed);
-  if (scene.importance) return 1;
-  return brightness(*sourceRadiance(*scene.materialOf(scene.surfaces[all[index].surface])));
+  return brightness(sourceRadiance(scene, scene.surfaces[all[index].surface]));
 }
 
 // The distance of a source's middle before a surface, or what is left of it where some of the source is

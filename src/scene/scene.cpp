@@ -810,6 +810,12 @@ std::optional<Rgb> sourceRadiance(const Material& material) {
   return std::nullopt;
 }
 
+Rgb sourceRadiance(const Scene& scene, const Surface& surface) {
+  if (surface.goal) return Rgb(1, 1, 1);
+  const Material* material = scene.materialOf(surface);
+  return material ? sourceRadiance(*material).value_or(Rgb(0, 0, 0)) : Rgb(0, 0, 0);
+}
+
 bool isLightSource(const Material& material) { return sourceRadiance(material).has_value(); }
 
 Scene buildScene(rad::Description description, const rad::ReadOptions& options,

@@ -107,6 +107,8 @@ bool isTransparent(const Material& material);
 bool isLightSource(const Material& material);
 // The radiance a source material is given (W/sr/m2); empty for others.
 std::optional<Rgb> sourceRadiance(const Material& material);
+// What a surface is given to send, W/sr/m2, before patterns: 1 of a goal, black where it is no source.
+Rgb sourceRadiance(const Scene& scene, const Surface& surface);
 
 // Checks and converts what surfaces use of the description, which is kept for names and places, and reads the
 // octrees and meshes that it names (options: for them), each once. Vertices are as the files have them

@@ -125,12 +125,9 @@ std::vector<BrightSpots::Particle> BrightSpots::particles(const Scene& scene, co
   for (const LightSource& light : lights.all()) {
     if (light.isVirtual()) continue;
     const Surface& surface = scene.surfaces[light.surface];
-    const Material* material = scene.materialOf(surface);
-    const auto radiance = surface.goal ? Rgb(1, 1, 1) : material ? sourceRadiance(*material) : std::nullopt;
-    if (!radiance) continue;
     const auto* distant = std::get_if<Distant>(&surface.shape);
-    const double power =
-        brightness(*radiance) * kPi * (distant ? distant->solidAngle * reach * reach : areaOf(surface.shape));
+    const double power = brightness(sourceRadiance(scene, surface)) * kPi *
+                         (distant ? distant->solidAngle * reach * reach : areaOf(surface.shape));
     if (!(power > 0)) continue;
     senders.push_back({&surface.shape, power});
     all += power;

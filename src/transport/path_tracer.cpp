@@ -99,10 +99,9 @@ Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance i
     if (lights_.all()[i].isVirtual()) continue;
     lightOf_[lights_.all()[i].surface] = static_cast<int32_t>(i);
     const Surface& surface = scene.surfaces[lights_.all()[i].surface];
-    if (surface.goal)
-      constantRadiance_[i] = Rgb(1, 1, 1);
-    else if (surface.modifier == surface.material && scene.modifiers[surface.material].next == kNone)
-      constantRadiance_[i] = sourceRadiance(*scene.materialOf(surface));
+    if (surface.goal ||
+        (surface.modifier == surface.material && scene.modifiers[surface.material].next == kNone))
+      constantRadiance_[i] = sourceRadiance(scene, surface);
   }
   for (size_t i = 0; i < scene.surfaces.size(); ++i) {
     const Surface& s = scene.surfaces[i];

@@ -2,9 +2,10 @@
 // Radiance along a ray: direct light from the sources, sharp reflections and refractions, samples of rough
 // ones, and indirect light.
 //
-// Indirect light at the first diffuse surface of a path is interpolated in a field (-aa, irradiance_field.h),
-// or else gathered anew: -ad directions over the hemisphere, stratified; one direction at every later
-// surface. Paths end at -ab bounces and by Russian roulette below -lw, so that the mean stays right.
+// Indirect light at the first two diffuse surfaces of a path is interpolated in a field (-aa,
+// irradiance_field.h), or else gathered anew: -ad directions over the hemisphere, stratified, at the first,
+// one direction at every later one. Paths end at -ab bounces and by Russian roulette below -lw, so that the
+// mean stays right.
 #include <functional>
 #include <memory>
 #include <optional>
@@ -124,8 +125,8 @@ class PathTracer {
   Ray traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed);
 
   // The light source whose own light the last primary ray showed, at its end or straight on through panes
-  // that shadow rays pass as well, mirrored once by something flat or not at all. Of several the one that was not mirrored, or else the
-  // first.
+  // that shadow rays pass as well, mirrored once by something flat or not at all. Of several the one that was
+  // not mirrored, or else the first.
   struct Shown {
     int32_t source = kNone;  // index in Scene::surfaces; kNone: none was shown
     int32_t mirror = kNone;  // what mirrored it

@@ -3,13 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "cli/option_table.h"
-#include "importance/estimator.h"
 #include "rad_parser/scene_file.h"
+#include "tests/unit/support/sphere_setting.h"
 #include "tests/unit/support/statistics.h"
 
 namespace rsphere {
@@ -18,20 +16,18 @@ namespace {
 // The open-plan office with 50 mirror spheres, and four of its points with their means by
 //   rsphere -ab 3 -dt 0 -dj 1 -ds .05 -Sk 0 -Sn 16384 -Sx 32768 -Sr 1 ... 12
 // whose own rms errors are .22%, .06% of the mean of twelve.
-struct Office {
-  Scene scene;
-  Options options = modeDefaults(true);
-  std::unique_ptr<Transport> transport;
+struct Office : SphereSetting {
   const V3d points[4] = {V3d(6.4, 1.75, 1.2), V3d(14, 3.85, 1.2), V3d(6.4, 8.05, 1.2), V3d(14, 10.15, 1.2)};
   const double means[4] = {.51112, .56672, .57583, .57576};
 
-  Office() {
-    const std::string command = "!" RSPHERE_TESTS "/../examples/openplan/generate 50";
-    scene = buildScene(rad::readScene(std::vector<std::string>{command}, {}));
-    options.ray.ambientBounces = 3;
-    options.ray.sourceSubstructuring = .05;
-    transport = std::make_unique<Transport>(scene, options.ray, Irradiance::none);
-  }
+  Office()
+      : SphereSetting(
+            buildScene(rad::readScene(
+                std::vector<std::string>{"!" RSPHERE_TESTS "/../examples/openplan/generate 50"}, {})),
+            [](RayOptions& o) {
+              o.ambientBounces = 3;
+              o.sourceSubstructuring = .05;
+            }) {}
 
   // The root mean square of the relative errors, with no more directions a point than `most`.
   double rms(Weights weights, int base, int most, int rotations) const {

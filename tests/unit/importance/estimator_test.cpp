@@ -4,12 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <string>
 
-#include "cli/option_table.h"
 #include "tests/unit/support/scene_of.h"
+#include "tests/unit/support/sphere_setting.h"
 #include "tests/unit/support/statistics.h"
 
 namespace rsphere {
@@ -53,15 +52,9 @@ std::string room(int spheres, double radius = .1, double luminaire = .8) {
   return text;
 }
 
-struct Setting {
-  Scene scene;
-  Options options = modeDefaults(true);
-  std::unique_ptr<Transport> transport;
-
-  explicit Setting(const std::string& text, int bounces = 0) : scene(sceneOf(text)) {
-    options.ray.ambientBounces = bounces;
-    transport = std::make_unique<Transport>(scene, options.ray, Irradiance::none);
-  }
+struct Setting : SphereSetting {
+  explicit Setting(const std::string& text, int bounces = 0)
+      : SphereSetting(sceneOf(text), [&](RayOptions& o) { o.ambientBounces = bounces; }) {}
   // Of the mode's options, with these.
   SphereOptions with(Weights weights, int base, uint64_t rotation = 0) const {
     SphereOptions o = options.sphere;

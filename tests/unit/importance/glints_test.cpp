@@ -3,30 +3,23 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "cli/option_table.h"
 #include "importance/silhouette.h"
 #include "tests/unit/support/scene_of.h"
+#include "tests/unit/support/sphere_setting.h"
 
 namespace rsphere {
 namespace {
 
-struct Setting {
-  Scene scene;
-  Options options = modeDefaults(true);
-  std::unique_ptr<Transport> transport;
-
+struct Setting : SphereSetting {
   explicit Setting(const std::string& text)
-      : scene(sceneOf("void metal chrome 0 0 5 .9 .9 .9 1 0\nvoid metal steel 0 0 5 .9 .9 .9 1 .1\n"
-                      "void mirror silver 0 0 3 .9 .9 .9\nvoid light lamp 0 0 3 10 10 10\n"
-                      "void plastic black 0 0 5 0 0 0 0 0\n" +
-                      text)) {
-    options.ray.ambientBounces = 0;
-    transport = std::make_unique<Transport>(scene, options.ray, Irradiance::none);
-  }
+      : SphereSetting(sceneOf("void metal chrome 0 0 5 .9 .9 .9 1 0\nvoid metal steel 0 0 5 .9 .9 .9 1 .1\n"
+                              "void mirror silver 0 0 3 .9 .9 .9\nvoid light lamp 0 0 3 10 10 10\n"
+                              "void plastic black 0 0 5 0 0 0 0 0\n" +
+                              text),
+                      [](RayOptions& o) { o.ambientBounces = 0; }) {}
   std::vector<Glint> seenFrom(const V3d& point, double least = 0) const {
     std::vector<Glint> found;
     Glints(*transport, findSpecialObjects(scene, 1)).find(point, least, found);

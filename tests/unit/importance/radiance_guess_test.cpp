@@ -4,15 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <span>
 #include <string>
 
-#include "cli/option_table.h"
-#include "importance/estimator.h"
 #include "rad_parser/scene_file.h"
 #include "sphere/directions.h"
+#include "tests/unit/support/sphere_setting.h"
 #include "tests/unit/support/statistics.h"
 
 namespace rsphere {
@@ -20,21 +18,18 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-struct Setting {
-  Scene scene;
-  Options options = modeDefaults(true);
-  std::unique_ptr<Transport> transport;
-
+struct Setting : SphereSetting {
   explicit Setting(const std::string& text, int bounces = 0, bool goal = false)
-      : scene([&] {
-          const std::string goals[] = {"goal"};
-          return buildScene(rad::readSceneText(text, "room.rad"), {},
-                            goal ? std::span<const std::string>(goals) : std::span<const std::string>());
-        }()) {
-    options.ray.ambientBounces = bounces;
-    options.ray.sourceSubstructuring = .05;
-    transport = std::make_unique<Transport>(scene, options.ray, Irradiance::none);
-  }
+      : SphereSetting(
+            [&] {
+              const std::string goals[] = {"goal"};
+              return buildScene(rad::readSceneText(text, "room.rad"), {},
+                                goal ? std::span<const std::string>(goals) : std::span<const std::string>());
+            }(),
+            [&](RayOptions& o) {
+              o.ambientBounces = bounces;
+              o.sourceSubstructuring = .05;
+            }) {}
   RadianceGuess guess() const {
     std::vector<bool> lights(scene.surfaces.size(), false);
     for (const LightSource& l : transport->lights().all()) lights[l.surface] = true;

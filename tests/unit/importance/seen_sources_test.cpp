@@ -4,13 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <string>
 
-#include "cli/option_table.h"
-#include "importance/estimator.h"
 #include "tests/unit/support/scene_of.h"
+#include "tests/unit/support/sphere_setting.h"
 #include "tests/unit/support/statistics.h"
 
 namespace rsphere {
@@ -24,14 +22,8 @@ constexpr const char* kMaterials =
     "0\n"
     "void glass pane 0 0 3 .96 .96 .96\n";
 
-struct Setting {
-  Scene scene;
-  Options options = modeDefaults(true);
-  std::unique_ptr<Transport> transport;
-
-  explicit Setting(const std::string& text) : scene(sceneOf(kMaterials + text)) {
-    transport = std::make_unique<Transport>(scene, options.ray, Irradiance::none);
-  }
+struct Setting : SphereSetting {
+  explicit Setting(const std::string& text) : SphereSetting(sceneOf(kMaterials + text)) {}
   double at(const V3d& point, Weights weights, int base, uint64_t rotation = 0,
             std::vector<DirectionSample>* samples = nullptr) const {
     SphereOptions o = options.sphere;

@@ -1,0 +1,24 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "cli/option_table.h"
+#include "importance/estimator.h"
+
+namespace rsphere {
+
+// A scene in sphere mode: the mode's options, but for what `change` does to those of rays.
+struct SphereSetting {
+  Scene scene;
+  Options options = modeDefaults(true);
+  std::unique_ptr<Transport> transport;
+
+  explicit SphereSetting(Scene it, const std::function<void(RayOptions&)>& change = {})
+      : scene(std::move(it)) {
+    if (change) change(options.ray);
+    transport = std::make_unique<Transport>(scene, options.ray, Irradiance::none);
+  }
+};
+
+}  // namespace rsphere
