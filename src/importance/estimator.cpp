@@ -7,6 +7,7 @@
 
 #include "light/surface_point.h"
 #include "rad_parser/error.h"
+#include "scene/even_sequence.h"
 #include "sphere/directions.h"
 
 namespace rsphere {
@@ -36,13 +37,6 @@ constexpr double kMostContrast = 200;
 // own; deviation within what is taken for the image, against its brightness.
 constexpr double kLeastGlint = 1e-3, kGlintDeviation = .5;
 
-// An additive sequence of two dimensions, as even as it can be (Roberts 2018, the plastic number).
-V3d evenly(size_t i, double shift1, double shift2) {
-  const double a = shift1 + .7548776662466927 * static_cast<double>(i);
-  const double b = shift2 + .5698402909980532 * static_cast<double>(i);
-  return V3d(a - std::floor(a), b - std::floor(b), 0);
-}
-
 // A direction on the front side, spread as a diffuse surface sends light, for even u1, u2.
 V3d awayFrom(const V3d& normal, double u1, double u2) {
   V3d x, y;
@@ -64,6 +58,19 @@ void shareOut(const Rgb& excess, std::span<const Rgb> guesses, std::vector<Direc
     const double scale = guessed[c] > 0 ? excess[c] / guessed[c] : 0,
                  shift = guessed[c] > 0 || !(solidAngle > 0) ? 0 : excess[c] / solidAngle;
     for (size_t i = 0; i < samples.size(); ++i) samples[i].value[c] += scale * guesses[i][c] + shift;
+  }
+}
+
+// Single values that guesses have made negative become 0, and the others less by as much in all.
+void keepPositive(std::vector<DirectionSample>& samples) {
+  for (int c = 0; c < 3; ++c) {
+    double sum = 0, positive = 0;
+    for (const DirectionSample& s : samples) {
+      sum += s.value[c] * s.solidAngle;
+      positive += std::max(0., s.value[c]) * s.solidAngle;
+    }
+    if (!(sum > 0) || sum == positive) continue;
+    for (DirectionSample& s : samples) s.value[c] = std::max(0., s.value[c]) * (sum / positive);
   }
 }
 
@@ -212,7 +219,10 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& w) const {
   PointAnswer answer = moments.answer(point, w.samples.size());
   for (int i = 0; i < 3; ++i) answer.standardError[i] = std::sqrt(variance[i]) * share / (4 * kPi);
   answer.reached = options_.accuracy <= 0 || reached;
-  if (!w.guesses.empty()) shareOut(w.excess.total * share, w.guesses, w.samples);
+  if (!w.guesses.empty()) {
+    shareOut(w.excess.total * share, w.guesses, w.samples);
+    keepPositive(w.samples);
+  }
   return answer;
 }
 
@@ -274,7 +284,7 @@ void SphereEstimator::sampleAsPaper(const V3d& point, uint64_t seed, Workspace& 
     const double shift1 = random.uniform(), shift2 = random.uniform();
     const size_t count = std::min(object.count, left);
     for (size_t i = 0; i < count; ++i) {
-      const V3d u = evenly(i, shift1, shift2);
+      const Imath::V2d u = evenly(i, shift1, shift2);
       w.dynamic.push_back(object.silhouette.sample(u.x, u.y));
     }
     left -= count;
@@ -352,10 +362,19 @@ void SphereEstimator::sampleSilhouettes(const V3d& point, uint64_t seed, Workspa
   const auto most = static_cast<size_t>(options_.mostDirections);
   const size_t base = w.directions.size();
 
+  sources_.findImages(point, std::max<size_t>(base / 4, 16), options_.densityFactor, w.images);
+  w.tracer.guessWith(nullptr);
+  if (guess_) {
+    lookAround(point, mixBits(seed + 2), w);
+    const uint64_t fitSeed = mixBits(seed + 4);
+    w.local =
+        guess_->fit(point, rotatedDirections(fitGlances_, mixBits(fitSeed)), w.traced, mixBits(fitSeed + 1));
+    w.tracer.guessWith(&*w.local);
+  }
+
   // Sources that are seen directly.
   w.sources.clear();
   double seen = 0;
-  sources_.findImages(point, std::max<size_t>(base / 4, 16), options_.densityFactor, w.images);
   sources_.sample(point, w.images, mixBits(seed + 1), w.tracer, w.sources);
   for (const SeenSources::Sample& s : w.sources) {
     seen += s.direction.solidAngle;
@@ -366,7 +385,6 @@ void SphereEstimator::sampleSilhouettes(const V3d& point, uint64_t seed, Workspa
   // Base and dynamic directions, each with the solid angle that it stands for where all that were sent are
   // even.
   const size_t used = base + w.sources.size();
-  if (guess_) lookAround(point, mixBits(seed + 2), w);
   chooseTargets(point, most > used ? most - used : 0, w);
   w.index.clear();
   for (uint32_t i = 0; i < w.targets.size(); ++i) w.index.add(i, w.targets[i].silhouette);
@@ -405,7 +423,7 @@ void SphereEstimator::sampleSilhouettes(const V3d& point, uint64_t seed, Workspa
     const double shift1 = random.uniform(), shift2 = random.uniform();
     if (!target.continues) w.runs.push_back(w.samples.size());
     for (size_t i = 0; due >= 1; --due, ++i) {
-      const V3d u = evenly(i, shift1, shift2);
+      const Imath::V2d u = evenly(i, shift1, shift2);
       send(target.silhouette.sample(u.x, u.y), 4 * kPi / static_cast<double>(base),
            mixBits(seed + 16 + next++));
     }
@@ -413,24 +431,22 @@ void SphereEstimator::sampleSilhouettes(const V3d& point, uint64_t seed, Workspa
   // All stand for the sphere but for the sources' part of it.
   const double scale = total > 0 ? std::max(0., 4 * kPi - seen) / total : 0;
   for (const size_t i : w.rest) w.samples[i].solidAngle *= scale;
-  if (guess_) glance(point, mixBits(seed + 4), w);
+  if (guess_) glance(point, w);
   if (standardError_) addVariances(firstBase, w);
 }
 
 // What is guessed of the last set's directions, and how much more or less many glances find of it.
-void SphereEstimator::glance(const V3d& point, uint64_t seed, Workspace& w) const {
+void SphereEstimator::glance(const V3d& point, Workspace& w) const {
   w.guesses.resize(w.samples.size(), Rgb(0, 0, 0));
-  const auto local =
-      guess_->fit(point, rotatedDirections(fitGlances_, mixBits(seed)), w.traced, mixBits(seed + 1));
   for (size_t k = 0; k < w.rest.size(); ++k) {
     const size_t i = w.rest[k];
     const DirectionSample& s = w.samples[i];
-    w.guesses[i] = guess_->from(w.places[k], local);
+    w.guesses[i] = w.local->from(w.places[k]);
     w.excess.add(s.direction, w.guesses[i] * -s.solidAngle);
   }
   const double solidAngle = 4 * kPi / static_cast<double>(w.glances.size());
   for (const V3d& direction : w.glances)
-    w.excess.add(direction, guess_->along(point, direction, local) * solidAngle);
+    w.excess.add(direction, w.local->along(point, direction) * solidAngle);
 }
 
 void SphereEstimator::addVariances(size_t firstBase, Workspace& w) const {

@@ -15,8 +15,8 @@
 // of the surroundings, measured by rays that take no other part, so that the mean stays unbiased.
 // - Indirect rays are aimed at where much light falls on little (transport/bright_spots.h).
 // - Many glances, rays that are not followed beyond what they hit, tell what can be guessed of diffuse
-// surfaces (radiance_guess.h): their unshadowed or fully shadowed light, and their edges. Only what differs
-// from the guess is left to the directions.
+// surfaces (transport/radiance_guess.h): their unshadowed or fully shadowed light, and their edges. Only what
+// differs from the guess is left to the directions, and to the indirect rays that they go on with.
 #include <algorithm>
 #include <iterator>
 #include <memory>
@@ -29,13 +29,13 @@
 #include "importance/direction_sample.h"
 #include "importance/error_estimate.h"
 #include "importance/glints.h"
-#include "importance/radiance_guess.h"
 #include "importance/seen_sources.h"
 #include "importance/silhouette.h"
 #include "importance/silhouette_index.h"
 #include "importance/special_objects.h"
 #include "sphere/voronoi.h"
 #include "transport/path_tracer.h"
+#include "transport/radiance_guess.h"
 
 namespace rsphere {
 
@@ -66,7 +66,8 @@ class SphereEstimator {
         : tracer(estimator.transport_, estimator.spots_.get()) {}
     PathTracer tracer;
     // Of the last point. Where glances found more or less than the directions' own guesses say, what is
-    // guessed of each is scaled so that solid angles times radiances sum to the answer's.
+    // guessed of each is scaled so that solid angles times radiances sum to the answer's; none is negative
+    // unless the answer is.
     std::vector<DirectionSample> samples;
     std::vector<Ray> rays;  // what they hit, in the same order; kept with -Sd only
 
@@ -83,6 +84,7 @@ class SphereEstimator {
     std::vector<V3d> turnedGlances;
     std::span<const V3d> glances;
     std::vector<RadianceGuess::Traced> traced;  // by rays that take no other part
+    std::optional<LocalGuess> local;            // fitted to these
     double around = 0;                          // mean brightness of these
     std::vector<Target> targets;
     std::vector<Glint> glints;
@@ -117,7 +119,7 @@ class SphereEstimator {
   void sampleSilhouettes(const V3d& point, uint64_t seed, Workspace& w) const;
   void chooseTargets(const V3d& point, size_t most, Workspace& w) const;
   void lookAround(const V3d& point, uint64_t seed, Workspace& w) const;
-  void glance(const V3d& point, uint64_t seed, Workspace& w) const;
+  void glance(const V3d& point, Workspace& w) const;
   void addVariances(size_t firstBase, Workspace& w) const;
   void measureContrasts();
   void measureSurroundings(PathTracer& tracer);

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <optional>
 
+#include "scene/even_sequence.h"
+
 namespace rsphere {
 namespace {
 
@@ -82,12 +84,6 @@ struct Plane {
   V3d mirrored(const V3d& p) const { return p - 2 * height(p) * normal; }
   V3d mirroredDirection(const V3d& d) const { return d - 2 * normal.dot(d) * normal; }
 };
-
-V3d evenly(size_t i, double shift1, double shift2) {
-  const double a = shift1 + .7548776662466927 * static_cast<double>(i);
-  const double b = shift2 + .5698402909980532 * static_cast<double>(i);
-  return V3d(a - std::floor(a), b - std::floor(b), 0);
-}
 
 }  // namespace
 
@@ -238,7 +234,7 @@ void SeenSources::sampleImage(const V3d& point, const Image& image, size_t rays,
     const double shift1 = random.uniform(), shift2 = random.uniform();
     size_t met = 0;
     for (size_t i = 0; i < kShareTries; ++i) {
-      const V3d u = evenly(i, shift1, shift2);
+      const Imath::V2d u = evenly(i, shift1, shift2);
       met += hits(scene, shape, eye, image.region.sample(u.x, u.y), on) && on.cosine > 0;
     }
     if (met == 0) return;

@@ -400,7 +400,11 @@ void LightSources::sampleParts(uint32_t index, const V3d& point, const V3d& towa
       // at: the place on the source of a place on the unit square.
       const auto addPlane = [&](const auto& at) {
         // Spread evenly over the part as it is seen.
+        const double height = source.normal.dot(point - source.center);
         const auto addNear = [&](Part part) {
+          // In the source's own plane rounding would decide from which side it is seen, and then it fills
+          // half the sky.
+          if (height <= kSamePlace) return;
           const std::array<V3d, 4> whole = cornersOf(source, part);
           const double below = triangleSolidAngle(whole[0], whole[1], whole[2], point);
           const double above = triangleSolidAngle(whole[0], whole[2], whole[3], point);
@@ -416,7 +420,7 @@ void LightSources::sampleParts(uint32_t index, const V3d& point, const V3d& towa
               std::abs(triangleSolidAngle(aims[0], aims[first ? 1 : 2], aims[first ? 2 : 3], V3d(0, 0, 0))),
               (first ? u : u - std::abs(below)) / half, v);
           const double cosine = -direction.dot(source.normal);
-          if (cosine > kEdgeOn) add(direction, omega, source.normal.dot(point - source.center) / cosine);
+          if (cosine > kEdgeOn) add(direction, omega, height / cosine);
         };
         const auto use = [&](const Part& part, const V3d& middle) {
           if (jitter > 0 && source.map == LightSource::Map::parallelogram && isNear(source, part, point))

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/even_sequence.h"
 #include "transport/path_tracer.h"
+#include "transport/radiance_guess.h"
 #include "transport/ray_functions.h"
 
 namespace rsphere {
@@ -99,6 +101,14 @@ void PathTracer::sampleLobe(Ray& ray, RayKind kind, const Rgb& share, LobeSample
   }
 }
 
+// Not where the ray's own descendants are cut off by -lr, rather than by chance: what is guessed would be
+// more than is followed.
+int PathTracer::raysToGuess(const Ray& ray) const {
+  const int limit = t_.options().reflectionLimit;
+  if (!guess_ || limit > 0 || (limit < 0 && ray.level + 1 > -limit)) return 0;
+  return guess_->raysToGuess(ray.ambientLevel);
+}
+
 void PathTracer::addIndirect(Ray& ray, const V3d& normal, const V3d& trueNormal, RayKind kind,
                              const Rgb& coefficient) {
   const RayOptions& o = t_.options();
@@ -119,33 +129,51 @@ void PathTracer::addIndirect(Ray& ray, const V3d& normal, const V3d& trueNormal,
   frame(normal, x, y);
   BrightSpots::Aim aim;
   if (spots_) spots_->aim(ray.point, normal, aim);
+  // Of the cell (i, j), for even u1, u2, u3. Answers what the direction counts, against one that is not
+  // aimed; 0: it leads nowhere.
+  const auto draw = [&](int i, int j, double u1, double u2, double u3, V3d& direction) {
+    if (u3 < aim.share) {
+      direction = spots_->sample(aim, u3 / aim.share, u1, u2);
+    } else {
+      // By projected solid angle, so that every direction counts the same (Malley's method).
+      const double radius = std::sqrt((i + u1) / side), angle = 2 * kPi * (j + u2) / side;
+      const double height = std::sqrt(std::max(0., 1 - radius * radius));
+      direction = radius * std::cos(angle) * x + radius * std::sin(angle) * y + height * normal;
+    }
+    const double cosine = direction.dot(normal);
+    if (cosine <= 0 || direction.dot(trueNormal) <= 0) return 0.;
+    if (!(aim.share > 0)) return 1.;
+    return 1 / (1 - aim.share + aim.share * kPi / cosine * spots_->density(aim, direction));
+  };
+  const int guesses = raysToGuess(ray);
   const Rgb share = coefficient / (static_cast<double>(side) * side);
   for (int i = 0; i < side; ++i)
     for (int j = 0; j < side; ++j) {
-      Ray child;
-      if (aim.share > 0 && random_.uniform() < aim.share) {
-        child.direction = spots_->sample(aim, random_.uniform(), random_.uniform(), random_.uniform());
-      } else {
-        // By projected solid angle, so that every direction counts the same (Malley's method).
-        const double radius = std::sqrt((i + random_.uniform()) / side);
-        const double angle = 2 * kPi * (j + random_.uniform()) / side;
-        const double height = std::sqrt(std::max(0., 1 - radius * radius));
-        child.direction = radius * std::cos(angle) * x + radius * std::sin(angle) * y + height * normal;
+      if (guesses > 0) {
+        const double shift3 = random_.uniform(), shift1 = random_.uniform(), shift2 = random_.uniform();
+        Rgb sum(0, 0, 0);
+        for (int k = 0; k < guesses; ++k) {
+          V3d direction;
+          const Imath::V2d u = evenly(static_cast<size_t>(k), shift1, shift2);
+          const double part = draw(i, j, u.x, u.y, aim.share > 0 ? (k + shift3) / guesses : 1, direction);
+          if (part > 0) sum += part * guess_->along(ray.point, direction, ray.surface);
+        }
+        ray.value += share * sum / static_cast<double>(guesses);
       }
-      const double cosine = child.direction.dot(normal);
-      if (cosine <= 0 || child.direction.dot(trueNormal) <= 0) continue;
+      Ray child;
+      const double u3 = aim.share > 0 ? random_.uniform() : 1;
+      const double u1 = random_.uniform(), u2 = random_.uniform();
+      const double part = draw(i, j, u1, u2, u3, child.direction);
+      if (!(part > 0)) continue;
       Rgb c = share;
       if (!continueRay(child, kind, ray, c)) continue;
       // Only now: what is aimed has less of a share because it brings more, and is not to end for it.
-      if (aim.share > 0) {
-        const double part =
-            1 / (1 - aim.share + aim.share * kPi / cosine * spots_->density(aim, child.direction));
-        c *= part;
-        child.contribution *= part;
-      }
+      c *= part;
+      child.contribution *= part;
       ++child.ambientLevel;
       evaluate(child);
       ray.value += child.value * c;
+      if (guesses > 0) ray.value -= guess_->along(child) * c;
     }
 }
 

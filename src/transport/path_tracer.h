@@ -104,6 +104,7 @@ using LobeSampler = FunctionRef<double(double u1, double u2, V3d& direction)>;
 using RayObserver = std::function<void(const Ray& ray)>;
 
 struct BsdfHit;
+class LocalGuess;
 
 // Traces one ray at a time; one a thread. The answer depends on the ray, the seed and Transport alone.
 class PathTracer {
@@ -145,6 +146,11 @@ class PathTracer {
     observer_ = std::move(observer);
     allShadowRays_ = allShadowRays;
   }
+
+  // From now on what the indirect rays that are gathered bring is guessed as well (radiance_guess.h): for one
+  // that is followed several are only guessed. The mean of many rays stays what it is; one ray's value may be
+  // negative. Null: nothing is guessed.
+  void guessWith(const LocalGuess* guess) { guess_ = guess; }
 
   // Only what is hit, no value.
   Ray cast(const V3d& origin, const V3d& direction, double farthest);
@@ -221,6 +227,7 @@ class PathTracer {
   void sampleLobe(Ray& ray, RayKind kind, const Rgb& share, LobeSampler draw, int least = 1);
   void addIndirect(Ray& ray, const V3d& normal, const V3d& trueNormal, RayKind kind, const Rgb& coefficient);
   void addIndirect(Ray& ray, const V3d& normal, const Interaction& at, RayKind kind, const Rgb& coefficient);
+  int raysToGuess(const Ray& ray) const;
   bool addInterpolated(Ray& ray, const V3d& normal, const V3d& trueNormal, const Rgb& coefficient);
   GatheredLight gather(const GatherSite& site, LightOf of, double share, uint64_t seed, int depth);
   double reach(const GatherSite& site, double nearest);
@@ -239,6 +246,7 @@ class PathTracer {
 
   const Transport& t_;
   const BrightSpots* spots_;
+  const LocalGuess* guess_ = nullptr;
   Random random_{0};
   V3d primaryDirection_{0, 0, 1};
   Shown shown_;

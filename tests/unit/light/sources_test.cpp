@@ -184,6 +184,18 @@ TEST(Source, PlaneSourcesLightTheirFrontOnly) {
   }
 }
 
+// A lamp set flush into a ceiling: rounding puts places of the plane before it or behind it, neither of which
+// is to fill half their sky with light.
+TEST(Source, DoesNotLightItsOwnPlane) {
+  const Scene scene = sceneOf(light("polygon s\n0\n0\n12 .1 .3 .7 .9 .3 .73 .9 1.1 .73 .1 1.1 .7\n"));
+  for (const double beyond : {0., 2e-16, -2e-16, 1e-9, -1e-9})
+    for (double x = -.5; x < 1.6; x += .013)
+      for (double y = .2; y < 1.2; y += .17) {
+        const V3d point(x, y, .7 + .0375 * (x - .1) + beyond);
+        EXPECT_TRUE(samplesAt(scene, point, SourceSampling{.05, 1}, 7).empty()) << x << ' ' << y;
+      }
+}
+
 TEST(Source, SphereDoesNotLightItsInside) {
   const Scene scene = sceneOf(light("sphere s\n0\n0\n4 0 0 0 1\n"));
   EXPECT_TRUE(samplesAt(scene, V3d(0, 0, .5), SourceSampling{.2, 0}).empty());
@@ -307,7 +319,8 @@ TEST(Source, SolidAnglesOfSamplesSumUpToTheSources) {
   expectMean(mean(sceneOf(light("polygon s\n0\n0\n9 0 0 1 0 1 1 1 0 1\n"))), omega, 1.01);
 }
 
-// A millimetre before a panel of a metre, by area, single samples would count 1/distance^2: a deviation of 40.
+// A millimetre before a panel of a metre, by area, single samples would count 1/distance^2: a deviation
+// of 40.
 TEST(Sources, RightBeforeALargeSource) {
   const Scene scene = sceneOf(light("polygon p\n0\n0\n12 -.5 -.5 0 -.5 .5 0 .5 .5 0 .5 -.5 0"));
   const V3d point(.2, .1, -.001);

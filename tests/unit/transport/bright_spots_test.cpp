@@ -89,7 +89,7 @@ TEST(BrightSpots, LeaveTheMeanAsItIs) {
   PathTracer aimed(pot.transport(), &spots);
   const V3d origin(3, 2.5, 1), down(.1, .2, -1);
   constexpr double kMean = 7.0979e-4;
-  constexpr int kPaths = 60000;
+  constexpr int kPaths = 80000;
   Sample sample;
   for (int i = 0; i < kPaths; ++i) sample.add(aimed.trace(origin, down.normalized(), 0, mixBits(i)).value.x);
   expectMean(sample, kMean, 1.08);

@@ -1,5 +1,3 @@
-#include "importance/radiance_guess.h"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +10,7 @@
 #include "sphere/directions.h"
 #include "tests/unit/support/sphere_setting.h"
 #include "tests/unit/support/statistics.h"
+#include "transport/radiance_guess.h"
 
 namespace rsphere {
 namespace {
@@ -30,71 +29,12 @@ struct Setting : SphereSetting {
               o.ambientBounces = bounces;
               o.sourceSubstructuring = .05;
             }) {}
-  RadianceGuess guess() const {
-    std::vector<bool> lights(scene.surfaces.size(), false);
-    for (const LightSource& l : transport->lights().all()) lights[l.surface] = true;
-    return RadianceGuess(*transport, lights);
-  }
 };
 
 constexpr const char* kMaterials =
     "void plastic gray 0 0 5 .6 .5 .4 0 0\nvoid metal steel 0 0 5 .6 .6 .6 .5 .1\nvoid mirror silver 0 0 3 "
     ".9 .9 .9\nvoid light lamp 0 0 3 20 20 20\nvoid plastic goal 0 0 5 .4 .25 .15 0 0\n";
 constexpr const char* kFloor = "gray polygon floor 0 0 12 -9 -9 0 9 -9 0 9 9 0 -9 9 0\n";
-
-// Where nothing is in between, the guess is the light of every kind of source.
-TEST(RadianceGuess, IsTheRadianceWhereNothingIsHidden) {
-  struct Case {
-    const char* lamp;
-    double tolerance;
-  };
-  for (const Case& c :
-       {Case{"lamp polygon l 0 0 12 1 1 2 1 2 2 3 2 2 3 1 2\n", .16},
-        Case{"lamp polygon l 0 0 9 1 1 2 1 2 2 3 2 2\n", .04}, Case{"lamp sphere l 0 0 4 1 1 2 .2\n", .04},
-        Case{"lamp ring l 0 0 8 1 1 2 0 0 -1 0 .3\n", .05}, Case{"lamp source l 0 0 4 .5 .2 1 2\n", .01}}) {
-    const Setting setting(std::string(kMaterials) + kFloor + c.lamp);
-    const RadianceGuess guess = setting.guess();
-    const V3d point(.5, .2, 1);
-    const auto local = guess.fit(point, baseDirections(RadianceGuess::kFitGlances), {}, 1);
-    PathTracer tracer(*setting.transport);
-    for (double x = -3; x < 6; x += .7)
-      for (double y = -3; y < 6; y += .7) {
-        const V3d direction = (V3d(x, y, 0) - point).normalized();
-        double traced = 0;
-        for (uint64_t seed = 0; seed < 32; ++seed)
-          traced += tracer.trace(point, direction, 0, seed).value.y / 32;
-        EXPECT_NEAR(guess.along(point, direction, local).y / traced, 1, c.tolerance)
-            << c.lamp << x << ' ' << y;
-      }
-  }
-}
-
-TEST(RadianceGuess, KnowsNothingOfMirrorsLightsAndNothing) {
-  const Setting setting(
-      std::string(kMaterials) +
-      "silver sphere m 0 0 4 2 0 0 .5\nlamp sphere l 0 0 4 0 0 3 .5\nsteel sphere s 0 0 4 0 2 0 .5\n");
-  const RadianceGuess guess = setting.guess();
-  const V3d point(0, 0, 0);
-  const auto local = guess.fit(point, baseDirections(RadianceGuess::kFitGlances), {}, 1);
-  EXPECT_EQ(guess.along(point, V3d(1, 0, 0), local), Rgb(0, 0, 0));
-  EXPECT_EQ(guess.along(point, V3d(0, 0, 1), local), Rgb(0, 0, 0));
-  EXPECT_EQ(guess.along(point, V3d(0, 0, -1), local), Rgb(0, 0, 0));
-  EXPECT_GT(guess.along(point, V3d(0, 1, 0), local).y, 0) << "the diffuse half of steel";
-}
-
-// What no light of the source reaches is not expected to have any.
-TEST(RadianceGuess, LeavesOutSourcesThatAreShutOut) {
-  const std::string lid = "gray polygon lid 0 0 12 -99 -99 3 99 -99 3 99 99 3 -99 99 3\n";
-  const std::string sun = "lamp source l 0 0 4 0 0 1 1\n";
-  const V3d point(0, 0, 1);
-  for (const bool shut : {false, true}) {
-    const Setting setting(std::string(kMaterials) + kFloor + (shut ? lid : "") + sun);
-    const RadianceGuess guess = setting.guess();
-    const auto local = guess.fit(point, baseDirections(RadianceGuess::kFitGlances), {}, 1);
-    EXPECT_EQ(local.lights.empty(), shut);
-    EXPECT_EQ(guess.along(point, V3d(0, 0, -1), local).y > 0, !shut);
-  }
-}
 
 // A desk that is the goal, with a partition beside it.
 std::string deskBesideGoal() {
@@ -138,7 +78,7 @@ Spread spreadOf(const Setting& setting, double density, int base, int rotations)
 }
 
 // Without -Sk 0 nothing is guessed and nothing gets directions of its own.
-TEST(RadianceGuess, HalvesTheErrorBesideAGoalWithoutBias) {
+TEST(Guesses, HalveTheErrorBesideAGoalWithoutBias) {
   const Setting setting(deskBesideGoal(), 0, true);
   const Spread ours = spreadOf(setting, 1, 400, 60), equal = spreadOf(setting, 0, 400, 60);
   EXPECT_LE(ours.directions, equal.directions);

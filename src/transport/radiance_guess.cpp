@@ -1,4 +1,4 @@
-#include "importance/radiance_guess.h"
+#include "transport/radiance_guess.h"
 
 #include <algorithm>
 #include <array>
@@ -48,11 +48,25 @@ double irradianceFrom(const std::array<V3d, N>& corners, const V3d& normal) {
   return std::abs(sum) / 2;
 }
 
+// Rays that are guessed for one that is followed, at the first bounce; half of them at the second. What a
+// guess may miss of how radiances differ for that many, and for none at all. Measured: a desk beside a goal,
+// .3 to .5, gains 1.8 times in time, furnished rooms, .4 to .9, 1.1 to 1.4 times, a chrome ball near by, .9,
+// nothing.
+constexpr double kMostRays = 6, kUseful = .5, kUseless = .95;
+
 double middleOf(std::vector<double>& values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+// Mean distance from the middle one, which one very bright value among few does not decide.
+double spread(std::vector<double>& values) {
+  const double middle = middleOf(values);
+  double sum = 0;
+  for (const double v : values) sum += std::abs(v - middle);
+  return values.empty() ? 0 : sum / static_cast<double>(values.size());
 }
 
 }  // namespace
@@ -74,14 +88,18 @@ RadianceGuess::RadianceGuess(const Transport& transport, const std::vector<bool>
   }
 }
 
-RadianceGuess::Place RadianceGuess::placeAlong(const V3d& point, const V3d& direction) const {
-  return placeOf(point, direction, transport_.tracer().nearest(point, direction));
+RadianceGuess::Place RadianceGuess::placeAlong(const V3d& point, const V3d& direction, int32_t start) const {
+  return placeOf(point, direction, transport_.tracer().nearest(point, direction, kFarAway, start));
+}
+
+RadianceGuess::Place RadianceGuess::placeOf(int32_t surface, const V3d& point, const V3d& normal,
+                                            const V3d& direction) const {
+  if (surface == kNone) return {};
+  return {point, normal.dot(direction) > 0 ? -normal : normal, reflectance_[surface]};
 }
 
 RadianceGuess::Place RadianceGuess::placeOf(const V3d& point, const V3d& direction, const Hit& hit) const {
-  if (hit.surface == kNone) return {};
-  return {point + hit.distance * direction, hit.cosine < 0 ? -hit.normal : hit.normal,
-          reflectance_[hit.surface]};
+  return placeOf(hit.surface, point + hit.distance * direction, hit.normal, direction);
 }
 
 // Irradiance for a radiance of 1 where nothing is in between, sr.
@@ -174,13 +192,13 @@ double RadianceGuess::shareThatArrives(const Light& light, std::span<const doubl
   return asked ? static_cast<double>(arrived) / asked : 0;
 }
 
-RadianceGuess::Local RadianceGuess::fit(const V3d& point, std::span<const V3d> glances,
-                                        std::span<const Traced> traced, uint64_t seed) const {
-  Local local;
+LocalGuess RadianceGuess::fit(const V3d& point, std::span<const V3d> glances, std::span<const Traced> traced,
+                              uint64_t seed) const {
+  LocalGuess local(*this);
   Random random(seed);
   std::vector<Place> places;
   for (const V3d& direction : glances) {
-    Place at = placeAlong(point, direction);
+    Place at = placeAlong(point, direction, kNone);
     if (brightness(at.reflectance) > 0) places.push_back(at);
   }
   std::vector<std::pair<double, size_t>> order;
@@ -199,41 +217,60 @@ RadianceGuess::Local RadianceGuess::fit(const V3d& point, std::span<const V3d> g
     light.share =
         shareThatArrives(light, std::span(back).subspan(i * places.size(), places.size()), places, random);
     if (!(light.share > 0)) continue;
-    local.lights.push_back(light);
+    local.lights_.push_back(light);
     arriving += light.share * -sum;
   }
-  local.bright = kBright * arriving / static_cast<double>(std::max<size_t>(1, glances.size()));
+  local.bright_ = kBright * arriving / static_cast<double>(std::max<size_t>(1, glances.size()));
   // The middle one rather than the mean: few directions by chance see what is very bright.
   std::vector<double> around[3];
   for (const Traced& t : traced) {
     const Place& at = t.place;
     if (!(brightness(at.reflectance) > 0)) continue;
-    const Rgb rest = t.radiance - direct(at, local);
+    const Rgb rest = t.radiance - local.direct(at);
     for (int c = 0; c < 3; ++c)
       if (at.reflectance[c] > 0) around[c].push_back(rest[c] / at.reflectance[c]);
   }
-  for (int c = 0; c < 3; ++c) local.ambient[c] = std::max(0., middleOf(around[c]));
+  for (int c = 0; c < 3; ++c) local.ambient_[c] = std::max(0., middleOf(around[c]));
+  std::vector<double> radiances, rests;
+  for (const Traced& t : traced) {
+    radiances.push_back(brightness(t.radiance));
+    rests.push_back(radiances.back() - brightness(local.from(t.place)));
+  }
+  const double apart = spread(radiances);
+  if (apart > 0) local.missed_ = spread(rests) / apart;
   return local;
 }
 
-Rgb RadianceGuess::direct(const Place& at, const Local& local) const {
+Rgb LocalGuess::direct(const Place& at) const {
   Rgb sum(0, 0, 0);
-  for (const Light& light : local.lights) {
-    const double irradiance = factor(light.source, at);
+  for (const Light& light : lights_) {
+    const double irradiance = guess_->factor(light.source, at);
     if (!(irradiance > 0)) continue;
     const Rgb radiance = light.radiance * at.reflectance * (irradiance / kPi);
-    sum += radiance * (brightness(radiance) > local.bright ? seenFrom(at, light.source) : light.share);
+    sum += radiance * (brightness(radiance) > bright_ ? guess_->seenFrom(at, light.source) : light.share);
   }
   return sum;
 }
 
-Rgb RadianceGuess::along(const V3d& point, const V3d& direction, const Local& local) const {
-  return from(placeAlong(point, direction), local);
+Rgb LocalGuess::from(const Place& at) const {
+  if (!(brightness(at.reflectance) > 0)) return Rgb(0, 0, 0);
+  return direct(at) + ambient_ * at.reflectance;
 }
 
-Rgb RadianceGuess::from(const Place& at, const Local& local) const {
-  if (!(brightness(at.reflectance) > 0)) return Rgb(0, 0, 0);
-  return direct(at, local) + local.ambient * at.reflectance;
+Rgb LocalGuess::along(const V3d& point, const V3d& direction, int32_t start) const {
+  return from(guess_->placeAlong(point, direction, start));
+}
+
+Rgb LocalGuess::along(const Ray& traced) const {
+  return from(guess_->placeOf(traced.surface, traced.point, traced.normal, traced.direction));
+}
+
+int LocalGuess::raysToGuess(int bounces) const {
+  if (bounces > 1) return 0;
+  const double worth = std::clamp((kUseless - missed_) / (kUseless - kUseful), 0., 1.);
+  // One is as good as none: what it takes from the followed ray's noise it has itself.
+  const auto rays = static_cast<int>(std::lround(worth * (bounces == 0 ? kMostRays : kMostRays / 2)));
+  return rays > 1 ? rays : 0;
 }
 
 }  // namespace rsphere
