@@ -83,12 +83,14 @@ SiteLooker::Surroundings PathTracer::survey(const GatherSite& site, double farth
   for (int k = 0; k < SiteLooker::kAzimuths; ++k) {
     const double angle = 2 * kPi * k / SiteLooker::kAzimuths;
     const V3d along = std::cos(angle) * x + std::sin(angle) * y;
+    double free = farthest;
     for (const double height : kSurveyHeights) {
       const V3d direction = (along + height * site.normal).normalized();
       const double cosine = direction.dot(along);
-      const Hit hit = t_.tracer().nearest(site.point, direction, farthest / cosine);
-      if (hit.surface != kNone)
-        standing[k] = std::max(standing[k], static_cast<float>(1 / (hit.distance * cosine)));
+      const Hit hit = t_.tracer().nearest(site.point, direction, free / cosine);
+      if (hit.surface == kNone) continue;
+      free = hit.distance * cosine;
+      standing[k] = static_cast<float>(1 / free);
     }
   }
   return standing;

@@ -35,18 +35,26 @@ constexpr int kBeyondFinest = 2;  // divisions more where corners are hidden
 constexpr double kFewerRays = .82, kMoreError = 1.6;
 
 // The widest square that is asked about a place beside something, in mean distances of what the place sees.
-constexpr double kReaches = 3;
+constexpr double kReaches = 6;
 constexpr double kBeside = .85;  // what a place is from a corner, in the way to what stands there
 
 // Of a square's side, from each corner: where that corner tells alone if it can.
 constexpr double kAlone = .4;
+
+// Where corners are hidden, the others are shifted: what they may be off by, in what their changes per length
+// and the distances to what they see tell of it. Who asks for more than two bounces wants the last percents.
+constexpr double kShiftError = 2, kShiftErrorOfMore = 4;
+
+// One corner tells alone where so many times its chance, and so many times the square of the way in distances
+// to what it sees, stay below the error that is allowed, and its change below so many times that error.
+constexpr double kAloneChance = 4, kAloneCurvature = 1.5, kAloneChange = 1.5;
 
 // At second surfaces: how wide squares are at least and how often they are divided; their share of rays, how
 // much more error is allowed, how near something may stand, and the least part of the corners that has to be
 // free of it.
 constexpr int kSecondDivisions = 1;
 constexpr double kSecondSpacing = .06;  // of the size of all
-constexpr double kSecondRays = .25, kSecondError = 3, kSecondHidden = .7, kSecondServed = .5;
+constexpr double kSecondRays = .25, kSecondError = 4, kSecondHidden = .7, kSecondServed = .5;
 
 // Of the changes per length, what counts between corners: with a half of them, parabolas are met, but so is
 // their noise.
@@ -151,7 +159,11 @@ struct IrradianceField::Cell {
 };
 
 IrradianceField::IrradianceField(const Scene& scene, const Box3d& bounds, const RayOptions& options)
-    : scene_(scene), accuracy_(options.ambientAccuracy), cells_(16), sites_(16) {
+    : scene_(scene),
+      accuracy_(options.ambientAccuracy),
+      shiftError_(options.ambientBounces > 2 ? kShiftErrorOfMore : kShiftError),
+      cells_(16),
+      sites_(16) {
   double magnitude = 0;
   if (!bounds.isEmpty()) {
     const V3d extent = bounds.size();
@@ -416,8 +428,9 @@ bool IrradianceField::serves(const Site& site, const FieldPlace& place, SiteLook
 bool extrapolate(const GatheredLight& light, const V3d& to, double tolerance, GatheredLight& result) {
   const V3f aside(to);
   const double level = luminance(light.mean), way = aside.length() / light.reach;
-  if (!(level > 0) || 2 * light.noise > tolerance * level || 1.5 * way * way > tolerance ||
-      std::abs(luminanceOf(light.perLength).dot(aside)) > 3 * tolerance * level)
+  if (!(level > 0) || kAloneChance * light.noise > tolerance * level ||
+      kAloneCurvature * way * way > tolerance ||
+      std::abs(luminanceOf(light.perLength).dot(aside)) > kAloneChange * tolerance * level)
     return false;
   result = light;
   for (int k = 0; k < 3; ++k)
@@ -694,7 +707,7 @@ bool IrradianceField::find(const FieldPlace& place, SiteLooker& looker, Gathered
         double shift = 0;
         const GatheredLight here = corners.at(place.point, weights, shift);
         const double roughness =
-            std::max<double>(corners.roughness(*cell, tolerance), shift / tolerance) / allowed;
+            std::max<double>(corners.roughness(*cell, tolerance), shift * shiftError_ / tolerance) / allowed;
         const bool accept = level >= (corners.served == 15 ? finest : last);
         const double share = accept ? 1 : shareOf(roughness);
         blend(light, here, static_cast<float>(missing * share));
