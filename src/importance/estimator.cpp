@@ -37,15 +37,6 @@ constexpr double kMostContrast = 200;
 // own; deviation within what is taken for the image, against its brightness.
 constexpr double kLeastGlint = 1e-3, kGlintDeviation = .5;
 
-// A direction on the front side, spread as a diffuse surface sends light, for even u1, u2.
-V3d awayFrom(const V3d& normal, double u1, double u2) {
-  V3d x, y;
-  frame(normal, x, y);
-  const double radius = std::sqrt(u1), angle = 2 * kPi * u2;
-  return radius * std::cos(angle) * x + radius * std::sin(angle) * y +
-         std::sqrt(std::max(0., 1 - u1)) * normal;
-}
-
 // Adds what sums to `excess` over all solid angles: in proportion to the guesses, or evenly where all are 0.
 void shareOut(const Rgb& excess, std::span<const Rgb> guesses, std::vector<DirectionSample>& samples) {
   Rgb guessed(0, 0, 0);
@@ -153,7 +144,7 @@ void SphereEstimator::measureContrasts() {
       const SurfacePoint at = samplePoint(scene, object, random);
       // What is flat is seen from both sides.
       const bool behind = !std::holds_alternative<Sphere>(shapeOf(scene, object)) && k % 2;
-      const V3d away = awayFrom(behind ? -at.normal : at.normal, random.uniform(), random.uniform());
+      const V3d away = diffuseDirection(behind ? -at.normal : at.normal, random.uniform(), random.uniform());
       const Ray ray = tracer.trace(at.point + at.clearance * away, -away, 0, random.bits());
       if (shows(scene, object, ray.surface) && !sources_.shown(tracer)) values.add(brightness(ray.value));
     }
@@ -174,7 +165,7 @@ void SphereEstimator::measureSurroundings(PathTracer& tracer) {
     if (std::holds_alternative<Distant>(scene.surfaces[i].shape)) continue;
     const SurfacePoint at = samplePoint(scene, scene.surfaces[i], random);
     if (!(at.clearance > 0)) continue;
-    const V3d away = awayFrom(at.normal, random.uniform(), random.uniform());
+    const V3d away = diffuseDirection(at.normal, random.uniform(), random.uniform());
     double seen[2];
     bool apart = false;
     for (double& value : seen) {
@@ -321,7 +312,8 @@ void SphereEstimator::lookAround(const V3d& point, uint64_t seed, Workspace& w) 
     const V3d direction(r * std::cos(angle), r * std::sin(angle), z);
     const Ray ray = w.tracer.trace(point, direction, 0, random.bits());
     if (sources_.shown(w.tracer, w.images)) continue;
-    w.traced.push_back({guess_->placeOf(point, direction, w.tracer.firstHit()), ray.value});
+    const Hit& hit = w.tracer.firstHit();
+    w.traced.push_back({guess_->placeOf(point, direction, hit), hit.surface, ray.value});
     w.around += brightness(ray.value) / kRaysAPoint;
   }
 }

@@ -131,6 +131,13 @@ void frame(const V3d& z, V3d& x, V3d& y) {
   y = V3d(b, sign + z.y * z.y * a, -z.y);
 }
 
+V3d diffuseDirection(const V3d& normal, double u1, double u2) {
+  V3d x, y;
+  frame(normal, x, y);
+  const double radius = std::sqrt(u1), angle = 2 * kPi * u2;
+  return radius * std::cos(angle) * x + radius * std::sin(angle) * y + std::sqrt(1 - u1) * normal;
+}
+
 V3d perturbedNormal(const Interaction& at, double& cosine) {
   V3d n = at.normal + at.perturbation;
   const double length = n.length();

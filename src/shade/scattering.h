@@ -112,4 +112,8 @@ V3d perturbedNormal(const Interaction& at, double& cosine);
 // 6/1).
 void frame(const V3d& z, V3d& x, V3d& y);
 
+// A direction (unit) on the normal's side, spread as a diffuse surface sends light, for even u1, u2 in [0,
+// 1).
+V3d diffuseDirection(const V3d& normal, double u1, double u2);
+
 }  // namespace rsphere

@@ -156,7 +156,7 @@ void PathTracer::addIndirect(Ray& ray, const V3d& normal, const V3d& trueNormal,
           V3d direction;
           const Imath::V2d u = evenly(static_cast<size_t>(k), shift1, shift2);
           const double part = draw(i, j, u.x, u.y, aim.share > 0 ? (k + shift3) / guesses : 1, direction);
-          if (part > 0) sum += part * guess_->along(ray.point, direction, ray.surface);
+          if (part > 0) sum += part * guess_->indirect(ray.point, direction, ray.surface);
         }
         ray.value += share * sum / static_cast<double>(guesses);
       }
@@ -173,7 +173,7 @@ void PathTracer::addIndirect(Ray& ray, const V3d& normal, const V3d& trueNormal,
       ++child.ambientLevel;
       evaluate(child);
       ray.value += child.value * c;
-      if (guesses > 0) ray.value -= guess_->along(child) * c;
+      if (guesses > 0) ray.value -= guess_->indirect(child) * c;
     }
 }
 

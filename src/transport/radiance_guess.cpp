@@ -48,25 +48,15 @@ double irradianceFrom(const std::array<V3d, N>& corners, const V3d& normal) {
   return std::abs(sum) / 2;
 }
 
-// Rays that are guessed for one that is followed, at the first bounce; half of them at the second. What a
-// guess may miss of how radiances differ for that many, and for none at all. Measured: a desk beside a goal,
-// .3 to .5, gains 1.8 times in time, furnished rooms, .4 to .9, 1.1 to 1.4 times, a chrome ball near by, .9,
-// nothing.
-constexpr double kMostRays = 6, kUseful = .5, kUseless = .95;
+// Following an indirect ray to its end takes about as long as so many guesses, and no more of them than that
+// are made at the first bounce for each one that is followed.
+constexpr double kFollowedPrice = 50, kMostGuesses = 6;
 
 double middleOf(std::vector<double>& values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
-}
-
-// Mean distance from the middle one, which one very bright value among few does not decide.
-double spread(std::vector<double>& values) {
-  const double middle = middleOf(values);
-  double sum = 0;
-  for (const double v : values) sum += std::abs(v - middle);
-  return values.empty() ? 0 : sum / static_cast<double>(values.size());
 }
 
 }  // namespace
@@ -226,50 +216,69 @@ LocalGuess RadianceGuess::fit(const V3d& point, std::span<const V3d> glances, st
   for (const Traced& t : traced) {
     const Place& at = t.place;
     if (!(brightness(at.reflectance) > 0)) continue;
-    const Rgb rest = t.radiance - local.direct(at);
+    const Rgb rest = t.radiance - local.direct(at, true);
     for (int c = 0; c < 3; ++c)
       if (at.reflectance[c] > 0) around[c].push_back(rest[c] / at.reflectance[c]);
   }
   for (int c = 0; c < 3; ++c) local.ambient_[c] = std::max(0., middleOf(around[c]));
-  std::vector<double> radiances, rests;
+  // What is left to the directions here, and how much of it comes from which indirect ray was followed.
+  double rests = 0, squares = 0, guessed = 0;
   for (const Traced& t : traced) {
-    radiances.push_back(brightness(t.radiance));
-    rests.push_back(radiances.back() - brightness(local.from(t.place)));
+    const double rest = brightness(t.radiance - local.from(t.place));
+    rests += rest;
+    squares += rest * rest;
+    if (!(brightness(t.place.reflectance) > 0)) continue;
+    const auto indirect = [&] {
+      const V3d direction = diffuseDirection(t.place.normal, random.uniform(), random.uniform());
+      return brightness(t.place.reflectance * local.indirect(t.place.point, direction, t.surface));
+    };
+    const double difference = indirect() - indirect();
+    guessed += difference * difference / 2;
   }
-  const double apart = spread(radiances);
-  if (apart > 0) local.missed_ = spread(rests) / apart;
+  const double n = static_cast<double>(traced.size());
+  const double variance = n > 1 ? (squares - rests * rests / n) / n : 0;
+  if (variance > 0) local.guessesThatPay_ = std::sqrt(kFollowedPrice * guessed / n / variance);
   return local;
 }
 
-Rgb LocalGuess::direct(const Place& at) const {
+Rgb LocalGuess::direct(const Place& at, bool looking) const {
   Rgb sum(0, 0, 0);
   for (const Light& light : lights_) {
     const double irradiance = guess_->factor(light.source, at);
     if (!(irradiance > 0)) continue;
     const Rgb radiance = light.radiance * at.reflectance * (irradiance / kPi);
-    sum += radiance * (brightness(radiance) > bright_ ? guess_->seenFrom(at, light.source) : light.share);
+    sum += radiance *
+           (looking && brightness(radiance) > bright_ ? guess_->seenFrom(at, light.source) : light.share);
   }
   return sum;
 }
 
 Rgb LocalGuess::from(const Place& at) const {
   if (!(brightness(at.reflectance) > 0)) return Rgb(0, 0, 0);
-  return direct(at) + ambient_ * at.reflectance;
+  return direct(at, true) + ambient_ * at.reflectance;
 }
 
-Rgb LocalGuess::along(const V3d& point, const V3d& direction, int32_t start) const {
-  return from(guess_->placeAlong(point, direction, start));
+Rgb LocalGuess::along(const V3d& point, const V3d& direction) const {
+  return from(guess_->placeAlong(point, direction, kNone));
 }
 
-Rgb LocalGuess::along(const Ray& traced) const {
-  return from(guess_->placeOf(traced.surface, traced.point, traced.normal, traced.direction));
+Rgb LocalGuess::roughly(const Place& at) const {
+  if (!(brightness(at.reflectance) > 0)) return Rgb(0, 0, 0);
+  return direct(at, false) + ambient_ * at.reflectance;
+}
+
+Rgb LocalGuess::indirect(const V3d& point, const V3d& direction, int32_t start) const {
+  return roughly(guess_->placeAlong(point, direction, start));
+}
+
+Rgb LocalGuess::indirect(const Ray& traced) const {
+  return roughly(guess_->placeOf(traced.surface, traced.point, traced.normal, traced.direction));
 }
 
 int LocalGuess::raysToGuess(int bounces) const {
   if (bounces > 1) return 0;
-  const double worth = std::clamp((kUseless - missed_) / (kUseless - kUseful), 0., 1.);
+  const auto rays = static_cast<int>(std::lround(std::min(guessesThatPay_, kMostGuesses) / (1 + bounces)));
   // One is as good as none: what it takes from the followed ray's noise it has itself.
-  const auto rays = static_cast<int>(std::lround(worth * (bounces == 0 ? kMostRays : kMostRays / 2)));
   return rays > 1 ? rays : 0;
 }
 

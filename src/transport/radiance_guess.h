@@ -29,15 +29,17 @@ class LocalGuess {
 
   // Of the radiance from there, W/sr/m2.
   Rgb from(const Place& place) const;
-  // Of what such a ray brings, W/sr/m2; start: the surface that it leaves (index in Scene::surfaces), or
-  // kNone.
-  Rgb along(const V3d& point, const V3d& direction, int32_t start = kNone) const;
-  // The same of one that was traced.
-  Rgb along(const Ray& traced) const;
+  // Of what a ray from a point (world) brings, W/sr/m2.
+  Rgb along(const V3d& point, const V3d& direction) const;
 
-  // How many rays to guess for one that is followed; bounces: how many indirect ones led to where they start.
-  // The more the better the guess agrees with what was traced; 0 where it tells too little to be worth its
-  // time, or none is worth it so late.
+  // The same of an indirect ray, without the shadow rays that a guess of bright places takes: there are many
+  // rays, each of which counts little. start: the surface that it leaves (index in Scene::surfaces).
+  Rgb indirect(const V3d& point, const V3d& direction, int32_t start) const;
+  Rgb indirect(const Ray& traced) const;
+
+  // How many indirect rays to guess for one that is followed, from where `bounces` indirect ones led: what
+  // makes most of the time, by what the noise of followed ones adds to what few directions miss. 0 where that
+  // is little.
   int raysToGuess(int bounces) const;
 
   bool expectsLight() const { return !lights_.empty(); }
@@ -45,7 +47,8 @@ class LocalGuess {
  private:
   friend class RadianceGuess;
   explicit LocalGuess(const RadianceGuess& guess) : guess_(&guess) {}
-  Rgb direct(const Place& at) const;
+  Rgb direct(const Place& at, bool looking) const;
+  Rgb roughly(const Place& at) const;
 
   struct Light {
     uint32_t source = 0;    // index in LightSources
@@ -56,7 +59,7 @@ class LocalGuess {
   std::vector<Light> lights_;
   Rgb ambient_{0, 0, 0};  // other light, as the radiance of a white surface
   double bright_ = 0;     // what a source adds in brightness from which on shadow rays are asked, W/sr/m2
-  double missed_ = 1;  // share of how far traced radiances lie apart that is left when guesses are taken off
+  double guessesThatPay_ = 0;  // for an indirect ray of the first bounce that is followed
 };
 
 class RadianceGuess {
@@ -70,6 +73,7 @@ class RadianceGuess {
   // What a direction that was traced hit, and the radiance from there.
   struct Traced {
     Place place;
+    int32_t surface = kNone;  // index in Scene::surfaces
     Rgb radiance{0, 0, 0};
   };
 

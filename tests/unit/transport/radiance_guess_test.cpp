@@ -38,8 +38,9 @@ LocalGuess fitted(const RadianceGuess& guess, Traced& t, const V3d& point, int r
   for (int i = 0; i < rays; ++i) {
     const V3d d = randomDirection(random);
     const Rgb radiance = t.color(point, d, random.bits());
+    const Hit& hit = t.tracer().firstHit();
     if (t.tracer().shown().source == kNone)
-      traced.push_back({guess.placeOf(point, d, t.tracer().firstHit()), radiance});
+      traced.push_back({guess.placeOf(point, d, hit), hit.surface, radiance});
   }
   return guess.fit(point, glances, traced, 1);
 }
