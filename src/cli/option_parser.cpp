@@ -238,6 +238,8 @@ void checkIrradiance(Options& options) {
 }
 
 void checkTogether(Options& options, bool mostGiven) {
+  if (options.ray.fieldMemory > 0 && !options.ray.ambientFile.empty())
+    throw rad::Error("-Sm and -af: what a file has in it is kept in memory as a whole");
   if (!options.sphere.on) return;
   if (options.limitDistance) throw rad::Error("-ld needs ray mode (-S-): points have no direction vector");
   SphereOptions& sphere = options.sphere;

@@ -833,6 +833,20 @@ std::vector<OptionEntry> makeTable() {
                     "at random in proportion to what each would bring if nothing were in its way; -dt, -dc, "
                     "-dj and -ds then "
                     "do not count there. 0: all of them. Holds in ray mode as well."});
+  add({.name = "-Sm",
+       .arguments = "MB",
+       .group = Group::sphere,
+       .value = +[](O& o) -> double& { return o.ray.fieldMemory; },
+       .range = kNotNegative,
+       .unit = "MB",
+       .remark = "memory of interpolation",
+       .paragraph = "The most that is remembered to interpolate indirect light from (-aa above 0), in "
+                    "millions of bytes: "
+                    "beyond it something is forgotten, and computed again where it is asked for again. No "
+                    "answer changes "
+                    "by it. The picture of a room of logs takes hardly longer with 20 than without a bound, "
+                    "twice as long "
+                    "with 10. 0: no bound. Not together with -af. Holds in ray mode as well."});
   add({.name = "-Sr",
        .arguments = "N",
        .group = Group::sphere,

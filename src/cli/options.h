@@ -40,6 +40,7 @@ struct RayOptions {
   Rgb ambientValue{0, 0, 0};      // -av  W/sr/m2
   int ambientWeight = 0;          // -aw
   std::string ambientFile;        // -af
+  double fieldMemory = 0;         // -Sm  MB; 0: no bound
   std::vector<std::string> ambientExcluded,
       ambientIncluded;  // -ae -aE, -ai -aI (at most one of the two is not empty)
   // limits

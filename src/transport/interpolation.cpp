@@ -61,12 +61,12 @@ bool PathTracer::addInterpolated(Ray& ray, const V3d& normal, const V3d& trueNor
   } looker(*this, ray.depth);
   if (ray.ambientLevel == 1) {
     V3f mean;
-    if (!field.findSecond(place, looker, mean)) return false;
+    if (!field.findSecond(place, fieldReader_, looker, mean)) return false;
     for (int c = 0; c < 3; ++c) ray.value[c] += coefficient[c] * mean[c];
     return true;
   }
   GatheredLight light;
-  if (!field.find(place, looker, light)) return false;
+  if (!field.find(place, fieldReader_, looker, light)) return false;
   const double upright = normal.dot(trueNormal);
   const V3f aslant(normal - upright * trueNormal);
   for (int c = 0; c < 3; ++c) {

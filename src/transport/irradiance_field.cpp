@@ -15,6 +15,11 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kNormalStep = 1e-9;  // planes whose normals differ by less are one
 
+// What the tables and the allocation add to what they hold (bytes, about).
+constexpr size_t kBlock = 16, kNode = 96;
+
+constexpr size_t kNoBound = SIZE_MAX;
+
 constexpr int32_t kSingle = 1;          // in the key of a site that serves a whole surface, as its level
 constexpr int32_t kSecond = 1 << 8;     // added to the level in keys of what is of second surfaces
 constexpr int32_t kCurved = INT32_MAX;  // in a key, where planes have a component of their normal
@@ -123,7 +128,7 @@ struct IrradianceField::Value {
 };
 
 struct IrradianceField::Site {
-  std::array<Value, 2> values;  // by LightOf
+  Value value;
   GatherSite at;
   SiteLooker::Surroundings standing{};
 
@@ -158,12 +163,46 @@ struct IrradianceField::Cell {
   }
 };
 
+// What is known of one kind of light. Counts what it holds, and what it may.
+struct FieldMemory {
+  const size_t limit;
+  const std::shared_ptr<IrradianceField::Use> use;
+  std::atomic<size_t> bytes{0};
+  InsertOnce<IrradianceField::Key, IrradianceField::Cell> cells;
+  InsertOnce<IrradianceField::Key, IrradianceField::Site> sites;
+
+  FieldMemory(size_t most, std::shared_ptr<IrradianceField::Use> by)
+      : limit(most), use(std::move(by)), cells(logBuckets(most)), sites(logBuckets(most)) {
+    use->reserved.fetch_add(limit, std::memory_order_relaxed);
+    add(2 * sizeof(void*) << logBuckets(most));
+  }
+  ~FieldMemory() {
+    use->reserved.fetch_sub(limit, std::memory_order_relaxed);
+    use->bytes.fetch_sub(bytes.load(std::memory_order_relaxed), std::memory_order_relaxed);
+  }
+  void add(size_t more) {
+    bytes.fetch_add(more, std::memory_order_relaxed);
+    use->bytes.fetch_add(more, std::memory_order_relaxed);
+  }
+  bool isFull() const { return bytes.load(std::memory_order_relaxed) > limit; }
+
+  static unsigned logBuckets(size_t most) {
+    return std::clamp<unsigned>(std::bit_width(most / sizeof(IrradianceField::Site)), 4, 16);
+  }
+};
+
+// What a question goes by.
+struct IrradianceField::Asked {
+  FieldMemory& memory;
+  SiteLooker& looker;
+  LightOf of;
+};
+
 IrradianceField::IrradianceField(const Scene& scene, const Box3d& bounds, const RayOptions& options)
     : scene_(scene),
       accuracy_(options.ambientAccuracy),
       shiftError_(options.ambientBounces > 2 ? kShiftErrorOfMore : kShiftError),
-      cells_(16),
-      sites_(16) {
+      bound_(options.fieldMemory > 0 ? static_cast<size_t>(options.fieldMemory * 1e6) : kNoBound) {
   double magnitude = 0;
   if (!bounds.isEmpty()) {
     const V3d extent = bounds.size();
@@ -191,6 +230,25 @@ IrradianceField::IrradianceField(const Scene& scene, const Box3d& bounds, const 
 }
 
 IrradianceField::~IrradianceField() { save(true); }
+
+// Sees to it that a thread begins its question in the newest memory, and that this one is not full.
+void IrradianceField::enter(LightOf of, std::shared_ptr<FieldMemory>& memory) {
+  Newest& newest = newest_[static_cast<size_t>(of)];
+  if (memory && memory.get() == newest.memory.load(std::memory_order_relaxed) && !memory->isFull()) return;
+  const std::shared_ptr<FieldMemory> left = std::move(memory);
+  std::shared_ptr<FieldMemory> full;  // freed outside the lock
+  const std::lock_guard lock(newest.replacing);
+  if (!newest.kept || newest.kept->isFull()) {
+    full = std::move(newest.kept);
+    // Of each kind one that is asked and one that others are leaving; less where more than one is left.
+    const size_t reserved = use_->reserved.load(std::memory_order_relaxed);
+    const size_t limit =
+        bound_ == kNoBound ? kNoBound : std::min(bound_ / 4, bound_ - std::min(bound_, reserved));
+    newest.kept = std::make_shared<FieldMemory>(limit, use_);
+    newest.memory.store(newest.kept.get(), std::memory_order_relaxed);
+  }
+  memory = newest.kept;
+}
 
 // The key, then the numbers of the light, as the machine has them.
 AmbientFile::Record IrradianceField::recordOf(const Key& key, const GatheredLight& light) {
@@ -363,27 +421,33 @@ GatherSite IrradianceField::siteAt(const Chart& chart, double u, double v) const
   return site;
 }
 
-IrradianceField::Site& IrradianceField::site(const Key& key, const GatherSite& at, SiteLooker& looker) {
-  return sites_.findOrAdd(key, [&] {
+void IrradianceField::leave(FieldReader& reader) const {
+  if (bound_ != kNoBound) reader = {};
+}
+
+IrradianceField::Site& IrradianceField::site(const Key& key, const GatherSite& at, const Asked& asked) {
+  return asked.memory.sites.findOrAdd(key, [&] {
     auto made = std::make_unique<Site>();
-    made->values[0].key = made->values[1].key = key;
-    made->values[1].key.level += kSecond;
+    made->value.key = key;
+    if (asked.of == LightOf::second) made->value.key.level += kSecond;
     made->at = at;
-    made->standing = looker.survey(at, 4 * std::ldexp(spacing_[0], -secondLevel_));
+    made->standing = asked.looker.survey(at, 4 * std::ldexp(spacing_[0], -secondLevel_));
     made->most = *std::max_element(made->standing.begin(), made->standing.end());
     frame(at.normal, made->x, made->y);
+    asked.memory.add(sizeof(Site) + kNode);
+    made_.fetch_add(1, std::memory_order_relaxed);
     return made;
   });
 }
 
 // i, j: in steps of the finest spacing.
-IrradianceField::Site& IrradianceField::corner(const Chart& chart, int64_t i, int64_t j, SiteLooker& looker) {
+IrradianceField::Site& IrradianceField::corner(const Chart& chart, int64_t i, int64_t j, const Asked& asked) {
   const Key key{chart.key, static_cast<int32_t>(i), static_cast<int32_t>(j), 0, chart.offsetKey};
   const double step = spacing_.back() / (1 << kBeyondFinest);
   return site(key,
               siteAt(chart, (static_cast<double>(i) - kSkew[chart.axisU]) * step,
                      (static_cast<double>(j) - kSkew[chart.axisV]) * step),
-              looker);
+              asked);
 }
 
 // Corners of small squares tell about little, and are many: they get fewer rays, level by level.
@@ -395,17 +459,19 @@ double IrradianceField::shareOfRays(const Key& key, LightOf of) const {
   return std::pow(kFewerRays, std::max(0, divisions));
 }
 
-const GatheredLight& IrradianceField::lightOf(Site& site, LightOf of, SiteLooker& looker) {
-  Value& value = site.values[static_cast<size_t>(of)];
+const GatheredLight& IrradianceField::lightOf(Site& site, const Asked& asked) {
+  Value& value = site.value;
   if (const GatheredLight* light = value.light.load(std::memory_order_acquire)) return *light;
   value.begun.store(true, std::memory_order_relaxed);
   const auto known = known_.find(value.key);
   auto gathered = std::make_unique<GatheredLight>(
-      known != known_.end() ? known->second
-                            : looker.gather(site.at, of, shareOfRays(value.key, of), value.key.hash()));
+      known != known_.end()
+          ? known->second
+          : asked.looker.gather(site.at, asked.of, shareOfRays(value.key, asked.of), value.key.hash()));
   const GatheredLight* first = nullptr;
   if (!value.light.compare_exchange_strong(first, gathered.get(), std::memory_order_acq_rel)) return *first;
   const GatheredLight& light = *gathered.release();
+  asked.memory.add(sizeof(GatheredLight) + kBlock);
   if (file_ && known == known_.end()) {
     addFresh(&value, &value);
     if ((gathered_.fetch_add(1, std::memory_order_relaxed) + 1) % kBetweenSaves == 0) save(false);
@@ -548,10 +614,11 @@ double shareOf(double roughness) { return std::clamp(3 - 2 * roughness, 0., 1.);
 }  // namespace
 
 std::unique_ptr<IrradianceField::Cell> IrradianceField::makeCell(const Chart& chart, int64_t i, int64_t j,
-                                                                 int64_t size, SiteLooker& looker) {
+                                                                 int64_t size, const Asked& asked) {
   auto made = std::make_unique<Cell>();
+  asked.memory.add(sizeof(Cell) + kNode);
   for (int c = 0; c < 4; ++c)
-    made->corners[c] = &corner(chart, i + (c & 1) * size, j + (c >> 1) * size, looker);
+    made->corners[c] = &corner(chart, i + (c & 1) * size, j + (c >> 1) * size, asked);
   for (int c = 0; c < 4; ++c)
     for (int step = 0; step <= 8; ++step) {
       // From one neighbouring corner past the opposite one to the other.
@@ -565,17 +632,17 @@ std::unique_ptr<IrradianceField::Cell> IrradianceField::makeCell(const Chart& ch
 }
 
 // The light of those corners that serve. What another thread is at comes last: it may be there by then.
-void IrradianceField::lookUp(const Cell& cell, LightOf of, SiteLooker& looker, Corners& corners) {
+void IrradianceField::lookUp(const Cell& cell, const Asked& asked, Corners& corners) {
   for (int c = 0; c < 4; ++c) {
     if (!corners.has(c)) continue;
     Site& site = *cell.corners[c];
     corners.point[c] = site.at.point;
-    const Value& value = site.values[static_cast<size_t>(of)];
+    const Value& value = site.value;
     if (!value.begun.load(std::memory_order_relaxed) || value.light.load(std::memory_order_relaxed))
-      corners.light[c] = &lightOf(site, of, looker);
+      corners.light[c] = &lightOf(site, asked);
   }
   for (int c = 0; c < 4; ++c)
-    if (corners.has(c) && !corners.light[c]) corners.light[c] = &lightOf(*cell.corners[c], of, looker);
+    if (corners.has(c) && !corners.light[c]) corners.light[c] = &lightOf(*cell.corners[c], asked);
 }
 
 // Where a place lies in the lattice.
@@ -598,7 +665,7 @@ struct IrradianceField::Square {
 };
 
 // False where the place is beyond all numbers.
-bool IrradianceField::begin(const Chart& chart, int level, LightOf of, SiteLooker& looker, Square& square) {
+bool IrradianceField::begin(const Chart& chart, int level, const Asked& asked, Square& square) {
   const int last = static_cast<int>(spacing_.size()) - 1 + kBeyondFinest;
   const double least = spacing_.back() / (1 << kBeyondFinest);
   square.stepU = chart.u / least + kSkew[chart.axisU];
@@ -610,15 +677,15 @@ bool IrradianceField::begin(const Chart& chart, int level, LightOf of, SiteLooke
   };
   square.i = floorTo(square.stepU, square.size);
   square.j = floorTo(square.stepV, square.size);
-  const Key key{chart.key, static_cast<int32_t>(square.i), static_cast<int32_t>(square.j),
-                level + (of == LightOf::second ? kSecond : 0), chart.offsetKey};
-  square.cell =
-      &cells_.findOrAdd(key, [&] { return makeCell(chart, square.i, square.j, square.size, looker); });
+  const Key key{chart.key, static_cast<int32_t>(square.i), static_cast<int32_t>(square.j), level,
+                chart.offsetKey};
+  square.cell = &asked.memory.cells.findOrAdd(
+      key, [&] { return makeCell(chart, square.i, square.j, square.size, asked); });
   return true;
 }
 
 // To the quarter of the square that the place lies in.
-void IrradianceField::descend(const Chart& chart, SiteLooker& looker, Square& square) {
+void IrradianceField::descend(const Chart& chart, const Asked& asked, Square& square) {
   square.size /= 2;
   const int right = square.stepU >= static_cast<double>(square.i + square.size),
             up = square.stepV >= static_cast<double>(square.j + square.size);
@@ -627,7 +694,7 @@ void IrradianceField::descend(const Chart& chart, SiteLooker& looker, Square& sq
   std::atomic<Cell*>& part = square.cell->parts[2 * up + right];
   Cell* next = part.load(std::memory_order_acquire);
   if (!next) {
-    auto made = makeCell(chart, square.i, square.j, square.size, looker);
+    auto made = makeCell(chart, square.i, square.j, square.size, asked);
     if (part.compare_exchange_strong(next, made.get(), std::memory_order_acq_rel)) next = made.release();
   }
   square.cell = next;
@@ -635,7 +702,7 @@ void IrradianceField::descend(const Chart& chart, SiteLooker& looker, Square& sq
 
 // What the nearest corners alone tell of a place: one of them, and within a strip half way to the next two,
 // or four. False where any of these does not tell enough.
-bool IrradianceField::nearby(const Square& square, const V3d& point, double tolerance, SiteLooker& looker,
+bool IrradianceField::nearby(const Square& square, const V3d& point, double tolerance, const Asked& asked,
                              GatheredLight& light) {
   const auto sharpen = [](double x) { return std::clamp((x - kAlone) / (1 - 2 * kAlone), 0., 1.); };
   const double a = sharpen(square.across()), b = sharpen(square.along());
@@ -645,16 +712,18 @@ bool IrradianceField::nearby(const Square& square, const V3d& point, double tole
     GatheredLight there;
     if (weights[c] == 0) continue;
     Site& site = *square.cell->corners[c];
-    if (!extrapolate(lightOf(site, LightOf::first, looker), point - site.at.point, tolerance, there))
-      return false;
+    if (!extrapolate(lightOf(site, asked), point - site.at.point, tolerance, there)) return false;
     blend(light, there, static_cast<float>(weights[c]));
   }
   return true;
 }
 
-bool IrradianceField::find(const FieldPlace& place, SiteLooker& looker, GatheredLight& light) {
+bool IrradianceField::find(const FieldPlace& place, FieldReader& reader, SiteLooker& looker,
+                           GatheredLight& light) {
   Chart chart;
   if (!chartOf(place, chart)) return false;
+  enter(LightOf::first, reader[0]);
+  const Asked asked{*reader[0], looker, LightOf::first};
   const double tolerance = accuracy_ / 3;
   const int finest = static_cast<int>(spacing_.size()) - 1;
   const int last = finest + kBeyondFinest;
@@ -667,13 +736,13 @@ bool IrradianceField::find(const FieldPlace& place, SiteLooker& looker, Gathered
     // As many values as there are questions help nobody.
     if (extent < spacing_[finest]) return false;
     if (extent < spacing_[0]) {
-      if (place.scale == 0 && single(place, chart, tolerance, looker, light)) return true;
+      if (place.scale == 0 && single(place, chart, tolerance, asked, light)) return true;
       while (level < finest && spacing_[level] > extent) ++level;
     }
   }
 
   Square square;
-  if (!begin(chart, level, LightOf::first, looker, square)) return false;
+  if (!begin(chart, level, asked, square)) return false;
   const double least = spacing_.back() / (1 << kBeyondFinest);
 
   light = dark();
@@ -683,7 +752,7 @@ bool IrradianceField::find(const FieldPlace& place, SiteLooker& looker, Gathered
   for (;; ++level, allowed *= kMoreError) {
     Cell* const cell = square.cell;
     const double side = static_cast<double>(square.size);
-    if (!cell->unsure && nearby(square, place.point, tolerance * allowed, looker, near)) {
+    if (!cell->unsure && nearby(square, place.point, tolerance * allowed, asked, near)) {
       blend(light, near, static_cast<float>(missing));
       return true;
     }
@@ -698,7 +767,7 @@ bool IrradianceField::find(const FieldPlace& place, SiteLooker& looker, Gathered
         if ((cell->unsure >> c & 1) && !serves(*cell->corners[c], place, looker)) continue;
         corners.served |= 1u << c;
       }
-      lookUp(*cell, LightOf::first, looker, corners);
+      lookUp(*cell, asked, corners);
       const std::array<double, 4> weights = square.weights();
       double served = 0;
       for (int c = 0; c < 4; ++c)
@@ -716,7 +785,7 @@ bool IrradianceField::find(const FieldPlace& place, SiteLooker& looker, Gathered
       }
     }
     if (level == last) break;
-    descend(chart, looker, square);
+    descend(chart, asked, square);
   }
   if (missing >= 1) return false;
   const GatheredLight found = light;
@@ -725,7 +794,8 @@ bool IrradianceField::find(const FieldPlace& place, SiteLooker& looker, Gathered
   return true;
 }
 
-bool IrradianceField::findSecond(const FieldPlace& place, SiteLooker& looker, V3f& mean) {
+bool IrradianceField::findSecond(const FieldPlace& place, FieldReader& reader, SiteLooker& looker,
+                                 V3f& mean) {
   Chart chart;
   if (!chartOf(place, chart)) return false;
   // Single paths are as good where few of them arrive.
@@ -735,8 +805,11 @@ bool IrradianceField::findSecond(const FieldPlace& place, SiteLooker& looker, V3
   const double extent = !flat                    ? chart.radius
                         : place.surface == kNone ? widest
                                                  : extents_[place.surface].size * scale;
+  if (extent < widest) return false;
+  enter(LightOf::second, reader[1]);
+  const Asked asked{*reader[1], looker, LightOf::second};
   Square square;
-  if (extent < widest || !begin(chart, secondLevel_, LightOf::second, looker, square)) return false;
+  if (!begin(chart, secondLevel_, asked, square)) return false;
   const double tolerance = kSecondError * accuracy_ / 3;
   const int last = secondLevel_ + kSecondDivisions;
   for (int level = secondLevel_;; ++level) {
@@ -750,7 +823,7 @@ bool IrradianceField::findSecond(const FieldPlace& place, SiteLooker& looker, V3
       served += weights[c];
     }
     if (served >= kSecondServed) {
-      lookUp(cell, LightOf::second, looker, corners);
+      lookUp(cell, asked, corners);
       if (level == last || corners.roughness(cell, tolerance) < 1) {
         V3d middle;
         double shift = 0;
@@ -760,20 +833,20 @@ bool IrradianceField::findSecond(const FieldPlace& place, SiteLooker& looker, V3
       }
     }
     if (level == last) return false;
-    descend(chart, looker, square);
+    descend(chart, asked, square);
   }
 }
 
 // One value serves a surface that is small enough.
 bool IrradianceField::single(const FieldPlace& place, const Chart& chart, double tolerance,
-                             SiteLooker& looker, GatheredLight& light) {
+                             const Asked& asked, GatheredLight& light) {
   const Extent& extent = extents_[place.surface];
   V3d center = V3d(extent.center);
   center += (chart.offset - chart.normal.dot(center - origin_)) * chart.normal;
   const Key key{chart.key, place.surface, 0, kSingle, chart.offsetKey};
-  Site& middle = site(key, {center, chart.normal}, looker);
-  if (middle.nearness(place.point) > kFree && !serves(middle, place, looker)) return false;
-  const GatheredLight& there = lightOf(middle, LightOf::first, looker);
+  Site& middle = site(key, {center, chart.normal}, asked);
+  if (middle.nearness(place.point) > kFree && !serves(middle, place, asked.looker)) return false;
+  const GatheredLight& there = lightOf(middle, asked);
   const double change = luminanceOf(there.perLength).length() * extent.size / 2;
   if (change > 2 * tolerance * luminance(there.mean)) return false;
   Corners corners;

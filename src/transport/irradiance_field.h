@@ -14,6 +14,11 @@
 //
 // Threads: any number may ask at once, and nobody waits. Two that need the same corner at the same time may
 // both gather; the values are the same, and the first is kept.
+//
+// Memory: what is known of first and of second surfaces is kept apart, in a memory each. Where it has a bound
+// (-Sm), a memory that is full is given up for a new one by whoever comes to it next, and freed when the last
+// thread has left it; what is asked for again is computed again, to the same bits. A thread leaves where a
+// primary ray ends, or earlier.
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -41,6 +46,11 @@ struct FieldPlace {
 // Whether light is asked for where a path meets its first diffuse surface, or the one after: that has a
 // bounce less to go, and only averages of it are seen.
 enum class LightOf : uint8_t { first, second };
+
+struct FieldMemory;
+
+// What a thread has to do with a field: the memories that it asks in, by LightOf, which stay while it does.
+using FieldReader = std::array<std::shared_ptr<FieldMemory>, 2>;
 
 // How sites are looked at. Every answer depends on nothing but the arguments.
 class SiteLooker {
@@ -76,19 +86,28 @@ class IrradianceField {
   // The light at a place: its mean, and its change when the normal tilts. False where nothing in the field
   // serves the place, which then has to be gathered for itself: surfaces that are much smaller than the
   // finest spacing, insides of curved ones, and meshes.
-  bool find(const FieldPlace& place, SiteLooker& looker, GatheredLight& light);
+  // reader: the thread's own. The looker must not come back here, but may ask findSecond() for it, and that
+  // one's looker neither.
+  bool find(const FieldPlace& place, FieldReader& reader, SiteLooker& looker, GatheredLight& light);
 
   // The mean light at a place of a second diffuse surface, where few rays tell it, the same all over a room:
   // in the widest squares and those next to them. False where these do not tell.
-  bool findSecond(const FieldPlace& place, SiteLooker& looker, V3f& mean);
+  bool findSecond(const FieldPlace& place, FieldReader& reader, SiteLooker& looker, V3f& mean);
 
   // The least distance between corners (world units): what is nearer than that is not resolved.
   double finestSpacing() const { return spacing_.back(); }
 
-  // Sites known.
-  size_t size() const { return sites_.size(); }
+  // The thread has nothing more to ask for now; what it alone keeps is freed.
+  void leave(FieldReader& reader) const;
+
+  // Sites that were looked at, those again that had been given up.
+  size_t sitesMade() const { return made_.load(std::memory_order_relaxed); }
+
+  // What all memories hold that are not freed yet (bytes): beyond the bound by what single questions need.
+  size_t bytes() const { return use_->bytes.load(std::memory_order_relaxed); }
 
  private:
+  friend struct FieldMemory;
   struct Key {
     std::array<int32_t, 3> normal{};  // of the plane; or a surface, a part of it, and kCurved
     int32_t i = 0, j = 0;
@@ -106,26 +125,39 @@ class IrradianceField {
   struct Cell;
   struct Square;
   struct Corners;
+  struct Asked;
+  struct Use {
+    std::atomic<size_t> bytes{0};     // that memories hold
+    std::atomic<size_t> reserved{0};  // that they may
+  };
+  // Of one kind of light: the memory that questions begin in.
+  struct Newest {
+    std::atomic<const FieldMemory*> memory{nullptr};
+    std::shared_ptr<FieldMemory> kept;
+    std::mutex replacing;  // for as long as a pointer is copied
+  };
+
+  void enter(LightOf of, std::shared_ptr<FieldMemory>& memory);
 
   bool chartOf(const FieldPlace& place, Chart& chart) const;
   void setPlane(const FieldPlace& place, Chart& chart) const;
   GatherSite siteAt(const Chart& chart, double u, double v) const;
-  Site& site(const Key& key, const GatherSite& at, SiteLooker& looker);
-  Site& corner(const Chart& chart, int64_t i, int64_t j, SiteLooker& looker);
-  const GatheredLight& lightOf(Site& site, LightOf of, SiteLooker& looker);
+  Site& site(const Key& key, const GatherSite& at, const Asked& asked);
+  Site& corner(const Chart& chart, int64_t i, int64_t j, const Asked& asked);
+  const GatheredLight& lightOf(Site& site, const Asked& asked);
   double shareOfRays(const Key& key, LightOf of) const;
   void addFresh(Value* first, Value* last);
   void save(bool wait);
   static AmbientFile::Record recordOf(const Key& key, const GatheredLight& light);
   static void fromRecord(const AmbientFile::Record& record, Key& key, GatheredLight& light);
   bool serves(const Site& site, const FieldPlace& place, SiteLooker& looker) const;
-  std::unique_ptr<Cell> makeCell(const Chart& chart, int64_t i, int64_t j, int64_t size, SiteLooker& looker);
-  bool begin(const Chart& chart, int level, LightOf of, SiteLooker& looker, Square& square);
-  void descend(const Chart& chart, SiteLooker& looker, Square& square);
-  void lookUp(const Cell& cell, LightOf of, SiteLooker& looker, Corners& corners);
-  bool nearby(const Square& square, const V3d& point, double tolerance, SiteLooker& looker,
+  std::unique_ptr<Cell> makeCell(const Chart& chart, int64_t i, int64_t j, int64_t size, const Asked& asked);
+  bool begin(const Chart& chart, int level, const Asked& asked, Square& square);
+  void descend(const Chart& chart, const Asked& asked, Square& square);
+  void lookUp(const Cell& cell, const Asked& asked, Corners& corners);
+  bool nearby(const Square& square, const V3d& point, double tolerance, const Asked& asked,
               GatheredLight& light);
-  bool single(const FieldPlace& place, const Chart& chart, double tolerance, SiteLooker& looker,
+  bool single(const FieldPlace& place, const Chart& chart, double tolerance, const Asked& asked,
               GatheredLight& light);
 
   const Scene& scene_;
@@ -141,8 +173,10 @@ class IrradianceField {
     float size = 0;  // across
   };
   std::vector<Extent> extents_;  // of flat surfaces, in the coordinates of what holds them
-  InsertOnce<Key, Cell> cells_;
-  InsertOnce<Key, Site> sites_;
+  size_t bound_;                 // of what all memories hold (bytes)
+  std::shared_ptr<Use> use_ = std::make_shared<Use>();
+  std::array<Newest, 2> newest_;  // by LightOf
+  std::atomic<size_t> made_{0};
   std::unordered_map<Key, GatheredLight, KeyHash> known_;  // of earlier runs
   std::unique_ptr<AmbientFile> file_;
   std::mutex writing_;                  // nobody waits for it

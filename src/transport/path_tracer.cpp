@@ -151,10 +151,11 @@ Ray PathTracer::trace(const V3d& origin, const V3d& direction, double farthest, 
     ray.point = origin + kMeterLength * direction;
     ray.normal = -direction;
     shadeMaterial(ray, kIrradianceMeter, kNone);
-    return ray;
+  } else {
+    ray.farthest = farthest;
+    evaluate(ray);
   }
-  ray.farthest = farthest;
-  evaluate(ray);
+  if (t_.field()) t_.field()->leave(fieldReader_);
   return ray;
 }
 

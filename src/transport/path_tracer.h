@@ -254,6 +254,7 @@ class PathTracer {
   RayObserver observer_;
   bool allShadowRays_ = false;
   FunctionScratch functionScratch_;
+  FieldReader fieldReader_;
   // Scratch of addDirect, which never runs inside itself: shadow rays ask for no direct light. Behind what it
   // has filled is what was there before.
   std::vector<SourceSample> samples_;

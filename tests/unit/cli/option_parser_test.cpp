@@ -170,6 +170,12 @@ TEST(ParseOptions, WhatNeedsRaysIsRefusedInSphereMode) {
             "-ld needs ray mode (-S-): points have no direction vector");
 }
 
+TEST(ParseOptions, ABoundOfMemoryIsRefusedWithAnAmbientFile) {
+  EXPECT_EQ(parse({"rsphere", "-Sm", "1.5", "s.oct"}).ray.fieldMemory, 1.5);
+  EXPECT_EQ(faultOfOptions({"rsphere", "-Sm", "1.5", "-af", "a.af", "s.oct"}),
+            "-Sm and -af: what a file has in it is kept in memory as a whole");
+}
+
 TEST(ParseOptions, MostDirectionsFollowTheBase) {
   EXPECT_EQ(parse({"rsphere", "s.oct"}).sphere.mostDirections, 4096);
   EXPECT_EQ(parse({"rsphere", "-Sn", "10000", "s.oct"}).sphere.mostDirections, 20000);

@@ -115,7 +115,7 @@ TEST(IrradianceField, AgreesWithWhatIsGatheredAnew) {
     }
   EXPECT_LT(std::abs(sum / count), .01);
   ASSERT_TRUE(field.transport().field());
-  EXPECT_GT(field.transport().field()->size(), 10u);
+  EXPECT_GT(field.transport().field()->sitesMade(), 10u);
 }
 
 TEST(IrradianceField, LeavesTheDarkBehindAThinWall) {
@@ -145,6 +145,40 @@ TEST(IrradianceField, AnswersTheSameInAnyOrderAndForAnyThread) {
   std::thread other(work, true);
   work(false);
   other.join();
+}
+
+// A bound (-Sm) of a twentieth of what is asked for: the same values, to the bit, on several threads, and no
+// more memory than that and what the questions of the moment need.
+TEST(IrradianceField, ForgetsBeyondItsBoundAndAnswersTheSame) {
+  RayOptions o = interpolated(.2);
+  o.ambientDivisions = 16;
+  std::vector<V3d> places;
+  for (double x = .25; x < 3.9; x += 1.2)
+    for (double y = .25; y < 4; y += 1.8) places.emplace_back(x, y, 1.5);
+  const V3d down = V3d(.2, .1, -1).normalized();
+  Traced whole(kRoom, o);
+  std::vector<Rgb> expected;
+  for (const V3d& p : places) expected.push_back(whole.tracer().trace(p, down, 0, 7).value);
+  const size_t needed = whole.transport().field()->bytes();
+
+  constexpr size_t kThreads = 3, kQuestion = 100'000;  // bytes
+  o.fieldMemory = static_cast<double>(needed) / 20e6;
+  Traced bounded(kRoom, o);
+  IrradianceField& field = *bounded.transport().field();
+  const auto work = [&](size_t first) {
+    PathTracer tracer(bounded.transport());
+    for (size_t i = 0; i < places.size(); ++i) {
+      const size_t k = (first + i) % places.size();
+      EXPECT_EQ(tracer.trace(places[k], down, 0, 7).value, expected[k]);
+      EXPECT_LT(field.bytes(), needed / 20 + kThreads * kQuestion);
+    }
+  };
+  std::vector<std::thread> others;
+  for (size_t i = 1; i < kThreads; ++i) others.emplace_back(work, i * 4);
+  work(0);
+  for (std::thread& other : others) other.join();
+  EXPECT_GT(needed, 4 * kThreads * kQuestion) << "or nothing is told";
+  EXPECT_GT(field.sitesMade(), 2 * whole.transport().field()->sitesMade()) << "something was forgotten";
 }
 
 // Two diffuse surfaces on: the same mean as with single paths, of less spread.
