@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -14,6 +15,10 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kMostParts = 64;  // of a source, as RADIANCE has it: users' -ds are chosen for it
+// What is left of a length that is halved as often as leads to so many parts.
+constexpr std::array<double, 7> kHalved = {1, 1. / 2, 1. / 4, 1. / 8, 1. / 16, 1. / 32, 1. / 64};
+constexpr int kMostHalvings = std::bit_width(static_cast<unsigned>(kMostParts)) - 1;
+static_assert(kHalved.size() == kMostHalvings + 1);
 
 // Below this cosine a plane source is seen edge-on and left out, as RADIANCE does.
 constexpr double kEdgeOn = 1e-4;
@@ -323,32 +328,43 @@ void LightSources::sampleParts(uint32_t index, const V3d& point, const V3d& towa
   // The middle of a plane part, `aim` away.
   const auto addMiddle = [&](const V3d& aim, double length, double area) {
     if (!(length > 0)) return;
-    const double cosine = -aim.dot(source.normal) / length;
+    const double inverse = 1 / length;
+    const V3d direction = aim * inverse;
+    const double cosine = -direction.dot(source.normal);
     if (cosine <= kEdgeOn) return;
-    const double omega = area * cosine / (length * length);
-    const V3d direction = aim / length;
+    const double omega = area * cosine * (inverse * inverse);
     if (!source.hitsWhereAimed || source.reach > 0 || source.spot) return add(direction, omega, length);
-    samples.push_back({direction, omega, length, -direction.dot(source.normal), source.normal, index});
+    samples.push_back({direction, omega, length, cosine, source.normal, index});
   };
-  // As split(), of a plane source that its two vectors span. middle: the way to a part's.
-  const auto addMiddles = [&](const auto& self, const V3d& middle, const V3d& u, const V3d& v, double extentU,
-                              double extentV, double area, int most) -> void {
-    const double larger = std::max(extentU, extentV), length2 = middle.length2();
-    if (most < 2 || !(length2 * allowed * allowed < larger * larger))
-      return addMiddle(middle, std::sqrt(length2), area);
-    if (extentU > extentV) {
-      const V3d half = .5 * u;
-      self(self, middle - half, half, v, extentU / 2, extentV, area / 2, most / 2);
-      self(self, middle + half, half, v, extentU / 2, extentV, area / 2, most / 2);
-    } else {
-      const V3d half = .5 * v;
-      self(self, middle - half, u, half, extentU, extentV / 2, area / 2, most / 2);
-      self(self, middle + half, u, half, extentU, extentV / 2, area / 2, most / 2);
+  // As split(), of a plane source that its two vectors span: its halves as often as either was halved.
+  const auto addMiddles = [&] {
+    struct Place {
+      V3d middle;  // the way to it
+      int halvedU, halvedV;
+    };
+    std::array<Place, kMostHalvings> later;
+    Place part{towards, 0, 0};
+    for (int count = 0;;) {
+      const double extentU = kHalved[part.halvedU] * source.extentU,
+                   extentV = kHalved[part.halvedV] * source.extentV;
+      const double larger = std::max(extentU, extentV), length2 = part.middle.length2();
+      if (allowed > 0 && part.halvedU + part.halvedV < kMostHalvings &&
+          length2 * allowed * allowed < larger * larger) {
+        const bool acrossU = extentU > extentV;
+        const V3d half =
+            acrossU ? kHalved[part.halvedU + 1] * source.u : kHalved[part.halvedV + 1] * source.v;
+        part.halvedU += acrossU;
+        part.halvedV += !acrossU;
+        later[count++] = {part.middle + half, part.halvedU, part.halvedV};
+        part.middle -= half;
+        continue;
+      }
+      addMiddle(part.middle, std::sqrt(length2), kHalved[part.halvedU + part.halvedV] * source.area);
+      if (count == 0) return;
+      part = later[--count];
     }
   };
-  if (jitter <= 0 && source.map <= LightSource::Map::square)
-    return addMiddles(addMiddles, towards, source.u, source.v, source.extentU, source.extentV, source.area,
-                      allowed > 0 ? kMostParts : 1);
+  if (jitter <= 0 && source.map <= LightSource::Map::square) return addMiddles();
 
   switch (source.map) {
     case LightSource::Map::cone:

@@ -7,7 +7,7 @@
 namespace rsphere {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kPi = std::numbers::pi, kPerPi = std::numbers::inv_pi;
 
 // Shares below this, and squared slopes of facets below it, count as none: RADIANCE's own figure decides
 // whether a surface is polished.
@@ -267,7 +267,7 @@ Rgb directCoefficient(const Scattering& s, const Interaction& at, const V3d& toS
   const double cosine = s.normal.dot(toSource);
   const double enters = s.diffuseFresnel > 0 ? 1 - fresnelRise(std::abs(cosine)) : 1;
   if (cosine > kNegligible) {
-    sum += s.diffuseReflection * (enters * cosine * solidAngle / kPi);
+    sum += s.diffuseReflection * (enters * cosine * solidAngle * kPerPi);
     if (maxChannel(s.specularReflection) > 0) {
       double alpha2 = s.alpha2;
       if (s.widenReflection) alpha2 += (1 - sourceJitter) * solidAngle * .25 / kPi;
@@ -279,7 +279,7 @@ Rgb directCoefficient(const Scattering& s, const Interaction& at, const V3d& toS
       if (lobe > kNegligible) sum += s.specularReflection * (lobe * cosine * solidAngle);
     }
   } else if (cosine < -kNegligible) {
-    sum += s.diffuseTransmission * (enters * -cosine * solidAngle / kPi);
+    sum += s.diffuseTransmission * (enters * -cosine * solidAngle * kPerPi);
     if (maxChannel(s.specularTransmission) > 0) {
       const double alpha2 = s.alpha2 + solidAngle / kPi;
       const double lobe = std::exp((2 * s.transmitted.dot(toSource) - 2) / alpha2) / (kPi * alpha2);

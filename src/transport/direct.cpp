@@ -1,6 +1,8 @@
 // Light straight from the sources.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include "transport/path_tracer.h"
 #include "transport/ray_functions.h"
@@ -106,6 +108,32 @@ size_t PathTracer::lookAheadOf(size_t count) {
   return lookAheads_[count];
 }
 
+// Sets the order of the first contributions: brightest first, and as they came where they are equal.
+void PathTracer::rankByBrightness(uint32_t count) {
+  // A few by how many go before each, without a branch: half of those that sorting takes are guessed wrongly.
+  constexpr uint32_t kFew = 24;
+  if (count > kFew) {
+    std::iota(order_.begin(), order_.begin() + count, 0);
+    std::sort(order_.begin(), order_.begin() + count, [&](uint32_t a, uint32_t b) {
+      return brightness_[a] != brightness_[b] ? brightness_[a] > brightness_[b] : a < b;
+    });
+    return;
+  }
+  std::array<int64_t, kFew> before;
+  const double* const all = brightness_.data();
+  for (uint32_t i = 0; i < count; ++i) {
+    const double bright = all[i];
+    int64_t darker = 0;
+    for (uint32_t j = 0; j < i; ++j) {
+      const int64_t isDarker = all[j] < bright;
+      darker += isDarker;
+      before[j] += isDarker;
+    }
+    before[i] = i - darker;
+  }
+  for (uint32_t i = 0; i < count; ++i) order_[before[i]] = i;
+}
+
 void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d& front) {
   const RayOptions& o = t_.options();
   samples_.clear();
@@ -115,12 +143,11 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d&
     t_.lights().sample(i, ray.point, how, random_, samples_);
   if (contributions_.size() < samples_.size()) {
     contributions_.resize(samples_.size());
-    ranked_.resize(samples_.size());
+    brightness_.resize(samples_.size());
+    order_.resize(samples_.size());
+    remaining_.resize(samples_.size() + 1);
   }
   const double threshold = o.directThreshold / ray.weight;
-  // A few are in order as they come: each is moved before those that are darker.
-  constexpr size_t kFew = 32;
-  const bool ordered = threshold > 0 && samples_.size() <= kFew;
   const bool clear = !isMedium(ray.medium.extinction);
   uint32_t count = 0;
   for (const SourceSample& sample : samples_) {
@@ -131,25 +158,19 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d&
     const double bright = brightness(value * coefficient);
     if (!(bright > 0)) continue;
     contributions_[count] = {&sample, coefficient, value};
-    size_t place = count;
-    if (ordered)
-      for (; place > 0 && ranked_[place - 1].brightness < bright; --place)
-        ranked_[place] = ranked_[place - 1];
-    ranked_[place] = {bright, count++};
+    brightness_[count++] = bright;
   }
   if (count == 0) return;
 
   // How many of those still untested are taken together to decide whether they can matter (-dc).
   size_t lookAhead = count;
   if (threshold > 0) {
-    if (!ordered)
-      std::sort(ranked_.begin(), ranked_.begin() + count, [](const Ranked& a, const Ranked& b) {
-        return a.brightness != b.brightness ? a.brightness > b.brightness : a.contribution < b.contribution;
-      });
-    if (remaining_.size() <= count) remaining_.resize(count + 1);
+    rankByBrightness(count);
     remaining_[count] = 0;
-    for (size_t i = count; i-- > 0;) remaining_[i] = remaining_[i + 1] + ranked_[i].brightness;
+    for (size_t i = count; i-- > 0;) remaining_[i] = remaining_[i + 1] + brightness_[order_[i]];
     lookAhead = lookAheadOf(count);
+  } else {
+    std::iota(order_.begin(), order_.begin() + count, 0);
   }
   constexpr size_t kAlwaysTested = 2;
   size_t tested = 0, visible = 0;
@@ -158,7 +179,7 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d&
       const double ahead = remaining_[tested] - remaining_[std::min<size_t>(tested + lookAhead, count)];
       if (ahead < threshold * brightness(ray.value)) break;
     }
-    const Contribution& c = contributions_[ranked_[tested].contribution];
+    const Contribution& c = contributions_[order_[tested]];
     Rgb value;
     if (!arrives(ray, c, value)) continue;
     ray.value += value * c.coefficient;
@@ -167,7 +188,7 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d&
   // Sources too weak to be tested are let through as often as those that were.
   const double share = tested ? static_cast<double>(visible) / static_cast<double>(tested) : .5;
   for (; tested < count; ++tested) {
-    const Contribution& c = contributions_[ranked_[tested].contribution];
+    const Contribution& c = contributions_[order_[tested]];
     ray.value += c.value * c.coefficient * share;
   }
 }

@@ -236,6 +236,7 @@ class PathTracer {
   void addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d& front = V3d(0, 0, 0));
   void addDirectOfChosen(Ray& ray, DirectCoefficient coefficientOf, const V3d& front);
   size_t lookAheadOf(size_t count);
+  void rankByBrightness(uint32_t count);
   Rgb sourceValue(const Ray& ray, const SourceSample& sample);
   uint32_t& blockerOf(int32_t surface, uint32_t source) {
     const uint64_t both = (uint64_t{static_cast<uint32_t>(surface)} << 32) | source;
@@ -259,11 +260,8 @@ class PathTracer {
   // has filled is what was there before.
   std::vector<SourceSample> samples_;
   std::vector<Contribution> contributions_;
-  struct Ranked {
-    double brightness;
-    uint32_t contribution;
-  };
-  std::vector<Ranked> ranked_;  // of the contributions, brightest first where not all are tested
+  std::vector<double> brightness_;  // of the contributions
+  std::vector<uint32_t> order_;     // of these, brightest first where not all are tested
   std::vector<double> remaining_;
   std::vector<double> sourceWeights_;
   // What stopped the last ray from a surface to a source, at a hash of the two.
