@@ -39,9 +39,12 @@ Polygon makePolygon(std::span<const V3d> all, uint32_t first, uint32_t count) {
   const V3d n(std::abs(polygon.normal.x), std::abs(polygon.normal.y), std::abs(polygon.normal.z));
   polygon.axis = n.y > n.x ? 1 : 0;
   if (n.z > n[polygon.axis]) polygon.axis = 2;
+  polygon.hasArea = true;
   Box3d box;
   for (const V3d& v : vertices) box.extendBy(v);
-  polygon.extent = box.size().x + box.size().y + box.size().z - box.size()[polygon.axis];
+  // Up, by more than rounding to single precision, 2^-24, and the sum move it down.
+  polygon.extent = static_cast<float>(
+      (box.size().x + box.size().y + box.size().z - box.size()[polygon.axis]) * (1 + 1e-6));
   return polygon;
 }
 
@@ -77,7 +80,7 @@ bool insideClosely(std::span<const V3d> vertices, int xi, int yi, double x, doub
 }  // namespace
 
 // Without branches that depend on where the point is: half of them would be guessed wrongly.
-bool inside(const Polygon& polygon, std::span<const V3d> all, const V3d& point, double tolerance) {
+bool inside(const PolygonFace& polygon, std::span<const V3d> all, const V3d& point, double tolerance) {
   const int xi = polygon.axis == 2 ? 0 : polygon.axis + 1;
   const int yi = xi == 2 ? 0 : xi + 1;
   const double x = point[xi], y = point[yi];
@@ -100,9 +103,9 @@ bool inside(const Polygon& polygon, std::span<const V3d> all, const V3d& point, 
   return nearest <= near ? insideClosely(vertices, xi, yi, x, y, tolerance) : odd >> 63 != 0;
 }
 
-bool meetsInside(const Polygon& polygon, std::span<const V3d> vertices, const V3d& origin,
+bool meetsInside(const PolygonFace& polygon, std::span<const V3d> vertices, const V3d& origin,
                  const V3d& direction, double distance, double cosine) {
-  if (polygon.area == 0) return false;
+  if (!polygon.hasArea) return false;
   // How far apart two polygons that meet at an edge may see one ray: each has it at its own rounded distance.
   // Points that near an edge are inside both, or light would leak between them.
   const double size = std::abs(origin.x) + std::abs(origin.y) + std::abs(origin.z) + distance;

@@ -25,17 +25,22 @@ struct ShapeHit {
   double cosine;
 };
 
+// What a ray is tried with, of a polygon.
+struct PolygonFace {
+  V3d normal{0, 0, 1};                     // unit, by the right-hand rule; Newell's sum over the vertices
+  double offset = 0;                       // normal . p for the points p of the plane
+  uint32_t firstVertex = 0, vertices = 0;  // range in Scene::vertices
+  float extent = 0;                        // sum of the box's sizes along the axes but one, or somewhat more
+  uint8_t axis = 2;                        // that one: the largest component of normal
+  bool hasArea = false;                    // else it is never hit
+};
+
 // A plane polygon, concave or with holes by a seam. Its inside is where a line to infinity crosses the
 // boundary an odd number of times; its plane is the mean plane of vertices that do not lie in one (RADIANCE
 // reference manual, "polygon").
-struct Polygon {
-  uint32_t firstVertex = 0, vertices = 0;  // range in Shapes::vertices
-  V3d normal{0, 0, 1};                     // unit, by the right-hand rule; Newell's sum over the vertices
-  double offset = 0;                       // normal . p for the points p of the plane
-  double area = 0;                         // 0: the polygon is never hit
-  int axis = 2;                            // the largest component of normal, left out in the inside test
-  double thickness = 0;                    // largest distance of a vertex from the plane
-  double extent = 0;                       // sum of the box's sizes along the other two axes
+struct Polygon : PolygonFace {
+  double area = 0;
+  double thickness = 0;  // largest distance of a vertex from the plane
 };
 
 // inward: the front is inside (bubble).
@@ -106,7 +111,7 @@ inline const V3d* planeNormal(const Shape& shape) {
 // kSamePlace and not beyond farthest (the first such place), and fills hit only then. Rounding: distances are
 // right to a few ulp of the largest coordinate that takes part. A ray within kSamePlace of parallel to a
 // plane misses it (as RADIANCE).
-inline bool intersect(const Polygon& polygon, std::span<const V3d> vertices, const V3d& origin,
+inline bool intersect(const PolygonFace& polygon, std::span<const V3d> vertices, const V3d& origin,
                       const V3d& direction, double farthest, ShapeHit& hit);
 bool intersect(const Sphere& sphere, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit);
 bool intersect(const Cone& cone, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit);
@@ -128,14 +133,15 @@ Polygon makePolygon(std::span<const V3d> vertices, uint32_t first, uint32_t coun
 
 // Whether a point of the polygon's plane lies inside; points on the boundary count as inside, and those
 // within tolerance (world units) and rounding of it.
-bool inside(const Polygon& polygon, std::span<const V3d> vertices, const V3d& point, double tolerance = 0);
+bool inside(const PolygonFace& polygon, std::span<const V3d> vertices, const V3d& point,
+            double tolerance = 0);
 
 // Whether a ray that meets the polygon's plane at this distance and cosine (of ShapeHit) meets it inside.
-bool meetsInside(const Polygon& polygon, std::span<const V3d> vertices, const V3d& origin,
+bool meetsInside(const PolygonFace& polygon, std::span<const V3d> vertices, const V3d& origin,
                  const V3d& direction, double distance, double cosine);
 
 // The plane here, where callers can see it: most polygons that a ray is tried with are missed by their plane.
-inline bool intersect(const Polygon& polygon, std::span<const V3d> vertices, const V3d& origin,
+inline bool intersect(const PolygonFace& polygon, std::span<const V3d> vertices, const V3d& origin,
                       const V3d& direction, double farthest, ShapeHit& hit) {
   const double cosine = -polygon.normal.dot(direction);
   if (std::abs(cosine) <= kSamePlace) return false;

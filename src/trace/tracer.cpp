@@ -63,6 +63,13 @@ Occluder makeOccluder(const Scene& scene, uint32_t i, bool backFacesVisible) {
   return o;
 }
 
+// A surface of a group, in one line of the cache: whatever most tests of it need.
+struct alignas(64) Face {
+  PolygonFace polygon;  // hasArea: it is one
+  Occluder occluder;
+};
+static_assert(sizeof(Face) == 64);
+
 // Whether surface a, of two that are hit at the same place, is the one that counts.
 bool wins(const Occluder& a, double cosineA, const Occluder& b, double cosineB) {
   if (a.hasMaterial != b.hasMaterial) return a.hasMaterial;
@@ -102,8 +109,7 @@ struct Query {
   int32_t source = kNone;
   const Occluder* standIn = nullptr;  // shadow(): what stands for the contents of the tree
   bool passable = false;              // shadow(): something was hit that may let light pass
-  // The tree's primitives that the ray begins on, which it cannot meet again where that is plane, and that it
-  // goes to.
+  // The tree's primitives that the ray begins on and cannot meet again, and that it goes to.
   uint32_t from = Tracer::kNoBlocker, target = Tracer::kNoBlocker;
   uint32_t blocker = 0;  // shadow(): the tree's primitive that stopped the ray
 
@@ -128,12 +134,14 @@ class Tracer::Tree {
   Tree(RTCDevice device, const Scene& scene, const SurfaceGroup& group, bool backFacesVisible,
        std::span<const std::unique_ptr<Tree>> groups, std::span<const std::unique_ptr<Tree>> meshes)
       : scene_(scene), groups_(groups), meshes_(meshes) {
-    occluders_.reserve(group.surfaces);
+    faces_.reserve(group.surfaces);
     for (uint32_t i = group.firstSurface; i < group.firstSurface + group.surfaces; ++i) {
       const Box3d box = boundsOf(scene.surfaces[i]);
       primitives_ += !box.isEmpty();
       bounds_.extendBy(box);
-      occluders_.push_back(makeOccluder(scene, i, backFacesVisible));
+      Face& face = faces_.emplace_back();
+      if (const auto* polygon = std::get_if<Polygon>(&scene.surfaces[i].shape)) face.polygon = *polygon;
+      face.occluder = makeOccluder(scene, i, backFacesVisible);
     }
     build(device, group.surfaces, onIntersect<&Tree::meetSurface>, onOccluded<&Tree::crossSurface>);
   }
@@ -159,8 +167,16 @@ class Tracer::Tree {
   const Box3d& bounds() const { return bounds_; }
   size_t primitives() const { return primitives_; }
 
+  // The primitive that a ray cannot meet again which begins on this surface: kNoBlocker where there is none.
+  uint32_t beginOf(int32_t surface) const {
+    const auto primitive = static_cast<uint32_t>(surface);  // as the world's tree has it
+    return primitive < faces_.size() && faces_[primitive].occluder.plane ? primitive : kNoBlocker;
+  }
+
   // What stands for a surface of this tree, of a group.
-  const Occluder& occluderOf(uint32_t surface) const { return occluders_[surface - occluders_[0].surface]; }
+  const Occluder& occluderOf(uint32_t surface) const {
+    return faces_[surface - faces_[0].occluder.surface].occluder;
+  }
 
   // Sets query.best where something is nearer, as Tracer::nearest() has it.
   void nearest(Query& query) const {
@@ -174,7 +190,7 @@ class Tracer::Tree {
 
   // Whether this primitive, of a group's tree, stops the ray.
   bool isBlocker(Query& query, uint32_t primitive) const {
-    return primitive < occluders_.size() && crossSurface(query, primitive);
+    return primitive < faces_.size() && crossSurface(query, primitive);
   }
 
   // Whether the ray is surely stopped; if not, query.passable says whether it needs to be followed.
@@ -208,7 +224,7 @@ class Tracer::Tree {
 
   Box3d boundsOf(uint32_t primitive) const {
     if (mesh_) return rsphere::bounds(mesh_->data, primitive);
-    return boundsOf(scene_.surfaces[occluders_[primitive].surface]);
+    return boundsOf(scene_.surfaces[faces_[primitive].occluder.surface]);
   }
 
   void build(RTCDevice device, size_t primitives, RTCIntersectFunctionN intersect,
@@ -284,7 +300,7 @@ class Tracer::Tree {
     if (!arguments->valid[0]) return;
     const auto& self = *static_cast<const Tree*>(arguments->geometryUserPtr);
     auto& query = *reinterpret_cast<Query*>(arguments->context);
-    if (self.isBegin(query, arguments->primID) || !(self.*meet)(query, arguments->primID)) return;
+    if (arguments->primID == query.from || !(self.*meet)(query, arguments->primID)) return;
     auto& rayHit = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
     rayHit.ray.tfar = std::min(rayHit.ray.tfar, roundUp(query.reach() - query.start + self.padding_));
     rayHit.hit.geomID = arguments->geomID;
@@ -295,33 +311,34 @@ class Tracer::Tree {
     if (!arguments->valid[0]) return;
     const auto& self = *static_cast<const Tree*>(arguments->geometryUserPtr);
     auto& query = *reinterpret_cast<Query*>(arguments->context);
-    if (self.isBegin(query, arguments->primID) || arguments->primID == query.target ||
+    if (arguments->primID == query.from || arguments->primID == query.target ||
         !(self.*cross)(query, arguments->primID))
       return;
     query.blocker = arguments->primID;
     reinterpret_cast<RTCRay*>(arguments->ray)->tfar = -std::numeric_limits<float>::infinity();
   }
 
-  bool isBegin(const Query& query, uint32_t primitive) const {
-    return primitive == query.from && occluders_[primitive].plane;
-  }
-
   bool meets(const Query& query, const auto& shape, ShapeHit& hit) const {
     return intersect(shape, scene_.vertices, query.origin, query.direction, query.reach(), hit);
   }
 
-  // Polygons, of which most scenes consist, without the detour by way of a visitor.
+  // Polygons, of which most scenes consist, without a detour.
   bool meetSurface(Query& query, uint32_t primitive) const {
-    const Occluder& occluder = occluders_[primitive];
-    const Surface& surface = scene_.surfaces[occluder.surface];
+    const Face& face = faces_[primitive];
+    if (!face.polygon.hasArea) return meetOther(query, face.occluder);
     ShapeHit hit;
-    if (const auto* polygon = std::get_if<Polygon>(&surface.shape)) {
-      if (!meets(query, *polygon, hit)) return false;
-    } else if (const Contents contents = contentsOf(surface); contents.tree) {
+    return meets(query, face.polygon, hit) && take(query, face.occluder, hit);
+  }
+
+  [[gnu::noinline]] bool meetOther(Query& query, const Occluder& occluder) const {
+    const Surface& surface = scene_.surfaces[occluder.surface];
+    if (const Contents contents = contentsOf(surface); contents.tree)
       return meetContents(query, occluder, contents);
-    } else if (!meets(query, surface.shape, hit)) {
-      return false;
-    }
+    ShapeHit hit;
+    return meets(query, surface.shape, hit) && take(query, occluder, hit);
+  }
+
+  bool take(Query& query, const Occluder& occluder, const ShapeHit& hit) const {
     if (query.loses(occluder, hit)) return false;
     query.best.occluder = &occluder;
     query.best.hit = hit;
@@ -392,15 +409,19 @@ class Tracer::Tree {
   }
 
   bool crossSurface(Query& query, uint32_t primitive) const {
-    const Occluder& own = occluders_[primitive];
-    const Occluder& occluder = query.standIn ? *query.standIn : own;
+    const Face& face = faces_[primitive];
+    const Occluder& occluder = query.standIn ? *query.standIn : face.occluder;
     if (static_cast<int32_t>(occluder.surface) == query.source) return false;
-    const Surface& surface = scene_.surfaces[own.surface];
+    if (!face.polygon.hasArea) return crossOther(query, face.occluder, occluder);
     ShapeHit hit;
-    if (const auto* polygon = std::get_if<Polygon>(&surface.shape))
-      return meets(query, *polygon, hit) && crosses(query, occluder, hit);
+    return meets(query, face.polygon, hit) && crosses(query, occluder, hit);
+  }
+
+  [[gnu::noinline]] bool crossOther(Query& query, const Occluder& own, const Occluder& occluder) const {
+    const Surface& surface = scene_.surfaces[own.surface];
     if (const Contents contents = contentsOf(surface); contents.tree)
       return crossContents(query, own, contents);
+    ShapeHit hit;
     return meets(query, surface.shape, hit) && crosses(query, occluder, hit);
   }
 
@@ -427,8 +448,8 @@ class Tracer::Tree {
   const Scene& scene_;
   std::span<const std::unique_ptr<Tree>> groups_, meshes_;
   const Mesh* mesh_ = nullptr;
-  // Of a group: of each of its surfaces, by Embree's primitive number. Of a mesh: by material.
-  std::vector<Occluder> occluders_;
+  std::vector<Face> faces_;          // of a group: of each of its surfaces, by Embree's primitive number
+  std::vector<Occluder> occluders_;  // of a mesh: by material
   size_t primitives_ = 0;
   Box3d bounds_;
   V3d center_{0, 0, 0};
@@ -493,7 +514,7 @@ Hit Tracer::nearest(const V3d& origin, const V3d& direction, double farthest, in
   query.origin = origin;
   query.direction = direction;
   query.farthest = farthest;
-  query.from = static_cast<uint32_t>(from);  // as the world's tree has it
+  query.from = embree_->groups[0]->beginOf(from);
   embree_->groups[0]->nearest(query);
   const Found& found = query.best;
   if (!found.occluder) return result;
@@ -530,7 +551,7 @@ Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, 
   query.direction = direction;
   query.farthest = distance;
   query.source = source;
-  query.from = static_cast<uint32_t>(from);  // as the world's tree has it
+  query.from = tree.beginOf(from);
   if (source != kNone) {
     query.target = static_cast<uint32_t>(source);
     // The front is what shines; the tie with whatever lies on the source is decided for that side.
