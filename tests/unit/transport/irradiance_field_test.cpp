@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <string_view>
 #include <thread>
+#include <vector>
 
 #include "scene/random.h"
 #include "tests/unit/transport/transport_fixture.h"
@@ -238,6 +241,44 @@ TEST(IrradianceField, AmbientValueAndExcludedSurfaces) {
   o.ambientExcluded = {};
   o.ambientIncluded = {"lamp"};
   EXPECT_NEAR(Traced(kRoom, o).value(origin, down), direct, 1e-6);
+}
+
+// Where the floor has the ambient value for its indirect light (-ae, -aE), or all but the walls have (-ai,
+// -aI): on the walls the same mean as with what is gathered anew, at first and at second surfaces; on the
+// floor the same to the bit.
+TEST(IrradianceField, ExcludedSurfacesGiveTheAmbientValueToOthers) {
+  std::string room = kRoom;
+  const std::string_view floor = "wall polygon floor";
+  room.replace(room.find(floor), floor.size(), "carpet polygon floor");
+  room = "void plastic carpet 0 0 5 .9 .9 .9 0 0\n" + room;
+  const auto with = [&](double accuracy, const std::vector<std::string>& excluded,
+                        const std::vector<std::string>& included) {
+    RayOptions o = interpolated(accuracy, 3);
+    o.ambientValue = Rgb(1, 1, 1) * .3;
+    o.ambientExcluded = excluded;
+    o.ambientIncluded = included;
+    return o;
+  };
+  RayOptions many = with(0, {"carpet"}, {});
+  many.ambientDivisions = 400;
+  Traced anew(room, many), excluding(room, with(.15, {"carpet"}, {})),
+      including(room, with(.15, {}, {"wall"})), all(room, with(.15, {}, {}));
+  double expected = 0, got = 0, gotOfAll = 0;
+  for (double x = .4; x < 3.9; x += .9)
+    for (double z = .4; z < 3; z += .7) {
+      const V3d from(x, 2, z), towards(.1, -1, .05);
+      expected += anew.mean(from, towards, 8).mean();
+      const double here = excluding.value(from, towards);
+      EXPECT_EQ(including.value(from, towards), here);
+      got += here;
+      gotOfAll += all.value(from, towards);
+    }
+  EXPECT_NEAR(got / expected, 1, .01);
+  EXPECT_GT(std::abs(gotOfAll / expected - 1), .03) << "the spoiled twin: computed on the floor as well";
+  const V3d from(2, 2, 1.5), down(.2, .1, -1);
+  EXPECT_EQ(excluding.value(from, down), anew.value(from, down));
+  EXPECT_EQ(including.value(from, down), anew.value(from, down));
+  EXPECT_NE(all.value(from, down), anew.value(from, down));
 }
 
 }  // namespace
