@@ -36,8 +36,9 @@ constexpr size_t kBetweenSaves = 256;  // values that a process that is killed m
 constexpr int kBeyondFinest = 2;  // divisions more where corners are hidden
 
 // From level to level, the rays of corners and the error that is allowed: the smaller the squares, the less
-// of a picture they are. Found by trial on three rooms.
-constexpr double kFewerRays = .82, kMoreError = 1.6;
+// of a picture they are. Found by trial on three rooms. Who asks for more than two bounces wants the last
+// percents, and gets more rays.
+constexpr double kFewerRays = .82, kFewerRaysOfMore = .9, kMoreError = 1.6;
 
 // The widest square that is asked about a place beside something, in mean distances of what the place sees.
 constexpr double kReaches = 6;
@@ -47,7 +48,7 @@ constexpr double kBeside = .85;  // what a place is from a corner, in the way to
 constexpr double kAlone = .4;
 
 // Where corners are hidden, the others are shifted: what they may be off by, in what their changes per length
-// and the distances to what they see tell of it. Who asks for more than two bounces wants the last percents.
+// and the distances to what they see tell of it, with two bounces and with more.
 constexpr double kShiftError = 2, kShiftErrorOfMore = 4;
 
 // One corner tells alone where so many times its chance, and so many times the square of the way in distances
@@ -59,7 +60,8 @@ constexpr double kAloneChance = 4, kAloneCurvature = 1.5, kAloneChange = 1.5;
 // free of it.
 constexpr int kSecondDivisions = 1;
 constexpr double kSecondSpacing = .06;  // of the size of all
-constexpr double kSecondRays = .25, kSecondError = 4, kSecondHidden = .7, kSecondServed = .5;
+constexpr double kSecondRays = .25, kSecondRaysOfMore = .4, kSecondError = 4, kSecondHidden = .7,
+                 kSecondServed = .5;
 
 // Of the changes per length, what counts between corners: with a half of them, parabolas are met, but so is
 // their noise.
@@ -202,6 +204,8 @@ IrradianceField::IrradianceField(const Scene& scene, const Box3d& bounds, const 
     : scene_(scene),
       accuracy_(options.ambientAccuracy),
       shiftError_(options.ambientBounces > 2 ? kShiftErrorOfMore : kShiftError),
+      fewerRays_(options.ambientBounces > 2 ? kFewerRaysOfMore : kFewerRays),
+      secondRays_(options.ambientBounces > 2 ? kSecondRaysOfMore : kSecondRays),
       bound_(options.fieldMemory > 0 ? static_cast<size_t>(options.fieldMemory * 1e6) : kNoBound) {
   double magnitude = 0;
   if (!bounds.isEmpty()) {
@@ -452,11 +456,11 @@ IrradianceField::Site& IrradianceField::corner(const Chart& chart, int64_t i, in
 
 // Corners of small squares tell about little, and are many: they get fewer rays, level by level.
 double IrradianceField::shareOfRays(const Key& key, LightOf of) const {
-  if (of == LightOf::second) return kSecondRays;
+  if (of == LightOf::second) return secondRays_;
   if (key.level == kSingle) return 1;
   const int divisions = static_cast<int>(spacing_.size()) - 1 + kBeyondFinest -
                         std::countr_zero(static_cast<uint32_t>(key.i | key.j));
-  return std::pow(kFewerRays, std::max(0, divisions));
+  return std::pow(fewerRays_, std::max(0, divisions));
 }
 
 const GatheredLight& IrradianceField::lightOf(Site& site, const Asked& asked) {

@@ -162,7 +162,7 @@ class IrradianceField {
 
   const Scene& scene_;
   double accuracy_;
-  double shiftError_;
+  double shiftError_, fewerRays_, secondRays_;
   double size_ = 1;              // the longest side of the bounds
   double planeStep_ = 0;         // offsets that differ by less are one plane's
   V3d origin_{0, 0, 0};          // of the lattices

@@ -59,6 +59,7 @@ V3d along(const V3d& origin, double distance, const V3d& direction) {
 uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAccess& access) {
   Fingerprint print;
   print.add(kVersion);
+  print.add(uint64_t{2});  // how it is gathered, between two versions
   for (const double x :
        {o.directThreshold, o.directCertainty, o.directJitter, o.sourceSubstructuring, o.specularSampling,
         o.specularThreshold, o.ambientAccuracy, o.weightLimit, o.mediumEccentricity, o.mediumSampling})
