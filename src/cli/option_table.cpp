@@ -837,7 +837,7 @@ std::vector<OptionEntry> makeTable() {
        .arguments = "MB",
        .group = Group::sphere,
        .value = +[](O& o) -> double& { return o.ray.fieldMemory; },
-       .range = kNotNegative,
+       .range = {0, 1e9},
        .unit = "MB",
        .remark = "memory of interpolation",
        .paragraph = "The most that is remembered to interpolate indirect light from (-aa above 0), in "
