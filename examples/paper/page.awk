@@ -146,6 +146,21 @@ END {
     print "|"
   }
 
+  for (n = 0; (getline line < beside) > 0; ++n) {
+    if (n == 0) {
+      print "\n## Beside rsensor\n"
+      print "Radiance, 50 spheres, the same 12 points, `-ab 3 -dt 0 -dj 1 -ds .05`; RADIANCE's tool for such integrals, a sensor of even"
+      print "response, with so many rays (`-rd`). Errors are what 8 repeats with other directions differ by (`tests/bench/rtrace/means`).\n"
+      print "| | ms a point | rms error |"
+      print "|---|---|---|"
+    }
+    match(line, / +[0-9.]+ ms a point/)
+    name = substr(line, 1, RSTART - 1)
+    split(substr(line, RSTART), field, " ")
+    sub(/ /, " `", name)
+    printf "| %s` | %.3g | %s |\n", name, field[1], field[6]
+  }
+
   print "\n## Figures 12 to 15: what two points see\n"
   print "Importance (`-Sg goal -ab 2 -ad 16`, 50 spheres), from zenith to nadir over all azimuths, each pixel with the value of"
   print "the nearest direction; exposed so that twice the mean is mid-bright.\n"

@@ -48,9 +48,9 @@ double irradianceFrom(const std::array<V3d, N>& corners, const V3d& normal) {
   return std::abs(sum) / 2;
 }
 
-// Following an indirect ray to its end takes about as long as so many guesses, and no more of them than that
-// are made at the first bounce for each one that is followed.
-constexpr double kFollowedPrice = 50, kMostGuesses = 6;
+// Following an indirect ray takes about as long as so many guesses for each bounce that is left to it. Not
+// more of them than that are made for each one that is followed.
+constexpr double kBouncePrice = 30, kMostGuesses = 6;
 
 double middleOf(std::vector<double>& values) {
   if (values.empty()) return 0;
@@ -221,7 +221,8 @@ LocalGuess RadianceGuess::fit(const V3d& point, std::span<const V3d> glances, st
       if (at.reflectance[c] > 0) around[c].push_back(rest[c] / at.reflectance[c]);
   }
   for (int c = 0; c < 3; ++c) local.ambient_[c] = std::max(0., middleOf(around[c]));
-  // What is left to the directions here, and how much of it comes from which indirect ray was followed.
+  // What is left to the directions here, and how much of it comes from which indirect ray was followed; of
+  // that the mean distance, so that one ray by chance at something bright does not tell of all.
   double rests = 0, squares = 0, guessed = 0;
   for (const Traced& t : traced) {
     const double rest = brightness(t.radiance - local.from(t.place));
@@ -233,11 +234,11 @@ LocalGuess RadianceGuess::fit(const V3d& point, std::span<const V3d> glances, st
       return brightness(t.place.reflectance * local.indirect(t.place.point, direction, t.surface));
     };
     const double difference = indirect() - indirect();
-    guessed += difference * difference / 2;
+    guessed += std::abs(difference);
   }
   const double n = static_cast<double>(traced.size());
   const double variance = n > 1 ? (squares - rests * rests / n) / n : 0;
-  if (variance > 0) local.guessesThatPay_ = std::sqrt(kFollowedPrice * guessed / n / variance);
+  if (variance > 0) local.shareGuessed_ = kPi / 4 * std::pow(guessed / n, 2) / variance;
   return local;
 }
 
@@ -276,8 +277,11 @@ Rgb LocalGuess::indirect(const Ray& traced) const {
 }
 
 int LocalGuess::raysToGuess(int bounces) const {
-  if (bounces > 1) return 0;
-  const auto rays = static_cast<int>(std::lround(std::min(guessesThatPay_, kMostGuesses) / (1 + bounces)));
+  const int left = guess_->transport_.options().ambientBounces - bounces;
+  if (bounces > 1 || left <= 0) return 0;
+  // After the second surface all counts about half as much.
+  const double pay = std::sqrt(kBouncePrice * left * shareGuessed_);
+  const auto rays = static_cast<int>(std::lround(std::min(pay, kMostGuesses) / (1 + bounces)));
   // One is as good as none: what it takes from the followed ray's noise it has itself.
   return rays > 1 ? rays : 0;
 }

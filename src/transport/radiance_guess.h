@@ -57,9 +57,9 @@ class LocalGuess {
   };
   const RadianceGuess* guess_;
   std::vector<Light> lights_;
-  Rgb ambient_{0, 0, 0};  // other light, as the radiance of a white surface
-  double bright_ = 0;     // what a source adds in brightness from which on shadow rays are asked, W/sr/m2
-  double guessesThatPay_ = 0;  // for an indirect ray of the first bounce that is followed
+  Rgb ambient_{0, 0, 0};     // other light, as the radiance of a white surface
+  double bright_ = 0;        // what a source adds in brightness from which on shadow rays are asked, W/sr/m2
+  double shareGuessed_ = 0;  // of the variance of what is left, what guesses of indirect rays vary by
 };
 
 class RadianceGuess {
