@@ -60,7 +60,7 @@ END {
   print "- low quality: `-ab 1 -ad 1`; high quality: `-ab 5 -ad 1`"
   print ""
   print "Times are CPU seconds of one thread by `rsphere-trade`, errors are root mean squares of relative errors against its"
-  print "reference: 36 answers a setting for radiance, 144 for importance, whose errors have a long tail. An error is known to"
+  print "reference: 36 answers a setting for radiance, 480 for importance, whose errors have a long tail. An error is known to"
   print "about 12%, a ratio of times at equal error to about 35%."
   print ""
   print "## Figure 9: directions to special objects"
