@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace rsphere {
 namespace {
@@ -132,6 +133,18 @@ std::vector<Part> partsOf(const Scene& scene, const LightSource& source, const S
   return parts;
 }
 
+// About that of the source as seen from the ball, `distance` from its surface; not too small.
+double solidAngleFrom(const LightSource& source, const Sphere& ball, double distance) {
+  if (source.distant) return 2 * std::numbers::pi * (1 - source.cosHalfAngle);
+  if (source.isPlane()) {
+    const V3d away = ball.center - source.center;
+    const double front = (source.normal.dot(away) + ball.radius) / away.length();
+    return source.area * std::clamp(front, 0., 1.) / (distance * distance);
+  }
+  const double sine = std::min(1., source.radius / distance);
+  return std::numbers::pi * sine * sine;
+}
+
 }  // namespace
 
 Glints::Glints(const Transport& transport, std::span<const SpecialObject> objects) : transport_(transport) {
@@ -176,10 +189,11 @@ void Glints::find(const V3d& point, double least, std::vector<Glint>& found) con
       const double distance =
           source.distant ? kFarAway : (source.center - ball.center).length() - ball.radius;
       if (!(distance > 0) || (source.reach > 0 && distance - source.radius > source.reach)) continue;
-      // An image is half as wide, at most, as the source is seen from the ball.
-      const double sine = source.distant ? source.sinHalfAngle : std::min(1., source.radius / distance);
-      const double halfWidth = ball.radius * sine / nearest, radiance = light.brightness * reflectance;
-      if (!(radiance * radiance * 4 * halfWidth * halfWidth > least)) continue;
+      // A ball sends light from far away to all sides alike: of the solid angle that the source fills there,
+      // a quarter of the square of its radius against the distance to it.
+      const double reached = ball.radius / nearest, radiance = light.brightness * reflectance;
+      if (!(radiance * radiance * solidAngleFrom(source, ball, distance) * reached * reached / 4 > least))
+        continue;
       const size_t first = found.size();
       for (const Part& part : partsOf(transport_.scene(), source, ball)) {
         const V3d normal = mirrors(ball, point, part.middle, source.distant);
