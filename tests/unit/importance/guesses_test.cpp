@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -71,14 +72,18 @@ Spread spreadOf(const Setting& setting, double density, int base, int rotations)
     spread.mean.add(brightness(a.mean));
     spread.directions = a.directions;
     double sum = 0;
-    for (const DirectionSample& s : workspace.samples) sum += s.solidAngle * brightness(s.value);
+    for (const DirectionSample& s : workspace.samples) {
+      sum += s.solidAngle * brightness(s.value);
+      EXPECT_GE(std::min({s.value.x, s.value.y, s.value.z}), 0)
+          << "what is guessed leaves no radiance negative";
+    }
     EXPECT_NEAR(sum / (4 * kPi), brightness(a.mean), 1e-9 * brightness(a.mean));
   }
   return spread;
 }
 
-// With -Sk 0 nothing is guessed and nothing gets directions of its own. With indirect light its noise is most of what is
-// left, and indirect rays are guessed too.
+// With -Sk 0 nothing is guessed and nothing gets directions of its own. With indirect light its noise is most
+// of what is left, and indirect rays are guessed too.
 TEST(Guesses, HalveTheErrorBesideAGoalWithoutBias) {
   for (const int bounces : {0, 3}) {
     const Setting setting(deskBesideGoal(), bounces, true);
