@@ -494,9 +494,9 @@ std::vector<OptionEntry> makeTable() {
            "the second diffuse surface of a path it comes from places farther apart, a quarter of the rays "
            "each; beyond it, and where surfaces are small, one direction tells. In sphere mode it is off "
            "(-aa 0): directions meet surfaces all over the scene, and it pays for thousands of points at "
-           "best. On the open-plan office (-ab 3 -Sn 420 -Sx 650) rsphere-trade has 0.65% at 11 ms a point, "
-           "and with -aa .2 -ar 64 -ad 256 0.42% at 152 ms a point of three; of 400 points together it is 13 "
-           "and 63 ms a point."});
+           "best. On the open-plan office (-ab 3 -Sn 420 -Sx 650) rsphere-trade has 0.59% at 8.5 ms a point, "
+           "and with -aa .2 -ar 64 -ad 256 0.42% at 208 ms a point of three; of 400 points together it is 11 "
+           "and 82 ms a point."});
   add({.name = "-ar",
        .arguments = "res",
        .group = Group::indirect,
@@ -840,13 +840,11 @@ std::vector<OptionEntry> makeTable() {
        .range = {0, 1e9},
        .unit = "MB",
        .remark = "memory of interpolation",
-       .paragraph = "The most that is remembered to interpolate indirect light from (-aa above 0), in "
-                    "millions of bytes: "
-                    "beyond it something is forgotten, and computed again where it is asked for again. No "
-                    "answer changes "
-                    "by it. The picture of a room of logs takes hardly longer with 20 than without a bound, "
-                    "twice as long "
-                    "with 10. 0: no bound. Not together with -af. Holds in ray mode as well."});
+       .paragraph =
+           "The most that is remembered to interpolate indirect light from (-aa above 0), in millions of "
+           "bytes: beyond it something is forgotten, and computed again where it is asked for again. No "
+           "answer changes by it. The picture of a room of logs takes hardly longer with 20 than without a "
+           "bound, twice as long with 10. 0: no bound. Not together with -af. Holds in ray mode as well."});
   add({.name = "-Sr",
        .arguments = "N",
        .group = Group::sphere,

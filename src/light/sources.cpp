@@ -415,8 +415,8 @@ void LightSources::sampleParts(uint32_t index, const V3d& point, const V3d& towa
     default: {
       // at: the place on the source of a place on the unit square.
       const auto addPlane = [&](const auto& at) {
-        // Spread evenly over the part as it is seen.
         const double height = source.normal.dot(point - source.center);
+        // Spread evenly over the part as it is seen.
         const auto addNear = [&](Part part) {
           // In the source's own plane rounding would decide from which side it is seen, and then it fills
           // half the sky.

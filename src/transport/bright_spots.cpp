@@ -62,8 +62,8 @@ V3d onDisk(const V3d& normal, double radius, double angle) {
 
 // A direction on the front side as a diffuse surface sends light.
 V3d sentFrom(const V3d& normal, Random& random) {
-  const double squared = random.uniform(), angle = 2 * kPi * random.uniform();
-  return onDisk(normal, std::sqrt(squared), angle) + std::sqrt(1 - squared) * normal;
+  const double u1 = random.uniform(), u2 = random.uniform();
+  return diffuseDirection(normal, u1, u2);
 }
 
 // 1 - cos, without its rounding.

@@ -155,7 +155,7 @@ void PathTracer::addIndirect(Ray& ray, const V3d& normal, const V3d& trueNormal,
         for (int k = 0; k < guesses; ++k) {
           V3d direction;
           const Imath::V2d u = evenly(static_cast<size_t>(k), shift1, shift2);
-          const double part = draw(i, j, u.x, u.y, aim.share > 0 ? (k + shift3) / guesses : 1, direction);
+          const double part = draw(i, j, u.x, u.y, (k + shift3) / guesses, direction);
           if (part > 0) sum += part * guess_->indirect(ray.point, direction, ray.surface);
         }
         ray.value += share * sum / static_cast<double>(guesses);

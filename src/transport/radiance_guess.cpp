@@ -233,8 +233,7 @@ LocalGuess RadianceGuess::fit(const V3d& point, std::span<const V3d> glances, st
       const V3d direction = diffuseDirection(t.place.normal, random.uniform(), random.uniform());
       return brightness(t.place.reflectance * local.indirect(t.place.point, direction, t.surface));
     };
-    const double difference = indirect() - indirect();
-    guessed += std::abs(difference);
+    guessed += std::abs(indirect() - indirect());
   }
   const double n = static_cast<double>(traced.size());
   const double variance = n > 1 ? (squares - rests * rests / n) / n : 0;
@@ -254,31 +253,26 @@ Rgb LocalGuess::direct(const Place& at, bool looking) const {
   return sum;
 }
 
-Rgb LocalGuess::from(const Place& at) const {
+Rgb LocalGuess::from(const Place& at, bool looking) const {
   if (!(brightness(at.reflectance) > 0)) return Rgb(0, 0, 0);
-  return direct(at, true) + ambient_ * at.reflectance;
+  return direct(at, looking) + ambient_ * at.reflectance;
 }
 
 Rgb LocalGuess::along(const V3d& point, const V3d& direction) const {
-  return from(guess_->placeAlong(point, direction, kNone));
-}
-
-Rgb LocalGuess::roughly(const Place& at) const {
-  if (!(brightness(at.reflectance) > 0)) return Rgb(0, 0, 0);
-  return direct(at, false) + ambient_ * at.reflectance;
+  return from(guess_->placeAlong(point, direction, kNone), true);
 }
 
 Rgb LocalGuess::indirect(const V3d& point, const V3d& direction, int32_t start) const {
-  return roughly(guess_->placeAlong(point, direction, start));
+  return from(guess_->placeAlong(point, direction, start), false);
 }
 
 Rgb LocalGuess::indirect(const Ray& traced) const {
-  return roughly(guess_->placeOf(traced.surface, traced.point, traced.normal, traced.direction));
+  return from(guess_->placeOf(traced.surface, traced.point, traced.normal, traced.direction), false);
 }
 
 int LocalGuess::raysToGuess(int bounces) const {
+  if (bounces > 1) return 0;
   const int left = guess_->transport_.options().ambientBounces - bounces;
-  if (bounces > 1 || left <= 0) return 0;
   // After the second surface all counts about half as much.
   const double pay = std::sqrt(kBouncePrice * left * shareGuessed_);
   const auto rays = static_cast<int>(std::lround(std::min(pay, kMostGuesses) / (1 + bounces)));

@@ -9,7 +9,6 @@
 // Refused: dynamic directions to surfaces near to sources (two tenths more of them gained 7% there);
 // highlights of sources in glossy surfaces (an office gained 3%); and, for the noise of indirect rays,
 // directions that neighbours share out among them (nothing).
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,7 +29,7 @@ class LocalGuess {
   };
 
   // Of the radiance from there, W/sr/m2.
-  Rgb from(const Place& place) const;
+  Rgb from(const Place& place) const { return from(place, true); }
   // Of what a ray from a point (world) brings, W/sr/m2.
   Rgb along(const V3d& point, const V3d& direction) const;
 
@@ -41,7 +40,7 @@ class LocalGuess {
 
   // How many indirect rays to guess for one that is followed, from where `bounces` indirect ones led: what
   // makes most of the time, by what the noise of followed ones adds to what few directions miss. 0 where that
-  // is little.
+  // is little. REQUIRES fewer bounces than -ab.
   int raysToGuess(int bounces) const;
 
   bool expectsLight() const { return !lights_.empty(); }
@@ -49,8 +48,9 @@ class LocalGuess {
  private:
   friend class RadianceGuess;
   explicit LocalGuess(const RadianceGuess& guess) : guess_(&guess) {}
+  // looking: shadow rays tell of bright places.
   Rgb direct(const Place& at, bool looking) const;
-  Rgb roughly(const Place& at) const;
+  Rgb from(const Place& place, bool looking) const;
 
   struct Light {
     uint32_t source = 0;    // index in LightSources
