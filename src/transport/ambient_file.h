@@ -20,7 +20,7 @@ namespace rsphere {
 
 class AmbientFile {
  public:
-  using Record = std::array<std::byte, 128>;
+  using Record = std::array<std::byte, 212>;
 
   // Makes the file where there is none, or nothing in it. Null, after a warning, where it is not one of ours
   // for this scene and these options, and is left as it is; null, too, where it is no regular file

@@ -7,7 +7,8 @@ namespace rsphere {
 
 AnswerRecord answerRays(const Transport& transport, const Options& options, const AnswerWriter& writer,
                         const rad::Warn& warn) {
-  auto tracers = std::make_shared<std::vector<PathTracer>>(threadCount(options), PathTracer(transport));
+  auto tracers = std::make_shared<std::vector<PathTracer>>();
+  for (unsigned i = 0; i < threadCount(options); ++i) tracers->emplace_back(transport, transport.spots());
   const bool trees = !options.treeOutputs.empty(), value = trees || needsValue(options.outputs);
   const bool valueAlone = options.outputs == "v";
   if (value && transport.isDark()) warn("no light sources found");

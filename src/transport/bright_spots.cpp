@@ -54,6 +54,10 @@ double areaOf(const Shape& shape) {
   return 0;
 }
 
+// The surface of a room in squares of the mean distance across it (the mean chord of a convex body is 4 V/S;
+// of a room of 10 x 7 x 3 m it is 3.5 m, and its surface 20 times its square).
+constexpr double kRoomSurface = 20;
+
 V3d onDisk(const V3d& normal, double radius, double angle) {
   V3d x, y;
   frame(normal, x, y);
@@ -112,6 +116,57 @@ struct BrightSpots::Node {
   }
 };
 
+// What becomes of a particle that is sent out; empty where it meets no diffuse surface.
+std::optional<BrightSpots::Particle> BrightSpots::arrived(const Scene& scene, const Tracer& tracer,
+                                                          V3d origin, const V3d& direction, double power,
+                                                          Random& random) {
+  int32_t from = kNone;
+  for (int pane = 0; pane < kPanes; ++pane) {
+    const Hit hit = tracer.nearest(origin, direction, kFarAway, from);
+    if (hit.surface == kNone) break;
+    from = hit.surface;
+    origin += hit.distance * direction;
+    const Material* material = scene.materialOf(scene.surfaces[hit.surface]);
+    if (!material) continue;
+    if (const auto* opaque = std::get_if<Opaque>(material)) {
+      power *= brightness(opaque->color) * (1 - opaque->specularity);
+      const V3d front = hit.cosine < 0 ? -hit.normal : hit.normal;
+      const V3d back = sentFrom(front, random);
+      return Particle{origin, front, power, tracer.nearest(origin, back, kFarAway, from).distance};
+    }
+    if (!std::holds_alternative<Glass>(*material)) break;
+    power *= kPassed;
+  }
+  return {};
+}
+
+// Of distant sources, those that come in through openings: from where it is bright to where it is dark.
+std::vector<BrightSpots::Particle> BrightSpots::particlesThrough(const Openings& openings, const Scene& scene,
+                                                                 const Tracer& tracer,
+                                                                 const LightSources& lights) const {
+  std::vector<Particle> found;
+  Random random(1);
+  for (const LightSource& light : lights.all()) {
+    if (light.isVirtual()) continue;
+    const Surface& surface = scene.surfaces[light.surface];
+    const auto* distant = std::get_if<Distant>(&surface.shape);
+    const double radiance = brightness(sourceRadiance(scene, surface));
+    if (!distant || !(radiance > 0)) continue;
+    const V3d direction = -distant->direction;
+    const double all = openings.areaTowards(direction);
+    if (!(all > 0)) continue;
+    const double each = radiance * distant->solidAngle * all / kParticles;
+    for (int i = 0; i < kParticles; ++i) {
+      const double u1 = random.uniform(), u2 = random.uniform(), u3 = random.uniform();
+      const V3d in = openings.pointTowards(direction, u1, u2, u3);
+      if (tracer.nearest(in, -direction).surface != kNone) continue;
+      if (const auto particle = arrived(scene, tracer, in, direction, each, random))
+        found.push_back(*particle);
+    }
+  }
+  return found;
+}
+
 std::vector<BrightSpots::Particle> BrightSpots::particles(const Scene& scene, const Tracer& tracer,
                                                           const LightSources& lights) const {
   const V3d middle = tracer.bounds().center();
@@ -134,6 +189,10 @@ std::vector<BrightSpots::Particle> BrightSpots::particles(const Scene& scene, co
   }
   std::vector<Particle> found;
   Random random(mixBits(senders.size()));
+  const auto follow = [&](const V3d& origin, const V3d& direction, double power) {
+    if (const auto particle = arrived(scene, tracer, origin, direction, power, random))
+      found.push_back(*particle);
+  };
   const double each = all / kParticles;
   double due = random.uniform();
   for (const Sender& sender : senders)
@@ -148,38 +207,35 @@ std::vector<BrightSpots::Particle> BrightSpots::particles(const Scene& scene, co
         direction = sentFrom(at.normal, random);
         origin = at.point + 2 * kSamePlace * at.normal;
       }
-      double power = each;
-      int32_t from = kNone;
-      for (int pane = 0; pane < kPanes; ++pane) {
-        const Hit hit = tracer.nearest(origin, direction, kFarAway, from);
-        if (hit.surface == kNone) break;
-        from = hit.surface;
-        origin += hit.distance * direction;
-        const Material* material = scene.materialOf(scene.surfaces[hit.surface]);
-        if (!material) continue;
-        if (const auto* opaque = std::get_if<Opaque>(material)) {
-          power *= brightness(opaque->color) * (1 - opaque->specularity);
-          const V3d front = hit.cosine < 0 ? -hit.normal : hit.normal;
-          const V3d back = sentFrom(front, random);
-          found.push_back({origin, front, power, tracer.nearest(origin, back, kFarAway, from).distance});
-          break;
-        }
-        if (!std::holds_alternative<Glass>(*material)) break;
-        power *= kPassed;
-      }
+      follow(origin, direction, each);
     }
   return found;
 }
 
-BrightSpots::BrightSpots(const Scene& scene, const Tracer& tracer, const LightSources& lights) {
+BrightSpots::BrightSpots(const Scene& scene, const Tracer& tracer, const LightSources& lights,
+                         const Openings* openings) {
   if (tracer.bounds().isEmpty()) return;
-  std::vector<Particle> all = particles(scene, tracer, lights);
-  double area = 0, power = 0;
+  origin_ = tracer.bounds().center();
+  if (openings) {
+    std::vector<Particle> inside = particlesThrough(*openings, scene, tracer, lights);
+    std::vector<double> free;
+    for (const Particle& p : inside) free.push_back(p.free);
+    if (free.size() >= kFewest) {
+      const auto middle = free.begin() + static_cast<ptrdiff_t>(free.size() / 2);
+      std::nth_element(free.begin(), middle, free.end());
+      find(std::move(inside), kRoomSurface * *middle * *middle, kMost / 2);
+    }
+  }
+  double area = 0;
   for (const Surface& s : scene.outermost()) area += areaOf(s.shape);
+  find(particles(scene, tracer, lights), area, kMost);
+}
+
+void BrightSpots::find(std::vector<Particle> all, double area, size_t most) {
+  double power = 0;
   for (const Particle& p : all) power += p.power;
   if (!(power > 0) || !(area > 0)) return;
-  usual_ = power / area;
-  origin_ = tracer.bounds().center();
+  const double usual = power / area;
 
   // The room is halved and halved again, each time where that gains most.
   struct Split {
@@ -196,7 +252,7 @@ BrightSpots::BrightSpots(const Scene& scene, const Tracer& tracer, const LightSo
     splits.push_back({i, gain, std::move(into)});
   };
   consider(0);
-  while (nodes.size() < kMost && !splits.empty()) {
+  while (count_ + nodes.size() < most && !splits.empty()) {
     const auto best = std::max_element(splits.begin(), splits.end(),
                                        [](const Split& a, const Split& b) { return a.gain < b.gain; });
     const size_t i = best->node;
@@ -206,16 +262,16 @@ BrightSpots::BrightSpots(const Scene& scene, const Tracer& tracer, const LightSo
     consider(i);
     consider(nodes.size() - 1);
   }
-  const auto isSpot = [&](const Node& node) { return node.spot.power > kBrighter * usual_ * node.area; };
+  const auto isSpot = [&](const Node& node) { return node.spot.power > kBrighter * usual * node.area; };
   double worth = 0;
   for (const Node& node : nodes)
     if (isSpot(node)) worth += node.worth();
-  if (!(worth > kLeastWorth * usual_ * power)) return;
+  if (!(worth > kLeastWorth * usual * power)) return;
   for (const Node& node : nodes)
-    if (isSpot(node)) keep(node.spot);
+    if (isSpot(node)) keep(node.spot, usual);
 }
 
-void BrightSpots::keep(const Spot& spot) {
+void BrightSpots::keep(const Spot& spot, double usual) {
   const size_t i = count_++;
   const V3d center = spot.center - origin_;
   x_[i] = static_cast<float>(center.x);
@@ -226,7 +282,7 @@ void BrightSpots::keep(const Spot& spot) {
   normalZ_[i] = static_cast<float>(spot.normal.z);
   radius_[i] = static_cast<float>(spot.radius);
   anyway_[i] = static_cast<float>(1 - spot.normal.length() + kEdgeOn);
-  power_[i] = static_cast<float>(spot.power / usual_);
+  power_[i] = static_cast<float>(spot.power / usual);
 }
 
 // Of a spot comes what it would send as a small flat surface with its normal. Those that the place lies in or

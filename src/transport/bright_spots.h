@@ -7,19 +7,24 @@
 // out once a scene (Jensen 1995, "Importance driven path tracing using the photon map"); how well it is told
 // decides how much answers scatter, not what they are in the mean.
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "light/sources.h"
+#include "scene/random.h"
 #include "trace/tracer.h"
+#include "transport/openings.h"
 
 namespace rsphere {
 
 class BrightSpots {
  public:
   // Sends out particles: 8192, about 5 ms. The same scene gives the same spots; a scene that is lit evenly
-  // has none. Keeps nothing of the arguments.
-  BrightSpots(const Scene& scene, const Tracer& tracer, const LightSources& lights);
+  // has none. openings: where distant sources shine into a room, which gets as many particles again; or null.
+  // Keeps nothing of the arguments.
+  BrightSpots(const Scene& scene, const Tracer& tracer, const LightSources& lights,
+              const Openings* openings = nullptr);
 
   bool empty() const { return count_ == 0; }
   static constexpr size_t kMost = 64;
@@ -53,14 +58,19 @@ class BrightSpots {
   struct Particle;
   struct Node;
   std::vector<Particle> particles(const Scene& scene, const Tracer& tracer, const LightSources& lights) const;
-  void keep(const Spot& spot);
+  std::vector<Particle> particlesThrough(const Openings& openings, const Scene& scene, const Tracer& tracer,
+                                         const LightSources& lights) const;
+  static std::optional<Particle> arrived(const Scene& scene, const Tracer& tracer, V3d origin,
+                                         const V3d& direction, double power, Random& random);
+  // most: spots to find. area: of the surfaces that share the light (square world units).
+  void find(std::vector<Particle> all, double area, size_t most);
+  void keep(const Spot& spot, double usual);
 
   // Of the spots, each in an array of its own.
   using Numbers = std::array<float, kMost>;
   size_t count_ = 0;
   V3d origin_{0, 0, 0};  // what centers are counted from
   Numbers x_{}, y_{}, z_{}, normalX_{}, normalY_{}, normalZ_{}, radius_{}, anyway_{}, power_{};
-  double usual_ = 0;  // mean of what surfaces send back, W/m2
 };
 
 }  // namespace rsphere

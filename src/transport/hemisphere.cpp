@@ -23,69 +23,62 @@ V3d HemisphereCells::direction(int cell, double u1, double u2, const V3d& x, con
   return radius * std::cos(angle) * x + radius * std::sin(angle) * y + height * z;
 }
 
-std::vector<int> HemisphereCells::refinement(std::span<const double> brightness, int more) const {
-  std::vector<double> upTo(count());
-  double sum = 0;
-  for (int j = 0; j < rings_; ++j)
-    for (int k = 0; k < sectors_; ++k) {
-      double first = 0, second = 0;
-      int around = 0;
-      for (int dj = -1; dj <= 1; ++dj)
-        for (int dk = -1; dk <= 1; ++dk) {
-          const int ring = j + dj;
-          if ((dj == 0 && dk == 0) || ring < 0 || ring >= rings_) continue;
-          const double b = brightness[ring * sectors_ + (k + dk + sectors_) % sectors_];
-          first += b;
-          second += b * b;
-          ++around;
-        }
-      sum += std::sqrt(std::max(0., second / around - (first / around) * (first / around)));
-      upTo[j * sectors_ + k] = sum;
-    }
-  std::vector<int> rays(count(), 0);
-  if (!(sum > 0)) return rays;
-  int given = 0;
-  for (int i = 0; i < count(); ++i) {
-    const int due = static_cast<int>(upTo[i] / sum * more + .5);
-    rays[i] = due - given;
-    given = due;
-  }
-  return rays;
+int HemisphereCells::cellOf(const V3d& direction, const V3d& x, const V3d& y, const V3d& z) const {
+  const double height = direction.dot(z);
+  double azimuth = std::atan2(direction.dot(y), direction.dot(x)) / (2 * kPi);
+  if (azimuth < 0) azimuth += 1;
+  const int ring = std::clamp(static_cast<int>((1 - height * height) * rings_), 0, rings_ - 1);
+  const int sector = std::clamp(static_cast<int>(azimuth * sectors_), 0, sectors_ - 1);
+  return ring * sectors_ + sector;
 }
 
-GatheredLight HemisphereCells::sum(std::span<const Rgb> radiance, std::span<const int> rays,
-                                   std::span<const double> distance, double nearest, const V3d& x,
-                                   const V3d& y) const {
+GatheredLight HemisphereCells::sum(std::span<const Rgb> radiance, std::span<const double> distance,
+                                   double nearest, const V3d& x, const V3d& y, const V3d& z) const {
   Rgb mean(0, 0, 0);
   // By channel, along x and y.
-  double move[3][2] = {}, tilt[3][2] = {}, variance = 0, slopeVariance = 0;
+  double move[3][2] = {}, variance = 0, slopeVariance = 0;
   const auto at = [&](int j, int k) { return j * sectors_ + k; };
   const auto apart = [&](int a, int b) { return std::max(nearest, std::min(distance[a], distance[b])); };
   const double sector = 2 * kPi / sectors_;
-  // The mean of the tangent of the angle to the normal over each ring, and that of a direction over a sector.
+  // Means over a ring, s and c being sine and cosine of the angle to the normal, and that of a direction over
+  // a sector.
   const double acrossSector = std::sin(sector / 2) / (sector / 2);
-  std::vector<double> tangent(rings_), edgeWeight(rings_), sine(rings_ + 1);
+  struct Ring {
+    double c, s, inverseC, tangent, edgeWeight;
+  };
+  std::vector<Ring> rings(rings_);
+  std::vector<double> sine(rings_ + 1);
   const auto primitive = [](double s) { return std::asin(s) - s * std::sqrt(std::max(0., 1 - s * s)); };
   for (int j = 0; j <= rings_; ++j) sine[j] = std::sqrt(static_cast<double>(j) / rings_);
   for (int j = 0; j < rings_; ++j) {
-    tangent[j] = rings_ * (primitive(sine[j + 1]) - primitive(sine[j])) * acrossSector;
-    edgeWeight[j] = 2. / sectors_ * sine[j] * (1 - sine[j] * sine[j]);
+    const double s0 = sine[j], s1 = sine[j + 1], c0 = std::sqrt(1 - s0 * s0),
+                 c1 = std::sqrt(std::max(0., 1 - s1 * s1));
+    rings[j] = {2. / 3 * rings_ * (c0 * c0 * c0 - c1 * c1 * c1),
+                2. / 3 * rings_ * (s1 * s1 * s1 - s0 * s0 * s0), 2 * rings_ * (c0 - c1),
+                rings_ * (primitive(s1) - primitive(s0)), 2. / sectors_ * s0 * (1 - s0 * s0)};
   }
+  GatheredLight light;
   for (int k = 0; k < sectors_; ++k) {
     const int before = (k + sectors_ - 1) % sectors_;
     const double middle = (k + .5) * sector, edge = k * sector;
-    Rgb outwards(0, 0, 0), around(0, 0, 0), leaning(0, 0, 0);
+    const V3d out = std::cos(middle) * x + std::sin(middle) * y;
+    Rgb outwards(0, 0, 0), around(0, 0, 0);
     const auto addChance = [&](int a, int b, double weight) {
       const double difference = brightness(radiance[a] - radiance[b]);
-      variance += difference * difference * (.125 / rays[a] + .125 / rays[b]);
+      variance += difference * difference / 4;
       slopeVariance += difference * difference * weight * weight / 2;
     };
+    Rgb inverseC(0, 0, 0), tangent(0, 0, 0), one(0, 0, 0), s(0, 0, 0), c(0, 0, 0);
     for (int j = 0; j < rings_; ++j) {
       const int here = at(j, k);
       mean += radiance[here];
-      leaning += radiance[here] * tangent[j];
+      one += radiance[here];
+      inverseC += radiance[here] * rings[j].inverseC;
+      tangent += radiance[here] * rings[j].tangent;
+      s += radiance[here] * rings[j].s;
+      c += radiance[here] * rings[j].c;
       if (j > 0) {
-        const double weight = edgeWeight[j] / apart(here, at(j - 1, k));
+        const double weight = rings[j].edgeWeight / apart(here, at(j - 1, k));
         outwards += (radiance[here] - radiance[at(j - 1, k)]) * weight;
         addChance(here, at(j - 1, k), weight);
       }
@@ -93,25 +86,60 @@ GatheredLight HemisphereCells::sum(std::span<const Rgb> radiance, std::span<cons
       around += (radiance[here] - radiance[at(j, before)]) * weight;
       addChance(here, at(j, before), weight);
     }
-    for (int c = 0; c < 3; ++c) {
-      move[c][0] += outwards[c] * std::cos(middle) - around[c] * std::sin(edge);
-      move[c][1] += outwards[c] * std::sin(middle) + around[c] * std::cos(edge);
-      tilt[c][0] += leaning[c] * std::cos(middle);
-      tilt[c][1] += leaning[c] * std::sin(middle);
+    for (int b = 0; b < 3; ++b) {
+      move[b][0] += outwards[b] * std::cos(middle) - around[b] * std::sin(edge);
+      move[b][1] += outwards[b] * std::sin(middle) + around[b] * std::cos(edge);
+      light.tilted.all[b] += static_cast<float>(inverseC[b] / count());
+      light.tilted.first[b] += V3f((tangent[b] * acrossSector * out + one[b] * z) / count());
+      const double flat = inverseC[b] - c[b], aslant = s[b] * acrossSector;
+      const auto product = [&](int i, int j) {
+        return static_cast<float>(
+            (flat * out[i] * out[j] + aslant * (out[i] * z[j] + z[i] * out[j]) + c[b] * z[i] * z[j]) /
+            count());
+      };
+      light.tilted.squares[b] += V3f(product(0, 0), product(1, 1), product(2, 2));
+      light.tilted.products[b] += V3f(product(1, 2), product(2, 0), product(0, 1));
     }
   }
-  GatheredLight light;
   double inverse = 0;
   for (const double d : distance) inverse += 1 / std::max(d, nearest);
   light.reach = static_cast<float>(count() / inverse);
   light.noise = static_cast<float>(std::sqrt(variance) / count());
   light.noisePerLength = static_cast<float>(std::sqrt(slopeVariance));
   light.mean = V3f(mean / count());
-  for (int c = 0; c < 3; ++c) {
-    light.perLength[c] = V3f(move[c][0] * x + move[c][1] * y);
-    light.perTilt[c] = V3f((tilt[c][0] * x + tilt[c][1] * y) / count());
-  }
+  for (int b = 0; b < 3; ++b) light.perLength[b] = V3f(move[b][0] * x + move[b][1] * y);
   return light;
+}
+
+void LightMoments::add(const LightMoments& other, float share) {
+  for (int c = 0; c < 3; ++c) {
+    all[c] += share * other.all[c];
+    first[c] += share * other.first[c];
+    squares[c] += share * other.squares[c];
+    products[c] += share * other.products[c];
+  }
+}
+
+// The clamped cosine of the angle to n, in Legendre polynomials: 1/4 + 1/2 n.d + 5/32 (3 (n.d)^2 - 1).
+float LightMoments::towards(const V3f& n, int c) const {
+  const V3f squared(n.x * n.x, n.y * n.y, n.z * n.z), mixed(n.y * n.z, n.z * n.x, n.x * n.y);
+  const float second = squares[c].dot(squared) + 2 * products[c].dot(mixed);
+  return all[c] / 4 + first[c].dot(n) / 2 + 5.F / 32 * (3 * second - all[c]);
+}
+
+V3f GatheredLight::meanOfTilted(const V3d& normal, const V3d& perturbed) const {
+  const V3f before(normal), after(perturbed);
+  if ((after - before).length2() < 1e-12F) return mean;
+  V3f result;
+  for (int c = 0; c < 3; ++c) {
+    // The mean itself is known better than its moments tell it.
+    const float straight = tilted.towards(before, c);
+    const float ratio = straight > 0 ? tilted.towards(after, c) / straight : 0;
+    // All of it may come from where the normal is turned to.
+    const float most = tilted.all[c] > 0 ? tilted.all[c] : mean[c];
+    result[c] = std::clamp(mean[c] * ratio, 0.F, std::max(most, mean[c]));
+  }
+  return result;
 }
 
 }  // namespace rsphere

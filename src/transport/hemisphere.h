@@ -23,16 +23,35 @@ struct GatherSite {
   V3d normal{0, 0, 1};  // unit
 };
 
+// How light arrives at a point, as far as the irradiance of a surface depends on its normal: the moments of
+// radiance over directions up to the second, which tell it to 1% or so of the most there is. Source:
+// Ramamoorthi and Hanrahan, "An efficient representation for irradiance environment maps" (SIGGRAPH 2001),
+// with moments in place of spherical harmonics.
+struct LightMoments {
+  float all[3] = {0, 0, 0};                 // by channel: integral of L over pi (W/sr/m2)
+  V3f first[3] = {V3f(0), V3f(0), V3f(0)};  // of L d
+  V3f squares[3] = {V3f(0), V3f(0), V3f(0)},
+      products[3] = {V3f(0), V3f(0), V3f(0)};  // of L dd: xx yy zz, yz zx xy
+
+  void add(const LightMoments& other, float share);
+  // Irradiance over pi of a surface with this normal (unit).
+  float towards(const V3f& normal, int channel) const;
+};
+
 // The indirect light of a site: mean radiance over the hemisphere by projected solid angle (irradiance over
-// pi; W/sr/m2), and its change, by channel, as vectors in the site's plane.
+// pi; W/sr/m2), and its changes, by channel.
 struct GatheredLight {
   V3f mean{0, 0, 0};
-  V3f perLength[3];  // when the site moves, per world unit
-  V3f perTilt[3];    // when its normal tilts, per sine of the angle: mean times the cosine comes before it
+  V3f perLength[3] = {V3f(0), V3f(0), V3f(0)};  // when the site moves in its plane, per world unit
+  LightMoments tilted;                          // of what arrives above its surface
   // How much of it may be chance, of the brightness, as standard errors: of the mean, and of its change per
   // length. What really differs from cell to cell is counted in, so they are rather too great.
   float noise = 0, noisePerLength = 0;
   float reach = 0;  // harmonic mean of the distances to what gives it (world units)
+
+  // The mean where the surface's normal is perturbed from one to another (unit): light that arrives from
+  // behind either of the two does not count.
+  V3f meanOfTilted(const V3d& normal, const V3d& perturbed) const;
 };
 
 // A hemisphere's cells: ring j of `rings` from the normal outwards, sector k of `sectors`.
@@ -49,14 +68,13 @@ class HemisphereCells {
   // frame, z the normal.
   V3d direction(int cell, double u1, double u2, const V3d& x, const V3d& y, const V3d& z) const;
 
-  // How many of `more` rays each cell gets besides its first: in proportion to how much the first values of
-  // the cells around it differ. Its own value has no say, which would make bright accidents count for less.
-  std::vector<int> refinement(std::span<const double> brightness, int more) const;
+  // The cell that a direction (unit, on the side of z) lies in.
+  int cellOf(const V3d& direction, const V3d& x, const V3d& y, const V3d& z) const;
 
-  // The sum of it all. radiance: by cell, the mean of its `rays`; distance: the nearest that one of them
-  // hit, taken to be `nearest` at least (world units), which bounds the change per length.
-  GatheredLight sum(std::span<const Rgb> radiance, std::span<const int> rays,
-                    std::span<const double> distance, double nearest, const V3d& x, const V3d& y) const;
+  // The sum of it all. radiance: by cell; distance: the nearest that a ray in it hit, taken to be `nearest`
+  // at least (world units), which bounds the change per length. x, y, z: as for direction().
+  GatheredLight sum(std::span<const Rgb> radiance, std::span<const double> distance, double nearest,
+                    const V3d& x, const V3d& y, const V3d& z) const;
 
  private:
   int rings_, sectors_;

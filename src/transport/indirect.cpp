@@ -116,13 +116,33 @@ void PathTracer::addIndirect(Ray& ray, const V3d& normal, const V3d& trueNormal,
     ray.value += coefficient * o.ambientValue;
     return;
   }
-  if (t_.field() && addInterpolated(ray, normal, trueNormal, coefficient)) return;
+  const bool interpolating = t_.field() != nullptr;
+  if (ray.ambientLevel > 0 && t_.coarse() && addFromPatch(ray, normal, trueNormal, coefficient)) return;
+  if (ray.ambientLevel == 0 && interpolating && addInterpolated(ray, normal, trueNormal, coefficient)) return;
+  const int guesses = raysToGuess(ray);
+  if (interpolating && guesses == 0) {
+    const double rays =
+        ray.ambientLevel > 0 ? 1 : (o.ambientDivisions + o.ambientSuperSamples) * std::min(ray.weight, 1.);
+    gatherHemisphere(ray, normal, trueNormal, kind, std::max(1, static_cast<int>(rays + .5)),
+                     [&](Ray& child, double part) {
+                       const Rgb c = coefficient * part;
+                       child.contribution = ray.contribution * passedBy(ray) * c;
+                       evaluate(child);
+                       if (linking_)
+                         linking_->addLight(child.ambientLevel - 1, child.value * child.contribution);
+                       else
+                         ray.value += child.value * c;
+                     });
+    return;
+  }
   int side = 1;
   if (ray.ambientLevel == 0) {
+    double divisions = (o.ambientDivisions + o.ambientSuperSamples) * std::min(ray.weight, 1.);
     // No more directions than can be followed: each would fall below the weight limit and most of them end.
-    const double followed =
-        .8 * maxChannel(coefficient) * ray.weight / (o.ambientDivisions * o.weightLimit + 1e-20);
-    const double divisions = (o.ambientDivisions + o.ambientSuperSamples) * std::min(ray.weight, followed);
+    if (!interpolating)
+      divisions =
+          std::min(divisions, (o.ambientDivisions + o.ambientSuperSamples) * .8 * maxChannel(coefficient) *
+                                  ray.weight / (o.ambientDivisions * o.weightLimit + 1e-20));
     side = std::max(1, static_cast<int>(std::sqrt(divisions) + .5));
   }
   V3d x, y;
@@ -145,7 +165,6 @@ void PathTracer::addIndirect(Ray& ray, const V3d& normal, const V3d& trueNormal,
     if (!(aim.share > 0)) return 1.;
     return 1 / (1 - aim.share + aim.share * kPi / cosine * spots_->density(aim, direction));
   };
-  const int guesses = raysToGuess(ray);
   const Rgb share = coefficient / (static_cast<double>(side) * side);
   for (int i = 0; i < side; ++i)
     for (int j = 0; j < side; ++j) {
@@ -165,11 +184,12 @@ void PathTracer::addIndirect(Ray& ray, const V3d& normal, const V3d& trueNormal,
       const double u1 = random_.uniform(), u2 = random_.uniform();
       const double part = draw(i, j, u1, u2, u3, child.direction);
       if (!(part > 0)) continue;
-      Rgb c = share;
+      Rgb c = interpolating ? Rgb(kMeanReflectance, kMeanReflectance, kMeanReflectance) : share;
       if (!continueRay(child, kind, ray, c)) continue;
+      if (interpolating) c *= share / kMeanReflectance;
       // Only now: what is aimed has less of a share because it brings more, and is not to end for it.
       c *= part;
-      child.contribution *= part;
+      child.contribution = ray.contribution * passedBy(ray) * c;
       ++child.ambientLevel;
       evaluate(child);
       ray.value += child.value * c;

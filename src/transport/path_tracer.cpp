@@ -59,7 +59,7 @@ V3d along(const V3d& origin, double distance, const V3d& direction) {
 uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAccess& access) {
   Fingerprint print;
   print.add(kVersion);
-  print.add(uint64_t{2});  // how it is gathered, between two versions
+  print.add(uint64_t{3});  // how it is gathered, between two versions
   for (const double x :
        {o.directThreshold, o.directCertainty, o.directJitter, o.sourceSubstructuring, o.specularSampling,
         o.specularThreshold, o.ambientAccuracy, o.weightLimit, o.mediumEccentricity, o.mediumSampling})
@@ -112,10 +112,21 @@ Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance i
     if (radiance && maxChannel(*radiance) > kNegligible) distant_.push_back(static_cast<int32_t>(i));
   }
   findScatterers(warn);
+  if (options.ambientAccuracy > 0 && options.ambientBounces > 0 && options.ambientDivisions > 0 &&
+      !scene.importance) {
+    PathTracer probe(*this);
+    auto openings = std::make_unique<Openings>(scene, tracer_.bounds(),
+                                               [&](const V3d& origin, const V3d& direction, uint64_t seed) {
+                                                 return brightness(probe.glimpse(origin, direction, seed));
+                                               });
+    if (!openings->empty()) openings_ = std::move(openings);
+  }
   if (options.ambientAccuracy > 0 && options.ambientBounces > 0 && options.ambientDivisions > 0)
     field_ = std::make_unique<IrradianceField>(scene, tracer_.bounds(), options);
-  if (field_ && options.ambientBounces > 2) {
-    auto spots = std::make_unique<BrightSpots>(scene, tracer_, lights_);
+  if (field_ && options.ambientBounces > 1)
+    coarse_ = std::make_unique<CoarseSolution>(scene, tracer_.bounds(), options);
+  if (field_ && options.ambientBounces > 1) {
+    auto spots = std::make_unique<BrightSpots>(scene, tracer_, lights_, openings_.get());
     if (!spots->empty()) spots_ = std::move(spots);
   }
   if (field_ && !options.ambientFile.empty())
@@ -158,6 +169,19 @@ Ray PathTracer::trace(const V3d& origin, const V3d& direction, double farthest, 
   }
   if (t_.field()) t_.field()->leave(fieldReader_);
   return ray;
+}
+
+Rgb PathTracer::glimpse(const V3d& origin, const V3d& direction, uint64_t seed) {
+  random_ = Random(seed);
+  Ray ray;
+  ray.medium = t_.medium();
+  ray.origin = origin;
+  ray.direction = direction;
+  ray.kind = kReflectedAmbient;
+  ray.kinds = kPrimary | kReflectedAmbient;
+  ray.ambientLevel = t_.options().ambientBounces - 1;
+  evaluate(ray);
+  return ray.value;
 }
 
 Ray PathTracer::cast(const V3d& origin, const V3d& direction, double farthest) {

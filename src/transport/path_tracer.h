@@ -24,8 +24,10 @@
 #include "shade/surface_functions.h"
 #include "trace/tracer.h"
 #include "transport/bright_spots.h"
+#include "transport/coarse_solution.h"
 #include "transport/function_ref.h"
 #include "transport/irradiance_field.h"
+#include "transport/openings.h"
 #include "transport/ray.h"
 
 namespace rsphere {
@@ -67,6 +69,11 @@ class Transport {
   const std::vector<int32_t>& distant() const { return distant_; }
   // Where indirect light is interpolated; null where it is not (-aa 0). Tracing adds to it.
   IrradianceField* field() const { return field_.get(); }
+  // Where the light of second and later diffuse surfaces comes from; null where paths are followed (-aa 0).
+  // Tracing adds to it.
+  CoarseSolution* coarse() const { return coarse_.get(); }
+  // Where daylight comes in; null where nothing is known of that.
+  const Openings* openings() const { return openings_.get(); }
   // What its paths aim at; null where light falls evenly.
   const BrightSpots* spots() const { return spots_.get(); }
 
@@ -88,7 +95,9 @@ class Transport {
   std::vector<uint32_t> scatterers_;
   std::vector<std::vector<uint16_t>> scatterersOf_;  // by Mist::number
   std::vector<bool> ambient_;                        // by surface; empty: all of them
+  std::unique_ptr<const Openings> openings_;
   std::unique_ptr<IrradianceField> field_;
+  std::unique_ptr<CoarseSolution> coarse_;
   std::unique_ptr<const BrightSpots> spots_;
 };
 
@@ -102,6 +111,11 @@ using LobeSampler = FunctionRef<double(double u1, double u2, V3d& direction)>;
 
 // Gets a ray that is finished, but for what the medium in front of its hit takes away (rtrace's -ot, -oT).
 using RayObserver = std::function<void(const Ray& ray)>;
+
+// The weight of an indirect ray in its parent's where light is interpolated: it stands for a mean reflectance
+// rather than for its own small share of the light, so that limits of weight end bounces and not directions.
+// RADIANCE's own figure.
+inline constexpr double kMeanReflectance = .5;
 
 struct BsdfHit;
 class LocalGuess;
@@ -151,6 +165,9 @@ class PathTracer {
   // that is followed several are only guessed. The mean of many rays stays what it is; one ray's value may be
   // negative. Null: nothing is guessed.
   void guessWith(const LocalGuess* guess) { guess_ = guess; }
+
+  // The radiance along a ray of which nothing but the last diffuse bounce may be followed.
+  Rgb glimpse(const V3d& origin, const V3d& direction, uint64_t seed);
 
   // Only what is hit, no value.
   Ray cast(const V3d& origin, const V3d& direction, double farthest);
@@ -229,9 +246,19 @@ class PathTracer {
   void addIndirect(Ray& ray, const V3d& normal, const Interaction& at, RayKind kind, const Rgb& coefficient);
   int raysToGuess(const Ray& ray) const;
   bool addInterpolated(Ray& ray, const V3d& normal, const V3d& trueNormal, const Rgb& coefficient);
-  GatheredLight gather(const GatherSite& site, LightOf of, double share, uint64_t seed, int depth);
-  double reach(const GatherSite& site, double nearest);
-  SiteLooker::Surroundings survey(const GatherSite& site, double farthest);
+  class Looker;
+  PathTracer& gatherer();
+  CoarseSolution::Patch* patchAt(const Ray& ray, const V3d& normal, const V3d& trueNormal, Looker& looker);
+  bool addFromPatch(Ray& ray, const V3d& normal, const V3d& trueNormal, const Rgb& coefficient);
+  int bouncesLeft(const Ray& ray) const;
+  Ray gatherRoot(const GatherSite& site, int depth) const;
+  // Gets a child that is ready to be traced, and its share of the mean over the hemisphere.
+  using GatherRay = FunctionRef<void(Ray& child, double part)>;
+  void gatherHemisphere(const Ray& root, const V3d& normal, const V3d& trueNormal, RayKind kind, int rays,
+                        GatherRay each);
+  void link(const GatherSite& site, int rays, uint64_t seed, int depth, CoarseSolution::Links& links);
+  GatheredLight gather(const GatherSite& site, uint64_t seed, int depth);
+  double reach(const GatherSite& site);
   // front: the normal of a surface that lets no light through, whose coefficients are 0 behind it; or 0.
   void addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d& front = V3d(0, 0, 0));
   void addDirectOfChosen(Ray& ray, DirectCoefficient coefficientOf, const V3d& front);
@@ -256,6 +283,8 @@ class PathTracer {
   bool allShadowRays_ = false;
   FunctionScratch functionScratch_;
   FieldReader fieldReader_;
+  std::unique_ptr<PathTracer> gatherer_;      // traces for sites and patches, whose paths begin anew
+  CoarseSolution::Links* linking_ = nullptr;  // gets what the path finds, where it is a patch's
   // Scratch of addDirect, which never runs inside itself: shadow rays ask for no direct light. Behind what it
   // has filled is what was there before.
   std::vector<SourceSample> samples_;

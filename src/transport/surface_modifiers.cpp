@@ -88,6 +88,7 @@ bool PathTracer::shadeMixture(Ray& ray, int32_t modifier, const Mixture& mixture
     Side& side = sides[i];
     if (!side.counts) continue;
     side.ray.weight *= side.share;
+    side.ray.contribution *= side.share;
     side.shaded = shade(side.ray, chains[i]);
   }
   // Beside a material void is a hole.

@@ -1,0 +1,208 @@
+#include "transport/openings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scene/even_sequence.h"
+#include "scene/random.h"
+#include "shade/scattering.h"
+
+namespace rsphere {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Panes of less than this share of the scene's largest face are no openings: each costs time at every gather.
+constexpr double kLeastArea = 1e-6;
+// Panes that are asked for their light, the largest first.
+constexpr size_t kMostAsked = 512;
+// Rays that ask what is beyond a pane, each way.
+constexpr int kProbes = 32;
+// The bright side is at least this much brighter than the dark one.
+constexpr double kBrighter = 3;
+// Panes of one plane are one opening where they fill at least this share of the rectangle around them.
+constexpr double kFilled = .7;
+
+bool lightPasses(const Material& material) {
+  return isTransparent(material) && !std::holds_alternative<Antimatter>(material) &&
+         !std::holds_alternative<Mist>(material) && !isLightSource(material);
+}
+
+}  // namespace
+
+std::vector<Openings::Opening> Openings::panesOf(const Scene& scene, double leastArea) {
+  std::vector<Opening> panes;
+  for (const Surface& surface : scene.outermost()) {
+    const auto* polygon = std::get_if<Polygon>(&surface.shape);
+    const Material* material = scene.materialOf(surface);
+    if (!polygon || !material || polygon->area < leastArea || !lightPasses(*material)) continue;
+    const V3d* const corner = scene.vertices.data() + polygon->firstVertex;
+    Opening pane;
+    double longest = 0;
+    for (uint32_t i = 0; i < polygon->vertices; ++i) {
+      const V3d edge = corner[(i + 1) % polygon->vertices] - corner[i];
+      if (edge.length2() <= longest * (1 + 1e-9)) continue;
+      longest = edge.length2();
+      pane.x = edge;
+    }
+    pane.normal = polygon->normal;
+    pane.x = (pane.x - pane.x.dot(pane.normal) * pane.normal).normalized();
+    pane.y = pane.normal.cross(pane.x);
+    double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+    for (uint32_t i = 0; i < polygon->vertices; ++i) {
+      const V3d way = corner[i] - corner[0];
+      const double at[2] = {way.dot(pane.x), way.dot(pane.y)};
+      for (int c = 0; c < 2; ++c) {
+        low[c] = std::min(low[c], at[c]);
+        high[c] = std::max(high[c], at[c]);
+      }
+    }
+    pane.corner = corner[0] + low[0] * pane.x + low[1] * pane.y;
+    pane.width = high[0] - low[0];
+    pane.height = high[1] - low[1];
+    pane.area = polygon->area;
+    panes.push_back(pane);
+  }
+  return panes;
+}
+
+// Panes side by side become one, as long as little else is between them.
+void Openings::merge(std::vector<Opening>& panes) {
+  for (size_t i = 0; i < panes.size(); ++i)
+    for (size_t j = i + 1; j < panes.size();) {
+      Opening& a = panes[i];
+      const Opening& b = panes[j];
+      const V3d between = b.corner - a.corner;
+      const double scale = 1e-4 * (a.width + a.height);
+      double low[2] = {0, 0}, high[2] = {a.width, a.height};
+      bool together = a.normal.dot(b.normal) > 1 - 1e-6 && std::abs(between.dot(a.normal)) < scale;
+      for (int c = 0; c < 4 && together; ++c) {
+        const V3d way = between + (c & 1) * b.width * b.x + (c >> 1) * b.height * b.y;
+        const double at[2] = {way.dot(a.x), way.dot(a.y)};
+        for (int k = 0; k < 2; ++k) {
+          low[k] = std::min(low[k], at[k]);
+          high[k] = std::max(high[k], at[k]);
+        }
+      }
+      together = together && (high[0] - low[0]) * (high[1] - low[1]) * kFilled < a.area + b.area;
+      if (!together) {
+        ++j;
+        continue;
+      }
+      a.corner += low[0] * a.x + low[1] * a.y;
+      a.width = high[0] - low[0];
+      a.height = high[1] - low[1];
+      a.area += b.area;
+      a.power += b.power;
+      panes.erase(panes.begin() + static_cast<ptrdiff_t>(j));
+      j = i + 1;
+    }
+}
+
+Openings::Openings(const Scene& scene, const Box3d& bounds, const Probe& probe) {
+  if (bounds.isEmpty()) return;
+  const V3d size = bounds.size();
+  const double face = std::max({size.x * size.y, size.y * size.z, size.z * size.x});
+  const double lift = std::max(1e-6 * std::max({size.x, size.y, size.z}), 2 * kSamePlace);
+  std::vector<Opening> panes = panesOf(scene, kLeastArea * face);
+  if (panes.empty()) return;
+  std::stable_sort(panes.begin(), panes.end(), [](const Opening& a, const Opening& b) {
+    return a.width * a.height > b.width * b.height;
+  });
+  if (panes.size() > kMostAsked) panes.resize(kMostAsked);
+  for (Opening& pane : panes) {
+    double seen[2] = {0, 0};
+    for (int side = 0; side < 2; ++side) {
+      const V3d out = side ? -pane.normal : pane.normal;
+      for (int i = 0; i < kProbes; ++i) {
+        const Imath::V2d at = evenly(static_cast<size_t>(i), .5, .5),
+                         to = evenly(static_cast<size_t>(i), .1, .3);
+        const V3d point = pane.corner + at.x * pane.width * pane.x + at.y * pane.height * pane.y;
+        seen[side] +=
+            probe(point - lift * out, diffuseDirection(out, to.y, to.x), static_cast<uint64_t>(i)) / kProbes;
+      }
+    }
+    if (!(std::max(seen[0], seen[1]) > kBrighter * std::min(seen[0], seen[1]))) continue;
+    if (seen[0] > seen[1]) pane.normal = -pane.normal;
+    pane.power = std::max(seen[0], seen[1]) * pane.area;
+    openings_.push_back(pane);
+  }
+  merge(openings_);
+  const auto byPower = [](const Opening& a, const Opening& b) { return a.power > b.power; };
+  std::stable_sort(openings_.begin(), openings_.end(), byPower);
+  if (openings_.size() > kMost) openings_.resize(kMost);
+}
+
+void Openings::aim(const V3d& point, const V3d& normal, Aim& aim) const {
+  aim.share = 0;
+  aim.upTo.clear();
+  double sum = 0, seen = 0;
+  for (uint32_t i = 0; i < openings_.size(); ++i) {
+    const Opening& o = openings_[i];
+    if ((point - o.corner).dot(o.normal) <= 0) continue;
+    // The form factor to the opening, from five of its points.
+    double factor = 0;
+    for (int c = 0; c < 5; ++c) {
+      const double a = c < 4 ? .1 + .8 * (c & 1) : .5, b = c < 4 ? .1 + .8 * (c >> 1) : .5;
+      const V3d way = o.corner + a * o.width * o.x + b * o.height * o.y - point;
+      const double squared = way.length2();
+      const double here = way.dot(normal), there = -way.dot(o.normal);
+      if (here > 0 && there > 0) factor += here * there / (squared * squared);
+    }
+    factor = std::min(factor / 5 * o.area / kPi, .5);
+    if (!(factor > 0)) continue;
+    seen += factor;
+    aim.upTo.emplace_back(i, sum += factor * o.power / o.area);
+  }
+  // Where openings fill much of what is seen, rays find them unaimed.
+  if (sum > 0) aim.share = kMostAimed * std::max(0., 1 - 2 * seen);
+  if (aim.share < .05) aim.share = 0;
+}
+
+double Openings::areaTowards(const V3d& direction) const {
+  double sum = 0;
+  for (const Opening& o : openings_) sum += std::max(0., direction.dot(o.normal)) * o.width * o.height;
+  return sum;
+}
+
+V3d Openings::pointTowards(const V3d& direction, double u1, double u2, double u3) const {
+  double due = u1 * areaTowards(direction);
+  const Opening* chosen = nullptr;
+  for (const Opening& o : openings_) {
+    const double area = std::max(0., direction.dot(o.normal)) * o.width * o.height;
+    if (area > 0) chosen = &o;
+    if (due < area) break;
+    due -= area;
+  }
+  return chosen->corner + u2 * chosen->width * chosen->x + u3 * chosen->height * chosen->y;
+}
+
+V3d Openings::sample(const Aim& aim, const V3d& point, double u1, double u2, double u3) const {
+  const double due = u1 * aim.upTo.back().second;
+  auto chosen = std::upper_bound(aim.upTo.begin(), aim.upTo.end(), due,
+                                 [](double x, const auto& entry) { return x < entry.second; });
+  if (chosen == aim.upTo.end()) --chosen;
+  const Opening& o = openings_[chosen->first];
+  return (o.corner + u2 * o.width * o.x + u3 * o.height * o.y - point).normalized();
+}
+
+double Openings::density(const Aim& aim, const V3d& point, const V3d& direction) const {
+  double sum = 0, before = 0;
+  for (const auto& [i, upTo] : aim.upTo) {
+    const double chance = upTo - before;
+    before = upTo;
+    const Opening& o = openings_[i];
+    const double cosine = -direction.dot(o.normal);
+    if (!(cosine > 0)) continue;
+    const V3d from = point - o.corner;
+    const double distance = from.dot(o.normal) / cosine;
+    const V3d at = from + distance * direction;
+    const double u = at.dot(o.x), v = at.dot(o.y);
+    if (u < 0 || v < 0 || u > o.width || v > o.height) continue;
+    sum += chance * distance * distance / (cosine * o.width * o.height);
+  }
+  return sum / aim.upTo.back().second;
+}
+
+}  // namespace rsphere

@@ -1,0 +1,228 @@
+#include "transport/surface_cells.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/even_sequence.h"
+#include "scene/random.h"
+#include "shade/scattering.h"
+
+namespace rsphere {
+namespace {
+
+constexpr int kCandidates = 24;       // points of a cell that are tried as its site
+constexpr uint32_t kEdges = 16;       // of a polygon, that its frame may lie along
+constexpr double kNormalStep = 1e-9;  // planes whose normals differ by less are one
+constexpr int32_t kPlane = -2;        // in a key, in place of a surface
+
+}  // namespace
+
+uint64_t CellKey::hash() const {
+  const auto both =
+      static_cast<uint64_t>(static_cast<uint32_t>(surface)) << 32 | static_cast<uint32_t>(level);
+  uint64_t h = mixBits(chart ^ both);
+  h = mixBits(h ^ static_cast<uint64_t>(i));
+  return mixBits(h ^ static_cast<uint64_t>(j) * 0x9e3779b97f4a7c15u);
+}
+
+CellGrid::CellGrid(const Box3d& bounds) {
+  double magnitude = 0;
+  if (!bounds.isEmpty()) {
+    const V3d extent = bounds.size();
+    size = std::max({extent.x, extent.y, extent.z});
+    origin = bounds.min;
+    for (int c = 0; c < 3; ++c)
+      magnitude = std::max({magnitude, std::abs(bounds.min[c]), std::abs(bounds.max[c])});
+  }
+  if (!(size > 0)) size = 1;
+  lift = std::max({1e-6 * size, 1e-12 * magnitude, 2 * kSamePlace});
+}
+
+double CellGrid::side(int level) const { return std::ldexp(size, -level); }
+
+int CellGrid::levelOf(double side) const {
+  if (!(side > 0)) return kLevels;
+  int exponent = 0;
+  const double mantissa =
+      std::frexp(size / side, &exponent);  // size / side in [2^(exponent - 1), 2^exponent)
+  return std::clamp(mantissa > .5 ? exponent : exponent - 1, 0, kLevels);
+}
+
+double SurfaceChart::extent() const {
+  if (ball_) return ball_->radius;
+  if (cone_) return std::max(cone_->radius0, cone_->radius1);
+  return width_ > 0 ? std::max(width_, height_) : HUGE_VAL;
+}
+
+std::optional<SurfaceChart> SurfaceChart::of(const Scene& scene, const CellGrid&, const SurfacePlace& place) {
+  if (place.surface == kNone) return {};
+  const Shape& shape = scene.surfaces[place.surface].shape;
+  SurfaceChart chart;
+  chart.scene_ = &scene;
+  chart.surface_ = place.surface;
+  const bool placed = place.path && place.path->count > 0;
+  if (const auto* ball = std::get_if<Sphere>(&shape)) {
+    const V3d out = place.point - ball->center;
+    if (placed || out.dot(place.normal) < 0) return {};
+    chart.ball_ = ball;
+    for (int c = 0; c < 3; ++c)
+      if (std::abs(out[c]) > std::abs(out[chart.axis_])) chart.axis_ = c;
+    chart.sign_ = out[chart.axis_] < 0 ? -1 : 1;
+    chart.id_ = static_cast<uint64_t>(chart.axis_ * 2 + (chart.sign_ < 0));
+    const double scale = ball->radius / std::abs(out[chart.axis_]);
+    chart.u_ = out[(chart.axis_ + 1) % 3] * scale;
+    chart.v_ = out[(chart.axis_ + 2) % 3] * scale;
+    return chart;
+  }
+  if (const auto* cone = std::get_if<Cone>(&shape)) {
+    const V3d out = place.point - cone->base;
+    frame(cone->axis, chart.x_, chart.y_);
+    if (placed ||
+        out.dot(chart.x_) * place.normal.dot(chart.x_) + out.dot(chart.y_) * place.normal.dot(chart.y_) < 0)
+      return {};
+    chart.cone_ = cone;
+    chart.u_ = std::atan2(out.dot(chart.y_), out.dot(chart.x_)) * chart.extent();
+    chart.v_ = out.dot(cone->axis);
+    return chart;
+  }
+  const V3d* plane = planeNormal(shape);
+  if (!plane) return {};
+  V3d normal = *plane;
+  if (placed) {
+    chart.placement_ = scene.placementOf(*place.path);
+    normal = chart.placement_->directionToOuter(normal).normalized();
+    for (uint8_t i = 0; i < place.path->count; ++i)
+      chart.id_ = mixBits(chart.id_ ^ place.path->placements[i]);
+  }
+  const bool front = normal.dot(place.normal) > 0;
+  chart.id_ = mixBits(chart.id_ * 2 + front);
+  chart.normal_ = front ? normal : -normal;
+  const auto toWorld = [&](const V3d& p) { return placed ? chart.placement_->toOuter.point(p) : p; };
+  if (const auto* polygon = std::get_if<Polygon>(&shape)) {
+    const V3d* const corner = scene.vertices.data() + polygon->firstVertex;
+    const uint32_t count = polygon->vertices;
+    double longest = 0;
+    for (uint32_t i = 0; i < std::min(count, kEdges); ++i) {
+      const V3d edge = toWorld(corner[(i + 1) % count]) - toWorld(corner[i]);
+      // Of edges that are equal but for rounding the first.
+      if (edge.length2() <= longest * (1 + 1e-9)) continue;
+      longest = edge.length2();
+      chart.x_ = edge;
+    }
+    chart.x_ = (chart.x_ - chart.x_.dot(chart.normal_) * chart.normal_).normalized();
+    chart.y_ = chart.normal_.cross(chart.x_);
+    double low[2] = {0, 0}, high[2] = {0, 0};
+    const V3d first = toWorld(corner[0]);
+    for (uint32_t i = 1; i < count; ++i) {
+      const V3d way = toWorld(corner[i]) - first;
+      const double at[2] = {way.dot(chart.x_), way.dot(chart.y_)};
+      for (int c = 0; c < 2; ++c) {
+        low[c] = std::min(low[c], at[c]);
+        high[c] = std::max(high[c], at[c]);
+      }
+    }
+    chart.origin_ = first + low[0] * chart.x_ + low[1] * chart.y_;
+    chart.width_ = high[0] - low[0];
+    chart.height_ = high[1] - low[1];
+  } else {
+    const auto& ring = std::get<Ring>(shape);
+    frame(chart.normal_, chart.x_, chart.y_);
+    const double outer = ring.outer * (placed ? chart.placement_->toOuter.scale : 1);
+    chart.origin_ = toWorld(ring.center) - outer * (chart.x_ + chart.y_);
+    chart.width_ = chart.height_ = 2 * outer;
+  }
+  if (!(chart.width_ > 0) || !(chart.height_ > 0)) return {};
+  const V3d way = place.point - chart.origin_;
+  chart.u_ = std::clamp(way.dot(chart.x_), 0., chart.width_);
+  chart.v_ = std::clamp(way.dot(chart.y_), 0., chart.height_);
+  return chart;
+}
+
+SurfaceChart SurfaceChart::ofPlane(const CellGrid& grid, const SurfacePlace& place) {
+  SurfaceChart chart;
+  chart.surface_ = kPlane;
+  for (int c = 0; c < 3; ++c) {
+    const double steps = std::round(place.normal[c] / kNormalStep);
+    chart.id_ = mixBits(chart.id_ ^ static_cast<uint64_t>(static_cast<int64_t>(steps)));
+    chart.normal_[c] = steps * kNormalStep;
+  }
+  chart.normal_.normalize();
+  frame(chart.normal_, chart.x_, chart.y_);
+  const V3d local = place.point - grid.origin;
+  // Three eighths: away from where the offsets of planes in round numbers lie.
+  const double offset = std::floor(chart.normal_.dot(local) / grid.lift + .375);
+  chart.id_ = mixBits(chart.id_ ^ static_cast<uint64_t>(static_cast<int64_t>(offset)));
+  // In front of all that count as this plane.
+  chart.origin_ = grid.origin + (offset + .625) * grid.lift * chart.normal_;
+  chart.u_ = local.dot(chart.x_);
+  chart.v_ = local.dot(chart.y_);
+  return chart;
+}
+
+double SurfaceChart::stepU(const CellGrid& grid, int level) const {
+  const double side = grid.side(level);
+  return width_ > 0 ? width_ / std::ceil(width_ / side) : side;
+}
+
+double SurfaceChart::stepV(const CellGrid& grid, int level) const {
+  const double side = grid.side(level);
+  return height_ > 0 ? height_ / std::ceil(height_ / side) : side;
+}
+
+CellKey SurfaceChart::cell(const CellGrid& grid, int level, int64_t i, int64_t j) const {
+  const auto within = [&](int64_t k, double end) {
+    if (!(end > 0)) return k;
+    return std::clamp(k, int64_t{0}, static_cast<int64_t>(std::ceil(end / grid.side(level))) - 1);
+  };
+  return {surface_, level, within(i, width_), within(j, height_), id_};
+}
+
+CellKey SurfaceChart::cellAt(const CellGrid& grid, int level, double u, double v) const {
+  return cell(grid, level, static_cast<int64_t>(std::floor(u / stepU(grid, level))),
+              static_cast<int64_t>(std::floor(v / stepV(grid, level))));
+}
+
+bool SurfaceChart::holds(const V3d& point) const {
+  if (surface_ == kPlane) return true;
+  const V3d local = placement_ ? placement_->toInner.point(point) : point;
+  const Shape& shape = scene_->surfaces[surface_].shape;
+  if (const auto* polygon = std::get_if<Polygon>(&shape)) return inside(*polygon, scene_->vertices, local);
+  const auto& ring = std::get<Ring>(shape);
+  const double radius = (local - ring.center).length();
+  return radius >= ring.inner && radius <= ring.outer;
+}
+
+std::optional<GatherSite> SurfaceChart::siteAt(const CellGrid& grid, double u, double v) const {
+  if (ball_) {
+    V3d out;
+    out[axis_] = sign_ * ball_->radius;
+    out[(axis_ + 1) % 3] = u;
+    out[(axis_ + 2) % 3] = v;
+    out.normalize();
+    return GatherSite{ball_->center + (ball_->radius + grid.lift) * out, out};
+  }
+  if (cone_) {
+    if (v < 0 || v > cone_->length) return {};
+    const double angle = u / extent(), slope = (cone_->radius1 - cone_->radius0) / cone_->length;
+    const V3d out = std::cos(angle) * x_ + std::sin(angle) * y_;
+    const V3d normal = (out - slope * cone_->axis).normalized();
+    return GatherSite{cone_->base + v * cone_->axis + (cone_->radius0 + slope * v) * out + grid.lift * normal,
+                      normal};
+  }
+  const V3d at = origin_ + u * x_ + v * y_;
+  if (!holds(at)) return {};
+  return GatherSite{at + grid.lift * normal_, normal_};
+}
+
+std::optional<GatherSite> SurfaceChart::site(const CellGrid& grid, const CellKey& key) const {
+  const double du = stepU(grid, key.level), dv = stepV(grid, key.level);
+  for (int c = 0; c < kCandidates; ++c) {
+    const Imath::V2d in = evenly(static_cast<size_t>(c), .5, .5);  // the middle first
+    if (auto site =
+            siteAt(grid, (static_cast<double>(key.i) + in.x) * du, (static_cast<double>(key.j) + in.y) * dv))
+      return site;
+  }
+  return {};
+}
+
+}  // namespace rsphere
