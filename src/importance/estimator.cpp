@@ -134,6 +134,7 @@ void SphereEstimator::measureContrasts() {
     alike[scene.surfaces[object.surface].modifier].push_back(object);
   if (alike.empty()) return;
   PathTracer tracer(transport_, spots_.get());
+  tracer.gatherFirstAnew();
   measureSurroundings(tracer);
   const size_t rays = std::clamp<size_t>(kRaysForContrast / alike.size(), 2, kRaysAModifier);
   for (const auto& [modifier, objects] : alike) {

@@ -63,7 +63,9 @@ class SphereEstimator {
   // What one thread needs.
   struct Workspace {
     explicit Workspace(const SphereEstimator& estimator)
-        : tracer(estimator.transport_, estimator.spots_.get()) {}
+        : tracer(estimator.transport_, estimator.spots_.get()) {
+      tracer.gatherFirstAnew();
+    }
     PathTracer tracer;
     // Of the last point. Where glances found more or less than the directions' own guesses say, what is
     // guessed of each is scaled so that solid angles times radiances sum to the answer's; none is negative

@@ -102,7 +102,7 @@ bool PathTracer::addFromPatch(Ray& ray, const V3d& normal, const V3d& trueNormal
 // Whether the field has what addIndirect() asks for, and it was added.
 bool PathTracer::addInterpolated(Ray& ray, const V3d& normal, const V3d& trueNormal, const Rgb& coefficient) {
   // Nobody else asks for an imagined point.
-  if (ray.surface == kNone) return false;
+  if (ray.surface == kNone || gathersFirstAnew_) return false;
   if (!isOrdinary(ray, t_.medium()) || normal.dot(trueNormal) < kLeastUpright) return false;
   Looker looker(*this, ray.depth);
   GatheredLight light;

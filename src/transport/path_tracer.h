@@ -169,6 +169,10 @@ class PathTracer {
   // The radiance along a ray of which nothing but the last diffuse bounce may be followed.
   Rgb glimpse(const V3d& origin, const V3d& direction, uint64_t seed);
 
+  // From now on indirect light is gathered at every first surface anew, though -aa is above 0: where thousands of
+  // directions are averaged, single rays tell more for their time than sites. Second surfaces are as before.
+  void gatherFirstAnew() { gathersFirstAnew_ = true; }
+
   // Only what is hit, no value.
   Ray cast(const V3d& origin, const V3d& direction, double farthest);
 
@@ -284,6 +288,7 @@ class PathTracer {
   FunctionScratch functionScratch_;
   FieldReader fieldReader_;
   std::unique_ptr<PathTracer> gatherer_;      // traces for sites and patches, whose paths begin anew
+  bool gathersFirstAnew_ = false;
   CoarseSolution::Links* linking_ = nullptr;  // gets what the path finds, where it is a patch's
   // Scratch of addDirect, which never runs inside itself: shadow rays ask for no direct light. Behind what it
   // has filled is what was there before.
