@@ -18,15 +18,18 @@ std::vector<OptionEntry> makeTable() {
        .value = +[](Options& o) -> double& { return own(o).tolerance; },
        .range = {0, 1},
        .remark = "tolerance of relative differences",
-       .paragraph =
-           "Relative difference that does not matter: of the mean over all records, and of each record."});
+       .paragraph = "Tolerance: relative differences up to this do not matter, neither of the mean over all "
+                    "records nor of "
+                    "a single record."});
   add({.name = "-Cs",
        .arguments = "frac",
        .value = +[](Options& o) -> double& { return own(o).shareBeyond; },
        .range = {0, 1},
        .remark = "share of records that may be beyond it",
-       .paragraph = "Share of the records that may differ by more than the tolerance and noise before the "
-                    "programs are said to differ: rays that graze an edge may go to either side of it."});
+       .paragraph =
+           "Share of the records that may differ by more than the tolerance and noise explain. If more do, "
+           "the programs differ. A few records may, because a ray that grazes an edge can pass on "
+           "either side of it."});
   add({.name = "-Cr",
        .arguments = "N",
        .value = +[](Options& o) -> int& { return own(o).repeats; },
@@ -34,32 +37,34 @@ std::vector<OptionEntry> makeTable() {
        .unit = "repeats",
        .remark = "repeats with other random numbers",
        .paragraph =
-           "How often both programs answer each record, with other random numbers each time. What is "
-           "compared are the means of these answers; how much they vary tells noise from bias."});
+           "Number of times that both programs answer each record, with other random numbers each time. The "
+           "means of these answers are compared; their variance distinguishes bias from noise."});
   add({.name = "-Cn",
        .arguments = "N",
        .value = +[](Options& o) -> int& { return own(o).orientations; },
        .range = {8, kMost},
        .unit = "rays",
        .remark = "rays a point, of the original",
-       .paragraph = "Points only: orientations of the plane whose irradiance the original computes at each "
-                    "point."});
+       .paragraph = "For points (-S) only: number of orientations of the plane whose irradiance the original "
+                    "computes at each point."});
   add({.name = "-Cw",
        .arguments = "N",
        .value = +[](Options& o) -> int& { return own(o).worst; },
        .range = {0, kMost},
        .unit = "records",
        .remark = "worst records shown",
-       .paragraph = "How many of the records that differ most are shown, with what their rays hit."});
+       .paragraph =
+           "Number of records shown of those that differ most, with the surfaces that their rays hit."});
   add({.name = "-Cp",
        .arguments = "pic",
        .value = +[](Options& o) -> std::string& { return own(o).differences; },
        .remark = "picture of the differences",
        .paragraph =
-           "Where the records form a picture (-x and -y): write their differences, in the format that the "
-           "name says: how large they are in HDR, EXR and TIFF; else red where rsphere is brighter, blue "
-           "where "
-           "the original is, white where they are equal, and full color at ten times the tolerance."});
+           "Write a picture of the differences, if the records form a picture (-x and -y). The extension of "
+           "the "
+           "name gives the format. HDR, EXR and TIFF files hold the relative differences themselves, without "
+           "their sign. Other files are red where rsphere is brighter, blue where the original is brighter, "
+           "and white where both are equal; colors are full at ten times the tolerance."});
   return table;
 }
 
