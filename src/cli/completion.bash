@@ -3,7 +3,7 @@
 _rsphere() {
   local word=${COMP_WORDS[COMP_CWORD]} program
   COMPREPLY=()
-  program=$(type -P "${1/#\~\//$HOME/}") || return
+  program=$(type -P "${1/#\~\//${HOME-}/}") || return
   # Another rtrace is neither run nor known; bash completes files for it, as it does without this function.
   [[ ${program##*/} != rtrace || $(readlink -f "$program") == */rsphere ]] || return
   if [[ $word == -* ]]; then
