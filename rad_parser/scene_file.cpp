@@ -94,6 +94,7 @@ class Reader {
     if (!ahead.empty() && !isOctree(ahead, name)) return false;
     if (!alone_)
       throw Error(printable(name, 4096) + ": an octree is a whole scene: it cannot be one among several");
+    ofOctree_ = true;
     BinaryReader input(descriptor, name, "octree", ahead);
     readOctree(input, file, builder_, options_.warn, [&](const std::string& scene) {
       if (scene.starts_with('!')) return command(scene.substr(1), {file, 0}, {});
@@ -171,9 +172,17 @@ class Reader {
       throw builder_.error({file, 0},
                            fmt::format("not an octree: 0 bytes{}{}", fault.empty() ? "" : ", ", fault));
     if (builder_.description().files[file].numbered) place.line = 0;
-    if (!fault.empty()) warn(place, fmt::format("bad status from \"{}\": {}", printable(shown), fault));
+    if (!fault.empty()) badStatus(place, shown, fault, named || ofOctree_);
     if (builder_.description().primitives.size() == before)
       warn(place, fmt::format("\"{}\" gives nothing", printable(shown)));
+  }
+
+  // A command that fails may have left surfaces out, which no answer shows: an error, but in an octree and
+  // where the command was given instead of one (goesOn), which rtrace(1) only warns of.
+  void badStatus(Place place, const std::string& shown, const std::string& fault, bool goesOn) const {
+    const std::string text = fmt::format("bad status from \"{}\": {}", printable(shown), fault);
+    if (!goesOn) throw builder_.error(place, text + "; surfaces that it makes may be missing from the scene");
+    warn(place, text);
   }
 
   void xform(const std::vector<std::string>& words, Place place, const Context& context) {
@@ -328,6 +337,7 @@ class Reader {
 
   const ReadOptions& options_;
   const bool alone_;
+  bool ofOctree_ = false;  // the files that are read are those of an octree that is not frozen
   DescriptionBuilder builder_;
   int64_t passes_ = 0;           // of all xform commands
   std::string modifier_, name_;  // of the primitive at hand; kept for their memory

@@ -26,9 +26,11 @@ inline constexpr int kDeepestNesting = 100;
 // commands in turn: their arguments keep all digits where the program would round them to 12 (absorption to
 // 6). Files are looked for along RAYPATH, and commands in them run in their file's directory unless -c is
 // given. Every other command runs in /bin/sh with an empty standard input; its output is scene text, whose
-// places name the command and count its own lines. A command that ends badly (or is not found by the shell),
-// and a file or command without any primitive, are warnings, as oconv(1) has them; an xform that cannot be
-// carried out is an error, where oconv would go on without it.
+// places name the command and count its own lines. A command that ends with a status other than 0 (127: the
+// shell did not find it) is an error in a scene file, as is an xform that cannot be carried out: oconv(1)
+// would go on without their surfaces. It is a warning, as in rtrace(1), where the command itself is the name
+// given, and in the scene files of an octree that is not frozen. A file or command without any primitive is
+// a warning.
 //
 // Throws Error with its place: a file that cannot be read or a command that cannot be started
 // (Status::system), anything the language does not allow, commands where options forbid them, nesting beyond

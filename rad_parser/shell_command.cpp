@@ -77,7 +77,11 @@ std::string ShellCommand::finish() {
   const int status = wait(process_);
   process_ = -1;
   if (WIFSIGNALED(status)) return fmt::format("signal {}", WTERMSIG(status));
-  return WEXITSTATUS(status) == 0 ? "" : fmt::format("exit status {}", WEXITSTATUS(status));
+  constexpr int kNotFound = 127;  // sh(1)
+  return WEXITSTATUS(status) == 0
+             ? ""
+             : fmt::format("exit status {}{}", WEXITSTATUS(status),
+                           WEXITSTATUS(status) == kNotFound ? " (command not found)" : "");
 }
 
 }  // namespace rad

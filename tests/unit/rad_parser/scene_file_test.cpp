@@ -340,26 +340,38 @@ TEST(SceneFile, Commands) {
   EXPECT_EQ(d.at(d.primitives[3].place), "room.rad:4");
   EXPECT_TRUE(warnings.empty());
 
-  d = read("\n!echo void sphere s 0 0 0; exit 3\n");
-  EXPECT_EQ(d.primitives.size(), 1u);
-  EXPECT_EQ(warnings,
-            std::vector<std::string>{
-                "room.rad:2: bad status from \"!echo void sphere s 0 0 0; exit 3\": exit status 3"});
-
-  d = read("!no-such-command-anywhere 2>/dev/null\n");
-  EXPECT_EQ(
-      warnings,
-      (std::vector<std::string>{
-          "room.rad:1: bad status from \"!no-such-command-anywhere 2>/dev/null\": exit status 127",
-          "room.rad:1: \"!no-such-command-anywhere 2>/dev/null\" gives nothing", "room.rad:1: empty file"}));
-
-  read("void sphere s 0 0 0\n!kill -9 $$\n");
-  EXPECT_EQ(warnings[0], "room.rad:2: bad status from \"!kill -9 $$\": signal 9");
-
   EXPECT_EQ(errorOf([&] { read("\n!echo; echo wall sphere s 0 0 0"); }),
             "!echo; echo wall sphere s 0 0 0:2 (from room.rad:2): undefined modifier \"wall\"");
   EXPECT_EQ(errorOf([&] { readFile("!echo wall sphere"); }),
             "!echo wall sphere:1: undefined modifier \"wall\"");
+}
+
+// Their surfaces would be missing, and no answer would show it.
+TEST(SceneFile, ACommandThatFailsIsAnErrorWithItsPlace) {
+  constexpr std::string_view kMissing = "; surfaces that it makes may be missing from the scene";
+  EXPECT_EQ(errorOfText("\n!echo void sphere s 0 0 0; exit 3\n"),
+            fmt::format("room.rad:2: bad status from \"!echo void sphere s 0 0 0; exit 3\": exit status 3{}",
+                        kMissing));
+  EXPECT_EQ(
+      errorOfText("!no-such-command-anywhere 2>/dev/null\n"),
+      fmt::format("room.rad:1: bad status from \"!no-such-command-anywhere 2>/dev/null\": exit status 127 "
+                  "(command not found){}",
+                  kMissing));
+  EXPECT_EQ(errorOfText("void sphere s 0 0 0\n!kill -9 $$\n"),
+            fmt::format("room.rad:2: bad status from \"!kill -9 $$\": signal 9{}", kMissing));
+
+  const TestFolder folder;
+  const std::string inner = folder.write("inner.rad", "void sphere s 0 0 4 0 0 0 1\n!exit 5\n");
+  const std::string outer = folder.write("outer.rad", fmt::format("!xform -mx {}\n", inner));
+  EXPECT_EQ(
+      errorOf([&] { readFile(outer); }),
+      fmt::format("{}:2 (from {}:1): bad status from \"!exit 5\": exit status 5{}", inner, outer, kMissing));
+
+  // Given instead of a scene file it is warned of: rtrace goes on with what the command wrote.
+  std::vector<std::string> warnings;
+  EXPECT_EQ(readFile("!echo void sphere s 0 0 0; exit 3", &warnings).primitives.size(), 1u);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(warnings[0].ends_with(": exit status 3")) << warnings[0];
 }
 
 TEST(SceneFile, CommandsDoNotReadTheRecordsOfTheProgram) {
