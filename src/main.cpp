@@ -30,6 +30,7 @@ void answer(const Options& options, const Messages& messages, StopSignals& signa
   RecordReader reader(0, options.in, options.sphere.on ? 3 : 6);
   const AnswerWriter answers(options);
   writeHeader(writer, options, scene.description.header, std::time(nullptr));
+  writer.flush();  // a program that talks to this one may read the header before it sends a record
   if (options.sphere.on) {
     const SphereEstimator estimator(transport, options.sphere,
                                     options.outputs.find('e') != std::string::npos);
