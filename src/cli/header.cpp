@@ -48,6 +48,12 @@ std::string_view formatName(NumberFormat format, const ColorOptions& color) {
 
 std::string versionLine() { return fmt::format("rsphere {}", kVersion); }
 
+std::string versionAnswer(std::string_view program) {
+  if (program != "rtrace") return versionLine();
+  return fmt::format("matches {0}: this is {1}, compatible with rtrace of RADIANCE {0}", kRadianceVersion,
+                     versionLine());
+}
+
 std::string commandLine(const Options& options, bool withScene) {
   std::string line = quoted(options.program);
   for (const std::string& word : options.words) line += ' ' + quoted(word);

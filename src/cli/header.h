@@ -9,8 +9,13 @@
 
 namespace rsphere {
 
-// The program's name and version, as -version and SOFTWARE= print them.
+// The program's name and version, as SOFTWARE= has them.
 std::string versionLine();
+
+// What -version prints of a program that was called by this name. Programs that look for RADIANCE run
+// "rtrace -version" and take the first number, the first digit, or the second word for RADIANCE's version:
+// under the name rtrace the version of RADIANCE that is matched comes first, and rsphere's behind it.
+std::string versionAnswer(std::string_view program);
 
 // The command as it can be typed again: program and options, words quoted where they need it, without a line
 // end; the scene only where asked for.

@@ -8,7 +8,7 @@ namespace rsphere {
 
 int printRequest(const Options& options, const Messages& messages) {
   RecordWriter writer(1);
-  if (options.request == Request::version) writer.write(versionLine() + "\n");
+  if (options.request == Request::version) writer.write(versionAnswer(options.program) + "\n");
   if (options.request == Request::defaults) writer.write(defaultsText(options));
   if (options.request == Request::help) writer.write(helpText(options));
   if (options.request == Request::features) {

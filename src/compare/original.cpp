@@ -42,7 +42,7 @@ std::string originalVersion(const std::string& path) {
   if (result.status == 127 && result.errors.empty()) fault(fmt::format("cannot run {}", path));
   if (result.status != 0)
     fault(fmt::format("{} -version ends with status {}: {}", path, result.status, firstLine(result.errors)));
-  return version.rfind("rsphere ", 0) == 0 ? "" : version;
+  return version.find("rsphere ") != std::string::npos ? "" : version;
 }
 
 }  // namespace

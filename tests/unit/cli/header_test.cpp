@@ -102,6 +102,8 @@ TEST(Version, IsThatOfTheProject) {
   const std::string lists = contents(std::string(RSPHERE_TESTS) + "/../CMakeLists.txt");
   EXPECT_NE(lists.find(std::string("project(rsphere VERSION ") + kVersion + " "), std::string::npos);
   EXPECT_EQ(versionLine(), std::string("rsphere ") + kVersion);
+  EXPECT_EQ(versionAnswer("rsphere"), versionLine());
+  EXPECT_EQ(versionAnswer("rsphere-trade"), versionLine());
 }
 
 }  // namespace
