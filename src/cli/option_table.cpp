@@ -645,11 +645,12 @@ std::vector<OptionEntry> makeTable() {
        .value = +[](O& o) -> std::string& { return o.ray.ambientFile; },
        .remark = "ambient file",
        .paragraph =
-           "Keeps in the file what is interpolated from, for later runs and for others at the same time: it "
-           "is read first, and added to, now and then and at the end; a process that is killed does no harm. "
-           "No answer changes by it. A file that was made for another scene or with other options, by "
-           "another version, or by RADIANCE is not used and left as it is, with a warning. Only with -aa "
-           "and -ab above 0."});
+           "Keeps indirect light for later runs, and for others that run at the same time, in a file beside "
+           "this one: file.rsphere. It is read first, and added to now and then and at the end; a process "
+           "that is killed does no harm. No answer changes by it. What was made for another scene, with "
+           "other options or by another version is not used and left as it is, with a warning. The file "
+           "itself, which may hold what RADIANCE's programs keep, is neither read nor written, so that one "
+           "name may serve both. Only with -aa and -ab above 0."});
   add({.name = "-ae",
        .arguments = "mod",
        .group = Group::indirect,

@@ -16,6 +16,7 @@ namespace {
 
 constexpr size_t kHeader = 69, kSceneEnd = 42;  // bytes; where the line of the scene ends
 constexpr size_t kRecord = sizeof(AmbientFile::Record) + sizeof(uint64_t);
+constexpr std::string_view kSuffix = ".rsphere";
 constexpr std::string_view kMagic = "#?RSPHERE ambient 1\n";
 
 std::string header(uint64_t scene, uint64_t options) {
@@ -87,6 +88,23 @@ std::unique_ptr<AmbientFile> AmbientFile::open(const std::string& name, uint64_t
   if (!file->begin(scene, options)) return nullptr;
   file->read();
   return file;
+}
+
+std::unique_ptr<AmbientFile> AmbientFile::openBeside(const std::string& given, uint64_t scene,
+                                                     uint64_t options, const rad::Warn& warn) {
+  struct stat status {};
+  const bool there = stat(given.c_str(), &status) == 0;
+  if (there && S_ISDIR(status.st_mode))
+    throw rad::Error(fmt::format("cannot open ambient file \"{}\": {}", given, std::strerror(EISDIR)),
+                     rad::Status::system);
+  if (there && !S_ISREG(status.st_mode)) return nullptr;
+  try {
+    return open(fmt::format("{}{}", given, kSuffix), scene, options, warn);
+  } catch (const rad::Error& error) {
+    if (!there) throw;
+    if (warn) warn(fmt::format("{}: indirect light is not kept", error.what()));
+    return nullptr;
+  }
 }
 
 // Writes or checks the header.

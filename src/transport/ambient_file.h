@@ -1,5 +1,7 @@
 #pragma once
-// What is interpolated from, kept from one run to the next (-af).
+// What is interpolated from, kept from one run to the next (-af FILE) in FILE.rsphere. FILE itself is left to
+// RADIANCE's programs, which keep light of another kind in it: they stop at a file of this format, and a
+// pipeline may name one FILE for both.
 //
 // A file is three lines that say of which scene and options it is, an empty one, and records of one size,
 // each with a checksum. Any number of processes may add to it at once, each under a lock for as long as it
@@ -27,6 +29,13 @@ class AmbientFile {
   // (/dev/null). Throws rad::Error (system) where it cannot be opened or made.
   static std::unique_ptr<AmbientFile> open(const std::string& name, uint64_t scene, uint64_t options,
                                            const rad::Warn& warn);
+
+  // open() of the file that goes with a FILE of -af, which is neither opened nor made. Null where FILE is no
+  // regular file (/dev/null), and, after a warning, where FILE is there but the file beside it cannot be
+  // opened: FILE may be kept where nobody may write. Throws rad::Error (system) where FILE is a folder, or
+  // neither it is there nor can the file beside it be opened.
+  static std::unique_ptr<AmbientFile> openBeside(const std::string& given, uint64_t scene, uint64_t options,
+                                                 const rad::Warn& warn);
   AmbientFile(const AmbientFile&) = delete;
   AmbientFile& operator=(const AmbientFile&) = delete;
   ~AmbientFile();

@@ -130,8 +130,8 @@ Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance i
     if (!spots->empty()) spots_ = std::move(spots);
   }
   if (field_ && !options.ambientFile.empty())
-    field_->keepIn(AmbientFile::open(options.ambientFile, fingerprint(scene),
-                                     fingerprint(options, basicRadiance, scene.files), warn));
+    field_->keepIn(AmbientFile::openBeside(options.ambientFile, fingerprint(scene),
+                                           fingerprint(options, basicRadiance, scene.files), warn));
   const bool including = !options.ambientIncluded.empty();
   const auto& names = including ? options.ambientIncluded : options.ambientExcluded;
   if (names.empty()) return;

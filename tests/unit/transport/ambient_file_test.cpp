@@ -86,6 +86,40 @@ TEST_F(AmbientFiles, OfOthersAreLeftAsTheyAre) {
   EXPECT_THROW(open("nowhere/a"), rad::Error);
 }
 
+// The FILE of -af may hold what RADIANCE's programs keep.
+TEST_F(AmbientFiles, GoBesideTheFileThatIsNamed) {
+  const auto beside = [this](const std::string& given) {
+    warning_.clear();
+    return AmbientFile::openBeside(given, 1, 2, [this](std::string_view text) { warning_ = text; });
+  };
+  const AmbientFile::Record records[] = {numbered(1)};
+  beside(file("a"))->add(records, true);
+  EXPECT_FALSE(std::filesystem::exists(file("a")));
+  EXPECT_EQ(open("a.rsphere")->take().size(), 1u);
+
+  const std::string theirs = "#?RADIANCE\nSOFTWARE= RADIANCE\nFORMAT=Radiance_ambval\n\nrecords";
+  write("a", theirs);
+  const auto before = std::filesystem::last_write_time(file("a"));
+  EXPECT_EQ(beside(file("a"))->take().size(), 1u);
+  EXPECT_EQ(warning_, "");
+  EXPECT_EQ(bytes("a"), theirs);
+  EXPECT_EQ(std::filesystem::last_write_time(file("a")), before);
+
+  EXPECT_FALSE(beside("/dev/null"));
+  EXPECT_EQ(warning_, "");
+  EXPECT_FALSE(std::filesystem::exists("/dev/null.rsphere"));
+  std::filesystem::create_directory(file("folder"));
+  EXPECT_THROW(beside(file("folder")), rad::Error);
+  EXPECT_FALSE(std::filesystem::exists(file("folder.rsphere")));
+  EXPECT_THROW(beside(file("nowhere/a")), rad::Error);
+  // Where only the file itself can be read, as in a folder that nobody may write to.
+  write("b", theirs);
+  std::filesystem::create_directory(file("b.rsphere"));
+  EXPECT_FALSE(beside(file("b")));
+  EXPECT_EQ(warning_, "cannot open ambient file \"" + file("b.rsphere") +
+                          "\": Is a directory: indirect light is not kept");
+}
+
 // A room whose light is known from the file alone where the file knows it.
 TEST_F(AmbientFiles, ValuesAreTakenFromThem) {
   constexpr const char* kRoom = R"(
@@ -106,10 +140,10 @@ wall polygon floor 0 0 12 -5 -5 0 5 -5 0 5 5 0 -5 5 0
   EXPECT_EQ(Traced(kRoom, o).value(origin, down), anew);
 
   // The spoiled twin: twice the light in every record.
-  const std::string whole = bytes("a");
+  const std::string whole = bytes("a.rsphere");
   const auto number = [&](size_t at) { return std::stoull(whole.substr(at, 16), nullptr, 16); };
   const uint64_t scene = number(whole.find("SCENE=") + 6), options = number(whole.find("OPTIONS=") + 8);
-  std::vector<AmbientFile::Record> records = open("a", scene, options)->take();
+  std::vector<AmbientFile::Record> records = open("a.rsphere", scene, options)->take();
   ASSERT_FALSE(records.empty());
   for (AmbientFile::Record& record : records) {
     float mean[3];
@@ -118,7 +152,7 @@ wall polygon floor 0 0 12 -5 -5 0 5 -5 0 5 5 0 -5 5 0
     std::memcpy(record.data() + 32, mean, sizeof mean);
   }
   o.ambientFile = file("b");
-  open("b", scene, options)->add(records, true);
+  open("b.rsphere", scene, options)->add(records, true);
   EXPECT_NEAR(Traced(kRoom, o).value(origin, down), 2 * anew, .01 * anew);
 }
 
