@@ -118,24 +118,53 @@ bool isWord(const std::string& word) {
   return seen;
 }
 
+// " from 1 to 1000000", where an option's numbers are bounded.
+std::string rangeText(const Range& range) {
+  const auto isBound = [](double x) { return std::abs(x) < std::numeric_limits<int>::max(); };
+  if (isBound(range.lowest) && isBound(range.highest))
+    return fmt::format(" from {} to {}", range.lowest, range.highest);
+  return isBound(range.lowest) ? fmt::format(" of at least {}", range.lowest) : "";
+}
+
 void checkRange(const OptionEntry& entry, double x) {
-  if (x < entry.range.lowest || x > entry.range.highest)
-    commandLineError(entry.name,
-                     fmt::format("{} is not from {} to {}", x, entry.range.lowest, entry.range.highest));
+  const auto& [lowest, highest] = entry.range;
+  if (x < lowest && highest == std::numeric_limits<double>::infinity())
+    commandLineError(entry.name, fmt::format("{} is less than {}", x, lowest));
+  if (x < lowest || x > highest)
+    commandLineError(entry.name, fmt::format("{} is not from {} to {}", x, lowest, highest));
 }
 
 double realWord(const OptionEntry& entry, const std::string& word) {
   const auto x = rad::parseReal(word);
-  if (!x) commandLineError(entry.name);
+  if (!x) notReal(entry.name, word, rangeText(entry.range));
   checkRange(entry, *x);
   return *x;
 }
 
 int64_t integerWord(const OptionEntry& entry, const std::string& word) {
   const auto n = rad::parseInteger(word);
-  if (!n) commandLineError(entry.name);
+  if (!n) notInteger(entry.name, word, rangeText(entry.range));
   checkRange(entry, static_cast<double>(*n));
   return *n;
+}
+
+// The words behind an option that takes more than there are: `found` of them came before the one that cannot
+// be one of them, or before the end of the command line.
+[[noreturn]] void missingWords(const std::string& given, const OptionEntry& entry, size_t found, bool atEnd) {
+  const int wanted = arity(entry);
+  const std::string use = fmt::format("{} {}", entry.name, entry.arguments);
+  const std::string_view why = atEnd ? "the command line ends" : "an empty word follows";
+  if (wanted == 1) commandLineError(given, fmt::format("its value is missing ({}): {}", use, why));
+  commandLineError(given, fmt::format("{} of its {} values are missing ({}): {}",
+                                      static_cast<size_t>(wanted) - found, wanted, use, why));
+}
+
+// Why a word that begins with a hyphen names no option.
+std::string whyUnknown(std::span<const OptionEntry> own, std::string_view word) {
+  if (startsWith(word, "--") &&
+      (findOption(own, word.substr(1)) != nullptr || findOption(optionTable(), word.substr(1)) != nullptr))
+    return fmt::format("options begin with one hyphen: {}", word.substr(1));
+  return "there is no such option";
 }
 
 void apply(const Use& use, Options& options) {
@@ -186,7 +215,8 @@ void checkLetters(const Options& options) {
   for (const char letter : options.outputs + options.treeOutputs) {
     if (known.find(letter) != std::string_view::npos) continue;
     const std::string_view hint = options.sphere.on ? " (sphere mode)" : "";
-    throw rad::Error(fmt::format("unrecognized output option '{}'{}", letter, hint));
+    throw rad::Error(fmt::format("unrecognized output option '{}'{}: the letters are {}{}; see -help", letter,
+                                 hint, known, options.sphere.on ? "" : " and t, T for ray trees"));
   }
   const std::string_view colors = points ? "veEC" : options.sphere.on ? "v" : "vrx";
   if (options.out == NumberFormat::rgbe && (options.outputs.size() != 1 || !options.treeOutputs.empty() ||
@@ -252,7 +282,23 @@ void checkTogether(Options& options, bool mostGiven) {
 }  // namespace
 
 void commandLineError(std::string_view at, std::string_view why) {
-  throw rad::Error(fmt::format("command line error at '{}'{}{}", at, why.empty() ? "" : ": ", why));
+  throw rad::Error(fmt::format("command line error at '{}': {}; see -help", at, why));
+}
+
+void notReal(std::string_view option, std::string_view word, std::string_view range) {
+  std::string hint;
+  if (word.ends_with('%'))
+    if (const auto x = rad::parseReal(word.substr(0, word.size() - 1)))
+      hint = fmt::format(": {} is written {}", word, *x / 100);
+  if (word.find(',') != word.npos) hint = ": decimals have a point";
+  commandLineError(option, fmt::format("\"{}\" is not a number{}{}", word, range, hint));
+}
+
+void notInteger(std::string_view option, std::string_view word, std::string_view range) {
+  const auto x = rad::parseReal(word);
+  const bool written = x && *x == std::floor(*x);  // 1e6
+  commandLineError(option,
+                   fmt::format("\"{}\" is not a whole number{}{}", word, written ? " in digits" : "", range));
 }
 
 std::optional<bool> switched(std::string_view suffix, bool before) {
@@ -281,17 +327,18 @@ std::vector<Use> parse(std::span<const std::string> given, const Companion& comp
   bool sphereMode = companion.sphereMode && options.program != "rtrace", mostGiven = false;
   for (words.expand(); !words.atEnd() && startsWith(words.word(), "-"); words.expand()) {
     const std::string word = words.take();
-    if (word == "-version") request = Request::version;
+    if (word == "-version" || word == "--version") request = Request::version;
     if (word == "-defaults") request = Request::defaults;
-    if (word == "-help") request = Request::help;
+    if (word == "-help" || word == "--help") request = Request::help;
     if (request != Request::answers) break;
+    if (word == "-features") commandLineError(word, "it must be the first option");
     const OptionEntry* entry = findOption(companion.own, word);
     if (entry == nullptr) entry = findOption(optionTable(), word);
-    if (entry == nullptr) commandLineError(word);
+    if (entry == nullptr) commandLineError(word, whyUnknown(companion.own, word));
     Use use{entry, word.substr(entry->name.size()), {}};
     if (entry->alsoGlued && !use.rest.empty()) use.words.push_back(use.rest);
     while (use.words.size() < static_cast<size_t>(arity(*entry))) {
-      if (words.atEnd() || !isWord(words.word())) commandLineError(word);
+      if (words.atEnd() || !isWord(words.word())) missingWords(word, *entry, use.words.size(), words.atEnd());
       use.words.push_back(words.take());
     }
     if (entry->name == "-S") sphereMode = switched(use.rest, sphereMode).value();
@@ -309,10 +356,16 @@ std::vector<Use> parse(std::span<const std::string> given, const Companion& comp
     options.outputs = options.sphere.on && options.sphere.everyDirection ? "odwv" : "v";
   if (request == Request::answers) {
     for (const size_t first = words.at(); !words.atEnd(); words.expand()) {
-      if (startsWith(words.word(), "-")) commandLineError(words.before()[first]);
+      if (startsWith(words.word(), "-"))
+        commandLineError(words.before()[first],
+                         fmt::format("the scene begins here, but '{}' follows; options come before the scene",
+                                     words.word()));
       options.scene.push_back(words.take());
     }
-    if (options.scene.empty()) throw rad::Error("missing octree argument");
+    if (options.scene.empty())
+      throw rad::Error(
+          "missing octree argument: an octree, scene files or a '!command' that makes them come "
+          "behind the options; see -help");
   }
   splitTree(options);
   checkLetters(options);

@@ -74,22 +74,28 @@ void setFormat(Options& options, const OptionEntry& entry, std::span<const std::
   };
   if (rest.empty() || rest.size() > 2 || !isOneOf(rest[0], "afd") ||
       (rest.size() == 2 && !isOneOf(rest[1], "afdc")))
-    commandLineError(fmt::format("{}{}", entry.name, rest));
+    commandLineError(
+        fmt::format("{}{}", entry.name, rest),
+        "a letter for the input (a, f or d), or one for it and one for the output (a, f, d or c), "
+        "follow without a blank");
   options.in = static_cast<NumberFormat>(rest[0]);
   options.out = static_cast<NumberFormat>(rest.back());
 }
 
 void setOutputs(Options& options, const OptionEntry&, std::span<const std::string>, std::string_view rest) {
-  if (rest.empty()) throw rad::Error("empty output specification");
+  if (rest.empty())
+    throw rad::Error("empty output specification: letters follow -o without a blank, as in -ov; see -help");
   options.outputs = rest;
 }
 
 void setThreads(Options& options, const OptionEntry& entry, std::span<const std::string> words,
                 std::string_view) {
   const auto n = rad::parseInteger(words[0]);
-  if (!n) commandLineError(entry.name);
+  if (!n) notInteger(entry.name, words[0]);
   constexpr int kMostThreads = 4096;  // beyond any machine; a slip of the finger
-  if (*n < 0 || *n > kMostThreads) throw rad::Error("bad number of processes");
+  if (*n < 0 || *n > kMostThreads)
+    throw rad::Error(fmt::format("bad number of processes: -n {} is not from 0 (one for each core) to {}", *n,
+                                 kMostThreads));
   options.threads = static_cast<int>(*n);
 }
 
@@ -108,7 +114,7 @@ void setWeights(Options& options, const OptionEntry& entry, std::span<const std:
 void setRotation(Options& options, const OptionEntry& entry, std::span<const std::string> words,
                  std::string_view) {
   const auto n = rad::parseInteger(words[0]);
-  if (!n || *n < 0) commandLineError(entry.name);
+  if (!n || *n < 0) notInteger(entry.name, words[0], " of at least 0");
   options.sphere.rotation = static_cast<uint64_t>(*n);
 }
 
@@ -159,7 +165,7 @@ void setPrimaries(Options& options, const OptionEntry& entry, std::span<const st
                   std::string_view) {
   for (size_t i = 0; i < words.size(); ++i) {
     const auto x = rad::parseReal(words[i]);
-    if (!x) commandLineError(entry.name);
+    if (!x) notReal(entry.name, words[i]);
     options.color.primaries[i] = *x;
   }
   options.color.space = areStandard(options.color.primaries) ? ColorSpace::rgb : ColorSpace::primaries;
@@ -169,21 +175,21 @@ void setSpectralOutput(Options& options, const OptionEntry& entry, std::span<con
                        std::string_view rest) {
   const bool before = options.color.space == ColorSpace::spectrum;
   const auto on = switched(rest, before);
-  if (!on) commandLineError(fmt::format("{}{}", entry.name, rest));
+  if (!on) commandLineError(fmt::format("{}{}", entry.name, rest), "it is a switch: -co+ or -co-");
   if (*on != before) options.color.space = *on ? ColorSpace::spectrum : ColorSpace::rgb;
 }
 
 void setBands(Options& options, const OptionEntry& entry, std::span<const std::string> words,
               std::string_view) {
   const auto n = rad::parseInteger(words[0]);
-  if (!n) commandLineError(entry.name);
+  if (!n) notInteger(entry.name, words[0], fmt::format(" from 3 to {}", kMostBands));
   options.color.bands = static_cast<int>(std::clamp<int64_t>(*n, 0, kMostBands));
 }
 
 void setWavelengths(Options& options, const OptionEntry& entry, std::span<const std::string> words,
                     std::string_view) {
   const auto a = rad::parseReal(words[0]), b = rad::parseReal(words[1]);
-  if (!a || !b) commandLineError(entry.name);
+  if (!a || !b) notReal(entry.name, words[a ? 1 : 0]);
   options.color.shortest = std::min(*a, *b);
   options.color.longest = std::max(*a, *b);
 }

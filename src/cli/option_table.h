@@ -91,8 +91,9 @@ Options modeDefaults(bool sphereMode);
 // set; then
 //   the options, in their order. Switches alone toggle; + 1 y Y t T switch on, - 0 n N f F off.
 // - The first word that is no option begins the scene, which takes all the rest.
-// - -version, -defaults and -help end it where they stand; -features is only known as the first word.
-// Opens the files of @file, -aE and -aI only. Throws rad::Error with rtrace's words: "command line error at
+// - -version (or --version), -defaults and -help (or --help) end it where they stand; -features is only known
+// as the first word. Opens the files of @file, -aE and -aI only. Throws rad::Error with rtrace's words:
+// "command line error at
 // '-ab'", "cannot expand '@x': No such file or directory" (Status::system), "missing octree argument" and so
 // on; and "option '-ap' is not supported: ..." for what rtrace has and rsphere has not.
 Options parseOptions(std::span<const std::string> words);

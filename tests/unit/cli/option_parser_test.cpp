@@ -25,6 +25,14 @@ TEST(ParseOptions, DefaultsAreThoseOfTheModeWhereverItIsGiven) {
   EXPECT_EQ(parse({"rtrace", "-ab", "2", "-S+", "s.oct"}).ray.directJitter, 1);
 }
 
+// The words of a fault that are rtrace's own: those before the reason.
+std::string beginningOfFault(std::initializer_list<const char*> words) {
+  const std::string fault = faultOfOptions(words);
+  const size_t reason = fault.find(": ");
+  EXPECT_NE(reason, std::string::npos) << fault << ": no reason";
+  return fault.substr(0, reason);
+}
+
 TEST(ParseOptions, SwitchesToggleOrAreSet) {
   EXPECT_FALSE(parse({"rtrace", "-h", "s.oct"}).header);
   EXPECT_TRUE(parse({"rtrace", "-h", "-h", "s.oct"}).header);
@@ -33,7 +41,7 @@ TEST(ParseOptions, SwitchesToggleOrAreSet) {
   for (const char* off : {"-w-", "-w0", "-wn", "-wN", "-wf", "-wF"})
     EXPECT_FALSE(parse({"rtrace", off, "s.oct"}).warnings);
   for (const char* wrong : {"-hx", "-h2", "-h+-", "-w+1", "-u?"})
-    EXPECT_EQ(faultOfOptions({"rtrace", wrong, "s.oct"}),
+    EXPECT_EQ(beginningOfFault({"rtrace", wrong, "s.oct"}),
               std::string("command line error at '") + wrong + "'");
 }
 
@@ -45,28 +53,67 @@ TEST(ParseOptions, LettersAfterSAreOptionsNotSwitches) {
 
 // rtrace's own words (6.1a), each with exit status 1.
 TEST(ParseOptions, ErrorsAreWordedAsThoseOfRtrace) {
-  EXPECT_EQ(faultOfOptions({"rtrace", "-ab", "1.5", "s.oct"}), "command line error at '-ab'");
-  EXPECT_EQ(faultOfOptions({"rtrace", "-ab", "x", "s.oct"}), "command line error at '-ab'");
-  EXPECT_EQ(faultOfOptions({"rtrace", "-ab", "s.oct"}), "command line error at '-ab'");
-  EXPECT_EQ(faultOfOptions({"rtrace", "-av", "1", "2", "s.oct"}), "command line error at '-av'");
-  EXPECT_EQ(faultOfOptions({"rtrace", "-dt", "1e", "s.oct"}), "command line error at '-dt'");
-  EXPECT_EQ(faultOfOptions({"rtrace", "-dt", "1,5", "s.oct"}), "command line error at '-dt'");
-  EXPECT_EQ(faultOfOptions({"rtrace", "-q", "3", "s.oct"}), "command line error at '-q'");
-  EXPECT_EQ(faultOfOptions({"rtrace", "-", "s.oct"}), "command line error at '-'");
-  EXPECT_EQ(faultOfOptions({"rtrace", "-abc", "s.oct"}), "command line error at '-abc'");
-  EXPECT_EQ(faultOfOptions({"rtrace", "-pRG", "s.oct"}), "command line error at '-pRG'");
-  EXPECT_EQ(faultOfOptions({"rtrace", "-n", "-1", "s.oct"}), "bad number of processes");
-  EXPECT_EQ(faultOfOptions({"rtrace"}), "missing octree argument");
-  EXPECT_EQ(faultOfOptions({"rtrace", "-ab", "1"}), "missing octree argument");
-  EXPECT_EQ(faultOfOptions({"rtrace", "s.oct", "-ab", "1"}), "command line error at 's.oct'");
-  EXPECT_EQ(faultOfOptions({"rsphere", "a.rad", "b.rad", "-h"}), "command line error at 'a.rad'");
+  EXPECT_EQ(beginningOfFault({"rtrace", "-ab", "1.5", "s.oct"}), "command line error at '-ab'");
+  EXPECT_EQ(beginningOfFault({"rtrace", "-ab", "x", "s.oct"}), "command line error at '-ab'");
+  EXPECT_EQ(beginningOfFault({"rtrace", "-ab", "s.oct"}), "command line error at '-ab'");
+  EXPECT_EQ(beginningOfFault({"rtrace", "-av", "1", "2", "s.oct"}), "command line error at '-av'");
+  EXPECT_EQ(beginningOfFault({"rtrace", "-dt", "1e", "s.oct"}), "command line error at '-dt'");
+  EXPECT_EQ(beginningOfFault({"rtrace", "-dt", "1,5", "s.oct"}), "command line error at '-dt'");
+  EXPECT_EQ(beginningOfFault({"rtrace", "-q", "3", "s.oct"}), "command line error at '-q'");
+  EXPECT_EQ(beginningOfFault({"rtrace", "-", "s.oct"}), "command line error at '-'");
+  EXPECT_EQ(beginningOfFault({"rtrace", "-abc", "s.oct"}), "command line error at '-abc'");
+  EXPECT_EQ(beginningOfFault({"rtrace", "-pRG", "s.oct"}), "command line error at '-pRG'");
+  EXPECT_EQ(beginningOfFault({"rtrace", "-n", "-1", "s.oct"}), "bad number of processes");
+  EXPECT_EQ(beginningOfFault({"rtrace"}), "missing octree argument");
+  EXPECT_EQ(beginningOfFault({"rtrace", "-ab", "1"}), "missing octree argument");
+  EXPECT_EQ(beginningOfFault({"rtrace", "s.oct", "-ab", "1"}), "command line error at 's.oct'");
+  EXPECT_EQ(beginningOfFault({"rsphere", "a.rad", "b.rad", "-h"}), "command line error at 'a.rad'");
+}
+
+// What is behind rtrace's words: why, and what to do about it.
+TEST(ParseOptions, ErrorsOfTheCommandLineSayWhy) {
+  const auto why = [](std::initializer_list<const char*> words) {
+    const std::string fault = faultOfOptions(words);
+    EXPECT_TRUE(fault.ends_with("; see -help")) << fault;
+    return fault.substr(0, fault.rfind("; see -help"));
+  };
+  EXPECT_EQ(why({"rtrace", "-h"}),
+            "missing octree argument: an octree, scene files or a '!command' that makes them come behind the "
+            "options");
+  EXPECT_EQ(why({"rtrace", "-ab", "2.5", "s.oct"}),
+            "command line error at '-ab': \"2.5\" is not a whole number of at least 0");
+  EXPECT_EQ(why({"rsphere", "-Sa", "1%", "s.oct"}),
+            "command line error at '-Sa': \"1%\" is not a number from 0 to 1: 1% is written 0.01");
+  EXPECT_EQ(why({"rsphere", "-Sn", "1e9", "s.oct"}),
+            "command line error at '-Sn': \"1e9\" is not a whole number in digits from 1 to 1000000");
+  EXPECT_EQ(why({"rsphere", "-Sn", "1000000000", "s.oct"}),
+            "command line error at '-Sn': 1000000000 is not from 1 to 1000000");
+  EXPECT_EQ(why({"rtrace", "-lw", "0,1", "s.oct"}),
+            "command line error at '-lw': \"0,1\" is not a number of at least 0: decimals have a point");
+  EXPECT_EQ(why({"rtrace", "-lw", "-1", "s.oct"}), "command line error at '-lw': -1 is less than 0");
+  EXPECT_EQ(why({"rtrace", "-I", "-ab"}),
+            "command line error at '-ab': its value is missing (-ab N): the command line ends");
+  EXPECT_EQ(why({"rtrace", "-av", "1"}),
+            "command line error at '-av': 2 of its 3 values are missing (-av red grn blu): the command line "
+            "ends");
+  EXPECT_EQ(
+      why({"rtrace", "s.oct", "t.oct", "-ab", "1"}),
+      "command line error at 's.oct': the scene begins here, but '-ab' follows; options come before the "
+      "scene");
+  EXPECT_EQ(why({"rtrace", "-q", "s.oct"}), "command line error at '-q': there is no such option");
+  EXPECT_EQ(why({"rtrace", "--ab", "1", "s.oct"}),
+            "command line error at '--ab': options begin with one hyphen: -ab");
+  EXPECT_EQ(why({"rtrace", "-h", "-features"}),
+            "command line error at '-features': it must be the first option");
+  EXPECT_EQ(why({"rtrace", "-oq", "s.oct"}),
+            "unrecognized output option 'q': the letters are odvVwWlLcpnNsmMrRxX~ and t, T for ray trees");
 }
 
 TEST(ParseOptions, NumbersOutsideTheirRangeSayWhich) {
   EXPECT_EQ(faultOfOptions({"rsphere", "-Sn", "0", "s.oct"}),
-            "command line error at '-Sn': 0 is not from 1 to 1000000");
+            "command line error at '-Sn': 0 is not from 1 to 1000000; see -help");
   EXPECT_EQ(faultOfOptions({"rtrace", "-ab", "99999999999", "s.oct"}),
-            "command line error at '-ab': 99999999999 is not from 0 to 2147483647");
+            "command line error at '-ab': 99999999999 is not from 0 to 2147483647; see -help");
 }
 
 TEST(ParseOptions, Formats) {
@@ -80,7 +127,7 @@ TEST(ParseOptions, Formats) {
       EXPECT_EQ(formats((std::string("-f") + in + out).c_str()), std::string({in, out}));
   }
   for (const char* wrong : {"-fc", "-fca", "-fx", "-fax", "-faaa"})
-    EXPECT_EQ(faultOfOptions({"rtrace", wrong, "s.oct"}),
+    EXPECT_EQ(beginningOfFault({"rtrace", wrong, "s.oct"}),
               std::string("command line error at '") + wrong + "'");
 }
 
@@ -91,12 +138,12 @@ TEST(ParseOptions, OutputLettersBelongToTheMode) {
   EXPECT_NO_THROW(parse({"rtrace", "-oodvVwWlLcpnNsmMrRxX~", "s.oct"}));
   EXPECT_NO_THROW(parse({"rsphere", "-ooveECHuk", "s.oct"}));
   EXPECT_NO_THROW(parse({"rsphere", "-Sd", "-oiodwvlLpnNsmM", "s.oct"}));
-  EXPECT_EQ(faultOfOptions({"rtrace", "-ovz", "s.oct"}), "unrecognized output option 'z'");
-  EXPECT_EQ(faultOfOptions({"rtrace", "-oE", "s.oct"}), "unrecognized output option 'E'");
-  EXPECT_EQ(faultOfOptions({"rsphere", "-ol", "s.oct"}), "unrecognized output option 'l' (sphere mode)");
-  EXPECT_EQ(faultOfOptions({"rsphere", "-Sd", "-oE", "s.oct"}),
+  EXPECT_EQ(beginningOfFault({"rtrace", "-ovz", "s.oct"}), "unrecognized output option 'z'");
+  EXPECT_EQ(beginningOfFault({"rtrace", "-oE", "s.oct"}), "unrecognized output option 'E'");
+  EXPECT_EQ(beginningOfFault({"rsphere", "-ol", "s.oct"}), "unrecognized output option 'l' (sphere mode)");
+  EXPECT_EQ(beginningOfFault({"rsphere", "-Sd", "-oE", "s.oct"}),
             "unrecognized output option 'E' (sphere mode)");
-  EXPECT_EQ(faultOfOptions({"rtrace", "-o", "s.oct"}), "empty output specification");
+  EXPECT_EQ(beginningOfFault({"rtrace", "-o", "s.oct"}), "empty output specification");
 }
 
 // As rtrace's: the last t with letters behind it begins the tree's; at the end it does nothing.
@@ -112,9 +159,9 @@ TEST(ParseOptions, LettersBehindTAreForTrees) {
   EXPECT_EQ(letters("-ovt"), "v,");
   EXPECT_EQ(letters("-ovtmTs"), "v,s,T");
   EXPECT_EQ(letters("-ovtmT"), "v,m,T");
-  EXPECT_EQ(faultOfOptions({"rtrace", "-otz", "s.oct"}), "unrecognized output option 'z'");
+  EXPECT_EQ(beginningOfFault({"rtrace", "-otz", "s.oct"}), "unrecognized output option 'z'");
   EXPECT_EQ(faultOfOptions({"rtrace", "-fac", "-ovtv", "s.oct"}), "color format only with -ov, -or, -ox");
-  EXPECT_EQ(faultOfOptions({"rsphere", "-ovt", "s.oct"}), "unrecognized output option 't' (sphere mode)");
+  EXPECT_EQ(beginningOfFault({"rsphere", "-ovt", "s.oct"}), "unrecognized output option 't' (sphere mode)");
   EXPECT_NO_THROW(parse({"rtrace", "-otL", "-I", "s.oct"}));
 }
 
@@ -181,7 +228,7 @@ TEST(ParseOptions, MostDirectionsFollowTheBase) {
   EXPECT_EQ(parse({"rsphere", "-Sn", "10000", "s.oct"}).sphere.mostDirections, 20000);
   EXPECT_EQ(parse({"rsphere", "-Sx", "5000", "-Sn", "4500", "s.oct"}).sphere.mostDirections, 5000);
   EXPECT_EQ(faultOfOptions({"rsphere", "-Sx", "100", "s.oct"}),
-            "command line error at '-Sx': 100 is less than -Sn 2048");
+            "command line error at '-Sx': 100 is less than -Sn 2048; see -help");
 }
 
 TEST(ParseOptions, Words) {
@@ -193,14 +240,14 @@ TEST(ParseOptions, Words) {
   EXPECT_EQ(options.errorFile, "err");
   EXPECT_EQ(options.ray.ambientFile, "x.amb");
   EXPECT_EQ(faultOfOptions({"rsphere", "-Sw", "x", "s.oct"}),
-            "command line error at '-Sw': \"x\" is not h, v or c");
-  EXPECT_EQ(faultOfOptions({"rsphere", "-Sr", "-1", "s.oct"}), "command line error at '-Sr'");
+            "command line error at '-Sw': \"x\" is not h, v or c; see -help");
+  EXPECT_EQ(beginningOfFault({"rsphere", "-Sr", "-1", "s.oct"}), "command line error at '-Sr'");
   for (const char* number : {"nan", "-nan", "inf", "1e999"}) {
-    EXPECT_EQ(faultOfOptions({"rsphere", "-lw", number, "s.oct"}), "command line error at '-lw'");
-    EXPECT_EQ(faultOfOptions({"rsphere", "-av", "0", number, "0", "s.oct"}), "command line error at '-av'");
-    EXPECT_EQ(faultOfOptions({"rsphere", "-Sk", number, "s.oct"}), "command line error at '-Sk'");
+    EXPECT_EQ(beginningOfFault({"rsphere", "-lw", number, "s.oct"}), "command line error at '-lw'");
+    EXPECT_EQ(beginningOfFault({"rsphere", "-av", "0", number, "0", "s.oct"}), "command line error at '-av'");
+    EXPECT_EQ(beginningOfFault({"rsphere", "-Sk", number, "s.oct"}), "command line error at '-Sk'");
   }
-  EXPECT_EQ(faultOfOptions({"rsphere", "-af", " ", "s.oct"}), "command line error at '-af'");
+  EXPECT_EQ(beginningOfFault({"rsphere", "-af", " ", "s.oct"}), "command line error at '-af'");
 }
 
 TEST(ParseOptions, AmbientModifiersAreOneKindOnly) {
@@ -246,7 +293,7 @@ TEST(ParseOptions, WhatCannotBeExpandedIsASystemFault) {
             "cannot expand '$RSPHERE_NO_VARIABLE': No such file or directory");
   EXPECT_NE(faultOfOptions({"rtrace", "@/tmp", "s.oct"}, rad::Status::system), "no fault");
   // An option's own words are not expanded, as in rtrace.
-  EXPECT_EQ(faultOfOptions({"rtrace", "-ab", "$HOME", "s.oct"}), "command line error at '-ab'");
+  EXPECT_EQ(beginningOfFault({"rtrace", "-ab", "$HOME", "s.oct"}), "command line error at '-ab'");
 }
 
 TEST(ParseOptions, ExpansionEnds) {
@@ -263,13 +310,16 @@ TEST(ParseOptions, ExpansionEnds) {
 TEST(ParseOptions, RequestsEndTheCommandLine) {
   EXPECT_EQ(parse({"rtrace", "-version", "-nonsense"}).request, Request::version);
   EXPECT_EQ(parse({"rtrace", "-ab", "2", "-help"}).request, Request::help);
+  EXPECT_EQ(parse({"rtrace", "--version", "-nonsense"}).request, Request::version);
+  EXPECT_EQ(parse({"rtrace", "-ab", "2", "--help"}).request, Request::help);
   EXPECT_EQ(parse({"rtrace", "-ab", "2", "-defaults", "x"}).ray.ambientBounces, 2);
-  EXPECT_EQ(faultOfOptions({"rtrace", "-nonsense", "-version"}), "command line error at '-nonsense'");
-  EXPECT_EQ(faultOfOptions({"rtrace", "-h", "-features"}), "command line error at '-features'");
+  EXPECT_EQ(beginningOfFault({"rtrace", "-nonsense", "-version"}), "command line error at '-nonsense'");
+  EXPECT_EQ(beginningOfFault({"rtrace", "-h", "-features"}), "command line error at '-features'");
 }
 
 TEST(ParseOptions, NothingAtAll) {
-  EXPECT_EQ(faultOf([] { parseOptions(std::vector<std::string>{}); }), "missing octree argument");
+  const std::string fault = faultOf([] { parseOptions(std::vector<std::string>{}); });
+  EXPECT_TRUE(fault.starts_with("missing octree argument: ")) << fault;
 }
 
 }  // namespace

@@ -104,13 +104,21 @@ TEST(OptionTable, MissingAndWrongWordsAreErrorsAtTheirOption) {
     if (arity(entry) == 0) continue;
     std::vector<std::string> words{"rsphere", std::string(entry.name)};
     for (int i = 1; i < arity(entry); ++i) words.push_back("0");
-    EXPECT_EQ(faultOf([&] { parseOptions(words); }), fmt::format("command line error at '{}'", entry.name));
+    const std::string at = fmt::format("command line error at '{}': ", entry.name);
+    const std::string missing = faultOf([&] { parseOptions(words); });
+    EXPECT_TRUE(missing.starts_with(at)) << missing;
+    EXPECT_NE(
+        missing.find(fmt::format("({} {}): the command line ends; see -help", entry.name, entry.arguments)),
+        std::string::npos)
+        << missing;
     const bool number = !std::holds_alternative<WordValue>(entry.value) &&
                         !std::holds_alternative<WordsValue>(entry.value) &&
                         !std::holds_alternative<Custom>(entry.value);
     if (!number || entry.support == Support::refused) continue;
     words.insert(words.end(), {"x1", "s.oct"});
-    EXPECT_EQ(faultOf([&] { parseOptions(words); }), fmt::format("command line error at '{}'", entry.name));
+    const std::string wrong = faultOf([&] { parseOptions(words); });
+    EXPECT_TRUE(wrong.starts_with(at + "\"x1\" is not a ")) << wrong;
+    EXPECT_TRUE(wrong.ends_with("; see -help")) << wrong;
   }
 }
 
