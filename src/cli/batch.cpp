@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <sys/eventfd.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -32,6 +33,23 @@ constexpr size_t kLargestClaim = 256;
 constexpr uint64_t kClaimsAhead = 16;
 
 constexpr uint64_t kNoLimit = std::numeric_limits<uint64_t>::max();
+
+unsigned wantedThreads(const Options& options) {
+  if (options.threads > 0) return static_cast<unsigned>(options.threads);
+  return std::max(1u, std::thread::hardware_concurrency());
+}
+
+// What threadCount() allows, whatever is asked for.
+unsigned mostThreads() {
+  constexpr rlim_t kMost = std::numeric_limits<unsigned>::max();
+  rlim_t most = kMost;
+  for (const auto resource : {RLIMIT_DATA, RLIMIT_AS}) {
+    struct rlimit limit {};
+    if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) continue;
+    most = std::min(most, limit.rlim_cur / 2 / WorkerThread::kStack);
+  }
+  return static_cast<unsigned>(std::max<rlim_t>(most, 1));
+}
 
 // Some records in a row, for one thread.
 struct Claim {
@@ -76,6 +94,7 @@ class Batch {
   void run();
 
  private:
+  void start(std::list<WorkerThread>& workers);
   void work(unsigned worker);
   bool take(Claim& claim, size_t most);
   void noteBogus(Claim& claim);
@@ -133,12 +152,7 @@ void Batch::run() {
   writer_.holdUntilFlush(interval_ > 1);
   {
     std::list<WorkerThread> workers;
-    try {
-      for (unsigned i = 0; i < threads_; ++i) workers.emplace_back([this, i] { work(i); });
-    } catch (const std::system_error& error) {
-      stop(std::make_exception_ptr(rad::Error(
-          fmt::format("cannot start {} threads: {}", threads_, error.what()), rad::Status::system)));
-    }
+    start(workers);
   }
   reader_.whenWaiting({});
   reader_.interruptBy({});
@@ -152,6 +166,27 @@ void Batch::run() {
   if (error_) std::rethrow_exception(error_);
   if (signals_ != nullptr && signals_->raised()) throw rad::Error(signals_->name(), rad::Status::signal);
   if (remaining_ != kNoLimit && remaining_ > 0) messages_.warning("unexpected EOF on input");
+}
+
+// As many as can be had: answers do not depend on how many there are.
+void Batch::start(std::list<WorkerThread>& workers) {
+  const unsigned wanted = wantedThreads(options_);
+  if (threads_ < wanted)
+    messages_.warning(
+        fmt::format("reducing number of threads from {} to {}: the stacks of more would take over "
+                    "half of the memory that this process may have",
+                    wanted, threads_));
+  try {
+    for (unsigned i = 0; i < threads_; ++i) workers.emplace_back([this, i] { work(i); });
+  } catch (const std::system_error& error) {
+    if (workers.empty()) {
+      stop(std::make_exception_ptr(
+          rad::Error(fmt::format("cannot start a thread: {}", error.what()), rad::Status::system)));
+    } else {
+      messages_.warning(fmt::format("reducing number of threads from {} to {}: no more could be started: {}",
+                                    threads_, workers.size(), error.what()));
+    }
+  }
 }
 
 void Batch::work(unsigned worker) {
@@ -352,10 +387,7 @@ void Batch::stop(std::exception_ptr error) {
 
 }  // namespace
 
-unsigned threadCount(const Options& options) {
-  if (options.threads > 0) return static_cast<unsigned>(options.threads);
-  return std::max(1u, std::thread::hardware_concurrency());
-}
+unsigned threadCount(const Options& options) { return std::min(wantedThreads(options), mostThreads()); }
 
 void runRecords(RecordReader& reader, RecordWriter& writer, const Options& options, const Messages& messages,
                 StopSignals* signals, const AnswerRecord& answer) {

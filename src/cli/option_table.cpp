@@ -271,7 +271,9 @@ std::vector<OptionEntry> makeTable() {
        .range = kCount,
        .unit = "threads",
        .remark = "number of rendering processes",
-       .paragraph = "Answer records on N threads, 0 for one on each core. The answers do not depend on N.",
+       .paragraph =
+           "Answer records on N threads, 0 for one on each core; with a warning, on as many as can be had. "
+           "The answers do not depend on N.",
        .line = +[](const O& o) { return fmt::format("-n {:<2}\t\t\t\t", o.threads); }});
   add({.name = "-x",
        .arguments = "res",

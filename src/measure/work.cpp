@@ -1,14 +1,18 @@
 #include "measure/work.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <ctime>
 #include <exception>
 #include <list>
 #include <mutex>
+#include <system_error>
 
 #include "cli/batch.h"
 #include "cli/worker_thread.h"
+#include "rad_parser/error.h"
 
 namespace rsphere {
 namespace {
@@ -51,7 +55,12 @@ bool forEachIndex(size_t count, const Options& options, const StopSignals* signa
     std::list<WorkerThread> workers;
     const auto threads =
         static_cast<unsigned>(std::min<size_t>(threadCount(options), std::max<size_t>(count, 1)));
-    for (unsigned i = 0; i < threads; ++i) workers.emplace_back([&run, i] { run(i); });
+    try {
+      for (unsigned i = 0; i < threads; ++i) workers.emplace_back([&run, i] { run(i); });
+    } catch (const std::system_error& fault) {  // as many as can be had
+      if (workers.empty())
+        throw rad::Error(fmt::format("cannot start a thread: {}", fault.what()), rad::Status::system);
+    }
   }
   if (error) std::rethrow_exception(error);
   return !stopped;

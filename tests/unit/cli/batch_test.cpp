@@ -1,6 +1,7 @@
 #include "cli/batch.h"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <atomic>
@@ -479,6 +480,23 @@ TEST(StopSignals, AClosedStandardInputIsAFaultAndNotSomeOtherFile) {
   int status = 0;
   waitpid(pid, &status, 0);
   EXPECT_EQ(status, 2 << 8);
+}
+
+// Of a gigabyte, half is for stacks of 64 MB.
+TEST(Batch, ThreadsAreAsManyAsHaveRoomForTheirStacks) {
+  struct rlimit before {};
+  ASSERT_EQ(getrlimit(RLIMIT_DATA, &before), 0);
+  struct rlimit gigabyte = before;
+  gigabyte.rlim_cur = rlim_t{1} << 30;
+  Options options;
+  options.threads = 1000;
+  ASSERT_EQ(setrlimit(RLIMIT_DATA, &gigabyte), 0);
+  const unsigned many = threadCount(options);
+  options.threads = 5;
+  const unsigned few = threadCount(options);
+  setrlimit(RLIMIT_DATA, &before);
+  EXPECT_EQ(many, 8u);
+  EXPECT_EQ(few, 5u);
 }
 
 TEST(StopSignals, GiveBackTheHandlersBefore) {
