@@ -12,6 +12,7 @@
 
 #include "rad_parser/calc_compile.h"
 #include "rad_parser/calc_syntax.h"
+#include "rad_parser/file_path.h"
 
 namespace rad::calc {
 namespace {
@@ -295,7 +296,9 @@ struct Library::Tables {
 
   SourceText need(std::string_view file) {
     std::optional<SourceText> source = load(file);
-    if (!source) throw Error(fmt::format("cannot find function file \"{}\"", file), Status::system);
+    if (!source)
+      throw Error(fmt::format("cannot find function file \"{}\"{}", file, FileAccess().remark(file)),
+                  Status::system);
     return std::move(*source);
   }
 
@@ -311,7 +314,8 @@ struct Library::Tables {
     }
     std::optional<SourceText> source = load(request.file);
     if (!source) {
-      throw Error(fmt::format("{}: cannot find function file \"{}\"", request.place, request.file),
+      throw Error(fmt::format("{}: cannot find function file \"{}\"{}", request.place, request.file,
+                              FileAccess().remark(request.file)),
                   Status::system);
     }
     try {

@@ -28,6 +28,9 @@ std::optional<std::string> inHome(std::string_view name) {
   return found->pw_dir + rest;
 }
 
+// Whether a name is not looked for along RAYPATH.
+bool standsAlone(std::string_view name) { return name[0] == '/' || name[0] == '.' || name[0] == '~'; }
+
 bool readable(const std::string& path) { return access(path.c_str(), R_OK) == 0; }
 
 bool isDirectory(const std::string& path) {
@@ -67,8 +70,11 @@ bool FileAccess::allows(const std::string& path) const {
                      [&](const std::string& folder) { return file.native().starts_with(folder); });
 }
 
-std::string_view FileAccess::remark() const {
-  return folders_ ? " (with -Sc- in the folders of the scene files and of RAYPATH only)" : "";
+std::string FileAccess::remark(std::string_view name) const {
+  if (folders_) return " (with -Sc- in the folders of the scene files and of RAYPATH only)";
+  if (name.empty() || standsAlone(name)) return {};
+  if (std::getenv("RAYPATH") != nullptr) return " in the folders of RAYPATH: " + libraryPath();
+  return " in " + libraryPath() + ": RAYPATH, the folders to look in, is not set";
 }
 
 std::string libraryPath() {
@@ -92,7 +98,7 @@ std::string directoryOf(std::string_view path) {
 std::optional<std::string> findFile(std::string_view name, std::string_view searchPath, std::string_view base,
                                     const FileAccess& access) {
   if (name.empty() || name.find('\0') != name.npos) return {};
-  if (name[0] == '/' || name[0] == '.' || name[0] == '~') {
+  if (standsAlone(name)) {
     std::optional<std::string> path = name[0] == '~' ? inHome(name) : joinPath(base, name);
     if (path && !(readable(*path) && access.allows(*path))) path.reset();
     return path;

@@ -22,8 +22,9 @@ class FileAccess {
   static FileAccess foldersOf(std::span<const std::string> given);
 
   bool allows(const std::string& path) const;
-  // What a message about a file that is not found has to add; empty where all files are allowed.
-  std::string_view remark() const;
+  // What a message about a file that is not found has to add: which files are allowed, unless all are, or
+  // where a file of this name was looked for along RAYPATH. Empty where neither limits it.
+  std::string remark(std::string_view name = {}) const;
 
  private:
   std::optional<std::vector<std::string>> folders_;  // without links; each ends with '/'

@@ -66,7 +66,7 @@ class Reader {
     const std::optional<std::string> found = findFile(name, libraryPath(), {}, options_.files);
     if (!found)
       throw Error(
-          fmt::format("{}: cannot find octree file{}", printable(name, 4096), options_.files.remark()),
+          fmt::format("{}: cannot find octree file{}", printable(name, 4096), options_.files.remark(name)),
           Status::system);
     const OpenFile input(*found);
     if (input.descriptor() < 0)
@@ -119,6 +119,7 @@ class Reader {
   // A whole text. quiet: an empty one is no news.
   void all(TextSource& text, const Context& context, uint32_t file, bool quiet = false) {
     const size_t before = builder_.description().primitives.size();
+    text.skipByteOrderMark();
     for (int c; (c = text.peek()) >= 0;) {
       if (c == '#') {
         text.skipLine();
@@ -170,7 +171,9 @@ class Reader {
     const std::string fault = running->finish();
     if (named && alone_ && ahead.empty())
       throw builder_.error({file, 0},
-                           fmt::format("not an octree: 0 bytes{}{}", fault.empty() ? "" : ", ", fault));
+                           fmt::format("not an octree: 0 bytes{}{}; a command that is given as the "
+                                       "scene writes an octree or scene text on standard output",
+                                       fault.empty() ? "" : ", ", fault));
     if (builder_.description().files[file].numbered) place.line = 0;
     if (!fault.empty()) badStatus(place, shown, fault, named || ofOctree_);
     if (builder_.description().primitives.size() == before)
@@ -199,7 +202,7 @@ class Reader {
           if (!path)
             throw builder_.error(place,
                                  fmt::format("xform: cannot find file \"{}\"{}", printable(name, 4096),
-                                             options_.files.remark()),
+                                             options_.files.remark(name)),
                                  Status::system);
           auto known =
               std::find_if(seen.begin(), seen.end(), [&](const auto& s) { return s.first == *path; });

@@ -63,6 +63,14 @@ int TextSource::peek() {
   }
 }
 
+void TextSource::skipByteOrderMark() {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  if (peek() != static_cast<unsigned char>(kMark[0])) return;
+  while (end_ - next_ < static_cast<ptrdiff_t>(kMark.size()))
+    if (const char* keep = next_; !refill(keep)) return;
+  if (std::string_view(next_, kMark.size()) == kMark) next_ += kMark.size();
+}
+
 void TextSource::skipLine() {
   for (;;) {
     const void* found = next_ == end_ ? nullptr : std::memchr(next_, '\n', static_cast<size_t>(end_ - next_));

@@ -24,6 +24,9 @@ class TextSource {
   // Skips white space. The first character behind it, or -1 at the end.
   int peek();
 
+  // Skips a byte order mark, which editors put at the beginning of UTF-8 text, and white space before it.
+  void skipByteOrderMark();
+
   // Skips to the end of the line.
   void skipLine();
 

@@ -126,7 +126,7 @@ class Batch {
   uint64_t untilFlush_, remaining_;
   uint64_t nextClaim_ = 0, nextRecord_ = 0;
   std::vector<double> before_;
-  bool inputEnded_ = false, layoutRemarked_ = false;
+  bool inputEnded_ = false, layoutRemarked_ = false, textRemarked_ = false;
 
   std::mutex output_;
   std::condition_variable written_;
@@ -264,6 +264,13 @@ void Batch::noteBogus(Claim& claim) {
 }
 
 void Batch::remarkLayout() {
+  if (!textRemarked_ && reader_.firstRecordIsText()) {
+    textRemarked_ = true;
+    messages_.warning(
+        fmt::format("stdin: the first record of -f{} input is printable characters alone: is it "
+                    "text? -fa reads text",
+                    static_cast<char>(options_.in)));
+  }
   const auto onLine = reader_.numbersOnFirstLine();
   if (layoutRemarked_ || !onLine) return;
   layoutRemarked_ = true;

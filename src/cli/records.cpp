@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -19,6 +20,8 @@ namespace {
 constexpr size_t kBlock = 65536;
 // A word of text longer than this is no number. The exact decimal digits of any double fit.
 constexpr size_t kLongestWord = 4096;
+// What editors put at the beginning of UTF-8 text.
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 // Of a faulty word, this much is shown.
 constexpr size_t kShownWord = 40;
 
@@ -41,6 +44,10 @@ std::string shown(std::string_view word) {
       text += c;
   if (word.size() > kShownWord) text += "...";
   return text;
+}
+
+bool isPrintable(std::string_view bytes) {
+  return std::all_of(bytes.begin(), bytes.end(), [](char c) { return isSpace(c) || (c >= ' ' && c <= '~'); });
 }
 
 std::string_view counted(int n) { return n == 1 ? "number" : "numbers"; }
@@ -177,6 +184,10 @@ size_t RecordReader::readText(std::vector<double>& numbers, size_t most) {
         throw rad::Error(fmt::format("{}:{}: expected {} {}, got {}", name_, lastNumberLine_, perRecord_,
                                      counted(perRecord_), partialCount_));
       }
+      if (count == 0 && records_ == 0 && partialCount_ == 0 && word.starts_with(kByteOrderMark)) {
+        begin_ += kByteOrderMark.size();
+        continue;
+      }
       const std::optional<double> slow = word.size() <= kLongestWord ? quotedNumber(word) : std::nullopt;
       if (!slow) {
         if (count > 0) break;
@@ -205,9 +216,12 @@ size_t RecordReader::readBinary(std::vector<double>& numbers, size_t most) {
   if (interrupted_) return 0;
   if (end_ - begin_ < recordSize) {
     if (begin_ == end_) return 0;
-    throw rad::Error(fmt::format("{}: record {}: expected {} bytes, got {}", name_, records_ + 1, recordSize,
-                                 end_ - begin_));
+    const bool isText = records_ == 0 && isPrintable({block_.data() + begin_, end_ - begin_});
+    throw rad::Error(fmt::format("{}: record {}: expected {} bytes, got {}{}", name_, records_ + 1,
+                                 recordSize, end_ - begin_,
+                                 isText ? ", which are printable: text is read with -fa" : ""));
   }
+  if (records_ == 0) firstIsText_ = isPrintable({block_.data() + begin_, recordSize});
   size_t count = 0;
   for (; count < most && end_ - begin_ >= recordSize; ++count) {
     const size_t before = numbers.size();

@@ -60,6 +60,10 @@ class RecordReader {
   // can be told from it. Empty for binary input.
   std::optional<int> numbersOnFirstLine() const { return firstLine_; }
 
+  // Whether the first record of binary input, once it was read, is printable characters alone: hardly any
+  // floats or doubles are, and text is.
+  bool firstRecordIsText() const { return firstIsText_; }
+
  private:
   size_t readText(std::vector<double>& numbers, size_t most);
   size_t readPlain(std::vector<double>& numbers, size_t most);
@@ -84,6 +88,7 @@ class RecordReader {
   int partialCount_ = 0;
   int onLine_ = 0;
   std::optional<int> firstLine_;
+  bool firstIsText_ = false;
 };
 
 // The bytes of one number, name or colour after another, as rtrace writes them: in text each followed by a

@@ -27,6 +27,10 @@ std::vector<double> readRecords(const std::string& name, const Options& options)
   constexpr size_t kAtOnce = 4096;
   while (reader.read(numbers, kAtOnce) > 0) {
   }
+  if (reader.firstRecordIsText())
+    throw rad::Error(
+        fmt::format("{}: the first record of -f{} is printable characters alone: text is read with -fa", name,
+                    static_cast<char>(options.in)));
   if (numbers.empty()) throw rad::Error(fmt::format("{}: no records", name));
   return numbers;
 }

@@ -149,7 +149,7 @@ class SurfaceFunctions::Maker {
   std::string find(std::string_view name, std::string_view kind) const {
     const auto path = rad::findFile(name, rad::libraryPath(), {}, scene_.files);
     if (!path)
-      fail(fmt::format("cannot find {} file \"{}\"{}", kind, rad::printable(name), scene_.files.remark()),
+      fail(fmt::format("cannot find {} file \"{}\"{}", kind, rad::printable(name), scene_.files.remark(name)),
            rad::Status::system);
     return *path;
   }

@@ -190,6 +190,47 @@ TEST(RecordReader, CannotReadIsASystemFault) {
   close(folder);
 }
 
+TEST(RecordReader, AByteOrderMarkIsSkippedAtTheBeginningOnly) {
+  EXPECT_EQ(readText("\xef\xbb\xbf"
+                     "1 2 3\n4 5 6\n")
+                .numbers,
+            (Numbers{1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(readText("\xef\xbb\xbf \n1 2 3").numbers, (Numbers{1, 2, 3}));
+  EXPECT_EQ(readText("\xef\xbb\xbf").fault, "");
+  const ReadAll later = readText(
+      "1 2 3\n\xef\xbb\xbf"
+      "4 5 6\n");
+  EXPECT_EQ(later.records, 1u);
+  EXPECT_EQ(later.fault,
+            "stdin:2: expected 3 numbers, got \"\xef\xbb\xbf"
+            "4\"");
+  const ReadAll within = readText(
+      "1 \xef\xbb\xbf"
+      "2 3\n");
+  EXPECT_EQ(within.fault,
+            "stdin:1: expected 3 numbers, got \"\xef\xbb\xbf"
+            "2\"");
+}
+
+TEST(RecordReader, TextIsToldFromFloatsAndDoubles) {
+  const auto isText = [](const std::string& bytes, NumberFormat format) {
+    const TemporaryFile file(bytes);
+    RecordReader reader(file.descriptor, format, 6);
+    const ReadAll all = readAll(reader);
+    return std::pair(reader.firstRecordIsText(), all.fault);
+  };
+  const std::string text = "0 0 1 0 0 -1\n0 0 2 0 0 -1\n0 0 3 0 0 -1\n0 0 4 0 0 -1\n";
+  EXPECT_TRUE(isText(text, NumberFormat::float32).first);
+  EXPECT_TRUE(isText(text, NumberFormat::float64).first);
+  EXPECT_FALSE(isText(bytesOf<float>({0, 0, 1, 0, 0, -1}), NumberFormat::float32).first);
+  EXPECT_FALSE(isText(bytesOf<double>({1.1, 2.2, 3.3, 4.4, 5.5, 6.6}), NumberFormat::float64).first);
+  EXPECT_FALSE(isText("", NumberFormat::float32).first);
+  EXPECT_EQ(isText("0 0 1 0 0 -1\n", NumberFormat::float32).second,
+            "stdin: record 1: expected 24 bytes, got 13, which are printable: text is read with -fa");
+  EXPECT_EQ(isText(std::string(5, '\0'), NumberFormat::float32).second,
+            "stdin: record 1: expected 24 bytes, got 5");
+}
+
 TEST(RecordReader, NumbersOnTheFirstLine) {
   for (const auto& [text, count] : {std::pair("\n1 2 3\n4 5 6\n", 3), std::pair("1 2 3 4 5 6\n1 2 3", 6)}) {
     const TemporaryFile file(text);

@@ -1,4 +1,5 @@
 #include "calc_fixture.h"
+#include "rad_parser/file_path.h"
 
 namespace rad::calc {
 namespace {
@@ -133,7 +134,8 @@ TEST(CalcScope, ErrorsNameTheirPlace) {
   // A file with an error has it each time, and so for everyone.
   EXPECT_EQ(files.error("bad.cal", "v"), "bad.cal:2: expected ')', got \";\"");
   EXPECT_EQ(files.error("bad.cal", "v"), "bad.cal:2: expected ')', got \";\"");
-  EXPECT_EQ(files.error("gone.cal", "v"), "room.rad:3: cannot find function file \"gone.cal\"");
+  EXPECT_EQ(files.error("gone.cal", "v"),
+            "room.rad:3: cannot find function file \"gone.cal\"" + rad::FileAccess().remark("gone.cal"));
   EXPECT_EQ(files.error("a.cal", "v v"), "room.rad:3: expected an operator or the end, got \"v\" in \"v v\"");
 }
 

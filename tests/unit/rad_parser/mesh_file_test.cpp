@@ -255,7 +255,8 @@ TEST(MeshFile, DamagedMeshes) {
   EXPECT_EQ(errorOfBytes(""), "t.rtm: not a mesh: 0 bytes (did the program that makes it fail?)");
   EXPECT_EQ(errorOfBytes(bytesOf(fixture("frozen.oct"))),
             "t.rtm: not a mesh: its header says FORMAT=Radiance_octree");
-  EXPECT_EQ(errorOf([] { rad::readMesh("none.rtm"); }, Status::system), "none.rtm: cannot find mesh file");
+  EXPECT_EQ(errorOf([] { rad::readMesh("none.rtm"); }, Status::system),
+            "none.rtm: cannot find mesh file" + rad::FileAccess().remark("none.rtm"));
 }
 
 TEST(MeshFile, AMeshWithoutMaterialsHasNone) {

@@ -166,8 +166,11 @@ TEST(OctreeFile, FromACommand) {
   readFile(command + "; exit 4", &warnings);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_TRUE(warnings[0].ends_with("\": exit status 4")) << warnings[0];
-  EXPECT_EQ(errorOf([] { readFile("!false"); }), "!false: not an octree: 0 bytes, exit status 1");
-  EXPECT_EQ(errorOf([] { readFile("!:"); }), "!:: not an octree: 0 bytes");
+  constexpr std::string_view kWhatToDo =
+      "; a command that is given as the scene writes an octree or scene text on standard output";
+  EXPECT_EQ(errorOf([] { readFile("!false"); }),
+            fmt::format("!false: not an octree: 0 bytes, exit status 1{}", kWhatToDo));
+  EXPECT_EQ(errorOf([] { readFile("!:"); }), fmt::format("!:: not an octree: 0 bytes{}", kWhatToDo));
   EXPECT_NE(errorOf([&] { readFile(command, nullptr, false); }).find("commands are not allowed"),
             std::string::npos);
 }
@@ -252,7 +255,7 @@ TEST(OctreeFile, WhatIsNoOctree) {
   EXPECT_EQ(errorOf([&] { readFile(folder.path("none.oct")); }, Status::system),
             folder.path("none.oct") + ": cannot open octree file: No such file or directory");
   EXPECT_EQ(errorOf([&] { rad::readOctree("none.oct"); }, Status::system),
-            "none.oct: cannot find octree file");
+            "none.oct: cannot find octree file" + rad::FileAccess().remark("none.oct"));
   EXPECT_EQ(errorOf([&] {
               rad::readScene(std::vector{text, fixture("frozen.oct")});
             }),

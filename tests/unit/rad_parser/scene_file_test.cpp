@@ -346,6 +346,26 @@ TEST(SceneFile, Commands) {
             "!echo wall sphere:1: undefined modifier \"wall\"");
 }
 
+TEST(SceneFile, AByteOrderMarkIsSkipped) {
+  const std::string text = "\xef\xbb\xbfvoid sphere s 0 0 4 0 0 0 1\n";
+  EXPECT_EQ(readText(text).primitives.size(), 1u);
+  EXPECT_EQ(readText("\xef\xbb\xbf# a remark\nvoid sphere s 0 0 0").primitives.size(), 1u);
+  EXPECT_EQ(readText("\xef\xbb\xbf").primitives.size(), 0u);
+  const TestFolder folder;
+  const std::string file = folder.write("marked.rad", text);
+  EXPECT_EQ(readFile(file).primitives.size(), 1u);
+  EXPECT_EQ(readFile("!xform -mx " + file).primitives.size(), 1u);
+  EXPECT_EQ(readFile("!cat " + file).primitives.size(), 1u);
+  // A pipe may give it byte by byte.
+  EXPECT_EQ(
+      readText("!printf '\\357'; sleep .02; printf '\\273'; sleep .02; printf '\\277void sphere s 0 0 0'\n")
+          .primitives.size(),
+      1u);
+  EXPECT_EQ(errorOfText("void sphere s 0 0 0\n" + text),
+            "room.rad:2: undefined modifier \"\xef\xbb\xbfvoid\"");
+  EXPECT_EQ(errorOfText("\xef\xbb"), "room.rad:1: undefined modifier \"\xef\xbb\"");
+}
+
 // Their surfaces would be missing, and no answer would show it.
 TEST(SceneFile, ACommandThatFailsIsAnErrorWithItsPlace) {
   constexpr std::string_view kMissing = "; surfaces that it makes may be missing from the scene";

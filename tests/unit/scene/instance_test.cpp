@@ -115,10 +115,12 @@ TEST(Instances, WhatIsWrongWithThem) {
   EXPECT_EQ(fault(instance(oct, "-t 1 2")), "room.rad:1: instance \"placed\": bad transform");
   EXPECT_EQ(fault(instance(oct, "-s 1e-200")),
             "room.rad:1: instance \"placed\": a transform beyond the range of numbers");
-  EXPECT_EQ(fault(instance("none.oct"), rad::Status::system),
-            "none.oct: cannot find octree file (from room.rad:1: instance \"placed\")");
+  EXPECT_EQ(fault(instance("none.oct"), rad::Status::system), "none.oct: cannot find octree file" +
+                                                                  rad::FileAccess().remark("none.oct") +
+                                                                  " (from room.rad:1: instance \"placed\")");
   EXPECT_EQ(fault(instance("none.rtm", "0", "void", "mesh"), rad::Status::system),
-            "none.rtm: cannot find mesh file (from room.rad:1: mesh \"placed\")");
+            "none.rtm: cannot find mesh file" + rad::FileAccess().remark("none.rtm") +
+                " (from room.rad:1: mesh \"placed\")");
   const std::string light = "void light lamp\n0\n0\n3 1 1 1\n";
   EXPECT_EQ(fault(light + instance(oct, "0", "lamp")),
             "room.rad:5: instance \"placed\": a light source's material on a surface that cannot be one");
