@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <ctime>
 
 #include "rad_parser/error.h"
 
@@ -25,9 +26,13 @@ constexpr std::array<Named, 6> kSignals = {{{SIGINT, "Interrupt"},
                                             {SIGXFSZ, "File size exceeded"}}};
 constexpr int kStatus = 3;          // of rtrace(1)
 constexpr unsigned kPatience = 15;  // seconds to finish in, as rtrace has them
+// timeout(1) sends its signal to the process and to its group: the same one twice, microseconds apart, or
+// more where it is interrupted in between. Nobody asks a second time so soon.
+constexpr int64_t kOneRequest = 50'000'000;  // ns
 
 struct State {
   std::atomic<int> raised{0};  // the first signal
+  std::atomic<int64_t> raisedAt{0};
   std::atomic<bool> deferred{false};
   std::atomic<bool> told{false};  // the message is somebody else's by now
   std::atomic<bool> ending{false};
@@ -47,10 +52,22 @@ void occupyStandardDescriptors() {
     }
 }
 
+// ns, on a clock of its own.
+int64_t now() {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
+}
+
 void onSignal(int number) {
   const int error = errno;
   int first = 0;
   const bool again = !state.raised.compare_exchange_strong(first, number);
+  if (!again) state.raisedAt = now();
+  if (again && first == number && now() - state.raisedAt < kOneRequest) {
+    errno = error;
+    return;
+  }
   if (again || !state.deferred) {
     // Another thread may be here already, and says it.
     if (state.ending.exchange(true)) return;

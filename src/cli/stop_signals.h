@@ -7,7 +7,8 @@ namespace rsphere {
 // "rsphere: signal - Terminate" and exit status 3; a second one ends it at once. Signals that were ignored
 // stay so. SIGPIPE is ignored: a closed pipe is an error of write(2) instead. Before defer(), the signal ends
 // the program where it stands; after it, raised() says so and descriptor() becomes readable, and the program
-// has 15 seconds to flush what it has finished. Keeps the numbers 0 to 2 for
+// has 15 seconds to flush what it has finished. The same signal within 50 ms
+// is the same request: timeout(1) sends it to the process and to its group. Keeps the numbers 0 to 2 for
 // standard input, output and error, should one of them be closed. At most one at a time in a process: signal
 // handlers can reach nothing but process-wide state, all of which is in stop_signals.cpp. The handlers before
 // it come back with its end.

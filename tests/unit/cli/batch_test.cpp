@@ -457,10 +457,31 @@ TEST(StopSignals, TheSecondEndsItAtOnce) {
   EXPECT_EQ(busy.getLines(1), "busy\n");
   child.send(SIGTERM);
   while (child.isPending()) std::this_thread::sleep_for(1ms);  // two that come together are one
+  std::this_thread::sleep_for(100ms);
   const auto start = std::chrono::steady_clock::now();
   child.send(SIGTERM);
   EXPECT_EQ(child.exitStatus(), 3);
   EXPECT_LT(std::chrono::steady_clock::now() - start, 10s);
+}
+
+// As timeout(1) sends it: to the process and to its group.
+TEST(StopSignals, TheSameTwiceInAMomentIsOne) {
+  std::atomic<int> ready{0};
+  const Child child(true, [&](const Record& record, unsigned worker, std::string& bytes) {
+    if (record.index == 2) {
+      while (ready < 2) std::this_thread::sleep_for(1ms);
+      kill(getpid(), SIGTERM);
+      std::this_thread::sleep_for(5ms);
+      kill(getpid(), SIGTERM);
+      std::this_thread::sleep_for(50ms);
+    }
+    echo(record, worker, bytes);
+    ++ready;
+  });
+  child.toChild.put("1 2 3 4 5 6 7 8 9 10 11 12 13 14 15\n");
+  EXPECT_EQ(child.exitStatus(), 3);
+  EXPECT_EQ(child.fromChild.getAll().substr(0, 14), "1 2 3 \n4 5 6 \n");
+  EXPECT_EQ(contents(child.log.path), "rsphere: signal - Terminate\n");
 }
 
 TEST(StopSignals, AClosedStandardInputIsAFaultAndNotSomeOtherFile) {
