@@ -62,7 +62,7 @@ std::vector<OptionEntry> makeTable() {
        .arguments = "file",
        .value = +[](Options& o) -> std::string& { return own(o).plot; },
        .remark = "plot as an SVG file",
-       .paragraph = "Write a plot of error against time, as an SVG file."});
+       .paragraph = "Write a plot of error against time, as an SVG file. Names with another picture extension are refused."});
   return table;
 }
 

@@ -87,11 +87,12 @@ std::string tradeTable(std::span<const Figures> all) {
                                  "largest", "bias", "+-", "says", "true/says", "", "setting");
   for (const Figures& f : all) {
     const bool honest = dishonesty(f) < 1.5;
-    text += fmt::format(
-        "{} {:>9}{:>9}{:>9}{:>9}{:>10}{:>9}{:>10}{:>6}  {}\n", f.best ? '*' : ' ', milliseconds(f.seconds),
-        percent(f.rms), percent(f.largest), percent(f.bias), percent(f.biasError), percent(f.estimated),
-        f.estimated > 0 ? fmt::format("{:.2f}", dishonesty(f)) : "-",
-        fmt::format("{}{}{}", f.limited ? "~" : "", f.biased ? "b" : "", honest ? "" : "!"), joined(f.words));
+    text += fmt::format("{} {:>9}{:>9}{:>9}{:>9}{:>10}{:>9}{:>10}{:>6}  {}\n", f.best ? '*' : ' ',
+                        milliseconds(f.seconds), percent(f.rms), percent(f.largest), percent(f.bias),
+                        percent(f.biasError), f.estimated > 0 ? percent(f.estimated) : "-",
+                        f.estimated > 0 ? fmt::format("{:.2f}", dishonesty(f)) : "-",
+                        fmt::format("{}{}{}", f.limited ? "~" : "", f.biased ? "b" : "", honest ? "" : "!"),
+                        joined(f.words));
   }
   text += "* nothing is as fast and as accurate   says: the error that the setting estimates itself\n";
   if (std::any_of(all.begin(), all.end(), [](const Figures& f) { return f.limited; }))

@@ -4,14 +4,20 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <chrono>
+#include <exception>
 #include <fstream>
+#include <mutex>
 
+#include "cli/batch.h"
 #include "cli/read_options.h"
 #include "cli/records.h"
 #include "measure/records_file.h"
 #include "rad_parser/scene_file.h"
 #include "trade/ladder.h"
+#include "trade/schedule.h"
 #include "trade/trade_report.h"
 #include "trade/trials.h"
 
@@ -27,6 +33,8 @@ constexpr size_t kLeastRotations = 8, kMostRotations = 100000;
 // Answers whose estimates are asked for, of each setting, at least.
 constexpr size_t kEstimates = 8;
 constexpr double kUsualAccuracy = .01;
+// Repeats of a setting that say something of its bias: where a signal ends it early.
+constexpr size_t kLeastRepeats = 2;
 
 std::vector<double> chosenPoints(const std::vector<double>& all, int most) {
   const size_t count = all.size() / 3, chosen = std::min(count, static_cast<size_t>(most));
@@ -48,10 +56,12 @@ class Trade {
 
  private:
   Setting settingOf(std::span<const std::string> words) const;
+  // False where a signal came: what is whole by then is in `trial`.
   bool measure(std::span<const std::string> words, const Setting& given, Trials& trials, Trial& trial) const;
   std::optional<Reference> makeReference(Trials& trials, double target) const;
   void progress(const std::string& text) const;
-  void report(const std::vector<Figures>& all, const Reference& reference, double accuracy) const;
+  void report(const std::vector<Figures>& all, size_t repeatsOfLast, const Reference& reference,
+              double accuracy) const;
   std::string pasteLine(std::span<const std::string> words) const;
 
   const TradeOptions& options_;
@@ -92,18 +102,19 @@ bool Trade::measure(std::span<const std::string> words, const Setting& given, Tr
   const uint64_t first = rotation;
   const bool estimates = setting.options.sphere.accuracy > 0;
   const auto repeats = static_cast<uint64_t>(options_.repeats);
-  for (uint64_t r = 1; r <= repeats; ++r) {
+  bool whole = true;
+  for (uint64_t r = 1; whole && r <= repeats; ++r) {
     rotation = first + r;
-    if (!trials.run(setting, estimates, true, trial)) return false;
+    whole = trials.run(setting, estimates, true, trial);
   }
-  const double count = static_cast<double>(trial.answers.values.size());
+  const double count = std::max(1., static_cast<double>(trial.answers.values.size()));
   trial.seconds /= count;
   trial.directions /= count;
-  for (uint64_t r = repeats + 1; trial.estimates.size() < kEstimates; ++r) {
+  for (uint64_t r = repeats + 1; whole && trial.estimates.size() < kEstimates; ++r) {
     rotation = first + r;
-    if (!trials.run(setting, true, false, trial)) return false;
+    whole = trials.run(setting, true, false, trial);
   }
-  return true;
+  return whole;
 }
 
 // Empty where a signal came before there was one.
@@ -111,14 +122,49 @@ std::optional<Reference> Trade::makeReference(Trials& trials, double target) con
   Setting setting = settingOf(referenceWords());
   Trial trial;
   std::optional<Reference> reference;
+  ReferenceProgress at;
+  at.leastRotations = kLeastRotations;
+  at.points = trials.points();
+  at.target = target;
+  Options all = options_;
+  all.threads = 0;
+  at.moreThreads = threadCount(options_) < threadCount(all);
+  const auto start = Clock::now();
+  const auto elapsed = [&start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  double said = 0;  // how long it was said to take
+  const auto saySlow = [&] {
+    const double whole = at.seconds + secondsLeft(at);
+    const std::string slow = slowReference(at);
+    if (slow.empty() || whole < 2 * said) return;
+    messages_.warning(slow);
+    said = whole;
+  };
+  std::mutex mutex;
+  size_t answered = 0;  // points of the first rotation
+  const auto firstPoints = [&] {
+    const std::lock_guard lock(mutex);
+    ++answered;
+    if (answered < threadCount(options_) || answered >= at.points) return;
+    at.rotations = static_cast<double>(answered) / static_cast<double>(at.points);
+    at.seconds = elapsed();
+    saySlow();
+  };
   for (uint64_t r = 0; r < kMostRotations; ++r) {
     setting.options.sphere.rotation = kReferenceRotation + r;
-    if (!trials.run(setting, false, false, trial)) return std::nullopt;
-    if (r + 1 < kLeastRotations) continue;
+    if (!trials.run(setting, false, false, trial, r == 0 ? firstPoints : std::function<void()>())) {
+      messages_.warning(fmt::format("no setting was measured yet: the reference had {} rotations", r));
+      return std::nullopt;
+    }
     reference.emplace(trial.answers);
-    progress(fmt::format("reference: {} rotations, {:.3f}% of {:.3f}%", r + 1, 100 * reference->error(),
-                         100 * target));
-    if (reference->error() <= target) break;
+    at.rotations = static_cast<double>(r + 1);
+    at.seconds = elapsed();
+    at.error = reference->error();
+    progress(fmt::format(
+        "reference: rotation {}{}, about {} left", r + 1,
+        canPredict(at) ? fmt::format(", error {:.3f}%, {:.3f}% wanted", 100 * at.error, 100 * target) : "",
+        durationText(secondsLeft(at))));
+    saySlow();
+    if (r + 1 >= kLeastRotations && at.error <= target) break;
   }
   return reference;
 }
@@ -142,6 +188,19 @@ std::string Trade::pasteLine(std::span<const std::string> words) const {
   return line + " < " + options_.scene.back();
 }
 
+// The plot is an SVG file: a name that promises something else would be opened by a program that cannot show
+// it.
+void checkPlotName(const std::string& name) {
+  constexpr std::array<std::string_view, 12> kOthers = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".gif",
+                                                        ".bmp", ".hdr", ".exr",  ".pdf", ".eps",  ".ps"};
+  const size_t dot = std::min(name.rfind('.'), name.size());
+  std::string ending = name.substr(dot);
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (std::find(kOthers.begin(), kOthers.end(), ending) != kOthers.end())
+    throw rad::Error(fmt::format("-Tp \"{}\": the plot is an SVG file: {}.svg", name, name.substr(0, dot)));
+}
+
 void writeFile(const std::string& name, const std::string& text) {
   if (name.empty()) return;
   std::ofstream file(name, std::ios::binary);
@@ -150,13 +209,17 @@ void writeFile(const std::string& name, const std::string& text) {
   if (!file) throw rad::Error(fmt::format("cannot write \"{}\"", name), rad::Status::system);
 }
 
-void Trade::report(const std::vector<Figures>& all, const Reference& reference, double accuracy) const {
+// repeatsOfLast: how many the last setting has where a signal came before it had all; else 0.
+void Trade::report(const std::vector<Figures>& all, size_t repeatsOfLast, const Reference& reference,
+                   double accuracy) const {
   std::string text = fmt::format(
       "{} points; reference: {} rotations of \"{}\", relative standard error {:.3f}% (mean over the points "
       "{:.3f}%)\n",
       reference.points(), reference.repeats(), fmt::join(referenceWords(), " "), 100 * reference.error(),
       100 * reference.meanError());
   text += tradeTable(all);
+  if (repeatsOfLast > 0)
+    text += fmt::format("The last setting has {} of {} repeats.\n", repeatsOfLast, options_.repeats);
   const auto most = std::min_element(all.begin(), all.end(),
                                      [](const Figures& a, const Figures& b) { return a.rms < b.rms; });
   if (const auto found = cheapest(all, accuracy)) {
@@ -166,15 +229,29 @@ void Trade::report(const std::vector<Figures>& all, const Reference& reference, 
     text += fmt::format("\nNone is sure to have an rms error of {:g}%; the nearest, with {:.3f}%:\n  {}\n",
                         100 * accuracy, 100 * most->rms, pasteLine(most->words));
   }
-  RecordWriter out(1);
-  out.write(text);
-  out.flush();
-  writeFile(options_.table, tradeCsv(all, reference));
-  writeFile(
-      options_.plot,
-      tradePlot(all, fmt::format("{}: {} points",
-                                 fmt::join(std::span(options_.scene).first(options_.scene.size() - 1), " "),
-                                 reference.points())));
+  // What can be written is, whatever is wrong with the rest: measuring again takes long.
+  std::exception_ptr fault;
+  const auto attempt = [&fault](const auto& write) {
+    try {
+      write();
+    } catch (const rad::Error&) {
+      if (!fault) fault = std::current_exception();
+    }
+  };
+  attempt([&] { writeFile(options_.table, tradeCsv(all, reference)); });
+  attempt([&] {
+    writeFile(
+        options_.plot,
+        tradePlot(all, fmt::format("{}: {} points",
+                                   fmt::join(std::span(options_.scene).first(options_.scene.size() - 1), " "),
+                                   reference.points())));
+  });
+  attempt([&] {
+    RecordWriter out(1);
+    out.write(text);
+    out.flush();
+  });
+  if (fault) std::rethrow_exception(fault);
 }
 
 void Trade::run() {
@@ -205,17 +282,26 @@ void Trade::run() {
   if (reference && reference->isDark())
     messages_.warning("no light arrives at the points: no errors to tell");
   std::vector<Figures> all;
+  std::vector<double> costs;
+  for (const Setting& setting : parsed) costs.push_back(costOf(setting.options));
+  size_t repeatsOfLast = 0;
   const auto start = Clock::now();
   for (size_t i = 0; reference && i < settings.size(); ++i) {
     Trial trial;
-    if (!measure(settings[i], parsed[i], trials, trial)) break;
+    const bool whole = measure(settings[i], parsed[i], trials, trial);
+    if (!whole && trial.answers.repeats() < kLeastRepeats) break;
     all.push_back(figuresOf(trial, *reference));
-    progress(fmt::format("setting {} of {}: {:.1f} ms a point, {:.3f}%; {:.0f} s", i + 1, settings.size(),
-                         1e3 * all.back().seconds, 100 * all.back().rms,
-                         std::chrono::duration<double>(Clock::now() - start).count()));
+    if (!whole) {
+      repeatsOfLast = trial.answers.repeats();
+      break;
+    }
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    progress(fmt::format("setting {} of {}: {:.1f} ms a point, {:.3f}%; {} so far, about {} left", i + 1,
+                         settings.size(), 1e3 * all.back().seconds, 100 * all.back().rms,
+                         durationText(seconds), durationText(secondsLeft(costs, i + 1, seconds))));
   }
   markBest(all);
-  if (!all.empty()) report(all, *reference, accuracy);
+  if (!all.empty()) report(all, repeatsOfLast, *reference, accuracy);
   signals_.defer(false);
   if (signals_.raised()) throw rad::Error(signals_.name(), rad::Status::signal);
 }
@@ -224,8 +310,10 @@ void Trade::run() {
 
 void runTrade(const TradeOptions& options, std::span<const UsedOption> used, const Messages& messages,
               StopSignals& signals) {
-  if (options.scene.size() < 2) throw rad::Error("missing argument: a scene and a file of points are needed");
+  if (options.scene.size() < 2)
+    throw rad::Error("missing argument: a scene and a file of points are needed; see -help");
   if (!options.sphere.on) throw rad::Error("-S-: rays have no settings of sphere mode to choose among");
+  checkPlotName(options.plot);
   Trade(options, used, messages, signals).run();
 }
 

@@ -16,7 +16,8 @@ const Transport& Trials::transportOf(const Setting& setting) {
   return *transport;
 }
 
-bool Trials::run(const Setting& setting, bool standardErrors, bool timed, Trial& trial) {
+bool Trials::run(const Setting& setting, bool standardErrors, bool timed, Trial& trial,
+                 const std::function<void()>& pointAnswered) {
   const Options& options = setting.options;
   const Transport& transport = transportOf(setting);
   const double begin = threadSeconds();
@@ -32,6 +33,7 @@ bool Trials::run(const Setting& setting, bool standardErrors, bool timed, Trial&
     answers[i] =
         estimator.estimate(V3d(points_[3 * i], points_[3 * i + 1], points_[3 * i + 2]), workspaces[worker]);
     seconds[i] = threadSeconds() - start;
+    if (pointAnswered) pointAnswered();
   });
   if (!whole) return false;
   trial.answers.points = count;

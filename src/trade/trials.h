@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -24,10 +25,14 @@ class Trials {
   Trials(const Scene& scene, std::span<const double> points, const StopSignals& signals)
       : scene_(scene), points_(points), signals_(signals) {}
 
+  size_t points() const { return points_.size() / 3; }
+
   // Answers all points once, with the rotation of its options. standardErrors: whether estimates are wanted.
   // Adds to trial.answers, and to the sums of its seconds and directions where `timed`. False, and nothing
   // added, where a signal came.
-  bool run(const Setting& setting, bool standardErrors, bool timed, Trial& trial);
+  // pointAnswered: called after each point, from several threads.
+  bool run(const Setting& setting, bool standardErrors, bool timed, Trial& trial,
+           const std::function<void()>& pointAnswered = {});
 
  private:
   const Transport& transportOf(const Setting& setting);
