@@ -159,7 +159,7 @@ std::string worstText(const CompareOptions& options, const Comparison& compariso
 
 CompareStatus runCompare(CompareOptions options, std::span<const UsedOption> used, const Messages& messages) {
   if (options.scene.size() < 2)
-    throw rad::Error("missing argument: a scene and a file of records are needed");
+    throw rad::Error("missing argument: a scene and a file of records are needed; see -help");
   if (options.sphere.on) refuseWhatPointsHave(options);
   const OriginalProgram program = findOriginal();
   const std::string recordsName = options.scene.back();
@@ -205,6 +205,8 @@ CompareStatus runCompare(CompareOptions options, std::span<const UsedOption> use
   out.write(fmt::format("CPU time of all repeats, loading included: rsphere {:.2f} s, the original {:.2f} s",
                         ourSeconds, original.seconds()));
   out.write(isOctree ? "\n" : fmt::format(", oconv {:.2f} s\n", original.octreeSeconds()));
+  if (options.sphere.on)
+    out.write(equalErrorText(comparison, options.orientations, ourSeconds, original.seconds()));
   out.flush();
   if (!options.differences.empty())
     writeDifferences(options.differences, options.width, options.height, comparison.records,

@@ -72,6 +72,33 @@ std::string figuresText(const Comparison& comparison, double tolerance) {
   return text + fmt::format("{}.\n", conclusion(comparison.verdict));
 }
 
+std::string equalErrorText(const Comparison& comparison, int orientations, double ourSeconds,
+                           double originalSeconds) {
+  const double ours = comparison.channels[1].ourNoise, theirs = comparison.channels[1].originalNoise;
+  if (ours <= 0 || theirs <= 0) return "Equal error: one of them has no noise to go by.\n";
+  const double ratio = theirs / ours;
+  const double fewest = std::min(ratio, ratio * ratio), most = std::max(ratio, ratio * ratio);
+  constexpr double kLeast = 8, kMost = 1e6;  // of -Cn
+  if (orientations * fewest > kMost)
+    return fmt::format(
+        "Equal error: more than the {:.0f} rays that -Cn allows; fewer directions of rsphere (-Sn, -Sx) "
+        "do it.\n",
+        kMost);
+  if (orientations * most < kLeast)
+    return fmt::format(
+        "Equal error: fewer than the {:.0f} rays that -Cn needs; more directions of rsphere (-Sn, -Sx) do "
+        "it.\n",
+        kLeast);
+  const auto rays = [&](double factor) { return std::clamp(orientations * factor, kLeast, kMost); };
+  return fmt::format(
+      "Equal error: with -Cn {:.0f} to {:.0f} the original is about as noisy as rsphere (its noise falls "
+      "with the "
+      "number of rays, or its square root). All repeats then take it about {:.3g} to {:.3g} s of CPU "
+      "time; rsphere took {:.3g} s.\n",
+      rays(fewest), rays(most), originalSeconds * rays(fewest) / orientations,
+      originalSeconds * rays(most) / orientations, ourSeconds);
+}
+
 std::string histogramText(std::span<const RecordDifference> records, double tolerance) {
   const double unit = tolerance > 0 ? tolerance : 1e-6;
   constexpr std::array kEdges = {-8., -4., -2., -1., -.5, .5, 1., 2., 4., 8.};  // times the tolerance
