@@ -32,6 +32,9 @@ constexpr size_t kLargestClaim = 256;
 // How many claims a thread may be ahead of the oldest unfinished one.
 constexpr uint64_t kClaimsAhead = 16;
 
+// A ray that comes once more is an accident, twice more a mean of its answers.
+constexpr int kRepeatsToRemark = 2;
+
 constexpr uint64_t kNoLimit = std::numeric_limits<uint64_t>::max();
 
 unsigned wantedThreads(const Options& options) {
@@ -98,6 +101,7 @@ class Batch {
   void work(unsigned worker);
   bool take(Claim& claim, size_t most);
   void noteBogus(Claim& claim);
+  void remarkRepeats(const double* record, uint64_t index);
   void remarkLayout();
   Finished compute(const Claim& claim, unsigned worker);
   void handIn(uint64_t number, Finished&& finished);
@@ -126,7 +130,8 @@ class Batch {
   uint64_t untilFlush_, remaining_;
   uint64_t nextClaim_ = 0, nextRecord_ = 0;
   std::vector<double> before_;
-  bool inputEnded_ = false, layoutRemarked_ = false, textRemarked_ = false;
+  bool inputEnded_ = false, layoutRemarked_ = false, textRemarked_ = false, repeatsRemarked_ = false;
+  int repeats_ = 0;
 
   std::mutex output_;
   std::condition_variable written_;
@@ -255,12 +260,25 @@ void Batch::noteBogus(Claim& claim) {
   for (size_t i = 0; i < claim.records; ++i) {
     const double* record = claim.numbers.data() + 6 * i;
     if (!isBogus(record)) {
+      remarkRepeats(record, claim.firstRecord + i);
       before_.assign(record, record + 6);
       continue;
     }
     claim.flush = true;
     if (interval_ > 0) untilFlush_ = interval_ - (claim.records - 1 - i);
   }
+}
+
+// Whoever takes the mean of a repeated ray expects new samples, as rtrace draws them.
+void Batch::remarkRepeats(const double* record, uint64_t index) {
+  const RayOptions& ray = options_.ray;
+  if (repeatsRemarked_ || options_.numberedRays || (ray.ambientBounces == 0 && ray.directJitter == 0)) return;
+  repeats_ = std::equal(before_.begin(), before_.end(), record) ? repeats_ + 1 : 0;
+  if (repeats_ < kRepeatsToRemark) return;
+  repeatsRemarked_ = true;
+  messages_.warning(fmt::format(
+      "record {}: the same ray repeatedly has the same random numbers each time; -u+ makes them differ",
+      index + 1));
 }
 
 void Batch::remarkLayout() {

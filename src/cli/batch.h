@@ -46,6 +46,7 @@ unsigned threadCount(const Options& options);
 // - Warns where input ends before -y scanlines, and where the first line of text has three numbers in ray
 // mode, or six
 //   in sphere mode: two such lines make one ray, or one such line two points.
+// - Warns once where the same ray comes three times in a row and its answers may be noisy, without -u+.
 // - Reports to `messages` every -t seconds, when there are answers.
 // Throws what reader, writer and answer throw. `signals` may be null.
 void runRecords(RecordReader& reader, RecordWriter& writer, const Options& options, const Messages& messages,

@@ -324,7 +324,7 @@ std::vector<Use> parse(std::span<const std::string> given, const Companion& comp
   }
   std::vector<Use> uses;
   Request request = Request::answers;
-  bool sphereMode = companion.sphereMode && options.program != "rtrace", mostGiven = false;
+  bool sphereMode = companion.sphereMode && options.program != "rtrace", mostGiven = false, uGiven = false;
   for (words.expand(); !words.atEnd() && startsWith(words.word(), "-"); words.expand()) {
     const std::string word = words.take();
     if (word == "-version" || word == "--version") request = Request::version;
@@ -343,6 +343,7 @@ std::vector<Use> parse(std::span<const std::string> given, const Companion& comp
     }
     if (entry->name == "-S") sphereMode = switched(use.rest, sphereMode).value();
     mostGiven |= entry->name == "-Sx";
+    uGiven |= entry->name == "-u";
     uses.push_back(std::move(use));
   }
   const std::string program = options.program;
@@ -367,6 +368,7 @@ std::vector<Use> parse(std::span<const std::string> given, const Companion& comp
           "missing octree argument: an octree, scene files or a '!command' that makes them come "
           "behind the options; see -help");
   }
+  options.numberedRays = uGiven && options.ray.uncorrelated && !options.sphere.on;
   splitTree(options);
   checkLetters(options);
   if (request == Request::answers) checkColorOutput(options);

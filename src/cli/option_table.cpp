@@ -115,7 +115,7 @@ void setRotation(Options& options, const OptionEntry& entry, std::span<const std
                  std::string_view) {
   const auto n = rad::parseInteger(words[0]);
   if (!n || *n < 0) notInteger(entry.name, words[0], " of at least 0");
-  options.sphere.rotation = static_cast<uint64_t>(*n);
+  options.sphere.rotation = options.ray.rotation = static_cast<uint64_t>(*n);
 }
 
 // -e takes an expression where its word has '=' or ':', as rtrace tells them apart.
@@ -372,8 +372,15 @@ std::vector<OptionEntry> makeTable() {
        .group = Group::program,
        .value = +[](O& o) -> bool& { return o.ray.uncorrelated; },
        .remark = "uncorrelated Monte Carlo sampling|correlated quasi-Monte Carlo sampling",
-       .paragraph = "Accepted as in rtrace; samples are random whatever it is.",
-       .support = Support::unused});
+       .paragraph =
+           "Given as -u+, the random numbers of a ray follow from its number in the input as well as from "
+           "the "
+           "ray, so that a ray that is repeated is a new sample each time and the mean of its answers is "
+           "better than one of them. Otherwise they follow from the ray alone, and a repeated ray repeats "
+           "its "
+           "noise; in rtrace it never does. Answers do not depend on -n either way. Indirect light that is "
+           "interpolated (-aa above 0) is the same for repeated rays in any case. Ray mode only. Samples are "
+           "random, not quasi-random, whatever -u is."});
   add({.name = "-bv",
        .group = Group::program,
        .value = +[](O& o) -> bool& { return o.ray.backFacesVisible; },
@@ -862,7 +869,7 @@ std::vector<OptionEntry> makeTable() {
        .remark = "rotation and random numbers",
        .paragraph =
            "Another rotation of the base directions and other random numbers for each N, so that repeated "
-           "runs show the spread of the answers.",
+           "runs show the spread of the answers. In ray mode it changes the random numbers.",
        .line = +[](const O& o) { return fmt::format("-Sr {:<9}\t\t\t", o.sphere.rotation); }});
   add({.name = "-Sc",
        .group = Group::sphere,

@@ -54,7 +54,9 @@ struct RayOptions {
   // others
   std::vector<SharedDefinitions> definitions;  // -e -f, in their order
   bool backFacesVisible = true;                // -bv
-  bool uncorrelated = true;                    // -u
+  // random numbers
+  bool uncorrelated = true;  // -u  changes nothing; see Options::numberedRays
+  uint64_t rotation = 0;     // -Sr
 };
 
 enum class Irradiance : uint8_t { none, surface /* -i */, point /* -I */ };
@@ -116,6 +118,7 @@ struct Options {
   ColorOptions color;
   int64_t width = 0, height = 0;   // -x -y
   bool limitDistance = false;      // -ld
+  bool numberedRays = false;       // -u+ was given: random numbers depend on the number of a ray as well
   bool header = true;              // -h
   bool warnings = true;            // -w
   int threads = 1;                 // -n; 0: all cores

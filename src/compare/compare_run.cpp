@@ -18,6 +18,7 @@
 #include "measure/work.h"
 #include "rad_parser/scene_file.h"
 #include "sphere/directions.h"
+#include "transport/answer_rays.h"
 
 namespace rsphere {
 namespace {
@@ -45,7 +46,9 @@ Answers answerRays(const Transport& transport, const CompareOptions& options, st
     const double farthest = options.limitDistance ? in.length : 0;
     for (size_t r = 0; r < answers.repeats; ++r)
       answers.values[r * answers.records + i] =
-          tracers[worker].trace(in.origin, in.direction, farthest, seedOfRepeat(seedOf(numbers), r)).value;
+          tracers[worker]
+              .trace(in.origin, in.direction, farthest, seedOfRepeat(seedOfRay(numbers, i, options), r))
+              .value;
   });
   return answers;
 }

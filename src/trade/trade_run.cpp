@@ -81,7 +81,8 @@ Setting Trade::settingOf(std::span<const std::string> words) const {
   Setting setting;
   for (const UsedOption& option : parseCompanion(line, tradeCompanion(), options)) {
     const OptionEntry& entry = *option.entry;
-    if (entry.group == Group::sphere && entry.name != "-Ss" && entry.name != "-Sb") continue;
+    if (entry.group == Group::sphere && entry.name != "-Ss" && entry.name != "-Sb" && entry.name != "-Sr")
+      continue;
     for (const std::string& word : option.words) setting.rays += word + ' ';
   }
   // One scene is read, for all of them.

@@ -5,6 +5,11 @@
 
 namespace rsphere {
 
+uint64_t seedOfRay(std::span<const double> numbers, uint64_t index, const Options& options) {
+  const uint64_t seed = seedOf(numbers, rotationBits(options.ray));
+  return options.numberedRays ? mixBits(seed ^ mixBits(index)) : seed;
+}
+
 AnswerRecord answerRays(const Transport& transport, const Options& options, const AnswerWriter& writer,
                         const rad::Warn& warn) {
   auto tracers = std::make_shared<std::vector<PathTracer>>();
@@ -21,7 +26,8 @@ AnswerRecord answerRays(const Transport& transport, const Options& options, cons
     };
     if (trees) tracer.observe(writeBranch, options.treeShadows);
     const double farthest = options.limitDistance ? in.length : 0;
-    const Ray ray = value ? tracer.trace(in.origin, in.direction, farthest, seedOf(record.numbers))
+    const uint64_t seed = seedOfRay(record.numbers, record.index, options);
+    const Ray ray = value ? tracer.trace(in.origin, in.direction, farthest, seed)
                           : tracer.cast(in.origin, in.direction, farthest);
     if (!valueAlone) return writer.write(bytes, answerOf(transport.scene(), ray), record.index);
     RayAnswer answer;

@@ -1,9 +1,16 @@
 #pragma once
+#include <cstdint>
+#include <span>
+
 #include "cli/answer_writer.h"
 #include "cli/batch.h"
 #include "transport/path_tracer.h"
 
 namespace rsphere {
+
+// The seed of the random numbers of a ray, the index-th record of the input from 0: it follows from the six
+// numbers of the ray and from -Sr; with -u+ also from index, so that a repeated ray is another sample.
+uint64_t seedOfRay(std::span<const double> numbers, uint64_t index, const Options& options);
 
 // Rays in, what rtrace answers out, with their trees (-ot). Warns where values are asked for and nothing can
 // give light. All that is given must live as long as the answer to be called for.

@@ -185,7 +185,7 @@ void PathTracer::gatherHemisphere(const Ray& root, const V3d& normal, const V3d&
 // What a patch of the coarse solution finds.
 void PathTracer::link(const GatherSite& site, int rays, uint64_t seed, int depth,
                       CoarseSolution::Links& links) {
-  random_ = Random(seed);
+  random_ = Random(seed ^ rotationBits(t_.options()));
   linking_ = &links;
   const Ray root = gatherRoot(site, depth);
   Rgb sum(0, 0, 0);
@@ -228,7 +228,7 @@ GatheredLight PathTracer::gather(const GatherSite& site, uint64_t seed, int dept
   const HemisphereCells cells(count);
   std::vector<Rgb> radiance(cells.count(), Rgb(0, 0, 0));
   std::vector<double> distance(cells.count(), kFarAway);
-  random_ = Random(seed);
+  random_ = Random(seed ^ rotationBits(t_.options()));
   gatherHemisphere(root, site.normal, site.normal, kReflectedAmbient, count, [&](Ray& child, double part) {
     evaluate(child);
     const int cell = cells.cellOf(child.direction, x, y, site.normal);

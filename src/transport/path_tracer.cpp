@@ -69,6 +69,7 @@ uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAcc
   for (const int n : {o.directRelays, o.chosenSources, o.directPretest, o.ambientBounces, o.ambientResolution,
                       o.ambientDivisions, o.ambientSuperSamples, o.reflectionLimit})
     print.add(static_cast<uint64_t>(n));
+  if (o.rotation != 0) print.add(o.rotation);
   for (const bool b : {o.sourcesVisible, o.backFacesVisible, o.uncorrelated, basicRadiance})
     print.add(uint64_t{b});
   for (const auto* names : {&o.ambientExcluded, &o.ambientIncluded}) {

@@ -32,6 +32,11 @@
 
 namespace rsphere {
 
+// Changes seeds with -Sr; 0 for -Sr 0, where seeds follow from places and rays alone.
+inline uint64_t rotationBits(const RayOptions& options) {
+  return options.rotation == 0 ? 0 : mixBits(options.rotation);
+}
+
 // What all threads share; not changed by tracing. Keeps references to the scene.
 class Transport {
  public:
