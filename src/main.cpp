@@ -27,7 +27,7 @@ void answer(const Options& options, const Messages& messages, StopSignals& signa
   }
   const Transport transport(scene, options.ray, options.irradiance, options.sphere.basicRadiance, warn);
 
-  RecordReader reader(0, options.in, options.sphere.on ? 3 : 6);
+  RecordReader reader(0, options.in, options.sphere.on ? 3 : 6, lineEnds(options));
   const AnswerWriter answers(options);
   writeHeader(writer, options, scene.description.header, std::time(nullptr));
   writer.flush();  // a program that talks to this one may read the header before it sends a record

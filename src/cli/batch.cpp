@@ -289,13 +289,13 @@ void Batch::remarkLayout() {
                     "text? -fa reads text",
                     static_cast<char>(options_.in)));
   }
-  const auto onLine = reader_.numbersOnFirstLine();
-  if (layoutRemarked_ || !onLine) return;
+  const auto& first = reader_.firstLine();
+  if (layoutRemarked_ || !first) return;
   layoutRemarked_ = true;
-  if (perRecord_ == 6 && *onLine == 3)
-    messages_.warning("stdin:1: three numbers on a line, but a ray has six: two lines are taken for one ray");
-  if (perRecord_ == 3 && *onLine == 6)
-    messages_.warning("stdin:1: six numbers on a line are taken for two points; -S- takes them for a ray");
+  if (first->numbers % perRecord_ != 0)
+    messages_.warning(
+        fmt::format("stdin:{}: {} number{} on a line, but a ray has six: rays are read across line ends",
+                    first->line, first->numbers, first->numbers == 1 ? "" : "s"));
 }
 
 Finished Batch::compute(const Claim& claim, unsigned worker) {

@@ -43,9 +43,8 @@ unsigned threadCount(const Options& options);
 // - A fault in the input or in an answer stops it once everything before is answered and written; so does a
 // signal
 //   (rad::Error with Status::signal, its name the text), but records being computed are given up then.
-// - Warns where input ends before -y scanlines, and where the first line of text has three numbers in ray
-// mode, or six
-//   in sphere mode: two such lines make one ray, or one such line two points.
+// - Warns where input ends before -y scanlines, and in ray mode where the numbers on the first line of text
+//   are not those of whole rays.
 // - Warns once where the same ray comes three times in a row and its answers may be noisy, without -u+.
 // - Reports to `messages` every -t seconds, when there are answers.
 // Throws what reader, writer and answer throw. `signals` may be null.

@@ -60,11 +60,19 @@ std::optional<double> quotedNumber(std::string_view word) {
 
 }  // namespace
 
-RecordReader::RecordReader(int fd, NumberFormat format, int numbersPerRecord, std::string name)
-    : fd_(fd), format_(format), perRecord_(numbersPerRecord), name_(std::move(name)), block_(kBlock) {}
+RecordReader::RecordReader(int fd, NumberFormat format, int numbersPerRecord, LineEnds lineEnds,
+                           std::string name)
+    : fd_(fd),
+      format_(format),
+      perRecord_(numbersPerRecord),
+      lineEnds_(lineEnds),
+      name_(std::move(name)),
+      block_(kBlock) {}
 
 size_t RecordReader::read(std::vector<double>& numbers, size_t most) {
-  const size_t count = format_ == NumberFormat::ascii ? readText(numbers, most) : readBinary(numbers, most);
+  const size_t count = format_ != NumberFormat::ascii      ? readBinary(numbers, most)
+                       : lineEnds_ == LineEnds::endRecords ? readLines(numbers, most)
+                                                           : readText(numbers, most);
   records_ += count;
   return count;
 }
@@ -111,9 +119,9 @@ bool RecordReader::refill() {
 }
 
 void RecordReader::newLine() {
-  ++line_;
-  if (!firstLine_ && onLine_ > 0) firstLine_ = onLine_;
+  if (!firstLine_ && onLine_ > 0) firstLine_ = FirstLine{line_, onLine_};
   onLine_ = 0;
+  ++line_;
 }
 
 void RecordReader::malformed(std::string_view word) const {
@@ -204,6 +212,58 @@ size_t RecordReader::readText(std::vector<double>& numbers, size_t most) {
       partialCount_ = 0;
       ++count;
     }
+  }
+  return count;
+}
+
+// Reads the numbers of a line into partial_. Throws where it is no record. whole: its end was reached.
+void RecordReader::readLine(std::string_view line, bool whole) {
+  int count = 0;
+  for (size_t at = 0;;) {
+    while (at < line.size() && isSpace(line[at])) ++at;
+    if (at == line.size()) break;
+    size_t end = at;
+    while (end < line.size() && !isSpace(line[end])) ++end;
+    const std::string_view word = line.substr(at, end - at);
+    const std::optional<double> x = word.size() <= kLongestWord ? quotedNumber(word) : std::nullopt;
+    if (!x) malformed(word);
+    if (count < perRecord_) partial_[count] = *x;
+    ++count;
+    at = end;
+  }
+  if (count == perRecord_ && whole) return;
+  const std::string got = whole ? std::to_string(count) : fmt::format("more than {} bytes", line.size());
+  constexpr int kRay = 6;
+  throw rad::Error(fmt::format("{}:{}: expected {} {} on a line, got {}{}", name_, line_, perRecord_,
+                               counted(perRecord_), got, count == kRay && whole ? "; -S- reads rays" : ""));
+}
+
+size_t RecordReader::readLines(std::vector<double>& numbers, size_t most) {
+  size_t count = 0;
+  while (count < most) {
+    const char* at = block_.data() + begin_;
+    const char* const stop = block_.data() + end_;
+    for (; at < stop && isSpace(*at); ++at) line_ += *at == '\n';
+    begin_ = static_cast<size_t>(at - block_.data());
+    const char* const lineEnd = std::find(at, stop, '\n');
+    const bool whole = lineEnd < stop || atEnd_;
+    if (!whole && end_ - begin_ < block_.size()) {
+      // Records at hand are answered before more is asked for.
+      if (count > 0 || interrupted_) break;
+      refill();
+      if (interrupted_) break;
+      continue;
+    }
+    if (at == stop) break;
+    try {
+      readLine({at, static_cast<size_t>(lineEnd - at)}, whole);
+    } catch (const rad::Error&) {
+      if (count > 0) break;  // found again by the next call, after the records before it
+      throw;
+    }
+    numbers.insert(numbers.end(), partial_.begin(), partial_.begin() + perRecord_);
+    begin_ = static_cast<size_t>(lineEnd - block_.data());
+    ++count;
   }
   return count;
 }

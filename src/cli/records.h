@@ -21,8 +21,18 @@ class ClosedPipe : public rad::Error {
   ClosedPipe() : rad::Error("Broken pipe", rad::Status::signal) {}
 };
 
-// Reads records of numbers from a file descriptor: text (numbers between white space, line ends no different
-// from blanks, each number read whole and perhaps in quotes) or native floats or doubles.
+// What line ends mean in records of text: nothing, as in rtrace, or the end of a record. Where they end it, a
+// line that is not blank is one record, so that a column too many or too few is found on its own line instead
+// of moving all numbers behind it.
+enum class LineEnds : uint8_t { areBlanks, endRecords };
+
+// They end points, which no other program reads in another way; rays are read as rtrace reads them.
+inline LineEnds lineEnds(const Options& options) {
+  return options.sphere.on ? LineEnds::endRecords : LineEnds::areBlanks;
+}
+
+// Reads records of numbers from a file descriptor: text (numbers between white space, each read whole and
+// perhaps in quotes) or native floats or doubles.
 // Never asks for input while a whole record is at hand, and never for more than the next record needs: a
 // program that writes one record and waits for its answer gets it.
 // Holds one block of input (64 KiB). Not thread-safe: one caller at a time.
@@ -32,14 +42,16 @@ class RecordReader {
 
   // REQUIRES: format is ascii, float32 or float64; 1 <= numbersPerRecord <= 6. `name` begins the messages.
   // The descriptor stays the caller's.
-  RecordReader(int fd, NumberFormat format, int numbersPerRecord, std::string name = "stdin");
+  RecordReader(int fd, NumberFormat format, int numbersPerRecord, LineEnds lineEnds = LineEnds::areBlanks,
+               std::string name = "stdin");
 
   // Appends the numbers of at least one record, waiting for it, and of up to `most` if they are at hand
   // already. Returns how many records; 0 at the end of input, or when interrupted. Throws rad::Error where
   // the next record is malformed or short, once all before it were returned: 'stdin:3: expected 6 numbers,
   // got "x"', or with the number of the record, from 1, for binary input. Text is malformed that RADIANCE
-  // does not read as a number (nan, inf, 0x10, "1,5", "#"), and what a double cannot hold; binary numbers
-  // must be finite. Status::system where read(2) fails.
+  // does not read as a number (nan, inf, 0x10, "1,5", "#"), and what a double cannot hold; where line ends
+  // end records, also a line of fewer or more numbers, or of more than 64 KiB. Binary numbers must be finite.
+  // Status::system where read(2) fails.
   size_t read(std::vector<double>& numbers, size_t most);
 
   // Called with true before the reader waits for input that is not there yet, with false after it.
@@ -56,9 +68,13 @@ class RecordReader {
   // How much of a regular file was returned, from 0 to 1; 0 for other input.
   double shareRead() const;
 
-  // How many numbers the first line of text has, once it was read: rays given as points (or points as rays)
-  // can be told from it. Empty for binary input.
-  std::optional<int> numbersOnFirstLine() const { return firstLine_; }
+  // The first line of text that is not blank, once it was read to its end: records in other columns than
+  // expected can be told from it. Empty for binary input, and where line ends end records.
+  struct FirstLine {
+    uint64_t line = 1;
+    int numbers = 0;
+  };
+  const std::optional<FirstLine>& firstLine() const { return firstLine_; }
 
   // Whether the first record of binary input, once it was read, is printable characters alone: hardly any
   // floats or doubles are, and text is.
@@ -67,6 +83,8 @@ class RecordReader {
  private:
   size_t readText(std::vector<double>& numbers, size_t most);
   size_t readPlain(std::vector<double>& numbers, size_t most);
+  size_t readLines(std::vector<double>& numbers, size_t most);
+  void readLine(std::string_view line, bool whole);
   size_t readBinary(std::vector<double>& numbers, size_t most);
   bool refill();
   void newLine();
@@ -75,6 +93,7 @@ class RecordReader {
   int fd_;
   NumberFormat format_;
   int perRecord_;
+  LineEnds lineEnds_;
   std::string name_;
   std::vector<char> block_;
   size_t begin_ = 0, end_ = 0;  // what of the block is not used yet
@@ -87,7 +106,7 @@ class RecordReader {
   std::array<double, kMostNumbers> partial_{};
   int partialCount_ = 0;
   int onLine_ = 0;
-  std::optional<int> firstLine_;
+  std::optional<FirstLine> firstLine_;
   bool firstIsText_ = false;
 };
 

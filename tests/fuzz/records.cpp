@@ -1,6 +1,6 @@
 // Records as they come on standard input. The first byte of a file says which: text, floats or doubles, of
-// three or six numbers. What is read, and what is said of a fault, must not depend on how many records are
-// asked for at once.
+// three or six numbers, with line ends that end a record or do not. What is read, and what is said of a
+// fault, must not depend on how many records are asked for at once.
 #include "cli/records.h"
 
 #include <cmath>
@@ -15,9 +15,10 @@ namespace {
 
 using Outcome = std::pair<std::vector<double>, std::string>;
 
-Outcome readAll(const uint8_t* data, size_t size, rsphere::NumberFormat format, int perRecord, size_t most) {
+Outcome readAll(const uint8_t* data, size_t size, rsphere::NumberFormat format, int perRecord,
+                rsphere::LineEnds lineEnds, size_t most) {
   const MemoryFile file(data, size);
-  rsphere::RecordReader reader(file.descriptor(), format, perRecord);
+  rsphere::RecordReader reader(file.descriptor(), format, perRecord, lineEnds);
   Outcome outcome;
   try {
     for (;;) {
@@ -26,7 +27,7 @@ Outcome readAll(const uint8_t* data, size_t size, rsphere::NumberFormat format, 
         std::abort();
       if (count == 0) break;
     }
-    static_cast<void>(reader.numbersOnFirstLine());
+    static_cast<void>(reader.firstLine());
     if (!(reader.shareRead() >= 0 && reader.shareRead() <= 1)) std::abort();
   } catch (const rad::Error& error) {
     outcome.second = error.what();
@@ -44,7 +45,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   constexpr NumberFormat kFormats[] = {NumberFormat::ascii, NumberFormat::float32, NumberFormat::float64};
   const NumberFormat format = kFormats[data[0] / 2 % 3];
   const int perRecord = data[0] % 2 == 0 ? 3 : 6;
-  const Outcome one = readAll(data + 1, size - 1, format, perRecord, 1);
-  if (one != readAll(data + 1, size - 1, format, perRecord, 256)) std::abort();
+  const auto lineEnds = static_cast<rsphere::LineEnds>(data[0] / 6 % 2);
+  const Outcome one = readAll(data + 1, size - 1, format, perRecord, lineEnds, 1);
+  if (one != readAll(data + 1, size - 1, format, perRecord, lineEnds, 256)) std::abort();
   return 0;
 }

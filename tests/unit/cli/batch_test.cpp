@@ -44,7 +44,7 @@ Outcome run(std::initializer_list<const char*> words, const std::string& text,
       Messages messages("rsphere");
       messages.use(options);
       const size_t head = contents(log.path).size();
-      RecordReader reader(in.descriptor, options.in, options.sphere.on ? 3 : 6);
+      RecordReader reader(in.descriptor, options.in, options.sphere.on ? 3 : 6, lineEnds(options));
       RecordWriter writer(out.descriptor);
       try {
         runRecords(reader, writer, options, messages, nullptr, answer);
@@ -82,10 +82,11 @@ TEST(RunRecords, AnswersInTheOrderOfTheInput) {
 }
 
 TEST(RunRecords, ARecordMayHaveManyAnswersOrNone) {
-  const Outcome result =
-      run({"rsphere", "s.oct"}, "0 0 3 0 0 0 0 0 2", [](const Record& record, unsigned, std::string& bytes) {
-        for (int i = 0; i < record.numbers[2]; ++i) bytes += fmt::format("{}.{}\n", record.index, i);
-      });
+  const Outcome result = run({"rsphere", "s.oct"}, "0 0 3\n0 0 0\n0 0 2",
+                             [](const Record& record, unsigned, std::string& bytes) {
+                               for (int i = 0; i < record.numbers[2]; ++i)
+                                 bytes += fmt::format("{}.{}\n", record.index, i);
+                             });
   EXPECT_EQ(result.out, "0.0\n0.1\n0.2\n2.0\n2.1\n");
 }
 
@@ -140,7 +141,7 @@ TEST(RunRecords, PointsAtTheOriginAreNotBogus) {
 }
 
 TEST(RunRecords, ScanlinesEndTheInput) {
-  const std::string text = "1 0 0 2 0 0 3 0 0 4 0 0 5 0 0 6 0 0 7 0 0 x";
+  const std::string text = "1 0 0\n2 0 0\n3 0 0\n4 0 0\n5 0 0\n6 0 0\n7 0 0 x";
   EXPECT_EQ(run({"rsphere", "-x", "3", "-y", "2", "s.oct"}, text).out,
             "1 0 0 \n2 0 0 \n3 0 0 \n4 0 0 \n5 0 0 \n6 0 0 \n");
   EXPECT_EQ(run({"rsphere", "-y", "2", "s.oct"}, text).out, "1 0 0 \n2 0 0 \n");
@@ -151,14 +152,30 @@ TEST(RunRecords, ScanlinesEndTheInput) {
   EXPECT_EQ(early.fault, "");
 }
 
-TEST(RunRecords, WarnsOfRaysForPointsAndOfPointsForRays) {
-  EXPECT_EQ(run({"rtrace", "s.oct"}, "1 2 3\n0 0 1\n").messages,
-            "rsphere: warning - stdin:1: three numbers on a line, but a ray has six: two lines are taken for "
-            "one ray\n");
-  EXPECT_EQ(run({"rsphere", "s.oct"}, "1 2 3 0 0 1\n1 2 3\n").messages,
-            "rsphere: warning - stdin:1: six numbers on a line are taken for two points; -S- takes them for "
-            "a ray\n");
-  EXPECT_EQ(run({"rtrace", "s.oct"}, "1 2 3 0 0 1\n1 2 3 0 0 1\n").messages, "");
+TEST(RunRecords, FourOrFiveNumbersOnALineOfRaysAreWarnedOfOnce) {
+  const auto warning = [](const std::string& numbers) {
+    return "rsphere: warning - stdin:1: " + numbers +
+           " on a line, but a ray has six: rays are read across line ends\n";
+  };
+  EXPECT_EQ(run({"rtrace", "s.oct"}, "1 2 3\n0 0 1\n").messages, warning("3 numbers"));
+  EXPECT_EQ(run({"rtrace", "s.oct"}, "1 2 3 0\n0 1 1 2\n3 0 0 1\n").messages, warning("4 numbers"));
+  EXPECT_EQ(run({"rtrace", "s.oct"}, "1 2 3 0 0 1 7\n1 2 3 0 0\n").messages, warning("7 numbers"));
+  EXPECT_EQ(run({"rtrace", "s.oct"}, "1\n2\n3\n0\n0\n1\n").messages, warning("1 number"));
+  EXPECT_EQ(run({"rtrace", "-w-", "s.oct"}, "1 2 3\n0 0 1\n").messages, "");
+  EXPECT_EQ(run({"rtrace", "s.oct"}, "1 2 3 0 0 1\n1 2 3\n0 0 1\n").messages, "");
+  EXPECT_EQ(run({"rtrace", "s.oct"}, "1 2 3 0 0 1 1 2 3 0 0 1\n").messages, "");
+}
+
+// As with an id before x y z, which used to give four answers for three lines.
+TEST(RunRecords, FourOrFiveNumbersOnALineOfPointsAreAFault) {
+  const auto four = run({"rsphere", "s.oct"}, "\n1 2 3\n\n4 5 6\r\n1 7 8 9\n2 1 1 1\n");
+  EXPECT_EQ(four.out, "1 2 3 \n4 5 6 \n");
+  EXPECT_EQ(four.fault, "stdin:5: expected 3 numbers on a line, got 4");
+  EXPECT_EQ(run({"rsphere", "s.oct"}, "1 2 3 4 5\n").fault, "stdin:1: expected 3 numbers on a line, got 5");
+  EXPECT_EQ(run({"rsphere", "s.oct"}, "1 2 3 0 0 1\n").fault,
+            "stdin:1: expected 3 numbers on a line, got 6; -S- reads rays");
+  EXPECT_EQ(run({"rsphere", "s.oct"}, "1 2\n3\n").fault, "stdin:1: expected 3 numbers on a line, got 2");
+  EXPECT_EQ(run({"rsphere", "s.oct"}, "1 2 3").fault, "");
 }
 
 TEST(RunRecords, NoMoreThreadsThanAskedFor) {
@@ -195,7 +212,7 @@ class Conversation {
  public:
   explicit Conversation(std::initializer_list<const char*> words, AnswerRecord answer = echo)
       : options_(parse(words)), answer_(std::move(answer)), thread_([this] {
-          RecordReader reader(toChild.out, options_.in, options_.sphere.on ? 3 : 6);
+          RecordReader reader(toChild.out, options_.in, options_.sphere.on ? 3 : 6, lineEnds(options_));
           RecordWriter writer(fromChild.in);
           try {
             runRecords(reader, writer, options_, Messages("rsphere"), nullptr, answer_);

@@ -28,10 +28,15 @@ ReadAll readAll(RecordReader& reader, size_t most = 256) {
   return all;
 }
 
-ReadAll readText(const std::string& text, int perRecord = 3, size_t most = 256) {
+ReadAll readText(const std::string& text, int perRecord = 3, size_t most = 256,
+                 LineEnds lineEnds = LineEnds::areBlanks) {
   const TemporaryFile file(text);
-  RecordReader reader(file.descriptor, NumberFormat::ascii, perRecord);
+  RecordReader reader(file.descriptor, NumberFormat::ascii, perRecord, lineEnds);
   return readAll(reader, most);
+}
+
+ReadAll readLines(const std::string& text, size_t most = 256) {
+  return readText(text, 3, most, LineEnds::endRecords);
 }
 
 template <class Number>
@@ -232,12 +237,66 @@ TEST(RecordReader, TextIsToldFromFloatsAndDoubles) {
 }
 
 TEST(RecordReader, NumbersOnTheFirstLine) {
-  for (const auto& [text, count] : {std::pair("\n1 2 3\n4 5 6\n", 3), std::pair("1 2 3 4 5 6\n1 2 3", 6)}) {
+  for (const auto& [text, line, count] :
+       {std::tuple("\n1 2 3\n4 5 6\n", 2, 3), std::tuple("1 2 3 4 5 6\n1 2 3", 1, 6)}) {
     const TemporaryFile file(text);
     RecordReader reader(file.descriptor, NumberFormat::ascii, 3);
     readAll(reader);
-    EXPECT_EQ(reader.numbersOnFirstLine(), count);
+    ASSERT_TRUE(reader.firstLine());
+    EXPECT_EQ(reader.firstLine()->line, static_cast<uint64_t>(line));
+    EXPECT_EQ(reader.firstLine()->numbers, count);
   }
+}
+
+TEST(RecordReader, LinesAreRecordsWhereLineEndsEndThem) {
+  const ReadAll all = readLines("  \n1 +2 \"3\"\r\n\n\t\n4\t5e0 6 \n7 8 9");
+  EXPECT_EQ(all.numbers, (Numbers{1, 2, 3, 4, 5, 6, 7, 8, 9}));
+  EXPECT_EQ(all.fault, "");
+  EXPECT_EQ(readLines("").records, 0u);
+  EXPECT_EQ(readLines(" \n\n\t").fault, "");
+  for (const auto& [text, fault] :
+       {std::pair("1 2 3\n\n4 5\n6\n", "stdin:3: expected 3 numbers on a line, got 2"),
+        std::pair("1 2 3\n4 5 6 7\n", "stdin:2: expected 3 numbers on a line, got 4"),
+        std::pair("1 2 3\n4 5 6 7 8", "stdin:2: expected 3 numbers on a line, got 5"),
+        std::pair("1 2 3\n4 5 x 7\n", "stdin:2: expected 3 numbers, got \"x\""),
+        std::pair("1 2 3\n4 5 6 # desk\n", "stdin:2: expected 3 numbers, got \"#\"")})
+    for (const size_t most : {1u, 100u}) {
+      EXPECT_EQ(readLines(text, most).fault, fault);
+      EXPECT_EQ(readLines(text, most).numbers, (Numbers{1, 2, 3}));
+    }
+}
+
+TEST(RecordReader, LinesAcrossBlocksAreWholeAndEndlessOnesAFault) {
+  std::string text;
+  Numbers expected;
+  for (int i = 0; i < 30000; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      expected.push_back(i + .25 * k);
+      text += std::to_string(i + .25 * k) + (k < 2 ? " " : i % 7 == 0 ? "\r\n\n" : "\n");
+    }
+  }
+  for (const size_t most : {1u, 7u, 100000u}) {
+    const ReadAll all = readLines(text, most);
+    EXPECT_EQ(all.fault, "");
+    EXPECT_EQ(all.numbers, expected);
+  }
+  EXPECT_EQ(readLines(std::string(3000000, ' ') + "1 2 3" + std::string(60000, ' ') + "\n").numbers,
+            (Numbers{1, 2, 3}));
+  EXPECT_EQ(readLines("1 2 3" + std::string(70000, ' ') + "\n").fault,
+            "stdin:1: expected 3 numbers on a line, got more than 65536 bytes");
+  EXPECT_EQ(readLines("1 2 " + std::string(10000000, '9')).fault,
+            "stdin:1: expected 3 numbers, got \"" + std::string(40, '9') + "...\"");
+}
+
+TEST(RecordReader, ALineIsReadWithoutWaitingForTheNext) {
+  Pipe pipe;
+  RecordReader reader(pipe.out, NumberFormat::ascii, 3, LineEnds::endRecords);
+  Numbers numbers;
+  pipe.put("1 2 3\n4 5");
+  EXPECT_EQ(reader.read(numbers, 100), 1u);
+  pipe.put(" 6\n");
+  EXPECT_EQ(reader.read(numbers, 100), 1u);
+  EXPECT_EQ(numbers, (Numbers{1, 2, 3, 4, 5, 6}));
 }
 
 TEST(RecordText, AsRtraceWritesIt) {
