@@ -16,7 +16,7 @@ AnswerRecord answerRays(const Transport& transport, const Options& options, cons
   for (unsigned i = 0; i < threadCount(options); ++i) tracers->emplace_back(transport, transport.spots());
   const bool trees = !options.treeOutputs.empty(), value = trees || needsValue(options.outputs);
   const bool valueAlone = options.outputs == "v";
-  if (value && transport.isDark()) warn("no light sources found");
+  if (value && transport.lacksSources()) warn("no light sources found");
   return [&, tracers, trees, value, valueAlone](const Record& record, unsigned worker, std::string& bytes) {
     const InputRay in = inputRay(record.numbers.data(), options.irradiance);
     if (record.bogus) return writer.write(bytes, bogusAnswer(in), record.index);

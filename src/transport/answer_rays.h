@@ -12,8 +12,8 @@ namespace rsphere {
 // numbers of the ray and from -Sr; with -u+ also from index, so that a repeated ray is another sample.
 uint64_t seedOfRay(std::span<const double> numbers, uint64_t index, const Options& options);
 
-// Rays in, what rtrace answers out, with their trees (-ot). Warns where values are asked for and nothing can
-// give light. All that is given must live as long as the answer to be called for.
+// Rays in, what rtrace answers out, with their trees (-ot). Warns where values are asked for and there
+// is no light source, as rtrace does. All that is given must live as long as the answer to be called for.
 AnswerRecord answerRays(const Transport& transport, const Options& options, const AnswerWriter& writer,
                         const rad::Warn& warn);
 

@@ -142,12 +142,22 @@ Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance i
                    names.end()) == including;
 }
 
-bool Transport::isDark() const {
-  if (scene_.importance || !lights_.all().empty() || !isBlack(options_.ambientValue)) return false;
-  return std::none_of(scene_.modifiers.begin(), scene_.modifiers.end(), [](const Modifier& modifier) {
-    const auto* material = std::get_if<Material>(&modifier.content);
-    return material && std::holds_alternative<Glow>(*material);
+bool Transport::glows(std::span<const Surface> surfaces) const {
+  return std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& surface) {
+    const Material* material = scene_.materialOf(surface);
+    const auto* glow = material ? std::get_if<Glow>(material) : nullptr;
+    return glow && !isBlack(glow->radiance);
   });
+}
+
+bool Transport::isDark() const {
+  return !scene_.importance && lights_.all().empty() && isBlack(options_.ambientValue) &&
+         !glows(scene_.surfaces);
+}
+
+bool Transport::lacksSources() const {
+  return !scene_.importance && lights_.all().empty() &&
+         !(options_.ambientBounces > 0 && glows(scene_.outermost()));
 }
 
 Ray PathTracer::trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed) {

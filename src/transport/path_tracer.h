@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -70,6 +71,9 @@ class Transport {
   const std::vector<uint16_t>& scatterersOf(const Mist& mist) const { return scatterersOf_[mist.number]; }
   // Whether nothing can give light: no light sources, no glow, no ambient value, no goals.
   bool isDark() const;
+  // Whether rtrace warns of it: no light source, and either no surface that glows or no indirect light (-ab),
+  // by which alone glow of no reach lights surfaces. The ambient value does not count.
+  bool lacksSources() const;
   // Surfaces of type source that shine, in the order of the scene.
   const std::vector<int32_t>& distant() const { return distant_; }
   // Where indirect light is interpolated; null where it is not (-aa 0). Tracing adds to it.
@@ -83,6 +87,7 @@ class Transport {
   const BrightSpots* spots() const { return spots_.get(); }
 
  private:
+  bool glows(std::span<const Surface> surfaces) const;
   void findScatterers(const rad::Warn& warn);
   std::optional<uint32_t> sourceNamed(std::string_view name) const;
 
