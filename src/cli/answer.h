@@ -37,6 +37,7 @@ struct PointAnswer {
   V3d point{0, 0, 0};                  // o
   Rgb mean{0, 0, 0};                   // v  F/4pi, W/sr/m2
   Rgb standardError{0, 0, 0};          // e  of mean
+  double brightnessError = 0;          //    and of its brightness: -pY
   Rgb scalarIrradiance{0, 0, 0};       // E  F/4, W/m2
   Rgb cylindricalIrradiance{0, 0, 0};  // C  (1/pi) integral of L sin(angle to z)
   Rgb facing[6] = {};                  // H  irradiances of the six faces, +x -x +y -y +z -z

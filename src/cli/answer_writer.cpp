@@ -134,7 +134,7 @@ void AnswerWriter::write(std::string& bytes, const PointAnswer& answer) const {
         colors_.write(text, answer.mean);
         break;
       case 'e':
-        colors_.write(text, answer.standardError);
+        colors_.writeError(text, answer.standardError, answer.brightnessError);
         break;
       case 'E':
         colors_.write(text, answer.scalarIrradiance);

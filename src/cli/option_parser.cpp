@@ -238,8 +238,9 @@ void checkColorOutput(Options& options) {
   if (options.out == NumberFormat::rgbe && oneChannel)
     throw rad::Error("color format incompatible with -pY, -pS, -pM");
   if (options.sphere.on && !options.sphere.everyDirection && color.space != ColorSpace::rgb &&
-      options.outputs.find('e') != std::string::npos)
-    throw rad::Error("-oe needs -pRGB: standard errors are those of red, green and blue");
+      color.space != ColorSpace::photopic && options.outputs.find('e') != std::string::npos)
+    throw rad::Error(
+        "-oe needs -pRGB or -pY: standard errors are those of red, green and blue, or of luminance");
 }
 
 // What rtrace says about irradiance and the letters of a ray.

@@ -31,6 +31,13 @@ class OutputColors {
   // A coefficient: as a color, but for the lumens.
   void writeCoefficient(RecordText& text, const Rgb& coefficient) const { write(text, coefficient, 1); }
 
+  // A standard error: of red, green and blue as they are, or under -pY that of brightness, in lumens.
+  // REQUIRES one of the two: the errors of other sums of the channels follow from neither.
+  void writeError(RecordText& text, const Rgb& channels, double brightness) const {
+    if (options_.space == ColorSpace::photopic) return text.number(scale_ * brightness);
+    text.color(channels);
+  }
+
   // The lines of the header that tell of it, with line ends; and FORMAT of its pixels (-fc).
   std::string headerLines() const;
   std::string_view pixelFormat() const;

@@ -6,8 +6,6 @@
 namespace rsphere {
 namespace {
 
-Rgb squared(const Rgb& c) { return c * c; }
-
 // Share of the residuals' variance that is left where the set is even. Measured on furnished rooms (see
 // tests/unit/importance): .4 where edges are all, 1 where noise of paths is.
 constexpr double kEvenSet = .8;
@@ -18,9 +16,9 @@ constexpr double kEvenParts = .5;
 
 }  // namespace
 
-Rgb baseVariance(std::span<const DirectionSample> base, const Neighbours& n,
-                 const std::vector<bool>& counted) {
-  Rgb sum(0, 0, 0);
+Variance baseVariance(std::span<const DirectionSample> base, const Neighbours& n,
+                      const std::vector<bool>& counted) {
+  Variance sum;
   for (size_t i = 0; i < base.size(); ++i) {
     if (!counted[i]) continue;
     Rgb around(0, 0, 0);
@@ -33,34 +31,36 @@ Rgb baseVariance(std::span<const DirectionSample> base, const Neighbours& n,
     if (count == 0) continue;
     // Of a residual against the mean of m others with the same variance, m/(m+1) is the direction's own.
     const double own = static_cast<double>(count) / (count + 1);
-    sum += squared((base[i].value - around / count) * base[i].solidAngle) * own;
+    sum += Variance::of((base[i].value - around / count) * base[i].solidAngle) * own;
   }
   return sum * kEvenSet;
 }
 
-Rgb spreadVariance(std::span<const DirectionSample> samples) {
+Variance spreadVariance(std::span<const DirectionSample> samples) {
   const double n = static_cast<double>(samples.size());
-  Rgb sum(0, 0, 0), squares(0, 0, 0);
+  Rgb sum(0, 0, 0);
+  Variance squares;
   for (const DirectionSample& s : samples) {
     const Rgb part = s.value * s.solidAngle;
     sum += part;
-    squares += squared(part);
+    squares += Variance::of(part);
   }
   if (samples.size() < 2) return squares;
   // n points spread evenly leave, of an edge through the region, what the cells on it leave: about n^-1/2 of
   // all.
   const double even = 1 / (1 + std::sqrt(n) / 8);
-  return (squares - squared(sum) / n) * (n / (n - 1) * even);
+  squares += Variance::of(sum) * (-1 / n);
+  return squares * (n / (n - 1) * even);
 }
 
-Rgb partsVariance(std::span<const SeenSources::Sample> samples) {
+Variance partsVariance(std::span<const SeenSources::Sample> samples) {
   // The grid's rows one after the other: neighbours of a row, and the first that lie one beside the other in
   // successive rows.
-  Rgb sum(0, 0, 0), edges(0, 0, 0);
+  Variance sum, edges;
   size_t pairs = 0;
   for (const auto& s : samples) {
     const double clear = static_cast<double>(s.clear) / s.aimed;
-    edges += squared(s.direction.value * s.part) * (kEvenParts * clear * (1 - clear) / s.aimed);
+    edges += Variance::of(s.direction.value * s.part) * (kEvenParts * clear * (1 - clear) / s.aimed);
   }
   const size_t columns = static_cast<size_t>(std::count_if(
       samples.begin(), samples.end(), [&](const auto& s) { return s.row == samples.front().row; }));
@@ -69,14 +69,16 @@ Rgb partsVariance(std::span<const SeenSources::Sample> samples) {
     // What shadow rays told is no chance of the directions'.
     const double clear = static_cast<double>(samples[i].clear * samples[k].clear) /
                          static_cast<double>(samples[i].aimed * samples[k].aimed);
-    sum += clear * squared(samples[i].direction.value * samples[i].part -
-                           samples[k].direction.value * samples[k].part);
+    sum += Variance::of(samples[i].direction.value * samples[i].part -
+                        samples[k].direction.value * samples[k].part) *
+           clear;
   };
   for (size_t i = 1; i < samples.size(); ++i)
     if (samples[i].row == samples[i - 1].row) add(i, i - 1);
   for (size_t i = columns; i < samples.size(); ++i) add(i, i - columns);
   if (pairs == 0) return edges;
-  return edges + sum * (kEvenParts * .5 * static_cast<double>(samples.size()) / static_cast<double>(pairs));
+  edges += sum * (kEvenParts * .5 * static_cast<double>(samples.size()) / static_cast<double>(pairs));
+  return edges;
 }
 
 }  // namespace rsphere

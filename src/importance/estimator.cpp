@@ -188,7 +188,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& w) const {
   w.rays.clear();
   w.guesses.clear();
   w.excess = Moments();
-  Rgb variance(0, 0, 0);
+  Variance variance;
   uint64_t sets = 0;
   bool reached = false;
   for (size_t before = 0;;) {
@@ -197,7 +197,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& w) const {
     if (options_.accuracy <= 0) break;
     Rgb sum(0, 0, 0);
     for (const DirectionSample& s : w.samples) sum += s.value * s.solidAngle;
-    reached = std::sqrt(brightness(variance)) <= options_.accuracy * brightness(sum);
+    reached = std::sqrt(variance.brightness) <= options_.accuracy * brightness(sum);
     const size_t set = w.samples.size() - before;
     before = w.samples.size();
     if (reached || w.samples.size() + set > static_cast<size_t>(options_.mostDirections)) break;
@@ -209,7 +209,10 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& w) const {
   for (const DirectionSample& s : w.samples) moments.add(s.direction, s.value * s.solidAngle);
   moments.add(w.excess, share);
   PointAnswer answer = moments.answer(point, w.samples.size());
-  for (int i = 0; i < 3; ++i) answer.standardError[i] = std::sqrt(variance[i]) * share / (4 * kPi);
+  // Rounding may leave a variance a little below 0.
+  const auto standardError = [&](double v) { return std::sqrt(std::max(0., v)) * share / (4 * kPi); };
+  for (int i = 0; i < 3; ++i) answer.standardError[i] = standardError(variance.channels[i]);
+  answer.brightnessError = standardError(variance.brightness);
   answer.reached = options_.accuracy <= 0 || reached;
   if (!w.guesses.empty()) {
     shareOut(w.excess.total * share, w.guesses, w.samples);
@@ -221,7 +224,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& w) const {
 void SphereEstimator::sampleSet(const V3d& point, uint64_t set, Workspace& w) const {
   const uint64_t seed = seedOf(std::initializer_list<double>{point.x, point.y, point.z},
                                mixBits(options_.rotation + (set << 32)));
-  w.variance = Rgb(0, 0, 0);
+  w.variance = {};
   w.directions = set == 0 ? directions_ : rotatedDirections(directions_, mixBits(seed));
   if (guess_ && set > 0) w.turnedGlances = rotatedDirections(glances_, mixBits(seed));
   w.glances = set == 0 ? glances_ : w.turnedGlances;
@@ -454,7 +457,7 @@ void SphereEstimator::addVariances(size_t firstBase, Workspace& w) const {
     const double even =
         std::pow(static_cast<double>(w.glances.size()) / static_cast<double>(w.directions.size()), -1.5);
     w.variance +=
-        even * baseVariance(std::span(w.guessed).first(w.directions.size()), neighbours_, w.counted);
+        baseVariance(std::span(w.guessed).first(w.directions.size()), neighbours_, w.counted) * even;
   }
   const std::span<const DirectionSample> samples(w.unguessed);
   w.variance += baseVariance(samples.first(w.directions.size()), neighbours_, w.counted);

@@ -97,7 +97,7 @@ class SphereEstimator {
     std::vector<RadianceGuess::Place> places;  // what they hit, in the same order
     std::vector<bool> counted;                 // which base directions are among them
     std::vector<size_t> runs;  // where directions to a target, or to all parts of one, begin in samples
-    Rgb variance{0, 0, 0};     // of the integral of radiance
+    Variance variance;         // of the integral of radiance
     std::vector<DirectionSample> unguessed, guessed;  // parts of the base's samples
     // Of all sets so far:
     std::vector<Rgb> guesses;  // of samples' radiances; empty: none are made

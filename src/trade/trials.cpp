@@ -39,7 +39,7 @@ bool Trials::run(const Setting& setting, bool standardErrors, bool timed, Trial&
   trial.answers.points = count;
   for (size_t i = 0; i < count; ++i) {
     trial.answers.values.push_back(brightness(answers[i].mean));
-    if (standardErrors) trial.estimates.push_back(brightness(answers[i].standardError));
+    if (standardErrors) trial.estimates.push_back(answers[i].brightnessError);
     if (!timed) continue;
     trial.seconds += seconds[i];
     trial.directions += static_cast<double>(answers[i].directions);

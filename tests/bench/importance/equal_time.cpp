@@ -48,7 +48,7 @@ Figures measure(const Transport& transport, SphereOptions o, const std::vector<V
     const std::clock_t start = std::clock();
     for (size_t i = 0; i < points.size(); ++i) {
       const PointAnswer a = estimator.estimate(points[i], workspace);
-      const double value = brightness(a.mean), error = brightness(a.standardError);
+      const double value = brightness(a.mean), error = a.brightnessError;
       sums[i].value += value;
       sums[i].squares += value * value;
       sums[i].errors += error * error;

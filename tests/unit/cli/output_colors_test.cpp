@@ -102,7 +102,8 @@ TEST(OutputColors, WhatCannotBeIsSaidAsInRtrace) {
   EXPECT_EQ(faultOfOptions({"rtrace", "-pS", "-cw", "400", "700", "s"}),
             "-pS and -pM need the whole spectrum (-cw 380 780)");
   EXPECT_EQ(faultOfOptions({"rsphere", "-pXYZ", "-ove", "s"}),
-            "-oe needs -pRGB: standard errors are those of red, green and blue");
+            "-oe needs -pRGB or -pY: standard errors are those of red, green and blue, or of luminance");
+  EXPECT_NO_THROW(parse({"rsphere", "-pY", "-ove", "s"}));
   EXPECT_NO_THROW(parse({"rtrace", "-cs", "2", "-defaults"}));
 }
 

@@ -278,6 +278,35 @@ TEST(Estimator, UnderHalfASphereOfLight) {
   }
 }
 
+// Where the channels are the same, so are the errors; where they have nothing to do with each other, that of
+// luminance is less than the channels' errors weighted alike.
+TEST(Estimator, StandardErrorOfLuminanceIsItsOwn) {
+  const Setting grey(
+      "void light lamp 0 0 3 5 5 5\nvoid mirror silver 0 0 3 .9 .9 .9\n"
+      "void plastic gray 0 0 5 .5 .5 .5 0 0\nlamp ring l 0 0 8 0 0 3 0 0 -1 0 .5\n"
+      "silver sphere m 0 0 4 2 0 1 .5\ngray ring g 0 0 8 0 0 0 0 0 1 0 9\n");
+  const Setting redAndGreen(
+      "void glow red 0 0 4 1 0 0 0\nred source east 0 0 4 1 0 0 180\n"
+      "void glow green 0 0 4 0 1 0 0\n"
+      "green polygon north 0 0 12 -1e6 1 -1e6 -.5 1 -1e6 -.5 1 1e6 -1e6 1 1e6\n");
+  for (const Weights weights : kAllWeights) {
+    const SphereEstimator estimator(*grey.transport, grey.with(weights, 512), true);
+    SphereEstimator::Workspace workspace(estimator);
+    const PointAnswer a = estimator.estimate(V3d(.2, .4, 1.5), workspace);
+    EXPECT_GT(a.brightnessError, 0);
+    EXPECT_NEAR(a.brightnessError / a.standardError.y, 1, 1e-6) << static_cast<int>(weights);
+
+    const SphereEstimator apart(*redAndGreen.transport, redAndGreen.with(weights, 512), true);
+    SphereEstimator::Workspace other(apart);
+    const PointAnswer b = apart.estimate(V3d(0, 0, 0), other);
+    EXPECT_GT(b.standardError.x, 0);
+    EXPECT_GT(b.standardError.y, 0);
+    const double independent = std::hypot(kRedWeight * b.standardError.x, kGreenWeight * b.standardError.y);
+    EXPECT_NEAR(b.brightnessError / independent, 1, .15) << static_cast<int>(weights);
+    EXPECT_LT(b.brightnessError, .85 * std::sqrt(brightness(b.standardError * b.standardError)));
+  }
+}
+
 // Radiance L, radius a: intensity I = pi a^2 L, and the mean is L times its share of the sphere.
 TEST(Estimator, LampAloneInSpace) {
   const double radiance = 100, radius = .1, intensity = kPi * radius * radius * radiance;
