@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "image/codec.h"
+#include "image/picture_file.h"
 #include "rad_parser/error.h"
 
 namespace rsphere {
@@ -120,26 +120,20 @@ std::string histogramText(std::span<const RecordDifference> records, double tole
 
 void writeDifferences(const std::string& name, int64_t width, int64_t height,
                       std::span<const RecordDifference> records, double tolerance) {
-  const auto check = [&](std::string why) {
-    std::replace(why.begin(), why.end(), '\n', ' ');
-    if (!why.empty())
-      throw rad::Error(fmt::format("cannot write picture \"{}\": {}", name, why), rad::Status::system);
-  };
-  std::string format;
-  check(imageCodec().formatOf(name, format));
-  const bool sizes = format == "openexr" || format == "hdr" || format == "tiff";
+  PictureFile file(name);
+  const bool sizes = file.format() != PictureFormat::screen;
   constexpr double kFullColor = 10;  // tolerances
-  std::vector<float> pixels;
-  pixels.reserve(records.size() * 3);
+  Raster raster{static_cast<int>(width), static_cast<int>(height), {}};
+  raster.pixels.reserve(records.size() * 3);
   for (const RecordDifference& r : records) {
     const double size = std::abs(r.difference);
     const double pale = 1 - std::min(1., size / (kFullColor * (tolerance > 0 ? tolerance : 1e-6)));
     const std::array<double, 3> color = sizes              ? std::array{size, size, size}
                                         : r.difference > 0 ? std::array{1., pale, pale}
                                                            : std::array{pale, pale, 1.};
-    for (const double c : color) pixels.push_back(static_cast<float>(c));
+    for (const double c : color) raster.pixels.push_back(static_cast<float>(c));
   }
-  check(imageCodec().write(name, static_cast<int>(width), static_cast<int>(height), sizes, pixels.data()));
+  file.write(raster, "#?RADIANCE\n");
 }
 
 }  // namespace rsphere

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "image/codec.h"
+#include "image/picture_file.h"
 #include "rad_parser/error.h"
 
 namespace rsphere {
@@ -128,11 +128,6 @@ void expose(std::vector<float>& pixels, std::span<const DirectionSample> samples
   for (float& p : pixels) p = static_cast<float>(sRgb(std::max(0., exposure * p)));
 }
 
-[[noreturn]] void cannotWrite(const std::string& name, std::string why) {
-  std::replace(why.begin(), why.end(), '\n', ' ');
-  throw rad::Error(fmt::format("cannot write picture \"{}\": {}", name, why), rad::Status::system);
-}
-
 }  // namespace
 
 DistributionPicture drawDistribution(std::span<const DirectionSample> samples, int width, int height) {
@@ -199,14 +194,10 @@ void writeDistribution(const std::string& pattern, uint64_t record,
                        std::span<const DirectionSample> samples) {
   if (pattern.empty()) return;
   const std::string name = pictureName(pattern, record);
-  std::string format;
-  if (const std::string why = imageCodec().formatOf(name, format); !why.empty()) cannotWrite(name, why);
+  PictureFile file(name);
   DistributionPicture picture = drawDistribution(samples);
-  const bool keepsRadiance = format == "openexr" || format == "hdr" || format == "tiff";
-  if (!keepsRadiance) expose(picture.pixels, samples);
-  const std::string why =
-      imageCodec().write(name, picture.width, picture.height, keepsRadiance, picture.pixels.data());
-  if (!why.empty()) cannotWrite(name, why);
+  if (file.format() == PictureFormat::screen) expose(picture.pixels, samples);
+  file.write({picture.width, picture.height, std::move(picture.pixels)}, "#?RADIANCE\n");
 }
 
 }  // namespace rsphere

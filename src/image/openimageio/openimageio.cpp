@@ -1,4 +1,10 @@
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
 
 #include "image/codec.h"
 
@@ -12,21 +18,61 @@ std::string formatOf(const std::string& name, std::string& format) {
   return "";
 }
 
-std::string write(const std::string& name, int width, int height, bool radiance, const float* pixels) {
+// A file in memory, for the formats whose writers need a file by name: SGI, FITS and others.
+class MemoryFile {
+ public:
+  MemoryFile() : fd_(memfd_create("picture", MFD_CLOEXEC)) {}
+  ~MemoryFile() {
+    if (fd_ >= 0) close(fd_);
+  }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  std::string path() const { return "/proc/self/fd/" + std::to_string(fd_); }
+  // False where it cannot be read.
+  bool contents(std::string& bytes) const {
+    const off_t size = fd_ < 0 ? -1 : lseek(fd_, 0, SEEK_END);
+    if (size < 0) return false;
+    bytes.resize(static_cast<size_t>(size));
+    for (size_t done = 0; done < bytes.size();) {
+      const ssize_t n = pread(fd_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(done));
+      if (n <= 0) return false;
+      done += static_cast<size_t>(n);
+    }
+    return true;
+  }
+
+ private:
+  int fd_;
+};
+
+std::string encode(const std::string& name, int width, int height, bool radiance, const float* pixels,
+                   std::string& bytes) {
   const auto output = OIIO::ImageOutput::create(name);
   if (!output) return OIIO::geterror();
   OIIO::ImageSpec spec(width, height, 3, radiance ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", radiance ? "Linear" : "sRGB");
-  if (!output->open(name, spec) || !output->write_image(OIIO::TypeDesc::FLOAT, pixels) || !output->close())
-    return output->geterror();
-  return "";
+  const auto write = [&](const std::string& path) {
+    return output->open(path, spec) && output->write_image(OIIO::TypeDesc::FLOAT, pixels) && output->close();
+  };
+  if (output->supports("ioproxy")) {
+    std::vector<unsigned char> buffer;
+    OIIO::Filesystem::IOVecOutput proxy(buffer);
+    output->set_ioproxy(&proxy);
+    if (!write(name)) return output->geterror();
+    bytes.assign(buffer.begin(), buffer.end());
+    return "";
+  }
+  const MemoryFile file;
+  if (!write(file.path())) return output->geterror();
+  return file.contents(bytes) ? "" : std::strerror(errno);
 }
 
 }  // namespace
 
 extern "C" {
 extern const ImageCodec rsphereImageCodec;
-const ImageCodec rsphereImageCodec{formatOf, write};
+const ImageCodec rsphereImageCodec{formatOf, encode};
 }
 
 }  // namespace rsphere
