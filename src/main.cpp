@@ -35,7 +35,7 @@ void answer(const Options& options, const Messages& messages, StopSignals& signa
     const SphereEstimator estimator(transport, options.sphere,
                                     options.outputs.find('e') != std::string::npos);
     runRecords(reader, writer, options, messages, &signals,
-               answerPoints(estimator, transport, options, answers, warn));
+               answerPoints(estimator, transport, options, answers, warn, [&] { signals.check(); }));
   } else {
     runRecords(reader, writer, options, messages, &signals, answerRays(transport, options, answers, warn));
   }

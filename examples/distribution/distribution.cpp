@@ -38,7 +38,8 @@ std::vector<Sample> readSamples(std::istream& in, double wanted) {
   Sample s;
   while (in >> record >> s.direction.x >> s.direction.y >> s.direction.z >> solidAngle >> s.radiance.x >>
          s.radiance.y >> s.radiance.z) {
-    if (record == wanted) samples.push_back(s);
+    // Directions in which a light source was found that is integrated by itself have none.
+    if (record == wanted && solidAngle > 0) samples.push_back(s);
   }
   if (!in.eof()) throw std::runtime_error("standard input is not what rsphere -h- -Sd -oidwv prints");
   if (samples.empty()) throw std::runtime_error(fmt::format("no directions of record {}", wanted));

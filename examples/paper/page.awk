@@ -163,7 +163,7 @@ END {
 
   print "\n## Figures 12 to 15: what two points see\n"
   print "Importance (`-Sg goal -ab 2 -ad 16`, 50 spheres), from zenith to nadir over all azimuths, each pixel with the value of"
-  print "the nearest direction; exposed so that twice the mean is mid-bright.\n"
+  print "the nearest direction; white is the brightest and black a thousandth of it, with even steps of their ratio between them.\n"
   print "| | point 1 | point 2 |"
   print "|---|---|---|"
   split("previous new ours", names, " ")

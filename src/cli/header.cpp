@@ -62,14 +62,19 @@ std::string commandLine(const Options& options, bool withScene) {
   return line;
 }
 
+std::string provenance(const Options& options, std::span<const std::string> sceneHeader) {
+  std::string text;
+  if (sceneHeader.empty()) text += "#?RADIANCE\n";
+  for (const std::string& line : sceneHeader) text += line + '\n';
+  text += commandLine(options, sceneHeader.empty()) + '\n';
+  return text + fmt::format("SOFTWARE= {}\n", versionLine());
+}
+
 void writeHeader(RecordWriter& writer, const Options& options, std::span<const std::string> sceneHeader,
                  std::time_t now) {
   std::string text;
   if (options.header) {
-    if (sceneHeader.empty()) text += "#?RADIANCE\n";
-    for (const std::string& line : sceneHeader) text += line + '\n';
-    text += commandLine(options, sceneHeader.empty()) + '\n';
-    text += fmt::format("SOFTWARE= {}\n", versionLine());
+    text += provenance(options, sceneHeader);
     std::tm date{};
     if (localtime_r(&now, &date) != nullptr) text += fmt::format("CAPDATE= {}\n", dateText(date));
     if (gmtime_r(&now, &date) != nullptr) text += fmt::format("GMT= {}\n", dateText(date));

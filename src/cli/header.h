@@ -21,17 +21,22 @@ std::string versionAnswer(std::string_view program);
 // end; the scene only where asked for.
 std::string commandLine(const Options& options, bool withScene);
 
+// The first lines of a header, as rtrace and rpict begin theirs:
+//   - the lines of the scene's own header (an octree has one: sceneHeader, without line ends), or
+//   "#?RADIANCE"
+//   - the command line; the octree is left out, as rtrace does: its header names it. Scene text has no
+//   header,
+//     so its names are kept
+//   - SOFTWARE=
+std::string provenance(const Options& options, std::span<const std::string> sceneHeader);
+
 // The name that FORMAT= and -help give a format: "ascii", "float", "double", or that of the colors' pixels.
 std::string_view formatName(NumberFormat format, const ColorOptions& color);
 
 // Writes the information header that rtrace writes before its records, unless switched off (-h-), and then
 // the resolution line where -x and -y are both given, header or not:
-//   - the lines of the scene's own header (an octree has one: sceneHeader, without line ends), or
-//   "#?RADIANCE"
-//   - the command line; the octree is left out, as rtrace does: its header names it. Scene text has no
-//   header, so its
-//     names are kept
-//   - SOFTWARE=, CAPDATE= (local), GMT=, NCOMP= (not for trees), WAVELENGTH_SPLITS= or PRIMARIES= for what is
+//   - provenance()
+//   - CAPDATE= (local), GMT=, NCOMP= (not for trees), WAVELENGTH_SPLITS= or PRIMARIES= for what is
 //   not RGB, BigEndian= for floats and doubles, FORMAT=, an empty line
 // The FORMAT line of floats or doubles is padded with blanks so that the records are aligned, if the output
 // can seek. Source: RADIANCE file formats, "Information header"; rtrace(1).

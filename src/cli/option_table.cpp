@@ -895,11 +895,23 @@ std::vector<OptionEntry> makeTable() {
        .value = +[](O& o) -> std::string& { return o.sphere.picture; },
        .remark = "picture of each point",
        .paragraph =
-           "Write what each point sees as a picture in the format that its name says: radiance in HDR, EXR "
-           "and TIFF, else exposed so that twice the mean is mid-bright. %d in it (or %04d and the like) "
-           "becomes the number of the record, from 0. The columns are the azimuth from the x axis, "
-           "counterclockwise about z, the rows go from the zenith to the nadir; each pixel has the radiance "
-           "of the direction that is nearest."});
+           "Draw a picture of what arrives at each point from all directions, in the format that its name "
+           "asks "
+           "for, with a ray through each pixel besides the directions of the answer: half a million, "
+           "whatever "
+           "-Sn is, which takes seconds a point. Light sources have their own radiance and size. Indirect "
+           "light "
+           "is averaged over pixels nearby; a larger -ad makes it smoother. RADIANCE pictures (.hdr, .pic) "
+           "are "
+           "an angular fisheye of 360 degrees, +y in the middle and +z above it, with the command, SOFTWARE= "
+           "and "
+           "VIEW= in the header: pinterp makes other views of them, as the half that evalglare asks for. In "
+           "all "
+           "other formats the columns are the azimuth from the x axis, counterclockwise about z, and the "
+           "rows go "
+           "from the zenith to the nadir: radiance in EXR and TIFF, else colours exposed so that the median "
+           "is "
+           "mid-bright. %d in the name (or %04d and the like) becomes the number of the record, from 0."});
   add({.name = "-Sl",
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.sphere.listSpecial; },

@@ -1,6 +1,8 @@
 #pragma once
 #include <string>
 
+#include "rad_parser/error.h"
+
 namespace rsphere {
 
 // Makes the signals that ask a program to end (INT HUP TERM ALRM XCPU XFSZ) end it as rtrace does: a message
@@ -25,6 +27,10 @@ class StopSignals {
   void defer(bool on);
 
   bool raised() const;
+  // Throws rad::Error (Status::signal, the signal's name) if one came.
+  void check() const {
+    if (raised()) throw rad::Error(name(), rad::Status::signal);
+  }
   int descriptor() const;
 
   // "Terminate" and so on, as rtrace words them; the message is then the caller's to give. Empty if no signal

@@ -5,21 +5,44 @@
 #include <memory>
 #include <vector>
 
-#include "importance/distribution.h"
+#include "cli/header.h"
+#include "importance/point_picture.h"
 
 namespace rsphere {
+namespace {
+
+// Of the random numbers of a picture, apart from those of the answer.
+constexpr uint64_t kPictureSeed = 0x70696374757265;  // "picture"
+
+void writePicture(const std::string& name, const V3d& point, const SphereEstimator& estimator,
+                  const Transport& transport, const Options& options, PathTracer& tracer,
+                  const std::function<void()>& checkStop) {
+  PictureFile file(name);
+  const PixelMap map(file.format() == PictureFormat::radiance ? Projection::angularFisheye
+                                                              : Projection::latitudeLongitude);
+  const uint64_t seed = seedOf(std::initializer_list<double>{point.x, point.y, point.z},
+                               kPictureSeed ^ rotationBits(options.ray));
+  Raster raster = drawPoint(point, map, transport, estimator.sources(), tracer, seed, checkStop);
+  if (file.format() == PictureFormat::screen) expose(raster, map);
+  file.write(raster, provenance(options, transport.scene().description.header) + viewLine(point));
+}
+
+}  // namespace
 
 AnswerRecord answerPoints(const SphereEstimator& estimator, const Transport& transport,
-                          const Options& options, const AnswerWriter& writer, const rad::Warn& warn) {
+                          const Options& options, const AnswerWriter& writer, const rad::Warn& warn,
+                          std::function<void()> checkStop) {
   if (transport.isDark()) warn("no light sources found");
   auto workspaces = std::make_shared<std::vector<SphereEstimator::Workspace>>();
   for (unsigned i = 0; i < threadCount(options); ++i) workspaces->emplace_back(estimator);
-  return [&, workspaces](const Record& record, unsigned worker, std::string& bytes) {
+  return [&, workspaces, checkStop](const Record& record, unsigned worker, std::string& bytes) {
     SphereEstimator::Workspace& workspace = (*workspaces)[worker];
     const V3d point(record.numbers[0], record.numbers[1], record.numbers[2]);
     const PointAnswer answer = estimator.estimate(point, workspace);
     if (!answer.reached) warn(fmt::format("record {}: -Sa not reached within -Sx", record.index + 1));
-    writeDistribution(options.sphere.picture, record.index, workspace.samples);
+    if (!options.sphere.picture.empty())
+      writePicture(pictureName(options.sphere.picture, record.index), point, estimator, transport, options,
+                   workspace.tracer, checkStop);
     if (!options.sphere.everyDirection) return writer.write(bytes, answer);
     for (size_t i = 0; i < workspace.samples.size(); ++i)
       writer.write(bytes, directionAnswer(transport.scene(), workspace.samples[i], workspace.rays[i]),

@@ -111,6 +111,7 @@ class SphereEstimator {
   PointAnswer estimate(const V3d& point, Workspace& workspace) const;
 
   const std::vector<SpecialObject>& specialObjects() const { return special_; }
+  const SeenSources& sources() const { return sources_; }
 
  private:
   void traceInto(Workspace& w, const V3d& point, const V3d& direction, double solidAngle,

@@ -125,6 +125,15 @@ bool SeenSources::shown(const PathTracer& tracer, const std::vector<Image>& imag
          });
 }
 
+bool SeenSources::shownStraight(const PathTracer& tracer, const std::vector<Image>& images) const {
+  const PathTracer::Shown& s = tracer.shown();
+  const auto lights = transport_.lights().all();
+  return s.source != kNone && s.mirror == kNone &&
+         std::any_of(images.begin(), images.end(), [&](const Image& image) {
+           return image.mirror == kNone && lights[image.source].surface == s.source;
+         });
+}
+
 void SeenSources::findImages(const V3d& point, size_t most, double mirrorFactor,
                              std::vector<Image>& images) const {
   images.clear();

@@ -36,6 +36,9 @@ class SeenSources {
   // Whether the last primary ray of the tracer showed one of a point's images.
   bool shown(const PathTracer& tracer, const std::vector<Image>& images) const;
 
+  // Whether it showed the source of one of these images straight.
+  bool shownStraight(const PathTracer& tracer, const std::vector<Image>& images) const;
+
   // Whether it showed a source straight that is integrated apart wherever it is seen from.
   bool shown(const PathTracer& tracer) const {
     const PathTracer::Shown& s = tracer.shown();

@@ -1,0 +1,278 @@
+#include "importance/point_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "importance/smooth_indirect.h"
+#include "rad_parser/error.h"
+#include "tests/unit/support/scene_of.h"
+#include "tests/unit/support/sphere_setting.h"
+#include "tests/unit/support/statistics.h"
+
+namespace rsphere {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// ---- where directions lie
+
+TEST(PixelMap, LatitudesAndLongitudes) {
+  const PixelMap map(Projection::latitudeLongitude);
+  ASSERT_EQ(map.width(), 1024);
+  ASSERT_EQ(map.height(), 512);
+  const auto at = [&](double x, double y) { return *map.direction(x, y); };
+  EXPECT_LT((at(0, 256) - V3d(1, 0, 0)).length(), 1e-12);
+  EXPECT_LT((at(256, 256) - V3d(0, 1, 0)).length(), 1e-12);
+  EXPECT_LT((at(512, 256) - V3d(-1, 0, 0)).length(), 1e-12);
+  EXPECT_LT((at(300, 0) - V3d(0, 0, 1)).length(), 1e-12);
+  EXPECT_LT((at(300, 512) - V3d(0, 0, -1)).length(), 1e-12);
+}
+
+// What vwrays(1) gives for -vta -vh 360 -vv 360 -vd 0 1 0 -vu 0 0 1.
+TEST(PixelMap, AngularFisheyeIsRadiancesView) {
+  const PixelMap map(Projection::angularFisheye);
+  ASSERT_EQ(map.width(), map.height());
+  const double w = map.width();
+  EXPECT_LT((*map.direction(w / 2, w / 2) - V3d(0, 1, 0)).length(), 1e-12);
+  EXPECT_LT((*map.direction(.75 * w, w / 2) - V3d(1, 0, 0)).length(), 1e-12);
+  EXPECT_LT((*map.direction(w / 2, .25 * w) - V3d(0, 0, 1)).length(), 1e-12);
+  EXPECT_LT((*map.direction(w, w / 2) - V3d(0, -1, 0)).length(), 1e-12);
+  EXPECT_LT((*map.direction(.5 * w + .125 * w, w / 2) - V3d(1, 1, 0).normalized()).length(), 1e-12);
+  EXPECT_FALSE(map.direction(.1 * w, .1 * w));
+  EXPECT_EQ(viewLine(V3d(1, -2.5, 1e-3)).find("VIEW= -vta -vp 1 -2.5 0.001 -vd 0 1 0 -vu 0 0 1 -vh 360"), 0u);
+}
+
+TEST(PixelMap, PixelsShowTheirDirectionsAndCoverTheSphere) {
+  for (const Projection projection : {Projection::latitudeLongitude, Projection::angularFisheye}) {
+    const PixelMap map(projection, 100, projection == Projection::angularFisheye ? 100 : 50);
+    double sum = 0;
+    for (size_t pixel = 0; pixel < map.count(); ++pixel) {
+      sum += map.solidAngle(pixel);
+      const auto direction = map.direction(.5 + pixel % 100, .5 + pixel / 100);
+      EXPECT_EQ(direction.has_value(), map.solidAngle(pixel) > 0);
+      if (direction) {
+        EXPECT_NEAR(direction->length(), 1, 1e-12);
+        ASSERT_EQ(map.pixelOf(*direction), pixel);
+      }
+    }
+    EXPECT_NEAR(sum / (4 * kPi), 1, projection == Projection::angularFisheye ? 1e-3 : 1e-12);
+  }
+}
+
+// ---- what arrives
+
+struct Drawn : SphereSetting {
+  PixelMap map;
+  Raster raster;
+  double mean = 0;  // by the estimator, brightness
+  Drawn(const std::string& text, const V3d& point, int bounces, Projection projection, int width)
+      : SphereSetting(sceneOf(text), [&](RayOptions& o) { o.ambientBounces = bounces; }),
+        map(projection, width, projection == Projection::angularFisheye ? width : width / 2) {
+    SphereOptions o = options.sphere;
+    o.baseDirections = 4096;
+    o.mostDirections = 8192;
+    const SphereEstimator estimator(*transport, o);
+    SphereEstimator::Workspace workspace(estimator);
+    mean = brightness(estimator.estimate(point, workspace).mean);
+    raster = drawPoint(point, map, *transport, estimator.sources(), workspace.tracer, 1);
+  }
+  double at(size_t pixel) const { return raster.pixels[3 * pixel + 1]; }
+  double towards(const V3d& direction) const { return at(map.pixelOf(direction.normalized())); }
+  double integral() const {
+    double sum = 0;
+    for (size_t pixel = 0; pixel < map.count(); ++pixel) sum += at(pixel) * map.solidAngle(pixel);
+    return sum;
+  }
+};
+
+std::string room(const std::string& more) {
+  return "void plastic wall 0 0 5 .5 .5 .5 0 0\nvoid light lamp 0 0 3 40 40 40\n"
+         "void glow window 0 0 4 30 30 30 0\n"
+         "wall bubble room 0 0 4 0 0 0 3\n" +
+         more;
+}
+
+// In sphere mode few indirect rays from each direction find the window: most pixels used to be black, and the
+// lamp was full of holes.
+TEST(PointPicture, WallsAndLuminairesAreAsBrightAsTheyAre) {
+  const std::string text =
+      room("lamp ring l 0 0 8 0 0 2 0 0 -1 0 .6\nwindow ring w 0 0 8 2.8 0 0 -1 0 0 0 .6\n");
+  for (const Projection projection : {Projection::latitudeLongitude, Projection::angularFisheye}) {
+    const Drawn drawn(text, V3d(.2, -.3, .1), 2, projection, 200);
+    EXPECT_NEAR(drawn.integral() / (4 * kPi * drawn.mean), 1, .02);
+    double least = 1e9;
+    size_t lamp = 0, window = 0, other = 0;
+    for (size_t pixel = 0; pixel < drawn.map.count(); ++pixel) {
+      if (!(drawn.map.solidAngle(pixel) > 0)) continue;
+      const double value = drawn.at(pixel);
+      least = std::min(least, value);
+      if (value == 40) {
+        ++lamp;
+      } else if (value == 30) {
+        ++window;
+      } else {
+        ++other;
+        EXPECT_LT(value, 12);
+      }
+    }
+    EXPECT_GT(lamp, 200u);
+    EXPECT_GT(window, 100u);
+    EXPECT_GT(other, 8 * (lamp + window));
+    EXPECT_GT(least, .1) << "walls are black";
+    EXPECT_EQ(drawn.towards(V3d(-.2, .3, 1.9)), 40);
+    EXPECT_EQ(drawn.towards(V3d(2.6, .3, -.1)), 30);
+    PathTracer tracer(*drawn.transport);
+    int black = 0;
+    for (uint64_t seed = 0; seed < 100; ++seed)
+      black += tracer.trace(V3d(.2, -.3, .1), V3d(-.6, 0, .8), 0, seed).value.y < .1 ? 1 : 0;
+    EXPECT_GT(black, 0) << "single rays would pass";
+  }
+}
+
+// A lamp of a hundredth of a pixel: no ray through a pixel's middle would meet it.
+TEST(PointPicture, SmallSourcesAreNeitherLostNorPaintedTooLarge) {
+  for (const double radius : {.001, .01, .05}) {
+    const std::string lamp =
+        fmt::format("void light lamp 0 0 3 1e4 1e4 1e4\nlamp sphere l 0 0 4 1 2 .5 {}\n", radius);
+    const double exact = 1e4 * kPi * radius * radius / V3d(1, 2, .5).length2();
+    for (const Projection projection : {Projection::latitudeLongitude, Projection::angularFisheye}) {
+      const Drawn drawn(lamp, V3d(0, 0, 0), 0, projection, 128);
+      EXPECT_NEAR(drawn.integral() / exact, 1, .01) << radius;
+      const double there = drawn.map.solidAngle(drawn.map.pixelOf(V3d(1, 2, .5).normalized()));
+      EXPECT_NEAR(drawn.towards(V3d(1, 2, .5)) / std::min(1e4, exact / there), 1, .3) << radius;
+    }
+    const Drawn hidden(lamp + "void plastic black 0 0 5 0 0 0 0 0\nblack ring r 0 0 8 .5 1 .25 1 2 .5 0 .3\n",
+                       V3d(0, 0, 0), 0, Projection::latitudeLongitude, 128);
+    EXPECT_EQ(hidden.integral(), 0);
+  }
+}
+
+TEST(PointPicture, DoesNotDependOnThePicturesBefore) {
+  const std::string text = room("lamp ring l 0 0 8 0 0 2 0 0 -1 0 .1\n");
+  const Drawn drawn(text, V3d(.2, -.3, .1), 2, Projection::latitudeLongitude, 64);
+  const SphereEstimator estimator(*drawn.transport, drawn.options.sphere);
+  SphereEstimator::Workspace workspace(estimator);
+  for (const V3d& point : {V3d(1, 1, 1), V3d(.2, -.3, .1)}) {
+    estimator.estimate(point, workspace);
+    const Raster again =
+        drawPoint(point, drawn.map, *drawn.transport, estimator.sources(), workspace.tracer, 1);
+    EXPECT_EQ(again.pixels == drawn.raster.pixels, point.x == .2);
+  }
+}
+
+TEST(PointPicture, CanBeGivenUp) {
+  const Drawn drawn(room(""), V3d(0, 0, 0), 0, Projection::latitudeLongitude, 16);
+  const SphereEstimator estimator(*drawn.transport, drawn.options.sphere);
+  SphereEstimator::Workspace workspace(estimator);
+  int rows = 0;
+  const auto stop = [&] {
+    if (++rows == 3) throw rad::Error("Terminate", rad::Status::signal);
+  };
+  EXPECT_THROW(
+      drawPoint(V3d(0, 0, 0), drawn.map, *drawn.transport, estimator.sources(), workspace.tracer, 1, stop),
+      rad::Error);
+  EXPECT_EQ(rows, 3);
+}
+
+// ---- averages of indirect light
+
+// A plane of 64 by 64 pixels before the eye, with light that is noise of mean 1.
+IndirectPixels plane(uint64_t seed) {
+  Random random(seed);
+  IndirectPixels picture{64, 64, false, {}};
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) {
+      const float light = random.uniform() < .1 ? 10.f : 0.f;
+      picture.pixels.push_back(
+          {Imath::V3f(light), Imath::V3f(.01f * (x - 32), 1, .01f * (y - 32)), Imath::V3f(0, -1, 0), 1, 0});
+    }
+  return picture;
+}
+
+TEST(SmoothIndirect, ASixteenthOfTheNoiseIsLeft) {
+  IndirectPixels picture = plane(1);
+  smoothIndirect(picture);
+  Sample sample;
+  for (int y = 15; y < 49; ++y)
+    for (int x = 15; x < 49; ++x) sample.add(picture.pixels[static_cast<size_t>(64 * y + x)].light.x);
+  EXPECT_NEAR(sample.mean(), 1, .15);
+  EXPECT_LT(std::sqrt(sample.variance()), 3 / 14.);
+}
+
+TEST(SmoothIndirect, EdgesAreNotCrossed) {
+  const auto step = [](auto&& other) {
+    IndirectPixels picture = plane(1);
+    for (size_t i = 0; i < picture.pixels.size(); ++i) {
+      picture.pixels[i].light = Imath::V3f(i % 64 < 32 ? 1.f : 0.f);
+      if (i % 64 >= 32) other(picture.pixels[i]);
+    }
+    smoothIndirect(picture);
+    double blurred = 0;
+    for (size_t i = 0; i < picture.pixels.size(); ++i)
+      blurred += std::abs(picture.pixels[i].light.x - (i % 64 < 32 ? 1.f : 0.f));
+    return blurred / 64;
+  };
+  EXPECT_GT(step([](auto&) {}), 2) << "the same surface";
+  EXPECT_LT(step([](auto& pixel) { pixel.material = 1; }), 1e-5);
+  EXPECT_LT(step([](auto& pixel) { pixel.material = kNone; }), 1e-5);
+  EXPECT_LT(step([](auto& pixel) { pixel.normal = Imath::V3f(1, 0, 0); }), 1e-5);
+  EXPECT_LT(step([](auto& pixel) { pixel.point *= 2; }), 1e-5) << "a parallel plane farther away";
+}
+
+TEST(SmoothIndirect, ColumnsWrapWhereTheyAreToldTo) {
+  for (const bool wraps : {false, true}) {
+    IndirectPixels picture = plane(1);
+    picture.wraps = wraps;
+    for (size_t i = 0; i < picture.pixels.size(); ++i) {
+      picture.pixels[i].light = Imath::V3f(i % 64 == 63 ? 1.f : 0.f);
+      picture.pixels[i].point = Imath::V3f(0, 1, 0);
+    }
+    smoothIndirect(picture);
+    EXPECT_EQ(picture.pixels[64 * 30].light.x > .01f, wraps);
+  }
+}
+
+// ---- exposure and names
+
+TEST(PointPicture, TheMedianOfWhatIsNotBlackIsMidBright) {
+  const PixelMap map(Projection::latitudeLongitude, 64, 32);
+  Raster raster{64, 32, {}};
+  // A fifth is black, two fifths are 1, a fifth 2; the rest has a million, which a mean would follow.
+  for (size_t pixel = 0; pixel < map.count(); ++pixel) {
+    const size_t k = pixel % 64 / 13;
+    const float value = k == 0 ? 0 : k <= 2 ? 1 : k == 3 ? 2 : 1e6f;
+    raster.pixels.insert(raster.pixels.end(), 3, value);
+  }
+  expose(raster, map);
+  const auto at = [&](size_t column) { return raster.pixels[3 * (64 * 16 + column)]; };
+  EXPECT_EQ(at(0), 0);
+  EXPECT_NEAR(at(20), .5, 1e-3);
+  EXPECT_NEAR(at(45), 1.055 * std::pow(2 * .21404114, 1 / 2.4) - .055, 1e-3);
+  EXPECT_EQ(at(60), 1);
+  Raster black{8, 4, std::vector<float>(96)};
+  expose(black, PixelMap(Projection::latitudeLongitude, 8, 4));
+  for (const float p : black.pixels) EXPECT_EQ(p, 0);
+}
+
+TEST(PointPicture, NamesCarryTheRecordNumber) {
+  EXPECT_EQ(pictureName("a%d.png", 0), "a0.png");
+  EXPECT_EQ(pictureName("a%04d.png", 12), "a0012.png");
+  EXPECT_EQ(pictureName("a%4d.png", 12), "a  12.png");
+  EXPECT_EQ(pictureName("a%2d.png", 1234), "a1234.png");
+  EXPECT_EQ(pictureName("100%%/a%d", 5), "100%/a5");
+  EXPECT_EQ(pictureName("a%d", 18446744073709551615u), "a18446744073709551615");
+  EXPECT_EQ(pictureName("plain.hdr", 0), "plain.hdr");
+}
+
+TEST(PointPicture, WrongNamesAreErrors) {
+  for (const char* pattern : {"a%s.png", "a%d%d.png", "a%", "a%5", "a%-4d.png", "a%n", "a%99999999999999d"})
+    EXPECT_THROW(pictureName(pattern, 1), rad::Error) << pattern;
+  EXPECT_THROW(pictureName("plain.hdr", 1), rad::Error);
+}
+
+}  // namespace
+}  // namespace rsphere
