@@ -34,8 +34,19 @@ void answer(const Options& options, const Messages& messages, StopSignals& signa
   if (options.sphere.on) {
     const SphereEstimator estimator(transport, options.sphere,
                                     options.outputs.find('e') != std::string::npos);
-    runRecords(reader, writer, options, messages, &signals,
-               answerPoints(estimator, transport, options, answers, warn, [&] { signals.check(); }));
+    Unreached unreached;
+    const auto summarize = [&] {
+      if (const std::string text = unreached.summary(options.sphere); !text.empty()) warn(text);
+    };
+    try {
+      runRecords(
+          reader, writer, options, messages, &signals,
+          answerPoints(estimator, transport, options, answers, warn, unreached, [&] { signals.check(); }));
+    } catch (...) {
+      summarize();
+      throw;
+    }
+    summarize();
   } else {
     runRecords(reader, writer, options, messages, &signals, answerRays(transport, options, answers, warn));
   }

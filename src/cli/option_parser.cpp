@@ -268,13 +268,20 @@ void checkIrradiance(Options& options) {
   }
 }
 
+// Most directions of a point with -Sa and no -Sx: from a half to 30 seconds for a point that never gets
+// there.
+constexpr int kMostForAccuracy = 1000000;
+
 void checkTogether(Options& options, bool mostGiven) {
   if (options.ray.fieldMemory > 0 && !options.ray.ambientFile.empty())
     throw rad::Error("-Sm and -af: what a file has in it is kept in memory as a whole");
   if (!options.sphere.on) return;
   if (options.limitDistance) throw rad::Error("-ld needs ray mode (-S-): points have no direction vector");
   SphereOptions& sphere = options.sphere;
-  if (!mostGiven) sphere.mostDirections = std::max(sphere.mostDirections, 2 * sphere.baseDirections);
+  if (!mostGiven) {
+    sphere.mostDirections = std::max(sphere.mostDirections, 2 * sphere.baseDirections);
+    if (sphere.accuracy > 0) sphere.mostInAll = kMostForAccuracy;
+  }
   if (sphere.mostDirections < sphere.baseDirections)
     commandLineError("-Sx",
                      fmt::format("{} is less than -Sn {}", sphere.mostDirections, sphere.baseDirections));

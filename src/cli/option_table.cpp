@@ -325,7 +325,8 @@ std::vector<OptionEntry> makeTable() {
        .value = Custom{setOutputs},
        .remark = "output",
        .paragraph =
-           "What a record of output has, in the order of the letters in spec; see OUTPUT below. In ray mode, "
+           "What a record of output has, in the order of the letters in spec; see Output under DESCRIPTION. "
+           "In ray mode, "
            "the "
            "letters behind a t are for all rays on the way: reflected, transmitted and indirect ones, and "
            "shadow "
@@ -782,9 +783,12 @@ std::vector<OptionEntry> makeTable() {
        .range = {1, 4000000},
        .unit = "directions",
        .remark = "most directions",
-       .paragraph = "Most directions of one point, those for special objects with them. Not given, it grows "
-                    "with -Sn to "
-                    "twice that."});
+       .paragraph =
+           "Most directions of one point, those for special objects with them. Directions to light sources, "
+           "a "
+           "quarter of -Sn at most unless there are more sources, count as well; where there is no room for "
+           "them, they come on top. Rays that only guess, and shadow rays, do not count. Not given, it grows "
+           "with -Sn to twice that; see -Sa."});
   add({.name = "-Sk",
        .arguments = "F",
        .group = Group::sphere,
@@ -803,8 +807,13 @@ std::vector<OptionEntry> makeTable() {
        .range = kFraction,
        .remark = "accuracy",
        .paragraph =
-           "Add directions until the estimated standard error of the mean is below acc times the mean, or "
-           "there are as many as -Sx allows. 0: no."});
+           "Average sets of directions, each of -Sn and those for special objects, until the estimated "
+           "standard "
+           "error of the mean's brightness is below acc times the mean: at least two sets, and no more "
+           "directions in all than -Sx says where it is given, else a million. How many of one half of the "
+           "sets are averaged follows from the other half, so that stopping makes no bias. A warning at the "
+           "end "
+           "says at how many points it was not reached, and what the worst is. 0: one set."});
   add({.name = "-Sw",
        .arguments = "letter",
        .group = Group::sphere,
@@ -837,7 +846,8 @@ std::vector<OptionEntry> makeTable() {
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.sphere.everyDirection; },
        .remark = "every direction|mean of directions",
-       .paragraph = "Switch for a record of every direction instead of the mean of a point; see OUTPUT."});
+       .paragraph = "Switch for a record of every direction instead of the mean of a point; see Output under "
+                    "DESCRIPTION."});
   add({.name = "-Ss",
        .arguments = "N",
        .group = Group::sphere,

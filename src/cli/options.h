@@ -67,6 +67,7 @@ struct SphereOptions {
   bool on = true;                          // -S
   int baseDirections = 2048;               // -Sn  1 to 1,000,000
   int mostDirections = 4096;               // -Sx
+  int mostInAll = 0;                       // of all sets of -Sa, where that is more
   double densityFactor = 1;                // -Sk
   double accuracy = 0;                     // -Sa  0: off
   Weights weights = Weights::silhouettes;  // -Sw

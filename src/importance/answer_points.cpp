@@ -15,34 +15,59 @@ namespace {
 constexpr uint64_t kPictureSeed = 0x70696374757265;  // "picture"
 
 void writePicture(const std::string& name, const V3d& point, const SphereEstimator& estimator,
-                  const Transport& transport, const Options& options, PathTracer& tracer,
-                  const std::function<void()>& checkStop) {
+                  const Transport& transport, const Options& options, SphereEstimator::Workspace& workspace) {
   PictureFile file(name);
   const PixelMap map(file.format() == PictureFormat::radiance ? Projection::angularFisheye
                                                               : Projection::latitudeLongitude);
   const uint64_t seed = seedOf(std::initializer_list<double>{point.x, point.y, point.z},
                                kPictureSeed ^ rotationBits(options.ray));
-  Raster raster = drawPoint(point, map, transport, estimator.sources(), tracer, seed, checkStop);
+  Raster raster =
+      drawPoint(point, map, transport, estimator.sources(), workspace.tracer, seed, workspace.checkStop);
   if (file.format() == PictureFormat::screen) expose(raster, map);
   file.write(raster, provenance(options, transport.scene().description.header) + viewLine(point));
 }
 
 }  // namespace
 
+void Unreached::add(uint64_t record, const PointAnswer& answer) {
+  const std::lock_guard lock(mutex_);
+  ++points_;
+  if (answer.reached) return;
+  ++missed_;
+  const double mean = brightness(answer.mean), error = mean > 0 ? answer.brightnessError / mean : 1e30;
+  // Of equal ones the first in the input, whichever thread had it.
+  if (error < worstError_ || (error == worstError_ && record > worst_)) return;
+  worst_ = record;
+  worstError_ = error;
+}
+
+std::string Unreached::summary(const SphereOptions& options) const {
+  const std::lock_guard lock(mutex_);
+  if (missed_ == 0) return "";
+  return fmt::format(
+      "-Sa {:g} was not reached at {} of {} points with at most {} directions; the worst is record {}: "
+      "{:.3g}%",
+      options.accuracy, missed_, points_, std::max(options.mostDirections, options.mostInAll), worst_ + 1,
+      100 * worstError_);
+}
+
 AnswerRecord answerPoints(const SphereEstimator& estimator, const Transport& transport,
                           const Options& options, const AnswerWriter& writer, const rad::Warn& warn,
-                          std::function<void()> checkStop) {
+                          Unreached& unreached, std::function<void()> checkStop) {
   if (transport.isDark()) warn("no light sources found");
   auto workspaces = std::make_shared<std::vector<SphereEstimator::Workspace>>();
-  for (unsigned i = 0; i < threadCount(options); ++i) workspaces->emplace_back(estimator);
-  return [&, workspaces, checkStop](const Record& record, unsigned worker, std::string& bytes) {
+  for (unsigned i = 0; i < threadCount(options); ++i) {
+    workspaces->emplace_back(estimator);
+    workspaces->back().checkStop = checkStop;
+  }
+  return [&, workspaces](const Record& record, unsigned worker, std::string& bytes) {
     SphereEstimator::Workspace& workspace = (*workspaces)[worker];
     const V3d point(record.numbers[0], record.numbers[1], record.numbers[2]);
     const PointAnswer answer = estimator.estimate(point, workspace);
-    if (!answer.reached) warn(fmt::format("record {}: -Sa not reached within -Sx", record.index + 1));
+    unreached.add(record.index, answer);
     if (!options.sphere.picture.empty())
       writePicture(pictureName(options.sphere.picture, record.index), point, estimator, transport, options,
-                   workspace.tracer, checkStop);
+                   workspace);
     if (!options.sphere.everyDirection) return writer.write(bytes, answer);
     for (size_t i = 0; i < workspace.samples.size(); ++i)
       writer.write(bytes, directionAnswer(transport.scene(), workspace.samples[i], workspace.rays[i]),

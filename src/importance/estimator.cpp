@@ -1,10 +1,12 @@
 #include "importance/estimator.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
 
+#include "importance/two_halves.h"
 #include "light/surface_point.h"
 #include "rad_parser/error.h"
 #include "scene/even_sequence.h"
@@ -187,35 +189,61 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& w) const {
   w.samples.clear();
   w.rays.clear();
   w.guesses.clear();
-  w.excess = Moments();
-  Variance variance;
+  // Directions of -Sa may be a million; they are only kept where they are asked for.
+  const bool keep = options_.everyDirection || options_.accuracy <= 0;
+  const auto most = static_cast<size_t>(std::max(options_.mostDirections, options_.mostInAll));
+  struct Half {
+    Moments sum;  // of its sets, as are the next two
+    Rgb excess{0, 0, 0};
+    Variance variance;
+    std::vector<std::pair<size_t, size_t>> places;  // of its sets in w.samples, where they are kept
+  };
+  std::array<Half, 2> halves;
+  TwoHalves decision(options_.accuracy);
   uint64_t sets = 0;
-  bool reached = false;
-  for (size_t before = 0;;) {
+  size_t directions = 0, largest = 0;
+  for (auto next = decision.next(); next && directions + largest <= most; next = decision.next()) {
+    if (w.checkStop) w.checkStop();
+    if (!keep) {
+      w.samples.clear();
+      w.guesses.clear();
+    }
+    const size_t first = w.samples.size();
+    w.excess = Moments();
     sampleSet(point, sets++, w);
-    variance += w.variance;
-    if (options_.accuracy <= 0) break;
-    Rgb sum(0, 0, 0);
-    for (const DirectionSample& s : w.samples) sum += s.value * s.solidAngle;
-    reached = std::sqrt(variance.brightness) <= options_.accuracy * brightness(sum);
-    const size_t set = w.samples.size() - before;
-    before = w.samples.size();
-    if (reached || w.samples.size() + set > static_cast<size_t>(options_.mostDirections)) break;
+    Moments found;
+    for (size_t i = first; i < w.samples.size(); ++i)
+      found.add(w.samples[i].direction, w.samples[i].value * w.samples[i].solidAngle);
+    found.add(w.excess, 1);
+    Half& half = halves[*next];
+    half.sum.add(found, 1);
+    half.excess += w.excess.total;
+    half.variance += w.variance;
+    if (keep) half.places.push_back({first, w.samples.size()});
+    decision.add(*next, brightness(found.total), w.variance.brightness);
+    directions += w.samples.size() - first;
+    largest = std::max(largest, w.samples.size() - first);
   }
-  const double share = 1 / static_cast<double>(sets);
-  if (sets > 1)
-    for (DirectionSample& s : w.samples) s.solidAngle *= share;
   Moments moments;
-  for (const DirectionSample& s : w.samples) moments.add(s.direction, s.value * s.solidAngle);
-  moments.add(w.excess, share);
-  PointAnswer answer = moments.answer(point, w.samples.size());
+  Rgb excess(0, 0, 0);
+  Variance variance;
+  for (size_t k = 0; k < halves.size(); ++k) {
+    const double share = decision.share(k);
+    if (!(share > 0)) continue;
+    moments.add(halves[k].sum, share);
+    excess += halves[k].excess * share;
+    variance += halves[k].variance * (share * share);
+    for (const auto& [first, end] : halves[k].places)
+      for (size_t i = first; i < end; ++i) w.samples[i].solidAngle *= share;
+  }
+  PointAnswer answer = moments.answer(point, directions);
   // Rounding may leave a variance a little below 0.
-  const auto standardError = [&](double v) { return std::sqrt(std::max(0., v)) * share / (4 * kPi); };
+  const auto standardError = [](double v) { return std::sqrt(std::max(0., v)) / (4 * kPi); };
   for (int i = 0; i < 3; ++i) answer.standardError[i] = standardError(variance.channels[i]);
   answer.brightnessError = standardError(variance.brightness);
-  answer.reached = options_.accuracy <= 0 || reached;
-  if (!w.guesses.empty()) {
-    shareOut(w.excess.total * share, w.guesses, w.samples);
+  answer.reached = options_.accuracy <= 0 || decision.isReached();
+  if (!w.guesses.empty() && keep) {
+    shareOut(excess, w.guesses, w.samples);
     keepPositive(w.samples);
   }
   return answer;

@@ -18,10 +18,12 @@
 // surfaces (transport/radiance_guess.h): their unshadowed or fully shadowed light, and their edges. Only what
 // differs from the guess is left to the directions, and to the indirect rays that they go on with.
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cli/answer.h"
@@ -67,9 +69,11 @@ class SphereEstimator {
       tracer.gatherFirstAnew();
     }
     PathTracer tracer;
-    // Of the last point. Where glances found more or less than the directions' own guesses say, what is
-    // guessed of each is scaled so that solid angles times radiances sum to the answer's; none is negative
-    // unless the answer is.
+    // Called before each set of directions; may throw to give the point up.
+    std::function<void()> checkStop;
+    // Of the last point; with -Sa only where every direction is wanted (-Sd), which may be a million. Where
+    // glances found more or less than the directions' own guesses say, what is guessed of each is scaled so
+    // that solid angles times radiances sum to the answer's; none is negative unless the answer is.
     std::vector<DirectionSample> samples;
     std::vector<Ray> rays;  // what they hit, in the same order; kept with -Sd only
 
@@ -99,15 +103,15 @@ class SphereEstimator {
     std::vector<size_t> runs;  // where directions to a target, or to all parts of one, begin in samples
     Variance variance;         // of the integral of radiance
     std::vector<DirectionSample> unguessed, guessed;  // parts of the base's samples
-    // Of all sets so far:
-    std::vector<Rgb> guesses;  // of samples' radiances; empty: none are made
     Moments excess;            // of what glances found, over what the directions' own guesses say
+    std::vector<Rgb> guesses;  // of samples' radiances; empty: none are made
     VoronoiWorkspace voronoi;
   };
 
   // The quantities at a point (world), and the directions in workspace.samples. Depends on point, scene and
-  // options alone. With -Sa, sets of directions are added, each turned another way, until the estimated
-  // standard error of the mean's brightness is below that share of it, or the next set would exceed -Sx.
+  // options alone.
+  // With -Sa, sets of directions, each turned another way, are averaged until the estimated standard error of
+  // the mean's brightness is below that share of it (two_halves.h), or the next set might exceed `mostInAll`.
   PointAnswer estimate(const V3d& point, Workspace& workspace) const;
 
   const std::vector<SpecialObject>& specialObjects() const { return special_; }

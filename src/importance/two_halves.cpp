@@ -1,0 +1,63 @@
+#include "importance/two_halves.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rsphere {
+namespace {
+
+// One half asks for a little less error than is wanted: else one answer in 25, rather than one in 50, needs
+// more sets for its own estimate, and they make what is left of the bias.
+constexpr double kMargin = .95;
+
+constexpr double kMostSets = 1e9;  // beyond any -Sx
+
+// Sets of one half for each of the other, at most. A direction that happens to find something very bright,
+// which makes the other half ask for many, is outweighed sooner by more sets of its own half. With equal
+// halves each would depend on its own findings, and the bias were that of one.
+constexpr size_t kMostRatio = 2;
+
+}  // namespace
+
+size_t TwoHalves::setsFor(const Half& other) const {
+  const double count = static_cast<double>(other.sets), variance = other.variance / count;
+  if (!(variance > 0)) return 1;
+  const double wanted = kMargin * accuracy_ * other.total / count;
+  const double sets = wanted > 0 ? variance / (2 * wanted * wanted) : kMostSets;
+  return static_cast<size_t>(std::clamp(std::ceil(sets), 1., kMostSets));
+}
+
+std::optional<size_t> TwoHalves::next() const {
+  const auto& [a, b] = halves_;
+  if (a.sets == 0) return 0;
+  if (accuracy_ <= 0) return std::nullopt;
+  if (b.sets == 0) return 1;
+  const bool wantsA = a.sets < setsFor(b), wantsB = b.sets < setsFor(a);
+  if (!wantsA && !wantsB && isReached()) return std::nullopt;
+  if (a.sets >= kMostRatio * b.sets) return 1;
+  if (b.sets >= kMostRatio * a.sets) return 0;
+  if (wantsA != wantsB) return wantsA ? 0 : 1;
+  return a.sets <= b.sets ? 0 : 1;
+}
+
+void TwoHalves::add(size_t half, double total, double variance) {
+  ++halves_[half].sets;
+  halves_[half].total += total;
+  halves_[half].variance += variance;
+}
+
+double TwoHalves::share(size_t half) const {
+  if (halves_[half].sets == 0) return 0;
+  return 1 / static_cast<double>((halves_[1].sets > 0 ? 2 : 1) * halves_[half].sets);
+}
+
+bool TwoHalves::isReached() const {
+  double total = 0, variance = 0;
+  for (size_t half = 0; half < halves_.size(); ++half) {
+    total += share(half) * halves_[half].total;
+    variance += share(half) * share(half) * halves_[half].variance;
+  }
+  return std::sqrt(std::max(0., variance)) <= accuracy_ * total;
+}
+
+}  // namespace rsphere
