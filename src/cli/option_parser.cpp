@@ -268,9 +268,9 @@ void checkIrradiance(Options& options) {
   }
 }
 
-// Most directions of a point with -Sa and no -Sx: from a half to 30 seconds for a point that never gets
-// there.
-constexpr int kMostForAccuracy = 1000000;
+// Most directions of a point with -Sa and no -Sx: half a second to a minute for a point that never gets
+// there. With -Sd all of them are kept until the point is finished, a kilobyte each.
+constexpr int kMostForAccuracy = 1000000, kMostToList = 100000;
 
 void checkTogether(Options& options, bool mostGiven) {
   if (options.ray.fieldMemory > 0 && !options.ray.ambientFile.empty())
@@ -280,7 +280,7 @@ void checkTogether(Options& options, bool mostGiven) {
   SphereOptions& sphere = options.sphere;
   if (!mostGiven) {
     sphere.mostDirections = std::max(sphere.mostDirections, 2 * sphere.baseDirections);
-    if (sphere.accuracy > 0) sphere.mostInAll = kMostForAccuracy;
+    if (sphere.accuracy > 0) sphere.mostInAll = sphere.everyDirection ? kMostToList : kMostForAccuracy;
   }
   if (sphere.mostDirections < sphere.baseDirections)
     commandLineError("-Sx",

@@ -804,10 +804,10 @@ std::vector<OptionEntry> makeTable() {
        .paragraph =
            "Average sets of directions, each of -Sn and those for special objects, until the estimated "
            "standard error of the mean's brightness is below acc times the mean: at least two sets, and no "
-           "more directions in all than -Sx says where it is given, else a million. How many of one half "
-           "of the sets are averaged follows from the other half, so that stopping makes hardly any bias. "
-           "A warning at the end says at how many points it was not reached, and what the worst is. 0: one "
-           "set."});
+           "more directions in all than -Sx says where it is given, else a million, or with -Sd 100,000. "
+           "How many of one half of the sets are averaged follows from the other half, so that stopping "
+           "makes hardly any bias. A warning at the end says at how many points it was not reached, and "
+           "what the worst is. 0: one set."});
   add({.name = "-Sw",
        .arguments = "letter",
        .group = Group::sphere,
