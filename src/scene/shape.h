@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <span>
 #include <type_traits>
 #include <variant>
@@ -72,6 +73,14 @@ struct Distant {
   double halfAngle = 0;    // radians, to pi
   double cosHalfAngle = 1;
   double solidAngle = 0;  // sr
+
+  // Whether a ray along the unit vector d sees the source. Solid angles are compared in single precision, as
+  // rtrace compares them: 2 pi rounds up, so that a hemisphere reaches 2.8e-8 radians below the horizon. In
+  // double precision rounding would open a gap between a sky and a ground of 180 degrees.
+  bool isSeenAlong(const V3d& d) const {
+    constexpr double kTwoPi = 2 * std::numbers::pi;
+    return kTwoPi * (1 - direction.dot(d)) <= static_cast<float>(kTwoPi * (1 - cosHalfAngle));
+  }
 };
 
 // The surfaces of an octree, brought in by "instance".

@@ -297,8 +297,7 @@ void PathTracer::findTarget(Ray& ray) {
 bool PathTracer::seesDistant(Ray& ray) {
   const Scene& scene = t_.scene();
   const auto sees = [&](int32_t surface) {
-    return std::get<Distant>(scene.surfaces[surface].shape).direction.dot(ray.direction) >=
-           std::get<Distant>(scene.surfaces[surface].shape).cosHalfAngle;
+    return std::get<Distant>(scene.surfaces[surface].shape).isSeenAlong(ray.direction);
   };
   if (ray.aimedAt != kNone) {
     const LightSource& light = t_.lights().all()[ray.aimedAt];

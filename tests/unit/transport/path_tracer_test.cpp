@@ -251,6 +251,32 @@ TEST(Sources, VisibilityFollowsTheOption) {
   EXPECT_EQ(glowing(-1), 0);
 }
 
+// Two sources of 180 degrees, as gensky makes them, leave no gap between them. The angles are rtrace's: the
+// first source of two is seen down to 2.8e-8 radians below its horizon.
+TEST(Sources, RaysAlongTheHorizonBetweenTwoHemispheresSeeTheSky) {
+  const std::string sky = "bright source sky\n0\n0\n4 0 0 1 180\n",
+                    ground = "dim source ground\n0\n0\n4 0 0 -1 180\n";
+  for (const std::string kinds : {"glow glow", "light light", "glow light", "light glow"}) {
+    const bool skyGlows = kinds.starts_with("glow"), groundGlows = kinds.ends_with("glow");
+    Traced scene(fmt::format("void {} bright\n0\n0\n{}\n{}void {} dim\n0\n0\n{}\n{}",
+                             skyGlows ? "glow" : "light", skyGlows ? "4 8 8 8 0" : "3 8 8 8", sky,
+                             groundGlows ? "glow" : "light", groundGlows ? "4 2 2 2 0" : "3 2 2 2", ground));
+    // Where both are seen, one that is not glow hides the other.
+    const double horizon = skyGlows && !groundGlows ? 2 : 8;
+    for (double angle = 0; angle < 2 * kPi; angle += .1) {
+      const auto at = [&](double z) {
+        return scene.value(V3d(0, 0, 5), V3d(std::cos(angle), std::sin(angle), z));
+      };
+      EXPECT_EQ(at(0), horizon) << kinds << " " << angle;
+      EXPECT_EQ(at(1e-12), horizon) << kinds << " " << angle;
+      EXPECT_EQ(at(-1e-12), horizon) << kinds << " " << angle;
+      EXPECT_EQ(at(-1e-8), horizon) << kinds << " " << angle;
+      EXPECT_EQ(at(1e-5), 8) << kinds << " " << angle;
+      EXPECT_EQ(at(-1e-5), 2) << kinds << " " << angle;
+    }
+  }
+}
+
 TEST(Sources, AreDarkFromBehind) {
   const std::string scene = light(2) + floor("lamp", 3);
   EXPECT_EQ(Traced(scene).value(V3d(0, 0, 5), kDown), 2);
