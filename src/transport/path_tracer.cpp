@@ -388,7 +388,7 @@ RayAnswer answerOf(const Scene& scene, const Ray& ray) {
   a.point = ray.point;
   if (ray.surface == kNone) return a;
   const Surface& surface = scene.surfaces[ray.surface];
-  a.unperturbedNormal = ray.fromBehind ? -ray.normal : ray.normal;
+  a.unperturbedNormal = ray.fromBehind != ray.insideOut ? -ray.normal : ray.normal;
   a.normal = ray.normal;
   if (ray.perturbation.length2() > 0) {
     // What has no material has not been turned to the ray.

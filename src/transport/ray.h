@@ -73,7 +73,8 @@ struct Ray {
   V3d point{0, 0, 0};   // where it hit, or its end (farthest); its origin where nothing local was hit
   V3d normal{0, 0, 0};  // on the side that it came from, once shaded
   double cosine = 1;    // -normal . direction; negative until a hit from behind is turned round
-  bool fromBehind = false;
+  bool fromBehind = false;  // normal, cosine and perturbation were turned round for a hit from behind
+  bool insideOut = false;  // they were turned round where antimatter shows its cut, whose front is the inside
   V3d perturbation{0, 0, 0};
   Rgb pattern{1, 1, 1};
   double u = 0, v = 0;

@@ -63,17 +63,21 @@ inline void inherit(Ray& child, const Ray& parent, RayKind kind) {
   child.contribution = parent.contribution * passedBy(parent);
 }
 
-// Takes the other side of the surface for the one that was hit.
+// Swaps the front and the back of the surface that was hit.
 inline void flip(Ray& ray) {
   ray.cosine = -ray.cosine;
   ray.normal = -ray.normal;
   ray.perturbation = -ray.perturbation;
-  ray.fromBehind = !ray.fromBehind;
 }
 
 // Makes a hit from behind one from the front.
 inline void turnRound(Ray& ray) {
-  if (ray.cosine < 0) flip(ray);
+  if (!(ray.cosine < 0)) return;
+  flip(ray);
+  ray.fromBehind = !ray.fromBehind;
 }
+
+// Whether the ray hit the front of the surface as the scene has it, however it was turned since.
+inline bool hitFront(const Ray& ray) { return (ray.cosine > 0) != (ray.fromBehind != ray.insideOut); }
 
 }  // namespace rsphere

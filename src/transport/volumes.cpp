@@ -180,10 +180,13 @@ bool PathTracer::shadeMaterial(Ray& ray, const Antimatter& antimatter, int32_t) 
       if ((r->kind & kReflections) || before.surface == kNone ||
           !(t_.scene().surfaces[before.surface].clip & antimatter.clips))
         continue;
-      inside += (before.cosine > 0) != before.fromBehind ? 1 : -1;
+      inside += hitFront(before) ? 1 : -1;
     }
     if (inside > 0) {
+      // The material is on the other side of the antimatter's surface: a dielectric is left here, not
+      // entered.
       flip(ray);
+      ray.insideOut = !ray.insideOut;
       return shade(ray, antimatter.cut.modifier);
     }
   }

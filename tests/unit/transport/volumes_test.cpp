@@ -281,6 +281,35 @@ TEST(Antimatter, ShowsTheCut) {
   EXPECT_NEAR(scene.tracer().trace(V3d(-5, .6, 0), kAhead, 0, 1).unmirroredLength, 4.2, 1e-9);
 }
 
+// A hollow in glass is the same whether antimatter cuts it or the glass has an inner surface of its own.
+TEST(Antimatter, OfADielectricRefractsAtTheHollowAsAnInnerSurfaceDoes) {
+  std::string sky;
+  Random placed(3);
+  for (int i = 0; i < 12; ++i) {
+    const V3d d = randomDirection(placed);
+    sky += fmt::format("void glow g{0} 0 0 4 {1} {2} {3} 0\ng{0} source s{0} 0 0 4 {4} {5} {6} 50\n", i,
+                       placed.uniform(), placed.uniform(), placed.uniform(), d.x, d.y, d.z);
+  }
+  const std::string ball = sky +
+                           "void dielectric glass 0 0 5 .7 .8 .9 1.5 0\nglass sphere ball 0 0 4 0 0 0 1\n"
+                           "void antimatter cut 1 glass 0 0\n";
+  RayOptions o;
+  o.reflectionLimit = 8;
+  o.weightLimit = 1e-4;
+  Traced cut(ball + "cut sphere hollow 0 0 4 .2 .1 0 .5\n", o);
+  Traced inner(ball + "glass bubble hollow 0 0 4 .2 .1 0 .5\n", o);
+  Traced full(ball, o);
+  Random random(4);
+  double change = 0;
+  for (int i = 0; i < 500; ++i) {
+    const V3d from = 3. * randomDirection(random), to = .8 * randomDirection(random);
+    const Rgb expected = inner.color(from, to - from);
+    EXPECT_NEAR((cut.color(from, to - from) - expected).length(), 0, 1e-6) << i;
+    change += (full.color(from, to - from) - expected).length();
+  }
+  EXPECT_GT(change, 50);  // the hollow is met
+}
+
 TEST(Antimatter, LetsLightThrough) {
   const std::string lit =
       "void light bright 0 0 3 1000 1000 1000\nbright sphere lamp 0 0 4 0 0 2 .01\n"
