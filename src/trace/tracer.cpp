@@ -6,6 +6,7 @@
 #include <span>
 
 #include "trace/embree.h"
+#include "trace/refracting.h"
 #include "trace/triangle.h"
 
 namespace rsphere {
@@ -19,6 +20,8 @@ struct Occluder {
   bool transparent = false;
   bool opaqueFront = false, opaqueBack = false;  // surely lets no shadow ray pass when hit there
   bool plane = false;
+
+  bool stops(double cosine) const { return cosine > 0 ? opaqueFront : opaqueBack; }
 };
 
 bool stopsFromBehind(const Material& material) {
@@ -112,6 +115,7 @@ struct Query {
   // The tree's primitives that the ray begins on and cannot meet again, and that it goes to.
   uint32_t from = Tracer::kNoBlocker, target = Tracer::kNoBlocker;
   uint32_t blocker = 0;  // shadow(): the tree's primitive that stopped the ray
+  double stop = 0;       // and at which distance
 
   double reach() const { return best.occluder ? best.hit.distance + samePlace : farthest; }
   // Whether a hit at least as near as reach() has to give way to the best one.
@@ -130,12 +134,21 @@ float roundDown(double x) {
 // Surfaces that are traced together, with Embree's tree around them.
 class Tracer::Tree {
  public:
-  // A group of surfaces. trees: those of other groups, and those of meshes, that its instances may be of.
+  // The trees that instances and meshes may be of: of groups, of the surfaces of groups that refract, and of
+  // meshes.
+  struct Others {
+    std::span<const std::unique_ptr<Tree>> groups, refracting, meshes;
+  };
+
+  // A group of surfaces. only: not null where the tree is to have these alone, by index in Scene::surfaces;
+  // what its instances bring in are then the surfaces that refract, but for instances with a modifier of
+  // their own, which all of their contents have.
   Tree(RTCDevice device, const Scene& scene, const SurfaceGroup& group, bool backFacesVisible,
-       std::span<const std::unique_ptr<Tree>> groups, std::span<const std::unique_ptr<Tree>> meshes)
-      : scene_(scene), groups_(groups), meshes_(meshes) {
-    faces_.reserve(group.surfaces);
+       const Others& others, const std::vector<bool>* only = nullptr)
+      : scene_(scene), others_(others), isWhole_(!only) {
+    if (isWhole_) faces_.reserve(group.surfaces);
     for (uint32_t i = group.firstSurface; i < group.firstSurface + group.surfaces; ++i) {
+      if (only && !(*only)[i]) continue;
       const Box3d box = boundsOf(scene.surfaces[i]);
       primitives_ += !box.isEmpty();
       bounds_.extendBy(box);
@@ -143,7 +156,7 @@ class Tracer::Tree {
       if (const auto* polygon = std::get_if<Polygon>(&scene.surfaces[i].shape)) face.polygon = *polygon;
       face.occluder = makeOccluder(scene, i, backFacesVisible);
     }
-    build(device, group.surfaces, onIntersect<&Tree::meetSurface>, onOccluded<&Tree::crossSurface>);
+    build(device, faces_.size(), onIntersect<&Tree::meetSurface>, onOccluded<&Tree::crossSurface>);
   }
 
   // The triangles of a mesh.
@@ -169,7 +182,7 @@ class Tracer::Tree {
 
   // The primitive that a ray cannot meet again which begins on this surface: kNoBlocker where there is none.
   uint32_t beginOf(int32_t surface) const {
-    const auto primitive = static_cast<uint32_t>(surface);  // as the world's tree has it
+    const auto primitive = static_cast<uint32_t>(surface);  // as the world's whole tree has it
     return primitive < faces_.size() && faces_[primitive].occluder.plane ? primitive : kNoBlocker;
   }
 
@@ -209,11 +222,17 @@ class Tracer::Tree {
     uint32_t placement = 0;
   };
   Contents contentsOf(const Surface& surface) const {
-    if (const auto* instance = std::get_if<Instance>(&surface.shape))
-      return {groups_[instance->group].get(), instance->placement};
+    if (const auto* instance = std::get_if<Instance>(&surface.shape)) {
+      const bool all = isWhole_ || hasOwnModifier(surface);
+      return {(all ? others_.groups : others_.refracting)[instance->group].get(), instance->placement};
+    }
     if (const auto* mesh = std::get_if<MeshInstance>(&surface.shape))
-      return {meshes_[mesh->mesh].get(), mesh->placement};
+      return {others_.meshes[mesh->mesh].get(), mesh->placement};
     return {};
+  }
+
+  bool hasOwnModifier(const Surface& surface) const {
+    return scene_.description.primitives[surface.primitive].modifier != rad::kVoid;
   }
 
   Box3d boundsOf(const Surface& surface) const {
@@ -403,7 +422,10 @@ class Tracer::Tree {
   // The side that is hit, and the tie with what lies on the source: query.best is where the source itself is.
   bool crosses(Query& query, const Occluder& occluder, const ShapeHit& hit) const {
     if (query.loses(occluder, hit)) return false;
-    if (hit.cosine > 0 ? occluder.opaqueFront : occluder.opaqueBack) return true;
+    if (occluder.stops(hit.cosine)) {
+      query.stop = hit.distance;
+      return true;
+    }
     query.passable = true;
     return false;
   }
@@ -442,11 +464,13 @@ class Tracer::Tree {
       in.standIn = nullptr;
     const bool blocked = contents.tree->blocks(in);
     query.passable = query.passable || in.passable;
+    query.stop = in.stop * scene_.placements[contents.placement].toOuter.scale;
     return blocked;
   }
 
   const Scene& scene_;
-  std::span<const std::unique_ptr<Tree>> groups_, meshes_;
+  Others others_;
+  bool isWhole_ = true;
   const Mesh* mesh_ = nullptr;
   std::vector<Face> faces_;          // of a group: of each of its surfaces, by Embree's primitive number
   std::vector<Occluder> occluders_;  // of a mesh: by material
@@ -461,8 +485,28 @@ class Tracer::Tree {
 struct Tracer::Embree {
   RTCDevice device = nullptr;
   std::vector<std::unique_ptr<Tree>> meshes, groups;  // as the scene has them
+  // By group: its surfaces that refract. Null where there are none.
+  std::vector<std::unique_ptr<Tree>> refracting;
+
+  // Whether a ray of shadow(), which is stopped, meets a surface that may refract it before anything stops
+  // it.
+  bool refractsBefore(Query& query) const {
+    Query bent;
+    bent.origin = query.origin;
+    bent.direction = query.direction;
+    bent.farthest = query.stop;
+    refracting[0]->nearest(bent);
+    const Found& found = bent.best;
+    // A mesh is there with all of its triangles.
+    if (!found.occluder || found.occluder->stops(found.hit.cosine)) return false;
+    query.best.occluder = found.occluder;
+    query.best.hit = found.hit;
+    query.farthest = found.hit.distance + kSamePlace;
+    return !groups[0]->blocks(query);
+  }
 
   ~Embree() {
+    refracting.clear();
     groups.clear();
     meshes.clear();
     if (device) rtcReleaseDevice(device);
@@ -482,13 +526,19 @@ Tracer::Tracer(const Scene& scene, bool backFacesVisible)
     e.meshes.push_back(std::make_unique<Tree>(e.device, scene, mesh, backFacesVisible));
   // Those that instances bring in before those that hold the instances.
   e.groups.resize(scene.groups.size());
+  e.refracting.resize(scene.groups.size());
+  const std::vector<bool> refracts = refractingSurfaces(scene);
+  const Tree::Others others{e.groups, e.refracting, e.meshes};
   const auto build = [&](const auto& self, size_t g) -> void {
     const SurfaceGroup& group = scene.groups[g];
+    const auto first = refracts.begin() + group.firstSurface, last = first + group.surfaces;
     if (scene.groups.size() > 1)
       for (const Surface& surface : std::span(scene.surfaces).subspan(group.firstSurface, group.surfaces))
         if (const auto* instance = std::get_if<Instance>(&surface.shape))
           if (!e.groups[instance->group]) self(self, instance->group);
-    e.groups[g] = std::make_unique<Tree>(e.device, scene, group, backFacesVisible, e.groups, e.meshes);
+    e.groups[g] = std::make_unique<Tree>(e.device, scene, group, backFacesVisible, others);
+    if (std::find(first, last, true) != last)
+      e.refracting[g] = std::make_unique<Tree>(e.device, scene, group, backFacesVisible, others, &refracts);
   };
   if (!scene.groups.empty()) {
     build(build, 0);
@@ -559,8 +609,15 @@ Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, 
     query.best.hit = {distance, V3d(0, 0, 0), 1};
     query.farthest += kSamePlace;
   }
-  if (blocker && tree.isBlocker(query, *blocker)) return Shadow::blocked;
-  const bool blocked = tree.blocks(query);
+  bool blocked = true;
+  if (blocker && tree.isBlocker(query, *blocker))
+    query.blocker = *blocker;
+  else
+    blocked = tree.blocks(query);
+  if (blocked && embree_->refracting[0] && embree_->refractsBefore(query)) {
+    blocked = false;
+    query.passable = true;
+  }
   // Where a ray gets through, the next one mostly does so too: trying the old blocker would cost more than it
   // saves.
   if (blocker) *blocker = blocked ? query.blocker : kNoBlocker;

@@ -38,8 +38,8 @@ struct Hit {
 
 enum class Shadow : uint8_t {
   clear,    // nothing is between the two
-  blocked,  // something is that lets no ray pass
-  unsure    // nothing opaque, but something that may let light pass: the ray must be followed
+  blocked,  // something that lets no ray pass is, and nothing before it that could refract the ray past it
+  unsure    // the light may arrive, through what lets it pass or refracts it: the ray must be followed
 };
 
 class Tracer {

@@ -24,12 +24,12 @@ V3d inBox(Random& random, double half) {
 
 constexpr const char* kMaterials =
     "void plastic gray\n0\n0\n5 .5 .5 .5 0 0\nvoid glass pane\n0\n0\n3 .9 .9 .9\n"
-    "void metal coat\n0\n0\n5 .5 .5 .5 .9 0\n";
+    "void metal coat\n0\n0\n5 .5 .5 .5 .9 0\nvoid dielectric ice\n0\n0\n5 .9 .9 .9 1.3 0\n";
 constexpr const char* kThings =
     "gray sphere s1\n0\n0\n4 .3 .2 .1 .4\npane bubble s2\n0\n0\n4 -.5 .2 .4 .3\n"
     "gray polygon p1\n0\n0\n12 -1 -1 -.8 1 -1 -.7 1 1 -.8 -1 1 -.9\n"
     "coat cylinder c1\n0\n0\n7 -.8 -.8 -.8 -.7 .2 .6 .15\nvoid cone c2\n0\n0\n8 .6 -.5 -.6 .6 -.4 .5 .3 .1\n"
-    "pane ring r1\n0\n0\n8 0 .6 .3 .3 .4 1 .1 .5\n";
+    "pane ring r1\n0\n0\n8 0 .6 .3 .3 .4 1 .1 .5\nice sphere s3\n0\n0\n4 .1 -.5 .3 .3\n";
 
 // The things twice, as instances within an octree that is placed itself, and written out by xform.
 struct Both {
@@ -114,6 +114,32 @@ TEST(Instances, PathsLeadToTheOctreesCoordinates) {
   const Both hidden("-ry 20 -s 2", "coat");
   const Tracer hides(hidden.placed, true);
   for (int i = 0; i < 100; ++i) EXPECT_EQ(hides.nearest(inBox(random, 4), direction(random)).path.count, 0);
+}
+
+// An instance's own modifier is that of all that it brings in.
+TEST(Instances, OfADielectricRefractShadowRays) {
+  const SceneFolder folder;
+  const std::string square = " polygon in\n0\n0\n12 -1 -1 0 1 -1 0 1 1 0 -1 1 0\n";
+  const std::string file = std::string(RSPHERE_TESTS) + "/scenes/octree/box.rtm";
+  const auto shadow = [&](const std::string& thing, double wall) {
+    const Scene scene = sceneOf(std::string(kMaterials) + thing +
+                                fmt::format("gray ring wall\n0\n0\n8 0 0 {} 0 0 1 0 9\n", wall));
+    return Tracer(scene, true).shadow(V3d(.1, .2, 5), V3d(0, 0, -1), 20, kNone);
+  };
+  const auto instance = [&](const std::string& modifier, const std::string& inside) {
+    const std::string oct =
+        folder.octree(modifier + inside + ".oct", std::string(kMaterials) + inside + square);
+    return modifier + " instance i\n1 " + oct + "\n0\n0\n";
+  };
+  const auto mesh = [&](const std::string& modifier) { return modifier + " mesh m\n1 " + file + "\n0\n0\n"; };
+  for (const std::string& refracts :
+       {instance("void", "ice"), instance("ice", "gray"), instance("ice", "void"), mesh("ice")}) {
+    EXPECT_EQ(shadow(refracts, -10), Shadow::unsure) << refracts;
+    EXPECT_EQ(shadow(refracts, 3), Shadow::blocked) << refracts;
+  }
+  for (const std::string& straight : {instance("void", "pane"), instance("pane", "ice"),
+                                      instance("pane", "void"), mesh("pane"), mesh("gray")})
+    EXPECT_EQ(shadow(straight, -10), Shadow::blocked) << straight;
 }
 
 // One place, several surfaces: the rules of a scene without instances, across them.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -256,6 +257,58 @@ TEST(Tracer, TellsShadowsAsALoopOverAllSurfacesDoes) {
     EXPECT_EQ(wrong, 0) << "shift " << shift;
     for (const int count : counts) EXPECT_GT(count, 200) << "too few of a kind for a test";
   }
+}
+
+// Light may be refracted past what stands behind a dielectric, but not past what stands before it.
+TEST(Tracer, LeavesShadowsBehindWhatRefractsUnsure) {
+  const std::string materials = std::string(kMaterials) +
+                                "void dielectric ice\n0\n0\n5 .9 .9 .9 1.3 0\n"
+                                "void interface oil\n0\n0\n8 .9 .9 .9 1.5 .9 .9 .9 1.3\n"
+                                "void mixfunc half\n4 gray ice .5 .\n0\n0\n"
+                                "void mirror twoway\n1 ice\n0\n3 .9 .9 .9\n"
+                                "void illum window\n1 half\n0\n3 1 1 1\n"
+                                "void antimatter cut\n1 ice\n0\n0\n";
+  const char* const refracting[] = {"ice", "oil", "half", "twoway", "window", "cut"};
+  const char* const straight[] = {"pane", "void", "lamp", "gray", "gray", "gray"};
+  Random random(21);
+  std::string things = materials;
+  for (int i = 0; i < 200; ++i) {
+    const V3d at = randomPoint(random, 5), u = randomPoint(random, 2), v = randomPoint(random, 2);
+    const char* modifier = (random.uniform() < .4 ? refracting : straight)[random.bits() % 6];
+    if (i % 2)
+      things += fmt::format("{} sphere s{}\n0\n0\n4{} {}\n", modifier, i, text(at), between(random, .1, 1));
+    else
+      things +=
+          fmt::format("{} polygon s{}\n0\n0\n9{}{}{}\n", modifier, i, text(at), text(at + u), text(at + v));
+  }
+  const Scene scene = sceneOf(things);
+  const Tracer tracer(scene, true);
+  int counts[3] = {0, 0, 0}, wrong = 0, passedByRefraction = 0;
+  std::vector<uint32_t> blockers(100, Tracer::kNoBlocker);
+  for (int i = 0; i < 5000; ++i) {
+    const V3d origin = randomPoint(random, 6), direction = randomDirection(random);
+    const double distance = between(random, 1, 20);
+    double refracts = kFarAway, stops = kFarAway;
+    Shadow expected = Shadow::clear;
+    for (const Surface& s : scene.surfaces) {
+      ShapeHit hit;
+      if (!meets(scene, s, origin, direction, distance, hit)) continue;
+      expected = Shadow::unsure;
+      const std::string_view name = scene.modifierName(s);
+      if (name == "gray" || name == "lamp") stops = std::min(stops, hit.distance);
+      if (std::find(std::begin(refracting), std::end(refracting), name) != std::end(refracting))
+        refracts = std::min(refracts, hit.distance);
+    }
+    if (stops < refracts) expected = Shadow::blocked;
+    ++counts[static_cast<int>(expected)];
+    passedByRefraction += refracts < stops && stops < kFarAway;
+    // Whatever stopped the ray before.
+    wrong += tracer.shadow(origin, direction, distance, kNone, &blockers[i % 100]) != expected;
+    wrong += tracer.shadow(origin, direction, distance, kNone) != expected;
+  }
+  EXPECT_EQ(wrong, 0);
+  for (const int count : counts) EXPECT_GT(count, 500) << "too few of a kind for a test";
+  EXPECT_GT(passedByRefraction, 150);
 }
 
 // Curved surfaces can be met again from where they were met; what is named and plane is left out even where a

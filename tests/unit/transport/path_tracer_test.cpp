@@ -216,6 +216,53 @@ TEST(Direct, LightIsFilteredByGlass) {
 }
 
 // Far too many equal lamps to be tested one by one: with -dt the untested are guessed by the tested.
+// A board on a slab of glass: its shadow on the floor lies where the refracted rays to the sun meet it.
+TEST(Direct, RefractedPathDecidesAboutShadowsBehindASlab) {
+  const double sine = .7, index = 1.5, left = -1, right = .5;
+  const V3d sun(sine, 0, std::sqrt(1 - sine * sine));
+  const std::string slab = light(1e4) +
+                           fmt::format("lamp source sun\n0\n0\n4 {} {} {} .1\n", sun.x, sun.y, sun.z) +
+                           plastic("gray", .5) + floor("gray", 0) +
+                           fmt::format("void dielectric glass\n0\n0\n5 1 1 1 {} 0\n", index) +
+                           floor("glass", 1, 20, false) + floor("glass", 3, 20);
+  const std::string board =
+      fmt::format("gray polygon board\n0\n0\n12 {0} -5 4 {1} -5 4 {1} 5 4 {0} 5 4\n", left, right);
+  Traced open(slab), covered(slab + board);
+  // How far a ray from the floor has gone aside when it comes to the board: two units of air, two of glass.
+  const double within = sine / index;
+  const double aside = 2 * sine / sun.z + 2 * within / std::sqrt(1 - within * within);
+  const auto seen = [](Traced& scene, double x) { return scene.value(V3d(x, .1, .5), kDown); };
+  const double lit = seen(open, 0);
+  EXPECT_GT(lit, 0);
+  int shadowed = 0;
+  for (int i = 0; i < 400; ++i) {
+    const double x = -6 + .0203 * i, over = x + aside;
+    if (std::abs(over - left) < .02 || std::abs(over - right) < .02) continue;
+    const bool dark = over > left && over < right;
+    EXPECT_NEAR(seen(covered, x), dark ? 0 : lit, 1e-9 * lit) << x;
+    shadowed += dark;
+  }
+  EXPECT_GT(shadowed, 50);
+}
+
+// A lamp that is hidden by a board on the straight line but not on the refracted one: the ray has to meet it.
+TEST(Direct, RefractedShadowRaysLightWhereTheyMeetTheirSource) {
+  const auto scene = [](double board, double lamp) {
+    return light(1e4) + fmt::format("lamp ring l\n0\n0\n8 {} 0 6 0 0 -1 0 .5\n", lamp) + plastic("gray", .5) +
+           floor("gray", 0) + "void dielectric glass\n0\n0\n5 1 1 1 1.5 0\n" + floor("glass", 1, 20, false) +
+           floor("glass", 3, 20) +
+           fmt::format("gray polygon board\n0\n0\n12 {0} -5 5 {1} -5 5 {1} 5 5 {0} 5 5\n", board, board + .5);
+  };
+  // The ray that is aimed at the middle of a lamp at x = 3 meets it at 2.6; the one for a lamp at 6 passes
+  // at 5.1.
+  const V3d from(0, .1, .5);
+  const double open = Traced(scene(15, 3)).value(from, kDown);
+  EXPECT_GT(open, 0);
+  EXPECT_EQ(Traced(scene(2.25, 3)).value(from, kDown), open) << "on the straight line, which passes at 2.5";
+  EXPECT_EQ(Traced(scene(1.75, 3)).value(from, kDown), 0) << "on the refracted line, which passes at 2.1";
+  EXPECT_EQ(Traced(scene(15, 6)).value(from, kDown), 0) << "the refracted ray passes the lamp";
+}
+
 TEST(Direct, ThresholdKeepsToItsShare) {
   std::string scene = plastic("m", .5) + floor("m") + light(1);
   for (int i = 0; i < 100; ++i)
