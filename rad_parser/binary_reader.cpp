@@ -14,8 +14,17 @@ namespace {
 
 constexpr size_t kBlock = 1 << 18;
 static_assert(kBlock > 2 * BinaryReader::kLongestString);
+constexpr std::string_view kFormatMark = "FORMAT=";
 
 }  // namespace
+
+std::optional<std::string_view> headerFormat(std::string_view line) {
+  if (!line.starts_with(kFormatMark)) return std::nullopt;
+  line.remove_prefix(kFormatMark.size());
+  line = line.substr(0, line.find_first_of("\r\n"));
+  line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+  return line.substr(0, line.find_last_not_of(" \t") + 1);
+}
 
 BinaryReader::BinaryReader(int descriptor, std::string name, std::string kind, std::string_view ahead)
     : descriptor_(descriptor), name_(std::move(name)), kind_(std::move(kind)), block_(new uint8_t[kBlock]) {
@@ -67,41 +76,38 @@ std::string_view BinaryReader::string() {
   throw fault(fmt::format("damaged {}: a string of more than {} bytes", kind_, kLongestString));
 }
 
-std::vector<std::string> BinaryReader::header(std::string_view format) {
-  const auto none = [this](const char* article) {
-    return Error(fmt::format("{}: not {} {}", printable(name_, 4096), article, kind_));
-  };
-  const char* article = std::string_view("aeiou").find(kind_[0]) == std::string_view::npos ? "a" : "an";
-  std::vector<std::string> lines;
+std::string BinaryReader::notThis() const {
+  const bool vowel = std::string_view("aeiou").find(kind_[0]) != std::string_view::npos;
+  return fmt::format("{}: not {} {}", printable(name_, 4096), vowel ? "an" : "a", kind_);
+}
+
+Error BinaryReader::otherFormat(std::string_view format) const {
+  return Error(fmt::format("{}: its header says {}{}", notThis(), kFormatMark, printable(format)));
+}
+
+BinaryReader::Header BinaryReader::header() {
+  Header header;
+  std::vector<std::string>& lines = header.lines;
   for (std::string line;; line.clear()) {
     for (;;) {
       if (next_ == end_) {
         const uint8_t* keep = next_;
         if (refill(keep)) continue;
-        if (offset() == 0)
-          throw Error(fmt::format("{}: not {} {}: 0 bytes (did the program that makes it fail?)",
-                                  printable(name_, 4096), article, kind_));
-        throw lines.empty() ? none(article) : fault("truncated " + kind_);
+        if (offset() == 0) throw Error(notThis() + ": 0 bytes (did the program that makes it fail?)");
+        throw lines.empty() ? Error(notThis()) : fault("truncated " + kind_);
       }
       const char c = static_cast<char>(*next_++);
-      if (offset() == 1 && (c < ' ' || c > '~')) throw none(article);
+      if (offset() == 1 && (c < ' ' || c > '~')) throw Error(notThis());
       if (c == '\n') break;
       line += c;
-      if (offset() > kLongestHeader) throw none(article);
+      if (offset() > kLongestHeader) throw Error(notThis());
     }
     if (line.ends_with('\r')) line.pop_back();
-    if (line.empty()) return lines;
-    constexpr std::string_view kFormat = "FORMAT=";
-    if (!line.starts_with(kFormat)) {
+    if (line.empty()) return header;
+    if (const std::optional<std::string_view> format = headerFormat(line))
+      header.format = *format;
+    else
       lines.push_back(line);
-      continue;
-    }
-    std::string_view value = std::string_view(line).substr(kFormat.size());
-    value.remove_prefix(std::min(value.find_first_not_of(" \t"), value.size()));
-    value = value.substr(0, value.find_last_not_of(" \t") + 1);
-    if (value != format)
-      throw Error(fmt::format("{}: not {} {}: its header says {}{}", printable(name_, 4096), article, kind_,
-                              kFormat, printable(value)));
   }
 }
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,10 @@
 #include "rad_parser/error.h"
 
 namespace rad {
+
+// The format that a line of an information header names ("FORMAT=..."), without blanks around it; empty where
+// it names none.
+std::optional<std::string_view> headerFormat(std::string_view line);
 
 // Reads the portable binary data of octrees and meshes, from a file descriptor, in blocks: memory does not
 // grow with the file. Every function throws fault("truncated KIND") where the data end too early, and Error
@@ -22,9 +27,17 @@ class BinaryReader {
   // read from the descriptor already; at most half a block (128 kB).
   BinaryReader(int descriptor, std::string name, std::string kind, std::string_view ahead = {});
 
-  // The information header: its lines but those that name the format, without line ends. Throws where it is
-  // none or names another format; a header that names none is taken.
-  std::vector<std::string> header(std::string_view format);
+  // The information header, up to its empty line. "#?RADIANCE" need not be its first line: octrees of 1989
+  // have none.
+  struct Header {
+    std::vector<std::string> lines;  // but those that name the format, without line ends
+    std::string format;              // as the last of these names it; empty where there is none
+  };
+  // Throws where the data do not begin with a printable character, or end before the header does.
+  Header header();
+
+  // "scene.oct: not an octree: its header says FORMAT=..."
+  Error otherFormat(std::string_view format) const;
 
   uint8_t byte() {
     if (next_ == end_) need(1);
@@ -82,6 +95,7 @@ class BinaryReader {
     return powers;
   }();
 
+  std::string notThis() const;  // "scene.oct: not an octree"
   void need(size_t bytes);
   bool refill(const uint8_t*& keep);
 

@@ -47,9 +47,10 @@ void readAlias(BinaryReader& input, Primitive& p, int64_t modifier, DescriptionB
 
 }  // namespace
 
-int readIndexWidth(BinaryReader& input, int magic) {
+int readIndexWidth(BinaryReader& input, int magic, std::string_view otherFormat) {
   const int64_t width = input.integer(2) - magic;
-  if (width < 1 || width > 8) throw input.fault("incompatible format");
+  if (width < 1 || width > 8)
+    throw otherFormat.empty() ? input.fault("incompatible format") : input.otherFormat(otherFormat);
   return static_cast<int>(width);
 }
 

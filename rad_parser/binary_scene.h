@@ -10,7 +10,9 @@ namespace rad {
 // noticed.
 
 // The width in bytes of object numbers, 1 to 8, from the format number: what it exceeds `magic` by.
-int readIndexWidth(BinaryReader& input, int magic);
+// otherFormat: what the header says where that is not the format of these data; the reason that is thrown for
+// a number out of range.
+int readIndexWidth(BinaryReader& input, int magic, std::string_view otherFormat = {});
 
 // The cube that encloses everything: four numbers, as text.
 Cube readCube(BinaryReader& input);

@@ -30,8 +30,10 @@ class Reader {
   Reader(BinaryReader& input, const Warn& warn) : input_(input), warn_(warn) {}
 
   Mesh read() {
-    std::vector<std::string> header = input_.header("Radiance_tmesh");
-    const int width = readIndexWidth(input_, kMagic);
+    BinaryReader::Header header = input_.header();
+    // As rtrace has it, the number behind the header decides, whatever format the header names.
+    const bool named = header.format == "Radiance_tmesh";
+    const int width = readIndexWidth(input_, kMagic, named ? "" : header.format);
     const Cube cube = readCube(input_);
     if (cube.size <= 0) throw input_.fault("damaged bounds");
     for (int i = 0; i < 2; ++i) {
@@ -45,7 +47,7 @@ class Reader {
     builder.description().files[file].numbered = true;
     readPrimitives(input_, width, file, builder, warn_);
     mesh_.materials = builder.take();
-    mesh_.materials.header = std::move(header);
+    mesh_.materials.header = std::move(header.lines);
     mesh_.materials.cube = cube;
     for (const Primitive& p : mesh_.materials.primitives)
       if (isSurface(p.type))

@@ -17,6 +17,8 @@ constexpr std::string_view kFirst = "#?";  // of an information header
 constexpr int kMagic = 283;                // what the format number exceeds is the width of object numbers
 constexpr size_t kBeginning = 1 << 16;
 
+bool isPrintable(char c) { return c >= ' ' && c <= '~'; }
+
 // Where the header ends, behind its empty line; npos where it does not.
 size_t headerEnd(std::string_view data) {
   const size_t unix = data.find("\n\n"), dos = data.find("\n\r\n");
@@ -40,7 +42,7 @@ std::string readBeginning(int descriptor) {
   std::string data;
   const auto enough = [&] {
     if (data.size() >= kBeginning) return true;
-    if (!data.starts_with(kFirst)) return data.size() >= kFirst.size();
+    if (!data.empty() && !isPrintable(data[0])) return true;
     const size_t end = headerEnd(data);
     return end != data.npos && data.size() >= end + 2;
   };
@@ -56,29 +58,35 @@ std::string readBeginning(int descriptor) {
 }
 
 bool isOctree(std::string_view beginning, std::string_view name) {
-  if (!beginning.starts_with(kFirst)) return false;
+  if (beginning.empty() || !isPrintable(beginning[0])) return false;
   const size_t end = headerEnd(beginning);
   const std::string_view header = beginning.substr(0, end);
-  constexpr std::string_view kMark = "\nFORMAT=";
-  if (const size_t mark = header.find(kMark); mark != header.npos) {
-    std::string_view format = header.substr(mark + kMark.size());
-    format = format.substr(0, format.find_first_of("\r\n"));
-    format.remove_prefix(std::min(format.find_first_not_of(" \t"), format.size()));
-    format = format.substr(0, format.find_last_not_of(" \t") + 1);
-    if (format == kFormat) return true;
-    throw Error(fmt::format("{}: not an octree: its header says FORMAT={}", printable(name, 4096),
-                            printable(format)));
+  std::optional<std::string_view> format;
+  for (std::string_view rest = header; !rest.empty();) {
+    if (const auto named = headerFormat(rest)) format = named;
+    const size_t lineEnd = rest.find('\n');
+    rest.remove_prefix(lineEnd == rest.npos ? rest.size() : lineEnd + 1);
   }
-  if (end == beginning.npos || beginning.size() < end + 2) return false;
-  const int number = static_cast<uint8_t>(beginning[end]) << 8 | static_cast<uint8_t>(beginning[end + 1]);
-  return number > kMagic && number <= kMagic + 8;
+  if (format == kFormat) return true;
+  // Text may have an empty line, but no such bytes behind it.
+  bool hasNumber = false;
+  if (end != beginning.npos && beginning.size() >= end + 2) {
+    const int number = static_cast<uint8_t>(beginning[end]) << 8 | static_cast<uint8_t>(beginning[end + 1]);
+    hasNumber = number > kMagic && number <= kMagic + 8;
+  }
+  if (format && (hasNumber || beginning.starts_with(kFirst)))
+    throw Error(fmt::format("{}: not an octree: its header says FORMAT={}", printable(name, 4096),
+                            printable(*format)));
+  return hasNumber;
 }
 
 void readOctree(BinaryReader& input, uint32_t file, DescriptionBuilder& builder, const Warn& warn,
                 const std::function<void(const std::string&)>& sceneFile) {
   Description& d = builder.description();
   d.files[file].numbered = true;
-  d.header = input.header(kFormat);
+  BinaryReader::Header header = input.header();
+  if (!header.format.empty() && header.format != kFormat) throw input.otherFormat(header.format);
+  d.header = std::move(header.lines);
   const int width = readIndexWidth(input, kMagic);
   d.cube = readCube(input);
   bool frozen = true;

@@ -12,9 +12,10 @@ namespace rad {
 // is shorter. What cannot be read is left for who reads on, who meets the same fault.
 std::string readBeginning(int descriptor);
 
-// Whether data that begin like this are an octree, by its information header ("#?RADIANCE", lines, and
-// FORMAT=Radiance_octree or, without that line, the octree's format number behind the header). Throws where
-// the header names another format.
+// Whether data that begin like this are an octree, by its information header: lines up to an empty one, of
+// which the last that begins with FORMAT= names Radiance_octree; or, where no line names a format, by the
+// octree's format number behind the header. As rtrace has it, "#?RADIANCE" need not be the first line. Throws
+// where the header of an octree, or one that begins with "#?", names another format.
 bool isOctree(std::string_view beginning, std::string_view name);
 
 // Reads an octree into the builder's description, which is empty but for `file`, the octree's own. A frozen

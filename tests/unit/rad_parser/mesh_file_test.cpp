@@ -25,6 +25,7 @@ constexpr double kUnit = 1. / 4294967296.;  // a step of a coordinate, of the cu
 // A mesh of two patches: the first of three vertices, all with normals, the second of two with (u,v); a
 // triangle of the first, and joining triangles of one and of two vertices away.
 struct MeshData {
+  std::string header = "#?RADIANCE\nobj2mesh by hand\nFORMAT=Radiance_tmesh\n\n";
   std::string bounds = std::string(
       "0\0"
       "0\0"
@@ -40,7 +41,7 @@ struct MeshData {
   }
   std::string bytes() const {
     BinaryData d;
-    d.bytes = "#?RADIANCE\nobj2mesh by hand\nFORMAT=Radiance_tmesh\n\n";
+    d.bytes = header;
     d.integer(319 + 4, 2);
     d.bytes += bounds;
     d.real(-1073741823, 1).real(1073741823, 1).real(-1073741823, 1).real(1073741823, 2);
@@ -257,6 +258,15 @@ TEST(MeshFile, DamagedMeshes) {
             "t.rtm: not a mesh: its header says FORMAT=Radiance_octree");
   EXPECT_EQ(errorOf([] { rad::readMesh("none.rtm"); }, Status::system),
             "none.rtm: cannot find mesh file" + rad::FileAccess().remark("none.rtm"));
+}
+
+TEST(MeshFile, TheNumberBehindTheHeaderTellsAMesh) {
+  for (const char* header : {"obj2mesh\nFORMAT=Radiance_tmesh\n\n", "obj2mesh\n\n", "FORMAT=ascii\n\n"}) {
+    MeshData data;
+    data.header = header;
+    EXPECT_EQ(readBytes(data.bytes()).positions.size(), readBytes(MeshData().bytes()).positions.size())
+        << header;
+  }
 }
 
 TEST(MeshFile, AMeshWithoutMaterialsHasNone) {

@@ -239,6 +239,31 @@ TEST(OctreeFile, HeadersAsProgramsWriteThem) {
   EXPECT_EQ(errorOfBytes(data.bytes()), "t.oct: not an octree: its header says FORMAT=32-bit_rle_rgbe");
 }
 
+// As programs wrote them before headers had a first line of their own, and as other programs may change them.
+TEST(OctreeFile, WithoutAFirstLineOfItsOwnIsAnOctree) {
+  OctreeData data;
+  data.header = "oconv -f -n 8 !fuzzmaker \nFORMAT=Radiance_octree\n\n";
+  EXPECT_EQ(readBytes(data.bytes()).header, std::vector<std::string>{"oconv -f -n 8 !fuzzmaker "});
+  EXPECT_EQ(readBytes(data.bytes()).primitives.size(), 3u);
+  const TestFolder folder;
+  const std::string file = folder.write("t.oct", data.bytes());
+  EXPECT_EQ(rad::readOctree(file).primitives.size(), 3u) << "as an instance";
+  EXPECT_EQ(readFile("!cat " + file).primitives.size(), 3u);
+  for (const char* header : {"FORMAT=Radiance_octree\n\n", "oconv\n\n", "oconv\r\n\r\n",
+                             "FORMAT=ascii\nFORMAT=Radiance_octree\n\n"}) {
+    data.header = header;
+    EXPECT_EQ(readBytes(data.bytes()).primitives.size(), 3u) << header;
+  }
+  data.header = "oconv\nFORMAT=Radiance_octree\nFORMAT=ascii\n\n";
+  EXPECT_EQ(errorOfBytes(data.bytes()), "t.oct: not an octree: its header says FORMAT=ascii");
+  data.header = "\n\n";  // no header at all
+  EXPECT_NE(errorOfBytes(data.bytes()), "");
+  // Scene text may have empty lines, and words like these.
+  for (const char* text :
+       {"void plastic m\n\n0 0 0\n", "void plastic FORMAT=x 0 0 0\n\n", "void plastic\nFORMAT=x\n\n0 0 0\n"})
+    EXPECT_EQ(readFile(folder.write("text.rad", text)).primitives.size(), 1u) << text;
+}
+
 TEST(OctreeFile, WhatIsNoOctree) {
   const TestFolder folder;
   const std::string empty = folder.write("empty.oct", ""),
