@@ -101,6 +101,35 @@ TEST(VirtualSource, IsSeenThroughTheMirrorAlone) {
   }
 }
 
+// Of a ceiling light that reaches behind the mirror's plane the part before it is mirrored. RADIANCE 6.1a
+// leaves such images out where the mirror's plane is not near the origin: it looks at the wrong end of the
+// light.
+TEST(VirtualSource, OfASourcePartlyBehindTheMirrorIsThatOfTheRest) {
+  constexpr double kWall = 4, kHeight = 3;
+  const std::string scene = fmt::format(
+                                "void light bright 0 0 3 1 1 1\nbright polygon lamp 0 0 12 {0} -1 {2} {0} 1 "
+                                "{2} {1} 1 {2} {1} -1 {2}\n",
+                                kWall - 1, kWall + 2, kHeight) +
+                            mirror(kWall, 1);
+  const V3d point(kWall + 1.5, .3, 0);
+  // Irradiance on a level surface by the light between two places in x, by quadrature.
+  const auto rectangle = [&](double from, double to) {
+    constexpr int kSteps = 200;
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i)
+      for (int k = 0; k < kSteps; ++k) {
+        const V3d at(from + (to - from) * (i + .5) / kSteps, -1 + 2 * (k + .5) / kSteps, kHeight);
+        sum += kHeight * kHeight / std::pow((at - point).length2(), 2);
+      }
+    return sum * (to - from) * 2 / (kSteps * kSteps);
+  };
+  RayOptions o = unbiased();
+  o.directRelays = 1;
+  Traced lit(scene, o, Irradiance::point);
+  const double expected = rectangle(kWall, kWall + 2) + .9 * rectangle(kWall - 2, kWall);
+  expectMean(lit.mean(point + V3d(0, 0, 1.1e-4), V3d(0, 0, -1), 2000), expected, 1.01);
+}
+
 TEST(VirtualSource, OfTheSunComesFromTheMirroredDirection) {
   Traced lit =
       meters("void light bright 0 0 3 1e5 1e5 1e5\nbright source sun 0 0 4 3 1 4 .5\n" + mirror(0, 1), 1);
