@@ -8,6 +8,24 @@
 #include "transport/ray_functions.h"
 
 namespace rsphere {
+namespace {
+
+// Sources that are hidden from a place for reasons of their own.
+constexpr int kSourceKinds = 3;
+int kindOf(const LightSource& light) { return light.isVirtual() ? 2 : light.distant ? 1 : 0; }
+
+// How many sources were tested for shadows, and how many of these are visible.
+struct Tests {
+  int tested = 0, visible = 0;
+
+  void add(bool isVisible) {
+    ++tested;
+    visible += isVisible;
+  }
+  double share(double ofNone) const { return tested ? static_cast<double>(visible) / tested : ofNone; }
+};
+
+}  // namespace
 
 Ray PathTracer::traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed) {
   const LightSource& light = t_.lights().all()[sample.source];
@@ -173,7 +191,8 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d&
     std::iota(order_.begin(), order_.begin() + count, 0);
   }
   constexpr size_t kAlwaysTested = 2;
-  size_t tested = 0, visible = 0;
+  Tests all, ofKind[kSourceKinds];
+  size_t tested = 0;
   for (; tested < count; ++tested) {
     if (threshold > 0 && tested >= kAlwaysTested) {
       const double ahead = remaining_[tested] - remaining_[std::min<size_t>(tested + lookAhead, count)];
@@ -181,14 +200,16 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d&
     }
     const Contribution& c = contributions_[order_[tested]];
     Rgb value;
-    if (!arrives(ray, c, value)) continue;
-    ray.value += value * c.coefficient;
-    ++visible;
+    const bool visible = arrives(ray, c, value);
+    all.add(visible);
+    ofKind[kindOf(t_.lights().all()[c.sample->source])].add(visible);
+    if (visible) ray.value += value * c.coefficient;
   }
-  // Sources too weak to be tested are let through as often as those that were.
-  const double share = tested ? static_cast<double>(visible) / static_cast<double>(tested) : .5;
+  // Sources too weak to be tested are let through as often as those of their kind that were. Whether a room
+  // sees the sun says nothing of its lamps.
   for (; tested < count; ++tested) {
     const Contribution& c = contributions_[order_[tested]];
+    const double share = ofKind[kindOf(t_.lights().all()[c.sample->source])].share(all.share(.5));
     ray.value += c.value * c.coefficient * share;
   }
 }

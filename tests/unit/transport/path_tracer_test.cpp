@@ -277,6 +277,22 @@ TEST(Direct, ThresholdKeepsToItsShare) {
   }
 }
 
+// A roof hides the sun, which is tested first. Lamps that are too weak to be tested are guessed by the lamps
+// that were: all are visible.
+TEST(Direct, HiddenSunTakesNothingFromUntestedLamps) {
+  std::string scene = plastic("m", .5) + floor("m") + floor("m", 6, 20) + light(1) +
+                      "void light fire\n0\n0\n3 1e6 1e6 1e6\nfire source sun\n0\n0\n4 0 0 1 .5\n";
+  for (int i = 0; i < 100; ++i)
+    scene += fmt::format("lamp sphere l\n0\n0\n4 {} {} 5 .05\n", i % 10 - 4.5, i / 10 - 4.5);
+  RayOptions o;
+  o.directThreshold = 0;
+  const double exact = Traced(scene, o).value(V3d(0, 0, 1), kDown);
+  EXPECT_GT(exact, 0);
+  o.directThreshold = .2;
+  o.directCertainty = .5;
+  EXPECT_NEAR(Traced(scene, o).value(V3d(0, 0, 1), kDown), exact, 1e-9 * exact);
+}
+
 // ---- who is seen
 
 TEST(Sources, VisibilityFollowsTheOption) {
