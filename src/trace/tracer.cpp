@@ -614,14 +614,13 @@ Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, 
     query.blocker = *blocker;
   else
     blocked = tree.blocks(query);
-  if (blocked && embree_->refracting[0] && embree_->refractsBefore(query)) {
-    blocked = false;
-    query.passable = true;
-  }
+  const bool refracted = blocked && embree_->refracting[0] && embree_->refractsBefore(query);
+  blocked = blocked && !refracted;
   // Where a ray gets through, the next one mostly does so too: trying the old blocker would cost more than it
   // saves.
   if (blocker) *blocker = blocked ? query.blocker : kNoBlocker;
   if (blocked) return Shadow::blocked;
+  if (refracted) return Shadow::refracted;
   return query.passable ? Shadow::unsure : Shadow::clear;
 }
 

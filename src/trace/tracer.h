@@ -37,9 +37,11 @@ struct Hit {
 };
 
 enum class Shadow : uint8_t {
-  clear,    // nothing is between the two
-  blocked,  // something that lets no ray pass is, and nothing before it that could refract the ray past it
-  unsure    // the light may arrive, through what lets it pass or refracts it: the ray must be followed
+  clear,     // nothing is between the two
+  blocked,   // something that lets no ray pass is, and nothing before it that could refract the ray past it
+  unsure,    // nothing opaque, but something that may let light pass: the ray must be followed
+  refracted  // something opaque, but before it something that may refract the ray past it: it must be
+             // followed
 };
 
 class Tracer {

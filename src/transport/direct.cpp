@@ -32,6 +32,7 @@ Ray PathTracer::traceToSource(const V3d& point, const SourceSample& sample, uint
   switch (
       t_.tracer().shadow(point, sample.direction, sample.distance, light.distant ? kNone : light.surface)) {
     case Shadow::unsure:
+    case Shadow::refracted:
       return trace(point, sample.direction, 0, seed);
     case Shadow::blocked:
       break;
@@ -88,15 +89,27 @@ Rgb PathTracer::sourceValue(const Ray& ray, const SourceSample& sample) {
   return child.value * passed;
 }
 
+// Whether one of samples_ stands for all of its source.
+bool PathTracer::isWhole(const SourceSample& sample) const {
+  const size_t i = static_cast<size_t>(&sample - samples_.data());
+  return (i == 0 || samples_[i - 1].source != sample.source) &&
+         (i + 1 == samples_.size() || samples_[i + 1].source != sample.source);
+}
+
 // What of a sample's radiance gets to the ray's end; false where none does. to.value: what would if nothing
 // were in the way.
 bool PathTracer::arrives(const Ray& ray, const Contribution& to, Rgb& value) {
   const SourceSample& sample = *to.sample;
   const LightSource& light = t_.lights().all()[sample.source];
   const bool toSurface = !light.distant || light.isVirtual();
-  const Shadow shadow =
+  Shadow shadow =
       t_.tracer().shadow(ray.point, sample.direction, sample.distance, toSurface ? light.surface : kNone,
                          &blockerOf(ray.surface, sample.source), ray.surface);
+  if (shadow == Shadow::refracted)
+    shadow = isWhole(sample) &&
+                     t_.presumedShadows().hide(sample.source, ray.point, sample.direction, sample.distance)
+                 ? Shadow::blocked
+                 : Shadow::unsure;
   const bool follow = shadow == Shadow::unsure || (shadow == Shadow::clear && light.isVirtual());
   if (follow || allShadowRays_) value = valueFromSource(ray, to);  // allShadowRays_: to be shown
   if (shadow == Shadow::blocked) return false;

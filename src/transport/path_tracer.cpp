@@ -94,6 +94,7 @@ Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance i
       tracer_(scene, options.backFacesVisible),
       functions_(scene, warn, options.definitions),
       lights_(scene, options.directRelays, functions_, warn),
+      presumedShadows_(scene, tracer_, lights_),
       choice_(scene, lights_),
       lightOf_(scene.surfaces.size(), kNone) {
   constantRadiance_.resize(lights_.all().size());

@@ -29,6 +29,7 @@
 #include "transport/function_ref.h"
 #include "transport/irradiance_field.h"
 #include "transport/openings.h"
+#include "transport/presumed_shadows.h"
 #include "transport/ray.h"
 
 namespace rsphere {
@@ -48,6 +49,7 @@ class Transport {
   const Scene& scene() const { return scene_; }
   const Tracer& tracer() const { return tracer_; }
   const LightSources& lights() const { return lights_; }
+  const PresumedShadows& presumedShadows() const { return presumedShadows_; }
   const SourceChoice& choice() const { return choice_; }
   const SurfaceFunctions& functions() const { return functions_; }
   const RayOptions& options() const { return options_; }
@@ -98,6 +100,7 @@ class Transport {
   Tracer tracer_;
   SurfaceFunctions functions_;
   LightSources lights_;
+  PresumedShadows presumedShadows_;
   SourceChoice choice_;
   std::vector<int32_t> lightOf_;
   std::vector<std::optional<Rgb>> constantRadiance_;
@@ -284,6 +287,7 @@ class PathTracer {
     return blockers_[(both * 0x9e3779b97f4a7c15u) >> (64 - kBlockerBits)];  // Fibonacci hashing
   }
   bool arrives(const Ray& ray, const Contribution& to, Rgb& value);
+  bool isWhole(const SourceSample& sample) const;
   Interaction interaction(const Ray& ray) const;
 
   const Transport& t_;

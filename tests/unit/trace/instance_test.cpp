@@ -134,7 +134,7 @@ TEST(Instances, OfADielectricRefractShadowRays) {
   const auto mesh = [&](const std::string& modifier) { return modifier + " mesh m\n1 " + file + "\n0\n0\n"; };
   for (const std::string& refracts :
        {instance("void", "ice"), instance("ice", "gray"), instance("ice", "void"), mesh("ice")}) {
-    EXPECT_EQ(shadow(refracts, -10), Shadow::unsure) << refracts;
+    EXPECT_EQ(shadow(refracts, -10), Shadow::refracted) << refracts;
     EXPECT_EQ(shadow(refracts, 3), Shadow::blocked) << refracts;
   }
   for (const std::string& straight : {instance("void", "pane"), instance("pane", "ice"),
