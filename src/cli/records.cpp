@@ -255,6 +255,11 @@ size_t RecordReader::readLines(std::vector<double>& numbers, size_t most) {
       continue;
     }
     if (at == stop) break;
+    if (count == 0 && records_ == 0 &&
+        std::string_view(at, static_cast<size_t>(lineEnd - at)).starts_with(kByteOrderMark)) {
+      begin_ += kByteOrderMark.size();
+      continue;
+    }
     try {
       readLine({at, static_cast<size_t>(lineEnd - at)}, whole);
     } catch (const rad::Error&) {
