@@ -22,7 +22,7 @@ struct Tests {
     ++tested;
     visible += isVisible;
   }
-  double share(double ofNone) const { return tested ? static_cast<double>(visible) / tested : ofNone; }
+  double share() const { return static_cast<double>(visible) / tested; }
 };
 
 }  // namespace
@@ -204,7 +204,13 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d&
     std::iota(order_.begin(), order_.begin() + count, 0);
   }
   constexpr size_t kAlwaysTested = 2;
-  Tests all, ofKind[kSourceKinds];
+  Tests ofKind[kSourceKinds];
+  const auto test = [&](const Contribution& c, Tests& tests) {
+    Rgb value;
+    const bool visible = arrives(ray, c, value);
+    tests.add(visible);
+    if (visible) ray.value += value * c.coefficient;
+  };
   size_t tested = 0;
   for (; tested < count; ++tested) {
     if (threshold > 0 && tested >= kAlwaysTested) {
@@ -212,18 +218,17 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d&
       if (ahead < threshold * brightness(ray.value)) break;
     }
     const Contribution& c = contributions_[order_[tested]];
-    Rgb value;
-    const bool visible = arrives(ray, c, value);
-    all.add(visible);
-    ofKind[kindOf(t_.lights().all()[c.sample->source])].add(visible);
-    if (visible) ray.value += value * c.coefficient;
+    test(c, ofKind[kindOf(t_.lights().all()[c.sample->source])]);
   }
-  // Sources too weak to be tested are let through as often as those of their kind that were. Whether a room
-  // sees the sun says nothing of its lamps.
+  // Sources too weak to be tested are let through as often as those of their kind that were: whether a room
+  // sees the sun says nothing of its lamps, nor they of the sun. So the brightest of each kind is tested.
   for (; tested < count; ++tested) {
     const Contribution& c = contributions_[order_[tested]];
-    const double share = ofKind[kindOf(t_.lights().all()[c.sample->source])].share(all.share(.5));
-    ray.value += c.value * c.coefficient * share;
+    Tests& tests = ofKind[kindOf(t_.lights().all()[c.sample->source])];
+    if (tests.tested == 0)
+      test(c, tests);
+    else
+      ray.value += c.value * c.coefficient * tests.share();
   }
 }
 

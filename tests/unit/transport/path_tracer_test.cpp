@@ -355,6 +355,20 @@ TEST(Direct, HiddenSunTakesNothingFromUntestedLamps) {
   EXPECT_NEAR(Traced(scene, o).value(V3d(0, 0, 1), kDown), exact, 1e-9 * exact);
 }
 
+// A roof hides the sun, which is weaker than the lamps under it and therefore not among those that are tested
+// for being bright.
+TEST(Direct, VisibleLampsTellNothingOfAHiddenSun) {
+  std::string scene = plastic("m", .5) + floor("m") + floor("m", 6, 20) + light(1) +
+                      "void light fire\n0\n0\n3 20 20 20\nfire source sun\n0\n0\n4 0 0 1 .5\n";
+  for (int i = 0; i < 4; ++i) scene += fmt::format("lamp sphere l\n0\n0\n4 {} 0 5 .2\n", i - 1.5);
+  RayOptions o;
+  o.directThreshold = 0;
+  const double exact = Traced(scene, o).value(V3d(0, 0, 1), kDown);
+  EXPECT_GT(exact, 0);
+  o.directThreshold = .07;
+  EXPECT_NEAR(Traced(scene, o).value(V3d(0, 0, 1), kDown), exact, 1e-9 * exact);
+}
+
 // ---- who is seen
 
 TEST(Sources, VisibilityFollowsTheOption) {
