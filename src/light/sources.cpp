@@ -212,6 +212,13 @@ double jittered(double from, double to, double jitter, Random& random) {
   return middle + jitter * (random.uniform() - .5) * (to - from);
 }
 
+// One coordinate of a place drawn evenly from the unit ball: its density, 3/4 (1 - z^2), is that of the
+// middle one of three even draws.
+double depthInBall(Random& random) {
+  const double a = random.uniform(), b = random.uniform(), c = random.uniform();
+  return 2 * std::max(std::min(a, b), std::min(std::max(a, b), c)) - 1;
+}
+
 }  // namespace
 
 LightSources::LightSources(const Scene& scene) : scene_(scene) {
@@ -318,8 +325,12 @@ void LightSources::sampleParts(uint32_t index, const V3d& point, const V3d& towa
     const double c = std::sqrt(std::max(0., 1 - s * s));
     V3d x, y;
     frame(middle, x, y);
+    // The reach of a glow is measured to a place anywhere in the ball, so that its light does not end
+    // sharply.
+    double length = distance;
+    if (source.reach > 0) length += jitter * source.radius * depthInBall(random);
     if (c > kEdgeOn)
-      add(s * (std::cos(angle) * x + std::sin(angle) * y) + c * middle, kPi * sine * sine / c, distance);
+      add(s * (std::cos(angle) * x + std::sin(angle) * y) + c * middle, kPi * sine * sine / c, length);
   };
 
   // Parts are measured by their half-extents.

@@ -213,6 +213,24 @@ TEST(Source, GlowLightsWithinItsReach) {
   EXPECT_EQ(count(-1, 1), 0u) << "of negative reach: only seen";
 }
 
+// Where the reach ends inside the ball, jittered samples count by how much of the ball is within: as in
+// RADIANCE, the light fades there instead of ending at a sharp edge.
+TEST(Source, JitteredGlowFadesWhereItsReachEnds) {
+  const Scene scene = sceneOf(lit("glow lamp\n0\n0\n4 1 1 1 5", "sphere s\n0\n0\n4 0 0 0 1\n"));
+  const auto share = [&](double z, double jitter) {
+    int count = 0;
+    for (int i = 0; i < 4000; ++i)
+      count += static_cast<int>(samplesAt(scene, V3d(0, 0, z), SourceSampling{.2, jitter}, i).size());
+    return count / 4000.;
+  };
+  EXPECT_EQ(share(4, 1), 1);
+  EXPECT_NEAR(share(4.5, 1), 27 / 32., .03);  // of a ball's volume, three quarters of its height
+  EXPECT_NEAR(share(5, 1), .5, .03);
+  EXPECT_NEAR(share(5.5, 1), 5 / 32., .03);
+  EXPECT_NEAR(share(5.25, .5), 5 / 32., .03);
+  EXPECT_EQ(share(6, 1), 0);
+}
+
 TEST(Source, OnlyWhatShinesIsASource) {
   const Scene scene = sceneOf(
       "void light dark\n0\n0\n3 0 0 0\nvoid light lamp\n0\n0\n3 1 1 1\nvoid plastic gray\n0\n0\n5 1 1 1 0 0\n"
