@@ -25,6 +25,8 @@ class OpenFile {
   OpenFile(const OpenFile&) = delete;
   OpenFile& operator=(const OpenFile&) = delete;
   int descriptor() const { return descriptor_; }
+  // False for folders, pipes and devices.
+  bool isRegular() const { return S_ISREG(begin_.st_mode); }
 
   // All that it has from where it is read to. Throws Error where that cannot be read, as a folder cannot.
   std::string contents(std::string_view name) const {

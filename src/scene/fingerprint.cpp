@@ -20,7 +20,8 @@ void Fingerprint::add(std::string_view text) {
 void addFile(Fingerprint& print, std::string_view name, const rad::FileAccess& access) {
   const auto path = rad::findFile(name, rad::libraryPath(), {}, access);
   const rad::OpenFile file(path.value_or(""));
-  const bool isOpen = file.descriptor() >= 0;
+  // A name may be that of a folder as well: "." stands for no function file, and RAYPATH begins with it.
+  const bool isOpen = file.descriptor() >= 0 && file.isRegular();
   print.add(uint64_t{isOpen});
   if (isOpen) print.add(file.contents(*path));
 }

@@ -53,6 +53,16 @@ TEST(Fingerprints, TellTheFilesOfAScene) {
   EXPECT_NE(of(room(file)), before);
 }
 
+// A lone point is the name of no function file, and of a folder.
+TEST(Fingerprints, OfFunctionsWithoutAFile) {
+  const auto room = [](const std::string& value) {
+    return "void brightfunc pattern 2 " + value + " . 0 0\npattern plastic wall 0 0 5 .5 .5 .5 0 0\n" +
+           "wall sphere ball 0 0 4 0 0 0 1\n";
+  };
+  EXPECT_EQ(of(room(".5")), of(room(".5")));
+  EXPECT_NE(of(room(".5")), of(room(".6")));
+}
+
 TEST(Fingerprints, TellWhatOctreesHold) {
   const SceneFolder folder;
   const auto placed = [&](const std::string& radius) {
