@@ -237,8 +237,9 @@ double sampleReflection(const EllipticLobe& lobe, const Interaction& at, double 
                         V3d& direction) {
   const V3d half = lobe.normal + offset(lobe, spread, u1, u2);
   direction = at.direction - 2 * half.dot(at.direction) / half.length2() * half;
-  const double out = direction.dot(at.normal);
-  return out <= kNegligible ? 0 : 2 / (1 + at.cosine / out);
+  const double out = direction.dot(lobe.normal);
+  if (out <= kNegligible || direction.dot(at.normal) <= kNegligible) return 0;
+  return 2 / (1 + lobe.cosine / out);
 }
 
 double sampleTransmission(const EllipticLobe& lobe, const Interaction& at, double spread, double u1,

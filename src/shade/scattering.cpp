@@ -306,9 +306,9 @@ double sampleReflection(const Scattering& s, const Interaction& at, double sprea
   const V3d half = s.normal + radius * (std::cos(angle) * x + std::sin(angle) * y);
   // The mirror image of a unit vector, which needs no normalizing.
   direction = at.direction - 2 * half.dot(at.direction) / (1 + radius * radius) * half;
-  const double out = direction.dot(at.normal);
-  if (out <= kNegligible) return 0;
-  return 2 / (1 + at.cosine / out);
+  const double out = direction.dot(s.normal);
+  if (out <= kNegligible || direction.dot(at.normal) <= kNegligible) return 0;
+  return 2 / (1 + s.cosine / out);
 }
 
 double sampleTransmission(const Scattering& s, const Interaction& at, double spread, double u1, double u2,

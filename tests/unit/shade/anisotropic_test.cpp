@@ -285,6 +285,26 @@ double reflectedSigmas(const Interaction& at, const Anisotropic& sampled, const 
       });
 }
 
+TEST(EllipticLobe, TexturedSamplesWeighAsThoseOfARoundLobe) {
+  for (const V3d& tilt : {V3d(-.2, 0, 0), V3d(.2, 0, 0), V3d(0, .5, 0)}) {
+    Interaction at = arriving(.4);
+    at.perturbation = tilt;
+    const AnisotropicScattering s = scatter(shiny(.2, .2), at, kAlong, kSampleAll);
+    const Scattering round = scatter(Opaque{Rgb(0, 0, 0), 1, .2, false}, at, kSampleAll);
+    Random random(43);
+    Sample ours, theirs;
+    V3d d;
+    for (int i = 0; i < 4000; ++i) {
+      ours.add(sampleReflection(s.reflected, at, 1, random.uniform(), random.uniform(), d));
+      theirs.add(sampleReflection(round, at, 1, random.uniform(), random.uniform(), d));
+    }
+    SCOPED_TRACE(testing::Message() << "tilt " << tilt.x << ' ' << tilt.y);
+    const double error = kMostSigmas * std::hypot(ours.standardError(), theirs.standardError());
+    EXPECT_NEAR(ours.mean(), theirs.mean(), error);
+    EXPECT_GT(std::abs(ours.mean() - 1.15 * theirs.mean()), error) << "15% more must be noticed";
+  }
+}
+
 TEST(EllipticLobe, ReflectedSamplesFollowTheLobeOfDirectLight) {
   for (const double cosine : {1., .7, .3}) {
     const Interaction at = arriving(cosine);

@@ -318,6 +318,37 @@ Scattering lobeOf(const Interaction& at, double roughness) {
   return s;
 }
 
+// A highlight of a textured surface under radiance 1 from above the surface.
+double lobeUnderSources(const Scattering& s, const Interaction& at) {
+  constexpr int kSteps = 600;  // of the elevation's sine; four times as many of the azimuth
+  double sum = 0;
+  for (int i = 0; i < kSteps; ++i)
+    for (int j = 0; j < 4 * kSteps; ++j) {
+      const double z = (i + .5) / kSteps, angle = kPi / 2 * (j + .5) / kSteps, r = std::sqrt(1 - z * z);
+      sum += lobeTimesCosine(s, at, V3d(r * std::cos(angle), r * std::sin(angle), z));
+    }
+  return sum * kPi / 2 / kSteps / kSteps;
+}
+
+TEST(Lobe, TexturedSamplesWeighWhatDirectLightHas) {
+  Random random(31);
+  for (const double cosine : {.9, .4})
+    for (const V3d& tilt : {V3d(-.2, 0, 0), V3d(.2, 0, 0), V3d(0, .5, 0)}) {
+      Interaction at = arriving(cosine);
+      at.perturbation = tilt;
+      const Scattering s = lobeOf(at, .2);
+      const double exact = lobeUnderSources(s, at);
+      Sample weights;
+      V3d direction;
+      for (int i = 0; i < 4000; ++i)
+        weights.add(sampleReflection(s, at, 1, random.uniform(), random.uniform(), direction));
+      SCOPED_TRACE(testing::Message() << "cosine " << cosine << " tilt " << tilt.x << ' ' << tilt.y);
+      EXPECT_NEAR(weights.mean(), exact, kMostSigmas * weights.standardError() + 1e-3);
+      EXPECT_GT(std::abs(weights.mean() - 1.1 * exact), kMostSigmas * weights.standardError() + 1e-3)
+          << "a tenth more must be noticed";
+    }
+}
+
 TEST(Lobe, ReflectedSamplesFollowTheLobeOfDirectLight) {
   for (const double cosine : {1., .7, .3})
     for (const double roughness : {.1, .2, .4}) {
