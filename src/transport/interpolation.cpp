@@ -16,9 +16,6 @@ constexpr double kLeastUpright = .7;
 
 constexpr int kReachRays = 16;
 
-// A site has as many divisions at least, or else what -ad asks for.
-constexpr int kLeastRays = 48;
-
 }  // namespace
 
 // How the fields look at the scene, for a path of this depth.
@@ -31,12 +28,16 @@ class PathTracer::Looker final : public SiteLooker, public CoarseSolution::Looke
   bool sees(const V3d& from, const V3d& to) override {
     const V3d way = to - from;
     const double length = way.length();
-    return !(length > kSamePlace) || tracer_.t_.tracer().nearest(from, way / length, length).surface == kNone;
+    return !(length > kSamePlace) ||
+           tracer_.t_.tracer().shadow(from, way / length, length, kNone) == Shadow::clear;
   }
   void link(const GatherSite& site, int rays, uint64_t seed, CoarseSolution::Links& links) override {
     tracer_.gatherer().link(site, rays, seed, depth_, links);
   }
   double reach(const GatherSite& site) override { return tracer_.reach(site); }
+  bool isBesideSmall(const GatherSite& site, double side) override {
+    return tracer_.t_.smallObjects()->isBeside(site, side);
+  }
 
  private:
   PathTracer& tracer_;
@@ -85,14 +86,17 @@ CoarseSolution::Patch* PathTracer::patchAt(const Ray& ray, const V3d& normal, co
 // Whether the coarse solution has what addIndirect() asks for, and it was added.
 bool PathTracer::addFromPatch(Ray& ray, const V3d& normal, const V3d& trueNormal, const Rgb& coefficient) {
   Looker looker(*this, ray.depth);
-  CoarseSolution::Patch* const patch = patchAt(ray, normal, trueNormal, looker);
+  const int beyond = ray.ambientLevel - 1;
+  // Nobody asks a patch for the bounces beyond these.
+  const bool isLast = linking_ && ray.ambientLevel >= t_.options().ambientBounces - 1;
+  CoarseSolution::Patch* const patch = isLast ? nullptr : patchAt(ray, normal, trueNormal, looker);
   if (linking_) {
-    const int beyond = ray.ambientLevel - 1;
     const Rgb whole = coefficient * ray.contribution * passedBy(ray);
     if (patch)
       linking_->links.push_back({patch, V3f(whole), beyond});
     else
       linking_->addEnd(beyond, whole);
+    if (isLast) return true;
   } else if (patch) {
     ray.value += coefficient * Rgb(t_.coarse()->light(*patch, bouncesLeft(ray), looker));
   }
@@ -223,8 +227,7 @@ GatheredLight PathTracer::gather(const GatherSite& site, uint64_t seed, int dept
   const Ray root = gatherRoot(site, depth);
   V3d x, y;  // the frame of gatherHemisphere()
   frame(site.normal, x, y);
-  const double asked = o.ambientDivisions + o.ambientSuperSamples;
-  const int count = static_cast<int>(std::max(asked, std::min<double>(o.ambientDivisions, kLeastRays)));
+  const int count = o.ambientDivisions + o.ambientSuperSamples;
   const HemisphereCells cells(count);
   std::vector<Rgb> radiance(cells.count(), Rgb(0, 0, 0));
   std::vector<double> distance(cells.count(), kFarAway);

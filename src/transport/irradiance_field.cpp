@@ -15,6 +15,9 @@ constexpr size_t kBlock = 16, kNode = 96;
 
 constexpr size_t kNoBound = SIZE_MAX;
 
+// -ar 0 sets no limit. Cells as fine as this resolution see crumbs on a table.
+constexpr int kUnlimited = 1 << 16;
+
 constexpr size_t kBetweenSaves = 256;  // values that a process that is killed may lose
 
 // The widest cells, in mean distances of what they see, for each unit of -aa; and in the size of the scene.
@@ -39,6 +42,10 @@ constexpr double kShiftError = 2;
 // Where less of the sites around sees the place (by their weights), finer cells are asked.
 constexpr double kLeastServed = .05;
 
+// On small surfaces that share the cells of their plane, sites may lie beside all of them, and a room may be
+// smaller than a cell: there nearly all must see the place.
+constexpr double kLeastServedOfShared = .95;
+
 float luminance(const V3f& color) { return static_cast<float>(brightness(Rgb(color.x, color.y, color.z))); }
 V3f luminanceOf(const V3f (&change)[3]) {
   return static_cast<float>(kRedWeight) * change[0] + static_cast<float>(kGreenWeight) * change[1] +
@@ -61,6 +68,7 @@ struct IrradianceField::Site {
   bool usable = false;
   GatherSite at;
   double reach = 0;
+  bool isBesideSmall = false;  // an object that sites as wide apart would miss
   std::atomic<const GatheredLight*> light{nullptr};
   std::atomic<bool> begun{false};  // somebody gathers it, or has
   Site* nextFresh = nullptr;
@@ -172,7 +180,8 @@ IrradianceField::IrradianceField(const Scene& scene, const Box3d& bounds, const 
       grid_(bounds),
       accuracy_(options.ambientAccuracy),
       // RADIANCE's own meaning of -ar.
-      finest_(grid_.size * std::min(accuracy_, .5) / std::max(options.ambientResolution, 1)),
+      finest_(grid_.size * std::min(accuracy_, .5) /
+              (options.ambientResolution > 0 ? options.ambientResolution : kUnlimited)),
       bound_(options.fieldMemory > 0 ? static_cast<size_t>(options.fieldMemory * 1e6) : kNoBound) {}
 
 IrradianceField::~IrradianceField() { save(true); }
@@ -285,6 +294,7 @@ IrradianceField::Site& IrradianceField::siteOf(const SurfaceChart& chart, const 
       made->usable = true;
       made->at = *at;
       made->reach = asked.looker.reach(*at);
+      made->isBesideSmall = asked.looker.isBesideSmall(*at, grid_.side(key.level));
     }
     asked.memory.add(sizeof(Site) + kNode);
     made_.fetch_add(1, std::memory_order_relaxed);
@@ -341,7 +351,7 @@ bool IrradianceField::look(const SurfaceChart& chart, const SurfacePlace& place,
     around.weight[k] += weight;
     around.served += weight;
   }
-  if (around.served < kLeastServed) return false;
+  if (around.served < (chart.isShared() ? kLeastServedOfShared : kLeastServed)) return false;
   // What another thread is at comes last: it may be there by then.
   for (int k = 0; k < around.count; ++k) {
     Site& site = *around.site[k];
@@ -369,7 +379,7 @@ bool IrradianceField::find(const SurfacePlace& place, FieldReader& reader, SiteL
   int level = std::min(grid_.levelOf(std::min(chart->extent(), kOpen * grid_.size)), finest);
   for (; level < finest; ++level) {
     const Site& site = siteOf(*chart, chart->cellAt(grid_, level, chart->u(), chart->v()), asked);
-    if (site.usable && grid_.side(level) <= kWidest * accuracy_ * site.reach) break;
+    if (site.usable && !site.isBesideSmall && grid_.side(level) <= kWidest * accuracy_ * site.reach) break;
   }
   const double tolerance = accuracy_ / 3;
   light = {};

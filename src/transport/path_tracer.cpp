@@ -59,7 +59,7 @@ V3d along(const V3d& origin, double distance, const V3d& direction) {
 uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAccess& access) {
   Fingerprint print;
   print.add(kVersion);
-  print.add(uint64_t{3});  // how it is gathered, between two versions
+  print.add(uint64_t{4});  // how it is gathered, between two versions
   for (const double x :
        {o.directThreshold, o.directCertainty, o.directJitter, o.sourceSubstructuring, o.specularSampling,
         o.specularThreshold, o.ambientAccuracy, o.weightLimit, o.mediumEccentricity, o.mediumSampling})
@@ -125,6 +125,9 @@ Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance i
   }
   if (options.ambientAccuracy > 0 && options.ambientBounces > 0 && options.ambientDivisions > 0)
     field_ = std::make_unique<IrradianceField>(scene, tracer_.bounds(), options);
+  if (field_)
+    smallObjects_ =
+        std::make_unique<SmallObjects>(scene, CellGrid(tracer_.bounds()), field_->finestSpacing());
   if (field_ && options.ambientBounces > 1)
     coarse_ = std::make_unique<CoarseSolution>(scene, tracer_.bounds(), options);
   if (field_ && options.ambientBounces > 1) {

@@ -31,6 +31,7 @@
 #include "transport/openings.h"
 #include "transport/presumed_shadows.h"
 #include "transport/ray.h"
+#include "transport/small_objects.h"
 
 namespace rsphere {
 
@@ -49,6 +50,7 @@ class Transport {
   const Scene& scene() const { return scene_; }
   const Tracer& tracer() const { return tracer_; }
   const LightSources& lights() const { return lights_; }
+  const SmallObjects* smallObjects() const { return smallObjects_.get(); }  // with a field
   const PresumedShadows& presumedShadows() const { return presumedShadows_; }
   const SourceChoice& choice() const { return choice_; }
   const SurfaceFunctions& functions() const { return functions_; }
@@ -101,6 +103,7 @@ class Transport {
   SurfaceFunctions functions_;
   LightSources lights_;
   PresumedShadows presumedShadows_;
+  std::unique_ptr<SmallObjects> smallObjects_;
   SourceChoice choice_;
   std::vector<int32_t> lightOf_;
   std::vector<std::optional<Rgb>> constantRadiance_;
@@ -258,6 +261,7 @@ class PathTracer {
   const LightSource* targetOf(const Ray& ray) const;
   void relay(Ray& ray, RayKind kind, const V3d& direction, Rgb coefficient);
   void sampleLobes(Ray& ray, const Scattering& scattering, const Interaction& at);
+  int samplesOf(const Ray& ray, double wanted) const;
   void sampleLobe(Ray& ray, RayKind kind, const Rgb& share, LobeSampler draw, int least = 1);
   void addIndirect(Ray& ray, const V3d& normal, const V3d& trueNormal, RayKind kind, const Rgb& coefficient);
   void addIndirect(Ray& ray, const V3d& normal, const Interaction& at, RayKind kind, const Rgb& coefficient);

@@ -11,6 +11,7 @@ namespace rsphere {
 namespace {
 
 constexpr int kCandidates = 24;       // points of a cell that are tried as its site
+constexpr double kAside = .01371;     // of a cell's side; no part of a round number
 constexpr uint32_t kEdges = 16;       // of a polygon, that its frame may lie along
 constexpr double kNormalStep = 1e-9;  // planes whose normals differ by less are one
 constexpr int32_t kPlane = -2;        // in a key, in place of a surface
@@ -141,6 +142,7 @@ std::optional<SurfaceChart> SurfaceChart::of(const Scene& scene, const CellGrid&
 SurfaceChart SurfaceChart::ofPlane(const CellGrid& grid, const SurfacePlace& place) {
   SurfaceChart chart;
   chart.surface_ = kPlane;
+  chart.isShared_ = true;
   for (int c = 0; c < 3; ++c) {
     const double steps = std::round(place.normal[c] / kNormalStep);
     chart.id_ = mixBits(chart.id_ ^ static_cast<uint64_t>(static_cast<int64_t>(steps)));
@@ -217,7 +219,9 @@ std::optional<GatherSite> SurfaceChart::siteAt(const CellGrid& grid, double u, d
 std::optional<GatherSite> SurfaceChart::site(const CellGrid& grid, const CellKey& key) const {
   const double du = stepU(grid, key.level), dv = stepV(grid, key.level);
   for (int c = 0; c < kCandidates; ++c) {
-    const Imath::V2d in = evenly(static_cast<size_t>(c), .5, .5);  // the middle first
+    // The middle first, but for a little: in the very middle of a floor a wall may stand, which is no wall to
+    // a site in its own plane.
+    const Imath::V2d in = evenly(static_cast<size_t>(c), .5 + kAside, .5 - kAside);
     if (auto site =
             siteAt(grid, (static_cast<double>(key.i) + in.x) * du, (static_cast<double>(key.j) + in.y) * dv))
       return site;

@@ -57,6 +57,7 @@ class SurfaceChart {
   // The longer side of the surface; of a ball or cone the radius; infinite of a plane.
   double extent() const;
   bool isCurved() const { return ball_ || cone_; }
+  bool isShared() const { return isShared_; }  // of all surfaces in the plane
 
   // Sides of the cells of a level: as equal parts of the surface's sides.
   double stepU(const CellGrid& grid, int level) const;
@@ -74,6 +75,7 @@ class SurfaceChart {
 
   const Scene* scene_ = nullptr;
   int32_t surface_ = kNone;
+  bool isShared_ = false;
   uint64_t id_ = 0;
   V3d origin_{0, 0, 0}, x_{1, 0, 0}, y_{0, 1, 0}, normal_{0, 0, 1};
   double width_ = 0, height_ = 0;  // from the origin on; 0: without end
