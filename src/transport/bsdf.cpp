@@ -132,7 +132,7 @@ void PathTracer::sampleBsdf(Ray& ray, BsdfHit& hit, RayKind kind) {
     return;
   }
   const double spread = o.specularSampling;
-  int samples = spread > 1.5 ? std::max(1, static_cast<int>(spread * ray.weight + .5)) : 1;
+  int samples = spread > 1.5 ? samplesOf(ray, spread) : 1;
   if (o.weightLimit > 0)  // no more than can be followed
     samples = std::max(1, static_cast<int>(std::min<double>(samples, share * ray.weight / o.weightLimit)));
   // A single sample is drawn nearer to the middle where -ss is below 1.
@@ -172,8 +172,7 @@ Rgb PathTracer::directedBsdf(const Ray& ray, const BsdfHit& hit, const V3d& toSo
     if (dx * dx + dy * dy <= 2.5 * 4 / kPi * together * together) return hit.through.around;
   }
   const double size = part->cell(hit.view, other).projectedSolidAngle;
-  const int draws =
-      size > 0 ? std::max(1, static_cast<int>(4 * t_.options().specularSampling * ray.weight + .5)) : 1;
+  const int draws = size > 0 ? samplesOf(ray, 4 * t_.options().specularSampling) : 1;
   // Cells that are so much finer belong to a peak, whose light must not be spread over the cell beside it.
   constexpr double kMuchFiner = .12;
   Rgb sum(0, 0, 0);

@@ -83,12 +83,19 @@ void PathTracer::sampleLobes(Ray& ray, const Scattering& scattering, const Inter
     });
 }
 
+// How many samples a ray takes of a lobe of which a ray of weight 1 takes `wanted`. A ray of a gather takes
+// one: the gather has a thousand rays, and the mean over them is what counts.
+int PathTracer::samplesOf(const Ray& ray, double wanted) const {
+  if (t_.field() && ray.ambientLevel > 0) return 1;
+  return std::max(1, static_cast<int>(wanted * ray.weight + .5));
+}
+
 // share: of the lobe in the ray's radiance, what the weights of its directions are 1 in the mean of.
 // least: the number that a ray of weight 1 gets whatever -ss is.
 void PathTracer::sampleLobe(Ray& ray, RayKind kind, const Rgb& share, LobeSampler draw, int least) {
   const double spread = t_.options().specularSampling;
   const double wanted = std::max<double>(spread > 1.5 ? spread : 1, least);
-  const int samples = std::max(1, static_cast<int>(wanted * ray.weight + .5));
+  const int samples = samplesOf(ray, wanted);
   for (int i = 0; i < samples; ++i) {
     Ray child;
     const double u1 = (i + random_.uniform()) / samples, u2 = random_.uniform();
