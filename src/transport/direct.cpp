@@ -168,8 +168,11 @@ void PathTracer::rankByBrightness(uint32_t count) {
 void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d& front) {
   const RayOptions& o = t_.options();
   samples_.clear();
-  const SourceSampling how{o.sourceSubstructuring > kNegligible ? o.sourceSubstructuring / ray.weight : 0,
-                           o.directJitter, front};
+  // A sample anywhere on a source (-dj) stands for all of it in the mean over the thousand rays of a gather.
+  constexpr double kWideJitter = .5;
+  const bool divides = o.sourceSubstructuring > kNegligible &&
+                       !(t_.field() && ray.ambientLevel > 0 && o.directJitter > kWideJitter);
+  const SourceSampling how{divides ? o.sourceSubstructuring / ray.weight : 0, o.directJitter, front};
   for (uint32_t i = 0; i < t_.lights().all().size(); ++i)
     t_.lights().sample(i, ray.point, how, random_, samples_);
   if (contributions_.size() < samples_.size()) {
@@ -219,6 +222,18 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d&
     }
     const Contribution& c = contributions_[order_[tested]];
     test(c, ofKind[kindOf(t_.lights().all()[c.sample->source])]);
+  }
+  // Behind an indirect bounce noise averages out and a bias does not: one source stands for all that are too
+  // weak to be tested, chosen in proportion to what it would add.
+  if (tested < count && ray.ambientLevel > 0) {
+    double rest = random_.uniform() * remaining_[tested];
+    size_t chosen = tested;
+    while (chosen + 1 < count && (rest -= brightness_[order_[chosen]]) >= 0) ++chosen;
+    const Contribution& c = contributions_[order_[chosen]];
+    Rgb value;
+    if (arrives(ray, c, value))
+      ray.value += value * c.coefficient * (remaining_[tested] / brightness_[order_[chosen]]);
+    return;
   }
   // Sources too weak to be tested are let through as often as those of their kind that were: whether a room
   // sees the sun says nothing of its lamps, nor they of the sun. So the brightest of each kind is tested.
