@@ -481,8 +481,9 @@ std::vector<OptionEntry> makeTable() {
        .range = kCount,
        .remark = "ambient value weight",
        .paragraph =
-           "Accepted as in rtrace. As an answer does not depend on those before it, the ambient value "
-           "stays as -av has it."});
+           "Accepted and not used. rtrace replaces the ambient value step by step by the mean of the "
+           "indirect light that it has computed; here an answer does not depend on those before it, and the "
+           "ambient value stays as -av gives it."});
   add({.name = "-ab",
        .arguments = "N",
        .group = Group::indirect,
@@ -498,25 +499,20 @@ std::vector<OptionEntry> makeTable() {
        .range = kNotNegative,
        .remark = "ambient accuracy",
        .paragraph =
-           "Error that interpolation of indirect light may bring, as a share of it; 0: none, it is computed "
-           "anew at every point. It is interpolated between places that the scene and the options fix, "
-           "closer to each other where the light changes: thus an answer depends neither on those before it "
-           "nor on -n. Outsides of curved surfaces have such places, too; their insides, meshes and surfaces "
-           "smaller than -ar resolves have none, and what goes through a medium or antimatter gets none. At "
-           "the second diffuse surface of a path it comes from places farther apart, a quarter of the rays "
-           "each; beyond it, and where surfaces are small, one direction tells. In sphere mode it is off "
-           "(-aa 0): directions meet surfaces all over the scene, and it pays for thousands of points at "
-           "best. On the open-plan office (-ab 3 -Sn 420 -Sx 650) rsphere-trade has 0.59% at 8.5 ms a point, "
-           "and with -aa .2 -ar 64 -ad 256 0.42% at 208 ms a point of three; of 400 points together it is 11 "
-           "and 82 ms a point."});
+           "Relative error that interpolation of indirect light may add; see Interpolation under "
+           "DESCRIPTION. 0: no interpolation, each path gathers indirect light anew. That is faster for a "
+           "few rays in a detailed scene, and usually the better choice in sphere mode, where directions "
+           "meet surfaces all over the scene."});
   add({.name = "-ar",
        .arguments = "res",
        .group = Group::indirect,
        .value = +[](O& o) -> int& { return o.ray.ambientResolution; },
        .range = kCount,
        .remark = "ambient resolution",
-       .paragraph = "Interpolated places are at least the scene's size times -aa over res apart; errors grow "
-                    "where surfaces are closer to each other than the size over res."});
+       .paragraph =
+           "Finest resolution of interpolation: sites are about the scene's size times -aa (.5 at most) "
+           "over res apart where they are closest, and somewhat closer only where something hides them from "
+           "the place. Smaller detail of the indirect light is blurred. 0 counts as 1."});
   add({.name = "-ad",
        .arguments = "N",
        .group = Group::indirect,
@@ -525,8 +521,10 @@ std::vector<OptionEntry> makeTable() {
        .unit = "rays",
        .remark = "ambient divisions",
        .paragraph =
-           "Rays over the hemisphere at the first diffuse reflection; fewer where their weight is less. The "
-           "error falls with the square root of their number. 0: no indirect light."});
+           "Rays over the hemisphere where indirect light is gathered: at the first diffuse surface of a "
+           "path, or, where it is interpolated, at each site. A ray of less weight gathers with fewer, a "
+           "site always with all. The noise falls about with the square root of their number. 0: no "
+           "indirect light."});
   add({.name = "-as",
        .arguments = "N",
        .group = Group::indirect,
@@ -535,8 +533,8 @@ std::vector<OptionEntry> makeTable() {
        .unit = "rays",
        .remark = "ambient super-samples",
        .paragraph =
-           "Rays sent besides those of -ad, where their values change most; at most four times -ad where "
-           "indirect light is interpolated."});
+           "Rays added to those of -ad. All of them are spread over the hemisphere together; unlike those "
+           "of rtrace, none are placed by what others have found."});
   add({.name = "-me",
        .arguments = "rext gext bext",
        .group = Group::medium,
@@ -614,7 +612,10 @@ std::vector<OptionEntry> makeTable() {
        .value = +[](O& o) -> double& { return o.ray.weightLimit; },
        .range = kNotNegative,
        .remark = "limit weight",
-       .paragraph = "Least weight of a ray; see -lr.",
+       .paragraph =
+           "Least weight of a ray; see -lr. Where indirect light is interpolated (-aa above 0), each "
+           "diffuse reflection halves the weight, whatever the surface reflects, as in rtrace. The coarse "
+           "solution of later bounces keeps the limits of -lr and -lw as if each bounce were such a ray.",
        .line = +[](const O& o) { return fmt::format("-lw {:.2e}\t\t\t", o.ray.weightLimit); }});
   add({.name = "-am",
        .arguments = "frac",
@@ -657,12 +658,14 @@ std::vector<OptionEntry> makeTable() {
        .value = +[](O& o) -> std::string& { return o.ray.ambientFile; },
        .remark = "ambient file",
        .paragraph =
-           "Keeps indirect light for later runs, and for others that run at the same time, in a file beside "
-           "this one: file.rsphere. It is read first, and added to now and then and at the end; a process "
-           "that is killed does no harm. No answer changes by it. What was made for another scene, with "
-           "other options or by another version is not used and left as it is, with a warning. The file "
-           "itself, which may hold what RADIANCE's programs keep, is neither read nor written, so that one "
-           "name may serve both. Only with -aa and -ab above 0."});
+           "Keeps the sites of interpolation, with the light gathered there, for later runs, and for others "
+           "that run at the same time, in a file beside this one: file.rsphere. It is read first, and added "
+           "to now and then and at the end; a process that is killed does no harm. No answer changes by it. "
+           "The coarse solution of later bounces is not kept, and there is nothing to keep in sphere mode "
+           "or with -I. A file that was made for another scene, with other options or by another version is "
+           "not used and left as it is, with a warning. The file named here, which may hold what RADIANCE's "
+           "programs keep, is neither read nor written, so that one name may serve both. Only with -aa and "
+           "-ab above 0."});
   add({.name = "-ae",
        .arguments = "mod",
        .group = Group::indirect,
@@ -861,10 +864,12 @@ std::vector<OptionEntry> makeTable() {
        .unit = "MB",
        .remark = "memory of interpolation",
        .paragraph =
-           "The most that is remembered to interpolate indirect light from (-aa above 0), in millions of "
-           "bytes: beyond it something is forgotten, and computed again where it is asked for again. No "
-           "answer changes by it. The picture of a room of logs takes hardly longer with 20 than without a "
-           "bound, twice as long with 10. 0: no bound. Not together with -af. Holds in ray mode as well."});
+           "Bound on the memory of the sites between which indirect light is interpolated in ray mode (-aa "
+           "above 0), in millions of bytes. When it is full, sites are discarded, and computed again when "
+           "they are needed again: answers stay the same, only the time grows. The coarse solution of later "
+           "bounces is not included and has no bound; it grows with the number of surfaces that paths "
+           "reach. 0: no bound. Not together with -af. In sphere mode nothing is interpolated between "
+           "sites, and the bound has no effect."});
   add({.name = "-Sr",
        .arguments = "N",
        .group = Group::sphere,
