@@ -2,10 +2,11 @@
 // Radiance along a ray: direct light from the sources, sharp reflections and refractions, samples of rough
 // ones, and indirect light.
 //
-// Indirect light at the first two diffuse surfaces of a path is interpolated in a field (-aa,
-// irradiance_field.h), or else gathered anew: -ad directions over the hemisphere, stratified, at the first,
-// one direction at every later one. Paths end at -ab bounces and by Russian roulette below -lw, so that the
-// mean stays right.
+// With -aa above 0, indirect light at the first diffuse surface of a path is interpolated
+// (irradiance_field.h), and that of later ones comes from a coarse solution (coarse_solution.h). Otherwise it
+// is gathered directly: -ad + -as stratified directions over the hemisphere at the first diffuse surface, one
+// direction at every later one. Paths end after -ab bounces, and below -lw: by Russian roulette, which
+// keeps the mean unbiased, unless -lr is positive.
 #include <functional>
 #include <memory>
 #include <optional>
@@ -185,8 +186,9 @@ class PathTracer {
   // The radiance along a ray of which nothing but the last diffuse bounce may be followed.
   Rgb glimpse(const V3d& origin, const V3d& direction, uint64_t seed);
 
-  // From now on indirect light is gathered at every first surface anew, though -aa is above 0: where thousands of
-  // directions are averaged, single rays tell more for their time than sites. Second surfaces are as before.
+  // From now on indirect light is gathered directly at the first diffuse surface even if -aa is above 0:
+  // where thousands of directions are averaged, single rays reduce the error faster than sites. Later
+  // surfaces still use the coarse solution.
   void gatherFirstAnew() { gathersFirstAnew_ = true; }
 
   // Only what is hit, no value.
