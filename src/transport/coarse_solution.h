@@ -1,20 +1,23 @@
 #pragma once
-// A coarse solution of interreflection, which final gathers look up (-aa above 0).
+// A coarse solution of diffuse interreflection, which final gathers look up (-aa above 0).
 //
-// Diffuse surfaces are divided into patches, by the scene and the options alone. A patch gathers once: rays
-// from one point of it, each of which ends at other patches or in light that does not depend on any patch.
-// What the rays found is kept as links, so that the light after one, two, ... bounces follows from the links
-// without another ray. Patches are made and linked where a path first asks for them.
+// Diffuse surfaces are divided into patches, which the scene and the options determine. A patch gathers once:
+// rays from one point of it, each of which ends at other patches or in light that does not depend on any
+// patch. The result is stored as links, form factors times reflectances. The light after any number of
+// bounces follows from the links without tracing another ray. Patches are made and linked on demand.
 //
 // Source: final gathering over a radiosity solution (Smits, "Efficient global illumination for radiosity
-// environments", 1994; Ward's "two-pass" reasoning, 1988). Storing links rather than light is Monte Carlo
-// form factors: all bounces share the same rays.
+// environments", 1994; Ward's "two-pass" reasoning, 1988). The links are Monte Carlo form factors: all
+// bounces share the same rays.
 //
-// A patch serves a place only where the segment between the two is free, so that no light passes a wall.
+// A patch serves a place only if the segment between the two is unoccluded, so that no light leaks through
+// walls.
 //
-// Threads: any number may ask at once, and none waits. Two that need the same patch at the same time may both
-// link it; the links are the same, and the first are kept. An answer depends on the place and the random
-// numbers that are asked with, not on what was asked before, or by whom.
+// Threads: any number may query at once, and none waits. If two threads need the same patch at the same time,
+// both may link it; the links are identical, and the first are kept. An answer depends only on the place and
+// the random numbers of the query, not on earlier queries or on the thread.
+//
+// Memory: not bounded by -Sm. It grows with the number of patches that paths reach.
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -32,30 +35,32 @@ class CoarseSolution {
  public:
   struct Patch;
 
-  // What the rays of a patch found, by the diffuse bounces that a ray made beyond its first hit, because no
-  // patch served there: 0 for most. Coefficients are of the mean radiance that arrives at the patch.
+  // What the rays of a patch found. Most rays end at the patch that they hit first. Where no patch serves
+  // that hit, the ray is followed; `bounces` is the number of diffuse bounces that it makes beyond it.
+  // Coefficients: contribution to the mean radiance that arrives at the patch that owns the links.
   struct Links {
     struct Link {
       Patch* patch;
-      V3f coefficient;  // of the mean radiance that arrives there
+      V3f coefficient;  // factor on the mean radiance that arrives at `patch`
       int bounces;
     };
     std::vector<Link> links;
     std::vector<V3f> light;  // by bounces: radiance that depends on no patch (W/sr/m2)
-    std::vector<V3f> ends;   // by bounces: coefficient of -av, should the path be allowed no further bounce
+    std::vector<V3f> ends;   // by bounces: factor on -av, used if the path ends there for lack of bounces
 
     void addLight(int bounces, const Rgb& radiance);
     void addEnd(int bounces, const Rgb& coefficient);
   };
 
-  // How the scene is looked at. Answers depend on nothing but the arguments.
+  // The rays that the solution needs. Answers depend on nothing but the arguments.
   class Looker {
    public:
     // Sends about `rays` rays over the hemisphere of a site.
     virtual void link(const GatherSite& site, int rays, uint64_t seed, Links& links) = 0;
-    // The harmonic mean of the distances to what is seen from a site, in few directions (world units).
+    // The harmonic mean distance (world units) of the surfaces seen from a site, estimated in a few
+    // directions.
     virtual double reach(const GatherSite& site) = 0;
-    // Whether nothing is between two points.
+    // Whether the segment between two points is unoccluded.
     virtual bool sees(const V3d& from, const V3d& to) = 0;
 
    protected:
@@ -66,9 +71,9 @@ class CoarseSolution {
   CoarseSolution(const Scene& scene, const Box3d& bounds, const RayOptions& options);
   ~CoarseSolution();
 
-  // The patch that serves a place; null where none does, and the path has to be followed. Patches near the
-  // place serve in turn, by the uniform numbers u1, u2 in [0, 1), so that the mean is interpolated between
-  // them.
+  // The patch that serves a place; null if there is none and the path has to be followed. One of the patches
+  // around the place is drawn by the uniform numbers u1, u2 in [0, 1), so that the expected value is
+  // interpolated between them.
   Patch* find(const SurfacePlace& place, double u1, double u2, Looker& looker);
 
   // The mean radiance that arrives at a patch (irradiance over pi) after at most `bounces` diffuse
@@ -83,9 +88,9 @@ class CoarseSolution {
 
   const Scene& scene_;
   CellGrid grid_;
-  double spacing_;  // of patches, in mean distances of what they see
-  int rays_;        // of a patch
-  int bounces_;     // at most
+  double spacing_;  // of patches, as a multiple of the harmonic mean distance of their surroundings
+  int rays_;        // per patch
+  int bounces_;     // -ab
   V3f ambient_;
   std::atomic<size_t> made_{0};
   std::unique_ptr<InsertOnce<CellKey, Patch>> patches_;

@@ -1,20 +1,21 @@
 #pragma once
-// Indirect light by interpolation (-aa above 0), as a field that is computed where it is asked for.
+// An irradiance cache (-aa above 0) whose answers do not depend on the order of the queries.
 //
-// Light is gathered at the sites of cells (surface_cells.h), which the scene and the options fix. Four sites
-// around a place serve it, as far as each of them sees it: no light is taken from beyond a wall. Cells are as
-// wide as the distances to what surrounds them allow (-aa), and are divided where the light of their sites
-// differs, down to the finest spacing that -aa and -ar ask for.
+// Light is gathered at the sites of cells (surface_cells.h), which the scene and the options determine. The
+// irradiance of a place is interpolated bilinearly between the four sites around it. A site that does not see
+// the place is left out, so that no light leaks through walls. The initial cell spacing is proportional to
+// the harmonic mean distance of the surroundings (-aa); cells are subdivided where the irradiance of their
+// sites differs, down to the finest spacing that -aa and -ar allow.
 //
-// A site is gathered when it is first needed, with random numbers that its own cell seeds. So an answer
-// depends on the place and the direction that are asked for, not on what was asked before, or by whom.
+// A site is gathered when it is first needed, with random numbers seeded by its cell. An answer therefore
+// depends only on the place, not on earlier queries or on the thread.
 //
-// Threads: any number may ask at once, and nobody waits. Two that need the same site at the same time may
-// both gather; the values are the same, and the first is kept.
+// Threads: any number may query at once, and none waits. If two threads need the same site at the same time,
+// both may gather it; the values are identical, and the first is kept.
 //
-// Memory: where it has a bound (-Sm), a memory that is full is given up for a new one by whoever comes to it
-// next, and freed when the last thread has left it; what is asked for again is computed again, to the same
-// bits. A thread leaves where a primary ray ends, or earlier.
+// Memory: if it is bounded (-Sm), the next thread that finds the memory full replaces it by an empty one. The
+// old memory is freed when the last thread has left it. Sites that are needed again are computed again, to
+// the same bits. A thread leaves at the end of each primary ray or earlier.
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -33,16 +34,16 @@ namespace rsphere {
 
 struct FieldMemory;
 
-// What a thread has to do with a field: the memory that it asks in, which stays while it does.
+// A thread's hold on the memory that it reads: the memory is not freed before all readers have let go.
 using FieldReader = std::shared_ptr<FieldMemory>;
 
-// How sites are looked at. Every answer depends on nothing but the arguments.
+// The rays that the field needs. Every answer depends on nothing but the arguments.
 class SiteLooker {
  public:
   virtual GatheredLight gather(const GatherSite& site, uint64_t seed) = 0;
-  // The harmonic mean of the distances to what is seen from a site, in few directions (world units).
+  // The harmonic mean distance (world units) of the surfaces seen from a site, estimated in a few directions.
   virtual double reach(const GatherSite& site) = 0;
-  // Whether nothing is between two points.
+  // Whether the segment between two points is unoccluded.
   virtual bool sees(const V3d& from, const V3d& to) = 0;
   // Whether an object smaller than the side lies beside the site (small_objects.h).
   virtual bool isBesideSmall(const GatherSite& site, double side) = 0;
@@ -55,35 +56,36 @@ class IrradianceField {
  public:
   // Keeps a reference to the scene. bounds: of all that can be hit.
   IrradianceField(const Scene& scene, const Box3d& bounds, const RayOptions& options);
-  ~IrradianceField();  // what is new goes to the file
+  ~IrradianceField();  // writes new sites to the file
 
-  // Takes from the file what was gathered in earlier runs, and adds to it what is new, now and then and at
-  // the end. Before the first find().
+  // Reads the sites of earlier runs from the file. New sites are appended from time to time and at the end.
+  // REQUIRES that find() has not been called.
   void keepIn(std::unique_ptr<AmbientFile> file);
 
-  // The light at a place: its mean, and how it depends on the normal. False where no site serves the place,
-  // which then has to be gathered for itself: crevices, insides of what is curved, and meshes. reader: the
-  // thread's own. The looker must not come back here.
+  // The interpolated light at a place: its mean, and how it depends on the normal. False if no site can be
+  // used, as in crevices, on the insides of curved surfaces and on meshes; the caller then gathers directly.
+  // reader: the thread's own. The looker must not call find() of the same field.
   bool find(const SurfacePlace& place, FieldReader& reader, SiteLooker& looker, GatheredLight& light);
 
-  // The least distance between sites (world units) that options ask for: what is nearer is not resolved.
+  // The finest spacing of sites (world units) that the options ask for. Smaller detail is not resolved.
   double finestSpacing() const { return finest_; }
 
-  // The thread has nothing more to ask for now; what it alone keeps is freed.
+  // Lets go of the memory; it is freed if it has been replaced and this was its last reader.
   void leave(FieldReader& reader) const;
 
-  // Sites that were made, those again that had been given up.
+  // The number of sites made; sites that were discarded and made again are counted each time.
   size_t sitesMade() const { return made_.load(std::memory_order_relaxed); }
 
-  // What all memories hold that are not freed yet (bytes): beyond the bound by what single questions need.
+  // Bytes held by all memories that are not freed yet. They exceed the bound by at most what the queries
+  // under way need.
   size_t bytes() const { return use_->bytes.load(std::memory_order_relaxed); }
 
  private:
   friend struct FieldMemory;
   struct Site;
   struct Use {
-    std::atomic<size_t> bytes{0};     // that memories hold
-    std::atomic<size_t> reserved{0};  // that they may
+    std::atomic<size_t> bytes{0};     // held by all memories
+    std::atomic<size_t> reserved{0};  // the sum of their limits
   };
   struct KeyHash {
     size_t operator()(const CellKey& key) const { return key.hash(); }
@@ -105,16 +107,16 @@ class IrradianceField {
   CellGrid grid_;
   double accuracy_;
   double finest_;
-  size_t bound_;  // of what all memories hold (bytes)
+  size_t bound_;  // on the bytes of all memories
   std::shared_ptr<Use> use_ = std::make_shared<Use>();
-  // The memory that questions begin in.
+  // The memory that new queries use.
   std::atomic<const FieldMemory*> newest_{nullptr};
   std::shared_ptr<FieldMemory> kept_;
-  std::mutex replacing_;  // for as long as a pointer is copied
+  std::mutex replacing_;  // held only while a pointer is copied
   std::atomic<size_t> made_{0};
-  std::unordered_map<CellKey, GatheredLight, KeyHash> known_;  // of earlier runs
+  std::unordered_map<CellKey, GatheredLight, KeyHash> known_;  // sites of earlier runs
   std::unique_ptr<AmbientFile> file_;
-  std::mutex writing_;                 // nobody waits for it
+  std::mutex writing_;                 // only tried: no thread waits for it
   std::atomic<Site*> fresh_{nullptr};  // not in the file yet; a list through Site::nextFresh
   std::atomic<size_t> gathered_{0};
 };

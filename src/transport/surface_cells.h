@@ -1,6 +1,6 @@
 #pragma once
-// Surfaces divided into cells, by the scene alone: each cell has a site, a point of the surface at which
-// light can be gathered for what lies around it.
+// Surfaces divided into cells of a hierarchy that the scene alone determines. Each cell has a site: a point
+// of the surface where light can be gathered for the cell's surroundings.
 #include <cstdint>
 #include <optional>
 
@@ -9,64 +9,65 @@
 
 namespace rsphere {
 
-// A point of a surface that indirect light is asked for.
+// A point of a surface where indirect light is needed.
 struct SurfacePlace {
   V3d point{0, 0, 0};
-  V3d normal{0, 0, 1};  // unit, of the surface itself, on the side that the light arrives at
+  V3d normal{0, 0, 1};  // unit, geometric (not perturbed), on the side where the light arrives
   int32_t surface = kNone;
-  const PlacementPath* path = nullptr;  // of the surface; null: it lies in the world itself
-  double distance = 0;                  // that the ray came from (world units)
+  const PlacementPath* path = nullptr;  // placement of the surface by instances; null: none
+  double distance = 0;                  // length of the ray that hit the place (world units)
 };
 
-// Which cell of which surface, and on which side.
+// Identifies a cell: surface, side, level and indices.
 struct CellKey {
   int32_t surface = 0, level = 0;
   int64_t i = 0, j = 0;
-  uint64_t chart = 0;  // of the side, and of what places the surface
+  uint64_t chart = 0;  // identifies the side of the surface and its placement by instances
   bool operator==(const CellKey&) const = default;
   uint64_t hash() const;
 };
 
-// What all charts of a scene have in common.
+// Parameters that all charts of a scene share.
 struct CellGrid {
-  double size = 1;      // the longest side of the scene's bounds; of the cells of level 0 (world units)
-  double lift = 0;      // of sites above their surface (world units): more than rounding can hide
+  double size = 1;      // longest side of the scene's bounds, side of the cells of level 0 (world units)
+  double lift = 0;      // height of sites above their surface (world units), larger than rounding errors
   V3d origin{0, 0, 0};  // a corner of the bounds
 
   CellGrid(const Box3d& bounds);
   static constexpr int kLevels = 40;
-  double side(
-      int level) const;  // of the cells of a level, about (world units); each level's is half the last one's
-  int levelOf(double side) const;  // the first whose cells are not larger
+  // The approximate side (world units) of the cells of a level; it halves from level to level.
+  double side(int level) const;
+  // The first level whose cells are not larger than this.
+  int levelOf(double side) const;
 };
 
-// Coordinates (world units) on the surface that a place lies on. Polygons and rings have a frame of their
-// own, along the longest edge, so that no site lies beside them; balls and cones are charted from outside.
+// Coordinates (world units) on the surface of a place. The frame of a polygon follows its longest edge, so
+// that the cells of a rectangle have their sites on it. Balls and cones have charts of their outsides only.
 class SurfaceChart {
  public:
-  // Empty for what has no cells: meshes, insides of what is curved, placed balls and cones. Keeps references
-  // to the scene and the place's path, for as long as it is used.
+  // Empty where surfaces have no cells: meshes, the insides of curved surfaces, balls and cones within
+  // instances. The scene and the path of the place must outlive the chart.
   static std::optional<SurfaceChart> of(const Scene& scene, const CellGrid& grid, const SurfacePlace& place);
 
-  // The plane that the place lies in, whatever surface it is on: for surfaces that are too small for cells of
-  // their own. Its sites may lie beside all surfaces.
+  // A chart of the plane through the place, which all surfaces in that plane share: for surfaces too small
+  // for cells of their own. Its sites need not lie on any surface.
   static SurfaceChart ofPlane(const CellGrid& grid, const SurfacePlace& place);
 
   double u() const { return u_; }  // of the place
   double v() const { return v_; }
-  // The longer side of the surface; of a ball or cone the radius; infinite of a plane.
+  // The longer side of the surface; the radius of a ball or the larger one of a cone; infinite for a plane.
   double extent() const;
   bool isCurved() const { return ball_ || cone_; }
   bool isShared() const { return isShared_; }  // of all surfaces in the plane
 
-  // Sides of the cells of a level: as equal parts of the surface's sides.
+  // Sides of the cells of a level. They divide the sides of a bounded surface into equal parts.
   double stepU(const CellGrid& grid, int level) const;
   double stepV(const CellGrid& grid, int level) const;
-  // The cell of a level with these coordinates, or the one nearest to them at the surface's edge.
+  // The cell of a level that contains these coordinates; beyond the edge of the surface, the nearest cell.
   CellKey cellAt(const CellGrid& grid, int level, double u, double v) const;
-  // The cell with these indices, or the one nearest to them at the surface's edge.
+  // The cell with these indices; beyond the edge of the surface, the nearest cell.
   CellKey cell(const CellGrid& grid, int level, int64_t i, int64_t j) const;
-  // Lies on the surface; empty where the cell seems to have nothing of it.
+  // The site of a cell, just above the surface. Empty if no point tried in the cell lies on the surface.
   std::optional<GatherSite> site(const CellGrid& grid, const CellKey& key) const;
 
  private:
@@ -78,12 +79,13 @@ class SurfaceChart {
   bool isShared_ = false;
   uint64_t id_ = 0;
   V3d origin_{0, 0, 0}, x_{1, 0, 0}, y_{0, 1, 0}, normal_{0, 0, 1};
-  double width_ = 0, height_ = 0;  // from the origin on; 0: without end
+  double width_ = 0, height_ = 0;  // extent from the origin; 0: unbounded
   double u_ = 0, v_ = 0;
   std::optional<Placement> placement_;
   const Sphere* ball_ = nullptr;
   const Cone* cone_ = nullptr;
-  int axis_ = 2;  // of a ball: that its face of a cube is across
+  // A ball is charted by the faces of a cube: the axis perpendicular to the face, and its sign.
+  int axis_ = 2;
   double sign_ = 1;
 };
 
