@@ -1,0 +1,103 @@
+// Where indirect light is interpolated (-aa above 0), an ambient ray has half the weight of its parent, as in
+// RADIANCE, however many there are (-ad). So the limits of weight (-lw) and of reflections (-lr) end bounces,
+// and take no light from bounces that are followed.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "tests/unit/transport/transport_fixture.h"
+
+namespace rsphere {
+namespace {
+
+struct Limits {
+  int reflections;  // -lr
+  double weight;    // -lw
+};
+
+RayOptions interpolated(int bounces, int divisions, const Limits& limits) {
+  RayOptions o = unbiased(bounces);
+  o.ambientAccuracy = .1;
+  o.ambientResolution = 16;
+  o.ambientDivisions = divisions;
+  o.reflectionLimit = limits.reflections;
+  o.weightLimit = limits.weight;
+  return o;
+}
+
+std::string limitsIn(const Limits& l) { return fmt::format("-lr {} -lw {}", l.reflections, l.weight); }
+
+TEST(RayWeights, LeaveTheWholeSky) {
+  const std::string sky = "void glow g 0 0 4 1 1 1 0\ng source sky 0 0 4 0 0 1 360\n";
+  for (const Limits& l : {Limits{6, .01}, Limits{6, .4}, Limits{8, 1e-4}, Limits{0, .01}, Limits{-8, .01}}) {
+    Traced open(sky, interpolated(1, 512, l), Irradiance::point);
+    EXPECT_NEAR(open.value(V3d(0, 0, 0), V3d(0, 0, 1)), std::numbers::pi, 1e-3) << limitsIn(l);
+  }
+  Traced ended(sky, interpolated(1, 512, {6, .6}), Irradiance::point);
+  EXPECT_EQ(ended.value(V3d(0, 0, 0), V3d(0, 0, 1)), 0) << "half is less than the least weight";
+}
+
+// Walls that shine with radiance .2 and reflect .4 of what arrives.
+constexpr double kShine = .2, kReflects = .4;
+constexpr const char* kWall = R"(
+void plastic gray 0 0 5 .5 .5 .5 0 0
+void glow shine 0 0 4 1 1 1 0
+void mixfunc wall 4 gray shine .8 . 0 0
+)";
+constexpr const char* kBox = R"(
+wall polygon floor 0 0 12 0 0 0 2 0 0 2 2 0 0 2 0
+wall polygon ceiling 0 0 12 0 0 2 0 2 2 2 2 2 2 0 2
+wall polygon west 0 0 12 0 0 0 0 2 0 0 2 2 0 0 2
+wall polygon east 0 0 12 2 0 0 2 0 2 2 2 2 2 2 0
+wall polygon south 0 0 12 0 0 0 0 0 2 2 0 2 2 0 0
+wall polygon north 0 0 12 0 2 0 2 2 0 2 2 2 0 2 2
+)";
+
+// The radiance in a furnace after so many bounces.
+double seriesTo(int bounces) {
+  double sum = 0;
+  for (int i = 0; i <= bounces; ++i) sum += kShine * std::pow(kReflects, i);
+  return sum;
+}
+
+// The weight falls by .8 (of the mixture) times a half at each bounce: to .064 at the third.
+TEST(RayWeights, LeaveEveryBounceInAFurnace) {
+  struct Case {
+    int bounces;
+    Limits limits;
+  };
+  for (const auto& [bounces, limits] :
+       {Case{2, {6, .1}}, Case{2, {-8, .1}}, Case{2, {0, .1}}, Case{3, {6, .05}}}) {
+    Traced furnace(std::string(kWall) + kBox, interpolated(bounces, 64, limits));
+    EXPECT_NEAR(furnace.value(V3d(1, .9, 1.1), V3d(.2, .1, -1)) / seriesTo(bounces), 1, 4e-3)
+        << bounces << " bounces, " << limitsIn(limits);
+  }
+}
+
+// The inside of a ball is not interpolated, and no patches serve it. Behind a small pane of glass at the eye.
+TEST(RayWeights, LeaveSurfacesThatAreNotInterpolatedTheirLight) {
+  const std::string ball = std::string(kWall) + "wall bubble room 0 0 4 0 0 0 3\n";
+  const std::string pane = "void glass clear 0 0 3 .5 .5 .5\nclear ring pane 0 0 8 0 0 .1 0 0 1 0 .01\n";
+  Traced glazed("void glow bright 0 0 4 1 1 1 0\nbright source all 0 0 4 0 0 1 360\n" + pane, unbiased());
+  const double passed = glazed.value(V3d(0, 0, 0), V3d(0, 0, 1));
+  ASSERT_LT(passed, .6);
+  for (const Limits& l : {Limits{8, 1e-4}, Limits{-8, 1e-4}, Limits{8, 1e-3}}) {
+    Traced room(ball + pane, interpolated(2, 2048, l));
+    EXPECT_NEAR(room.value(V3d(0, 0, 0), V3d(0, 0, 1)) / (passed * seriesTo(2)), 1, 4e-3) << limitsIn(l);
+    EXPECT_NEAR(room.value(V3d(0, 0, 0), V3d(0, 1, 0)) / seriesTo(2), 1, 4e-3) << limitsIn(l);
+  }
+}
+
+// Diffuse reflections count for -lr, wherever light is gathered.
+TEST(RayWeights, LimitOfReflectionsEndsBounces) {
+  for (const int limit : {1, 2}) {
+    Traced furnace(std::string(kWall) + kBox, interpolated(3, 64, {limit, 1e-4}));
+    EXPECT_NEAR(furnace.value(V3d(1, .9, 1.1), V3d(.2, .1, -1)) / seriesTo(limit), 1, 4e-3) << limit;
+  }
+}
+
+}  // namespace
+}  // namespace rsphere
