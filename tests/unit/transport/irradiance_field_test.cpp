@@ -1,5 +1,6 @@
 #include "transport/irradiance_field.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -228,6 +229,52 @@ wall polygon ceiling 0 0 12 0 0 3 0 4 3 6 4 3 6 0 3
     const V3d from(3, 2, z), towards(.05, 1, 0);
     const double expected = .92 * open.value(from, towards);
     EXPECT_NEAR(glazed.value(from, towards) / expected, 1, .12) << z;
+  }
+}
+
+// A perturbed normal, tilted by so many degrees towards another side every few centimetres, under an even
+// sky: light that comes from behind the surface does not arrive, light from behind the perturbed normal
+// neither. That is the mean of upright and tilted, (1 + cos) / 2, however it is gathered.
+TEST(IrradianceField, TiltedNormalsUnderAnEvenSky) {
+  for (const int tilt : {0, 17, 45}) {
+    const double angle = tilt * M_PI / 180;
+    const std::string floor = fmt::format(
+        "void glow g 0 0 4 1 1 1 0\ng source sky 0 0 4 0 0 1 360\n"
+        "void texfunc waves 4 A1*cos(20*Px) A1*sin(20*Px) 0 . 0 1 {}\n"
+        "waves plastic gray 0 0 5 .5 .5 .5 0 0\n"
+        "gray polygon floor 0 0 12 -9 -9 0 9 -9 0 9 9 0 -9 9 0\n",
+        std::tan(angle));
+    RayOptions o = interpolated(0, 1);
+    o.ambientDivisions = 4096;
+    Traced field(floor, interpolated(.1, 1)), anew(floor, o);
+    const double expected = .5 * (1 + std::cos(angle)) / 2;
+    for (const double x : {-3., .07, .2, .33, 2.})
+      for (const V3d& to : {V3d(0, 0, -1), V3d(.3, -.2, -1)}) {
+        const V3d from(x, .4, 1);
+        EXPECT_NEAR(anew.value(from, to) / expected, 1, .01) << tilt << " degrees, anew";
+        EXPECT_NEAR(field.value(from, to) / expected, 1, .01) << tilt << " degrees, interpolated";
+      }
+  }
+}
+
+// Beside a wall, where tilted normals see more of it or less: as gathered anew.
+TEST(IrradianceField, TiltedNormalsBesideAWall) {
+  for (const int tilt : {17, 45}) {
+    const std::string floor = fmt::format(
+        "void glow g 0 0 4 1 1 1 0\ng source sky 0 0 4 0 0 1 360\n"
+        "void texfunc waves 4 A1*cos(20*Px) A1*sin(20*Px) 0 . 0 1 {}\n"
+        "waves plastic gray 0 0 5 .5 .5 .5 0 0\nvoid plastic black 0 0 5 0 0 0 0 0\n"
+        "gray polygon floor 0 0 12 -3 -3 0 3 -3 0 3 2 0 -3 2 0\n"
+        "black polygon wall 0 0 12 -3 2 0 3 2 0 3 2 4 -3 2 4\n",
+        std::tan(tilt * M_PI / 180));
+    RayOptions o = interpolated(0, 1), fine = interpolated(.1, 1);
+    o.ambientDivisions = 4096;
+    fine.ambientDivisions = 512;
+    Traced field(floor, fine), anew(floor, o);
+    for (const double x : {0., .07, .16, .24, .31}) {
+      const V3d from(x, 1, 1), down(0, 0, -1);
+      EXPECT_NEAR(field.value(from, down) / anew.value(from, down), 1, .06) << tilt << " degrees at " << x;
+    }
   }
 }
 
