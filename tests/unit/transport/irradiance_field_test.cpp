@@ -232,6 +232,57 @@ wall polygon ceiling 0 0 12 0 0 3 0 4 3 6 4 3 6 0 3
   }
 }
 
+// Of the light from above at a point, the share that a rectangle with a corner over the point and sides a and
+// b hides at height c (the form factor of a parallel rectangle).
+double hiddenByCorner(double a, double b, double c) {
+  const double x = a / c, y = b / c, p = std::sqrt(1 + x * x), q = std::sqrt(1 + y * y);
+  return (x / p * std::atan(y / p) + y / q * std::atan(x / q)) / (2 * M_PI);
+}
+
+// A plate of 2 m, .8 m above the ground: its shadow is there however far the ground goes on.
+TEST(IrradianceField, FindsTheShadowOfAPlateOnAWideGround) {
+  RayOptions finely = interpolated(.1, 1);
+  finely.ambientResolution = 256;  // .23 m
+  for (const double half : {10., 300.}) {
+    Traced traced(fmt::format("void glow g 0 0 4 1 1 1 0\ng source sky 0 0 4 0 0 1 360\n"
+                              "void plastic gray 0 0 5 .4 .4 .4 0 0\n"
+                              "gray polygon ground 0 0 12 -{0} -{0} 0 {0} -{0} 0 {0} {0} 0 -{0} {0} 0\n"
+                              "gray polygon plate 0 0 12 2 -3 .8 4 -3 .8 4 -1 .8 2 -1 .8\n",
+                              half),
+                  finely);
+    // Along the middle of the plate.
+    for (const double x : {.5, 1.5, 2., 2.5, 3., 3.6, 4.2, 5.}) {
+      const double hidden = 2 * (hiddenByCorner(4 - x, 1, .8) - hiddenByCorner(2 - x, 1, .8));
+      EXPECT_NEAR(traced.value(V3d(x, -2, .02), V3d(0, 0, -1)), .4 * (1 - hidden), .1 * .4)
+          << half << ": " << x;
+    }
+  }
+}
+
+// A box of 2 m on the ground: of the light from above, what its walls leave.
+TEST(IrradianceField, FindsTheShadowOfABoxOnAWideGround) {
+  for (const double half : {10., 300.}) {
+    const std::string scene = fmt::format(
+        "void glow g 0 0 4 1 1 1 0\ng source sky 0 0 4 0 0 1 360\n"
+        "void plastic gray 0 0 5 .4 .4 .4 0 0\nvoid plastic black 0 0 5 0 0 0 0 0\n"
+        "gray polygon ground 0 0 12 -{0} -{0} 0 {0} -{0} 0 {0} {0} 0 -{0} {0} 0\n"
+        "black polygon west 0 0 12 2 -3 0 2 -3 2 2 -1 2 2 -1 0\n"
+        "black polygon east 0 0 12 4 -3 0 4 -1 0 4 -1 2 4 -3 2\n"
+        "black polygon south 0 0 12 2 -3 0 4 -3 0 4 -3 2 2 -3 2\n"
+        "black polygon north 0 0 12 2 -1 0 2 -1 2 4 -1 2 4 -1 0\n"
+        "black polygon top 0 0 12 2 -3 2 4 -3 2 4 -1 2 2 -1 2\n",
+        half);
+    RayOptions o = interpolated(0, 1), finely = interpolated(.1, 1);
+    o.ambientDivisions = 4096;
+    finely.ambientResolution = 256;
+    Traced field(scene, finely), anew(scene, o);
+    for (const double x : {4.05, 4.3, 4.8, 5.5, 7.}) {
+      const V3d from(x, -2, .02), down(0, 0, -1);
+      EXPECT_NEAR(field.value(from, down), anew.value(from, down), .1 * .4) << half << ": " << x;
+    }
+  }
+}
+
 // A perturbed normal, tilted by so many degrees towards another side every few centimetres, under an even
 // sky: light that comes from behind the surface does not arrive, light from behind the perturbed normal
 // neither. That is the mean of upright and tilted, (1 + cos) / 2, however it is gathered.
