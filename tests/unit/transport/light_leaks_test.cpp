@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -103,6 +104,34 @@ TEST(LightLeaks, NoneReachesAClosedRoomOfThinWalls) {
         EXPECT_EQ(lightIn(room, scene, s, 16), 0) << (ground ? "wide ground, -ab " : "-ab ") << s.bounces
                                                   << " -aa " << s.accuracy << " -ar " << s.resolution;
       }
+}
+
+// A sill, and on its middle a wall or a pane without thickness, with the sky on one side: its plane passes
+// through the middles of the sill's cells.
+TEST(LightLeaks, EachSideOfAStandingPaneHasItsOwnLight) {
+  const std::string sill = R"(
+void glow sky_glow 0 0 4 1 1 1 0
+sky_glow source sky 0 0 4 -1 0 0 90
+void plastic gray 0 0 5 .5 .5 .5 0 0
+gray polygon sill 0 0 12 -.1 -2 0 .1 -2 0 .1 2 0 -.1 2 0
+pane polygon p 0 0 12 0 -2 0 0 -2 2 0 2 2 0 2 0
+)";
+  // The integral of the cosine over a cone of 45 degrees around the horizontal, over pi, above the sill.
+  const double bright = .5 * (std::numbers::pi / 4 - .5) / std::numbers::pi;
+  struct Case {
+    const char* pane;
+    double most;  // that arrives behind it, in shares of what does before it
+  };
+  for (const Case& c :
+       {Case{"void plastic pane 0 0 5 0 0 0 0 0\n", 0}, Case{"void glass pane 0 0 3 .05 .05 .05\n", .05}})
+    for (const double accuracy : {.1, .2}) {
+      RayOptions o = optionsOf({1, accuracy, 128, 512});
+      Traced traced(c.pane + sill, o);
+      for (const double x : {.0005, .002, .01, .03, .09}) {
+        EXPECT_NEAR(traced.value(V3d(-x, 0, 1), V3d(0, 0, -1)) / bright, 1, .15) << c.pane << -x;
+        EXPECT_LE(traced.value(V3d(x, 0, 1), V3d(0, 0, -1)), c.most * bright) << c.pane << x;
+      }
+    }
 }
 
 }  // namespace
