@@ -1,0 +1,176 @@
+#include "transport/coarse_solution.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "shade/scattering.h"
+#include "tests/unit/transport/transport_fixture.h"
+
+namespace rsphere {
+namespace {
+
+constexpr double kReflectance = .6, kAmbient = .3;
+
+// A box of 4 x 3 x 2.5, and a wall without thickness across it.
+constexpr const char* kBox = R"(
+void plastic gray 0 0 5 .6 .6 .6 0 0
+gray polygon floor 0 0 12 0 0 0 4 0 0 4 3 0 0 3 0
+gray polygon ceiling 0 0 12 0 0 2.5 0 3 2.5 4 3 2.5 4 0 2.5
+gray polygon west 0 0 12 0 0 0 0 3 0 0 3 2.5 0 0 2.5
+gray polygon east 0 0 12 4 0 0 4 0 2.5 4 3 2.5 4 3 0
+gray polygon south 0 0 12 0 0 0 0 0 2.5 4 0 2.5 4 0 0
+gray polygon north 0 0 12 0 3 0 4 3 0 4 3 2.5 0 3 2.5
+)";
+constexpr const char* kAcross = "gray polygon across 0 0 12 1.03 0 0 1.03 3 0 1.03 3 2.5 1.03 0 2.5\n";
+
+// Follows rays from surface to surface as the header asks for it. Every surface shines with a radiance.
+class FurnaceLooker final : public CoarseSolution::Looker {
+ public:
+  using Shine = std::function<double(const SurfacePlace& place)>;
+  FurnaceLooker(const Tracer& tracer, int bounces, Shine shine)
+      : tracer_(tracer), bounces_(bounces), shine_(std::move(shine)) {}
+  void solve(CoarseSolution& solution) { solution_ = &solution; }
+
+  // What a ray from inside the box meets.
+  SurfacePlace placeAlong(const V3d& from, const V3d& direction) const {
+    const Hit hit = tracer_.nearest(from, direction);
+    EXPECT_NE(hit.surface, kNone);
+    return {from + hit.distance * direction, hit.normal.dot(direction) > 0 ? -hit.normal : hit.normal,
+            hit.surface, nullptr, hit.distance};
+  }
+
+  void link(const GatherSite& site, int rays, uint64_t seed, CoarseSolution::Links& links) override {
+    ++linked;
+    Random random(seed);
+    for (int i = 0; i < rays; ++i) {
+      double coefficient = 1. / rays;
+      V3d from = site.point, normal = site.normal;
+      for (int beyond = 0; beyond < bounces_; ++beyond) {
+        const double u1 = random.uniform(), u2 = random.uniform();
+        const SurfacePlace place = placeAlong(from, diffuseDirection(normal, u1, u2));
+        links.addLight(beyond, Rgb(1, 1, 1) * coefficient * shine_(place));
+        coefficient *= kReflectance;
+        const double v1 = random.uniform(), v2 = random.uniform();
+        // Some paths go on, as they do where no patch serves.
+        const bool goesOn = random.uniform() < .3;
+        CoarseSolution::Patch* const patch = solution_->find(place, v1, v2, *this);
+        if (patch && !goesOn) {
+          links.links.push_back({patch, V3f(1, 1, 1) * static_cast<float>(coefficient), beyond});
+          ++served;
+          break;
+        }
+        ++followed;
+        links.addEnd(beyond, Rgb(1, 1, 1) * coefficient);
+        from = place.point + 1e-5 * place.normal;
+        normal = place.normal;
+      }
+    }
+  }
+  double reach(const GatherSite& site) override { return placeAlong(site.point, site.normal).distance; }
+  bool sees(const V3d& from, const V3d& to) override {
+    const V3d way = to - from;
+    return tracer_.nearest(from, way.normalized(), way.length()).surface == kNone;
+  }
+
+  int linked = 0, served = 0, followed = 0;
+
+ private:
+  const Tracer& tracer_;
+  int bounces_;
+  Shine shine_;
+  CoarseSolution* solution_ = nullptr;
+};
+
+RayOptions optionsOf(int bounces) {
+  RayOptions o = unbiased(bounces);
+  o.ambientAccuracy = .2;
+  o.ambientDivisions = 256;
+  o.ambientValue = Rgb(1, 1, 1) * kAmbient;
+  return o;
+}
+
+// Where all shines with 1 and reflects the same share r, 1 + r + r^2 ... arrives, and at last the ambient
+// value: whatever the patches and their links are.
+TEST(CoarseSolution, LightIsTheGeometricSeriesInAFurnace) {
+  constexpr int kBounces = 4;
+  const Traced box(kBox);
+  FurnaceLooker looker(box.transport().tracer(), kBounces, [](const SurfacePlace&) { return 1; });
+  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), optionsOf(kBounces));
+  looker.solve(solution);
+  Random random(2);
+  int found = 0;
+  for (int i = 0; i < 12; ++i) {
+    const V3d from(between(random, .5, 3.5), between(random, .5, 2.5), between(random, .5, 2));
+    const SurfacePlace place = looker.placeAlong(from, randomDirection(random));
+    const double u1 = random.uniform(), u2 = random.uniform();
+    CoarseSolution::Patch* const patch = solution.find(place, u1, u2, looker);
+    if (!patch) continue;
+    ++found;
+    EXPECT_EQ(solution.find(place, u1, u2, looker), patch) << "the same again";
+    for (int bounces = kBounces; bounces >= 0; --bounces) {
+      double expected = std::pow(kReflectance, bounces) * kAmbient;
+      for (int n = 0; n < bounces; ++n) expected += std::pow(kReflectance, n);
+      EXPECT_NEAR(solution.light(*patch, bounces, looker).x, expected, 1e-4) << bounces;
+      EXPECT_GT(std::abs(solution.light(*patch, bounces + 1, looker).x - expected),
+                bounces < kBounces ? .05 : -1)
+          << "one bounce more is another";
+    }
+  }
+  EXPECT_GE(found, 4) << "or nothing is told";
+  EXPECT_GT(looker.served, 0);
+  EXPECT_GT(looker.followed, 0);
+  EXPECT_LE(static_cast<size_t>(looker.linked), solution.patches()) << "a patch is linked once";
+}
+
+// Beside a wall without thickness, whose one side alone has light: a patch that serves a place on the dark
+// side has none.
+TEST(CoarseSolution, PatchesServeWhatTheySee) {
+  constexpr int kBounces = 2;
+  const Traced box(std::string(kBox) + kAcross);
+  FurnaceLooker looker(box.transport().tracer(), kBounces,
+                       [](const SurfacePlace& p) { return (p.point + 1e-4 * p.normal).x < 1.03 ? 1 : 0; });
+  RayOptions options = optionsOf(kBounces);
+  options.ambientValue = Rgb(0, 0, 0);
+  options.ambientDivisions = 64;
+  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), options);
+  looker.solve(solution);
+  Random random(4);
+  int found[2] = {0, 0};
+  for (int i = 0; i < 200; ++i) {
+    const bool dark = i % 2;
+    const V3d from(dark ? 2 : .5, 1.5, 1.3);
+    // Near to the wall, on the floor and on the ceiling.
+    const V3d to(dark ? between(random, 1.031, 1.5) : between(random, .6, 1.029), between(random, .1, 2.9),
+                 i % 3 ? 0 : 2.5);
+    const SurfacePlace place = looker.placeAlong(from, (to - from).normalized());
+    const double u1 = random.uniform(), u2 = random.uniform();
+    CoarseSolution::Patch* const patch = solution.find(place, u1, u2, looker);
+    if (!patch) continue;
+    ++found[dark];
+    const double light = solution.light(*patch, kBounces, looker).x;
+    if (dark)
+      EXPECT_EQ(light, 0) << place.point;
+    else
+      EXPECT_GE(light, 1 - 1e-4) << place.point;
+  }
+  EXPECT_GT(found[0], 10) << "or nothing is told";
+  EXPECT_GT(found[1], 10) << "or nothing is told";
+}
+
+// A ray that has come from nearby follows its path: there patches would show.
+TEST(CoarseSolution, NoPatchServesWhatIsSeenFromNear) {
+  const Traced box(kBox);
+  FurnaceLooker looker(box.transport().tracer(), 2, [](const SurfacePlace&) { return 1; });
+  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), optionsOf(2));
+  looker.solve(solution);
+  SurfacePlace place{V3d(2, 1.5, 0), V3d(0, 0, 1), 0, nullptr, 2.5};
+  EXPECT_TRUE(solution.find(place, .5, .5, looker));
+  place.distance = 1e-3;
+  EXPECT_FALSE(solution.find(place, .5, .5, looker));
+}
+
+}  // namespace
+}  // namespace rsphere
