@@ -1,0 +1,160 @@
+#include "transport/openings.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "tests/unit/transport/transport_fixture.h"
+
+namespace rsphere {
+namespace {
+
+// A room of 4 x 4 x 3 m. Its south wall has a hole of 2 x 1 m, its roof one of .6 x .6 m.
+constexpr const char* kRoom = R"(
+void plastic gray 0 0 5 .5 .5 .5 0 0
+void glass clear 0 0 3 .96 .96 .96
+gray polygon floor 0 0 12 0 0 0 4 0 0 4 4 0 0 4 0
+gray polygon west 0 0 12 0 0 0 0 4 0 0 4 3 0 0 3
+gray polygon east 0 0 12 4 0 0 4 0 3 4 4 3 4 4 0
+gray polygon north 0 0 12 0 4 0 4 4 0 4 4 3 0 4 3
+gray polygon south 0 0 30 0 0 0 4 0 0 4 0 3 0 0 3 0 0 0 1 0 1 1 0 2 3 0 2 3 0 1 1 0 1
+gray polygon roof 0 0 30 0 0 3 4 0 3 4 4 3 0 4 3 0 0 3 2.7 2.7 3 2.7 3.3 3 3.3 3.3 3 3.3 2.7 3 2.7 2.7 3
+)";
+const std::string kWindow = "clear polygon window 0 0 12 1 0 1 3 0 1 3 0 2 1 0 2\n";
+const std::string kHalves =
+    "clear polygon west_half 0 0 12 1 0 1 2 0 1 2 0 2 1 0 2\nclear polygon east_half 0 0 12 2 0 1 3 0 1 3 0 "
+    "2 2 0 2\n";
+const std::string kSkylight = "clear polygon skylight 0 0 12 2.7 2.7 3 2.7 3.3 3 3.3 3.3 3 3.3 2.7 3\n";
+const std::string kSky = "void glow sky_glow 0 0 4 1 1 1 0\nsky_glow source sky 0 0 4 0 0 1 360\n";
+
+Openings openingsOf(const std::string& text) {
+  Traced t(text, unbiased(1));
+  return Openings(t.scene(), t.transport().tracer().bounds(),
+                  [&](const V3d& origin, const V3d& direction, uint64_t seed) {
+                    return t.tracer().glimpse(origin, direction, seed).x;
+                  });
+}
+
+double shareAt(const Openings& openings, const V3d& point, const V3d& normal) {
+  Openings::Aim aim;
+  openings.aim(point, normal, aim);
+  EXPECT_LE(aim.share, Openings::kMostAimed);
+  return aim.share;
+}
+
+// Where a line from a point meets the window's plane or the skylight's, whether it is in their glass.
+bool isInWindow(const V3d& point, const V3d& d) {
+  if (!(d.y < 0)) return false;
+  const V3d at = point - d * (point.y / d.y);
+  return at.x > 1 - 1e-9 && at.x < 3 + 1e-9 && at.z > 1 - 1e-9 && at.z < 2 + 1e-9;
+}
+bool isInSkylight(const V3d& point, const V3d& d) {
+  if (!(d.z > 0)) return false;
+  const V3d at = point + d * ((3 - point.z) / d.z);
+  return std::abs(at.x - 3) < .3 + 1e-9 && std::abs(at.y - 3) < .3 + 1e-9;
+}
+
+TEST(Openings, AreFoundWhereDaylightComesIn) {
+  const V3d floor(2, 3.5, 0), up(0, 0, 1);
+  const Openings window = openingsOf(kSky + kRoom + kWindow);
+  ASSERT_FALSE(window.empty());
+  EXPECT_GT(shareAt(window, floor, up), .1);
+  EXPECT_EQ(shareAt(window, V3d(2, 3, 1), V3d(0, 1, 0)), 0) << "it is behind";
+  EXPECT_EQ(shareAt(window, V3d(2, -3, 0), up), 0) << "outdoors";
+  // However the window is divided, and whichever way round its panes are.
+  const Openings halves = openingsOf(kSky + kRoom + kHalves);
+  const Openings turned = openingsOf(kSky + kRoom + "clear polygon window 0 0 12 1 0 1 1 0 2 3 0 2 3 0 1\n");
+  for (const Openings* other : {&halves, &turned}) {
+    EXPECT_NEAR(shareAt(*other, floor, up), shareAt(window, floor, up), .05);
+    EXPECT_EQ(shareAt(*other, V3d(2, -3, 0), up), 0);
+  }
+}
+
+TEST(Openings, AreNotFoundElsewhere) {
+  const std::string lamp = "void light lamp 0 0 3 10 10 10\nlamp sphere bulb 0 0 4 2 2 2 .1\n";
+  const std::string shell = "gray bubble shell 0 0 4 2 2 1.5 8\n";
+  EXPECT_TRUE(openingsOf("").empty());
+  EXPECT_TRUE(openingsOf(kSky + kRoom).empty()) << "holes without panes are not looked for";
+  EXPECT_TRUE(openingsOf(kSky + kRoom + kWindow + kSkylight + shell).empty()) << "what is around is closed";
+  EXPECT_TRUE(openingsOf(kRoom + kWindow).empty()) << "no sky";
+  EXPECT_TRUE(openingsOf(kSky +
+                         "void plastic gray 0 0 5 .5 .5 .5 0 0\nvoid glass clear 0 0 3 .96 .96 .96\n"
+                         "gray polygon ground 0 0 12 -50 -50 0 50 -50 0 50 50 0 -50 50 0\n" +
+                         kWindow)
+                  .empty())
+      << "a pane outdoors";
+  EXPECT_TRUE(openingsOf("void plastic gray 0 0 5 .5 .5 .5 0 0\n" + lamp).empty());
+}
+
+// Aimed directions lead through the panes, and are as dense as density() says: it sums to 1 over all
+// directions, and a function has the same mean by it and over those that were sampled.
+TEST(Openings, AreAimedAtAsDensitySays) {
+  const Openings openings = openingsOf(kSky + kRoom + kWindow + kSkylight);
+  ASSERT_FALSE(openings.empty());
+  struct Case {
+    V3d point, normal;
+  };
+  for (const Case& c : {Case{V3d(1.5, 3, 0), V3d(0, 0, 1)}, Case{V3d(0, 2.5, 1), V3d(1, 0, 0)}}) {
+    Openings::Aim aim;
+    openings.aim(c.point, c.normal, aim);
+    ASSERT_GT(aim.share, 0);
+    Random random(1);
+    Sample whole, sampled, weighted, throughWindow;
+    const auto some = [&](const V3d& d) { return 1.5 + d.x + (isInSkylight(c.point, d) ? 2 : 0); };
+    for (int i = 0; i < 20000; ++i) {
+      const double u1 = random.uniform(), u2 = random.uniform(), u3 = random.uniform();
+      const V3d d = openings.sample(aim, c.point, u1, u2, u3);
+      EXPECT_NEAR(d.length(), 1, 1e-12);
+      EXPECT_TRUE(isInWindow(c.point, d) || isInSkylight(c.point, d));
+      throughWindow.add(isInWindow(c.point, d));
+      sampled.add(some(d));
+    }
+    for (int i = 0; i < 200000; ++i) {
+      const V3d even = randomDirection(random);
+      const double density = openings.density(aim, c.point, even);
+      EXPECT_EQ(density > 0, isInWindow(c.point, even) || isInSkylight(c.point, even));
+      whole.add(4 * std::numbers::pi * density);
+      weighted.add(4 * std::numbers::pi * density * some(even));
+    }
+    EXPECT_GT(throughWindow.mean(), .1) << "or nothing is told";
+    EXPECT_LT(throughWindow.mean(), .98) << "or nothing is told";
+    expectMean(whole, 1, 1.15);
+    const double error = std::hypot(sampled.standardError(), weighted.standardError());
+    EXPECT_LT(std::abs(sampled.mean() - weighted.mean()), kMostSigmas * error);
+    EXPECT_GT(std::abs(1.15 * sampled.mean() - weighted.mean()), kMostSigmas * error) << "the spoiled twin";
+  }
+}
+
+TEST(Openings, ShowTheirAreaToLightOnItsWayIn) {
+  const Openings window = openingsOf(kSky + kRoom + kWindow);
+  const V3d in = V3d(.3, 1, -.5).normalized();
+  EXPECT_NEAR(window.areaTowards(V3d(0, 1, 0)), 2, 1e-9);
+  EXPECT_NEAR(window.areaTowards(in), 2 * in.y, 1e-9);
+  EXPECT_EQ(window.areaTowards(-in), 0) << "on its way out";
+  const Openings both = openingsOf(kSky + kRoom + kWindow + kSkylight);
+  EXPECT_NEAR(both.areaTowards(in), 2 * in.y - .36 * in.z, 1e-9);
+  Random random(1);
+  Sample onWindow, x, z;
+  for (int i = 0; i < 4000; ++i) {
+    const double u1 = random.uniform(), u2 = random.uniform(), u3 = random.uniform();
+    const V3d at = both.pointTowards(in, u1, u2, u3);
+    const bool isWindow = std::abs(at.y) < 1e-9;
+    onWindow.add(isWindow);
+    if (!isWindow) {
+      EXPECT_NEAR(at.z, 3, 1e-9);
+      continue;
+    }
+    EXPECT_TRUE(at.x >= 1 && at.x <= 3 && at.z >= 1 && at.z <= 2) << at;
+    x.add(at.x);
+    z.add(at.z);
+  }
+  expectMean(onWindow, 2 * in.y / both.areaTowards(in), 1.05);
+  expectMean(x, 2);
+  expectMean(z, 1.5);
+}
+
+}  // namespace
+}  // namespace rsphere
