@@ -96,5 +96,74 @@ TEST(BrightSpots, LeaveTheMeanAsItIs) {
   EXPECT_LT(sample.standardError(), .5 * pot.mean(origin, down, kPaths).standardError());
 }
 
+// A room of 4 x 4 x 3 with a pane of 1 x 1 in its south wall, on a wide ground, under a sun of 45
+// degrees: it shines on the floor at 1.5 <= x <= 2.5, 1 <= y <= 2.
+const std::string kSunlit =
+    "void plastic white 0 0 5 .6 .6 .6 0 0\nvoid glass clear 0 0 3 .96 .96 .96\n"
+    "void glow sky 0 0 4 1 1 1 0\nsky source heaven 0 0 4 0 0 1 180\n"
+    "void light sunlight 0 0 3 1e6 1e6 1e6\nsunlight source sun 0 0 4 0 -1 1 .53\n"
+    "white polygon ground 0 0 12 -400 -400 -.01 400 -400 -.01 400 400 "
+    "-.01 -400 400 -.01\n"
+    "white polygon floor 0 0 12 0 0 0 4 0 0 4 4 0 0 4 0\n"
+    "white polygon ceiling 0 0 12 0 0 3 0 4 3 4 4 3 4 0 3\n"
+    "white polygon west 0 0 12 0 0 0 0 4 0 0 4 3 0 0 3\n"
+    "white polygon east 0 0 12 4 0 0 4 0 3 4 4 3 4 4 0\n"
+    "white polygon north 0 0 12 0 4 0 4 4 0 4 4 3 0 4 3\n"
+    "white polygon south 0 0 30 0 0 0 4 0 0 4 0 3 0 0 3 0 0 0 1.5 0 1 1.5 0 2 2.5 0 2 2.5 0 1 1.5 0 1\n"
+    "clear polygon window 0 0 12 1.5 0 1 2.5 0 1 2.5 0 2 1.5 0 2\n";
+
+Openings openingsOf(const std::string& text) {
+  Traced t(text, unbiased(1));
+  return Openings(t.scene(), t.transport().tracer().bounds(),
+                  [&](const V3d& origin, const V3d& direction, uint64_t seed) {
+                    return t.tracer().glimpse(origin, direction, seed).x;
+                  });
+}
+
+TEST(BrightSpots, AreWhereTheSunShinesThroughOpenings) {
+  const Traced room(kSunlit, unbiased(1));
+  const Openings openings = openingsOf(kSunlit);
+  ASSERT_FALSE(openings.empty());
+  const BrightSpots spots(room.scene(), room.transport().tracer(), room.transport().lights(), &openings);
+  for (const V3d& point : {V3d(2, 2, 3), V3d(3, 3.5, 3)}) {
+    BrightSpots::Aim aim;
+    spots.aim(point, V3d(0, 0, -1), aim);
+    ASSERT_GT(aim.share, .1);
+    Random random(1);
+    Sample onSunlit;
+    for (int i = 0; i < 2000; ++i) {
+      const double u1 = random.uniform(), u2 = random.uniform(), u3 = random.uniform();
+      const V3d d = spots.sample(aim, u1, u2, u3);
+      EXPECT_GT(spots.density(aim, d), 0);
+      const V3d at = point - d * (point.z / d.z);
+      onSunlit.add(d.z < 0 && std::abs(at.x - 2) < .5 && std::abs(at.y - 1.5) < .5);
+    }
+    // Spots are round and overlap: they cover the square and something beside it.
+    EXPECT_GT(onSunlit.mean(), .5);
+  }
+  // Without openings few of the particles that the sun sends to so wide a scene come through the window.
+  BrightSpots::Aim aim;
+  spotsOf(room).aim(V3d(2, 2, 3), V3d(0, 0, -1), aim);
+  EXPECT_EQ(aim.share, 0);
+}
+
+TEST(BrightSpots, ThroughOpeningsLeaveTheMeanAsItIs) {
+  Traced room(kSunlit, unbiased(1));
+  const Openings openings = openingsOf(kSunlit);
+  const BrightSpots spots(room.scene(), room.transport().tracer(), room.transport().lights(), &openings);
+  PathTracer aimed(room.transport(), &spots);
+  // Of the north wall, below the sill, from where no ground is seen through the window.
+  const V3d origin(2, 2, .9), north = V3d(.1, 1, 0).normalized();
+  Sample with, without;
+  for (uint64_t i = 0; i < 30000; ++i) {
+    with.add(aimed.trace(origin, north, 0, mixBits(i)).value.x);
+    without.add(room.value(origin, north, mixBits(i + 1000000)));
+  }
+  const double error = std::hypot(with.standardError(), without.standardError());
+  EXPECT_LT(std::abs(with.mean() - without.mean()), kMostSigmas * error);
+  EXPECT_GT(std::abs(1.3 * with.mean() - without.mean()), kMostSigmas * error) << "the spoiled twin";
+  EXPECT_LT(with.standardError(), .5 * without.standardError());
+}
+
 }  // namespace
 }  // namespace rsphere
