@@ -37,16 +37,19 @@ std::string polygonOf(const std::string& name, const std::vector<V3d>& corners) 
   return text + "\n";
 }
 
-// Six polygons, and a table.
-std::string textOf(const Room& r) {
+// Walls, a ceiling and a table.
+std::string wallsOf(const Room& r) {
   const auto p = [&](double a, double b, double c) { return r.at(a, b, c); };
-  return polygonOf("floor", {p(0, 0, 0), p(1, 0, 0), p(1, 1, 0), p(0, 1, 0)}) +
-         polygonOf("ceiling", {p(0, 0, 1), p(0, 1, 1), p(1, 1, 1), p(1, 0, 1)}) +
+  return polygonOf("ceiling", {p(0, 0, 1), p(0, 1, 1), p(1, 1, 1), p(1, 0, 1)}) +
          polygonOf("south", {p(0, 0, 0), p(0, 0, 1), p(1, 0, 1), p(1, 0, 0)}) +
          polygonOf("north", {p(0, 1, 0), p(1, 1, 0), p(1, 1, 1), p(0, 1, 1)}) +
          polygonOf("west", {p(0, 0, 0), p(0, 1, 0), p(0, 1, 1), p(0, 0, 1)}) +
          polygonOf("east", {p(1, 0, 0), p(1, 0, 1), p(1, 1, 1), p(1, 1, 0)}) +
          polygonOf("table", {p(.3, .3, .25), p(.6, .3, .25), p(.6, .6, .25), p(.3, .6, .25)});
+}
+
+std::string floorOf(const Room& r) {
+  return polygonOf("floor", {r.at(0, 0, 0), r.at(1, 0, 0), r.at(1, 1, 0), r.at(0, 1, 0)});
 }
 
 // Sun, sky and bright ground.
@@ -60,11 +63,9 @@ sun_light source sun 0 0 4 .4 -.5 .77 .533
 void plastic wall 0 0 5 .7 .7 .7 0 0
 )";
 
-// Makes the scene as large as this, with a ground below the room, or without one.
-std::string largeScene(double size, bool ground) {
-  if (!ground) return fmt::format("wall ring far 0 0 8 {} {} -.01 0 0 1 0 .1\n", 2.5, -size);
-  return fmt::format("wall polygon ground 0 0 12 {0} {0} -4 {1} {0} -4 {1} {1} -4 {0} {1} -4\n", -size / 2,
-                     size / 2);
+std::string groundAt(double height, double half) {
+  return fmt::format("wall polygon ground 0 0 12 -{1} -{1} {0} {1} -{1} {0} {1} {1} {0} -{1} {1} {0}\n",
+                     height, half);
 }
 
 struct Settings {
@@ -95,15 +96,20 @@ double lightIn(const Room& room, const std::string& scene, const Settings& setti
 }
 
 TEST(LightLeaks, NoneReachesAClosedRoomOfThinWalls) {
-  for (const Room& room : {upright(), tilted()})
-    for (const bool ground : {false, true})
-      for (const Settings& s :
-           {Settings{2, .2, 64, 64}, Settings{4, .1, 256, 32}, Settings{2, .1, 300, 256}}) {
-        const std::string scene =
-            kOutdoors + textOf(room) + (ground ? largeScene(5000, true) : largeScene(36, false));
-        EXPECT_EQ(lightIn(room, scene, s, 16), 0) << (ground ? "wide ground, -ab " : "-ab ") << s.bounces
-                                                  << " -aa " << s.accuracy << " -ar " << s.resolution;
-      }
+  const std::string farAway = "wall ring plate 0 0 8 2.5 -36 -.01 0 0 1 0 .1\n";
+  struct Case {
+    const char* name;
+    Room room;
+    std::string scene;
+  };
+  for (const Case& c :
+       {Case{"something far away", upright(), wallsOf(upright()) + floorOf(upright()) + farAway},
+        Case{"tilted walls on wide ground", tilted(),
+             wallsOf(tilted()) + floorOf(tilted()) + groundAt(-4, 2500)},
+        Case{"the ground is the floor", upright(), wallsOf(upright()) + groundAt(0, 8)}})
+    for (const Settings& s : {Settings{2, .2, 64, 64}, Settings{4, .1, 256, 32}, Settings{2, .1, 300, 128}})
+      EXPECT_EQ(lightIn(c.room, kOutdoors + c.scene, s, 8), 0)
+          << c.name << ", -ab " << s.bounces << " -aa " << s.accuracy << " -ar " << s.resolution;
 }
 
 // A sill, and on its middle a wall or a pane without thickness, with the sky on one side: its plane passes
