@@ -355,6 +355,23 @@ TEST(Direct, HiddenSunTakesNothingFromUntestedLamps) {
   EXPECT_NEAR(Traced(scene, o).value(V3d(0, 0, 1), kDown), exact, 1e-9 * exact);
 }
 
+// Two lamps that a floor sees and a hundred weaker ones that a board hides from most of it. Behind an
+// indirect bounce the mean is that of testing all of them.
+TEST(Direct, ThresholdLeavesTheMeanBehindABounceAsItIs) {
+  std::string scene = plastic("m", .5) + floor("m") + floor("m", 5, 3) + light(1) +
+                      "lamp sphere left\n0\n0\n4 -6 0 6 .4\nlamp sphere right\n0\n0\n4 6 0 6 .4\n";
+  for (int i = 0; i < 100; ++i)
+    scene += fmt::format("lamp sphere weak\n0\n0\n4 {} {} 6 .06\n", (i % 10 - 4.5) / 3, (i / 10 - 4.5) / 3);
+  RayOptions o = unbiased(1);
+  const auto meanWith = [&](double threshold, int count) {
+    o.directThreshold = threshold;
+    o.directCertainty = 0;
+    return Traced(scene, o, Irradiance::point).mean(V3d(0, 0, 2), -kDown, count);
+  };
+  const Sample all = meanWith(0, 20000);
+  expectMean(meanWith(.5, 20000), all.mean(), 1.1);
+}
+
 // A roof hides the sun, which is weaker than the lamps under it and therefore not among those that are tested
 // for being bright.
 TEST(Direct, VisibleLampsTellNothingOfAHiddenSun) {
