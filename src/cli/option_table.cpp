@@ -391,7 +391,9 @@ std::vector<OptionEntry> makeTable() {
        .remark = "direct threshold",
        .paragraph =
            "Shadows of the light sources are tested until those left could add less than this fraction of "
-           "what was found; the rest is estimated from how often sources were visible. 0 tests all."});
+           "what was found; the rest is estimated from how often sources were visible. Behind an indirect "
+           "bounce one source, chosen at random, stands for the rest, so that means are unbiased. 0 tests "
+           "all."});
   add({.name = "-dc",
        .arguments = "frac",
        .group = Group::direct,
@@ -512,7 +514,7 @@ std::vector<OptionEntry> makeTable() {
        .paragraph =
            "Finest resolution of interpolation: sites are about the scene's size times -aa (.5 at most) "
            "over res apart where they are closest, and somewhat closer only where something hides them from "
-           "the place. Smaller detail of the indirect light is blurred. 0 counts as 1."});
+           "the place. Smaller detail of the indirect light is blurred. 0 sets no limit."});
   add({.name = "-ad",
        .arguments = "N",
        .group = Group::indirect,
