@@ -97,7 +97,7 @@ BinaryReader::Header BinaryReader::header() {
         throw lines.empty() ? Error(notThis()) : fault("truncated " + kind_);
       }
       const char c = static_cast<char>(*next_++);
-      if (offset() == 1 && (c < ' ' || c > '~')) throw Error(notThis());
+      if (offset() == 1 && !isPrintable(c)) throw Error(notThis());
       if (c == '\n') break;
       line += c;
       if (offset() > kLongestHeader) throw Error(notThis());

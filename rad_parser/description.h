@@ -144,4 +144,10 @@ class ModifierIndex {
 // with "..." in place of the rest.
 std::string printable(std::string_view text, size_t longest = 80);
 
+// Whether a character is one of ASCII that prints, a blank included.
+inline bool isPrintable(char c) { return c >= ' ' && c <= '~'; }
+
+// What editors put at the beginning of UTF-8 text.
+inline constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+
 }  // namespace rad

@@ -17,8 +17,6 @@ constexpr std::string_view kFirst = "#?";  // of an information header
 constexpr int kMagic = 283;                // what the format number exceeds is the width of object numbers
 constexpr size_t kBeginning = 1 << 16;
 
-bool isPrintable(char c) { return c >= ' ' && c <= '~'; }
-
 // Where the header ends, behind its empty line; npos where it does not.
 size_t headerEnd(std::string_view data) {
   const size_t unix = data.find("\n\n"), dos = data.find("\n\r\n");

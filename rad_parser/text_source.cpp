@@ -64,11 +64,10 @@ int TextSource::peek() {
 }
 
 void TextSource::skipByteOrderMark() {
-  constexpr std::string_view kMark = "\xef\xbb\xbf";
-  if (peek() != static_cast<unsigned char>(kMark[0])) return;
-  while (end_ - next_ < static_cast<ptrdiff_t>(kMark.size()))
+  if (peek() != static_cast<unsigned char>(kByteOrderMark[0])) return;
+  while (end_ - next_ < static_cast<ptrdiff_t>(kByteOrderMark.size()))
     if (const char* keep = next_; !refill(keep)) return;
-  if (std::string_view(next_, kMark.size()) == kMark) next_ += kMark.size();
+  if (std::string_view(next_, kByteOrderMark.size()) == kByteOrderMark) next_ += kByteOrderMark.size();
 }
 
 void TextSource::skipLine() {

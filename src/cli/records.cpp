@@ -11,6 +11,7 @@
 #include <cstring>
 
 #include "cli/number_text.h"
+#include "rad_parser/description.h"
 #include "rad_parser/number.h"
 
 namespace rsphere {
@@ -20,8 +21,6 @@ namespace {
 constexpr size_t kBlock = 65536;
 // A word of text longer than this is no number. The exact decimal digits of any double fit.
 constexpr size_t kLongestWord = 4096;
-// What editors put at the beginning of UTF-8 text.
-constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 // Of a faulty word, this much is shown.
 constexpr size_t kShownWord = 40;
 
@@ -46,8 +45,8 @@ std::string shown(std::string_view word) {
   return text;
 }
 
-bool isPrintable(std::string_view bytes) {
-  return std::all_of(bytes.begin(), bytes.end(), [](char c) { return isSpace(c) || (c >= ' ' && c <= '~'); });
+bool isText(std::string_view bytes) {
+  return std::all_of(bytes.begin(), bytes.end(), [](char c) { return isSpace(c) || rad::isPrintable(c); });
 }
 
 std::string_view counted(int n) { return n == 1 ? "number" : "numbers"; }
@@ -192,8 +191,8 @@ size_t RecordReader::readText(std::vector<double>& numbers, size_t most) {
         throw rad::Error(fmt::format("{}:{}: expected {} {}, got {}", name_, lastNumberLine_, perRecord_,
                                      counted(perRecord_), partialCount_));
       }
-      if (count == 0 && records_ == 0 && partialCount_ == 0 && word.starts_with(kByteOrderMark)) {
-        begin_ += kByteOrderMark.size();
+      if (count == 0 && records_ == 0 && partialCount_ == 0 && word.starts_with(rad::kByteOrderMark)) {
+        begin_ += rad::kByteOrderMark.size();
         continue;
       }
       const std::optional<double> slow = word.size() <= kLongestWord ? quotedNumber(word) : std::nullopt;
@@ -256,8 +255,8 @@ size_t RecordReader::readLines(std::vector<double>& numbers, size_t most) {
     }
     if (at == stop) break;
     if (count == 0 && records_ == 0 &&
-        std::string_view(at, static_cast<size_t>(lineEnd - at)).starts_with(kByteOrderMark)) {
-      begin_ += kByteOrderMark.size();
+        std::string_view(at, static_cast<size_t>(lineEnd - at)).starts_with(rad::kByteOrderMark)) {
+      begin_ += rad::kByteOrderMark.size();
       continue;
     }
     try {
@@ -281,12 +280,12 @@ size_t RecordReader::readBinary(std::vector<double>& numbers, size_t most) {
   if (interrupted_) return 0;
   if (end_ - begin_ < recordSize) {
     if (begin_ == end_) return 0;
-    const bool isText = records_ == 0 && isPrintable({block_.data() + begin_, end_ - begin_});
+    const bool looksLikeText = records_ == 0 && isText({block_.data() + begin_, end_ - begin_});
     throw rad::Error(fmt::format("{}: record {}: expected {} bytes, got {}{}", name_, records_ + 1,
                                  recordSize, end_ - begin_,
-                                 isText ? ", which are printable: text is read with -fa" : ""));
+                                 looksLikeText ? ", which are printable: text is read with -fa" : ""));
   }
-  if (records_ == 0) firstIsText_ = isPrintable({block_.data() + begin_, recordSize});
+  if (records_ == 0) firstIsText_ = isText({block_.data() + begin_, recordSize});
   size_t count = 0;
   for (; count < most && end_ - begin_ >= recordSize; ++count) {
     const size_t before = numbers.size();
