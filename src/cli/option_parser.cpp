@@ -280,7 +280,7 @@ void checkTogether(Options& options, bool mostGiven) {
   SphereOptions& sphere = options.sphere;
   if (!mostGiven) {
     sphere.mostDirections = std::max(sphere.mostDirections, 2 * sphere.baseDirections);
-    if (sphere.accuracy > 0) sphere.mostInAll = sphere.everyDirection ? kMostToList : kMostForAccuracy;
+    if (sphere.accuracy > 0) sphere.mostForAccuracy = sphere.everyDirection ? kMostToList : kMostForAccuracy;
   }
   if (sphere.mostDirections < sphere.baseDirections)
     commandLineError("-Sx",

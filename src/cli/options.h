@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -67,7 +68,7 @@ struct SphereOptions {
   bool on = true;                          // -S
   int baseDirections = 2048;               // -Sn  1 to 1,000,000
   int mostDirections = 4096;               // -Sx
-  int mostInAll = 0;                       // of all sets of -Sa, where that is more
+  int mostForAccuracy = 0;                 // of all sets of -Sa together, where that is more than -Sx
   double densityFactor = 1;                // -Sk
   double accuracy = 0;                     // -Sa  0: off
   Weights weights = Weights::silhouettes;  // -Sw
@@ -78,6 +79,9 @@ struct SphereOptions {
   bool verify = false;                     // -Sv
   std::string picture;                     // -Si
   bool listSpecial = false;                // -Sl
+
+  // Directions of one point, of all sets that -Sa averages.
+  int mostOfAllSets() const { return std::max(mostDirections, mostForAccuracy); }
 };
 
 enum class NumberFormat : char { ascii = 'a', float32 = 'f', float64 = 'd', rgbe = 'c' };

@@ -47,8 +47,7 @@ std::string Unreached::summary(const SphereOptions& options) const {
   return fmt::format(
       "-Sa {:g} was not reached at {} of {} points with at most {} directions; the worst is record {}: "
       "{:.3g}%",
-      options.accuracy, missed_, points_, std::max(options.mostDirections, options.mostInAll), worst_ + 1,
-      100 * worstError_);
+      options.accuracy, missed_, points_, options.mostOfAllSets(), worst_ + 1, 100 * worstError_);
 }
 
 AnswerRecord answerPoints(const SphereEstimator& estimator, const Transport& transport,

@@ -191,7 +191,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& w) const {
   w.guesses.clear();
   // Directions of -Sa may be a million; they are only kept where they are asked for.
   const bool keep = options_.everyDirection || options_.accuracy <= 0;
-  const auto most = static_cast<size_t>(std::max(options_.mostDirections, options_.mostInAll));
+  const auto most = static_cast<size_t>(options_.mostOfAllSets());
   struct Half {
     Moments sum;  // of its sets, as are the next two
     Rgb excess{0, 0, 0};

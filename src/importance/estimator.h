@@ -111,7 +111,8 @@ class SphereEstimator {
   // The quantities at a point (world), and the directions in workspace.samples. Depends on point, scene and
   // options alone.
   // With -Sa, sets of directions, each turned another way, are averaged until the estimated standard error of
-  // the mean's brightness is below that share of it (two_halves.h), or the next set might exceed `mostInAll`.
+  // the mean's brightness is below that share of it (two_halves.h), or the next set might exceed
+  // mostOfAllSets().
   PointAnswer estimate(const V3d& point, Workspace& workspace) const;
 
   const std::vector<SpecialObject>& specialObjects() const { return special_; }
