@@ -39,8 +39,7 @@ std::vector<double> withoutBogus(const std::vector<double>& rays) {
 Answers answerRays(const Transport& transport, const CompareOptions& options, std::span<const double> rays) {
   Answers answers{rays.size() / 6, static_cast<size_t>(options.repeats), {}};
   answers.values.resize(answers.records * answers.repeats);
-  std::vector<PathTracer> tracers;
-  for (unsigned i = 0; i < threadCount(options); ++i) tracers.emplace_back(transport, transport.spots());
+  std::vector<PathTracer> tracers = rayTracers(transport, options);
   forEachIndex(answers.records, options, nullptr, [&](size_t i, unsigned worker) {
     const std::span<const double> numbers = rays.subspan(6 * i, 6);
     const InputRay in = inputRay(numbers.data(), options.irradiance);

@@ -10,10 +10,15 @@ uint64_t seedOfRay(std::span<const double> numbers, uint64_t index, const Option
   return options.numberedRays ? mixBits(seed ^ mixBits(index)) : seed;
 }
 
+std::vector<PathTracer> rayTracers(const Transport& transport, const Options& options) {
+  std::vector<PathTracer> tracers;
+  for (unsigned i = 0; i < threadCount(options); ++i) tracers.emplace_back(transport, transport.spots());
+  return tracers;
+}
+
 AnswerRecord answerRays(const Transport& transport, const Options& options, const AnswerWriter& writer,
                         const rad::Warn& warn) {
-  auto tracers = std::make_shared<std::vector<PathTracer>>();
-  for (unsigned i = 0; i < threadCount(options); ++i) tracers->emplace_back(transport, transport.spots());
+  const auto tracers = std::make_shared<std::vector<PathTracer>>(rayTracers(transport, options));
   const bool trees = !options.treeOutputs.empty(), value = trees || needsValue(options.outputs);
   const bool valueAlone = options.outputs == "v";
   if (value && transport.lacksSources()) warn("no light sources found");
