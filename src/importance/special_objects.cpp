@@ -135,10 +135,6 @@ class Finder {
     double irregularity = 0;
   };
 
-  // A surface has the look of its own modifier, if it has any, rather than of what it brings in.
-  bool standsForContents(const Surface& s) const {
-    return scene_.description.primitives[s.primitive].modifier != rad::kVoid;
-  }
   double irregularityOf(uint32_t surface) const {
     return mostIrregular(scene_, scene_.surfaces[surface].modifier).irregularity;
   }
@@ -153,7 +149,7 @@ class Finder {
   }
 
   Contents contentsOf(const Surface& s) {
-    if (standsForContents(s)) return {};
+    if (scene_.hasOwnModifier(s)) return {};
     Contents contents;
     if (const auto* mesh = std::get_if<MeshInstance>(&s.shape)) {
       for (const int32_t faces : scene_.meshes[mesh->mesh].facesOf)
@@ -204,7 +200,7 @@ class Finder {
     if (instance || mesh) {
       const Placement& own = scene_.placements[instance ? instance->placement : mesh->placement];
       const Placement all = at ? within(*at, own) : own;
-      if (standsForContents(s)) {
+      if (scene_.hasOwnModifier(s)) {
         if (irregularityOf(index) >= kSpecialIrregularity)
           addBall(index, irregularityOf(index), ballOf(s), all);
       } else if (contentsOf(s).objects > 0) {

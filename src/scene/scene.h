@@ -82,6 +82,11 @@ struct Scene {
   }
   // Of all on the path together; placements of an empty one leave everything where it is.
   Placement placementOf(const PlacementPath& path) const;
+  // Whether the surface has a modifier of its own: an instance or a mesh then stands for all that it brings
+  // in.
+  bool hasOwnModifier(const Surface& s) const {
+    return description.primitives[s.primitive].modifier != rad::kVoid;
+  }
   std::string_view surfaceName(const Surface& s) const {
     return description.name(description.primitives[s.primitive]);
   }

@@ -11,10 +11,10 @@ class Refracting {
       : scene_(scene), modifiers_(scene.modifiers.size()), groups_(scene.groups.size()) {}
 
   bool surface(const Surface& s) {
-    const bool ownModifier = scene_.description.primitives[s.primitive].modifier != rad::kVoid;
-    if (const auto* instance = std::get_if<Instance>(&s.shape); instance && !ownModifier)
+    const bool isOne = scene_.hasOwnModifier(s);
+    if (const auto* instance = std::get_if<Instance>(&s.shape); instance && !isOne)
       return group(instance->group);
-    if (const auto* mesh = std::get_if<MeshInstance>(&s.shape); mesh && !ownModifier) {
+    if (const auto* mesh = std::get_if<MeshInstance>(&s.shape); mesh && !isOne) {
       for (const int32_t faces : scene_.meshes[mesh->mesh].facesOf)
         if (faces != kNone && modifier(scene_.surfaces[faces].modifier)) return true;
       return false;

@@ -180,6 +180,13 @@ class Tracer::Tree {
   const Box3d& bounds() const { return bounds_; }
   size_t primitives() const { return primitives_; }
 
+  // Of one surface of the scene, in the coordinates of what holds it.
+  Box3d boundsOf(const Surface& surface) const {
+    const Contents contents = contentsOf(surface);
+    if (!contents.tree) return rsphere::bounds(surface.shape, scene_.vertices);
+    return placed(scene_.placements[contents.placement], contents.tree->bounds_);
+  }
+
   // The primitive that a ray cannot meet again which begins on this surface: kNoBlocker where there is none.
   uint32_t beginOf(int32_t surface) const {
     const auto primitive = static_cast<uint32_t>(surface);  // as the world's whole tree has it
@@ -223,7 +230,7 @@ class Tracer::Tree {
   };
   Contents contentsOf(const Surface& surface) const {
     if (const auto* instance = std::get_if<Instance>(&surface.shape)) {
-      const bool all = isWhole_ || hasOwnModifier(surface);
+      const bool all = isWhole_ || scene_.hasOwnModifier(surface);
       return {(all ? others_.groups : others_.refracting)[instance->group].get(), instance->placement};
     }
     if (const auto* mesh = std::get_if<MeshInstance>(&surface.shape))
@@ -231,17 +238,7 @@ class Tracer::Tree {
     return {};
   }
 
-  bool hasOwnModifier(const Surface& surface) const {
-    return scene_.description.primitives[surface.primitive].modifier != rad::kVoid;
-  }
-
-  Box3d boundsOf(const Surface& surface) const {
-    const Contents contents = contentsOf(surface);
-    if (!contents.tree) return rsphere::bounds(surface.shape, scene_.vertices);
-    return placed(scene_.placements[contents.placement], contents.tree->bounds_);
-  }
-
-  Box3d boundsOf(uint32_t primitive) const {
+  Box3d boundsOfPrimitive(uint32_t primitive) const {
     if (mesh_) return rsphere::bounds(mesh_->data, primitive);
     return boundsOf(scene_.surfaces[faces_[primitive].occluder.surface]);
   }
@@ -270,7 +267,7 @@ class Tracer::Tree {
 
   static void writeBounds(const RTCBoundsFunctionArguments* arguments) {
     const auto& self = *static_cast<const Tree*>(arguments->geometryUserPtr);
-    const Box3d box = self.boundsOf(arguments->primID);
+    const Box3d box = self.boundsOfPrimitive(arguments->primID);
     RTCBounds& out = *arguments->bounds_o;
     if (box.isEmpty()) {  // left out by Embree
       out.lower_x = std::numeric_limits<float>::infinity(), out.upper_x = -out.lower_x;
@@ -590,6 +587,19 @@ Hit Tracer::nearest(const V3d& origin, const V3d& direction, double farthest, in
 bool Tracer::stopsShadows(int32_t surface, bool front) const {
   const Occluder o = makeOccluder(scene_, static_cast<uint32_t>(surface), backFacesVisible_);
   return front ? o.opaqueFront : o.opaqueBack;
+}
+
+bool Tracer::isClear(const V3d& origin, const V3d& direction, double distance) const {
+  if (embree_->groups.empty()) return true;
+  Query query;
+  query.origin = origin;
+  query.direction = direction;
+  query.farthest = distance;
+  return !embree_->groups[0]->blocks(query) && !query.passable;
+}
+
+Box3d Tracer::boundsOf(const Surface& surface) const {
+  return embree_->groups.empty() ? Box3d() : embree_->groups[0]->boundsOf(surface);
 }
 
 Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, int32_t source,

@@ -75,11 +75,18 @@ class Tracer {
   // all the same: through prisms, and through the backs of light sources where they are not seen (-bv).
   bool stopsShadows(int32_t surface, bool front) const;
 
+  // Whether nothing at all lies between origin and a place at the distance (world units) along the unit
+  // vector direction: nothing that could stop a shadow ray, refract it or let it pass.
+  bool isClear(const V3d& origin, const V3d& direction, double distance) const;
+
   // What there is to hit, each octree and mesh counted once.
   size_t primitives() const;
 
   // Of all surfaces but distant ones; empty where there is none.
   const Box3d& bounds() const { return bounds_; }
+  // Of one surface of the scene, an instance or a mesh with all that it brings in, in the coordinates of what
+  // holds the surface; empty of a distant one.
+  Box3d boundsOf(const Surface& surface) const;
 
  private:
   class Tree;

@@ -165,13 +165,15 @@ void PathTracer::rankByBrightness(uint32_t count) {
   for (uint32_t i = 0; i < count; ++i) order_[before[i]] = i;
 }
 
-void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d& front) {
+// What each sample of a source could bring, by contributions_ and brightness_. Returns how many bring
+// anything.
+uint32_t PathTracer::findContributions(const Ray& ray, DirectCoefficient coefficientOf, const V3d& front) {
   const RayOptions& o = t_.options();
   samples_.clear();
-  // A sample anywhere on a source (-dj) stands for all of it in the mean over the thousand rays of a gather.
+  // With a jitter as wide as this (-dj) a sample may lie nearly anywhere on its source, and needs no parts.
   constexpr double kWideJitter = .5;
-  const bool divides = o.sourceSubstructuring > kNegligible &&
-                       !(t_.field() && ray.ambientLevel > 0 && o.directJitter > kWideJitter);
+  const bool divides =
+      o.sourceSubstructuring > kNegligible && !(isOfGather(ray) && o.directJitter > kWideJitter);
   const SourceSampling how{divides ? o.sourceSubstructuring / ray.weight : 0, o.directJitter, front};
   for (uint32_t i = 0; i < t_.lights().all().size(); ++i)
     t_.lights().sample(i, ray.point, how, random_, samples_);
@@ -181,7 +183,6 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d&
     order_.resize(samples_.size());
     remaining_.resize(samples_.size() + 1);
   }
-  const double threshold = o.directThreshold / ray.weight;
   const bool clear = !isMedium(ray.medium.extinction);
   uint32_t count = 0;
   for (const SourceSample& sample : samples_) {
@@ -194,7 +195,25 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d&
     contributions_[count] = {&sample, coefficient, value};
     brightness_[count++] = bright;
   }
+  return count;
+}
+
+// Of the contributions from `first` on, in their order, one that stands for all: chosen in proportion to what
+// it would add.
+void PathTracer::addOneOf(Ray& ray, size_t first, uint32_t count) {
+  double rest = random_.uniform() * remaining_[first];
+  size_t chosen = first;
+  while (chosen + 1 < count && (rest -= brightness_[order_[chosen]]) >= 0) ++chosen;
+  const Contribution& c = contributions_[order_[chosen]];
+  Rgb value;
+  if (arrives(ray, c, value))
+    ray.value += value * c.coefficient * (remaining_[first] / brightness_[order_[chosen]]);
+}
+
+void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d& front) {
+  const uint32_t count = findContributions(ray, coefficientOf, front);
   if (count == 0) return;
+  const double threshold = t_.options().directThreshold / ray.weight;
 
   // How many of those still untested are taken together to decide whether they can matter (-dc).
   size_t lookAhead = count;
@@ -223,18 +242,8 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d&
     const Contribution& c = contributions_[order_[tested]];
     test(c, ofKind[kindOf(t_.lights().all()[c.sample->source])]);
   }
-  // Behind an indirect bounce noise averages out and a bias does not: one source stands for all that are too
-  // weak to be tested, chosen in proportion to what it would add.
-  if (tested < count && ray.ambientLevel > 0) {
-    double rest = random_.uniform() * remaining_[tested];
-    size_t chosen = tested;
-    while (chosen + 1 < count && (rest -= brightness_[order_[chosen]]) >= 0) ++chosen;
-    const Contribution& c = contributions_[order_[chosen]];
-    Rgb value;
-    if (arrives(ray, c, value))
-      ray.value += value * c.coefficient * (remaining_[tested] / brightness_[order_[chosen]]);
-    return;
-  }
+  // Behind an indirect bounce noise averages out and a bias does not.
+  if (tested < count && ray.ambientLevel > 0) return addOneOf(ray, tested, count);
   // Sources too weak to be tested are let through as often as those of their kind that were: whether a room
   // sees the sun says nothing of its lamps, nor they of the sun. So the brightest of each kind is tested.
   for (; tested < count; ++tested) {

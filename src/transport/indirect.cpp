@@ -83,10 +83,9 @@ void PathTracer::sampleLobes(Ray& ray, const Scattering& scattering, const Inter
     });
 }
 
-// How many samples a ray takes of a lobe of which a ray of weight 1 takes `wanted`. A ray of a gather takes
-// one: the gather has a thousand rays, and the mean over them is what counts.
+// How many samples a ray takes of a lobe of which a ray of weight 1 takes `wanted`.
 int PathTracer::samplesOf(const Ray& ray, double wanted) const {
-  if (t_.field() && ray.ambientLevel > 0) return 1;
+  if (isOfGather(ray)) return 1;
   return std::max(1, static_cast<int>(wanted * ray.weight + .5));
 }
 

@@ -28,15 +28,14 @@ class PathTracer::Looker final : public SiteLooker, public CoarseSolution::Looke
   bool sees(const V3d& from, const V3d& to) override {
     const V3d way = to - from;
     const double length = way.length();
-    return !(length > kSamePlace) ||
-           tracer_.t_.tracer().shadow(from, way / length, length, kNone) == Shadow::clear;
+    return !(length > kSamePlace) || tracer_.t_.tracer().isClear(from, way / length, length);
   }
   void link(const GatherSite& site, int rays, uint64_t seed, CoarseSolution::Links& links) override {
     tracer_.gatherer().link(site, rays, seed, depth_, links);
   }
   double reach(const GatherSite& site) override { return tracer_.reach(site); }
-  bool isBesideSmall(const GatherSite& site, double side) override {
-    return tracer_.t_.smallObjects()->isBeside(site, side);
+  bool smallObjectNear(const GatherSite& site, double side) override {
+    return tracer_.t_.smallObjects()->anyNear(site, side);
   }
 
  private:

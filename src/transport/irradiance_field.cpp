@@ -68,7 +68,7 @@ struct IrradianceField::Site {
   bool usable = false;
   GatherSite at;
   double reach = 0;
-  bool isBesideSmall = false;  // an object that sites as wide apart would miss
+  bool smallObjectNear = false;  // an object that sites as wide apart would miss
   std::atomic<const GatheredLight*> light{nullptr};
   std::atomic<bool> begun{false};  // somebody gathers it, or has
   Site* nextFresh = nullptr;
@@ -294,7 +294,7 @@ IrradianceField::Site& IrradianceField::siteOf(const SurfaceChart& chart, const 
       made->usable = true;
       made->at = *at;
       made->reach = asked.looker.reach(*at);
-      made->isBesideSmall = asked.looker.isBesideSmall(*at, grid_.side(key.level));
+      made->smallObjectNear = asked.looker.smallObjectNear(*at, grid_.side(key.level));
     }
     asked.memory.add(sizeof(Site) + kNode);
     made_.fetch_add(1, std::memory_order_relaxed);
@@ -379,7 +379,7 @@ bool IrradianceField::find(const SurfacePlace& place, FieldReader& reader, SiteL
   int level = std::min(grid_.levelOf(std::min(chart->extent(), kOpen * grid_.size)), finest);
   for (; level < finest; ++level) {
     const Site& site = siteOf(*chart, chart->cellAt(grid_, level, chart->u(), chart->v()), asked);
-    if (site.usable && !site.isBesideSmall && grid_.side(level) <= kWidest * accuracy_ * site.reach) break;
+    if (site.usable && !site.smallObjectNear && grid_.side(level) <= kWidest * accuracy_ * site.reach) break;
   }
   const double tolerance = accuracy_ / 3;
   light = {};

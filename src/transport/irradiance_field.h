@@ -45,8 +45,8 @@ class SiteLooker {
   virtual double reach(const GatherSite& site) = 0;
   // Whether the segment between two points is unoccluded.
   virtual bool sees(const V3d& from, const V3d& to) = 0;
-  // Whether an object smaller than the side lies beside the site (small_objects.h).
-  virtual bool isBesideSmall(const GatherSite& site, double side) = 0;
+  // Whether an object smaller than the side (world units) lies near the site (small_objects.h).
+  virtual bool smallObjectNear(const GatherSite& site, double side) = 0;
 
  protected:
   ~SiteLooker() = default;

@@ -114,29 +114,8 @@ Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance i
     if (radiance && maxChannel(*radiance) > kNegligible) distant_.push_back(static_cast<int32_t>(i));
   }
   findScatterers(warn);
-  if (options.ambientAccuracy > 0 && options.ambientBounces > 0 && options.ambientDivisions > 0 &&
-      !scene.importance) {
-    PathTracer probe(*this);
-    auto openings = std::make_unique<Openings>(scene, tracer_.bounds(),
-                                               [&](const V3d& origin, const V3d& direction, uint64_t seed) {
-                                                 return brightness(probe.glimpse(origin, direction, seed));
-                                               });
-    if (!openings->empty()) openings_ = std::move(openings);
-  }
   if (options.ambientAccuracy > 0 && options.ambientBounces > 0 && options.ambientDivisions > 0)
-    field_ = std::make_unique<IrradianceField>(scene, tracer_.bounds(), options);
-  if (field_)
-    smallObjects_ =
-        std::make_unique<SmallObjects>(scene, CellGrid(tracer_.bounds()), field_->finestSpacing());
-  if (field_ && options.ambientBounces > 1)
-    coarse_ = std::make_unique<CoarseSolution>(scene, tracer_.bounds(), options);
-  if (field_ && options.ambientBounces > 1) {
-    auto spots = std::make_unique<BrightSpots>(scene, tracer_, lights_, openings_.get());
-    if (!spots->empty()) spots_ = std::move(spots);
-  }
-  if (field_ && !options.ambientFile.empty())
-    field_->keepIn(AmbientFile::openBeside(options.ambientFile, fingerprint(scene),
-                                           fingerprint(options, basicRadiance, scene.files), warn));
+    prepareInterpolation(warn);
   const bool including = !options.ambientIncluded.empty();
   const auto& names = including ? options.ambientIncluded : options.ambientExcluded;
   if (names.empty()) return;
@@ -144,6 +123,28 @@ Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance i
   for (size_t i = 0; i < scene.surfaces.size(); ++i)
     ambient_[i] = (std::find(names.begin(), names.end(), scene.modifierName(scene.surfaces[i])) !=
                    names.end()) == including;
+}
+
+void Transport::prepareInterpolation(const rad::Warn& warn) {
+  const Box3d& bounds = tracer_.bounds();
+  if (!scene_.importance) {
+    PathTracer probe(*this);
+    auto openings = std::make_unique<Openings>(scene_, bounds,
+                                               [&](const V3d& origin, const V3d& direction, uint64_t seed) {
+                                                 return brightness(probe.glimpse(origin, direction, seed));
+                                               });
+    if (!openings->empty()) openings_ = std::move(openings);
+  }
+  field_ = std::make_unique<IrradianceField>(scene_, bounds, options_);
+  smallObjects_ = std::make_unique<SmallObjects>(scene_, tracer_, CellGrid(bounds), field_->finestSpacing());
+  if (options_.ambientBounces > 1) {
+    coarse_ = std::make_unique<CoarseSolution>(scene_, bounds, options_);
+    auto spots = std::make_unique<BrightSpots>(scene_, tracer_, lights_, openings_.get());
+    if (!spots->empty()) spots_ = std::move(spots);
+  }
+  if (!options_.ambientFile.empty())
+    field_->keepIn(AmbientFile::openBeside(options_.ambientFile, fingerprint(scene_),
+                                           fingerprint(options_, basicRadiance_, scene_.files), warn));
 }
 
 bool Transport::glows(std::span<const Surface> surfaces) const {

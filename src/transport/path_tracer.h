@@ -92,6 +92,7 @@ class Transport {
   const BrightSpots* spots() const { return spots_.get(); }
 
  private:
+  void prepareInterpolation(const rad::Warn& warn);
   bool glows(std::span<const Surface> surfaces) const;
   void findScatterers(const rad::Warn& warn);
   std::optional<uint32_t> sourceNamed(std::string_view name) const;
@@ -263,6 +264,9 @@ class PathTracer {
   const LightSource* targetOf(const Ray& ray) const;
   void relay(Ray& ray, RayKind kind, const V3d& direction, Rgb coefficient);
   void sampleLobes(Ray& ray, const Scattering& scattering, const Interaction& at);
+  // Whether the ray is one of the many rays of a gather for interpolation, or comes from one. Its own noise
+  // averages out over them, so that it takes one sample where a primary ray takes several.
+  bool isOfGather(const Ray& ray) const { return t_.field() && ray.ambientLevel > 0; }
   int samplesOf(const Ray& ray, double wanted) const;
   void sampleLobe(Ray& ray, RayKind kind, const Rgb& share, LobeSampler draw, int least = 1);
   void addIndirect(Ray& ray, const V3d& normal, const V3d& trueNormal, RayKind kind, const Rgb& coefficient);
@@ -292,6 +296,8 @@ class PathTracer {
     const uint64_t both = (uint64_t{static_cast<uint32_t>(surface)} << 32) | source;
     return blockers_[(both * 0x9e3779b97f4a7c15u) >> (64 - kBlockerBits)];  // Fibonacci hashing
   }
+  uint32_t findContributions(const Ray& ray, DirectCoefficient coefficientOf, const V3d& front);
+  void addOneOf(Ray& ray, size_t first, uint32_t count);
   bool arrives(const Ray& ray, const Contribution& to, Rgb& value);
   bool isWhole(const SourceSample& sample) const;
   Interaction interaction(const Ray& ray) const;
@@ -307,7 +313,7 @@ class PathTracer {
   bool allShadowRays_ = false;
   FunctionScratch functionScratch_;
   FieldReader fieldReader_;
-  std::unique_ptr<PathTracer> gatherer_;      // traces for sites and patches, whose paths begin anew
+  std::unique_ptr<PathTracer> gatherer_;  // traces for sites and patches, whose paths begin anew
   bool gathersFirstAnew_ = false;
   CoarseSolution::Links* linking_ = nullptr;  // gets what the path finds, where it is a patch's
   // Scratch of addDirect, which never runs inside itself: shadow rays ask for no direct light. Behind what it

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "scene/random.h"
-#include "trace/triangle.h"
 
 namespace rsphere {
 namespace {
@@ -13,7 +12,7 @@ namespace {
 // matters.
 constexpr int kCoarsest = 3;
 
-// Surfaces that are looked at; instances beyond these are left out.
+// Surfaces that are told apart; an instance beyond these is one object.
 constexpr size_t kMostSurfaces = 2000000;
 
 // Normals whose cosine is further from 1 are of different planes.
@@ -21,12 +20,6 @@ constexpr double kSameNormal = 1e-9;
 
 // An object as large as a cube is not smaller than it, whatever rounding does.
 constexpr double kRounding = 1 + 1e-6;
-
-Box3d boundsOf(const Mesh& mesh) {
-  Box3d box;
-  for (uint32_t i = 0; i < mesh.data.triangles.size(); ++i) box.extendBy(bounds(mesh.data, i));
-  return box;
-}
 
 }  // namespace
 
@@ -46,12 +39,12 @@ size_t SmallObjects::CubeHash::operator()(const Cube& cube) const {
   return mixBits(mixBits(h ^ static_cast<uint64_t>(cube.j)) ^ static_cast<uint64_t>(cube.k));
 }
 
-SmallObjects::SmallObjects(const Scene& scene, const CellGrid& grid, double finest)
+SmallObjects::SmallObjects(const Scene& scene, const Tracer& tracer, const CellGrid& grid, double finest)
     : grid_(grid),
       finest_(std::max(grid.levelOf(finest), kCoarsest)),
       cubes_(static_cast<size_t>(finest_ - kCoarsest + 1)) {
   size_t left = kMostSurfaces;
-  if (!scene.groups.empty()) addGroup(scene, 0, nullptr, left);
+  if (!scene.groups.empty()) addGroup(scene, tracer, 0, nullptr, left);
   // What is in a cube is in the cube around it.
   for (int level = finest_; level > kCoarsest; --level)
     for (const auto& [cube, content] : cubes_[static_cast<size_t>(level - kCoarsest)])
@@ -60,35 +53,31 @@ SmallObjects::SmallObjects(const Scene& scene, const CellGrid& grid, double fine
           .first->second.add(content, grid_.lift);
 }
 
-void SmallObjects::addGroup(const Scene& scene, size_t group, const Placement* placement, size_t& left) {
+void SmallObjects::addGroup(const Scene& scene, const Tracer& tracer, size_t group,
+                            const Placement* placement, size_t& left) {
   const SurfaceGroup& all = scene.groups[group];
   left -= std::min<size_t>(left, all.surfaces);
-  const auto inWorld = [&](const Box3d& box) { return placement ? placed(*placement, box) : box; };
   for (uint32_t s = all.firstSurface; s < all.firstSurface + all.surfaces; ++s) {
     const Shape& shape = scene.surfaces[s].shape;
     if (const auto* instance = std::get_if<Instance>(&shape)) {
       const Placement& inner = scene.placements[instance->placement];
       const Placement whole = placement ? within(*placement, inner) : inner;
       if (scene.groups[instance->group].surfaces <= left) {
-        addGroup(scene, instance->group, &whole, left);
+        addGroup(scene, tracer, instance->group, &whole, left);
         continue;
       }
     }
+    const Box3d inner = tracer.boundsOf(scene.surfaces[s]);
+    if (inner.isEmpty()) continue;
+    const Box3d box = placement ? placed(*placement, inner) : inner;
     Content content;
-    Box3d box;
-    if (const auto* mesh = std::get_if<MeshInstance>(&shape)) {
-      box = inWorld(placed(scene.placements[mesh->placement], boundsOf(scene.meshes[mesh->mesh])));
-      content.onePlane = false;
-    } else {
-      box = inWorld(bounds(shape, scene.vertices));
-      const V3d* normal = planeNormal(shape);
-      content.onePlane = normal != nullptr;
-      if (normal) {
-        content.normal = placement ? placement->directionToOuter(*normal).normalized() : *normal;
-        content.offset = content.normal.dot(box.center());
-      }
+    const V3d* const normal = planeNormal(shape);
+    content.onePlane = normal != nullptr;
+    if (normal) {
+      content.normal = placement ? placement->directionToOuter(*normal).normalized() : *normal;
+      content.offset = content.normal.dot(box.center());
     }
-    if (!box.isEmpty()) add(box, content);
+    add(box, content);
   }
 }
 
@@ -113,7 +102,7 @@ void SmallObjects::add(const Box3d& box, const Content& content) {
             .first->second.add(content, grid_.lift);
 }
 
-bool SmallObjects::isBeside(const GatherSite& site, double side) const {
+bool SmallObjects::anyNear(const GatherSite& site, double side) const {
   const int level = std::max(grid_.levelOf(side * kRounding), kCoarsest);
   if (level > finest_) return false;
   const Cubes& cubes = cubes_[static_cast<size_t>(level - kCoarsest)];

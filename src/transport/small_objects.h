@@ -9,19 +9,21 @@
 #include <vector>
 
 #include "scene/scene.h"
+#include "trace/tracer.h"
 #include "transport/surface_cells.h"
 
 namespace rsphere {
 
 class SmallObjects {
  public:
-  // finest: the side of the smallest cells that are asked for (world units). Surfaces in instances count one
-  // by one, up to two million in all; a mesh counts as one object.
-  SmallObjects(const Scene& scene, const CellGrid& grid, double finest);
+  // Keeps nothing of the scene or the tracer. finest: the side of the smallest cells that are asked for
+  // (world units). Surfaces in instances count one by one, up to two million in all; a mesh counts as one
+  // object, and so does an instance beyond them.
+  SmallObjects(const Scene& scene, const Tracer& tracer, const CellGrid& grid, double finest);
 
   // Whether an object smaller than the side (world units) lies within about that distance of the site, and
   // not in the site's own plane: tiles of a floor do not count on that floor. False for cells below `finest`.
-  bool isBeside(const GatherSite& site, double side) const;
+  bool anyNear(const GatherSite& site, double side) const;
 
  private:
   // What a cube of space holds: surfaces of one plane, or others.
@@ -41,7 +43,8 @@ class SmallObjects {
   };
   using Cubes = std::unordered_map<Cube, Content, CubeHash>;
 
-  void addGroup(const Scene& scene, size_t group, const Placement* placement, size_t& left);
+  void addGroup(const Scene& scene, const Tracer& tracer, size_t group, const Placement* placement,
+                size_t& left);
   void add(const Box3d& box, const Content& content);
   Cube cubeOf(const V3d& point, int level) const;
 

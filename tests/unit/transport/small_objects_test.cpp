@@ -19,9 +19,11 @@ const std::string kTable = "gray polygon table 0 0 12 10 10 .7 12 10 .7 12 12 .7
 class Objects {
  public:
   explicit Objects(const std::string& text)
-      : traced_(text), grid_(traced_.transport().tracer().bounds()), objects_(traced_.scene(), grid_, .1) {}
-  bool isBeside(double x, double y, double side) const {
-    return objects_.isBeside({V3d(x, y, grid_.lift), V3d(0, 0, 1)}, side);
+      : traced_(text),
+        grid_(traced_.transport().tracer().bounds()),
+        objects_(traced_.scene(), traced_.transport().tracer(), grid_, .1) {}
+  bool anyNear(double x, double y, double side) const {
+    return objects_.anyNear({V3d(x, y, grid_.lift), V3d(0, 0, 1)}, side);
   }
 
  private:
@@ -33,30 +35,30 @@ class Objects {
 TEST(SmallObjects, AreFoundFromAsFarAsTheCellIsWide) {
   const Objects objects(kGround + kTable);
   for (const double side : {64., 32., 16., 8., 4.}) {
-    EXPECT_TRUE(objects.isBeside(11, 11, side)) << side;
-    EXPECT_TRUE(objects.isBeside(12 + .45 * side, 11, side)) << side;
-    EXPECT_FALSE(objects.isBeside(12 + 2.1 * side, 11, side)) << side;
+    EXPECT_TRUE(objects.anyNear(11, 11, side)) << side;
+    EXPECT_TRUE(objects.anyNear(12 + .45 * side, 11, side)) << side;
+    EXPECT_FALSE(objects.anyNear(12 + 2.1 * side, 11, side)) << side;
   }
 }
 
 TEST(SmallObjects, AreSmallerThanTheCell) {
   const Objects objects(kGround + kTable);
-  for (const double side : {2., 1., .5, .25}) EXPECT_FALSE(objects.isBeside(11, 11, side)) << side;
+  for (const double side : {2., 1., .5, .25}) EXPECT_FALSE(objects.anyNear(11, 11, side)) << side;
 }
 
 TEST(SmallObjects, AreNoneInThePlaneOfTheSite) {
   const Objects objects(kGround);
-  for (const double side : {64., 8., 2.}) EXPECT_FALSE(objects.isBeside(100.5, 100.5, side)) << side;
+  for (const double side : {64., 8., 2.}) EXPECT_FALSE(objects.anyNear(100.5, 100.5, side)) << side;
   // Seen from a wall beside them, the same tiles are objects.
   const Traced traced(kGround);
   const CellGrid grid(traced.transport().tracer().bounds());
-  const SmallObjects all(traced.scene(), grid, .1);
-  EXPECT_TRUE(all.isBeside({V3d(99.9, 100.5, .5), V3d(1, 0, 0)}, 8));
+  const SmallObjects all(traced.scene(), traced.transport().tracer(), grid, .1);
+  EXPECT_TRUE(all.anyNear({V3d(99.9, 100.5, .5), V3d(1, 0, 0)}, 8));
 }
 
 TEST(SmallObjects, AreFoundWhereNothingElseIs) {
   const Objects objects("void plastic gray 0 0 5 .5 .5 .5 0 0\n" + kTable);
-  EXPECT_FALSE(objects.isBeside(11, 11, 100)) << "as large as the scene";
+  EXPECT_FALSE(objects.anyNear(11, 11, 100)) << "as large as the scene";
 }
 
 }  // namespace
