@@ -20,6 +20,7 @@
 #include "cli/option_table.h"
 #include "importance/estimator.h"
 #include "rad_parser/scene_file.h"
+#include "tests/bench/support/bench_main.h"
 
 namespace rsphere {
 namespace {
@@ -138,11 +139,4 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace rsphere
 
-int main(int argc, char** argv) {
-  try {
-    return rsphere::run(argc, argv);
-  } catch (const rad::Error& error) {
-    fmt::print(stderr, "bench_importance: {}\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return rsphere::benchMain("bench_importance", rsphere::run, argc, argv); }

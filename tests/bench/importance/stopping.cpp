@@ -27,6 +27,7 @@
 #include "measure/statistics.h"
 #include "rad_parser/scene_file.h"
 #include "scene/random.h"
+#include "tests/bench/support/bench_main.h"
 
 namespace rsphere {
 namespace {
@@ -162,11 +163,4 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace rsphere
 
-int main(int argc, char** argv) {
-  try {
-    return rsphere::run(argc, argv);
-  } catch (const rad::Error& error) {
-    fmt::print(stderr, "bench_stopping: {}\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return rsphere::benchMain("bench_stopping", rsphere::run, argc, argv); }

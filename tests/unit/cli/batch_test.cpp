@@ -436,18 +436,22 @@ TEST(StopSignals, WhileWaitingForInput) {
   }
 }
 
-TEST(StopSignals, FlushWhatIsFinished) {
-  // The third record takes its time; the two before it are ready, and held back as one group.
-  std::atomic<int> ready{0};
-  const Child child(true, [&](const Record& record, unsigned worker, std::string& bytes) {
+// Answers two records and holds them back as one group; at the third, `stop` sends signals to the process.
+AnswerRecord stoppedAtTheThird(std::function<void()> stop) {
+  return [stop = std::move(stop), ready = std::make_shared<std::atomic<int>>(0)](
+             const Record& record, unsigned worker, std::string& bytes) {
     if (record.index == 2) {
-      while (ready < 2) std::this_thread::sleep_for(1ms);
-      kill(getpid(), SIGTERM);
+      while (*ready < 2) std::this_thread::sleep_for(1ms);
+      stop();
       std::this_thread::sleep_for(50ms);
     }
     echo(record, worker, bytes);
-    ++ready;
-  });
+    ++*ready;
+  };
+}
+
+TEST(StopSignals, FlushWhatIsFinished) {
+  const Child child(true, stoppedAtTheThird([] { kill(getpid(), SIGTERM); }));
   child.toChild.put("1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1\n");
   EXPECT_EQ(child.exitStatus(), 3);
   const std::string out = child.fromChild.getAll();
@@ -483,18 +487,11 @@ TEST(StopSignals, TheSecondEndsItAtOnce) {
 
 // As timeout(1) sends it: to the process and to its group.
 TEST(StopSignals, TheSameTwiceInAMomentIsOne) {
-  std::atomic<int> ready{0};
-  const Child child(true, [&](const Record& record, unsigned worker, std::string& bytes) {
-    if (record.index == 2) {
-      while (ready < 2) std::this_thread::sleep_for(1ms);
-      kill(getpid(), SIGTERM);
-      std::this_thread::sleep_for(5ms);
-      kill(getpid(), SIGTERM);
-      std::this_thread::sleep_for(50ms);
-    }
-    echo(record, worker, bytes);
-    ++ready;
-  });
+  const Child child(true, stoppedAtTheThird([] {
+                      kill(getpid(), SIGTERM);
+                      std::this_thread::sleep_for(5ms);
+                      kill(getpid(), SIGTERM);
+                    }));
   child.toChild.put("1 2 3 4 5 6 7 8 9 10 11 12 13 14 15\n");
   EXPECT_EQ(child.exitStatus(), 3);
   EXPECT_EQ(child.fromChild.getAll().substr(0, 14), "1 2 3 \n4 5 6 \n");

@@ -142,14 +142,16 @@ TEST(RecordReader, OneByteAtATime) {
 }
 
 TEST(RecordReader, DoesNotWaitForMoreThanARecord) {
-  Pipe pipe;
-  RecordReader reader(pipe.out, NumberFormat::ascii, 3);
-  Numbers numbers;
-  pipe.put("1 2 3\n4 5");
-  EXPECT_EQ(reader.read(numbers, 100), 1u);
-  pipe.put(" 6\n");
-  EXPECT_EQ(reader.read(numbers, 100), 1u);
-  EXPECT_EQ(numbers, (Numbers{1, 2, 3, 4, 5, 6}));
+  for (const LineEnds lineEnds : {LineEnds::areBlanks, LineEnds::endRecords}) {
+    Pipe pipe;
+    RecordReader reader(pipe.out, NumberFormat::ascii, 3, lineEnds);
+    Numbers numbers;
+    pipe.put("1 2 3\n4 5");
+    EXPECT_EQ(reader.read(numbers, 100), 1u);
+    pipe.put(" 6\n");
+    EXPECT_EQ(reader.read(numbers, 100), 1u);
+    EXPECT_EQ(numbers, (Numbers{1, 2, 3, 4, 5, 6}));
+  }
 }
 
 TEST(RecordReader, BinaryNumbers) {
@@ -286,17 +288,6 @@ TEST(RecordReader, LinesAcrossBlocksAreWholeAndEndlessOnesAFault) {
             "stdin:1: expected 3 numbers on a line, got more than 65536 bytes");
   EXPECT_EQ(readLines("1 2 " + std::string(10000000, '9')).fault,
             "stdin:1: expected 3 numbers, got \"" + std::string(40, '9') + "...\"");
-}
-
-TEST(RecordReader, ALineIsReadWithoutWaitingForTheNext) {
-  Pipe pipe;
-  RecordReader reader(pipe.out, NumberFormat::ascii, 3, LineEnds::endRecords);
-  Numbers numbers;
-  pipe.put("1 2 3\n4 5");
-  EXPECT_EQ(reader.read(numbers, 100), 1u);
-  pipe.put(" 6\n");
-  EXPECT_EQ(reader.read(numbers, 100), 1u);
-  EXPECT_EQ(numbers, (Numbers{1, 2, 3, 4, 5, 6}));
 }
 
 TEST(RecordText, AsRtraceWritesIt) {

@@ -14,16 +14,8 @@ namespace {
 
 constexpr double kReflectance = .6, kAmbient = .3;
 
-// A box of 4 x 3 x 2.5, and a wall without thickness across it.
-constexpr const char* kBox = R"(
-void plastic gray 0 0 5 .6 .6 .6 0 0
-gray polygon floor 0 0 12 0 0 0 4 0 0 4 3 0 0 3 0
-gray polygon ceiling 0 0 12 0 0 2.5 0 3 2.5 4 3 2.5 4 0 2.5
-gray polygon west 0 0 12 0 0 0 0 3 0 0 3 2.5 0 0 2.5
-gray polygon east 0 0 12 4 0 0 4 0 2.5 4 3 2.5 4 3 0
-gray polygon south 0 0 12 0 0 0 0 0 2.5 4 0 2.5 4 0 0
-gray polygon north 0 0 12 0 3 0 4 3 0 4 3 2.5 0 3 2.5
-)";
+// A room, and a wall without thickness across it.
+const std::string kBox = "void plastic gray 0 0 5 .6 .6 .6 0 0\n" + roomOf("gray", V3d(4, 3, 2.5));
 constexpr const char* kAcross = "gray polygon across 0 0 12 1.03 0 0 1.03 3 0 1.03 3 2.5 1.03 0 2.5\n";
 
 // Follows rays from surface to surface as the header asks for it. Every surface shines with a radiance.
@@ -129,7 +121,7 @@ TEST(CoarseSolution, LightIsTheGeometricSeriesInAFurnace) {
 // side has none.
 TEST(CoarseSolution, PatchesServeWhatTheySee) {
   constexpr int kBounces = 2;
-  const Traced box(std::string(kBox) + kAcross);
+  const Traced box(kBox + kAcross);
   FurnaceLooker looker(box.transport().tracer(), kBounces,
                        [](const SurfacePlace& p) { return (p.point + 1e-4 * p.normal).x < 1.03 ? 1 : 0; });
   RayOptions options = optionsOf(kBounces);

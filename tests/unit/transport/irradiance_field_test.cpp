@@ -283,18 +283,24 @@ TEST(IrradianceField, FindsTheShadowOfABoxOnAWideGround) {
   }
 }
 
+// A sky of radiance 1, and a modifier `waves` for a gray material whose normal it tilts, by so many degrees,
+// towards another side every few centimetres.
+std::string wavesUnderASky(int degrees) {
+  return fmt::format(
+      "void glow g 0 0 4 1 1 1 0\ng source sky 0 0 4 0 0 1 360\n"
+      "void texfunc waves 4 A1*cos(20*Px) A1*sin(20*Px) 0 . 0 1 {}\n"
+      "waves plastic gray 0 0 5 .5 .5 .5 0 0\n",
+      std::tan(degrees * M_PI / 180));
+}
+
 // A perturbed normal, tilted by so many degrees towards another side every few centimetres, under an even
 // sky: light that comes from behind the surface does not arrive, light from behind the perturbed normal
 // neither. That is the mean of upright and tilted, (1 + cos) / 2, however it is gathered.
 TEST(IrradianceField, TiltedNormalsUnderAnEvenSky) {
   for (const int tilt : {0, 17, 45}) {
     const double angle = tilt * M_PI / 180;
-    const std::string floor = fmt::format(
-        "void glow g 0 0 4 1 1 1 0\ng source sky 0 0 4 0 0 1 360\n"
-        "void texfunc waves 4 A1*cos(20*Px) A1*sin(20*Px) 0 . 0 1 {}\n"
-        "waves plastic gray 0 0 5 .5 .5 .5 0 0\n"
-        "gray polygon floor 0 0 12 -9 -9 0 9 -9 0 9 9 0 -9 9 0\n",
-        std::tan(angle));
+    const std::string floor =
+        wavesUnderASky(tilt) + "gray polygon floor 0 0 12 -9 -9 0 9 -9 0 9 9 0 -9 9 0\n";
     RayOptions o = interpolated(0, 1);
     o.ambientDivisions = 4096;
     Traced field(floor, interpolated(.1, 1)), anew(floor, o);
@@ -311,13 +317,10 @@ TEST(IrradianceField, TiltedNormalsUnderAnEvenSky) {
 // Beside a wall, where tilted normals see more of it or less: as gathered anew.
 TEST(IrradianceField, TiltedNormalsBesideAWall) {
   for (const int tilt : {17, 45}) {
-    const std::string floor = fmt::format(
-        "void glow g 0 0 4 1 1 1 0\ng source sky 0 0 4 0 0 1 360\n"
-        "void texfunc waves 4 A1*cos(20*Px) A1*sin(20*Px) 0 . 0 1 {}\n"
-        "waves plastic gray 0 0 5 .5 .5 .5 0 0\nvoid plastic black 0 0 5 0 0 0 0 0\n"
-        "gray polygon floor 0 0 12 -3 -3 0 3 -3 0 3 2 0 -3 2 0\n"
-        "black polygon wall 0 0 12 -3 2 0 3 2 0 3 2 4 -3 2 4\n",
-        std::tan(tilt * M_PI / 180));
+    const std::string floor = wavesUnderASky(tilt) +
+                              "void plastic black 0 0 5 0 0 0 0 0\n"
+                              "gray polygon floor 0 0 12 -3 -3 0 3 -3 0 3 2 0 -3 2 0\n"
+                              "black polygon wall 0 0 12 -3 2 0 3 2 0 3 2 4 -3 2 4\n";
     RayOptions o = interpolated(0, 1), fine = interpolated(.1, 1);
     o.ambientDivisions = 4096;
     fine.ambientDivisions = 512;

@@ -47,14 +47,7 @@ void plastic gray 0 0 5 .5 .5 .5 0 0
 void glow shine 0 0 4 1 1 1 0
 void mixfunc wall 4 gray shine .8 . 0 0
 )";
-constexpr const char* kBox = R"(
-wall polygon floor 0 0 12 0 0 0 2 0 0 2 2 0 0 2 0
-wall polygon ceiling 0 0 12 0 0 2 0 2 2 2 2 2 2 0 2
-wall polygon west 0 0 12 0 0 0 0 2 0 0 2 2 0 0 2
-wall polygon east 0 0 12 2 0 0 2 0 2 2 2 2 2 2 0
-wall polygon south 0 0 12 0 0 0 0 0 2 2 0 2 2 0 0
-wall polygon north 0 0 12 0 2 0 2 2 0 2 2 2 0 2 2
-)";
+const std::string kBox = roomOf("wall", V3d(2, 2, 2));
 
 // The radiance in a furnace after so many bounces.
 double seriesTo(int bounces) {
@@ -71,7 +64,7 @@ TEST(RayWeights, LeaveEveryBounceInAFurnace) {
   };
   for (const auto& [bounces, limits] :
        {Case{2, {6, .1}}, Case{2, {-8, .1}}, Case{2, {0, .1}}, Case{3, {6, .05}}}) {
-    Traced furnace(std::string(kWall) + kBox, interpolated(bounces, 64, limits));
+    Traced furnace(kWall + kBox, interpolated(bounces, 64, limits));
     EXPECT_NEAR(furnace.value(V3d(1, .9, 1.1), V3d(.2, .1, -1)) / seriesTo(bounces), 1, 4e-3)
         << bounces << " bounces, " << limitsIn(limits);
   }
@@ -94,7 +87,7 @@ TEST(RayWeights, LeaveSurfacesThatAreNotInterpolatedTheirLight) {
 // Diffuse reflections count for -lr, wherever light is gathered.
 TEST(RayWeights, LimitOfReflectionsEndsBounces) {
   for (const int limit : {1, 2}) {
-    Traced furnace(std::string(kWall) + kBox, interpolated(3, 64, {limit, 1e-4}));
+    Traced furnace(kWall + kBox, interpolated(3, 64, {limit, 1e-4}));
     EXPECT_NEAR(furnace.value(V3d(1, .9, 1.1), V3d(.2, .1, -1)) / seriesTo(limit), 1, 4e-3) << limit;
   }
 }

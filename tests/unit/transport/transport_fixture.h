@@ -1,4 +1,6 @@
 #pragma once
+#include <fmt/format.h>
+
 #include <string>
 #include <utility>
 
@@ -41,6 +43,18 @@ class Traced {
   Transport transport_;
   PathTracer tracer_;
 };
+
+// A closed room from the origin to `size` (world units), whose walls of that modifier face inwards.
+inline std::string roomOf(const std::string& modifier, const V3d& size) {
+  return fmt::format(
+      "{0} polygon floor 0 0 12 0 0 0 {1} 0 0 {1} {2} 0 0 {2} 0\n"
+      "{0} polygon ceiling 0 0 12 0 0 {3} 0 {2} {3} {1} {2} {3} {1} 0 {3}\n"
+      "{0} polygon west 0 0 12 0 0 0 0 {2} 0 0 {2} {3} 0 0 {3}\n"
+      "{0} polygon east 0 0 12 {1} 0 0 {1} 0 {3} {1} {2} {3} {1} {2} 0\n"
+      "{0} polygon south 0 0 12 0 0 0 0 0 {3} {1} 0 {3} {1} 0 0\n"
+      "{0} polygon north 0 0 12 0 {2} 0 {1} {2} 0 {1} {2} {3} 0 {2} {3}\n",
+      modifier, size.x, size.y, size.z);
+}
 
 // Every path followed and every source tested: means are right.
 inline RayOptions unbiased(int bounces = 0) {
