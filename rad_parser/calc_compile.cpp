@@ -14,16 +14,14 @@
 
 // How a program is made. Function files are many small definitions that refer to each other, so:
 // 1. Every expression is expanded into one graph of operations: a call is replaced by the function's body, an
-// argument
-//    by its value's node; equal nodes are one node, operations on constants are done. Recursion is expanded
-//    too as long as some argument is a new constant each time (an octave of turbulence); else it becomes a
-//    call of a compiled frame. Arguments that are functions are known by name, so each frame is made for the
-//    functions it was given.
+//    argument by its value's node; equal nodes are one node, operations on constants are done. Recursion is
+//    expanded too as long as some argument is a new constant each time (an octave of turbulence); else it
+//    becomes a call of a compiled frame. Arguments that are functions are known by name, so each frame is
+//    made for the functions it was given.
 // 2. Nodes are placed in scopes: the outermost is always evaluated, each branch of an if() or select() is an
-// inner one.
-//    A node goes where all its uses can see it. Where none of its uses is certain to be reached, and it costs
-//    more than a test, it becomes a cell: code of its own that runs once, when first needed. Arguments of
-//    calls likewise.
+//    inner one. A node goes where all its uses can see it. Where none of its uses is certain to be reached,
+//    and it costs more than a test, it becomes a cell: code of its own that runs once, when first needed.
+//    Arguments of calls likewise.
 // 3. Scopes are written as code in the order of the nodes' creation, in which operands precede their users.
 namespace rad::calc {
 namespace {

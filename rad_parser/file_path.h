@@ -8,8 +8,7 @@
 namespace rad {
 
 // Where library files are looked for: the environment's RAYPATH, directories separated by ':'; without it
-// ".", then
-// "/usr/local/lib/ray". An empty directory is the current one.
+// ".", then "/usr/local/lib/ray". An empty directory is the current one.
 std::string libraryPath();
 
 // Which files a scene may name. Anywhere on the machine, or, where the scene comes from a stranger (-Sc-),

@@ -87,9 +87,8 @@ class XformFault : public Error {
 // Calls pass for each pass that an xform command makes, in order: one, or one for each element of its arrays
 // (-a) and line of its argument files (-f). words: the command's, "xform" first. directory: where argument
 // files' names start. Throws XformFault for what xform(1) does not allow, for standard input where a file is
-// needed
-// ("-f -", or no file named), for argument files that access does not allow, and beyond kMostPasses; what
-// pass throws goes through.
+// needed ("-f -", or no file named), for argument files that access does not allow, and beyond kMostPasses;
+// what pass throws goes through.
 void forEachPass(std::span<const std::string> words, const std::string& directory, const FileAccess& access,
                  const std::function<void(const XformPass&)>& pass);
 

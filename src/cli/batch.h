@@ -36,13 +36,11 @@ unsigned threadCount(const Options& options);
 // threads. Warns where these are fewer than -n asks for, or where the system starts fewer, which then do all;
 // Status::system where it starts none.
 // - Flush: after every -x records where -y is 0, and after every record where -x is 1; after a bogus record;
-// and, unless
-//   -x asks for groups of several, whenever input has to be waited for. A group is written in one go once it
-//   is whole, so that a program may write it all before it reads an answer.
+//   and, unless -x asks for groups of several, whenever input has to be waited for. A group is written in one
+//   go once it is whole, so that a program may write it all before it reads an answer.
 // - Memory does not grow with the input: answers wait for at most 16 batches of records a thread.
 // - A fault in the input or in an answer stops it once everything before is answered and written; so does a
-// signal
-//   (rad::Error with Status::signal, its name the text), but records being computed are given up then.
+//   signal (rad::Error with Status::signal, its name the text), but records being computed are given up then.
 // - Warns where input ends before -y scanlines, and in ray mode where the numbers on the first line of text
 //   are not those of whole rays.
 // - Warns once where the same ray comes three times in a row and its answers may be noisy, without -u+.

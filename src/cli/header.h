@@ -23,10 +23,9 @@ std::string commandLine(const Options& options, bool withScene);
 
 // The first lines of a header, as rtrace and rpict begin theirs:
 //   - the lines of the scene's own header (an octree has one: sceneHeader, without line ends), or
-//   "#?RADIANCE"
+//     "#?RADIANCE"
 //   - the command line; the octree is left out, as rtrace does: its header names it. Scene text has no
-//   header,
-//     so its names are kept
+//     header, so its names are kept
 //   - SOFTWARE=
 std::string provenance(const Options& options, std::span<const std::string> sceneHeader);
 

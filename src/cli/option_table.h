@@ -86,16 +86,15 @@ Options modeDefaults(bool sphereMode);
 
 // Reads a command line; words[0] is the program as it was called.
 // - "@file" and "$VARIABLE", where an option or the scene may stand, are replaced by the words they hold, at
-// most 4096.
+//   most 4096.
 // - Sphere mode is on unless the program is called rtrace, or -S says otherwise; then the mode's defaults are
-// set; then
-//   the options, in their order. Switches alone toggle; + 1 y Y t T switch on, - 0 n N f F off.
+//   set; then the options, in their order. Switches alone toggle; + 1 y Y t T switch on, - 0 n N f F off.
 // - The first word that is no option begins the scene, which takes all the rest.
 // - -version (or --version), -defaults and -help (or --help) end it where they stand; -features is only known
-// as the first word. Opens the files of @file, -aE and -aI only. Throws rad::Error with rtrace's words:
-// "command line error at
-// '-ab'", "cannot expand '@x': No such file or directory" (Status::system), "missing octree argument" and so
-// on; and "option '-ap' is not supported: ..." for what rtrace has and rsphere has not.
+//   as the first word. Opens the files of @file, -aE and -aI only. Throws rad::Error with rtrace's words:
+//   "command line error at '-ab'", "cannot expand '@x': No such file or directory" (Status::system), "missing
+//   octree argument" and so on; and "option '-ap' is not supported: ..." for what rtrace has and rsphere has
+//   not.
 Options parseOptions(std::span<const std::string> words);
 Options parseOptions(int argc, char** argv);
 

@@ -12,9 +12,9 @@ namespace rsphere {
 // What -p.. -cs -cw -co make of red, green and blue. Scenes have three channels; each stands for a part of
 // the spectrum: red from 588 nm up, green from 480 nm, blue below.
 //   -pXYZ        CIE 1931, times 179 lm/W
-//   -pc          RGB of other primaries: von Kries' adaptation to their white between the cones of the
-//   "sharp"
-//                transform, and colors outside the gamut mixed with grey until no channel is negative
+//   -pc          RGB of other primaries: von Kries' adaptation to their white between the cones of
+//                the "sharp" transform, and colors outside the gamut mixed with grey until no
+//                channel is negative
 //   -pY -pS -pM  luminance (times 179 lm/W), scotopic luminance (412 lm/W), melanopic (179)
 //   -pA          the mean of the channels
 //   -co          with more than three bands (-cs): each band has the value of its channel

@@ -17,9 +17,8 @@ enum class Projection {
   // the zenith +z to the nadir.
   latitudeLongitude,
   // RADIANCE's view -vta -vh 360 -vv 360 -vd 0 1 0 -vu 0 0 1: +y in the middle, +z above it, and the angle
-  // from
-  // +y grows with the distance from the middle to pi at the rim. Corners show nothing. RADIANCE has no name
-  // for the other one.
+  // from +y grows with the distance from the middle to pi at the rim. Corners show nothing. RADIANCE has no
+  // name for the other one.
   angularFisheye
 };
 
@@ -54,9 +53,8 @@ class PixelMap {
 // A ray through the middle of each pixel, traced with the options of the tracer and nothing guessed: what
 // arrives from there, light sources as bright as they are.
 // - Sources too small for the pixels to be sure to meet (SeenSources, straight) are sampled by themselves,
-// and
-//   their light is spread over the pixels that they lie in, so that none is lost or painted larger than it
-//   is.
+//   and their light is spread over the pixels that they lie in, so that none is lost or painted larger than
+//   it is.
 // - The indirect light of surfaces that are seen straight is averaged over pixels nearby (smooth_indirect.h).
 // checkStop is called once a row; it may throw to give the picture up. The seed decides every random number.
 Raster drawPoint(const V3d& point, const PixelMap& map, const Transport& transport,

@@ -9,8 +9,8 @@
 // Solid angles of Voronoi cells from the Delaunay triangles around a direction. A triangle with corners a, b,
 // c and circumcentre n gives each corner the kite of corner, middle of one edge, n, middle of the other edge;
 // signed, since n may lie outside. Half a kite, at edge bc, is half an isosceles triangle b, c, n:
-//   tan = |b-c|^2 (b-a).(c-a) / ((4 - |b-c|^2) N + 4 k),  k = det(a, b, c),  N^2 = k^2 + (|a-b| |b-c| |c-a| /
-//   2)^2,
+//   tan = |b-c|^2 (b-a).(c-a) / ((4 - |b-c|^2) N + 4 k),  k = det(a, b, c),
+//   N^2 = k^2 + (|a-b| |b-c| |c-a| / 2)^2,
 // N being twice the area of the plane triangle and k/N the cosine of the circle's radius. All from
 // differences of sites, k from the two shortest edges: right for any size. Rounding leaves a site at height h
 // above the sphere (up to 2e-16); k does not feel it, and for an edge that rises by d,
