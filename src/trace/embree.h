@@ -5,7 +5,6 @@
 #else
 #include <embree3/rtcore.h>
 #endif
-#include <cstddef>
 
 namespace rsphere::embree {
 
@@ -36,5 +35,31 @@ inline void occluded(RTCScene scene, QueryContext& context, RTCRay& ray) {
   rtcOccluded1(scene, &context, &ray);
 }
 #endif
+
+// Calls visit(primitive, user) for the primitives of a scene of one geometry whose bounds come within the
+// radius of the center, until it returns true; whether it did.
+template <typename Visit>
+bool anyWithin(RTCScene scene, float x, float y, float z, float radius, const Visit& visit) {
+  struct Asked {
+    const Visit& visit;
+    bool found = false;
+  } asked{visit};
+  RTCPointQuery query{x, y, z, 0, radius};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(
+      scene, &query, &context,
+      [](RTCPointQueryFunctionArguments* arguments) {
+        auto& asked = *static_cast<Asked*>(arguments->userPtr);
+        if (!asked.found && asked.visit(arguments->primID)) {
+          asked.found = true;
+          arguments->query->radius = 0;
+          return true;  // the radius has changed: no more primitives are wanted
+        }
+        return false;
+      },
+      &asked);
+  return asked.found;
+}
 
 }  // namespace rsphere::embree

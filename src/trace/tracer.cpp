@@ -125,6 +125,22 @@ struct Query {
   }
 };
 
+double distanceTo(const Box3d& box, const V3d& point) {
+  V3d out;
+  for (int i = 0; i < 3; ++i) out[i] = std::max({box.min[i] - point[i], 0., point[i] - box.max[i]});
+  return out.length();
+}
+
+// Whether a polygon or a ring lies in the plane of the surface that the neighborhood is of.
+bool liesInPlane(const Shape& shape, const Tracer::Neighborhood& around) {
+  constexpr double kParallel = 1e-9;  // planes whose normals' cosine is as near to 1 or -1
+  const V3d* const normal = planeNormal(shape);
+  if (!normal || std::abs(normal->dot(around.normal)) < 1 - kParallel) return false;
+  const auto* polygon = std::get_if<Polygon>(&shape);
+  const double offset = polygon ? polygon->offset : normal->dot(std::get<Ring>(shape).center);
+  return std::abs(offset - normal->dot(around.point)) <= around.thickness;
+}
+
 float roundDown(double x) {
   return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
 }
@@ -180,13 +196,6 @@ class Tracer::Tree {
   const Box3d& bounds() const { return bounds_; }
   size_t primitives() const { return primitives_; }
 
-  // Of one surface of the scene, in the coordinates of what holds it.
-  Box3d boundsOf(const Surface& surface) const {
-    const Contents contents = contentsOf(surface);
-    if (!contents.tree) return rsphere::bounds(surface.shape, scene_.vertices);
-    return placed(scene_.placements[contents.placement], contents.tree->bounds_);
-  }
-
   // The primitive that a ray cannot meet again which begins on this surface: kNoBlocker where there is none.
   uint32_t beginOf(int32_t surface) const {
     const auto primitive = static_cast<uint32_t>(surface);  // as the world's whole tree has it
@@ -222,6 +231,16 @@ class Tracer::Tree {
     return ray.tfar < 0;
   }
 
+  // As Tracer::anySmallNear() has it, in the coordinates of the tree.
+  bool anySmallNear(const Neighborhood& around) const {
+    if (!tree_ || distanceTo(bounds_, around.point) > around.radius) return false;
+    const V3d m = around.point - center_;
+    // Single precision moves the point by at most 2^-23 of its distance from the center.
+    const double radius = around.radius + padding_ + 0x1p-23 * (radius_ + around.radius);
+    return embree::anyWithin(tree_, static_cast<float>(m.x), static_cast<float>(m.y), static_cast<float>(m.z),
+                             roundUp(radius), [&](uint32_t i) { return isSmallNear(around, i); });
+  }
+
  private:
   // What an instance or a mesh brings in.
   struct Contents {
@@ -238,9 +257,30 @@ class Tracer::Tree {
     return {};
   }
 
-  Box3d boundsOfPrimitive(uint32_t primitive) const {
+  Box3d boundsOf(uint32_t primitive) const {
     if (mesh_) return rsphere::bounds(mesh_->data, primitive);
     return boundsOf(scene_.surfaces[faces_[primitive].occluder.surface]);
+  }
+
+  Box3d boundsOf(const Surface& surface) const {
+    const Contents contents = contentsOf(surface);
+    if (!contents.tree) return rsphere::bounds(surface.shape, scene_.vertices);
+    return placed(scene_.placements[contents.placement], contents.tree->bounds_);
+  }
+
+  bool isSmallNear(const Neighborhood& around, uint32_t primitive) const {
+    const Surface& surface = scene_.surfaces[faces_[primitive].occluder.surface];
+    const Box3d box = boundsOf(surface);
+    if (distanceTo(box, around.point) > around.radius) return false;
+    const V3d size = box.size();
+    if (std::max({size.x, size.y, size.z}) <= around.widest) return !liesInPlane(surface.shape, around);
+    const auto* instance = std::get_if<Instance>(&surface.shape);
+    if (!instance) return false;
+    const Placement& placement = scene_.placements[instance->placement];
+    const double scale = placement.toInner.scale;
+    return others_.groups[instance->group]->anySmallNear(
+        {placement.toInner.point(around.point), placement.directionToInner(around.normal),
+         around.radius * scale, around.widest * scale, around.thickness * scale});
   }
 
   void build(RTCDevice device, size_t primitives, RTCIntersectFunctionN intersect,
@@ -267,7 +307,7 @@ class Tracer::Tree {
 
   static void writeBounds(const RTCBoundsFunctionArguments* arguments) {
     const auto& self = *static_cast<const Tree*>(arguments->geometryUserPtr);
-    const Box3d box = self.boundsOfPrimitive(arguments->primID);
+    const Box3d box = self.boundsOf(arguments->primID);
     RTCBounds& out = *arguments->bounds_o;
     if (box.isEmpty()) {  // left out by Embree
       out.lower_x = std::numeric_limits<float>::infinity(), out.upper_x = -out.lower_x;
@@ -598,8 +638,8 @@ bool Tracer::isClear(const V3d& origin, const V3d& direction, double distance) c
   return !embree_->groups[0]->blocks(query) && !query.passable;
 }
 
-Box3d Tracer::boundsOf(const Surface& surface) const {
-  return embree_->groups.empty() ? Box3d() : embree_->groups[0]->boundsOf(surface);
+bool Tracer::anySmallNear(const Neighborhood& around) const {
+  return !embree_->groups.empty() && embree_->groups[0]->anySmallNear(around);
 }
 
 Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, int32_t source,

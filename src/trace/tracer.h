@@ -84,9 +84,18 @@ class Tracer {
 
   // Of all surfaces but distant ones; empty where there is none.
   const Box3d& bounds() const { return bounds_; }
-  // Of one surface of the scene, an instance or a mesh with all that it brings in, in the coordinates of what
-  // holds the surface; empty of a distant one.
-  Box3d boundsOf(const Surface& surface) const;
+
+  // Where to look for small objects: around a point of a surface. Lengths in world units, the normal a unit
+  // vector.
+  struct Neighborhood {
+    V3d point, normal;
+    double radius = 0;
+    double widest = 0;     // objects wider than this along any axis are not small
+    double thickness = 0;  // what lies within this of the plane through the point belongs to the surface
+  };
+  // Whether the bounds of a small object come within the radius. Surfaces in instances count one by one, and
+  // so does an instance that is small itself; a mesh is one object.
+  bool anySmallNear(const Neighborhood& around) const;
 
  private:
   class Tree;

@@ -34,8 +34,11 @@ class PathTracer::Looker final : public SiteLooker, public CoarseSolution::Looke
     tracer_.gatherer().link(site, rays, seed, depth_, links);
   }
   double reach(const GatherSite& site) override { return tracer_.reach(site); }
-  bool smallObjectNear(const GatherSite& site, double side) override {
-    return tracer_.t_.smallObjects()->anyNear(site, side);
+  bool smallObjectNear(const GatherSite& site, double side, double lift) override {
+    // An object as wide as a cell is not smaller than it, whatever rounding does.
+    constexpr double kRounding = 1e-6;
+    return tracer_.t_.tracer().anySmallNear(
+        {site.point, site.normal, side, side * (1 - kRounding), 3 * lift});
   }
 
  private:

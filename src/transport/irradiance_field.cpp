@@ -294,7 +294,8 @@ IrradianceField::Site& IrradianceField::siteOf(const SurfaceChart& chart, const 
       made->usable = true;
       made->at = *at;
       made->reach = asked.looker.reach(*at);
-      made->smallObjectNear = asked.looker.smallObjectNear(*at, grid_.side(key.level));
+      made->smallObjectNear = grid_.side(key.level) > finest_ &&
+                              asked.looker.smallObjectNear(*at, grid_.side(key.level), grid_.lift);
     }
     asked.memory.add(sizeof(Site) + kNode);
     made_.fetch_add(1, std::memory_order_relaxed);

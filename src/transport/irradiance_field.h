@@ -45,8 +45,9 @@ class SiteLooker {
   virtual double reach(const GatherSite& site) = 0;
   // Whether the segment between two points is unoccluded.
   virtual bool sees(const V3d& from, const V3d& to) = 0;
-  // Whether an object smaller than the side (world units) lies near the site (small_objects.h).
-  virtual bool smallObjectNear(const GatherSite& site, double side) = 0;
+  // Whether an object narrower than the side of the site's cell (world units) lies within that distance, and
+  // not in the plane of the site, which is the lift above its surface.
+  virtual bool smallObjectNear(const GatherSite& site, double side, double lift) = 0;
 
  protected:
   ~SiteLooker() = default;

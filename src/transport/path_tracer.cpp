@@ -136,7 +136,6 @@ void Transport::prepareInterpolation(const rad::Warn& warn) {
     if (!openings->empty()) openings_ = std::move(openings);
   }
   field_ = std::make_unique<IrradianceField>(scene_, bounds, options_);
-  smallObjects_ = std::make_unique<SmallObjects>(scene_, tracer_, CellGrid(bounds), field_->finestSpacing());
   if (options_.ambientBounces > 1) {
     coarse_ = std::make_unique<CoarseSolution>(scene_, bounds, options_);
     auto spots = std::make_unique<BrightSpots>(scene_, tracer_, lights_, openings_.get());

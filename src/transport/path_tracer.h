@@ -32,7 +32,6 @@
 #include "transport/openings.h"
 #include "transport/presumed_shadows.h"
 #include "transport/ray.h"
-#include "transport/small_objects.h"
 
 namespace rsphere {
 
@@ -51,7 +50,6 @@ class Transport {
   const Scene& scene() const { return scene_; }
   const Tracer& tracer() const { return tracer_; }
   const LightSources& lights() const { return lights_; }
-  const SmallObjects* smallObjects() const { return smallObjects_.get(); }  // with a field
   const PresumedShadows& presumedShadows() const { return presumedShadows_; }
   const SourceChoice& choice() const { return choice_; }
   const SurfaceFunctions& functions() const { return functions_; }
@@ -105,7 +103,6 @@ class Transport {
   SurfaceFunctions functions_;
   LightSources lights_;
   PresumedShadows presumedShadows_;
-  std::unique_ptr<SmallObjects> smallObjects_;
   SourceChoice choice_;
   std::vector<int32_t> lightOf_;
   std::vector<std::optional<Rgb>> constantRadiance_;

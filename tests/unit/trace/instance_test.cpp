@@ -85,6 +85,25 @@ void expectSame(const Both& both, const V3d& center, double scale, const std::st
   EXPECT_GT(unsure, name.empty() ? 20 : -1);
 }
 
+// Two balls 20 apart, in an octree that is placed within another one.
+TEST(Instances, SmallObjectsAreFoundWithinThem) {
+  SceneFolder folder;
+  const std::string inner = folder.octree(
+      "inner.oct",
+      std::string(kMaterials) + "gray sphere s1\n0\n0\n4 -10 0 0 .1\ngray sphere s2\n0\n0\n4 10 0 0 .1\n");
+  const std::string middle =
+      folder.octree("middle.oct", fmt::format("void instance i\n7 {} -rz 90 -t 0 0 5\n0\n0\n", inner));
+  const Scene scene = sceneOf(fmt::format("void instance o\n7 {} -s 2 -t 100 0 0\n0\n0\n", middle));
+  const Tracer tracer(scene, true);
+  const V3d up(0, 0, 1);
+  // The balls are .4 wide in the world, at (100, +-20, 10).
+  EXPECT_TRUE(tracer.anySmallNear({V3d(100, 21, 10), up, .9, .5, 0}));
+  EXPECT_FALSE(tracer.anySmallNear({V3d(100, 21, 10), up, .7, .5, 0})) << "farther away than that";
+  EXPECT_FALSE(tracer.anySmallNear({V3d(100, 21, 10), up, .9, .3, 0})) << "wider than that";
+  EXPECT_FALSE(tracer.anySmallNear({V3d(100, 0, 10), up, 5, .5, 0})) << "between the balls";
+  EXPECT_TRUE(tracer.anySmallNear({V3d(100, 0, 10), up, 5, 50, 0})) << "the instance as a whole is small";
+}
+
 TEST(Instances, AreHitAsIfTheyWereWrittenOut) { expectSame(Both("-ry 20"), V3d(0, 0, 0), 1, ""); }
 TEST(Instances, MirroredAndFarAway) {
   expectSame(Both("-my -ry 20 -s .01 -t 3000 -2000 500"), V3d(3000, -2000, 500), .01, "");

@@ -379,6 +379,58 @@ TEST(Tracer, StopsAtTheFarthestPlace) {
   EXPECT_EQ(miss.distance, kFarAway);
 }
 
+// Whether the bounds of any surface that is small and not in the neighborhood's plane come within its radius.
+bool anySmallNearOfAll(const Scene& scene, const Tracer::Neighborhood& around) {
+  return std::any_of(scene.surfaces.begin(), scene.surfaces.end(), [&](const Surface& s) {
+    const Box3d box = bounds(s.shape, scene.vertices);
+    if (box.isEmpty()) return false;
+    double squares = 0, width = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double out = std::max({box.min[i] - around.point[i], 0., around.point[i] - box.max[i]});
+      squares += out * out;
+      width = std::max(width, box.size()[i]);
+    }
+    return width <= around.widest && squares <= around.radius * around.radius;
+  });
+}
+
+TEST(Tracer, FindsSmallObjectsAsALoopOverAllSurfacesDoes) {
+  for (const double shift : {0., 1e5, 5e6}) {
+    const V3d place(shift, shift, -shift);
+    const Scene scene = sceneOf(clutter(place, 90));
+    const Tracer tracer(scene, true);
+    Random random(16);
+    int found = 0, wrong = 0;
+    for (int i = 0; i < 4000; ++i) {
+      Tracer::Neighborhood around;
+      around.point = place + onGrid(randomPoint(random, 14));
+      around.normal = randomDirection(random);
+      around.radius = between(random, .1, 4);
+      around.widest = between(random, .5, 3);
+      const bool expected = anySmallNearOfAll(scene, around);
+      found += expected;
+      wrong += tracer.anySmallNear(around) != expected;
+    }
+    EXPECT_EQ(wrong, 0) << "shift " << shift;
+    EXPECT_GT(found, 400) << "too few for a test";
+    EXPECT_LT(found, 3600) << "too many for a test";
+  }
+}
+
+TEST(Tracer, TilesInThePlaneOfAFloorAreNoObjectsOnIt) {
+  const Scene scene = sceneOf(std::string(kMaterials) +
+                              "gray polygon floor 0 0 12 -9 -9 0 9 -9 0 9 9 4 -9 9 4\n"
+                              "gray polygon tile 0 0 12 0 0 2 1 0 2 1 9 4 0 9 4\n"
+                              "gray ring manhole 0 0 8 -3 0 2 0 -4 18 0 .5\n");
+  const Tracer tracer(scene, true);
+  const V3d up = V3d(0, -4, 18).normalized(), across = V3d(0, 18, 4).normalized();
+  const V3d site = V3d(-1, 0, 2) + 1e-4 * up;
+  EXPECT_FALSE(tracer.anySmallNear({site, up, 3, 10, 3e-4}));
+  EXPECT_TRUE(tracer.anySmallNear({site, up, 3, 10, 1e-5})) << "the plane is farther than the thickness";
+  EXPECT_TRUE(tracer.anySmallNear({site, across, 3, 10, 3e-4})) << "a wall beside them sees them as objects";
+  EXPECT_FALSE(tracer.anySmallNear({site, across, 3, .9, 3e-4})) << "the tile and the manhole are wider";
+}
+
 TEST(Tracer, AnswersForScenesWithNothingToHit) {
   for (const char* surfaces : {"", "lamp source sun\n0\n0\n4 0 0 1 .5\n"}) {
     const Scene scene = sceneOf(std::string(kMaterials) + surfaces);
@@ -386,6 +438,7 @@ TEST(Tracer, AnswersForScenesWithNothingToHit) {
     EXPECT_EQ(tracer.nearest(V3d(0, 0, 0), V3d(0, 0, 1)).surface, kNone);
     EXPECT_EQ(tracer.shadow(V3d(0, 0, 0), V3d(0, 0, 1), kFarAway, kNone), Shadow::clear);
     EXPECT_TRUE(tracer.bounds().isEmpty());
+    EXPECT_FALSE(tracer.anySmallNear({V3d(0, 0, 0), V3d(0, 0, 1), 10, 10, 0}));
   }
 }
 
