@@ -19,6 +19,7 @@
 #include "rad_parser/scene_file.h"
 #include "sphere/directions.h"
 #include "transport/answer_rays.h"
+#include "transport/ray_answer.h"
 
 namespace rsphere {
 namespace {

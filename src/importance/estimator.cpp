@@ -11,6 +11,7 @@
 #include "rad_parser/error.h"
 #include "scene/even_sequence.h"
 #include "sphere/directions.h"
+#include "transport/ray_answer.h"
 
 namespace rsphere {
 namespace {

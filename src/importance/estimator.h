@@ -36,6 +36,7 @@
 #include "importance/silhouette_index.h"
 #include "importance/special_objects.h"
 #include "sphere/voronoi.h"
+#include "transport/bright_spots.h"
 #include "transport/path_tracer.h"
 #include "transport/radiance_guess.h"
 

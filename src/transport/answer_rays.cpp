@@ -3,6 +3,8 @@
 #include <memory>
 #include <vector>
 
+#include "transport/ray_answer.h"
+
 namespace rsphere {
 
 uint64_t seedOfRay(std::span<const double> numbers, uint64_t index, const Options& options) {

@@ -1,7 +1,8 @@
 // Materials that ask function files: elliptic highlights, programmed and tabulated scattering.
 #include "shade/function_reflection.h"
-#include "transport/path_tracer.h"
 #include "transport/ray_functions.h"
+#include "transport/ray_limits.h"
+#include "transport/surface_shading.h"
 
 namespace rsphere {
 namespace {
@@ -21,80 +22,70 @@ void warnOfOrientation(const SurfaceFunctions& functions, int32_t material, cons
 }  // namespace
 
 // Whether the ray goes on through a back that isn't to be seen (-bv).
-bool PathTracer::passesBack(Ray& ray) {
+bool SurfaceShading::passesBack(Ray& ray) {
   if (ray.cosine >= 0 || t_.options().backFacesVisible) return false;
-  pass(ray);
+  follower_.pass(ray);
   return true;
 }
 
-// Indirect light of one side.
-void PathTracer::addIndirect(Ray& ray, const V3d& normal, const Interaction& at, RayKind kind,
-                             const Rgb& coefficient) {
-  if (!(maxChannel(coefficient) > kNegligible)) return;
-  if (kind == kReflectedAmbient)
-    addIndirect(ray, normal, at.normal, kind, coefficient);
-  else
-    addIndirect(ray, -normal, -at.normal, kind, coefficient);
-}
-
-bool PathTracer::shadeMaterial(Ray& ray, const Anisotropic& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Anisotropic& material, int32_t behind) {
   if ((ray.kinds & kShadow) || passesBack(ray)) return true;
   applyModifiers(ray, behind);
   turnRound(ray);
   const Interaction at = interaction(ray);
-  const V3d along = t_.functions().orientation(material.functions, functionPoint(ray), functionScratch_);
+  const V3d along = t_.functions().orientation(material.functions, functionPoint(ray), scratch_);
   const AnisotropicScattering s = scatter(material, at, along, t_.options().specularThreshold);
   warnOfOrientation(t_.functions(), material.functions, s);
   return shadeElliptic(ray, s, at);
 }
 
-bool PathTracer::shadeElliptic(Ray& ray, const AnisotropicScattering& s, const Interaction& at) {
-  followSharp(ray, s.sharp);
+bool SurfaceShading::shadeElliptic(Ray& ray, const AnisotropicScattering& s, const Interaction& at) {
+  specular_.follow(ray, s.sharp);
   if (ray.kinds & kShadow) return true;
   const double spread = t_.options().specularSampling;
   if (s.reflected.sampled)
-    sampleLobe(ray, kReflectedSpecular, s.reflected.share, [&](double u1, double u2, V3d& d) {
+    specular_.sampleLobe(ray, kReflectedSpecular, s.reflected.share, [&](double u1, double u2, V3d& d) {
       return sampleReflection(s.reflected, at, spread, u1, u2, d);
     });
   if (s.transmitted.sampled)
-    sampleLobe(ray, kTransmittedSpecular, s.transmitted.share, [&](double u1, double u2, V3d& d) {
+    specular_.sampleLobe(ray, kTransmittedSpecular, s.transmitted.share, [&](double u1, double u2, V3d& d) {
       return sampleTransmission(s.transmitted, at, spread, u1, u2, d);
     });
-  addIndirect(ray, s.reflection.normal, at, kReflectedAmbient, s.reflection.ambient);
-  addIndirect(ray, s.transmission.normal, at, kTransmittedAmbient, s.transmission.ambient);
-  addDirect(ray, [&, jitter = t_.options().directJitter](const V3d& toSource, double solidAngle) {
+  indirect_.add(ray, s.reflection.normal, at, kReflectedAmbient, s.reflection.ambient);
+  indirect_.add(ray, s.transmission.normal, at, kTransmittedAmbient, s.transmission.ambient);
+  direct_.add(ray, [&, jitter = t_.options().directJitter](const V3d& toSource, double solidAngle) {
     return directCoefficient(s, at.direction, toSource, solidAngle, jitter);
   });
   return true;
 }
 
-bool PathTracer::shadeMaterial(Ray& ray, const Ashikhmin& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Ashikhmin& material, int32_t behind) {
   if ((ray.kinds & kShadow) || passesBack(ray)) return true;
   applyModifiers(ray, behind);
   turnRound(ray);
   const Interaction at = interaction(ray);
-  const V3d along = t_.functions().orientation(material.functions, functionPoint(ray), functionScratch_);
+  const V3d along = t_.functions().orientation(material.functions, functionPoint(ray), scratch_);
   const AshikhminScattering s = scatter(material, at, along, t_.options().specularThreshold);
   if (s.sampled)
-    sampleLobe(
+    specular_.sampleLobe(
         ray, kReflectedSpecular, s.share,
         [&](double u1, double u2, V3d& d) {
           for (int tries = 0; tries < kMostTries; ++tries) {
             if (sampleReflection(s, at, u1, u2, d)) return 1;
-            u1 = random_.uniform();
-            u2 = random_.uniform();
+            u1 = state_.random.uniform();
+            u2 = state_.random.uniform();
           }
           return 0;
         },
         kAshikhminSamples);
-  addIndirect(ray, s.reflection.normal, at, kReflectedAmbient, s.reflection.ambient);
-  addDirect(ray, [&](const V3d& toSource, double solidAngle) {
+  indirect_.add(ray, s.reflection.normal, at, kReflectedAmbient, s.reflection.ambient);
+  direct_.add(ray, [&](const V3d& toSource, double solidAngle) {
     return directCoefficient(s, at.direction, toSource, solidAngle);
   });
   return true;
 }
 
-bool PathTracer::shadeMaterial(Ray& ray, const FunctionScatterer& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const FunctionScatterer& material, int32_t behind) {
   if ((ray.kinds & kShadow) || passesBack(ray)) return true;
   applyModifiers(ray, behind);
   turnRound(ray);
@@ -102,19 +93,19 @@ bool PathTracer::shadeMaterial(Ray& ray, const FunctionScatterer& material, int3
   return shadeByFunction(ray, scatter(material, at), at, material.functions);
 }
 
-bool PathTracer::shadeMaterial(Ray& ray, const BrtdFunction& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const BrtdFunction& material, int32_t behind) {
   applyModifiers(ray, behind);
   const Interaction at = interaction(ray);
   FunctionScattering s = scatter(material, at);
   const FunctionPoint point = functionPoint(ray, s);
   const SurfaceFunctions& functions = t_.functions();
-  s.sharp.add(sharpTransmission(s, at, functions.transmission(material.functions, point, functionScratch_)));
+  s.sharp.add(sharpTransmission(s, at, functions.transmission(material.functions, point, scratch_)));
   if (!(ray.kinds & kShadow))
-    s.sharp.add(sharpReflection(s, at, functions.reflection(material.functions, point, functionScratch_)));
+    s.sharp.add(sharpReflection(s, at, functions.reflection(material.functions, point, scratch_)));
   return shadeByFunction(ray, s, at, material.functions);
 }
 
-FunctionPoint PathTracer::functionPoint(const Ray& ray, const FunctionScattering& s) const {
+FunctionPoint SurfaceShading::functionPoint(const Ray& ray, const FunctionScattering& s) const {
   FunctionPoint point = functionPoint(ray);
   point.perturbedNormal = s.normal;
   point.perturbedCosine = s.cosine;
@@ -122,19 +113,19 @@ FunctionPoint PathTracer::functionPoint(const Ray& ray, const FunctionScattering
   return point;
 }
 
-bool PathTracer::shadeByFunction(Ray& ray, const FunctionScattering& s, const Interaction& at,
-                                 int32_t functions) {
-  followSharp(ray, s.sharp);
+bool SurfaceShading::shadeByFunction(Ray& ray, const FunctionScattering& s, const Interaction& at,
+                                     int32_t functions) {
+  specular_.follow(ray, s.sharp);
   if (ray.kinds & kShadow) return true;
-  addIndirect(ray, s.normal, at, kReflectedAmbient, s.ambientReflection);
-  addIndirect(ray, s.normal, at, kTransmittedAmbient, s.ambientTransmission);
+  indirect_.add(ray, s.normal, at, kReflectedAmbient, s.ambientReflection);
+  indirect_.add(ray, s.normal, at, kTransmittedAmbient, s.ambientTransmission);
   if (isBlack(s.diffuseReflection) && isBlack(s.diffuseTransmission) && isBlack(s.directionalReflection) &&
       isBlack(s.directionalTransmission))
     return true;
   const FunctionPoint point = functionPoint(ray, s);
-  addDirect(ray, [&](const V3d& toSource, double solidAngle) {
+  direct_.add(ray, [&](const V3d& toSource, double solidAngle) {
     return directCoefficient(s, toSource, solidAngle, [&] {
-      return t_.functions().distribution(functions, point, toSource, solidAngle, functionScratch_);
+      return t_.functions().distribution(functions, point, toSource, solidAngle, scratch_);
     });
   });
   return true;
@@ -143,8 +134,8 @@ bool PathTracer::shadeByFunction(Ray& ray, const FunctionScattering& s, const In
 // ---- WGMDfunc
 
 // What a component of its own modifiers sees. named: empty for the material's own, `inherited`.
-Interaction PathTracer::component(const Ray& ray, const std::optional<int32_t>& named,
-                                  const Interaction& inherited) {
+Interaction SurfaceShading::component(const Ray& ray, const std::optional<int32_t>& named,
+                                      const Interaction& inherited) {
   if (!named) return inherited;
   Ray own = ray;
   applyModifiers(own, *named);
@@ -152,7 +143,7 @@ Interaction PathTracer::component(const Ray& ray, const std::optional<int32_t>& 
 }
 
 // Its functions are told of the normal that the component's modifiers perturb.
-FunctionPoint PathTracer::functionPoint(const Ray& ray, const Interaction& at) const {
+FunctionPoint SurfaceShading::functionPoint(const Ray& ray, const Interaction& at) const {
   FunctionPoint point = functionPoint(ray);
   point.perturbedCosine = at.cosine;
   point.perturbedNormal =
@@ -160,7 +151,7 @@ FunctionPoint PathTracer::functionPoint(const Ray& ray, const Interaction& at) c
   return point;
 }
 
-bool PathTracer::shadeMaterial(Ray& ray, const WgmdFunction& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const WgmdFunction& material, int32_t behind) {
   if ((ray.kinds & kShadow) && !material.transmits) return true;
   if (passesBack(ray)) return true;
   const SurfaceFunctions& functions = t_.functions();
@@ -170,7 +161,7 @@ bool PathTracer::shadeMaterial(Ray& ray, const WgmdFunction& material, int32_t b
   WgmdComponent transmitted;
   if (material.transmitted.share > kNegligible) {
     transmitted.at = component(ray, material.transmitted.modifier, own);
-    const auto v = functions.transmission(f, functionPoint(ray, transmitted.at), functionScratch_);
+    const auto v = functions.transmission(f, functionPoint(ray, transmitted.at), scratch_);
     transmitted.share = v[0];
     transmitted.roughnessAlong = v[1];
     transmitted.roughnessAcross = v[2];
@@ -182,12 +173,12 @@ bool PathTracer::shadeMaterial(Ray& ray, const WgmdFunction& material, int32_t b
   WgmdComponent reflected;
   if (material.reflected.share > kNegligible) {
     reflected.at = component(ray, material.reflected.modifier, own);
-    const auto v = functions.reflection(f, functionPoint(ray, reflected.at), functionScratch_);
+    const auto v = functions.reflection(f, functionPoint(ray, reflected.at), scratch_);
     reflected.share = v[0];
     reflected.roughnessAlong = v[1];
     reflected.roughnessAcross = v[2];
   }
-  const V3d along = functions.orientation(f, functionPoint(ray, own), functionScratch_);
+  const V3d along = functions.orientation(f, functionPoint(ray, own), scratch_);
   return shadeElliptic(
       ray,
       scatter(material, reflected, transmitted, own, component(ray, material.diffuseTransmittedModifier, own),

@@ -1,6 +1,7 @@
 // What each material does to a ray that hits it.
-#include "transport/path_tracer.h"
 #include "transport/ray_functions.h"
+#include "transport/ray_limits.h"
+#include "transport/surface_shading.h"
 
 namespace rsphere {
 namespace {
@@ -12,12 +13,52 @@ bool beyondReach(const Glow* glow, double distance) {
   return glow && glow->reach >= -kNegligible && distance > glow->reach;
 }
 
+// Whether no direction of light is far brighter than others: the peak of a lobe, share / (4 pi alpha^2) at
+// normal incidence, against what is diffuse, share / pi.
+bool isEven(const Scattering& s) {
+  constexpr double kMost = 4;
+  return maxChannel(s.specularReflection + s.specularTransmission) <=
+         kMost * 4 * s.alpha2 * maxChannel(s.diffuseReflection + s.diffuseTransmission);
+}
+
 }  // namespace
 
+// Surfaces that diffuse or scatter by a rough lobe.
+bool SurfaceShading::shadeDiffusing(Ray& ray, const Scattering& scattering, const Interaction& at) {
+  specular_.follow(ray, scattering.sharp);
+  if (ray.kinds & kShadow) return true;
+  specular_.sampleLobes(ray, scattering, at);
+  if (maxChannel(scattering.ambientReflection) > kNegligible)
+    indirect_.add(ray, scattering.normal, at.normal, kReflectedAmbient, scattering.ambientReflection);
+  if (maxChannel(scattering.ambientTransmission) > kNegligible)
+    indirect_.add(ray, -scattering.normal, -at.normal, kTransmittedAmbient, scattering.ambientTransmission);
+  if (!isBlack(scattering.diffuseReflection) || !isBlack(scattering.diffuseTransmission) ||
+      !isBlack(scattering.specularReflection) || !isBlack(scattering.specularTransmission)) {
+    const bool transmits =
+        !isBlack(scattering.diffuseTransmission) || !isBlack(scattering.specularTransmission);
+    const auto coefficientOf = [&, jitter = t_.options().directJitter](const V3d& toSource,
+                                                                       double solidAngle) {
+      return directCoefficient(scattering, at, toSource, solidAngle, jitter);
+    };
+    const V3d front = transmits ? V3d(0, 0, 0) : scattering.normal;
+    if (t_.options().chosenSources > 0 && isEven(scattering))
+      direct_.addOfChosen(ray, coefficientOf, front);
+    else
+      direct_.add(ray, coefficientOf, front);
+  }
+  return true;
+}
+
+bool SurfaceShading::shadeBoundary(Ray& ray, const Scattering& scattering) {
+  ray.medium = scattering.medium;
+  specular_.follow(ray, scattering.sharp);
+  return true;
+}
+
 template <class M>
-bool PathTracer::shadeTwoSided(Ray& ray, const M& material, int32_t behind) {
+bool SurfaceShading::shadeTwoSided(Ray& ray, const M& material, int32_t behind) {
   if (ray.cosine < 0 && !t_.options().backFacesVisible) {
-    pass(ray);
+    follower_.pass(ray);
     return true;
   }
   applyModifiers(ray, behind);
@@ -26,37 +67,37 @@ bool PathTracer::shadeTwoSided(Ray& ray, const M& material, int32_t behind) {
   return shadeDiffusing(ray, scatter(material, at, t_.options().specularThreshold), at);
 }
 
-bool PathTracer::shadeMaterial(Ray& ray, const Opaque& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Opaque& material, int32_t behind) {
   return (ray.kinds & kShadow) || shadeTwoSided(ray, material, behind);
 }
 
-bool PathTracer::shadeMaterial(Ray& ray, const Trans& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Trans& material, int32_t behind) {
   return shadeTwoSided(ray, material, behind);
 }
 
-bool PathTracer::shadeMaterial(Ray& ray, const Dielectric& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Dielectric& material, int32_t behind) {
   applyModifiers(ray, behind);
   const Interaction at = interaction(ray);
   return shadeBoundary(ray, scatter(material, at, at.front ? ray.medium : t_.medium(), t_.basicRadiance()));
 }
 
-bool PathTracer::shadeMaterial(Ray& ray, const Interface& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Interface& material, int32_t behind) {
   applyModifiers(ray, behind);
   return shadeBoundary(ray, scatter(material, interaction(ray), t_.basicRadiance()));
 }
 
-bool PathTracer::shadeMaterial(Ray& ray, const Glass& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Glass& material, int32_t behind) {
   if (ray.cosine <= 0 && !t_.options().backFacesVisible) {
-    pass(ray);
+    follower_.pass(ray);
     return true;
   }
   applyModifiers(ray, behind);
   turnRound(ray);
-  followSharp(ray, scatter(material, interaction(ray)).sharp);
+  specular_.follow(ray, scatter(material, interaction(ray)).sharp);
   return true;
 }
 
-bool PathTracer::shadeMaterial(Ray& ray, const Mirror& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Mirror& material, int32_t behind) {
   const LightSource* target = targetOf(ray);
   const bool aimedHere = target && target->surface == ray.surface;
   if (material.alternate.kind != Alternate::Kind::none && !aimedHere) {
@@ -72,7 +113,7 @@ bool PathTracer::shadeMaterial(Ray& ray, const Mirror& material, int32_t behind)
   }
   if (target && !aimedHere) return true;
   if (ray.cosine < 0) {
-    if (!t_.options().backFacesVisible) pass(ray);
+    if (!t_.options().backFacesVisible) follower_.pass(ray);
     return true;
   }
   applyModifiers(ray, behind);
@@ -81,27 +122,27 @@ bool PathTracer::shadeMaterial(Ray& ray, const Mirror& material, int32_t behind)
     relay(ray, kReflected, ray.direction + 2 * ray.cosine * ray.normal, material.reflectance * ray.pattern);
     return true;
   }
-  followSharp(ray, scatter(material, interaction(ray)).sharp);
+  specular_.follow(ray, scatter(material, interaction(ray)).sharp);
   return true;
 }
 
 // What a shadow ray is aimed at; null for other rays.
-const LightSource* PathTracer::targetOf(const Ray& ray) const {
+const LightSource* SurfaceShading::targetOf(const Ray& ray) const {
   return ray.aimedAt == kNone ? nullptr : &t_.lights().all()[ray.aimedAt];
 }
 
 // Sends a shadow ray that has reached the relay it was aimed at on to the source that is seen there.
-void PathTracer::relay(Ray& ray, RayKind kind, const V3d& direction, Rgb coefficient) {
+void SurfaceShading::relay(Ray& ray, RayKind kind, const V3d& direction, Rgb coefficient) {
   Ray child;
-  if (!continueRay(child, kind, ray, coefficient)) return;
+  if (!continueRay(t_, state_.random, child, kind, ray, coefficient)) return;
   child.aimedAt = t_.lights().all()[ray.aimedAt].relayed;
   child.unobstructed = ray.unobstructed;
   child.direction = direction.normalized();
-  evaluate(child);
+  follower_.follow(child);
   ray.value += child.value * coefficient;
 }
 
-bool PathTracer::shadeMaterial(Ray& ray, const Prism& material, int32_t) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Prism& material, int32_t) {
   const LightSource* target = targetOf(ray);
   if (target && target->surface != ray.surface) return true;
   FunctionPoint at = functionPoint(ray);
@@ -111,47 +152,46 @@ bool PathTracer::shadeMaterial(Ray& ray, const Prism& material, int32_t) {
   }
   for (int image = 0; image < material.images; ++image) {
     if (target && target->image != image) continue;
-    const auto [share, direction] =
-        t_.functions().redirection(material.functions, image, at, functionScratch_);
+    const auto [share, direction] = t_.functions().redirection(material.functions, image, at, scratch_);
     Rgb coefficient(share, share, share);
     if (target) {
       relay(ray, kTransmitted, direction, coefficient);
       continue;
     }
     Ray child;
-    if (share == 0 || !continueRay(child, kTransmitted, ray, coefficient)) continue;
+    if (share == 0 || !continueRay(t_, state_.random, child, kTransmitted, ray, coefficient)) continue;
     child.direction = direction;
-    evaluate(child);
+    follower_.follow(child);
     ray.value += child.value * coefficient;
     if (interaction(ray).flat) ray.unmirroredLength = ray.length + apparentLength(child);
   }
   return true;
 }
 
-bool PathTracer::useAlternate(Ray& ray, const Alternate& alternate) {
+bool SurfaceShading::useAlternate(Ray& ray, const Alternate& alternate) {
   if (alternate.kind == Alternate::Kind::modifier) return shade(ray, alternate.modifier);
-  pass(ray);
+  follower_.pass(ray);
   return true;
 }
 
-bool PathTracer::shadeMaterial(Ray& ray, const Light& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Light& material, int32_t behind) {
   if (!t_.scene().importance && !countedByDirect(ray, nullptr)) emit(ray, material.radiance, nullptr, behind);
   return true;
 }
 
-bool PathTracer::shadeMaterial(Ray& ray, const Glow& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Glow& material, int32_t behind) {
   if (!t_.scene().importance && !countedByDirect(ray, &material))
     emit(ray, material.radiance, &material, behind);
   return true;
 }
 
-bool PathTracer::shadeMaterial(Ray& ray, const Spotlight& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Spotlight& material, int32_t behind) {
   if (t_.scene().importance || countedByDirect(ray, nullptr)) return true;
   if (ray.cosine < 0 || !outsideSpot(material, ray.direction)) emit(ray, material.radiance, nullptr, behind);
   return true;
 }
 
-bool PathTracer::shadeMaterial(Ray& ray, const Illum& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Illum& material, int32_t behind) {
   if (!t_.scene().importance && countedByDirect(ray, nullptr)) return true;
   const LightSource* aimed = targetOf(ray);
   if (!aimed || aimed->surface != ray.surface || aimed->isVirtual()) {
@@ -170,12 +210,12 @@ bool PathTracer::shadeMaterial(Ray& ray, const Illum& material, int32_t behind) 
 
 // Whether an indirect or specular sample met the front of a source whose light the direct calculation has
 // counted.
-bool PathTracer::countedByDirect(const Ray& ray, const Glow* glow) const {
+bool SurfaceShading::countedByDirect(const Ray& ray, const Glow* glow) const {
   return (ray.kinds & (kAmbient | kSpecular)) && !(ray.kinds & kShadow) && ray.cosine >= 0 &&
          !beyondReach(glow, ray.length);
 }
 
-void PathTracer::emit(Ray& ray, const Rgb& radiance, const Glow* glow, int32_t behind) {
+void SurfaceShading::emit(Ray& ray, const Rgb& radiance, const Glow* glow, int32_t behind) {
   if (const LightSource* target = targetOf(ray);
       target && (target->surface != ray.surface || target->isVirtual()))
     return;
@@ -183,7 +223,7 @@ void PathTracer::emit(Ray& ray, const Rgb& radiance, const Glow* glow, int32_t b
       !beyondReach(glow, ray.pathLength + ray.length))
     return;
   if (ray.cosine < 0) {
-    if (!t_.options().backFacesVisible) pass(ray);
+    if (!t_.options().backFacesVisible) follower_.pass(ray);
     return;
   }
   applyModifiers(ray, behind);
@@ -191,18 +231,18 @@ void PathTracer::emit(Ray& ray, const Rgb& radiance, const Glow* glow, int32_t b
   // Straight on, or mirrored once.
   const unsigned others = ray.kinds & ~(kPrimary | kTransmitted);
   if (t_.lightOf(ray.surface) == kNone || others != (ray.mirror == kNone ? 0u : kReflected)) return;
-  if (shown_.source != kNone && (shown_.mirror == kNone || ray.mirror != kNone)) return;
-  if (isStraight(ray)) shown_ = {ray.surface, ray.mirror};
+  if (state_.shown.source != kNone && (state_.shown.mirror == kNone || ray.mirror != kNone)) return;
+  if (isStraight(ray)) state_.shown = {ray.surface, ray.mirror};
 }
 
 // Whether a ray goes where the primary ray went, but for what mirrored it, and through nothing that stops
 // shadow rays: those that are sent to the source have to find it, too.
-bool PathTracer::isStraight(const Ray& ray) const {
+bool SurfaceShading::isStraight(const Ray& ray) const {
   for (const Ray* before = ray.parent; before; before = before->parent)
     if (before->surface != kNone && before->surface != ray.mirror &&
         t_.tracer().stopsShadows(before->surface, before->cosine > 0))
       return false;
-  V3d direction = primaryDirection_;
+  V3d direction = state_.primaryDirection;
   if (ray.mirror != kNone) {
     const V3d& normal = *planeNormal(t_.scene().surfaces[ray.mirror].shape);
     direction -= 2 * normal.dot(direction) * normal;

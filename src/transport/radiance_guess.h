@@ -12,7 +12,8 @@
 #include <span>
 #include <vector>
 
-#include "transport/path_tracer.h"
+#include "transport/ray.h"
+#include "transport/transport.h"
 
 namespace rsphere {
 

@@ -70,9 +70,9 @@ struct Ray {
 
   int32_t surface = kNone;  // hit, index in Scene::surfaces
   double length = kFarAway;
-  V3d point{0, 0, 0};   // where it hit, or its end (farthest); its origin where nothing local was hit
-  V3d normal{0, 0, 0};  // on the side that it came from, once shaded
-  double cosine = 1;    // -normal . direction; negative until a hit from behind is turned round
+  V3d point{0, 0, 0};       // where it hit, or its end (farthest); its origin where nothing local was hit
+  V3d normal{0, 0, 0};      // on the side that it came from, once shaded
+  double cosine = 1;        // -normal . direction; negative until a hit from behind is turned round
   bool fromBehind = false;  // normal, cosine and perturbation were turned round for a hit from behind
   bool insideOut = false;  // they were turned round where antimatter shows its cut, whose front is the inside
   V3d perturbation{0, 0, 0};

@@ -7,8 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "transport/path_tracer.h"
 #include "transport/ray_functions.h"
+#include "transport/ray_limits.h"
+#include "transport/surface_shading.h"
 
 namespace rsphere {
 
@@ -30,21 +31,21 @@ struct BsdfHit {
   V3d world(const V3d& d) const { return (d.x * x + d.y * y + d.z * z).normalized(); }
 };
 
-bool PathTracer::shadeMaterial(Ray& ray, const BsdfMaterial& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const BsdfMaterial& material, int32_t behind) {
   if (passesBack(ray)) return true;
   const SurfaceFunctions& functions = t_.functions();
   const int32_t f = material.functions;
-  double thickness = material.proxy ? functions.thickness(f, functionPoint(ray), functionScratch_) : 0;
+  double thickness = material.proxy ? functions.thickness(f, functionPoint(ray), scratch_) : 0;
   if (std::abs(thickness) <= kNegligible) thickness = 0;
   // What a proxy hides is seen, and casts shadows, itself; from the hidden side too.
   if (thickness != 0 && ((ray.kinds & kShadow) || !(ray.kinds & (kSpecular | kAmbient)) ||
                          (thickness > 0) != interaction(ray).front)) {
-    pass(ray);
+    follower_.pass(ray);
     return true;
   }
   if ((ray.kinds & kShadow) && !material.aperture) return true;
 
-  const V3d up = functions.up(f, functionPoint(ray), functionScratch_);
+  const V3d up = functions.up(f, functionPoint(ray), scratch_);
   applyModifiers(ray, behind);
   BsdfHit hit{functions.bsdf(f), interaction(ray)};
   const bool front = hit.at.front;
@@ -69,7 +70,7 @@ bool PathTracer::shadeMaterial(Ray& ray, const BsdfMaterial& material, int32_t b
     if (straight || (ray.kinds & kShadow)) {
       SharpPaths path;
       path.add({ray.direction, hit.through.peak, kTransmitted, true});
-      followSharp(ray, path);
+      specular_.follow(ray, path);
     }
     hit.showsThrough = straight && maxChannel(hit.through.peak) > kNegligible;
   }
@@ -92,31 +93,31 @@ bool PathTracer::shadeMaterial(Ray& ray, const BsdfMaterial& material, int32_t b
     return (even + directed) * (std::abs(c) * solidAngle);
   };
   const auto direct = [&](bool reflects, bool transmits) {
-    addDirect(ray, [&](const V3d& toSource, double solidAngle) {
+    direct_.add(ray, [&](const V3d& toSource, double solidAngle) {
       return coefficient(toSource, solidAngle, reflects, transmits);
     });
   };
   const V3d hitPoint = ray.point;
-  addIndirect(ray, hit.normal, hit.at, kReflectedAmbient, reflectance + hit.unsampledReflection);
+  indirect_.add(ray, hit.normal, hit.at, kReflectedAmbient, reflectance + hit.unsampledReflection);
   direct(true, thickness == 0);
   ray.point = hitPoint + hit.across;
-  addIndirect(ray, hit.normal, hit.at, kTransmittedAmbient, transmittance + hit.unsampledTransmission);
+  indirect_.add(ray, hit.normal, hit.at, kTransmittedAmbient, transmittance + hit.unsampledTransmission);
   if (thickness != 0) direct(false, true);
   ray.point = hitPoint;
   return true;
 }
 
-V3d PathTracer::jittered(const V3d& view, double projectedSolidAngle) {
+V3d SurfaceShading::jittered(const V3d& view, double projectedSolidAngle) {
   const double width = std::sqrt(projectedSolidAngle) * std::min(t_.options().specularSampling, 1.);
   if (width <= kNegligible) return view;
   V3d v = view;
-  v.x += width * (.5 - random_.uniform());
-  v.y += width * (.5 - random_.uniform());
+  v.x += width * (.5 - state_.random.uniform());
+  v.y += width * (.5 - state_.random.uniform());
   return v.normalized();
 }
 
 // Draws directions of the directed reflection or transmission, or adds to what is left to indirect light.
-void PathTracer::sampleBsdf(Ray& ray, BsdfHit& hit, RayKind kind) {
+void SurfaceShading::sampleBsdf(Ray& ray, BsdfHit& hit, RayKind kind) {
   const RayOptions& o = t_.options();
   const bool transmits = kind == kTransmittedSpecular;
   const bool front = hit.at.front;
@@ -132,14 +133,14 @@ void PathTracer::sampleBsdf(Ray& ray, BsdfHit& hit, RayKind kind) {
     return;
   }
   const double spread = o.specularSampling;
-  int samples = spread > 1.5 ? samplesOf(ray, spread) : 1;
+  int samples = spread > 1.5 ? samplesOf(t_, ray, spread) : 1;
   if (o.weightLimit > 0)  // no more than can be followed
     samples = std::max(1, static_cast<int>(std::min<double>(samples, share * ray.weight / o.weightLimit)));
   // A single sample is drawn nearer to the middle where -ss is below 1.
   const auto place = [&](double u) { return spread < 1 ? .5 + spread * (u - .5) : u; };
   for (int i = 0; i < samples; ++i) {
     const V3d view = jittered(hit.view, hit.resolution.finest);
-    const double u1 = place((i + random_.uniform()) / samples), u2 = place(random_.uniform());
+    const double u1 = place((i + state_.random.uniform()) / samples), u2 = place(state_.random.uniform());
     const double albedo = part->albedo(view);
     if (albedo <= kNegligible) continue;
     const V3d direction = part->sample(view, u1, u2);
@@ -151,16 +152,16 @@ void PathTracer::sampleBsdf(Ray& ray, BsdfHit& hit, RayKind kind) {
     Rgb coefficient = pattern * (albedo / samples);
     if (value.y > 0) coefficient *= rgbOf(value) / value.y;
     Ray child;
-    if (!continueRay(child, kind, ray, coefficient)) continue;
+    if (!continueRay(t_, state_.random, child, kind, ray, coefficient)) continue;
     child.direction = hit.world(direction);
     if (transmits) child.origin += hit.across;
-    evaluate(child);
+    follower_.follow(child);
     ray.value += child.value * coefficient;
   }
 }
 
 // Scattering (1/sr) of a source's light, without the diffuse part: a mean over views within a cell.
-Rgb PathTracer::directedBsdf(const Ray& ray, const BsdfHit& hit, const V3d& toSource, double solidAngle) {
+Rgb SurfaceShading::directedBsdf(const Ray& ray, const BsdfHit& hit, const V3d& toSource, double solidAngle) {
   const V3d other = hit.local(toSource);
   const DirectedScattering* part = hit.data.between(hit.view, other);
   if (!part) return Rgb(0, 0, 0);
@@ -172,7 +173,7 @@ Rgb PathTracer::directedBsdf(const Ray& ray, const BsdfHit& hit, const V3d& toSo
     if (dx * dx + dy * dy <= 2.5 * 4 / kPi * together * together) return hit.through.around;
   }
   const double size = part->cell(hit.view, other).projectedSolidAngle;
-  const int draws = size > 0 ? samplesOf(ray, 4 * t_.options().specularSampling) : 1;
+  const int draws = size > 0 ? samplesOf(t_, ray, 4 * t_.options().specularSampling) : 1;
   // Cells that are so much finer belong to a peak, whose light must not be spread over the cell beside it.
   constexpr double kMuchFiner = .12;
   Rgb sum(0, 0, 0);

@@ -1,11 +1,12 @@
-// Light straight from the sources.
+#include "transport/direct_light.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 
-#include "transport/path_tracer.h"
 #include "transport/ray_functions.h"
+#include "transport/ray_limits.h"
 
 namespace rsphere {
 namespace {
@@ -27,47 +28,17 @@ struct Tests {
 
 }  // namespace
 
-Ray PathTracer::traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed) {
-  const LightSource& light = t_.lights().all()[sample.source];
-  switch (
-      t_.tracer().shadow(point, sample.direction, sample.distance, light.distant ? kNone : light.surface)) {
-    case Shadow::unsure:
-    case Shadow::refracted:
-      return trace(point, sample.direction, 0, seed);
-    case Shadow::blocked:
-      break;
-    case Shadow::clear: {
-      Ray ray;
-      ray.origin = point;
-      ray.direction = sample.direction;
-      ray.surface = light.surface;
-      ray.length = ray.unmirroredLength = sample.distance;
-      if (!light.distant) ray.point = point + sample.distance * sample.direction;
-      ray.normal = sample.normal;
-      ray.cosine = sample.cosine;
-      ray.medium = t_.medium();
-      primaryDirection_ = sample.direction;
-      shown_ = {};
-      shadeSurface(ray);
-      participate(ray);
-      return ray;
-    }
-  }
-  shown_ = {};
-  return Ray{};
-}
-
 // The radiance of a source along a shadow ray that is not stopped.
-Rgb PathTracer::sourceValue(const Ray& ray, const SourceSample& sample) {
+Rgb DirectLight::sourceValue(const Ray& ray, const SourceSample& sample) {
   const LightSource& light = t_.lights().all()[sample.source];
   if (light.isVirtual()) {
     Ray child;
     Rgb whole(1, 1, 1);
-    if (!continueRay(child, kReflectedShadow, ray, whole)) return Rgb(0, 0, 0);
+    if (!continueRay(t_, state_.random, child, kReflectedShadow, ray, whole)) return Rgb(0, 0, 0);
     child.aimedAt = static_cast<int32_t>(sample.source);
     child.direction = sample.direction;
     child.unobstructed = true;
-    evaluate(child);
+    follower_.follow(child);
     return child.value;
   }
   if (sample.cosine < 0) return Rgb(0, 0, 0);
@@ -85,12 +56,12 @@ Rgb PathTracer::sourceValue(const Ray& ray, const SourceSample& sample) {
   child.point = sample.distance < kFarAway ? child.origin + sample.distance * child.direction : child.origin;
   child.normal = sample.normal;
   child.cosine = sample.cosine;
-  shade(child, t_.scene().surfaces[light.surface].modifier);
+  follower_.shade(child, t_.scene().surfaces[light.surface].modifier);
   return child.value * passed;
 }
 
 // Whether one of samples_ stands for all of its source.
-bool PathTracer::isWhole(const SourceSample& sample) const {
+bool DirectLight::isWhole(const SourceSample& sample) const {
   const size_t i = static_cast<size_t>(&sample - samples_.data());
   return (i == 0 || samples_[i - 1].source != sample.source) &&
          (i + 1 == samples_.size() || samples_[i + 1].source != sample.source);
@@ -98,7 +69,7 @@ bool PathTracer::isWhole(const SourceSample& sample) const {
 
 // What of a sample's radiance gets to the ray's end; false where none does. to.value: what would if nothing
 // were in the way.
-bool PathTracer::arrives(const Ray& ray, const Contribution& to, Rgb& value) {
+bool DirectLight::arrives(const Ray& ray, const Contribution& to, Rgb& value) {
   const SourceSample& sample = *to.sample;
   const LightSource& light = t_.lights().all()[sample.source];
   const bool toSurface = !light.distant || light.isVirtual();
@@ -111,28 +82,30 @@ bool PathTracer::arrives(const Ray& ray, const Contribution& to, Rgb& value) {
                  ? Shadow::blocked
                  : Shadow::unsure;
   const bool follow = shadow == Shadow::unsure || (shadow == Shadow::clear && light.isVirtual());
-  if (follow || allShadowRays_) value = valueFromSource(ray, to);  // allShadowRays_: to be shown
+  if (follow || settings_.observesAllShadowRays)
+    value = valueFromSource(ray, to);  // settings_.observesAllShadowRays: to be shown
   if (shadow == Shadow::blocked) return false;
   if (!follow) value = to.value;
   return !follow || maxChannel(value) > kNegligible;
 }
 
 // What a shadow ray brings through all that may let light pass.
-Rgb PathTracer::valueFromSource(const Ray& ray, const Contribution& to) {
+Rgb DirectLight::valueFromSource(const Ray& ray, const Contribution& to) {
   const V3d& direction = to.sample->direction;
   const bool through = (ray.cosine > 0) != (ray.normal.dot(direction) > 0);
   Ray child;
   Rgb whole(1, 1, 1);
-  if (!continueRay(child, through ? kTransmittedShadow : kReflectedShadow, ray, whole)) return Rgb(0, 0, 0);
+  if (!continueRay(t_, state_.random, child, through ? kTransmittedShadow : kReflectedShadow, ray, whole))
+    return Rgb(0, 0, 0);
   child.contribution *= to.coefficient;
   child.aimedAt = static_cast<int32_t>(to.sample->source);
   child.direction = direction;
-  evaluate(child);
+  follower_.follow(child);
   return child.value;
 }
 
 // count to the power of -dc. A power costs as much as a source's sample.
-size_t PathTracer::lookAheadOf(size_t count) {
+size_t DirectLight::lookAheadOf(size_t count) {
   for (size_t n = lookAheads_.size(); n <= count; ++n)
     lookAheads_.push_back(
         static_cast<size_t>(std::pow(static_cast<double>(n), t_.options().directCertainty) + .5));
@@ -140,7 +113,7 @@ size_t PathTracer::lookAheadOf(size_t count) {
 }
 
 // Sets the order of the first contributions: brightest first, and as they came where they are equal.
-void PathTracer::rankByBrightness(uint32_t count) {
+void DirectLight::rankByBrightness(uint32_t count) {
   // A few by how many go before each, without a branch: half of those that sorting takes are guessed wrongly.
   constexpr uint32_t kFew = 24;
   if (count > kFew) {
@@ -167,16 +140,16 @@ void PathTracer::rankByBrightness(uint32_t count) {
 
 // What each sample of a source could bring, by contributions_ and brightness_. Returns how many bring
 // anything.
-uint32_t PathTracer::findContributions(const Ray& ray, DirectCoefficient coefficientOf, const V3d& front) {
+uint32_t DirectLight::findContributions(const Ray& ray, DirectCoefficient coefficientOf, const V3d& front) {
   const RayOptions& o = t_.options();
   samples_.clear();
   // With a jitter as wide as this (-dj) a sample may lie nearly anywhere on its source, and needs no parts.
   constexpr double kWideJitter = .5;
   const bool divides =
-      o.sourceSubstructuring > kNegligible && !(isOfGather(ray) && o.directJitter > kWideJitter);
+      o.sourceSubstructuring > kNegligible && !(isOfGather(t_, ray) && o.directJitter > kWideJitter);
   const SourceSampling how{divides ? o.sourceSubstructuring / ray.weight : 0, o.directJitter, front};
   for (uint32_t i = 0; i < t_.lights().all().size(); ++i)
-    t_.lights().sample(i, ray.point, how, random_, samples_);
+    t_.lights().sample(i, ray.point, how, state_.random, samples_);
   if (contributions_.size() < samples_.size()) {
     contributions_.resize(samples_.size());
     brightness_.resize(samples_.size());
@@ -200,8 +173,8 @@ uint32_t PathTracer::findContributions(const Ray& ray, DirectCoefficient coeffic
 
 // Of the contributions from `first` on, in their order, one that stands for all: chosen in proportion to what
 // it would add.
-void PathTracer::addOneOf(Ray& ray, size_t first, uint32_t count) {
-  double rest = random_.uniform() * remaining_[first];
+void DirectLight::addOneOf(Ray& ray, size_t first, uint32_t count) {
+  double rest = state_.random.uniform() * remaining_[first];
   size_t chosen = first;
   while (chosen + 1 < count && (rest -= brightness_[order_[chosen]]) >= 0) ++chosen;
   const Contribution& c = contributions_[order_[chosen]];
@@ -210,7 +183,7 @@ void PathTracer::addOneOf(Ray& ray, size_t first, uint32_t count) {
     ray.value += value * c.coefficient * (remaining_[first] / brightness_[order_[chosen]]);
 }
 
-void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d& front) {
+void DirectLight::add(Ray& ray, DirectCoefficient coefficientOf, const V3d& front) {
   const uint32_t count = findContributions(ray, coefficientOf, front);
   if (count == 0) return;
   const double threshold = t_.options().directThreshold / ray.weight;
@@ -256,17 +229,17 @@ void PathTracer::addDirect(Ray& ray, DirectCoefficient coefficientOf, const V3d&
   }
 }
 
-// As addDirect(), from -Ss sources drawn at random: what each of them brings stands for all.
-void PathTracer::addDirectOfChosen(Ray& ray, DirectCoefficient coefficientOf, const V3d& front) {
+// As add(), from -Ss sources drawn at random: what each of them brings stands for all.
+void DirectLight::addOfChosen(Ray& ray, DirectCoefficient coefficientOf, const V3d& front) {
   const double sum = t_.choice().weigh(ray.point, front, sourceWeights_);
   if (!(sum > 0)) return;
   const int draws = std::max(1, static_cast<int>(t_.options().chosenSources * ray.weight + .5));
   const double step = sum / draws;
-  double next = random_.uniform() * step, passed = 0;
+  double next = state_.random.uniform() * step, passed = 0;
   for (uint32_t i = 0; i < sourceWeights_.size(); ++i) {
     for (passed += sourceWeights_[i]; next < passed; next += step) {
       samples_.clear();
-      t_.lights().sample(i, ray.point, {0, 1, front}, random_, samples_);
+      t_.lights().sample(i, ray.point, {0, 1, front}, state_.random, samples_);
       for (const SourceSample& sample : samples_) {
         const Rgb coefficient = coefficientOf(sample.direction, sample.solidAngle);
         if (isBlack(coefficient)) continue;
@@ -276,6 +249,17 @@ void PathTracer::addDirectOfChosen(Ray& ray, DirectCoefficient coefficientOf, co
           ray.value += value * coefficient * (step / sourceWeights_[i]);
       }
     }
+  }
+}
+
+void DirectLight::addFromSource(const Ray& at, uint32_t source, DirectCoefficient coefficientOf, Rgb& sum) {
+  samples_.clear();
+  t_.lights().sample(source, at.point, {0, t_.options().directJitter}, state_.random, samples_);
+  for (const SourceSample& sample : samples_) {
+    const Contribution c{&sample, coefficientOf(sample.direction, sample.solidAngle),
+                         sourceValue(at, sample)};
+    Rgb value;
+    if (!isBlack(c.value) && arrives(at, c, value)) sum += value * c.coefficient;
   }
 }
 

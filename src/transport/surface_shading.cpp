@@ -1,19 +1,21 @@
 // What a hit surface does to a ray: its chain of modifiers down to a material, mixtures.
-#include "transport/path_tracer.h"
+#include "transport/surface_shading.h"
+
 #include "transport/ray_functions.h"
+#include "transport/ray_limits.h"
 
 namespace rsphere {
 
-void PathTracer::shadeHit(Ray& ray) {
+void SurfaceShading::shadeHit(Ray& ray) {
   ray.unmirroredLength = ray.length;
   const bool clipped = (t_.scene().surfaces[ray.surface].clip & ray.clips) != 0;
   if (!clipped && shadeSurface(ray)) return;
   if (std::holds_alternative<Distant>(t_.scene().surfaces[ray.surface].shape)) return;
-  pass(ray);
+  follower_.pass(ray);
 }
 
 // What the surface emits and scatters; false where it has no material.
-bool PathTracer::shadeSurface(Ray& ray) {
+bool SurfaceShading::shadeSurface(Ray& ray) {
   const Surface& surface = t_.scene().surfaces[ray.surface];
   if (!surface.goal || ray.cosine < 0) return shade(ray, surface.modifier);
   Ray emitted = ray;
@@ -26,7 +28,7 @@ bool PathTracer::shadeSurface(Ray& ray) {
 }
 
 // Shades the ray with a chain of modifiers; false where it has no material.
-bool PathTracer::shade(Ray& ray, int32_t modifier) {
+bool SurfaceShading::shade(Ray& ray, int32_t modifier) {
   const bool meters = t_.irradiance() == Irradiance::surface && !(ray.kinds & ~(kPrimary | kTransmitted));
   for (; modifier != kNone; modifier = t_.scene().modifiers[modifier].next) {
     const Modifier& m = t_.scene().modifiers[modifier];
@@ -40,7 +42,7 @@ bool PathTracer::shade(Ray& ray, int32_t modifier) {
       continue;
     }
     if (meters && isTransparent(*material)) {
-      pass(ray);
+      follower_.pass(ray);
       return true;
     }
     if (meters && !isLightSource(*material) && !std::holds_alternative<Antimatter>(*material)) {
@@ -54,19 +56,19 @@ bool PathTracer::shade(Ray& ray, int32_t modifier) {
 }
 
 // What a pattern, texture or mixture does to the ray; whether it has shaded it with a material.
-bool PathTracer::applyModifier(Ray& ray, int32_t modifier) {
+bool SurfaceShading::applyModifier(Ray& ray, int32_t modifier) {
   const Content& content = t_.scene().modifiers[modifier].content;
   if (const auto* mixture = std::get_if<Mixture>(&content)) return shadeMixture(ray, modifier, *mixture);
   const FunctionPoint at = functionPoint(ray);
   if (std::holds_alternative<Pattern>(content))
-    ray.pattern *= t_.functions().pattern(modifier, at, functionScratch_);
+    ray.pattern *= t_.functions().pattern(modifier, at, scratch_);
   else
-    ray.perturbation += t_.functions().texture(modifier, at, functionScratch_);
+    ray.perturbation += t_.functions().texture(modifier, at, scratch_);
   return false;
 }
 
 // The modifiers of a material: patterns, textures, and mixtures of them.
-void PathTracer::applyModifiers(Ray& ray, int32_t modifier) {
+void SurfaceShading::applyModifiers(Ray& ray, int32_t modifier) {
   for (; modifier != kNone; modifier = t_.scene().modifiers[modifier].next) {
     const Modifier& m = t_.scene().modifiers[modifier];
     if (std::holds_alternative<Material>(m.content) || applyModifier(ray, modifier))
@@ -74,8 +76,8 @@ void PathTracer::applyModifiers(Ray& ray, int32_t modifier) {
   }
 }
 
-bool PathTracer::shadeMixture(Ray& ray, int32_t modifier, const Mixture& mixture) {
-  const double share = t_.functions().mixture(modifier, functionPoint(ray), functionScratch_);
+bool SurfaceShading::shadeMixture(Ray& ray, int32_t modifier, const Mixture& mixture) {
+  const double share = t_.functions().mixture(modifier, functionPoint(ray), scratch_);
   if (share < 0) return false;
   struct Side {
     Ray ray;
@@ -93,7 +95,7 @@ bool PathTracer::shadeMixture(Ray& ray, int32_t modifier, const Mixture& mixture
   }
   // Beside a material void is a hole.
   for (int i = 0; i < 2; ++i)
-    if (sides[i].counts && !sides[i].shaded && sides[1 - i].shaded) pass(sides[i].ray);
+    if (sides[i].counts && !sides[i].shaded && sides[1 - i].shaded) follower_.pass(sides[i].ray);
   const Ray& a = sides[0].ray;
   const Ray& b = sides[1].ray;
   const auto mixed = [&](const auto& x, const auto& y) { return x * share + y * (1 - share); };
@@ -110,7 +112,7 @@ bool PathTracer::shadeMixture(Ray& ray, int32_t modifier, const Mixture& mixture
   return true;
 }
 
-FunctionPoint PathTracer::functionPoint(const Ray& ray) const {
+FunctionPoint SurfaceShading::functionPoint(const Ray& ray) const {
   FunctionPoint at;
   at.direction = ray.direction;
   at.normal = ray.normal;
@@ -124,7 +126,9 @@ FunctionPoint PathTracer::functionPoint(const Ray& ray) const {
   return at;
 }
 
-Interaction PathTracer::interaction(const Ray& ray) const {
+void SurfaceShading::meter(Ray& ray) { shadeMaterial(ray, kIrradianceMeter, kNone); }
+
+Interaction SurfaceShading::interaction(const Ray& ray) const {
   Interaction at;
   at.direction = ray.direction;
   const bool behind = ray.cosine < 0;

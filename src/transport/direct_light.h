@@ -1,0 +1,77 @@
+#pragma once
+// Next-event estimation: the light that comes straight from the light sources, with its shadows.
+//
+// All sources are sampled, the brightest contributions are tested for shadows first, and those too weak to
+// matter are estimated without a shadow ray (-dt, -dc). With -Ss sources are drawn at random instead.
+#include <vector>
+
+#include "transport/function_ref.h"
+#include "transport/path_state.h"
+#include "transport/ray_follower.h"
+#include "transport/transport.h"
+
+namespace rsphere {
+
+// The share of a source's radiance that leaves along a ray, for the direction of the source (unit) and the
+// solid angle (sr) of a sample of it.
+using DirectCoefficient = FunctionRef<Rgb(const V3d& toSource, double solidAngle)>;
+
+class DirectLight {
+ public:
+  // Keeps references. follower: follows shadow rays through what may let light pass.
+  DirectLight(const Transport& transport, const PathSettings& settings, PathState& state,
+              RayFollower& follower)
+      : t_(transport),
+        settings_(settings),
+        state_(state),
+        follower_(follower),
+        blockers_(size_t{1} << kBlockerBits, Tracer::kNoBlocker) {}
+
+  // Adds the direct light at the ray's hit to its value (W/sr/m2). front: the normal of a surface that
+  // transmits no light, whose coefficients are 0 behind it; or 0.
+  void add(Ray& ray, DirectCoefficient coefficientOf, const V3d& front = V3d(0, 0, 0));
+
+  // The same from -Ss sources drawn at random, each of which stands for all.
+  void addOfChosen(Ray& ray, DirectCoefficient coefficientOf, const V3d& front);
+
+  // Adds the light of one source (index in LightSources) that is scattered at the end of a ray (W/sr/m2).
+  void addFromSource(const Ray& at, uint32_t source, DirectCoefficient coefficientOf, Rgb& sum);
+
+ private:
+  struct Contribution {
+    const SourceSample* sample;
+    Rgb coefficient, value;
+  };
+
+  size_t lookAheadOf(size_t count);
+  void rankByBrightness(uint32_t count);
+  Rgb sourceValue(const Ray& ray, const SourceSample& sample);
+  Rgb valueFromSource(const Ray& ray, const Contribution& to);
+  uint32_t findContributions(const Ray& ray, DirectCoefficient coefficientOf, const V3d& front);
+  void addOneOf(Ray& ray, size_t first, uint32_t count);
+  bool arrives(const Ray& ray, const Contribution& to, Rgb& value);
+  bool isWhole(const SourceSample& sample) const;
+  uint32_t& blockerOf(int32_t surface, uint32_t source) {
+    const uint64_t both = (uint64_t{static_cast<uint32_t>(surface)} << 32) | source;
+    return blockers_[(both * 0x9e3779b97f4a7c15u) >> (64 - kBlockerBits)];  // Fibonacci hashing
+  }
+
+  const Transport& t_;
+  const PathSettings& settings_;
+  PathState& state_;
+  RayFollower& follower_;
+  // Scratch memory of a call, which never calls itself: shadow rays ask for no direct light. Elements beyond
+  // those of this call are left over from earlier ones.
+  std::vector<SourceSample> samples_;
+  std::vector<Contribution> contributions_;
+  std::vector<double> brightness_;  // of the contributions
+  std::vector<uint32_t> order_;     // of the contributions, brightest first where not all are tested
+  std::vector<double> remaining_;
+  std::vector<double> sourceWeights_;
+  // The surface that stopped the last ray from a surface to a source, at a hash of the two.
+  static constexpr int kBlockerBits = 12;
+  std::vector<uint32_t> blockers_;
+  std::vector<size_t> lookAheads_;  // by count; as far as they were asked for
+};
+
+}  // namespace rsphere

@@ -1,0 +1,59 @@
+#include "transport/final_gather.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "transport/hemisphere_rays.h"
+#include "transport/irradiance_field.h"
+#include "transport/ray_functions.h"
+
+namespace rsphere {
+namespace {
+
+// A ray that has hit the site.
+Ray rootOf(const Transport& transport, const GatherSite& site, int depth) {
+  Ray root;
+  root.medium = transport.medium();
+  root.point = site.point;
+  root.normal = site.normal;
+  root.length = 0;
+  root.depth = depth;
+  return root;
+}
+
+}  // namespace
+
+GatheredLight gatherLight(const Transport& transport, PathState& state, const BrightSpots* aims,
+                          RayFollower& follower, const GatherSite& site, int depth) {
+  const RayOptions& o = transport.options();
+  const Ray root = rootOf(transport, site, depth);
+  V3d x, y;  // the frame of sendOverHemisphere()
+  frame(site.normal, x, y);
+  const int count = o.ambientDivisions + o.ambientSuperSamples;
+  const HemisphereCells cells(count);
+  std::vector<Rgb> radiance(cells.count(), Rgb(0, 0, 0));
+  std::vector<double> distance(cells.count(), kFarAway);
+  sendOverHemisphere(transport, aims, state.random, root, site.normal, site.normal, kReflectedAmbient, count,
+                     [&](Ray& child, double part) {
+                       follower.follow(child);
+                       const int cell = cells.cellOf(child.direction, x, y, site.normal);
+                       radiance[cell] += child.value * (part * cells.count());
+                       distance[cell] = std::min(distance[cell], apparentLength(child));
+                     });
+  return cells.sum(radiance, distance, transport.field()->finestSpacing() / 2, x, y, site.normal);
+}
+
+void linkPatch(const Transport& transport, PathState& state, const BrightSpots* aims, RayFollower& follower,
+               const GatherSite& site, int rays, int depth) {
+  const Ray root = rootOf(transport, site, depth);
+  Rgb sum(0, 0, 0);
+  sendOverHemisphere(transport, aims, state.random, root, site.normal, site.normal, kReflectedAmbient, rays,
+                     [&](Ray& child, double part) {
+                       child.contribution = Rgb(part, part, part);
+                       follower.follow(child);
+                       sum += child.value * part;
+                     });
+  state.links->addLight(0, sum);
+}
+
+}  // namespace rsphere

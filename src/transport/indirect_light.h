@@ -1,0 +1,50 @@
+#pragma once
+// Indirect diffuse light: the mean radiance from the hemisphere over a surface.
+//
+// With -aa above 0, the light at the first diffuse surface of a path is interpolated (irradiance_field.h),
+// and that of later ones comes from the coarse solution (coarse_solution.h). Otherwise it is gathered: -ad +
+// -as stratified directions at the first diffuse surface, one direction at every later one.
+#include "shade/scattering.h"
+#include "transport/interpolated_light.h"
+#include "transport/path_state.h"
+#include "transport/ray_follower.h"
+#include "transport/transport.h"
+
+namespace rsphere {
+
+class IndirectLight {
+ public:
+  // Keeps references.
+  IndirectLight(const Transport& transport, const PathSettings& settings, PathState& state,
+                RayFollower& follower, InterpolatedLight& interpolated)
+      : t_(transport), settings_(settings), state_(state), follower_(follower), interpolated_(interpolated) {}
+
+  // Adds coefficient times the mean radiance over the hemisphere around the normal (unit, perturbed by
+  // textures) to the ray's value (W/sr/m2), or times the ambient value (-av) beyond -ab bounces. trueNormal:
+  // of the surface, on the same side; no light comes from behind it.
+  void add(Ray& ray, const V3d& normal, const V3d& trueNormal, RayKind kind, const Rgb& coefficient);
+
+  // The same for the side that the kind says: reflected light from the side of the normal, transmitted light
+  // from behind.
+  void add(Ray& ray, const V3d& normal, const Interaction& at, RayKind kind, const Rgb& coefficient);
+
+ private:
+  struct Surroundings {
+    V3d normal, trueNormal;
+    RayKind kind;
+    Rgb coefficient;
+  };
+
+  int raysToGuess(const Ray& ray) const;
+  int strataOf(const Ray& ray, const Rgb& coefficient) const;
+  void gather(Ray& ray, const Surroundings& at);
+  void gatherStratified(Ray& ray, const Surroundings& at, int guesses);
+
+  const Transport& t_;
+  const PathSettings& settings_;
+  PathState& state_;
+  RayFollower& follower_;
+  InterpolatedLight& interpolated_;
+};
+
+}  // namespace rsphere

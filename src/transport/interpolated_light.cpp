@@ -1,0 +1,130 @@
+#include "transport/interpolated_light.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "transport/ray_functions.h"
+
+namespace rsphere {
+namespace {
+
+// The cosine of the greatest tilt of a perturbed normal for which light is interpolated.
+constexpr double kLeastUpright = .7;
+
+constexpr int kReachRays = 16;
+
+// The harmonic mean distance of the surfaces that a few rays from a site hit.
+double reachOf(const Tracer& tracer, const GatherSite& site) {
+  // By projected solid angle, in the frame of the site.
+  static const auto directions = [] {
+    const HemisphereCells cells(kReachRays);
+    std::array<V3d, kReachRays> of;
+    for (int i = 0; i < kReachRays; ++i)
+      of[i] = cells.direction(i, .5, .5, V3d(1, 0, 0), V3d(0, 1, 0), V3d(0, 0, 1));
+    return of;
+  }();
+  V3d x, y;
+  frame(site.normal, x, y);
+  double inverse = 0;
+  for (const V3d& d : directions) {
+    const Hit hit = tracer.nearest(site.point, d.x * x + d.y * y + d.z * site.normal);
+    if (hit.surface != kNone) inverse += 1 / hit.distance;
+  }
+  return inverse > 0 ? kReachRays / inverse : kFarAway;
+}
+
+// Whether the fields serve the end of a ray: their sites see the whole scene, with nothing cut away by
+// antimatter, and in no medium but the scene's own.
+bool isOrdinary(const Ray& ray, const Medium& medium) {
+  return !ray.mist && !ray.clips && !ray.clipsBeyond && !ray.scatterers.count &&
+         ray.medium.extinction == medium.extinction;
+}
+
+SurfacePlace placeOf(const Ray& ray, const V3d& trueNormal) {
+  return {ray.point, trueNormal, ray.surface, &ray.path, ray.length};
+}
+
+// The diffuse bounces that the limits allow beyond the end of a ray.
+int bouncesLeft(const RayOptions& o, const Ray& ray) {
+  int left = o.ambientBounces - ray.ambientLevel;
+  if (o.reflectionLimit != 0) left = std::min(left, std::abs(o.reflectionLimit) - ray.level);
+  if (o.reflectionLimit > 0)
+    for (double weight = ray.weight / 2, n = 0; n < left; ++n, weight /= 2)
+      if (weight < o.weightLimit) left = static_cast<int>(n);
+  return std::max(left, 0);
+}
+
+// The rays that the fields ask for, on behalf of a path of this depth.
+class Looker final : public SiteLooker, public CoarseSolution::Looker {
+ public:
+  Looker(const Tracer& tracer, SiteGatherer& gatherer, int depth)
+      : tracer_(tracer), gatherer_(gatherer), depth_(depth) {}
+  GatheredLight gather(const GatherSite& site, uint64_t seed) override {
+    return gatherer_.gather(site, seed, depth_);
+  }
+  void link(const GatherSite& site, int rays, uint64_t seed, CoarseSolution::Links& links) override {
+    gatherer_.link(site, rays, seed, depth_, links);
+  }
+  bool sees(const V3d& from, const V3d& to) override {
+    const V3d way = to - from;
+    const double length = way.length();
+    return !(length > kSamePlace) || tracer_.isClear(from, way / length, length);
+  }
+  double reach(const GatherSite& site) override { return reachOf(tracer_, site); }
+  bool smallObjectNear(const GatherSite& site, double side, double lift) override {
+    // An object as wide as a cell is not smaller than it, whatever rounding does.
+    constexpr double kRounding = 1e-6;
+    return tracer_.anySmallNear({site.point, site.normal, side, side * (1 - kRounding), 3 * lift});
+  }
+
+ private:
+  const Tracer& tracer_;
+  SiteGatherer& gatherer_;
+  int depth_;
+};
+
+}  // namespace
+
+bool InterpolatedLight::add(Ray& ray, const V3d& normal, const V3d& trueNormal, const Rgb& coefficient) {
+  // No other ray asks for the light at an imagined point.
+  if (ray.surface == kNone || settings_.gathersFirstAnew) return false;
+  if (!isOrdinary(ray, t_.medium()) || normal.dot(trueNormal) < kLeastUpright) return false;
+  Looker looker(t_.tracer(), gatherer_, ray.depth);
+  GatheredLight light;
+  if (!t_.field()->find(placeOf(ray, trueNormal), reader_, looker, light)) return false;
+  const V3f mean = light.meanOfTilted(trueNormal, normal);
+  for (int c = 0; c < 3; ++c) ray.value[c] += coefficient[c] * mean[c];
+  return true;
+}
+
+bool InterpolatedLight::addFromPatch(Ray& ray, const V3d& normal, const V3d& trueNormal,
+                                     const Rgb& coefficient) {
+  Looker looker(t_.tracer(), gatherer_, ray.depth);
+  const int beyond = ray.ambientLevel - 1;
+  // No patch is asked for more bounces than these.
+  const bool isLast = state_.links && ray.ambientLevel >= t_.options().ambientBounces - 1;
+  CoarseSolution::Patch* patch = nullptr;
+  if (!isLast) {
+    const double u1 = state_.random.uniform(), u2 = state_.random.uniform();
+    if (isOrdinary(ray, t_.medium()) && normal.dot(trueNormal) >= kLeastUpright)
+      patch = t_.coarse()->find(placeOf(ray, trueNormal), u1, u2, looker);
+  }
+  if (state_.links) {
+    const Rgb whole = coefficient * ray.contribution * passedBy(ray);
+    if (patch)
+      state_.links->links.push_back({patch, V3f(whole), beyond});
+    else
+      state_.links->addEnd(beyond, whole);
+    if (isLast) return true;
+  } else if (patch) {
+    ray.value += coefficient * Rgb(t_.coarse()->light(*patch, bouncesLeft(t_.options(), ray), looker));
+  }
+  return patch;
+}
+
+void InterpolatedLight::endPath() {
+  if (t_.field()) t_.field()->leave(reader_);
+}
+
+}  // namespace rsphere

@@ -1,0 +1,38 @@
+#pragma once
+// Indirect light from the irradiance cache and from the coarse solution (-aa above 0).
+#include "transport/coarse_solution.h"
+#include "transport/irradiance_field.h"
+#include "transport/path_state.h"
+#include "transport/site_gatherer.h"
+#include "transport/transport.h"
+
+namespace rsphere {
+
+class InterpolatedLight {
+ public:
+  // Keeps references. gatherer: traces the rays that the cache and the coarse solution ask for.
+  InterpolatedLight(const Transport& transport, const PathSettings& settings, PathState& state,
+                    SiteGatherer& gatherer)
+      : t_(transport), settings_(settings), state_(state), gatherer_(gatherer) {}
+
+  // Adds coefficient times the interpolated mean radiance over the hemisphere around the normal (unit,
+  // perturbed by textures) to the ray's value (W/sr/m2). trueNormal: of the surface. False, with nothing
+  // added, where the cache does not serve the ray: the light has to be gathered. REQUIRES Transport::field().
+  bool add(Ray& ray, const V3d& normal, const V3d& trueNormal, const Rgb& coefficient);
+
+  // The same from the coarse solution. In a path of a patch (PathState::links) nothing is added to the ray:
+  // the link to the patch that serves it is noted. REQUIRES Transport::coarse().
+  bool addFromPatch(Ray& ray, const V3d& normal, const V3d& trueNormal, const Rgb& coefficient);
+
+  // Lets go of the cache's memory; to be called at the end of each primary ray.
+  void endPath();
+
+ private:
+  const Transport& t_;
+  const PathSettings& settings_;
+  PathState& state_;
+  SiteGatherer& gatherer_;
+  FieldReader reader_;
+};
+
+}  // namespace rsphere

@@ -1,0 +1,66 @@
+#include "transport/participating_media.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "transport/ray_functions.h"
+
+namespace rsphere {
+namespace {
+
+constexpr int kMostSteps = 16;  // samples of one source along a ray, RADIANCE's own figure
+
+// Henyey and Greenstein's phase function times 4 pi; isotropic for g <= 0, as RADIANCE has it.
+double phase(double g, double cosine) {
+  if (g <= kNegligible) return 1;
+  const double d = 1 + g * g - 2 * g * cosine;
+  return (1 - g * g) / (d * std::sqrt(d));
+}
+
+}  // namespace
+
+void ParticipatingMedia::participate(Ray& ray) {
+  const Medium& medium = ray.medium;
+  if (!isMedium(medium.extinction)) return;
+  const Rgb passed = passedBy(ray);
+  ray.value *= passed;
+  if ((ray.kinds & kShadow) || !(maxChannel(medium.albedo) > kNegligible)) return;
+  ray.value += medium.albedo * t_.options().ambientValue * (Rgb(1, 1, 1) - passed);
+  addScattered(ray);
+}
+
+// Light from the sources that is scattered once, into the ray, at a point in every step of it (-ms).
+void ParticipatingMedia::addScattered(Ray& ray) {
+  if (ray.scatterers.count == 0 || ray.length >= .99 * kFarAway || ray.medium.eccentricity >= 1 - kNegligible)
+    return;
+  const double stepLength = t_.options().mediumSampling;
+  const int steps = stepLength > kNegligible
+                        ? static_cast<int>(std::clamp(ray.length / stepLength + .5, 1., double{kMostSteps}))
+                        : 1;
+  // Where the light is scattered, as a ray that ends there.
+  Ray at;
+  at.direction = ray.direction;
+  at.medium = ray.medium;
+  at.scatterers = ray.scatterers;
+  at.mist = ray.mist;
+  at.kinds = 0;
+  at.depth = ray.depth;
+  at.pathLength = ray.pathLength;
+  at.contribution = ray.contribution;
+  at.cosine = 0;  // no surface's front or back
+  const Rgb scattered = ray.medium.extinction * ray.medium.albedo * (ray.length / steps / (4 * kPi));
+  for (const uint16_t scatterer : ray.scatterers)
+    for (int i = 0; i < steps; ++i) {
+      at.length = ray.length * (i + state_.random.uniform()) / steps;
+      const Rgb passed = passing(ray.medium.extinction, at.length);
+      if (maxChannel(passed) <= kNegligible * kNegligible) break;
+      at.point = ray.origin + at.length * ray.direction;
+      const auto coefficientOf = [&](const V3d& toSource, double solidAngle) -> Rgb {
+        return scattered * passed *
+               (solidAngle * phase(ray.medium.eccentricity, ray.direction.dot(toSource)));
+      };
+      direct_.addFromSource(at, t_.scatterers()[scatterer], coefficientOf, ray.value);
+    }
+}
+
+}  // namespace rsphere

@@ -1,0 +1,28 @@
+#pragma once
+// Media that absorb and scatter light along a ray (-me, -ma, -mg, mist).
+#include "transport/direct_light.h"
+#include "transport/path_state.h"
+#include "transport/transport.h"
+
+namespace rsphere {
+
+class ParticipatingMedia {
+ public:
+  // Keeps references.
+  ParticipatingMedia(const Transport& transport, PathState& state, DirectLight& direct)
+      : t_(transport), state_(state), direct_(direct) {}
+
+  // Attenuates the ray's radiance by the medium between its origin and its hit, and adds light scattered into
+  // the ray: the ambient value (-av), which is the same everywhere, and light from the sources that mist
+  // names.
+  void participate(Ray& ray);
+
+ private:
+  void addScattered(Ray& ray);
+
+  const Transport& t_;
+  PathState& state_;
+  DirectLight& direct_;
+};
+
+}  // namespace rsphere

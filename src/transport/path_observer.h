@@ -1,0 +1,20 @@
+#pragma once
+// What a caller may learn of a path besides its radiance.
+#include <functional>
+
+#include "transport/ray.h"
+
+namespace rsphere {
+
+// The light source that a primary ray showed, and what mirrored it. Indices in Scene::surfaces; kNone: none.
+struct ShownSource {
+  int32_t source = kNone;
+  int32_t mirror = kNone;
+  bool operator==(const ShownSource&) const = default;
+};
+
+// Gets every finished ray of a path (rtrace's -ot, -oT). The attenuation by the medium in front of its hit is
+// not yet in its value.
+using RayObserver = std::function<void(const Ray& ray)>;
+
+}  // namespace rsphere

@@ -1,0 +1,31 @@
+#pragma once
+// The state of a path while it is traced.
+#include "scene/random.h"
+#include "trace/tracer.h"
+#include "transport/coarse_solution.h"
+#include "transport/path_observer.h"
+
+namespace rsphere {
+
+class BrightSpots;
+class LocalGuess;
+
+// How a tracer traces all of its paths.
+struct PathSettings {
+  const BrightSpots* spots = nullptr;  // that gathers aim at; null: none
+  const LocalGuess* guess = nullptr;   // control variate of indirect rays; null: none
+  RayObserver observer;
+  bool observesAllShadowRays = false;
+  bool gathersFirstAnew = false;  // no interpolation at first diffuse surfaces
+};
+
+// Each path begins with a new state, and so does each gather: no answer can depend on an earlier path.
+struct PathState {
+  Random random{0};
+  V3d primaryDirection{0, 0, 1};  // unit
+  ShownSource shown;
+  Hit firstHit;                            // of the primary ray
+  CoarseSolution::Links* links = nullptr;  // gets the light that is found, where the path is a patch's
+};
+
+}  // namespace rsphere

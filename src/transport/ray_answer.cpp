@@ -1,0 +1,57 @@
+#include "transport/ray_answer.h"
+
+#include "shade/scattering.h"
+#include "transport/ray_functions.h"
+
+namespace rsphere {
+
+RayAnswer answerOf(const Scene& scene, const Ray& ray) {
+  RayAnswer a;
+  a.origin = ray.origin;
+  a.direction = ray.direction;
+  a.value = ray.value;
+  a.mirroredContribution = ray.mirrored;
+  a.unmirroredContribution = ray.value - ray.mirrored;
+  a.mirroredLength = ray.mirroredLength;
+  a.unmirroredLength = ray.unmirroredLength;
+  a.effectiveLength = apparentLength(ray);
+  a.firstLength = ray.length;
+  a.u = ray.u;
+  a.v = ray.v;
+  a.point = ray.point;
+  if (ray.surface == kNone) return a;
+  const Surface& surface = scene.surfaces[ray.surface];
+  a.unperturbedNormal = ray.fromBehind != ray.insideOut ? -ray.normal : ray.normal;
+  a.normal = ray.normal;
+  if (ray.perturbation.length2() > 0) {
+    // What has no material has not been turned to the ray.
+    const double side = ray.cosine < 0 ? -1 : 1;
+    Interaction at;
+    at.direction = ray.direction;
+    at.normal = side * ray.normal;
+    at.cosine = side * ray.cosine;
+    at.perturbation = side * ray.perturbation;
+    double cosine = 0;
+    a.normal = side * perturbedNormal(at, cosine);
+  }
+  a.surface = scene.surfaceName(surface);
+  a.modifier = scene.modifierName(surface);
+  a.material = scene.materialName(surface);
+  return a;
+}
+
+RayAnswer branchAnswer(const Transport& transport, const Ray& ray) {
+  RayAnswer a = answerOf(transport.scene(), ray);
+  a.rayWeight = ray.weight;
+  a.contribution = ray.contribution * passedBy(ray);
+  const bool dark = ray.value.x + ray.value.y + ray.value.z <= 3 * kNegligible;
+  if (ray.aimedAt != kNone && dark && transport.lights().all()[ray.aimedAt].surface != ray.surface)
+    a.contribution = Rgb(0, 0, 0);
+  return a;
+}
+
+bool needsValue(std::string_view letters) {
+  return letters.find_first_of("vVrxlRXnW") != std::string_view::npos;
+}
+
+}  // namespace rsphere

@@ -1,0 +1,21 @@
+#pragma once
+// What rtrace's output letters report of a ray.
+#include <string_view>
+
+#include "cli/answer.h"
+#include "transport/ray.h"
+#include "transport/transport.h"
+
+namespace rsphere {
+
+// Of a ray that was traced.
+RayAnswer answerOf(const Scene& scene, const Ray& ray);
+
+// Of a ray that an observer was shown: answerOf() with the ray's weight and its contribution, which is zero
+// for a shadow ray that brings no light from its source.
+RayAnswer branchAnswer(const Transport& transport, const Ray& ray);
+
+// Whether the letters need a ray's value, or only what it hits.
+bool needsValue(std::string_view letters);
+
+}  // namespace rsphere

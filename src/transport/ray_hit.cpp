@@ -1,0 +1,99 @@
+#include "transport/ray_hit.h"
+
+#include <cmath>
+
+#include "transport/ray_functions.h"
+
+namespace rsphere {
+namespace {
+
+// Rounded once by a fused multiply-add: where a plane lies at 0, the sign of what rounding leaves of the
+// coordinate decides on which side of the plane the point is, and function files with floor() depend on it.
+V3d along(const V3d& origin, double distance, const V3d& direction) {
+  return V3d(std::fma(distance, direction.x, origin.x), std::fma(distance, direction.y, origin.y),
+             std::fma(distance, direction.z, origin.z));
+}
+
+// Sets the distant source in the direction of a ray. The first one that is neither glow nor an illum that
+// lets light pass hides the others; without one, it is the first glow.
+void findDistant(const Transport& transport, Ray& ray) {
+  const Scene& scene = transport.scene();
+  const auto sees = [&](int32_t surface) {
+    return std::get<Distant>(scene.surfaces[surface].shape).isSeenAlong(ray.direction);
+  };
+  if (ray.aimedAt != kNone) {
+    const LightSource& light = transport.lights().all()[ray.aimedAt];
+    if (light.distant && !light.isVirtual() && sees(light.surface)) ray.surface = light.surface;
+    return;
+  }
+  int32_t glow = kNone;
+  bool passedIllum = false;
+  for (const int32_t s : transport.distant()) {
+    if (!sees(s)) continue;
+    const Material& material = *scene.materialOf(scene.surfaces[s]);
+    if (std::holds_alternative<Glow>(material)) {
+      if (glow == kNone) glow = s;
+    } else if (const auto* illum = std::get_if<Illum>(&material);
+               illum && illum->alternate.kind != Alternate::Kind::modifier) {
+      passedIllum = true;
+    } else {
+      ray.surface = s;
+      return;
+    }
+  }
+  // The illum has the light behind it already; an indirect ray through it would add that light twice.
+  if (passedIllum && (ray.kinds & (kAmbient | kSpecular))) return;
+  ray.surface = glow;
+}
+
+// Sets the hit of a shadow ray to the source that it is aimed at, whatever else is in its way.
+void findTarget(const Transport& transport, Ray& ray) {
+  const Scene& scene = transport.scene();
+  const LightSource& target = transport.lights().all()[ray.aimedAt];
+  ray.point = ray.origin;
+  ray.normal = -ray.direction;
+  ShapeHit hit;
+  if (target.distant && !target.isVirtual()) {
+    findDistant(transport, ray);
+  } else if (intersect(scene.surfaces[target.surface].shape, scene.vertices, ray.origin, ray.direction,
+                       kFarAway, hit)) {
+    ray.surface = target.surface;
+    ray.length = hit.distance;
+    ray.point = along(ray.origin, hit.distance, ray.direction);
+    ray.normal = hit.normal;
+    ray.cosine = hit.cosine;
+  }
+}
+
+}  // namespace
+
+Hit findHit(const Transport& transport, Ray& ray) {
+  if (ray.unobstructed) {
+    findTarget(transport, ray);
+    return {};
+  }
+  const Hit hit = transport.tracer().nearest(ray.origin, ray.direction,
+                                             ray.farthest > kSamePlace ? ray.farthest : kFarAway,
+                                             ray.parent ? ray.parent->surface : kNone);
+  ray.surface = hit.surface;
+  ray.point = ray.origin;
+  ray.normal = -ray.direction;
+  ray.cosine = 1;
+  if (hit.surface != kNone) {
+    ray.length = hit.distance;
+    ray.point = along(ray.origin, hit.distance, ray.direction);
+    ray.normal = hit.normal;
+    ray.cosine = hit.cosine;
+    ray.perturbation = hit.perturbation;
+    ray.u = hit.u;
+    ray.v = hit.v;
+    ray.path = hit.path;
+  } else if (ray.farthest > kSamePlace) {
+    ray.point = along(ray.origin, ray.farthest, ray.direction);
+  } else {
+    findDistant(transport, ray);
+  }
+  return hit;
+}
+
+}  // namespace rsphere

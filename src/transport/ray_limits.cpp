@@ -1,0 +1,45 @@
+#include "transport/ray_limits.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "transport/ray_functions.h"
+
+namespace rsphere {
+
+bool continueRay(const Transport& transport, Random& random, Ray& child, RayKind kind, const Ray& parent,
+                 Rgb& coefficient) {
+  const RayOptions& o = transport.options();
+  inherit(child, parent, kind);
+  if (kind & kReflections) {
+    ++child.level;
+    child.farthest = 0;
+    if (kind == kReflected && !(parent.kinds & ~(kPrimary | kTransmitted)) && parent.surface != kNone &&
+        static_cast<size_t>(parent.surface) < transport.scene().outermost().size() &&
+        planeNormal(transport.scene().surfaces[parent.surface].shape))
+      child.mirror = parent.surface;
+  } else {
+    child.mirror = parent.mirror;
+    child.aimedAt = parent.aimedAt;
+    child.farthest = parent.farthest > kSamePlace ? parent.farthest - parent.length : 0;
+  }
+  child.contribution *= coefficient;
+  child.weight = parent.weight * std::min(1., maxChannel(coefficient));
+  const Rgb& extinction = parent.medium.extinction;
+  const double depth = std::min({extinction.x, extinction.y, extinction.z}) * parent.length;
+  if (depth > .1) child.weight *= std::exp(-depth);
+  if (!(child.weight > 0)) return false;
+  if (child.kinds & kShadow) return true;
+  if (o.reflectionLimit > 0) return child.weight >= o.weightLimit && child.level <= o.reflectionLimit;
+  if (!(o.weightLimit > 0))
+    throw rad::Error("zero ray weight in Russian roulette: -lw must be positive where -lr is not");
+  if (o.reflectionLimit < 0 && child.level > -o.reflectionLimit) return false;
+  if (child.weight >= o.weightLimit) return true;
+  if (random.uniform() * o.weightLimit > child.weight) return false;
+  coefficient *= o.weightLimit / child.weight;
+  child.contribution *= o.weightLimit / child.weight;
+  child.weight = o.weightLimit;
+  return true;
+}
+
+}  // namespace rsphere

@@ -1,0 +1,172 @@
+#include "transport/transport.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/version.h"
+#include "scene/fingerprint.h"
+#include "transport/bright_spots.h"
+#include "transport/coarse_solution.h"
+#include "transport/irradiance_field.h"
+#include "transport/openings.h"
+#include "transport/path_tracer.h"
+#include "transport/ray_functions.h"
+
+namespace rsphere {
+namespace {
+
+// Of all that gathered light follows from besides the scene, this version of the program among it.
+uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAccess& access) {
+  Fingerprint print;
+  print.add(kVersion);
+  print.add(uint64_t{4});  // how it is gathered, between two versions
+  for (const double x :
+       {o.directThreshold, o.directCertainty, o.directJitter, o.sourceSubstructuring, o.specularSampling,
+        o.specularThreshold, o.ambientAccuracy, o.weightLimit, o.mediumEccentricity, o.mediumSampling})
+    print.add(x);
+  for (const Rgb& color : {o.ambientValue, o.mediumExtinction, o.mediumAlbedo})
+    for (int c = 0; c < 3; ++c) print.add(static_cast<double>(color[c]));
+  for (const int n : {o.directRelays, o.chosenSources, o.directPretest, o.ambientBounces, o.ambientResolution,
+                      o.ambientDivisions, o.ambientSuperSamples, o.reflectionLimit})
+    print.add(static_cast<uint64_t>(n));
+  if (o.rotation != 0) print.add(o.rotation);
+  for (const bool b : {o.sourcesVisible, o.backFacesVisible, o.uncorrelated, basicRadiance})
+    print.add(uint64_t{b});
+  for (const auto* names : {&o.ambientExcluded, &o.ambientIncluded}) {
+    print.add(uint64_t{names->size()});
+    for (const std::string& name : *names) print.add(name);
+  }
+  for (const SharedDefinitions& definitions : o.definitions) {
+    print.add(definitions.text);
+    if (definitions.isFile) addFile(print, definitions.text, access);
+  }
+  return print.value();
+}
+
+}  // namespace
+
+Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance irradiance, bool basicRadiance,
+                     const rad::Warn& warn)
+    : scene_(scene),
+      options_(options),
+      irradiance_(irradiance),
+      basicRadiance_(basicRadiance),
+      tracer_(scene, options.backFacesVisible),
+      functions_(scene, warn, options.definitions),
+      lights_(scene, options.directRelays, functions_, warn),
+      presumedShadows_(scene, tracer_, lights_),
+      choice_(scene, lights_),
+      lightOf_(scene.surfaces.size(), kNone) {
+  constantRadiance_.resize(lights_.all().size());
+  for (size_t i = 0; i < lights_.all().size(); ++i) {
+    if (lights_.all()[i].isVirtual()) continue;
+    lightOf_[lights_.all()[i].surface] = static_cast<int32_t>(i);
+    const Surface& surface = scene.surfaces[lights_.all()[i].surface];
+    if (surface.goal ||
+        (surface.modifier == surface.material && scene.modifiers[surface.material].next == kNone))
+      constantRadiance_[i] = sourceRadiance(scene, surface);
+  }
+  for (size_t i = 0; i < scene.surfaces.size(); ++i) {
+    const Surface& s = scene.surfaces[i];
+    const Material* material = scene.materialOf(s);
+    if (scene.importance || !std::holds_alternative<Distant>(s.shape) || !material) continue;
+    const auto radiance = sourceRadiance(*material);
+    if (radiance && maxChannel(*radiance) > kNegligible) distant_.push_back(static_cast<int32_t>(i));
+  }
+  findScatterers(warn);
+  if (options.ambientAccuracy > 0 && options.ambientBounces > 0 && options.ambientDivisions > 0)
+    prepareInterpolation(warn);
+  const bool including = !options.ambientIncluded.empty();
+  const auto& names = including ? options.ambientIncluded : options.ambientExcluded;
+  if (names.empty()) return;
+  ambient_.resize(scene.surfaces.size());
+  for (size_t i = 0; i < scene.surfaces.size(); ++i)
+    ambient_[i] = (std::find(names.begin(), names.end(), scene.modifierName(scene.surfaces[i])) !=
+                   names.end()) == including;
+}
+
+Transport::~Transport() = default;
+
+void Transport::prepareInterpolation(const rad::Warn& warn) {
+  const Box3d& bounds = tracer_.bounds();
+  if (!scene_.importance) {
+    PathTracer probe(*this);
+    auto openings = std::make_unique<Openings>(scene_, bounds,
+                                               [&](const V3d& origin, const V3d& direction, uint64_t seed) {
+                                                 return brightness(probe.glimpse(origin, direction, seed));
+                                               });
+    if (!openings->empty()) openings_ = std::move(openings);
+  }
+  field_ = std::make_unique<IrradianceField>(scene_, bounds, options_);
+  if (options_.ambientBounces > 1) {
+    coarse_ = std::make_unique<CoarseSolution>(scene_, bounds, options_);
+    auto spots = std::make_unique<BrightSpots>(scene_, tracer_, lights_, openings_.get());
+    if (!spots->empty()) spots_ = std::move(spots);
+  }
+  if (!options_.ambientFile.empty())
+    field_->keepIn(AmbientFile::openBeside(options_.ambientFile, fingerprint(scene_),
+                                           fingerprint(options_, basicRadiance_, scene_.files), warn));
+}
+
+bool Transport::glows(std::span<const Surface> surfaces) const {
+  return std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& surface) {
+    const Material* material = scene_.materialOf(surface);
+    const auto* glow = material ? std::get_if<Glow>(material) : nullptr;
+    return glow && !isBlack(glow->radiance);
+  });
+}
+
+bool Transport::isDark() const {
+  return !scene_.importance && lights_.all().empty() && isBlack(options_.ambientValue) &&
+         !glows(scene_.surfaces);
+}
+
+bool Transport::lacksSources() const {
+  return !scene_.importance && lights_.all().empty() &&
+         !(options_.ambientBounces > 0 && glows(scene_.outermost()));
+}
+
+std::optional<uint32_t> Transport::sourceNamed(std::string_view name) const {
+  const auto all = lights_.all();
+  for (size_t i = all.size(); i-- > 0;) {
+    std::string_view rest = name;
+    const LightSource* light = &all[i];
+    for (; light->isVirtual(); light = &all[static_cast<size_t>(light->relayed)]) {
+      const size_t end = rest.find('>');
+      if (end == rest.npos || rest.substr(0, end) != scene_.surfaceName(scene_.surfaces[light->surface]))
+        break;
+      rest.remove_prefix(end + 1);
+    }
+    if (!light->isVirtual() && rest == scene_.surfaceName(scene_.surfaces[light->surface]))
+      return static_cast<uint32_t>(i);
+  }
+  return std::nullopt;
+}
+
+void Transport::findScatterers(const rad::Warn& warn) {
+  for (const Modifier& m : scene_.modifiers) {
+    const auto* material = std::get_if<Material>(&m.content);
+    const auto* mist = material ? std::get_if<Mist>(material) : nullptr;
+    if (!mist) continue;
+    if (scatterersOf_.size() <= mist->number) scatterersOf_.resize(mist->number + 1);
+    auto& own = scatterersOf_[mist->number];
+    for (const std::string& name : mist->sources) {
+      const auto source = sourceNamed(name);
+      if (!source) {
+        // With goals in the scene every lamp is dark.
+        if (warn && !scene_.importance)
+          warn(fmt::format("{}: unknown source \"{}\"", scene_.place(m.primitive), rad::printable(name)));
+        continue;
+      }
+      auto found = std::find(scatterers_.begin(), scatterers_.end(), *source);
+      if (found == scatterers_.end()) found = scatterers_.insert(found, *source);
+      const auto position = static_cast<uint16_t>(found - scatterers_.begin());
+      if (std::find(own.begin(), own.end(), position) == own.end()) own.push_back(position);
+    }
+    if (scatterers_.size() > UINT16_MAX)
+      throw rad::Error(scene_.place(m.primitive) + ": more than 65535 light sources are scattered");
+  }
+}
+
+}  // namespace rsphere

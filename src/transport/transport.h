@@ -1,0 +1,111 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "cli/options.h"
+#include "light/source_choice.h"
+#include "light/sources.h"
+#include "scene/random.h"
+#include "scene/scene.h"
+#include "shade/surface_functions.h"
+#include "trace/tracer.h"
+#include "transport/presumed_shadows.h"
+#include "transport/ray.h"
+
+namespace rsphere {
+
+class BrightSpots;
+class CoarseSolution;
+class IrradianceField;
+class Openings;
+
+// Changes seeds with -Sr; 0 for -Sr 0, where seeds follow from places and rays alone.
+inline uint64_t rotationBits(const RayOptions& options) {
+  return options.rotation == 0 ? 0 : mixBits(options.rotation);
+}
+
+// The scene prepared for tracing, shared by all threads. Constant once it is made, but for the two caches
+// that tracing adds to: field() and coarse(). Keeps a reference to the scene.
+class Transport {
+ public:
+  // basicRadiance: refraction does not change radiance by the square of the index (-Sb). warn: gets the
+  // warnings of SurfaceFunctions and LightSources. Traces some paths where light is interpolated (-aa), to
+  // find the openings that daylight comes in by.
+  Transport(const Scene& scene, const RayOptions& options, Irradiance irradiance, bool basicRadiance = false,
+            const rad::Warn& warn = {});
+  ~Transport();
+
+  const Scene& scene() const { return scene_; }
+  const Tracer& tracer() const { return tracer_; }
+  const LightSources& lights() const { return lights_; }
+  const PresumedShadows& presumedShadows() const { return presumedShadows_; }
+  const SourceChoice& choice() const { return choice_; }
+  const SurfaceFunctions& functions() const { return functions_; }
+  const RayOptions& options() const { return options_; }
+  Irradiance irradiance() const { return irradiance_; }
+  bool basicRadiance() const { return basicRadiance_; }
+  // Index in LightSources of a surface's own light, or kNone.
+  int32_t lightOf(int32_t surface) const { return lightOf_[surface]; }
+  // The radiance that a light source has whatever it is seen from, by index in LightSources; null where that
+  // is to be computed.
+  const Rgb* constantRadiance(uint32_t source) const {
+    return constantRadiance_[source] ? &*constantRadiance_[source] : nullptr;
+  }
+  // Whether indirect light is computed on the surface (-ae, -ai).
+  bool isAmbient(int32_t surface) const { return surface == kNone || ambient_.empty() || ambient_[surface]; }
+  // Of what no mist and no dielectric fills (-me -ma -mg).
+  Medium medium() const {
+    return {options_.mediumExtinction, options_.mediumAlbedo, options_.mediumEccentricity};
+  }
+  // Light sources that some mist names, as indices in LightSources; and which of these one does.
+  const std::vector<uint32_t>& scatterers() const { return scatterers_; }
+  const std::vector<uint16_t>& scatterersOf(const Mist& mist) const { return scatterersOf_[mist.number]; }
+  // Whether nothing can give light: no light sources, no glow, no ambient value, no goals.
+  bool isDark() const;
+  // Whether rtrace warns of it: no light source, and either no surface that glows or no indirect light (-ab),
+  // by which alone glow of no reach lights surfaces. The ambient value does not count.
+  bool lacksSources() const;
+  // Surfaces of type source that shine, in the order of the scene.
+  const std::vector<int32_t>& distant() const { return distant_; }
+  // The irradiance cache of first diffuse surfaces; null without interpolation (-aa 0). Tracing adds to it.
+  IrradianceField* field() const { return field_.get(); }
+  // The coarse solution, which gives the light of second and later diffuse surfaces; null where paths are
+  // followed instead (-aa 0, -ab 1). Tracing adds to it.
+  CoarseSolution* coarse() const { return coarse_.get(); }
+  // The openings that daylight comes in by; null where none were found.
+  const Openings* openings() const { return openings_.get(); }
+  // Patches of strong direct light that gathers aim at; null where none stands out.
+  const BrightSpots* spots() const { return spots_.get(); }
+
+ private:
+  void prepareInterpolation(const rad::Warn& warn);
+  bool glows(std::span<const Surface> surfaces) const;
+  void findScatterers(const rad::Warn& warn);
+  std::optional<uint32_t> sourceNamed(std::string_view name) const;
+
+  const Scene& scene_;
+  RayOptions options_;
+  Irradiance irradiance_;
+  bool basicRadiance_;
+  Tracer tracer_;
+  SurfaceFunctions functions_;
+  LightSources lights_;
+  PresumedShadows presumedShadows_;
+  SourceChoice choice_;
+  std::vector<int32_t> lightOf_;
+  std::vector<std::optional<Rgb>> constantRadiance_;
+  std::vector<int32_t> distant_;
+  std::vector<uint32_t> scatterers_;
+  std::vector<std::vector<uint16_t>> scatterersOf_;  // by Mist::number
+  std::vector<bool> ambient_;                        // by surface; empty: all of them
+  std::unique_ptr<const Openings> openings_;
+  std::unique_ptr<IrradianceField> field_;
+  std::unique_ptr<CoarseSolution> coarse_;
+  std::unique_ptr<const BrightSpots> spots_;
+};
+
+}  // namespace rsphere
