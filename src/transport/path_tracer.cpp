@@ -125,8 +125,7 @@ Ray PathTracer::Path::trace(const V3d& origin, const V3d& direction, double fart
 }
 
 Ray PathTracer::Path::traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed) {
-  state_.primaryDirection = sample.direction;
-  state_.shown = {};
+  begin(seed, sample.direction);
   const LightSource& light = t_.lights().all()[sample.source];
   switch (
       t_.tracer().shadow(point, sample.direction, sample.distance, light.distant ? kNone : light.surface)) {

@@ -698,6 +698,27 @@ TEST_F(Patterns, GoalMayBeAMixture) {
   EXPECT_NEAR(floor.mean(), .5 * factor, 5 * floor.standardError());
 }
 
+// The goal reflects the importance of a second one, which takes random numbers: those of the seed, and not of
+// the path that was traced before.
+TEST_F(Patterns, RaysToAGoalTakeTheRandomNumbersOfTheirSeed) {
+  const std::string text =
+      "void plastic G\n0\n0\n5 .5 .5 .5 0 0\n"
+      "G polygon goal\n0\n0\n12 -1 -1 2 -1 1 2 1 1 2 1 -1 2\n"
+      "G polygon other\n0\n0\n12 -1 -1 0 1 -1 0 1 1 0 -1 1 0\n";
+  const std::vector<std::string> goals = {"G"};
+  const Scene scene = buildScene(rad::readSceneText(text, "room.rad"), {}, goals);
+  const Transport transport(scene, unbiased(), Irradiance::none);
+  const SourceSample sample{.direction = V3d(0, 0, 1), .distance = 1, .normal = V3d(0, 0, -1), .source = 0};
+  const auto toGoal = [&](PathTracer& tracer, uint64_t seed) {
+    return tracer.traceToSource(V3d(0, 0, 1), sample, seed).value;
+  };
+  PathTracer fresh(transport), used(transport);
+  used.trace(V3d(.2, .3, 1), V3d(0, 0, -1), 0, 99);
+  const Rgb first = toGoal(fresh, 7);
+  EXPECT_EQ(toGoal(used, 7), first);
+  EXPECT_NE(toGoal(fresh, 8), first) << "the path takes no random numbers, and the test shows nothing";
+}
+
 TEST_F(Patterns, MixturesNestAsDeepAsMakesSense) {
   const auto nested = [](int depth) {
     std::string text = kGlowA, last = "A";
