@@ -123,14 +123,6 @@ Scattering scatterAtBoundary(const Interaction& at, double inner, const Medium& 
 
 }  // namespace
 
-void frame(const V3d& z, V3d& x, V3d& y) {
-  const double sign = std::copysign(1., z.z);
-  const double a = -1 / (sign + z.z);
-  const double b = z.x * z.y * a;
-  x = V3d(1 + sign * z.x * z.x * a, sign * b, -sign * z.x);
-  y = V3d(b, sign + z.y * z.y * a, -z.y);
-}
-
 V3d diffuseDirection(const V3d& normal, double u1, double u2) {
   V3d x, y;
   frame(normal, x, y);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "field/irradiance_field.h"
 #include "transport/hemisphere_rays.h"
-#include "transport/irradiance_field.h"
 #include "transport/ray_functions.h"
 
 namespace rsphere {

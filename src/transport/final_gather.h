@@ -1,6 +1,6 @@
 #pragma once
 // The rays of sites of the irradiance cache and of patches of the coarse solution.
-#include "transport/hemisphere.h"
+#include "field/hemisphere.h"
 #include "transport/path_state.h"
 #include "transport/ray_follower.h"
 #include "transport/transport.h"

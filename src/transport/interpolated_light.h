@@ -1,7 +1,7 @@
 #pragma once
 // Indirect light from the irradiance cache and from the coarse solution (-aa above 0).
-#include "transport/coarse_solution.h"
-#include "transport/irradiance_field.h"
+#include "field/coarse_solution.h"
+#include "field/irradiance_field.h"
 #include "transport/path_state.h"
 #include "transport/site_gatherer.h"
 #include "transport/transport.h"

@@ -1,8 +1,8 @@
 #pragma once
 // The state of a path while it is traced.
+#include "field/coarse_solution.h"
 #include "scene/random.h"
 #include "trace/tracer.h"
-#include "transport/coarse_solution.h"
 #include "transport/path_observer.h"
 
 namespace rsphere {

@@ -1,8 +1,8 @@
 #pragma once
 // Final gathers, as the irradiance cache and the coarse solution ask for them. Their paths begin anew: they
 // depend on nothing of the path that caused them.
-#include "transport/coarse_solution.h"
-#include "transport/hemisphere.h"
+#include "field/coarse_solution.h"
+#include "field/hemisphere.h"
 
 namespace rsphere {
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "cli/version.h"
+#include "field/coarse_solution.h"
+#include "field/irradiance_field.h"
 #include "scene/fingerprint.h"
 #include "transport/bright_spots.h"
-#include "transport/coarse_solution.h"
-#include "transport/irradiance_field.h"
 #include "transport/openings.h"
 #include "transport/path_tracer.h"
 #include "transport/ray_functions.h"

@@ -1,11 +1,11 @@
-#include "transport/surface_cells.h"
+#include "field/surface_cells.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "scene/even_sequence.h"
+#include "scene/frame.h"
 #include "scene/random.h"
-#include "shade/scattering.h"
 
 namespace rsphere {
 namespace {

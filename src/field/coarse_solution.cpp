@@ -1,4 +1,4 @@
-#include "transport/coarse_solution.h"
+#include "field/coarse_solution.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "transport/irradiance_field.h"
+#include "field/irradiance_field.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "transport/hemisphere.h"
+#include "field/hemisphere.h"
 
 #include <algorithm>
 #include <cmath>

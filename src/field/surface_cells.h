@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "field/hemisphere.h"
 #include "scene/scene.h"
-#include "transport/hemisphere.h"
 
 namespace rsphere {
 

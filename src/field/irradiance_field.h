@@ -16,19 +16,13 @@
 // Memory: if it is bounded (-Sm), the next thread that finds the memory full replaces it by an empty one. The
 // old memory is freed when the last thread has left it. Sites that are needed again are computed again, to
 // the same bits. A thread leaves at the end of each primary ray or earlier.
-#include <array>
-#include <atomic>
-#include <cstdint>
 #include <memory>
-#include <mutex>
-#include <unordered_map>
 
 #include "cli/options.h"
+#include "field/ambient_file.h"
+#include "field/hemisphere.h"
+#include "field/surface_cells.h"
 #include "scene/scene.h"
-#include "transport/ambient_file.h"
-#include "transport/hemisphere.h"
-#include "transport/insert_once.h"
-#include "transport/surface_cells.h"
 
 namespace rsphere {
 
@@ -65,61 +59,26 @@ class IrradianceField {
 
   // The interpolated light at a place: its mean, and how it depends on the normal. False if no site can be
   // used, as in crevices, on the insides of curved surfaces and on meshes; the caller then gathers directly.
-  // reader: the thread's own. The looker must not call find() of the same field.
+  // reader: the thread's own. The looker must not call find() of
+  // the same field.
   bool find(const SurfacePlace& place, FieldReader& reader, SiteLooker& looker, GatheredLight& light);
 
   // The finest spacing of sites (world units) that the options ask for. Smaller detail is not resolved.
-  double finestSpacing() const { return finest_; }
+  double finestSpacing() const;
 
   // Lets go of the memory; it is freed if it has been replaced and this was its last reader.
   void leave(FieldReader& reader) const;
 
   // The number of sites made; sites that were discarded and made again are counted each time.
-  size_t sitesMade() const { return made_.load(std::memory_order_relaxed); }
+  size_t sitesMade() const;
 
   // Bytes held by all memories that are not freed yet. They exceed the bound by at most what the queries
   // under way need.
-  size_t bytes() const { return use_->bytes.load(std::memory_order_relaxed); }
+  size_t bytes() const;
 
  private:
-  friend struct FieldMemory;
-  struct Site;
-  struct Use {
-    std::atomic<size_t> bytes{0};     // held by all memories
-    std::atomic<size_t> reserved{0};  // the sum of their limits
-  };
-  struct KeyHash {
-    size_t operator()(const CellKey& key) const { return key.hash(); }
-  };
-  struct Asked;
-  struct Around;
-
-  void enter(FieldReader& memory);
-  Site& siteOf(const SurfaceChart& chart, const CellKey& key, const Asked& asked);
-  const GatheredLight& lightOf(Site& site, const Asked& asked);
-  bool look(const SurfaceChart& chart, const SurfacePlace& place, int level, const Asked& asked,
-            Around& around);
-  void addFresh(Site* first, Site* last);
-  void save(bool wait);
-  static AmbientFile::Record recordOf(const CellKey& key, const GatheredLight& light);
-  static void fromRecord(const AmbientFile::Record& record, CellKey& key, GatheredLight& light);
-
-  const Scene& scene_;
-  CellGrid grid_;
-  double accuracy_;
-  double finest_;
-  size_t bound_;  // on the bytes of all memories
-  std::shared_ptr<Use> use_ = std::make_shared<Use>();
-  // The memory that new queries use.
-  std::atomic<const FieldMemory*> newest_{nullptr};
-  std::shared_ptr<FieldMemory> kept_;
-  std::mutex replacing_;  // held only while a pointer is copied
-  std::atomic<size_t> made_{0};
-  std::unordered_map<CellKey, GatheredLight, KeyHash> known_;  // sites of earlier runs
-  std::unique_ptr<AmbientFile> file_;
-  std::mutex writing_;                 // only tried: no thread waits for it
-  std::atomic<Site*> fresh_{nullptr};  // not in the file yet; a list through Site::nextFresh
-  std::atomic<size_t> gathered_{0};
+  class Cache;
+  std::unique_ptr<Cache> cache_;
 };
 
 }  // namespace rsphere

@@ -24,10 +24,10 @@
 #include <vector>
 
 #include "cli/options.h"
+#include "field/hemisphere.h"
+#include "field/insert_once.h"
+#include "field/surface_cells.h"
 #include "scene/scene.h"
-#include "transport/hemisphere.h"
-#include "transport/insert_once.h"
-#include "transport/surface_cells.h"
 
 namespace rsphere {
 

@@ -1,4 +1,4 @@
-#include "transport/ambient_file.h"
+#include "field/ambient_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

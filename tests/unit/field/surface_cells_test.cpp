@@ -1,4 +1,4 @@
-#include "transport/surface_cells.h"
+#include "field/surface_cells.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "transport/ambient_file.h"
+#include "field/ambient_file.h"
 
 #include <gtest/gtest.h>
 

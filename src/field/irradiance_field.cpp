@@ -1,0 +1,299 @@
+#include "field/irradiance_field.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <mutex>
+#include <optional>
+
+#include "field/insert_once.h"
+#include "field/site_interpolation.h"
+#include "field/stored_sites.h"
+
+namespace rsphere {
+namespace {
+
+// Approximate overhead of an allocation and of an entry of the table (bytes).
+constexpr size_t kBlock = 16, kNode = 96;
+
+constexpr size_t kNoBound = SIZE_MAX;
+
+// -ar 0 sets no limit. Cells as fine as this resolution resolve crumbs on a table.
+constexpr int kUnlimited = 1 << 16;
+
+// The widest cells, for each unit of -aa: in harmonic mean distances of their surroundings; and in the size
+// of the scene.
+constexpr double kWidest = 3;
+constexpr double kOpen = .1;
+
+// Levels beyond the finest spacing that are tried where sites are hidden from the place.
+constexpr int kBeyondFinest = 2;
+
+// The factor on the allowed error from level to level: the smaller the cells, the smaller the part of a
+// picture that they cover.
+constexpr double kMoreError = 1.6;
+
+// The factor on the predicted error of an extrapolation.
+constexpr double kShiftError = 2;
+
+// Finer cells are tried where the sites that see the place have less than this share of the weights.
+constexpr double kLeastServed = .05;
+
+// The same on small surfaces that share the cells of their plane. Their sites may lie beside all of the
+// surfaces, and a room may be smaller than a cell, so that nearly all sites must see the place.
+constexpr double kLeastServedOfShared = .95;
+
+// The share of an answer that a level of cells gives: all below roughness 1, none above 1.5.
+double shareOf(double roughness) { return std::clamp(3 - 2 * roughness, 0., 1.); }
+
+// A cell's site, and its light once that is gathered.
+struct Site {
+  CellKey key;
+  bool usable = false;
+  GatherSite at;
+  double reach = 0;
+  bool smallObjectNear = false;  // smaller than the cell, so that interpolation would miss it
+  std::atomic<const GatheredLight*> light{nullptr};
+  std::atomic<bool> begun{false};  // a thread gathers it, or has
+
+  ~Site() { delete light.load(std::memory_order_relaxed); }
+};
+
+// The bytes of all memories of a field.
+struct Use {
+  std::atomic<size_t> bytes{0};     // held
+  std::atomic<size_t> reserved{0};  // the sum of the limits
+};
+
+}  // namespace
+
+// The sites of a field, until they fill its limit.
+struct FieldMemory {
+  const size_t limit;
+  const std::shared_ptr<Use> use;
+  std::atomic<size_t> bytes{0};
+  InsertOnce<CellKey, Site> sites;
+
+  FieldMemory(size_t most, std::shared_ptr<Use> by)
+      : limit(most), use(std::move(by)), sites(logBuckets(most)) {
+    use->reserved.fetch_add(limit, std::memory_order_relaxed);
+    add(sizeof(void*) << logBuckets(most));
+  }
+  ~FieldMemory() {
+    use->reserved.fetch_sub(limit, std::memory_order_relaxed);
+    use->bytes.fetch_sub(bytes.load(std::memory_order_relaxed), std::memory_order_relaxed);
+  }
+  void add(size_t more) {
+    bytes.fetch_add(more, std::memory_order_relaxed);
+    use->bytes.fetch_add(more, std::memory_order_relaxed);
+  }
+  bool isFull() const { return bytes.load(std::memory_order_relaxed) > limit; }
+
+  static unsigned logBuckets(size_t most) {
+    return std::clamp<unsigned>(std::bit_width(most / sizeof(Site)), 4, 16);
+  }
+};
+
+class IrradianceField::Cache {
+ public:
+  Cache(const Scene& scene, const Box3d& bounds, const RayOptions& options)
+      : scene_(scene),
+        grid_(bounds),
+        accuracy_(options.ambientAccuracy),
+        // RADIANCE's own meaning of -ar.
+        finest_(grid_.size * std::min(accuracy_, .5) /
+                (options.ambientResolution > 0 ? options.ambientResolution : kUnlimited)),
+        bound_(options.fieldMemory > 0 ? static_cast<size_t>(options.fieldMemory * 1e6) : kNoBound) {}
+
+  bool find(const SurfacePlace& place, FieldReader& reader, SiteLooker& looker, GatheredLight& light);
+  void keepIn(std::unique_ptr<AmbientFile> file) { stored_.emplace(std::move(file)); }
+  double finestSpacing() const { return finest_; }
+  bool isBounded() const { return bound_ != kNoBound; }
+  size_t sitesMade() const { return made_.load(std::memory_order_relaxed); }
+  size_t bytes() const { return use_->bytes.load(std::memory_order_relaxed); }
+
+ private:
+  // The two sides of a query.
+  struct Asked {
+    FieldMemory& memory;
+    SiteLooker& looker;
+  };
+
+  void enter(FieldReader& memory);
+  Site& siteOf(const SurfaceChart& chart, const CellKey& key, const Asked& asked);
+  const GatheredLight& lightOf(Site& site, const Asked& asked);
+  bool look(const SurfaceChart& chart, const SurfacePlace& place, int level, const Asked& asked,
+            SitesAround& around);
+  int firstLevel(const SurfaceChart& chart, int finest, const Asked& asked);
+
+  const Scene& scene_;
+  CellGrid grid_;
+  double accuracy_;
+  double finest_;
+  size_t bound_;  // on the bytes of all memories
+  std::shared_ptr<Use> use_ = std::make_shared<Use>();
+  // The memory that new queries use.
+  std::atomic<const FieldMemory*> newest_{nullptr};
+  std::shared_ptr<FieldMemory> kept_;
+  std::mutex replacing_;  // held only while a pointer is copied
+  std::atomic<size_t> made_{0};
+  std::optional<StoredSites> stored_;
+};
+
+// Lets a thread begin its query in the newest memory, which is replaced if it is full.
+void IrradianceField::Cache::enter(FieldReader& memory) {
+  if (memory && memory.get() == newest_.load(std::memory_order_relaxed) && !memory->isFull()) return;
+  const std::shared_ptr<FieldMemory> left = std::move(memory);
+  std::shared_ptr<FieldMemory> full;  // freed outside the lock
+  const std::lock_guard lock(replacing_);
+  if (!kept_ || kept_->isFull()) {
+    full = std::move(kept_);
+    // One memory is queried while others leave a second one; less room is left where more are not freed yet.
+    const size_t reserved = use_->reserved.load(std::memory_order_relaxed);
+    const size_t limit =
+        bound_ == kNoBound ? kNoBound : std::min(bound_ / 2, bound_ - std::min(bound_, reserved));
+    kept_ = std::make_shared<FieldMemory>(limit, use_);
+    newest_.store(kept_.get(), std::memory_order_relaxed);
+  }
+  memory = kept_;
+}
+
+Site& IrradianceField::Cache::siteOf(const SurfaceChart& chart, const CellKey& key, const Asked& asked) {
+  return asked.memory.sites.findOrAdd(key, [&] {
+    auto made = std::make_unique<Site>();
+    made->key = key;
+    if (const auto at = chart.site(grid_, key)) {
+      made->usable = true;
+      made->at = *at;
+      made->reach = asked.looker.reach(*at);
+      made->smallObjectNear = grid_.side(key.level) > finest_ &&
+                              asked.looker.smallObjectNear(*at, grid_.side(key.level), grid_.lift);
+    }
+    asked.memory.add(sizeof(Site) + kNode);
+    made_.fetch_add(1, std::memory_order_relaxed);
+    return made;
+  });
+}
+
+const GatheredLight& IrradianceField::Cache::lightOf(Site& site, const Asked& asked) {
+  if (const GatheredLight* light = site.light.load(std::memory_order_acquire)) return *light;
+  site.begun.store(true, std::memory_order_relaxed);
+  const GatheredLight* const known = stored_ ? stored_->find(site.key) : nullptr;
+  auto gathered =
+      std::make_unique<GatheredLight>(known ? *known : asked.looker.gather(site.at, site.key.hash()));
+  const GatheredLight* first = nullptr;
+  if (!site.light.compare_exchange_strong(first, gathered.get(), std::memory_order_acq_rel)) return *first;
+  const GatheredLight& light = *gathered.release();
+  asked.memory.add(sizeof(GatheredLight) + kBlock);
+  if (stored_ && !known) stored_->add(site.key, light);
+  return light;
+}
+
+// Fills in the sites of a level that see the place, and their light. False if these have too small a share of
+// the weights.
+bool IrradianceField::Cache::look(const SurfaceChart& chart, const SurfacePlace& place, int level,
+                                  const Asked& asked, SitesAround& around) {
+  // In steps from the middles of the cells.
+  const double a = chart.u() / chart.stepU(grid_, level) - .5, b = chart.v() / chart.stepV(grid_, level) - .5;
+  const auto i = static_cast<int64_t>(std::floor(a)), j = static_cast<int64_t>(std::floor(b));
+  const double across = a - std::floor(a), along = b - std::floor(b);
+  around = {};
+  std::array<Site*, 4> sites;
+  for (int c = 0; c < 4; ++c) {
+    const double weight = ((c & 1) ? across : 1 - across) * ((c >> 1) ? along : 1 - along);
+    if (!(weight > 1e-6)) continue;
+    Site* const site = &siteOf(chart, chart.cell(grid_, level, i + (c & 1), j + (c >> 1)), asked);
+    // At the edge of the surface neighbours are the same.
+    int k = 0;
+    while (k < around.count && sites[k] != site) ++k;
+    if (k == around.count) {
+      if (!site->usable) continue;
+      const V3d way = place.point - site->at.point;
+      // Above the bulge of a curved surface.
+      const double height =
+          grid_.lift +
+          (chart.isCurved() ? .15 * way.length() * (place.normal - site->at.normal).length() : 0);
+      if (!asked.looker.sees(site->at.point + (height - grid_.lift) * site->at.normal,
+                             place.point + height * place.normal))
+        continue;
+      sites[around.count] = site;
+      around.site[around.count] = &site->at;
+      around.weight[around.count++] = 0;
+    }
+    around.weight[k] += weight;
+    around.served += weight;
+  }
+  if (around.served < (chart.isShared() ? kLeastServedOfShared : kLeastServed)) return false;
+  // Sites that another thread gathers at the moment come last: that thread may have finished by then.
+  for (int k = 0; k < around.count; ++k) {
+    Site& site = *sites[k];
+    const bool busy =
+        site.begun.load(std::memory_order_relaxed) && !site.light.load(std::memory_order_relaxed);
+    around.light[k] = busy ? nullptr : &lightOf(site, asked);
+  }
+  for (int k = 0; k < around.count; ++k)
+    if (!around.light[k]) around.light[k] = &lightOf(*sites[k], asked);
+  return true;
+}
+
+// The level of the widest cells that the surroundings of the place allow.
+int IrradianceField::Cache::firstLevel(const SurfaceChart& chart, int finest, const Asked& asked) {
+  int level = std::min(grid_.levelOf(std::min(chart.extent(), kOpen * grid_.size)), finest);
+  for (; level < finest; ++level) {
+    const Site& site = siteOf(chart, chart.cellAt(grid_, level, chart.u(), chart.v()), asked);
+    if (site.usable && !site.smallObjectNear && grid_.side(level) <= kWidest * accuracy_ * site.reach) break;
+  }
+  return level;
+}
+
+bool IrradianceField::Cache::find(const SurfacePlace& place, FieldReader& reader, SiteLooker& looker,
+                                  GatheredLight& light) {
+  auto chart = SurfaceChart::of(scene_, grid_, place);
+  if (!chart) return false;
+  if (chart->extent() < finest_) {
+    if (chart->isCurved()) return false;
+    chart = SurfaceChart::ofPlane(grid_, place);
+  }
+  enter(reader);
+  const Asked asked{*reader, looker};
+  const int finest = grid_.levelOf(finest_), last = std::min(finest + kBeyondFinest, CellGrid::kLevels);
+  const double tolerance = accuracy_ / 3;
+  light = {};
+  double missing = 1, allowed = 1;
+  for (int level = firstLevel(*chart, finest, asked); level <= last; ++level, allowed *= kMoreError) {
+    SitesAround around;
+    if (!look(*chart, place, level, asked, around)) continue;
+    double extrapolationError = 0;
+    const GatheredLight here = around.at(place.point, extrapolationError);
+    const double roughness =
+        std::max(around.roughness(tolerance), extrapolationError * kShiftError / tolerance) / allowed;
+    const double share = level >= finest ? 1 : shareOf(roughness);
+    blend(light, here, static_cast<float>(missing * share));
+    missing *= 1 - share;
+    if (missing <= 0) return true;
+  }
+  if (missing >= 1) return false;
+  const GatheredLight found = light;
+  light = {};
+  blend(light, found, static_cast<float>(1 / (1 - missing)));
+  return true;
+}
+
+IrradianceField::IrradianceField(const Scene& scene, const Box3d& bounds, const RayOptions& options)
+    : cache_(std::make_unique<Cache>(scene, bounds, options)) {}
+IrradianceField::~IrradianceField() = default;
+
+void IrradianceField::keepIn(std::unique_ptr<AmbientFile> file) { cache_->keepIn(std::move(file)); }
+bool IrradianceField::find(const SurfacePlace& place, FieldReader& reader, SiteLooker& looker,
+                           GatheredLight& light) {
+  return cache_->find(place, reader, looker, light);
+}
+double IrradianceField::finestSpacing() const { return cache_->finestSpacing(); }
+void IrradianceField::leave(FieldReader& reader) const {
+  if (cache_->isBounded()) reader = {};
+}
+size_t IrradianceField::sitesMade() const { return cache_->sitesMade(); }
+size_t IrradianceField::bytes() const { return cache_->bytes(); }
+
+}  // namespace rsphere
