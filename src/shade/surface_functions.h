@@ -15,10 +15,10 @@
 #include <vector>
 
 #include "cli/options.h"
-#include "rad_parser/calc_library.h"
-#include "rad_parser/calc_scene.h"
+#include "rad_parser/calc/library.h"
 #include "rad_parser/data_file.h"
 #include "rad_parser/font_file.h"
+#include "rad_parser/rayinit/interface.h"
 #include "rad_parser/xform.h"
 #include "scene/scene.h"
 #include "shade/bsdf.h"

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "rad_parser/calc_scene.h"
-#include "rad_parser/calc_syntax.h"
+#include "rad_parser/calc/syntax.h"
+#include "rad_parser/rayinit/interface.h"
 
 // The input is a function file; its last line is the expression.
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -9,7 +9,7 @@
 
 #include <random>
 
-#include "rad_parser/calc_scene.h"
+#include "rad_parser/rayinit/interface.h"
 
 namespace {
 

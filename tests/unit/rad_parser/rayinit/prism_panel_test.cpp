@@ -1,4 +1,4 @@
-#include "rad_parser/prism_panel.h"
+#include "rad_parser/rayinit/prism_panel.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "rad_parser/calc_scene.h"
 #include "rad_parser/error.h"
+#include "rad_parser/rayinit/interface.h"
 
 namespace rad {
 namespace {

@@ -1,10 +1,10 @@
-#include "rad_parser/calc_scene.h"
+#include "rad_parser/rayinit/interface.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "rad_parser/calc_math.h"
+#include "rad_parser/calc/noise.h"
 
 namespace rad::calc {
 namespace {

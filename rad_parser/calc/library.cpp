@@ -1,4 +1,4 @@
-#include "rad_parser/calc_library.h"
+#include "rad_parser/calc/library.h"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,8 @@
 #include <mutex>
 #include <unordered_map>
 
-#include "rad_parser/calc_compile.h"
-#include "rad_parser/calc_syntax.h"
+#include "rad_parser/calc/compile.h"
+#include "rad_parser/calc/syntax.h"
 #include "rad_parser/file_path.h"
 
 namespace rad::calc {

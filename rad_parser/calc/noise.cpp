@@ -1,4 +1,4 @@
-#include "rad_parser/calc_math.h"
+#include "rad_parser/calc/noise.h"
 
 #include <array>
 

@@ -1,4 +1,4 @@
-#include "calc_fixture.h"
+#include "fixture.h"
 #include "rad_parser/file_path.h"
 
 namespace rad::calc {

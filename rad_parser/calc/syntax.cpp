@@ -1,4 +1,4 @@
-#include "rad_parser/calc_syntax.h"
+#include "rad_parser/calc/syntax.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "rad_parser/calc_program.h"
+#include "rad_parser/calc/program.h"
 
 #include <fmt/format.h>
 #include <math.h>  // j0 and its kin are POSIX, not in namespace std
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rad_parser/calc_math.h"
+#include "rad_parser/calc/noise.h"
 #include "rad_parser/error.h"
 
 namespace rad::calc {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "rad_parser/calc_library.h"
+#include "rad_parser/calc/library.h"
 
 namespace rad::calc {
 

@@ -1,4 +1,4 @@
-#include "rad_parser/prism_panel.h"
+#include "rad_parser/rayinit/prism_panel.h"
 
 #include <algorithm>
 #include <cmath>

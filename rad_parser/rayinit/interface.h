@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-#include "rad_parser/calc_library.h"
+#include "rad_parser/calc/library.h"
 
 // What scenes take for granted in function files: the variables and functions of RADIANCE's rtrace, and the
 // definitions of its rayinit.cal. The renderer supplies values for the inputs; it need not know how they are

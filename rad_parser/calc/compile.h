@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "rad_parser/calc_program.h"
-#include "rad_parser/calc_syntax.h"
+#include "rad_parser/calc/program.h"
+#include "rad_parser/calc/syntax.h"
 
-// From bound trees to programs. For calc_library.cpp; others use calc::Library.
+// From bound trees to programs. For library.cpp; others use calc::Library.
 namespace rad::calc {
 
 // A function that the language always has. arity: the arguments that it needs; more are ignored, except by

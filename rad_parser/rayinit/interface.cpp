@@ -1,4 +1,4 @@
-#include "rad_parser/calc_scene.h"
+#include "rad_parser/rayinit/interface.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "rad_parser/prism_panel.h"
+#include "rad_parser/rayinit/prism_panel.h"
 
 namespace rad::calc {
 namespace {

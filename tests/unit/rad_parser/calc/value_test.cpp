@@ -4,8 +4,8 @@
 #include <random>
 #include <thread>
 
-#include "calc_fixture.h"
-#include "rad_parser/calc_syntax.h"
+#include "fixture.h"
+#include "rad_parser/calc/syntax.h"
 
 namespace rad::calc {
 namespace {
@@ -362,7 +362,8 @@ class RandomFile {
       variables_.push_back(constant_);
       parameters_ = {"a", "b"};
       constant_ = pick(4) == 0;
-      text += "f" + std::to_string(i) + "(a, b)" + (constant_ ? " : " : " = ") + tree(constant_ ? 2 : 3) + ";\n";
+      text +=
+          "f" + std::to_string(i) + "(a, b)" + (constant_ ? " : " : " = ") + tree(constant_ ? 2 : 3) + ";\n";
       functions_.push_back(constant_);
     }
     constant_ = false;

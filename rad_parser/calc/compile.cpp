@@ -1,4 +1,4 @@
-#include "rad_parser/calc_compile.h"
+#include "rad_parser/calc/compile.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <map>
 #include <unordered_map>
 
-#include "rad_parser/calc_math.h"
+#include "rad_parser/calc/noise.h"
 #include "rad_parser/error.h"
 
 // How a program is made. Function files are many small definitions that refer to each other, so:

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "rad_parser/calc_program.h"
+#include "rad_parser/calc/program.h"
 #include "rad_parser/error.h"
 
 // The definitions of function files, and programs made from them.
