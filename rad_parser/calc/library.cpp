@@ -12,7 +12,6 @@
 
 #include "rad_parser/calc/compile.h"
 #include "rad_parser/calc/syntax.h"
-#include "rad_parser/file_path.h"
 
 namespace rad::calc {
 namespace {
@@ -294,11 +293,14 @@ struct Library::Tables {
     begun = true;
   }
 
+  std::string searched(std::string_view file) const {
+    return interface.searched != nullptr ? interface.searched(file) : std::string();
+  }
+
   SourceText need(std::string_view file) {
     std::optional<SourceText> source = load(file);
     if (!source)
-      throw Error(fmt::format("cannot find function file \"{}\"{}", file, FileAccess().remark(file)),
-                  Status::system);
+      throw Error(fmt::format("cannot find function file \"{}\"{}", file, searched(file)), Status::system);
     return std::move(*source);
   }
 
@@ -315,7 +317,7 @@ struct Library::Tables {
     std::optional<SourceText> source = load(request.file);
     if (!source) {
       throw Error(fmt::format("{}: cannot find function file \"{}\"{}", request.place, request.file,
-                              FileAccess().remark(request.file)),
+                              searched(request.file)),
                   Status::system);
     }
     try {

@@ -39,6 +39,8 @@ struct Interface {
   std::string_view
       preludeName;  // the file that is read first, into the shared context ("rayinit.cal"); may be ""
   std::string_view preludeText;  // used where there is no such file
+  // The end of a message about a function file that was not found (" in .:/usr/local/lib/ray"); may be null.
+  std::string (*searched)(std::string_view file) = nullptr;
 };
 
 // Finds and reads a function file; nullopt where there is none. Called with the library locked.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "rad_parser/file_path.h"
 #include "rad_parser/rayinit/prism_panel.h"
 
 namespace rad::calc {
@@ -160,6 +161,7 @@ Interface sceneInterface() {
              {"fprism_val", 3, bits({Dx, Dy, Dz, DxA, DyA, DzA}), fprismValue}};
   i.preludeName = "rayinit.cal";
   i.preludeText = kRayinit;
+  i.searched = [](std::string_view file) { return FileAccess().remark(file); };
   return i;
 }
 
