@@ -10,7 +10,8 @@
 #include <mutex>
 #include <unordered_map>
 
-#include "rad_parser/calc/compile.h"
+#include "rad_parser/calc/code_writer.h"
+#include "rad_parser/calc/expand.h"
 #include "rad_parser/calc/syntax.h"
 
 namespace rad::calc {
@@ -36,6 +37,10 @@ std::vector<std::string> candidates(std::string_view name, std::string_view cont
     const size_t next = context.find(kMark, 1);
     context.remove_prefix(next == std::string_view::npos ? context.size() : next);
   }
+}
+
+std::shared_ptr<const Program> compileTrees(const CompileInput& input, std::span<const Syntax> trees) {
+  return writeProgram(expandExpressions(input, trees));
 }
 
 }  // namespace
@@ -143,7 +148,7 @@ struct Library::Tables {
   std::optional<double> constantValue(const Syntax& tree, const std::string& place) {
     std::shared_ptr<const Program> program;
     try {
-      program = compileExpressions(compileInput(place), {&tree, 1});
+      program = compileTrees(compileInput(place), {&tree, 1});
     } catch (const Error&) {
       return std::nullopt;  // reported if it is ever needed
     }
@@ -166,7 +171,7 @@ struct Library::Tables {
     input.reals = std::span<const double>();
     try {
       State state;
-      compileExpressions(input, {&tree, 1})->evaluate({}, state);
+      compileTrees(input, {&tree, 1})->evaluate({}, state);
     } catch (const Error&) {
       return true;
     }
@@ -380,7 +385,7 @@ std::shared_ptr<const Program> Library::compile(const Request& request) {
     trees.push_back(parseExpression(text, request.place));
     tables_->bind(trees.back(), context, request.place, 0);
   }
-  return tables_->programs[key] = compileExpressions(tables_->compileInput(request), trees);
+  return tables_->programs[key] = compileTrees(tables_->compileInput(request), trees);
 }
 
 std::shared_ptr<const Program> Library::compileCall(const Request& request, std::string_view function,
@@ -392,7 +397,7 @@ std::shared_ptr<const Program> Library::compileCall(const Request& request, std:
     throw Error(fmt::format("{}: expected a function's name, got \"{}\"", request.place, function));
   }
   const int symbol = tables_->refer(name.text, context);
-  return calc::compileCall(tables_->compileInput(request), symbol, count);
+  return writeProgram(expandCall(tables_->compileInput(request), symbol, count));
 }
 
 int Library::functionArity(std::string_view file, std::string_view name) {

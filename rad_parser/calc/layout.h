@@ -1,0 +1,50 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "rad_parser/calc/graph.h"
+
+// Which block of code computes each node of a frame, and where its value is kept. For code_writer.h.
+//
+// Blocks are nested: the root is always evaluated, and each branch of an if() or select() is a block within
+// the block of that operation. A node is placed in the innermost block that contains all its uses. If no use
+// is certain to be reached from there, and the node costs more than a test, it becomes a cell: a block of its
+// own that is evaluated once, when its value is first needed. An argument of a call is also a block of its
+// own, which the called frame evaluates when it needs the parameter.
+namespace rad::calc {
+
+struct Block {
+  uint32_t parent = kNone;
+  uint32_t depth = 0;
+  bool isInline =
+      true;  // entered only from its parent, where its operation is; false for cells and arguments
+  std::vector<Id> nodes;  // operands before the operations that use them
+};
+
+struct Placement {
+  uint32_t block = kNone;  // kNone: the node is not used
+  bool isCell = false;
+  uint32_t cell = 0;  // number among the frame's cells: of cells and parameters
+  uint32_t reg = 0;   // register of the value, from the frame's first
+  // if(), select(), calls: the block of the first branch or postponed argument. The others follow it.
+  uint32_t firstBlock = kNone;
+};
+
+struct Layout {
+  static constexpr uint32_t kRoot = 0;  // index of the root in blocks
+
+  std::vector<Block> blocks;
+  std::vector<Placement> nodes;  // by Id
+  // Registers are used by constants first, then by parameters, then by all other nodes.
+  std::vector<double> constants;
+  uint32_t registers = 0;
+  uint32_t cells = 0;  // the first ones belong to the parameters
+};
+
+Layout layOut(const FrameGraph& frame);
+
+// Whether a call passes this argument as code instead of as a value, because the argument is expensive, may
+// fail, or is a parameter of the caller, which may itself be code that has not run yet.
+bool isThunk(const Node& argument);
+
+}  // namespace rad::calc
