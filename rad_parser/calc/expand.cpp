@@ -137,9 +137,7 @@ class Expander {
       case Kind::product: {
         Id left = compile(tree.args[0], scope);
         for (size_t i = 1; i < tree.args.size(); ++i) {
-          const char c = tree.text[i - 1];
-          const Op op = c == '+' ? Op::add : c == '-' ? Op::subtract : c == '*' ? Op::multiply : Op::divide;
-          left = graph.operate(op, left, compile(tree.args[i], scope));
+          left = graph.operate(operatorOf(tree.text[i - 1]), left, compile(tree.args[i], scope));
         }
         return left;
       }

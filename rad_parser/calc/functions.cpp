@@ -33,4 +33,8 @@ const LibraryFunction* findLibraryFunction(std::string_view name) {
   return found != std::end(kLibrary) ? found : nullptr;
 }
 
+Op operatorOf(char c) {
+  return c == '+' ? Op::add : c == '-' ? Op::subtract : c == '*' ? Op::multiply : Op::divide;
+}
+
 }  // namespace rad::calc

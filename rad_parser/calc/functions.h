@@ -16,4 +16,7 @@ struct LibraryFunction {
 // The library function of this name, or null.
 const LibraryFunction* findLibraryFunction(std::string_view name);
 
+// The operation of one of the operators + - * /.
+Op operatorOf(char c);
+
 }  // namespace rad::calc

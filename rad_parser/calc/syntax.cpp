@@ -13,10 +13,8 @@ namespace {
 
 using Kind = Syntax::Kind;
 
-// The C library's classes depend on the locale; the language does not.
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-bool isNamePart(char c) { return isLetter(c) || isDigit(c) || c == '_' || c == '.' || c == '`'; }
 bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 class Parser {
@@ -343,6 +341,8 @@ void printTo(std::string& out, const Syntax& s, int least) {
 }
 
 }  // namespace
+
+bool isNamePart(char c) { return isLetter(c) || isDigit(c) || c == '_' || c == '.' || c == kContextMark; }
 
 std::vector<Definition> parseDefinitions(std::string_view text, std::string_view file, uint32_t firstLine) {
   return Parser(text, file, firstLine, false).definitions();

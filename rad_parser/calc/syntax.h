@@ -19,6 +19,12 @@
 // {Comments nest}.
 namespace rad::calc {
 
+inline constexpr char kContextMark = '`';
+
+// Whether a character may be part of a name. The C library's character classes depend on the locale; the
+// language does not.
+bool isNamePart(char c);
+
 struct Syntax {
   enum class Kind : uint8_t { number, channel, name, parameter, call, negate, sum, product, power };
   Kind kind = Kind::number;

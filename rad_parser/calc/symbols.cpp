@@ -1,0 +1,225 @@
+#include "rad_parser/calc/symbols.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "rad_parser/calc/code_writer.h"
+
+namespace rad::calc {
+namespace {
+
+using Kind = Syntax::Kind;
+
+bool isNumber(const Syntax& s) { return s.kind == Kind::number; }
+
+void setNumber(Syntax& tree, double number) {
+  Syntax result;
+  result.kind = Kind::number;
+  result.line = tree.line;
+  result.number = number;
+  tree = std::move(result);
+}
+
+void refuse(uint32_t faults, const std::string& place) {
+  if (faults == 0) return;
+  throw Error(fmt::format("{}: constant expression has no value: {}", place,
+                          faults & kDivisionByZero ? "division by zero"
+                          : faults & kIllegalPower ? "illegal power"
+                          : faults & kDomainError  ? "domain error"
+                                                   : "range error"));
+}
+
+// The faults of a library function that is called with numbers.
+uint32_t faultsOf(const LibraryFunction& f, const Syntax& call) {
+  uint32_t faults = 0;
+  const auto number = [&](size_t i) { return i < call.args.size() ? call.args[i].number : 0; };
+  if (f.op == Op::select) {
+    const double n = number(1);
+    const bool exists = n >= -.5 && n + .5 < static_cast<double>(call.args.size()) - 1;
+    return exists ? 0u : uint32_t{kDomainError};
+  }
+  if (f.op != Op::ifPositive) apply(f.op, number(1), number(2), number(3), faults);
+  return faults;
+}
+
+}  // namespace
+
+std::vector<std::string> candidates(std::string_view name, std::string_view context) {
+  const bool local = name.front() == kContextMark;
+  if (local) name.remove_prefix(1);
+  if (!name.empty() && name.back() == kContextMark) return {std::string(name.substr(0, name.size() - 1))};
+  std::vector<std::string> all;
+  while (true) {
+    all.push_back(std::string(name) + std::string(context));
+    if (local || context.empty()) return all;
+    const size_t next = context.find(kContextMark, 1);
+    context.remove_prefix(next == std::string_view::npos ? context.size() : next);
+  }
+}
+
+SymbolTable::SymbolTable(size_t inputs, std::span<const HostFunction> hosts, Warn warn)
+    : inputs_(inputs), hosts_(hosts), warn_(std::move(warn)) {}
+
+int SymbolTable::find(const std::string& qualified) const {
+  const auto found = byName_.find(qualified);
+  return found == byName_.end() ? -1 : found->second;
+}
+
+const HostFunction* SymbolTable::findHost(std::string_view name) const {
+  const auto found =
+      std::find_if(hosts_.begin(), hosts_.end(), [&](const HostFunction& h) { return h.name == name; });
+  return found != hosts_.end() ? &*found : nullptr;
+}
+
+int SymbolTable::insert(const std::string& qualified) {
+  const auto [it, isNew] = byName_.try_emplace(qualified, static_cast<int>(symbols_.size()));
+  if (isNew) symbols_.push_back({qualified, nullptr, findLibraryFunction(qualified), findHost(qualified)});
+  return it->second;
+}
+
+int SymbolTable::refer(const std::string& name, const std::string& context) {
+  const std::vector<std::string> all = candidates(name, context);
+  for (const std::string& qualified : all) {
+    const int known = find(qualified);
+    if (known >= 0) return known;
+  }
+  const bool isProvided = findLibraryFunction(name) != nullptr || findHost(name) != nullptr;
+  return insert(isProvided ? name : all.front());
+}
+
+CompileInput SymbolTable::compileInput(std::string place) const {
+  CompileInput input;
+  input.symbols = symbols_;
+  input.inputs = inputs_;
+  input.place = std::move(place);
+  return input;
+}
+
+bool SymbolTable::define(Definition definition, const std::string& context) {
+  bind(definition.body, context, definition.file, definition.line != 0);
+  const std::string qualified = candidates(definition.name, context).front();
+  if (qualified.empty()) {
+    throw Error(fmt::format("{}:{}: expected a name to define", definition.file, definition.line));
+  }
+  Symbol& symbol = symbols_[static_cast<size_t>(insert(qualified))];
+  const Definition* before = symbol.definition;
+  if (before != nullptr && before->constant && warn_ && !same(before->body, definition.body)) {
+    warn_(fmt::format("{}:{}: constant \"{}\" redefined", definition.file, definition.line, qualified));
+  }
+  definitions_.push_back(std::move(definition));
+  symbol.definition = &definitions_.back();
+  return before != nullptr || context.empty() || !qualified.ends_with(context);
+}
+
+void SymbolTable::bind(Syntax& tree, const std::string& context, const std::string& file, bool hasLines) {
+  const auto place = [&] { return hasLines ? fmt::format("{}:{}", file, tree.line) : file; };
+  if (tree.kind == Kind::name) {
+    tree.index = refer(tree.text, context);
+    const Definition* d = (*this)[tree.index].definition;
+    if (d == nullptr || !d->constant || d->isFunction()) return;
+    const std::optional<double> value = isNumber(d->body) ? d->body.number : constantValue(tree, place());
+    if (value) setNumber(tree, *value);
+    return;
+  }
+  for (Syntax& inner : tree.args) bind(inner, context, file, hasLines);
+  fold(tree, place());
+}
+
+bool SymbolTable::isConstantFunction(const Syntax& name) const {
+  if (name.kind != Kind::name) return false;
+  const Symbol& s = (*this)[name.index];
+  if (s.definition != nullptr) return s.definition->isFunction() && s.definition->constant;
+  return s.library != nullptr && s.library->op != Op::realArgument;
+}
+
+// The value of a constant. Empty if it is not known yet, because it uses something that is still undefined or
+// that is defined with '='; the tree is then left as it is. Throws Error if the value depends on the ray:
+// such a constant has no meaning, and rtrace refuses it.
+std::optional<double> SymbolTable::constantValue(const Syntax& tree, const std::string& place) const {
+  std::shared_ptr<const Program> program;
+  try {
+    program = writeProgram(expandExpressions(compileInput(place), {&tree, 1}));
+  } catch (const Error&) {
+    return std::nullopt;  // the error is reported if the value is ever needed
+  }
+  State state;
+  if (program->isConstant()) return program->evaluate({}, state);
+  if (needsRay(tree, place)) {
+    throw Error(fmt::format("{}: constant expression uses what depends on the ray or the primitive", place));
+  }
+  return std::nullopt;
+}
+
+// Whether a tree that compiles cannot be evaluated without a ray, a primitive's real arguments and the
+// renderer's functions.
+bool SymbolTable::needsRay(const Syntax& tree, const std::string& place) const {
+  CompileInput input = compileInput(place);
+  input.hasHosts = false;
+  input.inputs = 0;
+  input.available = 0;
+  input.reals = std::span<const double>();
+  try {
+    State state;
+    writeProgram(expandExpressions(input, {&tree, 1}))->evaluate({}, state);
+  } catch (const Error&) {
+    return true;
+  }
+  return false;
+}
+
+// Replaces an operation on numbers, or a call of a constant function with constant arguments, by its value.
+void SymbolTable::fold(Syntax& tree, const std::string& place) const {
+  switch (tree.kind) {
+    case Kind::negate:
+      if (isNumber(tree.args[0])) setNumber(tree, -tree.args[0].number);
+      break;
+    case Kind::power:
+      if (std::all_of(tree.args.begin(), tree.args.end(), isNumber)) {
+        uint32_t faults = 0;
+        const double value = apply(Op::power, tree.args[0].number, tree.args[1].number, 0, faults);
+        refuse(faults, place);
+        setNumber(tree, value);
+      }
+      break;
+    case Kind::sum:
+    case Kind::product:
+      foldChain(tree, place);
+      break;
+    case Kind::call:
+      foldCall(tree, place);
+      break;
+    default:
+      break;
+  }
+}
+
+void SymbolTable::foldChain(Syntax& tree, const std::string& place) const {
+  for (size_t i = 0; i < tree.text.size(); ++i) {
+    const Syntax& right = tree.args[i + 1];
+    if (tree.text[i] == '/' && isNumber(right) && right.number == 0) refuse(kDivisionByZero, place);
+  }
+  if (!std::all_of(tree.args.begin(), tree.args.end(), isNumber)) return;
+  double value = tree.args[0].number;
+  uint32_t faults = 0;
+  for (size_t i = 0; i < tree.text.size(); ++i)
+    value = apply(operatorOf(tree.text[i]), value, tree.args[i + 1].number, 0, faults);
+  refuse(faults, place);
+  setNumber(tree, value);
+}
+
+void SymbolTable::foldCall(Syntax& tree, const std::string& place) const {
+  if (!isConstantFunction(tree.args[0])) return;
+  const bool closed = std::all_of(tree.args.begin() + 1, tree.args.end(),
+                                  [&](const Syntax& s) { return isNumber(s) || isConstantFunction(s); });
+  if (!closed) return;
+  const std::optional<double> value = constantValue(tree, place);
+  if (!value) return;
+  const Symbol& callee = (*this)[tree.args[0].index];
+  // Compiling a library function of numbers evaluates it without reporting its faults.
+  if (callee.definition == nullptr) refuse(faultsOf(*callee.library, tree), place);
+  setNumber(tree, *value);
+}
+
+}  // namespace rad::calc
