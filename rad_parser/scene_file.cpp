@@ -15,7 +15,7 @@
 #include "rad_parser/open_file.h"
 #include "rad_parser/shell_command.h"
 #include "rad_parser/text_source.h"
-#include "rad_parser/xform.h"
+#include "rad_parser/xform_command.h"
 
 namespace rad {
 namespace {

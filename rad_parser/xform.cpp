@@ -2,14 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
+#include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <fstream>
+#include <limits>
 #include <numbers>
-#include <sstream>
 
-#include "rad_parser/file_path.h"
 #include "rad_parser/number.h"
 
 namespace rad {
@@ -34,7 +31,7 @@ Similarity power(Similarity base, int64_t exponent) {
   return result;
 }
 
-// One transform from the front of the words, without -i. Empty where they are none.
+// The transform at the front of the words, other than -i. Empty if they do not begin with one.
 std::optional<Similarity> readStep(std::span<const std::string_view> words, size_t& used) {
   const std::string_view option = words[0];
   double n[3];
@@ -66,7 +63,8 @@ std::optional<Similarity> readStep(std::span<const std::string_view> words, size
   return step;
 }
 
-// Whether the type's transform is told to a function file, an instance or a mesh by arguments.
+// Whether a primitive of this type is transformed by xform options behind its string arguments, which apply
+// to its function file, data, picture, octree or mesh.
 bool carriesTransform(Type type) {
   switch (type) {
     case Type::instance:
@@ -106,7 +104,7 @@ bool carriesTransform(Type type) {
   }
 }
 
-// "a>b" becomes "prefix.a>prefix.b": mist names surfaces, one after the other along the light's way.
+// "a>b" becomes "prefix.a>prefix.b". Mist lists surfaces in the order in which the light meets them.
 std::string prefixSources(std::string_view path, const std::string& prefix) {
   std::string result;
   while (!path.empty()) {
@@ -116,6 +114,157 @@ std::string prefixSources(std::string_view path, const std::string& prefix) {
   }
   return result;
 }
+
+// Applies a transform to the arguments of one primitive.
+class ArgumentTransform {
+ public:
+  ArgumentTransform(const Transform& transform, Primitive& p, DescriptionBuilder& builder)
+      : transform_(transform),
+        p_(p),
+        builder_(builder),
+        length_(std::abs(transform.similarity.scale)),
+        reals_(std::span(builder.description().realArgs).subspan(p.firstReal, p.reals)) {}
+
+  void apply() {
+    if (carriesTransform(p_.type)) {
+      for (const std::string& argument : transform_.arguments) builder_.addString(p_, argument);
+      return;
+    }
+    const bool changed = isSurface(p_.type) ? surface() : modifier();
+    if (!changed) return;
+    for (const double value : reals_)
+      if (!std::isfinite(value)) throw error("transformed arguments are no finite numbers");
+  }
+
+ private:
+  // Whether the transform concerns the type.
+  bool surface() {
+    switch (p_.type) {
+      case Type::source:
+        need(4);
+        turnVector(0);
+        return true;
+      case Type::sphere:
+      case Type::bubble:
+        need(4);
+        movePoint(0);
+        scaleLength(3);
+        return true;
+      case Type::polygon:
+        polygon();
+        return true;
+      case Type::cone:
+      case Type::cup:
+        need(8);
+        movePoint(0);
+        movePoint(3);
+        scaleLength(6);
+        scaleLength(7);
+        return true;
+      case Type::cylinder:
+      case Type::tube:
+        need(7);
+        movePoint(0);
+        movePoint(3);
+        scaleLength(6);
+        return true;
+      case Type::ring:
+        need(8);
+        movePoint(0);
+        turnVector(3, transform_.inverted ? -1 : 1);
+        scaleLength(6);
+        scaleLength(7);
+        return true;
+      default:
+        return false;
+    }
+  }
+
+  bool modifier() {
+    switch (p_.type) {
+      case Type::glow:
+        need(4);
+        scaleLength(3);
+        return true;
+      case Type::spotlight:
+        need(7);
+        turnVector(4);
+        return true;
+      case Type::dielectric:
+        need(5);
+        absorb(0);
+        return true;
+      case Type::interface:
+        need(8);
+        absorb(0);
+        absorb(4);
+        return true;
+      case Type::mist:
+        mist();
+        return true;
+      case Type::brighttext:
+      case Type::colortext:
+      case Type::mixtext:
+        if (reals_.size() < 9)
+          throw error(fmt::format("xform needs 9 real arguments, not {}", reals_.size()));
+        movePoint(0);
+        turnVector(3);
+        turnVector(6);
+        return true;
+      default:
+        return false;
+    }
+  }
+
+  void polygon() {
+    if (p_.strings != 0 || reals_.size() % 3 != 0)
+      throw error(fmt::format("{} string and {} real arguments are no vertices", p_.strings, reals_.size()));
+    for (size_t i = 0; i < reals_.size(); i += 3) movePoint(i);
+    if (!transform_.reversed) return;
+    for (size_t i = 0, j = reals_.size(); i + 3 < j; i += 3) {
+      j -= 3;
+      std::swap_ranges(reals_.begin() + i, reals_.begin() + i + 3, reals_.begin() + j);
+    }
+  }
+
+  void mist() {
+    if (reals_.size() > 7)
+      throw error(fmt::format("xform needs at most 7 real arguments, not {}", reals_.size()));
+    for (size_t i = 0; i < 3 && reals_.size() > 2; ++i) reals_[i] /= length_;
+    Description& d = builder_.description();
+    for (uint32_t i = 0; i < p_.strings && !transform_.prefix.empty(); ++i)
+      d.stringArgs[p_.firstString + i] = builder_.intern(prefixSources(d.string(p_, i), transform_.prefix));
+  }
+
+  void need(size_t reals) const {
+    if (p_.strings != 0 || reals_.size() != reals)
+      throw error(fmt::format("xform needs no string and {} real arguments, not {} and {}", reals, p_.strings,
+                              reals_.size()));
+  }
+
+  V3d at(size_t i) const { return {reals_[i], reals_[i + 1], reals_[i + 2]}; }
+  void set(size_t i, const V3d& v) {
+    for (int k = 0; k < 3; ++k) reals_[i + k] = v[k];
+  }
+  void movePoint(size_t i) { set(i, transform_.similarity.point(at(i))); }
+  void turnVector(size_t i, double sign = 1) { set(i, transform_.similarity.vector(at(i)) * sign); }
+  void scaleLength(size_t i) { reals_[i] *= length_; }
+  // Three values of transmission per unit of length.
+  void absorb(size_t i) {
+    for (size_t k = i; k < i + 3; ++k) reals_[k] = std::pow(reals_[k], 1 / length_);
+  }
+
+  Error error(std::string_view why) const {
+    return builder_.error(p_.place, fmt::format("{} \"{}\": {}", typeName(p_.type),
+                                                printable(builder_.description().name(p_)), why));
+  }
+
+  const Transform& transform_;
+  Primitive& p_;
+  DescriptionBuilder& builder_;
+  double length_;
+  std::span<double> reals_;
+};
 
 }  // namespace
 
@@ -130,8 +279,8 @@ V3d Similarity::vector(const V3d& v) const {
 }
 
 Similarity Similarity::inverse() const {
-  // The linear part is scale times an orthogonal matrix, so its inverse is its transpose over the scale
-  // squared.
+  // The linear part is the scale times an orthogonal matrix. Its inverse is therefore its transpose, divided
+  // by the square of the scale.
   Similarity result;
   result.scale = 1 / scale;
   const double factor = 1 / (scale * scale);
@@ -197,111 +346,7 @@ std::string_view Transform::nameOf(Type type, std::string_view written, std::str
 }
 
 void Transform::apply(Primitive& p, DescriptionBuilder& builder) const {
-  Description& d = builder.description();
-  const std::span<double> x = std::span(d.realArgs).subspan(p.firstReal, p.reals);
-  const double length = std::abs(similarity.scale);
-  const auto refuse = [&](std::string_view why) {
-    return builder.error(p.place, fmt::format("{} \"{}\": {}", typeName(p.type), printable(d.name(p)), why));
-  };
-  const auto need = [&](size_t reals) {
-    if (p.strings != 0 || x.size() != reals)
-      throw refuse(fmt::format("xform needs no string and {} real arguments, not {} and {}", reals, p.strings,
-                               x.size()));
-  };
-  const auto movePoint = [&](size_t i) {
-    const V3d q = similarity.point(V3d(x[i], x[i + 1], x[i + 2]));
-    for (int k = 0; k < 3; ++k) x[i + k] = q[k];
-  };
-  const auto turnVector = [&](size_t i, double sign = 1) {
-    const V3d q = similarity.vector(V3d(x[i], x[i + 1], x[i + 2])) * sign;
-    for (int k = 0; k < 3; ++k) x[i + k] = q[k];
-  };
-  // Transmission per unit length.
-  const auto absorb = [&](size_t i) {
-    for (size_t k = i; k < i + 3; ++k) x[k] = std::pow(x[k], 1 / length);
-  };
-
-  switch (p.type) {
-    case Type::source:
-      need(4);
-      turnVector(0);
-      break;
-    case Type::sphere:
-    case Type::bubble:
-      need(4);
-      movePoint(0);
-      x[3] *= length;
-      break;
-    case Type::polygon:
-      if (p.strings != 0 || x.size() % 3 != 0)
-        throw refuse(fmt::format("{} string and {} real arguments are no vertices", p.strings, x.size()));
-      for (size_t i = 0; i < x.size(); i += 3) movePoint(i);
-      if (reversed)
-        for (size_t i = 0, j = x.size(); i + 3 < j; i += 3) {
-          j -= 3;
-          std::swap_ranges(x.begin() + i, x.begin() + i + 3, x.begin() + j);
-        }
-      break;
-    case Type::cone:
-    case Type::cup:
-      need(8);
-      movePoint(0);
-      movePoint(3);
-      x[6] *= length;
-      x[7] *= length;
-      break;
-    case Type::cylinder:
-    case Type::tube:
-      need(7);
-      movePoint(0);
-      movePoint(3);
-      x[6] *= length;
-      break;
-    case Type::ring:
-      need(8);
-      movePoint(0);
-      turnVector(3, inverted ? -1 : 1);
-      x[6] *= length;
-      x[7] *= length;
-      break;
-    case Type::glow:
-      need(4);
-      x[3] *= length;
-      break;
-    case Type::spotlight:
-      need(7);
-      turnVector(4);
-      break;
-    case Type::dielectric:
-      need(5);
-      absorb(0);
-      break;
-    case Type::interface:
-      need(8);
-      absorb(0);
-      absorb(4);
-      break;
-    case Type::mist:
-      if (x.size() > 7) throw refuse(fmt::format("xform needs at most 7 real arguments, not {}", x.size()));
-      for (size_t i = 0; i < 3 && x.size() > 2; ++i) x[i] /= length;
-      for (uint32_t i = 0; i < p.strings && !prefix.empty(); ++i)
-        d.stringArgs[p.firstString + i] = builder.intern(prefixSources(d.string(p, i), prefix));
-      break;
-    case Type::brighttext:
-    case Type::colortext:
-    case Type::mixtext:
-      if (x.size() < 9) throw refuse(fmt::format("xform needs 9 real arguments, not {}", x.size()));
-      movePoint(0);
-      turnVector(3);
-      turnVector(6);
-      break;
-    default:
-      if (carriesTransform(p.type))
-        for (const std::string& argument : arguments) builder.addString(p, argument);
-      return;
-  }
-  for (const double value : x)
-    if (!std::isfinite(value)) throw refuse("transformed arguments are no finite numbers");
+  ArgumentTransform(*this, p, builder).apply();
 }
 
 Transform within(const Transform& outer, const Transform& inner) {
@@ -316,206 +361,6 @@ Transform within(const Transform& outer, const Transform& inner) {
   both.arguments = inner.arguments;
   both.arguments.insert(both.arguments.end(), outer.arguments.begin(), outer.arguments.end());
   return both;
-}
-
-std::optional<std::vector<std::string>> plainWords(std::string_view command) {
-  std::vector<std::string> words;
-  std::string word;
-  bool inWord = false;
-  for (size_t i = 0; i <= command.size(); ++i) {
-    const char c = i < command.size() ? command[i] : ' ';
-    if (c == '\\' && i + 1 < command.size() && command[i + 1] == '\n') {
-      ++i;
-    } else if (c == ' ' || c == '\t' || c == '\n' || (c == '#' && !inWord)) {
-      // A line end that was not escaped would begin another command, but command lines hold none.
-      if (inWord) words.push_back(word);
-      word.clear();
-      inWord = false;
-      if (c == '#') break;
-    } else if (c == '"' || c == '\'') {
-      const size_t close = command.find(c, i + 1);
-      if (close == command.npos) return {};
-      const std::string_view quoted = command.substr(i + 1, close - i - 1);
-      if (c == '"' && quoted.find_first_of("$`\\") != quoted.npos) return {};
-      word += quoted;
-      inWord = true;
-      i = close;
-    } else if (std::strchr("|&;<>()$`\\*?[]{}!", c)) {
-      return {};
-    } else {
-      word += c;
-      inWord = true;
-    }
-  }
-  return words;
-}
-
-namespace {
-
-XformFault fault(std::string_view text) { return XformFault(fmt::format("xform: {}", text)); }
-
-// One line of an argument file as words. Quotes and a backslash count at the begin of a word only, as xform
-// has it.
-std::vector<std::string> argumentWords(std::string_view line) {
-  constexpr std::string_view kSpace = " \t\n\v\f\r";
-  if (line.starts_with('!')) line.remove_prefix(1);
-  if (line.starts_with("xform ")) line.remove_prefix(6);
-  std::vector<std::string> words;
-  for (;;) {
-    line.remove_prefix(std::min(line.find_first_not_of(kSpace), line.size()));
-    if (line.starts_with("\\\n")) {
-      line.remove_prefix(2);
-      continue;
-    }
-    if (line.empty()) return words;
-    size_t begin = 0, end, next;
-    if (line[0] == '"' || line[0] == '\'') {
-      begin = 1;
-      end = std::min(line.find(line[0], 1), line.size());
-      next = std::min(end + 1, line.size());
-    } else {
-      begin = line[0] == '\\' && line.size() > 1;
-      next = end = std::min(line.find_first_of(kSpace, begin), line.size());
-    }
-    words.emplace_back(line.substr(begin, end - begin));
-    line.remove_prefix(next);
-  }
-}
-
-// The lines of an argument file that hold arguments.
-std::vector<std::vector<std::string>> readArgumentFile(const std::string& path, const std::string& name) {
-  std::ifstream file(path);
-  std::vector<std::vector<std::string>> lines;
-  std::string line, part;
-  while (std::getline(file, part)) {
-    if (part.ends_with('\r')) part.pop_back();
-    line += part;
-    if (line.ends_with('\\')) {
-      line += '\n';
-      continue;
-    }
-    if (!line.empty() && line[0] != '#') lines.push_back(argumentWords(line));
-    line.clear();
-  }
-  if (!line.empty() && line[0] != '#') lines.push_back(argumentWords(line));
-  if (!file.eof())
-    throw XformFault(
-        fmt::format("xform: cannot read argument file \"{}\": {}", printable(name), std::strerror(errno)),
-        Status::system);
-  if (lines.empty()) throw fault(fmt::format("empty argument file \"{}\"", printable(name)));
-  return lines;
-}
-
-class Passes {
- public:
-  Passes(const std::string& directory, const FileAccess& access,
-         const std::function<void(const XformPass&)>& pass)
-      : directory_(directory), access_(access), pass_(pass) {}
-
-  void run(const std::vector<std::string>& words, int nested) {
-    if (nested > kDeepest) throw fault("argument files within each other without end");
-    for (size_t i = 1; i < words.size(); ++i)
-      if (words[i] == "-f") return fromFile(words, i, nested);
-    for (size_t i = 1; i < words.size(); ++i)
-      if (words[i] == "-a") return array(words, i, nested);
-    if (++done_ > kMostPasses) throw fault(fmt::format("more than {} copies", kMostPasses));
-    single(words);
-  }
-
- private:
-  static constexpr int kDeepest = 32;  // -f files and arrays within each other
-
-  void fromFile(const std::vector<std::string>& words, size_t at, int nested) {
-    if (at + 1 == words.size() || (words[at + 1].starts_with('-') && words[at + 1] != "-"))
-      throw fault("missing file for -f");
-    if (words[at + 1] == "-") throw fault("-f - would read standard input, which a scene must not");
-    int k = 0;
-    const std::string path = joinPath(directory_, words[at + 1]);
-    if (!access_.allows(path))
-      throw XformFault(fmt::format("xform: cannot read argument file \"{}\"{}", printable(words[at + 1]),
-                                   access_.remark()),
-                       Status::system);
-    for (const auto& line : readArgumentFile(path, words[at + 1])) {
-      std::vector<std::string> longer(words.begin(), words.begin() + at);
-      longer.insert(longer.end(), line.begin(), line.end());
-      longer.insert(longer.end(), words.begin() + at + 2, words.end());
-      bool named = false;
-      for (size_t i = 1; i + 1 < longer.size() && !named; ++i)
-        if (longer[i] == "-n") {
-          longer[i + 1] += fmt::format(".{}", k);
-          named = true;
-        }
-      if (!named) longer.insert(longer.begin() + 1, {"-n", fmt::format("i{}", k)});
-      run(longer, nested + 1);
-      ++k;
-    }
-  }
-
-  void array(const std::vector<std::string>& words, size_t at, int nested) {
-    const auto count = at + 1 < words.size() ? parseInteger(words[at + 1]) : std::nullopt;
-    if (!count || *count <= 0) throw fault("missing count for -a");
-    if (*count > kMostPasses) throw fault(fmt::format("more than {} copies", kMostPasses));
-    // All names of a command with several become that of its last, numbered.
-    std::optional<std::string> name;
-    for (size_t i = 1; i + 1 < words.size(); ++i)
-      if (words[i] == "-n") name = words[i + 1];
-    for (int64_t k = 0; k < *count; ++k) {
-      std::vector<std::string> element = words;
-      element[at] = "-i";
-      element[at + 1] = fmt::format("{}", k);
-      for (size_t i = 1; name && i + 1 < words.size(); ++i)
-        if (words[i] == "-n") element[i + 1] = fmt::format("{}.{}", *name, k);
-      if (!name) element.insert(element.begin() + 1, {"-n", fmt::format("a{}", k)});
-      run(element, nested + 1);
-    }
-  }
-
-  void single(const std::vector<std::string>& words) {
-    XformPass pass;
-    Transform& t = pass.transform;
-    size_t i = 1;
-    for (; i < words.size(); ++i) {
-      const std::string& option = words[i];
-      const bool hasValue = i + 1 < words.size();
-      if (option == "-m" && hasValue) {
-        if (!t.modifier) t.modifier = words[i + 1];
-        ++i;
-      } else if (option == "-n" && hasValue) {
-        if (!t.prefix.empty()) t.prefix += '.';
-        t.prefix += words[++i];
-      } else if (option == "-c" || option == "-e") {
-        pass.changesDirectory = option == "-e";
-      } else if (option == "-I") {
-        t.inverted = !t.inverted;
-      } else {
-        break;
-      }
-    }
-    const std::vector<std::string_view> rest(words.begin() + i, words.end());
-    size_t used = 0;
-    t.similarity = readTransform(rest, used);
-    t.reversed = (t.similarity.scale < 0) != t.inverted;
-    if (used > 0 && rest[0] != "-i") t.arguments = {"-i", "1"};  // ends an -i of the file's own arguments
-    t.arguments.insert(t.arguments.end(), rest.begin(), rest.begin() + used);
-    if (used < rest.size() && rest[used].starts_with('-'))
-      throw fault(fmt::format("bad option or argument at \"{}\"", printable(rest[used])));
-    if (used == rest.size())
-      throw fault("no file named: it would read standard input, which a scene must not");
-    pass.files.assign(rest.begin() + used, rest.end());
-    pass_(pass);
-  }
-
-  const std::string& directory_;
-  const FileAccess& access_;
-  const std::function<void(const XformPass&)>& pass_;
-  int64_t done_ = 0;
-};
-
-}  // namespace
-
-void forEachPass(std::span<const std::string> words, const std::string& directory, const FileAccess& access,
-                 const std::function<void(const XformPass&)>& pass) {
-  Passes(directory, access, pass).run({words.begin(), words.end()}, 0);
 }
 
 }  // namespace rad

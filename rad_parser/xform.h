@@ -2,7 +2,6 @@
 #include <Imath/ImathMatrix.h>
 #include <Imath/ImathVec.h>
 
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,7 +9,6 @@
 #include <vector>
 
 #include "rad_parser/description_builder.h"
-#include "rad_parser/file_path.h"
 
 namespace rad {
 
@@ -46,10 +44,6 @@ struct Transform {
   std::vector<std::string>
       arguments;  // what function files' primitives, instances and meshes get behind their strings
 
-  // The modifier's name for a primitive that says `written`.
-  std::string_view modifierOf(Type type, std::string_view written) const {
-    return modifier && isSurface(type) ? std::string_view(*modifier) : written;
-  }
   // A primitive's type: -I makes a bubble of a sphere, a cup of a cone, a tube of a cylinder, and back.
   Type typeOf(Type type) const;
   // A primitive's name, written to `buffer` where it changes.
@@ -65,34 +59,5 @@ struct Transform {
 
 // First inner, then outer.
 Transform within(const Transform& outer, const Transform& inner);
-
-// The words of a command that a shell would hand on as they are: none of |&;<>()$`\*?[]{}!, quotes only in
-// pairs, a comment (#) at most at its end. Empty where only a shell can tell.
-std::optional<std::vector<std::string>> plainWords(std::string_view command);
-
-// One pass of xform over its files.
-struct XformPass {
-  Transform transform;
-  std::vector<std::string> files;  // as named
-  bool changesDirectory = true;    // files' own commands run in the files' directory (not with -c)
-};
-
-// What is wrong with an xform command: what() begins with "xform: " and has no place; the command's is the
-// caller's.
-class XformFault : public Error {
- public:
-  using Error::Error;
-};
-
-// Calls pass for each pass that an xform command makes, in order: one, or one for each element of its arrays
-// (-a) and line of its argument files (-f). words: the command's, "xform" first. directory: where argument
-// files' names start. Throws XformFault for what xform(1) does not allow, for standard input where a file is
-// needed ("-f -", or no file named), for argument files that access does not allow, and beyond kMostPasses;
-// what pass throws goes through.
-void forEachPass(std::span<const std::string> words, const std::string& directory, const FileAccess& access,
-                 const std::function<void(const XformPass&)>& pass);
-
-// A command, or a scene, that repeats more often is refused: it would run for hours.
-inline constexpr int64_t kMostPasses = 10'000'000;
 
 }  // namespace rad

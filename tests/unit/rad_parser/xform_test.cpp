@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "rad_parser/xform_command.h"
 #include "scene_text.h"
 
 namespace {
