@@ -11,10 +11,10 @@
 namespace rad {
 namespace {
 
-// The types that the data number, by their names; empty where this program does not know one.
+// The types by the numbers that the data use. Empty for a type that this program does not know.
 using TypeTable = std::vector<std::optional<Type>>;
 
-constexpr int kEnd = 255;  // in place of a type: no more primitives
+constexpr int kEnd = 255;  // instead of a type number: end of the primitives
 
 TypeTable readTypes(BinaryReader& input, const Warn& warn) {
   TypeTable types;

@@ -6,23 +6,23 @@
 
 namespace rad {
 
-// The parts that octrees and meshes have in common. What is wrong is thrown with the byte where it was
-// noticed.
+// The parts that octrees and meshes have in common. Errors are thrown with the byte at
+// which they were noticed.
 
-// The width in bytes of object numbers, 1 to 8, from the format number: what it exceeds `magic` by.
-// otherFormat: what the header says where that is not the format of these data; the reason that is thrown for
-// a number out of range.
+// The width of object numbers, 1 to 8 bytes: the difference between the format number and `magic`.
+// otherFormat: the format that the header names, if it is not the format of these data. It is given as the
+// reason in the error that is thrown for a width out of range.
 int readIndexWidth(BinaryReader& input, int magic, std::string_view otherFormat = {});
 
-// The cube that encloses everything: four numbers, as text.
+// The cube that encloses all surfaces. It is stored as four numbers in text.
 Cube readCube(BinaryReader& input);
 
-// Passes over the cells of an octree, in the order of the file, without keeping any: object(n) for each entry
-// of each leaf, where n is object number or, in a mesh, triangle number. Entries of a leaf ascend. Time and
-// data are in proportion, memory is none.
+// Reads the cells of an octree in the order of the file, without keeping them. Calls object(n) for each entry
+// of each leaf, where n is an object number, or a triangle number in a mesh. The entries of a leaf ascend.
+// Takes time in proportion to the data, and constant memory.
 template <class Object>
 void passOverCells(BinaryReader& input, int width, Object object) {
-  for (uint64_t open = 1; open > 0; --open) {  // cells announced and not yet met
+  for (uint64_t open = 1; open > 0; --open) {  // cells that are still to come
     switch (input.byte()) {
       case 0:
         break;
@@ -47,12 +47,14 @@ void passOverCells(BinaryReader& input, int width, Object object) {
   }
 }
 
-// Primitives in binary, to the builder's file `file`, whose places are their numbers. Their modifiers are
-// earlier ones of the same data, which begin the builder's description. The names of unknown types are
-// warnings until a primitive has one. Returns how many there were.
+// Reads binary primitives into the builder, as primitives of its file `file`. Their places are their
+// numbers. Their modifiers are earlier primitives of the same data, which must begin the builder's
+// description. An unknown type name causes a warning, and an error once a primitive has this type. Returns
+// the number of primitives.
 //
-// An alias names by number what it stands for where it shares that one's modifier; it gets its name for an
-// argument, which may be another than the alias was written with.
+// An alias refers to another primitive by number if both have the same modifier; otherwise by name. In the
+// former case the name of that primitive becomes the alias's string argument, which may differ from the name
+// that the alias was written with.
 int64_t readPrimitives(BinaryReader& input, int width, uint32_t file, DescriptionBuilder& builder,
                        const Warn& warn);
 

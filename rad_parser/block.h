@@ -8,9 +8,10 @@
 
 namespace rad {
 
-// Reads a descriptor on in a block of `size` bytes: what lies between keep and end moves to the block's front
-// together with next, and the data that come behind it end at end. The descriptor becomes -1 at the end of
-// the data. Returns whether there were more. where(): for the message where they cannot be read.
+// Continues reading a descriptor into a block of `size` bytes. The data between keep and end move to the
+// front of the block, together with next, and new data are appended, up to the new end. At the end of the
+// data, the descriptor becomes -1. Returns whether there were new data. where(): the beginning of the error
+// message if the data cannot be read.
 template <class Byte, class Where>
 bool readOn(int& descriptor, Byte* block, size_t size, const Byte*& keep, const Byte*& next, const Byte*& end,
             const Where& where) {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <pugixml.hpp>
 
-#include "rad_parser/number.h"
 #include "rad_parser/description.h"
+#include "rad_parser/number.h"
 
 namespace rad {
 namespace {
@@ -33,10 +33,10 @@ AngleBasis klems(std::string_view name, std::vector<AngleBasis::Ring> rings) {
   return basis;
 }
 
-// Numbers and braces of an element's text, with their place.
+// The numbers and braces in the text of an element, with their places for messages.
 class Data {
  public:
-  // firstLine: of the text in the file.
+  // firstLine: the line of the file in which the text begins.
   Data(std::string_view text, std::string_view file, ptrdiff_t firstLine)
       : text_(text), file_(file), firstLine_(firstLine) {}
 
@@ -45,18 +45,18 @@ class Data {
     throw Error(fmt::format("{}:{}: {}", file_, firstLine_ + std::count(text_.begin(), end, '\n'), problem));
   }
 
-  // 0 at the end.
+  // The next character that is not blank, or 0 at the end.
   char next() {
     position_ = std::min(text_.find_first_not_of(kBlanks, position_), text_.size());
     return position_ < text_.size() ? text_[position_] : '\0';
   }
-  // Takes the character if it is the next one.
+  // Skips the character and returns true if it is the next one.
   bool take(char c) {
     if (next() != c) return false;
     ++position_;
     return true;
   }
-  // A value of scattering, and a comma behind it.
+  // Reads a value of scattering and the comma that may follow it.
   float value() {
     next();
     const size_t end = std::min(text_.find_first_of(" \t\n\r\f\v,{}", position_), text_.size());
@@ -111,7 +111,8 @@ class TreeReader {
     data_.take(',');
   }
 
-  // Values of an even grid of 1, 2, 4 .. cells a side, the last dimension running fastest.
+  // Reads the values of an even grid with 1, 2, 4 .. cells along each dimension. The index of the last
+  // dimension varies fastest.
   void readGrid(size_t node, int depth) {
     values_.clear();
     for (char c = data_.next(); c != '}' && c != '\0'; c = data_.next()) values_.push_back(data_.value());
@@ -123,7 +124,8 @@ class TreeReader {
     spread(node, 0, halvings, halvings);
   }
 
-  // The part of the grid that begins at `from` and is 2^halvings a side, of a grid of 2^whole.
+  // Turns a part of a grid into a subtree. The part begins at `from` and has 2^halvings cells along each
+  // dimension; the whole grid has 2^whole.
   void spread(size_t node, size_t from, int halvings, int whole) {
     if (halvings == 0) {
       tree_.nodes[node].value = values_[from];
@@ -171,7 +173,7 @@ class Reader {
   }
 
  private:
-  enum class Channel { y, first, second };  // first, second: X and Z of matrices, u' and v' of trees
+  enum class Channel { y, first, second };  // first, second: X and Z for matrices, u' and v' for trees
 
   ptrdiff_t lineAt(ptrdiff_t offset) const {
     const auto end = text_.begin() + std::clamp<ptrdiff_t>(offset, 0, static_cast<ptrdiff_t>(text_.size()));
@@ -187,7 +189,7 @@ class Reader {
 
   // Reads the XML and finds the layer.
   pugi::xml_node open() {
-    // Parsed where it lies, a byte stays at its offset, which is its place.
+    // In-place parsing keeps every byte at its offset, which gives its line in messages.
     buffer_.assign(text_.begin(), text_.end());
     const pugi::xml_parse_result parsed = document_.load_buffer_inplace(
         buffer_.data(), buffer_.size(), pugi::parse_cdata | pugi::parse_escapes, pugi::encoding_utf8);
@@ -202,10 +204,10 @@ class Reader {
     return layer;
   }
 
-  // An element's text without blanks around it.
+  // The text of an element, without surrounding blanks.
   static std::string_view word(pugi::xml_node node) { return trimmed(node.child_value()); }
 
-  // An element's text of numbers, put together where comments divide it.
+  // The numbers in an element. If comments divide its text, the pieces are joined.
   Data data(pugi::xml_node node) {
     std::string_view whole;
     size_t pieces = 0;
@@ -232,7 +234,7 @@ class Reader {
   }
 
   void defineBasis(pugi::xml_node node) {
-    constexpr double kSameAngle = 1e-4;  // degrees; files have a few digits
+    constexpr double kSameAngle = 1e-4;  // degrees; larger than the rounding of angles in files
     AngleBasis basis;
     basis.name = word(node.child("AngleBasisName"));
     if (basis.name.empty()) return;
@@ -262,7 +264,7 @@ class Reader {
     defined_.push_back(std::move(basis));
   }
 
-  // Index in file_.bases.
+  // The index in file_.bases of the basis that the block's child names.
   size_t basisOf(pugi::xml_node block, const char* which) {
     const std::string_view name = word(block.child(which));
     if (name.empty()) fail(block, fmt::format("no {}", which));
@@ -298,7 +300,7 @@ class Reader {
     }
   }
 
-  // Others, absorptance for one, are not needed.
+  // Other components, such as absorptance, are not needed.
   static std::optional<BsdfFile::Component> componentOf(std::string_view direction) {
     if (sameWord(direction, "Reflection Back")) return BsdfFile::kReflectionFront;
     if (sameWord(direction, "Reflection Front")) return BsdfFile::kReflectionBack;
@@ -318,7 +320,7 @@ class Reader {
     const size_t columns = file_.bases[incident].cells, rows = file_.bases[scattered].cells;
     const pugi::xml_node node = scatteringData(block);
     Data numbers = data(node);
-    // Every number takes a digit at least and something that separates it from the next.
+    // Every number takes at least one digit and one separator.
     if (rows > (numbers.left() + 1) / 2 / columns)
       fail(node, fmt::format("fewer numbers than the {} by {} of the angle bases", rows, columns));
     std::vector<float> values(rows * columns);
@@ -345,7 +347,8 @@ class Reader {
     (channel == Channel::y ? trees->y : channel == Channel::first ? trees->u : trees->v) = std::move(tree);
   }
 
-  // Chromaticity without luminance says nothing; one coordinate of it alone neither.
+  // Drops chromaticity without luminance, and single coordinates of chromaticity, because they
+  // do not determine a colour.
   void dropIncomplete() {
     for (auto& m : file_.matrices) {
       if (m && m->y.empty()) m.reset();

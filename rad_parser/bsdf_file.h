@@ -11,44 +11,45 @@
 
 namespace rad {
 
-// A division of the hemisphere of directions: rings about the normal, each divided evenly in azimuth. The
-// first division of each ring lies evenly about azimuth 0.
+// A division of the hemisphere of directions into rings around the normal. Each ring is divided evenly in
+// azimuth; its first cell is centred at azimuth 0.
 struct AngleBasis {
   struct Ring {
-    double upper = 0;  // polar angle where it ends and the next begins, degrees; the first begins at 0
+    double upper = 0;  // largest polar angle, degrees; the smallest is the largest of the ring before, or 0
     size_t cells = 1;
     bool operator==(const Ring&) const = default;
   };
   std::string name;
   std::vector<Ring> rings;
-  size_t cells = 0;  // of all rings
+  size_t cells = 0;  // in all rings
 };
 
-// Scattering (1/sr) from each cell of one basis into each of another, by tristimulus value.
+// Scattering (1/sr) from each cell of one basis to each cell of another, by tristimulus value.
 struct BsdfMatrix {
   size_t incident = 0, scattered = 0;  // index in BsdfFile::bases
-  std::vector<float> y;                // [scattered * number of incident cells + incident]
-  std::vector<float> x, z;             // the same; both empty: grey
+  std::vector<float> y;                // at [scattered cell * number of incident cells + incident cell]
+  std::vector<float> x, z;             // laid out as y; both are empty for grey scattering
 };
 
-// A function on the unit cube of `rank` dimensions that is constant on cubes, each a cell of a halved,
-// quartered .. grid.
+// A function on the unit cube of `rank` dimensions. It is constant on smaller cubes that result from repeated
+// halving along all dimensions.
 struct TensorTree {
   struct Node {
-    float value = 0;        // of a leaf
-    uint32_t children = 0;  // index of the first of 2^rank; bit i of a child's number says that it has the
-                            // upper half in dimension i. 0: a leaf
+    float value = 0;  // of a leaf
+    // Index of the first of 2^rank children; 0 for a leaf. Bit i of a child's number is set if the child is
+    // the upper half in dimension i.
+    uint32_t children = 0;
   };
   std::vector<Node> nodes;  // the first is the root
 };
 struct BsdfTrees {
   TensorTree y;     // scattering, 1/sr
-  TensorTree u, v;  // chromaticity u', v' (CIE 1976); both empty: grey
+  TensorTree u, v;  // chromaticity u', v' (CIE 1976); both are empty for grey scattering
 };
 
-// What an XML file of WINDOW 6, genBSDF(1) and others says of a surface's bidirectional scattering. The front
-// is the surface's own, the side that its normal points to; the files call it "Back", as it is the inside of
-// a window.
+// The bidirectional scattering of a surface, from an XML file of WINDOW 6, genBSDF(1) or other programs. The
+// front of the surface is the side to which its normal points. The files call this side "Back", because it
+// is the inside of a window.
 //
 // Sources: LBNL, "BSDF XML schema 1.4" and WINDOW 6 technical documentation (the Klems bases); Ward et al.,
 // "A practical framework for sharing and rendering real-world bidirectional scattering distribution
@@ -56,25 +57,27 @@ struct BsdfTrees {
 struct BsdfFile {
   enum Component : size_t { kReflectionFront, kReflectionBack, kTransmissionFront, kTransmissionBack };
   static constexpr size_t kComponents = 4;
-  // The smallest cell of a tree is 2^-kDeepest wide.
+  // The width of the smallest possible cell of a tree is 2^-kDeepest.
   static constexpr int kDeepest = 15;
 
   int rank = 0;                   // 3 or 4: trees; 0: matrices
-  std::vector<AngleBasis> bases;  // that matrices use
+  std::vector<AngleBasis> bases;  // those that the matrices use
   std::array<std::optional<BsdfMatrix>, kComponents> matrices;
   std::array<std::optional<BsdfTrees>, kComponents> trees;
 
-  // Reads such a file. name: for messages. Negative scattering is taken as 0; of several layers the first is
-  // read, of several blocks for the same component the last; spectral bands other than the visible one and
-  // its chromaticity are left out. Memory is bounded by the text's length. Throws Error "NAME:LINE: ..": what
-  // is no XML or no BSDF, a structure or an angle basis that is not known, numbers that are missing or wrong,
-  // trees that are unbalanced or deeper than kDeepest. Warns of numbers beyond the matrix's, and of a
-  // definition of a Klems basis that differs from the known one, which counts.
+  // Reads such a file. name: for messages.
+  // - Negative scattering is replaced by 0.
+  // - Of several layers, the first is read; of several blocks for one component, the last.
+  // - Spectral bands are ignored, except the visible band and its chromaticity.
+  // Memory is in proportion to the length of the text. Throws Error "NAME:LINE: .." for text that is not XML
+  // or not a BSDF, an unsupported structure or angle basis, missing or wrong numbers, and trees that are
+  // unbalanced or deeper than kDeepest. Warns of surplus numbers behind a matrix, and of a definition of a
+  // Klems basis that differs from the standard one, which is then used.
   static BsdfFile parse(std::string_view text, std::string_view name, const Warn& warn = {});
 };
 
-// A name of one of the Klems bases, in any case: "LBNL/Klems Full" (145 cells), "LBNL/Klems Half" (77),
-// "LBNL/Klems Quarter" (41). Null for others.
+// The Klems basis of this name, in upper or lower case: "LBNL/Klems Full" (145 cells), "LBNL/Klems Half"
+// (77), "LBNL/Klems Quarter" (41). Null for other names.
 const AngleBasis* klemsBasis(std::string_view name);
 
 }  // namespace rad

@@ -25,7 +25,8 @@ DataFile DataFile::parse(std::string_view text, std::string_view name) {
   for (Axis& axis : data.axes_) {
     axis.first = finite("an axis' begin");
     axis.span = finite("an axis' end") - axis.first;
-    // Every division needs values, so a count beyond what is left of the file is not worth memory.
+    // Every division needs values. A count that exceeds the rest of the file is therefore an error, and is
+    // refused before memory is allocated.
     axis.count = static_cast<size_t>(numbers.integer("a number of divisions, 2 at least", 2, INT32_MAX));
     if (size > numbers.left() / axis.count) numbers.fail("fewer values in the file than its grid has points");
     size *= axis.count;
@@ -46,7 +47,7 @@ DataFile DataFile::parse(std::string_view text, std::string_view name) {
 }
 
 DataFile::Weights DataFile::weights(const Axis& axis, double coordinate) {
-  const size_t last = axis.count - 2;  // the first of the last two divisions
+  const size_t last = axis.count - 2;  // index of the first of the last two divisions
   double u;
   size_t index;
   if (axis.points.empty()) {

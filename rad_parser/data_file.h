@@ -7,39 +7,42 @@
 
 namespace rad {
 
-// A table of numbers over a rectangular grid of n dimensions, as data files (.dat) have it. Immutable.
+// A table of numbers on a rectangular grid of n dimensions, from a data file (.dat). Immutable.
 //
-//   n, then for each axis "first last count" of even divisions or "0 0 count" and as many divisions, then the
-//   values, the last axis running fastest. White space separates; '#' begins a comment.
-// Source: RADIANCE file formats, "Data File Format". Numbers are kept in single precision, as the original
-// keeps them.
+// The file contains n, then for each axis "first last count" for evenly spaced divisions, or "0 0 count"
+// followed by `count` divisions, and then the values. The index of the last axis varies fastest. Numbers are
+// separated by white space; '#' begins a comment. Numbers are kept in single precision, as in RADIANCE.
+// Source: RADIANCE file formats, "Data File Format".
 class DataFile {
  public:
-  static constexpr size_t kMaxDimensions = 10;  // 1024 values for one answer; the original has 6
+  // Up to 2^10 values are interpolated. RADIANCE allows 6 dimensions.
+  static constexpr size_t kMaxDimensions = 10;
 
-  // Throws Error "NAME:LINE: ..": a number that is missing or none, fewer than two divisions, divisions that
-  // neither rise nor fall strictly, fewer values than the grid has. What follows the values is not read.
+  // Throws Error "NAME:LINE: .." for a number that is missing or malformed, fewer than two divisions,
+  // divisions that are neither strictly increasing nor strictly decreasing, and fewer values than the grid
+  // has points. Text behind the values is not read.
   static DataFile parse(std::string_view text, std::string_view name);
 
   size_t dimensions() const { return axes_.size(); }
 
-  // The value at a point of dimensions() coordinates: linear along each axis between divisions, and up to one
-  // division beyond the ends; further out it falls towards 0 with the inverse of the distance. With u the
-  // position in divisions and 0 and n-1 the ends, the weights of the two values at an end are then
-  //   below -1:  2/-u and -1/-u of the first and second;
-  //   above n:   2/(u-n+3) and -1/(u-n+3) of the last and the one before.
-  // The latter is a step down by a factor of 3 at u = n: so the original has it, and scenes were made with
-  // it. Weights within 1e-6 of 0 count as 0. Thread-safe.
+  // The value at a point with dimensions() coordinates. It is interpolated linearly along each axis, and
+  // extrapolated linearly by up to one division beyond its ends. Further out it falls towards 0 with the
+  // inverse of the distance. Let u be the position in units of divisions, with the ends at 0 and n-1. Then
+  // the weights of the two values next to an end are
+  //   below -1:  2/-u and -1/-u for the first and the second;
+  //   above n:   2/(u-n+3) and -1/(u-n+3) for the last and the one before it.
+  // The weights above n drop by a factor of 3 at u = n. This follows RADIANCE, with which existing scenes
+  // were made. Weights within 1e-6 of 0 are treated as 0. Thread-safe.
   double value(std::span<const double> point) const;
 
  private:
   struct Axis {
-    float first = 0, span = 0;  // even divisions: of the whole axis
+    float first = 0, span = 0;  // even divisions: the first one, and the length of the axis
     size_t count = 0;
-    std::vector<float> points;  // uneven divisions, else empty
+    std::vector<float> points;  // uneven divisions; otherwise empty
   };
   struct Weights {
-    size_t index;  // of the first of two neighbours
+    size_t index;  // of the first of two neighbouring divisions
     double first, second;
   };
 

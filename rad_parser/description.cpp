@@ -66,7 +66,7 @@ std::string printable(std::string_view text, size_t longest) {
 std::string Description::at(Place place) const {
   const auto alone = [this](Place p) {
     const SourceFile& file = files[p.file];
-    // A command is known by its first words, a file by its whole path.
+    // The first words identify a command, but only the whole path identifies a file.
     const std::string name = printable(file.name, file.name.starts_with('!') ? 100 : 4096);
     if (p.line == 0) return name;
     return file.numbered ? fmt::format("{}: object {}", name, p.line) : fmt::format("{}:{}", name, p.line);

@@ -8,9 +8,8 @@
 
 namespace rad {
 
-// Grows a description primitive by primitive, whatever format they come from, and knows which definition of
-// each modifier is in force. String and real arguments of the next primitive are appended to description()
-// before add().
+// Builds a description primitive by primitive from any format, and keeps track of which definition of each
+// modifier is in force. The arguments of the next primitive are appended between begin() and add().
 class DescriptionBuilder {
  public:
   DescriptionBuilder() : words_(description_.words) {}
@@ -20,37 +19,38 @@ class DescriptionBuilder {
   Description& description() { return description_; }
   const Description& description() const { return description_; }
 
-  // Adds a file or command; from as in SourceFile. Returns its index.
+  // Adds a file or command and returns its index. from: as in SourceFile.
   uint32_t addFile(std::string_view name, Place from = {SourceFile::kNoFile, 0});
 
   uint32_t intern(std::string_view word) { return words_.intern(word); }
 
-  // A primitive's name. Those of surfaces name nothing, and are not looked for.
+  // The index of a primitive's name in Description::words. Names of surfaces are never looked up, so they are
+  // not entered into the table of words.
   uint32_t internName(Type type, std::string_view word) {
     return isSurface(type) ? words_.append(word) : words_.intern(word);
   }
 
-  // The definition of the modifier that is in force now; kVoid where there is none.
+  // The index of the definition of this modifier that is in force now, or kVoid if there is none.
   int32_t modifier(std::string_view name) const;
 
-  // A primitive whose arguments, none yet, will be the next ones of description().
+  // A primitive without arguments. Its arguments will be the next ones of description().
   Primitive begin(Type type, Place place, uint32_t name, int32_t modifier) const;
 
-  // Appends an argument of the primitive that was begun last.
+  // Append an argument of the primitive that was begun last.
   void addString(Primitive& p, std::string_view word);
   void addReal(Primitive& p, double value) {
     description_.realArgs.push_back(value);
     ++p.reals;
   }
 
-  // Makes an alias of what `reference` stands for; inherit: its modifier too, else that of `p`. reference is
-  // an index.
+  // Makes p an alias of the primitive at index `reference`, or of the primitive that this one is an alias of.
+  // inherit: p also gets the modifier of `reference`; otherwise p keeps its own.
   void resolveAlias(Primitive& p, int32_t reference, bool inherit) const;
 
-  // Appends the primitive that was begun last. A modifier is in force from here on.
+  // Appends the primitive that was begun last. If it is a modifier, it is in force from here on.
   void add(const Primitive& p);
 
-  // The error that says `text` at that place.
+  // The error with this text at this place.
   Error error(Place place, std::string_view text, Status status = Status::input) const;
 
   Description take() { return std::move(description_); }
@@ -58,7 +58,7 @@ class DescriptionBuilder {
  private:
   Description description_;
   WordTable words_;
-  std::vector<int32_t> inForce_;  // by word: the last modifier of that name
+  std::vector<int32_t> inForce_;  // by word: the index of the last modifier of that name, or kVoid
 };
 
 }  // namespace rad

@@ -6,11 +6,11 @@
 
 namespace rad {
 
-// Exit status of a program that stops for this reason, as rtrace(1) has them.
+// The exit status of a program that stops because of an error, as in rtrace(1).
 enum class Status { input = 1, system = 2, signal = 3 };
 
-// A fault that stops the work: what() is one line that begins with its place ("room.rad:12: undefined
-// modifier "wall""), without the program's name and without a line end.
+// An error that stops the work. what() is one line that begins with the place of the error ("room.rad:12:
+// undefined modifier "wall""), without the program's name and without a line end.
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& text, Status status = Status::input)
@@ -21,8 +21,8 @@ class Error : public std::runtime_error {
   Status status_;
 };
 
-// Receives a warning: one line with its place, without the program's name. May be called from the thread that
-// reads only. An empty function drops warnings.
+// Receives a warning: one line that begins with its place, without the program's name. It may be called only
+// from the thread that reads. An empty function ignores warnings.
 using Warn = std::function<void(std::string_view)>;
 
 }  // namespace rad

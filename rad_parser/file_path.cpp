@@ -12,7 +12,7 @@
 namespace rad {
 namespace {
 
-// "~/a" or "~user/a" with the home directory in place; empty where there is no such user.
+// Replaces "~" or "~user" at the beginning of a name by the home directory. Empty if there is no such user.
 std::optional<std::string> inHome(std::string_view name) {
   const size_t slash = std::min(name.find('/'), name.size());
   const std::string user(name.substr(1, slash - 1));
@@ -28,7 +28,7 @@ std::optional<std::string> inHome(std::string_view name) {
   return found->pw_dir + rest;
 }
 
-// Whether a name is not looked for along RAYPATH.
+// Whether a name is not searched along RAYPATH.
 bool standsAlone(std::string_view name) { return name[0] == '/' || name[0] == '.' || name[0] == '~'; }
 
 bool readable(const std::string& path) { return access(path.c_str(), R_OK) == 0; }
@@ -106,7 +106,7 @@ std::optional<std::string> findFile(std::string_view name, std::string_view sear
   for (;;) {
     const size_t colon = std::min(searchPath.find(':'), searchPath.size());
     std::string_view directory = searchPath.substr(0, colon);
-    if (directory == ".") directory = {};  // "desk.rad" is a better name in messages than "./desk.rad"
+    if (directory == ".") directory = {};  // so that messages say "desk.rad" instead of "./desk.rad"
     std::string path = joinPath(base, joinPath(directory, name));
     if (readable(path) && !isDirectory(path) && access.allows(path)) return path;
     if (colon == searchPath.size()) return {};

@@ -7,40 +7,42 @@
 
 namespace rad {
 
-// Where library files are looked for: the environment's RAYPATH, directories separated by ':'; without it
-// ".", then "/usr/local/lib/ray". An empty directory is the current one.
+// The directories in which library files are searched, separated by ':'. They are the value of
+// the environment variable RAYPATH; if it is not set, ".:/usr/local/lib/ray". An empty
+// directory is the current one.
 std::string libraryPath();
 
-// Which files a scene may name. Anywhere on the machine, or, where the scene comes from a stranger (-Sc-),
-// regular files in the folders that it was given: of the files named when it was made, and of RAYPATH; or in
-// folders below them. Symbolic links are followed first, so that none leads out.
+// The files that a scene may name. By default these are all files of the machine. For untrusted scenes (-Sc-)
+// they are the regular files in certain folders and below: the folders of the files that were given, and
+// those of RAYPATH. Symbolic links are followed before the test, so that none leads out of these folders.
 class FileAccess {
  public:
   FileAccess() = default;
-  // given: names as the command line has them; each is looked for as it stands and along RAYPATH.
+  // given: names from the command line. Each is searched as it is, and along RAYPATH.
   static FileAccess foldersOf(std::span<const std::string> given);
 
   bool allows(const std::string& path) const;
-  // What a message about a file that is not found has to add: which files are allowed, unless all are, or
-  // where a file of this name was looked for along RAYPATH. Empty where neither limits it.
+  // The end of a message about a file that was not found: the allowed folders, if files are restricted, or
+  // the folders of RAYPATH in which a file of this name was searched. Empty if neither applies.
   std::string remark(std::string_view name = {}) const;
 
  private:
-  std::optional<std::vector<std::string>> folders_;  // without links; each ends with '/'
+  std::optional<std::vector<std::string>> folders_;  // links resolved; each ends with '/'
 };
 
-// Finds a readable file as rtrace(1) and xform(1) do. A name that begins with '/' or '.' is taken as it
-// stands, one that begins with '~' starts in a home directory ("~/a", "~user/a"), every other is looked for
-// in each directory of searchPath in turn. Relative names and directories start at `base` (empty: the current
-// directory). Returns the path to open, relative where the name was; empty where no readable file is found,
-// or none that access allows.
+// Finds a readable file as rtrace(1) and xform(1) do. A name that begins with '/' or '.' is used as it is. A
+// name that begins with '~' is relative to a home directory ("~/a", "~user/a"). Every other name is searched
+// in the directories of searchPath, in their order. Relative names and directories are relative to `base`, or
+// to the current directory if base is empty. Returns the path to open, which is relative if the name was.
+// Empty if there is no readable file, or none that `access` allows.
 std::optional<std::string> findFile(std::string_view name, std::string_view searchPath,
                                     std::string_view base = {}, const FileAccess& access = {});
 
-// name as seen from the current directory where it was given as seen from base. Absolute names stay.
+// The path from the current directory to a file whose name is relative to `base`. Absolute names
+// are returned as they are.
 std::string joinPath(std::string_view base, std::string_view name);
 
-// The path up to its last '/', without it ("/" for a file there); empty where there is none.
+// The part of the path before its last '/' ("/" for a file in the root directory). Empty if there is no '/'.
 std::string directoryOf(std::string_view path);
 
 }  // namespace rad

@@ -11,7 +11,8 @@
 namespace rad {
 
 bool Glyph::covers(double x, double y) const {
-  // The box and the choice of edges go by whole grid steps, whose middles no vertex shares.
+  // The bounding box is tested, and edges are selected, with the middle of the grid cell,
+  // in which no vertex lies.
   const double column = std::floor(x) + .5, row = std::floor(y) + .5;
   if (!(column > left && column < right && row > bottom && row < top)) return false;
   bool inside = false;
@@ -22,7 +23,7 @@ bool Glyph::covers(double x, double y) const {
     if (aRight && bRight) {
       inside = !inside;
     } else if (aRight || bRight) {
-      // Does the edge pass to the right of the point itself?
+      // Whether the edge passes to the right of the point itself.
       const bool leftOf = (a.y - y) * (b.x - x) > (a.x - x) * (b.y - y);
       if (leftOf != (b.y > a.y)) inside = !inside;
     }
@@ -85,16 +86,16 @@ void TextLayout::spaceEvenly(Line& line) const {
   for (size_t i = 0; i < line.text.size(); ++i) line.advance.push_back(glyph(line, i) != nullptr ? 255 : 0);
 }
 
-// Each character as wide as its glyph, half the spacing on either side.
+// Each character is as wide as its glyph, with half the spacing on either side.
 void TextLayout::squeeze(Line& line, int spacing) const {
   const int half = spacing / 2;
   line.advance.assign(line.text.size() + 1, 0);
-  size_t last = 0;  // the advance after the character that was set last
+  size_t last = 0;  // index of the advance after the last character that was set
   while (last < line.text.size() && glyph(line, last) == nullptr) ++last;
   line.advance[last] = half;
   for (size_t i = last; i < line.text.size(); ++i) {
     const Glyph* g = glyph(line, i);
-    if (g == nullptr) continue;  // takes no room; what follows stands next to what was before
+    if (g == nullptr) continue;  // it takes no room, so that its neighbours are adjacent
     if (g->vertices.empty()) {
       line.advance[i + 1] = font_.meanWidth();
     } else {
@@ -105,8 +106,8 @@ void TextLayout::squeeze(Line& line, int spacing) const {
   line.advance.back() += half;
 }
 
-// Squeezed, then stretched word by word (with the blanks that follow) to as many mean widths as it has
-// characters, so that columns of words keep in line where more than three blanks separate them.
+// Squeezes the line, then stretches each word, together with the blanks behind it, to as many mean widths as
+// it has characters. Columns of words therefore align if more than three blanks separate them.
 void TextLayout::spaceProportionally(Line& line, int spacing) const {
   constexpr size_t column = 3;
   squeeze(line, spacing);

@@ -14,15 +14,15 @@
 namespace rad {
 namespace {
 
-constexpr int kMagic = 319;  // what the format number exceeds is the width of object numbers
+constexpr int kMagic = 319;  // the format number minus the width of object numbers
 
-// Vertices are named by the patch they belong to and their number in it, of 8 bits.
+// The number of a vertex consists of the number of its patch and its number in the patch, of 8 bits.
 constexpr uint32_t kPatchVertices = 256;
 constexpr uint32_t kPatchTriangles = 512, kPatchJoiners = 256;
 
-constexpr double kSteps = 4294967296.;  // 2^32: steps in the cube's edge and in the range of u and of v
+constexpr double kSteps = 4294967296.;  // 2^32: steps along the cube's edge, and in the ranges of u and v
 
-// Bits of a patch's first byte: what its vertices have.
+// Bits of a patch's first byte: the data that its vertices have.
 constexpr int kHasPosition = 1, kHasNormal = 2, kHasUv = 4;
 
 class Reader {
@@ -31,7 +31,7 @@ class Reader {
 
   Mesh read() {
     BinaryReader::Header header = input_.header();
-    // As rtrace has it, the number behind the header decides, whatever format the header names.
+    // As in rtrace, the number behind the header decides, even if the header names a different format.
     const bool named = header.format == "Radiance_tmesh";
     const int width = readIndexWidth(input_, kMagic, named ? "" : header.format);
     const Cube cube = readCube(input_);
@@ -88,7 +88,7 @@ class Reader {
 
   uint32_t word() { return static_cast<uint32_t>(input_.integer(4)); }
 
-  // What vertices of earlier patches have not is zero, which no code of a normal or of u is.
+  // Vertices of patches without normals or (u,v) get zeros, which are no code of a normal or of u.
   void vertices(int has) {
     const size_t before = mesh_.positions.size(), after = before + patchVertices_;
     for (uint32_t i = 0; i < patchVertices_; ++i) {
@@ -127,7 +127,7 @@ class Reader {
     return static_cast<int32_t>(m);
   }
 
-  // One material for all follows, or one for each.
+  // Either one material for all triangles follows, or one for each.
   void localTriangles() {
     const uint32_t n = count(kPatchTriangles, "triangles");
     const size_t first = mesh_.triangles.size();
@@ -141,12 +141,12 @@ class Reader {
       const int32_t sole = material();
       for (size_t i = first; i < mesh_.triangles.size(); ++i) mesh_.triangles[i].material = sole;
     } else {
-      input_.integer(2);  // a material of nothing, whatever it says
+      input_.integer(2);  // the material of no triangles
     }
   }
 
-  // A triangle whose first `away` vertices belong to other patches, which may come later: they are kept by
-  // their names until joinPatches().
+  // A triangle whose first `away` vertices belong to other patches, which may come later. Their numbers are
+  // kept until joinPatches() replaces them by indices.
   void joiner(size_t away) {
     Mesh::Triangle t;
     for (size_t i = 0; i < away; ++i) {
@@ -179,8 +179,8 @@ class Reader {
   BinaryReader& input_;
   const Warn& warn_;
   Mesh mesh_;
-  std::vector<uint32_t> firstVertex_;  // of each patch, in positions
-  uint32_t patchVertices_ = 0;         // of the patch at hand
+  std::vector<uint32_t> firstVertex_;  // of each patch, as an index of positions
+  uint32_t patchVertices_ = 0;         // in the current patch
   std::vector<Joint> joints_;
 };
 
@@ -188,10 +188,10 @@ class Reader {
 
 Imath::V3d decodeDirection(uint32_t code) {
   if (code == 0) return Imath::V3d(0);
-  constexpr double kScale = 11584.5;  // (2^13 - 1/2) sqrt 2, rounded as the format has it
+  constexpr double kScale = 11584.5;  // (2^13 - 1/2) sqrt 2, rounded as in the format
   constexpr uint32_t kMagnitude = 0x1fff;
   const double first = (code >> 5 & kMagnitude) / kScale, second = (code >> 18 & kMagnitude) / kScale;
-  // At most 8191 / 11584.5 each, so that what is left for the largest is never below zero.
+  // Both are at most 8191 / 11584.5, so the difference is never negative.
   const double largest = std::sqrt(1 - first * first - second * second);
   const bool firstIsX = code >> 3 & 1, secondIsZ = code >> 4 & 1;
   Imath::V3d d;

@@ -6,16 +6,18 @@
 
 namespace rad {
 
-// A real number as the scene language spells it: digits with at most one point among, before or after them, a
-// sign before, an exponent behind ("1.", "+.5", "1e3"). Independent of the locale, correctly rounded. What is
-// too small for a double is zero. Empty for anything else ("1,5", "inf", "0x1", "1e999", "").
+// Reads a real number in the notation of scene files: digits with at most one decimal point among, before or
+// behind them, an optional sign before them, and an optional exponent behind them ("1.", "+.5", "1e3").
+// Independent of the locale, and correctly rounded. Numbers too small for a double become zero. Empty for
+// anything else ("1,5", "inf", "0x1", "1e999", "").
 std::optional<double> parseReal(std::string_view word);
 
-// std::from_chars() for the number at the beginning of a text, bit by bit the same, in half the time for
-// numbers of up to 15 digits: those of nearly every file.
+// The same as std::from_chars(), bit by bit, but in half the time for numbers of up to 15 digits, which are
+// nearly all numbers in scene files.
 std::from_chars_result readReal(const char* first, const char* last, double& value);
 
-// An integer: digits with a sign before. Empty for anything else, and beyond 64 bits.
+// Reads an integer: digits with an optional sign before them. Empty for anything else, and for
+// integers of more than 64 bits.
 std::optional<int64_t> parseInteger(std::string_view word);
 
 }  // namespace rad

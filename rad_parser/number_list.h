@@ -7,24 +7,24 @@
 
 namespace rad {
 
-// The numbers of a data or font file, one after the other: white space separates, '#' begins a comment.
-// Faults are thrown as Error "NAME:LINE: expected WHAT, got ..".
+// Reads the numbers of a data or font file one after the other. They are separated by white space; '#' begins
+// a comment. Errors are thrown as Error "NAME:LINE: expected WHAT, got ..".
 class NumberList {
  public:
-  // Both must outlive this.
+  // Both must outlive this object.
   NumberList(std::string_view text, std::string_view name) : text_(text), name_(name) {}
 
   double real(std::string_view what);
   int64_t integer(std::string_view what, int64_t least, int64_t most);
 
-  // Whether nothing but blanks and comments is left.
+  // Whether only blanks and comments are left.
   bool atEnd();
 
-  // Bytes that have not been read: no fewer than the numbers that may follow, for a check of counts before
-  // memory is taken for them.
+  // The number of bytes that have not been read. No more numbers than this can follow, so counts can be
+  // checked before memory is allocated.
   size_t left() const { return text_.size() - position_; }
 
-  // Throws with the place of the number read last.
+  // Throws an Error with the place of the number that was read last.
   [[noreturn]] void fail(const std::string& problem) const;
 
  private:

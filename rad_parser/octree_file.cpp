@@ -13,21 +13,22 @@ namespace rad {
 namespace {
 
 constexpr std::string_view kFormat = "Radiance_octree";
-constexpr std::string_view kFirst = "#?";  // of an information header
-constexpr int kMagic = 283;                // what the format number exceeds is the width of object numbers
+constexpr std::string_view kFirst = "#?";  // the first characters of most information headers
+constexpr int kMagic = 283;                // the format number minus the width of object numbers
 constexpr size_t kBeginning = 1 << 16;
 
-// Where the header ends, behind its empty line; npos where it does not.
+// The offset behind the empty line that ends the header; npos if there is none.
 size_t headerEnd(std::string_view data) {
   const size_t unix = data.find("\n\n"), dos = data.find("\n\r\n");
   if (unix == data.npos && dos == data.npos) return data.npos;
   return unix < dos ? unix + 2 : dos + 3;
 }
 
-// Room for what the rest of a regular file can hold, so that a large scene is not moved again and again. What
-// is not filled is never touched, and costs no memory.
+// Reserves memory for as much as the rest of a regular file can contain, so that the arrays of a large scene
+// are not moved repeatedly. Pages of it that are never written cost no memory.
 void reserve(Description& d, int64_t objects, int width, uint64_t bytes) {
-  const uint64_t shortest = 6 + static_cast<uint64_t>(width);  // type, modifier, empty name, two counts
+  // In bytes: type, modifier, empty name, two counts.
+  const uint64_t shortest = 6 + static_cast<uint64_t>(width);
   const uint64_t most = std::min(static_cast<uint64_t>(objects), bytes / shortest);
   d.primitives.reserve(most);
   d.words.reserve(most);
@@ -66,7 +67,7 @@ bool isOctree(std::string_view beginning, std::string_view name) {
     rest.remove_prefix(lineEnd == rest.npos ? rest.size() : lineEnd + 1);
   }
   if (format == kFormat) return true;
-  // Text may have an empty line, but no such bytes behind it.
+  // A text may contain an empty line, but not these bytes behind it.
   bool hasNumber = false;
   if (end != beginning.npos && beginning.size() >= end + 2) {
     const int number = static_cast<uint8_t>(beginning[end]) << 8 | static_cast<uint8_t>(beginning[end + 1]);

@@ -8,25 +8,29 @@
 
 namespace rad {
 
-// The beginning of the data of a descriptor, as far as isOctree() needs it: at most 64 kB, all of it where it
-// is shorter. What cannot be read is left for who reads on, who meets the same fault.
+// The beginning of the data that a descriptor delivers, as much of it as isOctree() needs: at most 64 kB, or
+// all data if there are fewer. Read errors are ignored, because the reader that continues meets them again.
 std::string readBeginning(int descriptor);
 
-// Whether data that begin like this are an octree, by its information header: lines up to an empty one, of
-// which the last that begins with FORMAT= names Radiance_octree; or, where no line names a format, by the
-// octree's format number behind the header. As rtrace has it, "#?RADIANCE" need not be the first line. Throws
-// where the header of an octree, or one that begins with "#?", names another format.
+// Whether data with this beginning are an octree. Its information header, which ends with an empty line,
+// decides: the last line that begins with FORMAT= must name Radiance_octree. If no line names a format, the
+// format number behind the header must be that of an octree. As in rtrace, "#?RADIANCE" need not be the first
+// line. Throws if the header of an octree, or any header that begins with "#?", names a different format.
 bool isOctree(std::string_view beginning, std::string_view name);
 
-// Reads an octree into the builder's description, which is empty but for `file`, the octree's own. A frozen
-// one has its primitives with it; places are their numbers. Otherwise sceneFile(name) is called for each
-// scene file that it names, in turn, and must add that file's primitives to the builder.
+// Reads an octree into the builder's description, which must be empty except for `file`, the octree itself. A
+// frozen octree contains its primitives, and their places are their numbers. For other octrees,
+// sceneFile(name) is called for each scene file that the octree names, in order; it must add the primitives
+// of that file to the builder.
 //
-// Header and bounds are kept. The cells are passed over: only what they say of the scene is checked. Throws
-// for what is truncated or damaged with the byte where it was noticed, and, as rtrace(1) does, "bad object
-// count; octree stale?" where the scene files have changed in number of primitives, and "modifier in tree;
-// octree stale?" where a cell holds what is no surface (rtrace looks only where a scene file is newer than
-// the octree). Bytes behind the end are ignored. Source: RADIANCE file formats, "Octree format".
+// The header and the bounds are kept. The cells are read only to check them against the scene. Bytes behind
+// the end are ignored. Throws
+// - for truncated or damaged data, with the byte at which the error was noticed;
+// - as rtrace(1) does, "bad object count; octree stale?" if the number of primitives in the
+//   scene files has changed;
+// - "modifier in tree; octree stale?" if a cell contains a primitive that is not a surface; rtrace checks
+//   this only if a scene file is newer than the octree.
+// Source: RADIANCE file formats, "Octree format".
 void readOctree(BinaryReader& input, uint32_t file, DescriptionBuilder& builder, const Warn& warn,
                 const std::function<void(const std::string&)>& sceneFile);
 

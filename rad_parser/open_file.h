@@ -12,8 +12,8 @@
 
 namespace rad {
 
-// A file open for reading, until this ends. descriptor() is -1, and errno says why, where it cannot be
-// opened.
+// A file that is open for reading as long as this object exists. If it cannot be opened, descriptor() is -1
+// and errno contains the reason.
 class OpenFile {
  public:
   explicit OpenFile(const std::string& path) : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
@@ -28,7 +28,8 @@ class OpenFile {
   // False for folders, pipes and devices.
   bool isRegular() const { return S_ISREG(begin_.st_mode); }
 
-  // All that it has from where it is read to. Throws Error where that cannot be read, as a folder cannot.
+  // The contents from the current position on. name: for messages. Throws Error if they cannot be
+  // read, as those of a folder.
   std::string contents(std::string_view name) const {
     std::string bytes;
     if (S_ISREG(begin_.st_mode)) bytes.reserve(static_cast<size_t>(begin_.st_size));
@@ -42,9 +43,9 @@ class OpenFile {
     return bytes;
   }
 
-  // Throws Error where somebody has written to the file since it was opened: what was read may be neither
-  // what was there nor what is. Changes that leave its length are seen by its time, which some systems keep
-  // to 10 ms.
+  // Throws Error if the file has been written to since it was opened, because the data that were read may
+  // then be a mixture of old and new ones. Changes that keep the length are detected by the modification
+  // time, which some systems record to 10 ms only.
   void requireUnchanged(std::string_view name) const {
     struct stat now {};
     if (!S_ISREG(begin_.st_mode) || fstat(descriptor_, &now) != 0) return;

@@ -20,14 +20,14 @@
 namespace rad {
 namespace {
 
-// What holds for the text that is being read, and for what it reads in turn.
+// The circumstances under which a text is read. They also apply to the files and commands in it.
 struct Context {
-  std::string directory;  // where its commands run; empty: the current one
+  std::string directory;  // in which its commands run; empty: the current one
   const Transform* transform = nullptr;
   int depth = 0;
 };
 
-// One line, for messages.
+// A command as one line, for messages.
 std::string shownCommand(std::string_view command) {
   std::string text = "!";
   for (size_t i = 0; i < command.size(); ++i) {
@@ -40,7 +40,7 @@ std::string shownCommand(std::string_view command) {
 
 class Reader {
  public:
-  // alone: of the names given this is the only one, so that it may be an octree.
+  // alone: whether only one name was given, which may then be an octree.
   Reader(const ReadOptions& options, bool alone) : options_(options), alone_(alone) {}
 
   void file(const std::string& name) {
@@ -88,7 +88,8 @@ class Reader {
   Description take() { return builder_.take(); }
 
  private:
-  // Reads what `ahead` begins where it is an octree, or nothing at all, which is an error; else false.
+  // Reads data that begin with `ahead` if they are an octree, and returns true. An empty octree is an error.
+  // Returns false for other data.
   bool octree(int descriptor, uint32_t file, std::string_view ahead) {
     const std::string name = builder_.description().files[file].name;
     if (!ahead.empty() && !isOctree(ahead, name)) return false;
@@ -116,7 +117,7 @@ class Reader {
     return true;
   }
 
-  // A whole text. quiet: an empty one is no news.
+  // Reads a whole text. quiet: do not warn if it contains no primitive.
   void all(TextSource& text, const Context& context, uint32_t file, bool quiet = false) {
     const size_t before = builder_.description().primitives.size();
     text.skipByteOrderMark();
@@ -133,7 +134,7 @@ class Reader {
     if (!quiet && builder_.description().primitives.size() == before) warn({file, 1}, "empty file");
   }
 
-  // from: the line that has it; kNoFile where it was given as a scene's name.
+  // from: the place of the command; from.file is kNoFile if the command was given as a name.
   void command(const std::string& line, Place from, const Context& context) {
     const std::string shown = shownCommand(line);
     const Place place = from.file == SourceFile::kNoFile ? Place{builder_.addFile(shown), 1} : from;
@@ -161,7 +162,7 @@ class Reader {
                            fmt::format("cannot execute command: {}", std::strerror(fault.code().value())),
                            Status::system);
     }
-    const bool named = from.file == SourceFile::kNoFile;  // not by a file: its output may be an octree
+    const bool named = from.file == SourceFile::kNoFile;  // given as a name, so its output may be an octree
     const std::string ahead = named ? readBeginning(running->output()) : std::string();
     const size_t before = builder_.description().primitives.size();
     if (ahead.empty() || !octree(running->output(), file, ahead)) {
@@ -180,8 +181,9 @@ class Reader {
       warn(place, fmt::format("\"{}\" gives nothing", printable(shown)));
   }
 
-  // A command that fails may have left surfaces out, which no answer shows: an error, but in an octree and
-  // where the command was given instead of one (goesOn), which rtrace(1) only warns of.
+  // Surfaces may be missing after a command has failed, which would not be visible in the results. It is
+  // therefore an error, except where rtrace(1) only warns (goesOn): in the scene files of an octree, and for
+  // a command given as a name.
   void badStatus(Place place, const std::string& shown, const std::string& fault, bool goesOn) const {
     const std::string text = fmt::format("bad status from \"{}\": {}", printable(shown), fault);
     if (!goesOn) throw builder_.error(place, text + "; surfaces that it makes may be missing from the scene");
@@ -189,8 +191,8 @@ class Reader {
   }
 
   void xform(const std::vector<std::string>& words, Place place, const Context& context) {
-    std::vector<std::pair<std::string, uint32_t>>
-        seen;  // files by path: an array reads the same ones again and again
+    // The indices of the files by their paths, because each element of an array reads the same files again.
+    std::vector<std::pair<std::string, uint32_t>> seen;
     try {
       forEachPass(words, context.directory, options_.files, [&](const XformPass& pass) {
         if (++passes_ > kMostPasses)
@@ -336,14 +338,14 @@ class Reader {
     if (options_.warn) options_.warn(fmt::format("{}: {}", builder_.description().at(place), text));
   }
 
-  static constexpr int64_t kMostArguments = 0x7fffffff;  // of one kind, for one primitive
+  static constexpr int64_t kMostArguments = 0x7fffffff;  // of one kind in one primitive
 
   const ReadOptions& options_;
   const bool alone_;
-  bool ofOctree_ = false;  // the files that are read are those of an octree that is not frozen
+  bool ofOctree_ = false;  // the scene files that are read are those of an octree
   DescriptionBuilder builder_;
-  int64_t passes_ = 0;           // of all xform commands
-  std::string modifier_, name_;  // of the primitive at hand; kept for their memory
+  int64_t passes_ = 0;           // in all xform commands
+  std::string modifier_, name_;  // of the current primitive; members, so that their memory is reused
 };
 
 }  // namespace

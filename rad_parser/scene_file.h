@@ -10,48 +10,52 @@
 namespace rad {
 
 struct ReadOptions {
-  bool commands = true;  // -Sc: whether '!command' lines may run through the shell (xform never needs it)
+  bool commands = true;  // -Sc: whether lines '!command' may run in a shell; xform needs none
   Warn warn{};
-  FileAccess files{};  // those that scene files may name; the names given to read first are not asked about
+  FileAccess files{};  // those that scene files may name; the scene files themselves may be anywhere
 };
 
-// Files and commands within each other beyond this are refused: a file that reads itself would never end.
+// Limit on the nesting of files and commands, because a file that reads itself would never end.
 inline constexpr int kDeepestNesting = 100;
 
-// Reads scene text, in the order given, into one description; a later file may use modifiers of an earlier
-// one. A name that begins with '!' is a command whose output is read. Names are found as they stand, or along
-// RAYPATH (see file_path.h) unless they begin with '/', '.' or '~'.
+// Reads scene text into one description. The files are read in the given order, so a file may use the
+// modifiers of earlier ones. A name that begins with '!' is a command whose output is read. Names are used as
+// they are if such a file exists; otherwise they are searched along RAYPATH (see file_path.h), unless they
+// begin with '/', '.' or '~'.
 //
-// Commands. A plain xform command (no shell syntax, files named) is carried out here, with its files' own
-// commands in turn: their arguments keep all digits where the program would round them to 12 (absorption to
-// 6). Files are looked for along RAYPATH, and commands in them run in their file's directory unless -c is
-// given. Every other command runs in /bin/sh with an empty standard input; its output is scene text, whose
-// places name the command and count its own lines. A command that ends with a status other than 0 (127: the
-// shell did not find it) is an error in a scene file, as is an xform that cannot be carried out: oconv(1)
-// would go on without their surfaces. It is a warning, as in rtrace(1), where the command itself is the name
-// given, and in the scene files of an octree that is not frozen. A file or command without any primitive is
-// a warning.
+// Commands. An xform command that names files and contains no shell syntax is executed in this process,
+// together with the commands in its files. Arguments keep all their digits, whereas the program xform would
+// round them to 12 digits, and absorption to 6. Its files are searched along RAYPATH, and commands in them
+// run in the directory of their file unless -c is given. Every other command runs in /bin/sh with an empty
+// standard input; its output must be scene text. Places in this text name the command and its line of output.
+// A command that ends with a status other than 0 (127 if the shell did not find it), or an xform that cannot
+// be executed, is an error in a scene file, whereas oconv(1) would continue without its surfaces. It is only
+// a warning, as in rtrace(1), if the command itself is given as a name, and in the scene files of an octree
+// that is not frozen. A file or command without primitives is a warning.
 //
-// Throws Error with its place: a file that cannot be read or a command that cannot be started
-// (Status::system), anything the language does not allow, commands where options forbid them, nesting beyond
-// kDeepestNesting, NUL bytes, words of more than 65536 bytes. A modifier must be defined before its use; the
-// last definition counts. Integer arguments must be 0 in number: no type has any. Memory is in proportion to
-// the text read. Source: RADIANCE reference manual, "Scene description"; oconv(1), xform(1).
+// Throws Error with its place
+// - for a file that cannot be read, and for a command that cannot be started (Status::system);
+// - for anything that the language does not allow, for NUL bytes, and for words of more than 65536 bytes;
+// - for commands if the options forbid them;
+// - for nesting deeper than kDeepestNesting.
+// A modifier must be defined before it is used; its last definition before the use applies. The number of
+// integer arguments must be 0, because no type has any. Memory is in proportion to the text. Source: RADIANCE
+// reference manual, "Scene description"; oconv(1), xform(1).
 //
-// A single name may be an octree, or a command whose output is one, which its content tells: it is read as
-// readOctree() has it. One that is empty is refused where its name ends in ".oct" or it is a command's
-// output.
+// If only one name is given, it may be an octree, or a command that writes one. Octrees are recognized by
+// their contents and read by readOctree(). An empty file is an error if its name ends with ".oct", and so is
+// a command without output.
 Description readScene(std::span<const std::string> names, const ReadOptions& options = {});
 
-// Reads an octree, frozen or not, of oconv(1). name is looked for along RAYPATH, as `instance` has it. Header
-// and bounds are kept; the cells are passed over. Scene files that it names are opened as they stand, from
-// the current directory, and its commands are subject to options. Throws Error: Status::system where a file
-// cannot be found or read, Status::input for what is no octree, or is truncated, damaged or stale
-// (octree_file.h). Real numbers of a frozen octree are within 2^-31 of themselves of those of the text; equal
-// definitions of a modifier may have become one.
+// Reads an octree of oconv(1), frozen or not. name is searched along RAYPATH, as for the type instance. The
+// header and the bounds are kept; the cells are not. The scene files that the octree names are opened
+// relative to the current directory, and their commands are subject to the options. Throws Error with
+// Status::system if a file cannot be found or read, and with Status::input if the file is not an octree, or
+// is truncated, damaged or stale (octree_file.h). The real numbers of a frozen octree have a relative error
+// of at most 2^-31 against those of the text. Equal definitions of a modifier may have been merged.
 Description readOctree(const std::string& name, const ReadOptions& options = {});
 
-// readScene() for one text in memory. name: as messages print it.
+// readScene() for a text in memory. name: for messages.
 Description readSceneText(std::string_view text, std::string_view name, const ReadOptions& options = {});
 
 }  // namespace rad

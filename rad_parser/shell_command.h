@@ -5,13 +5,13 @@
 
 namespace rad {
 
-// A command that runs in /bin/sh, in a directory, and whose standard output is read. Its standard input is
-// empty (the program's own holds the records to answer), its standard error is the program's. Ended with the
-// object: a command that was not finished is killed.
+// A command that runs in /bin/sh, in a given directory, and whose standard output is read. Its standard input
+// is empty, because the program's own contains the records to answer. Its standard error is that of the
+// program. The destructor kills a command that was not finished.
 class ShellCommand {
  public:
-  // directory: where it runs; empty: the current one. Throws std::system_error where no process can be
-  // started.
+  // directory: the directory in which the command runs; empty: the current one. Throws std::system_error if
+  // no process can be started.
   ShellCommand(const std::string& command, const std::string& directory);
   ~ShellCommand();
   ShellCommand(const ShellCommand&) = delete;
@@ -19,8 +19,8 @@ class ShellCommand {
 
   int output() const { return output_; }
 
-  // Waits for its end, after output() was read. Empty where it ended well, else how it ended ("exit status
-  // 127").
+  // Waits until the command ends; call it after reading output(). Returns an empty string if the status is 0,
+  // otherwise how the command ended ("exit status 127").
   std::string finish();
 
  private:

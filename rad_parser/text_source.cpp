@@ -13,7 +13,7 @@
 namespace rad {
 namespace {
 
-// One block holds the longest word and is small enough to stay in the second-level cache.
+// A block can hold the longest word, and is small enough for the second-level cache.
 constexpr size_t kBlock = 1 << 18;
 static_assert(kBlock > 2 * TextSource::kLongestWord);
 
@@ -42,8 +42,8 @@ TextSource::TextSource(int descriptor, uint32_t file, const DescriptionBuilder& 
 TextSource::TextSource(std::string_view text, uint32_t file, const DescriptionBuilder& builder)
     : file_(file), builder_(builder), next_(text.data()), end_(text.data() + text.size()) {}
 
-// Reads more behind what begins at keep, which moves to the front of the block. False, and nothing moved, at
-// the end.
+// Moves the text from keep on to the front of the block and reads more text behind it. At the end of the
+// text, returns false and moves nothing.
 bool TextSource::refill(const char*& keep) {
   if (descriptor_ < 0) return false;
   return readOn(descriptor_, block_.get(), kBlock, keep, next_, end_, [&] {
@@ -87,7 +87,7 @@ void TextSource::skipLine() {
 std::string TextSource::line() {
   constexpr size_t kLongestLine = 1 << 20;
   std::string text;
-  bool sawReturn = false;  // "\r" ends the line, and a "\n" behind it belongs to the same end
+  bool sawReturn = false;  // "\r" ends the line; a "\n" behind it is part of the same line end
   for (;;) {
     if (next_ == end_) {
       const char* keep = next_;
@@ -136,7 +136,7 @@ bool TextSource::word(std::string_view& word) {
   }
 }
 
-// The rest of a word in which a quote was met, at next_. Its first part begins at start.
+// Reads the rest of a word with a quote, which is at next_. The word begins at start.
 bool TextSource::quotedWord(std::string_view& word, const char* start) {
   unquoted_.assign(start, next_);
   char open = '\0';
@@ -169,7 +169,7 @@ bool TextSource::quotedWord(std::string_view& word, const char* start) {
 }
 
 bool TextSource::real(double& value) {
-  // Almost every number ends within the block, and can be read without looking for its end first.
+  // Almost every number ends within the block. It can then be read without a search for its end.
   if (peek() >= 0) {
     const char* digits = next_ + (*next_ == '+');
     const char* first = digits + (digits == next_ && *digits == '-');

@@ -7,46 +7,47 @@
 
 namespace rad {
 
-// The words of a scene text, one after the other, from a file descriptor (read in blocks, so that memory does
-// not grow with the file) or from memory. Words are separated by white space; parts of them in double or
-// single quotes may hold white space, and the quotes fall away. Faults are thrown with their place.
+// Reads the words of a scene text one after the other, from a file descriptor or from memory. A
+// descriptor is read in blocks, so that memory does not grow with the file. Words are separated by white
+// space. Parts of a word in double or single quotes may contain white space; the quotes are removed.
+// Errors are thrown with their place.
 class TextSource {
  public:
-  // A word longer than this is taken for a sign that the input is no scene text.
+  // Limit on the length of words. A longer word is a sign that the input is not scene text.
   static constexpr size_t kLongestWord = 1 << 16;
 
-  // Reads `descriptor`, which stays the caller's, as the builder's file `file`. ahead: what was read from it
-  // already; at most half a block (128 kB).
+  // Reads `descriptor`, which the caller closes, as the file `file` of the builder. ahead: data that were
+  // read from the descriptor before, at most half a block (128 kB).
   TextSource(int descriptor, uint32_t file, const DescriptionBuilder& builder, std::string_view ahead = {});
-  // Reads text, which must outlive this.
+  // Reads text, which must outlive this object.
   TextSource(std::string_view text, uint32_t file, const DescriptionBuilder& builder);
 
-  // Skips white space. The first character behind it, or -1 at the end.
+  // Skips white space. Returns the next character, or -1 at the end.
   int peek();
 
-  // Skips a byte order mark, which editors put at the beginning of UTF-8 text, and white space before it.
+  // Skips white space and a byte order mark, which some editors write at the beginning of UTF-8 text.
   void skipByteOrderMark();
 
   // Skips to the end of the line.
   void skipLine();
 
-  // The rest of the line; a backslash before the line's end makes the next line part of it (both characters
-  // are kept, as a shell expects them). The line's end may be written "\r\n" or "\r" and is not part of the
-  // text.
+  // The rest of the line, without its end, which may be "\n", "\r\n" or "\r". After a backslash at
+  // the end of the line, the next line is also returned; the backslash and the line end are kept,
+  // as a shell expects them.
   std::string line();
 
-  // The next word, valid until the next call. False at the end of the text.
+  // Reads the next word, which is valid until the next call. Returns false at the end of the text.
   bool word(std::string_view& word);
 
-  // The next word as a real or integer number; false where it is none or the text ends: lastWord() says
-  // which.
+  // Read the next word as a real number or as an integer. Return false if it is not one, or at the end of the
+  // text; lastWord() distinguishes the two.
   bool real(double& value);
   bool integer(int64_t& value);
 
-  // The word that real() or integer() refused; empty at the end of the text.
+  // The word that real() or integer() did not accept; empty at the end of the text.
   std::string_view lastWord() const { return lastWord_; }
 
-  // Where the word just read began, or, after peek(), where the next begins.
+  // The place where the last word began or, after peek(), where the next one begins.
   Place place() const { return {file_, wordLine_}; }
 
  private:
@@ -54,7 +55,7 @@ class TextSource {
   bool quotedWord(std::string_view& word, const char* start);
   [[noreturn]] void nulByte() const;
 
-  int descriptor_ = -1;  // -1: nothing more to read
+  int descriptor_ = -1;  // -1 at the end of the data
   uint32_t file_;
   uint32_t line_ = 1, wordLine_ = 1;
   const DescriptionBuilder& builder_;

@@ -6,29 +6,30 @@
 
 namespace rad {
 
-// Gives each distinct word one number, in a list of the caller's that is empty at first: an open hash table
-// of 8 bytes a slot. Words are never removed. Memory is in proportion to the words in the list.
+// Numbers distinct words. The words are appended to a list of the caller, which must be empty at first. The
+// table is an open-addressing hash table of 8 bytes a slot. Words are never removed. Memory is in
+// proportion to the number of words.
 class WordTable {
  public:
   static constexpr uint32_t kNone = 0xffffffff;
 
   explicit WordTable(std::vector<std::string>& words);
 
-  // The word's index in the list; appended where it is new.
+  // The index of the word in the list, to which it is appended if it is new.
   uint32_t intern(std::string_view word);
 
-  // Appends a word that nobody will look for, without a place in the table: for surfaces' names, which differ
-  // from one another in most scenes, a look there is a cache miss each, a sixth of the time to load. The same
-  // word again and again is one entry.
+  // Appends a word that will never be searched for, without entering it into the table. It is meant for the
+  // names of surfaces: in most scenes they are all different, and a cache miss in the table for each of them
+  // would be a sixth of the time to load. Equal words in succession become one entry.
   uint32_t append(std::string_view word);
 
-  // The word's index, or kNone.
+  // The index of the word, or kNone.
   uint32_t find(std::string_view word) const;
 
  private:
   struct Slot {
     uint32_t word = kNone;
-    uint32_t hash = 0;  // compared first, so that a probe seldom touches the words themselves
+    uint32_t hash = 0;  // compared first, so that a probe rarely accesses the words
   };
 
   uint32_t add(std::string_view word);
@@ -36,9 +37,9 @@ class WordTable {
   void grow();
 
   std::vector<std::string>& words_;
-  std::vector<Slot> slots_;  // a power of two of them, at most half full
-  size_t interned_ = 0;      // of them full
-  uint32_t appended_ = kNone;
+  std::vector<Slot> slots_;    // the number of slots is a power of two; at most half are used
+  size_t interned_ = 0;        // number of slots in use
+  uint32_t appended_ = kNone;  // the word that append() added last
 };
 
 }  // namespace rad

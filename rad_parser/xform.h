@@ -14,8 +14,8 @@ namespace rad {
 
 using Imath::V3d;
 
-// A transform without distortion: p -> p * matrix, for row vectors (the translation is matrix[3][0..2]).
-// scale is its factor for lengths, negative where it mirrors.
+// A similarity transform p -> p * matrix, for row vectors; the translation is in matrix[3][0..2]. scale is
+// its factor for lengths. It is negative for a mirroring transform.
 struct Similarity {
   Imath::M44d matrix;
   double scale = 1;
@@ -25,39 +25,44 @@ struct Similarity {
   Similarity inverse() const;
 };
 
-// a, then b.
+// The transform that applies a first, then b.
 Similarity operator*(const Similarity& a, const Similarity& b);
 
-// The transform that words as "-t 1 0 0 -rz 90 -s 2 -mx -i 3 ..." spell, in their order, up to the first word
-// that belongs to none; `used` words belong to it. This is also how function files' primitives, instances and
-// meshes carry theirs, behind their string arguments. A word that is wrong ends it ("-t 1 0", "-s 0"): the
-// caller refuses what is left over. Source: xform(1), OPTIONS.
+// Reads a transform from options such as "-t 1 0 0 -rz 90 -s 2 -mx -i 3", which are applied in their order.
+// Stops at the first word that is not part of a valid option; `used` becomes the number of words before it.
+// Malformed options ("-t 1 0", "-s 0") also end it, so the caller must refuse words that are left over.
+// Primitives with function files, instances and meshes contain their transforms in this form, behind their
+// string arguments. Source: xform(1), OPTIONS.
 Similarity readTransform(std::span<const std::string_view> words, size_t& used);
 
-// What one xform command, or several within each other, do to a primitive.
+// The changes that an xform command, or several nested ones, make to a primitive.
 struct Transform {
-  Similarity similarity;                // of all
-  bool reversed = false;                // polygons turn their order of vertices
-  bool inverted = false;                // surfaces face the other way (-I)
-  std::string prefix;                   // of surfaces' names, "outer.inner"; empty: none
-  std::optional<std::string> modifier;  // of all surfaces (-m)
-  std::vector<std::string>
-      arguments;  // what function files' primitives, instances and meshes get behind their strings
+  Similarity similarity;                // of all nested commands
+  bool reversed = false;                // the order of the vertices of polygons is reversed
+  bool inverted = false;                // surfaces face the opposite side (-I)
+  std::string prefix;                   // of the names of surfaces, "outer.inner"; may be empty
+  std::optional<std::string> modifier;  // replaces that of surfaces (-m)
+  // The words that are appended to the string arguments of instances, meshes and
+  // primitives with function files.
+  std::vector<std::string> arguments;
 
-  // A primitive's type: -I makes a bubble of a sphere, a cup of a cone, a tube of a cylinder, and back.
+  // The new type of a primitive. -I exchanges sphere and bubble, cone and cup, cylinder and tube.
   Type typeOf(Type type) const;
-  // A primitive's name, written to `buffer` where it changes.
+  // The new name of a primitive. If it differs from `written`, it is in `buffer`.
   std::string_view nameOf(Type type, std::string_view written, std::string& buffer) const;
 
-  // Transforms the arguments of the primitive that was begun last, by its type's rules (those of xform(1)'s
-  // program): points, vectors and radii of surfaces, texts and spotlights; a glow's radius of effect; what
-  // dielectric, interface and mist absorb along a length; the sources that mist names. Others are left alone.
-  // Throws Error with the primitive's place where it has not the arguments that its type needs here, or where
-  // the result is no finite number.
+  // Transforms the arguments of the primitive that was begun last, by the rules of its type,
+  // which are those of xform(1):
+  // - points, vectors and radii of surfaces, texts and spotlights;
+  // - the radius of effect of a glow;
+  // - the absorption along a length of dielectric, interface and mist;
+  // - the names of the sources of mist.
+  // Other types are unchanged, or get `arguments`. Throws Error with the primitive's place if it lacks the
+  // arguments that its type needs, or if a result is not a finite number.
   void apply(Primitive& p, DescriptionBuilder& builder) const;
 };
 
-// First inner, then outer.
+// The transform that applies inner first, then outer.
 Transform within(const Transform& outer, const Transform& inner);
 
 }  // namespace rad

@@ -14,8 +14,8 @@ namespace {
 
 XformFault fault(std::string_view text) { return XformFault(fmt::format("xform: {}", text)); }
 
-// The words of one line of an argument file. As in xform, quotes and a backslash are special only at the
-// beginning of a word.
+// The words of one line of an argument file. As in xform, quotes and a backslash are special only at
+// the beginning of a word.
 std::vector<std::string> argumentWords(std::string_view line) {
   constexpr std::string_view kSpace = " \t\n\v\f\r";
   if (line.starts_with('!')) line.remove_prefix(1);
@@ -183,8 +183,8 @@ std::optional<std::vector<std::string>> plainWords(std::string_view command) {
     if (c == '\\' && i + 1 < command.size() && command[i + 1] == '\n') {
       ++i;
     } else if (c == ' ' || c == '\t' || c == '\n' || (c == '#' && !inWord)) {
-      // To a shell, a line end that is not escaped would begin another command, but command lines contain
-      // none.
+      // To a shell, a line end that is not escaped would begin another command, but
+      // command lines contain none.
       if (inWord) words.push_back(word);
       word.clear();
       inWord = false;

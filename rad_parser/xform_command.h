@@ -13,9 +13,9 @@
 
 namespace rad {
 
-// The words of a command, if a shell would pass them on unchanged: the command contains none of
-// |&;<>()$`\*?[]{}!, quotes only in pairs, and a comment (#) only at its end. Empty if the command needs a
-// shell.
+// The words of a command, if a shell would pass them on unchanged: the command contains none
+// of |&;<>()$`\*?[]{}!, quotes only in pairs, and a comment (#) only at its end. Empty if
+// the command needs a shell.
 std::optional<std::vector<std::string>> plainWords(std::string_view command);
 
 // One pass of xform over its files.

@@ -99,8 +99,8 @@ class Expander {
     return static_cast<uint32_t>(out_.messages.size() - 1);
   }
 
-  // An operation that throws the error when it is evaluated. As in RADIANCE, an expression that is never
-  // needed may be wrong.
+  // An operation that throws the error when it is evaluated. As in RADIANCE, an expression that is
+  // never needed may be wrong.
   Id fail(const Syntax& tree, const Scope& scope, std::string_view problem) {
     return scope.frame->graph.leaf(Op::fail, message(fmt::format("{}: {}", place(tree, scope), problem)));
   }
@@ -208,8 +208,8 @@ class Expander {
     return id;
   }
 
-  // The symbol of the function that a callee or an argument names. Returns -1 and the problem if it names
-  // none.
+  // The symbol of the function that a callee or an argument names. If it names none,
+  // returns -1 and the problem.
   int function(const Syntax& tree, const Scope& scope, std::string& problem) const {
     const Syntax* t = &tree;
     const Scope* s = &scope;

@@ -45,8 +45,8 @@ struct Expansion {
 };
 
 // The graphs of bound expressions. The trees must outlive the call only. An expression that cannot be
-// evaluated, such as an undefined variable, becomes the operation Op::fail. Throws Error if definitions are
-// nested too deeply.
+// evaluated, such as an undefined variable, becomes the operation Op::fail. Throws Error if
+// definitions are nested too deeply.
 Expansion expandExpressions(const CompileInput& input, std::span<const Syntax> expressions);
 
 // The graphs of symbol(Point::arguments[0], .. [count-1]).

@@ -16,8 +16,7 @@ namespace rad::calc {
 struct Block {
   uint32_t parent = kNone;
   uint32_t depth = 0;
-  bool isInline =
-      true;  // entered only from its parent, where its operation is; false for cells and arguments
+  bool isInline = true;   // its code is part of its parent's; false for cells and arguments
   std::vector<Id> nodes;  // operands before the operations that use them
 };
 

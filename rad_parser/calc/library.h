@@ -10,21 +10,23 @@
 #include "rad_parser/calc/program.h"
 #include "rad_parser/error.h"
 
-// The definitions of function files, and programs made from them.
+// The definitions of function files, and the programs made from them.
 //
-// Contexts. Each file's definitions have the file as their context: its name without ".cal", other characters
-// than those of names as '_'. The context "" holds what all files share. A name in a file means
-//   name        the file's, if the file has defined or used it further up; else the shared one if there is
-//   one by then;
-//               else a library function; else the file's own, which may be defined further down
-//   `name       the file's only
-//   name`       the shared one only; name`ctx` the one of context ctx
+// Contexts. The definitions of a file belong to a context that is named after the file: its name without
+// ".cal", in which characters that names cannot contain are replaced by '_'. The context "" contains the
+// definitions that all files share. A name in a file refers to
+//   name        the file's own definition, if the file has defined or used it further up; otherwise the
+//               shared definition, if there is one by then; otherwise a library function; otherwise the
+//               file's own definition, which may follow further down
+//   `name       only the file's own definition
+//   name`       only the shared definition
+//   name`ctx`   only the definition of context ctx
 // Source: RADIANCE file formats, "Function File Format", "Language Features".
 //
-// Constants. A variable defined with ':' that is a number by then is replaced by its value where it is used
-// further down, and so is the call of a function defined with ':' whose arguments are constants. Where such a
-// value would be another for each ray (it uses inputs, arg() or the renderer's functions) the use is an
-// error.
+// Constants. A variable that is defined with ':' and whose value is known by then is replaced by its value
+// where it is used further down. So is the call of a function that is defined with ':' if its arguments are
+// constants. If such a value would differ from ray to ray, because it uses inputs, arg() or the renderer's
+// functions, its use is an error.
 namespace rad::calc {
 
 struct SourceText {
@@ -32,50 +34,54 @@ struct SourceText {
   std::string text;
 };
 
-// What the renderer gives to the language.
+// The names and functions that the renderer adds to the language.
 struct Interface {
-  std::vector<std::string> inputs;  // names of its variables; the first is also $1. At most 64
+  std::vector<std::string> inputs;  // names of its variables, at most 64; the first is also $1
   std::vector<HostFunction> hosts;  // its functions
-  std::string_view
-      preludeName;  // the file that is read first, into the shared context ("rayinit.cal"); may be ""
-  std::string_view preludeText;  // used where there is no such file
+  std::string_view preludeName;     // the file that is read first, into the shared context; may be empty
+  std::string_view preludeText;     // used if there is no such file
   // The end of a message about a function file that was not found (" in .:/usr/local/lib/ray"); may be null.
   std::string (*searched)(std::string_view file) = nullptr;
 };
 
-// Finds and reads a function file; nullopt where there is none. Called with the library locked.
+// Finds and reads a function file. Empty if there is none. Called while the library is locked, so it
+// must not call the library.
 using LoadFile = std::function<std::optional<SourceText>(std::string_view name)>;
 
 struct Request {
-  std::string place;                         // of the primitive, for messages
-  std::string_view file = ".";               // its function file; "." for none: the shared context
+  std::string place;            // of the primitive, for messages
+  std::string_view file = ".";  // its function file; ".": none, so that names refer to the shared context
   std::span<const std::string> expressions;  // evaluated together, in this order
-  uint64_t available = ~uint64_t{0};  // bit i: inputs[i] exists for this primitive; others are undefined
-  // arg(n), if the program is to be made for these; else it reads Point::reals. Much is then done in advance.
+  uint64_t available = ~uint64_t{0};         // bit i: inputs[i] is defined for this primitive
+  // The values of arg(n), if the program may be compiled for these values only. Much of it is then evaluated
+  // in advance. Otherwise the program reads Point::reals.
   std::optional<std::span<const double>> reals;
 };
 
-// Thread-safe. Programs outlive the library.
+// Thread-safe. Programs may outlive the library.
 class Library {
  public:
   Library(Interface interface, LoadFile load, Warn warn = {});
   ~Library();
 
-  // Adds shared definitions, after the prelude: the options -e text and -f file. Throws Error.
+  // Adds definitions to the shared context, after the prelude, for the options -e text
+  // and -f file. Throws Error.
   void define(std::string_view text, std::string_view place);
   void include(std::string_view file);
 
-  // The program for a primitive's expressions. Loads its file if no request did. A file is read once; if it
-  // has an error, every request for it throws that error. Throws Error: a file that is not found
-  // (Status::system), anything that the language does not allow, and a name that is undefined and certain to
-  // be needed.
+  // The program for a primitive's expressions. Loads its file if no earlier request did. A file is read once;
+  // if it has an error, every request for it throws that error. Throws Error
+  // - with Status::system for a file that is not found,
+  // - for anything that the language does not allow,
+  // - for an undefined name that every evaluation would need.
   std::shared_ptr<const Program> compile(const Request& request);
 
-  // The program for function(Point::arguments[0], .. [count-1]); request.expressions is not used.
+  // The program for function(Point::arguments[0], .. [count-1]). Ignores request.expressions.
+  // Throws as compile() does.
   std::shared_ptr<const Program> compileCall(const Request& request, std::string_view function, int count);
 
-  // Whether a primitive that uses `file` sees a function of this name, and how many arguments it needs. 0:
-  // none.
+  // The number of arguments that a function of this name needs, as a primitive that uses `file` sees it. 0 if
+  // there is no such function.
   int functionArity(std::string_view file, std::string_view name);
 
  private:

@@ -21,14 +21,15 @@ constexpr std::array<uint8_t, 256> kPermutation = {
     181, 199, 106, 157, 184, 84,  204, 176, 115, 121, 50,  45,  127, 4,   150, 254, 138, 236, 205, 93,
     222, 114, 67,  29,  24,  72,  243, 141, 128, 195, 78,  66,  215, 61,  156, 180};
 
-// Twice over, so that a sum of an entry and a coordinate needs no reduction.
+// Repeated once, so that the sum of an entry and a coordinate can be used as an index without reduction.
 constexpr std::array<uint8_t, 512> kTwice = [] {
   std::array<uint8_t, 512> twice{};
   for (size_t i = 0; i < twice.size(); ++i) twice[i] = kPermutation[i & 255];
   return twice;
 }();
 
-// The directions to the middles of a cube's 12 edges; four occur twice to make 16.
+// The directions from the centre of a cube to the midpoints of its 12 edges. Four of them
+// occur twice, to make 16.
 struct Gradient {
   double x, y, z;
 };
@@ -57,7 +58,7 @@ double ramp(uint8_t hash, double x, double y, double z) {
 double smooth(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 double blend(double t, double a, double b) { return a + t * (b - a); }
 
-// A number in [-1,1] from a seed; modulo 2^64 on purpose.
+// A pseudo-random number in [-1,1]. The arithmetic is modulo 2^64 on purpose.
 double latticeRandom(int64_t seed) {
   uint64_t s = static_cast<uint64_t>(seed);
   s ^= s << 13;
@@ -88,7 +89,7 @@ double noise3(double x, double y, double z) {
   const int cx = ix & 255, cy = iy & 255, cz = iz & 255;
   const double u = smooth(x), v = smooth(y), w = smooth(z);
 
-  // hash of corner (i,j,k) = P[P[P[cx+i] + cy+j] + cz+k]
+  // The hash of corner (i,j,k) is P[P[P[cx+i] + cy+j] + cz+k].
   const int low = kTwice[cx] + cy, high = kTwice[cx + 1] + cy;
   const auto column = [&](int from) { return kTwice[from & 255] + cz; };
   const int ll = column(low), lh = column(low + 1), hl = column(high), hh = column(high + 1);
@@ -101,11 +102,11 @@ double noise3(double x, double y, double z) {
 }
 
 double fractalNoise3(double x, double y, double z) {
-  constexpr int64_t units = 2000;  // to 1: the smallest spacing is kNoiseStep
-  // The seed of a lattice point is linear in its coordinates, so that only seeds are followed.
+  constexpr int64_t units = 2000;  // lattice points per unit length; their spacing is kNoiseStep
+  // The seed of a lattice point is linear in its coordinates. It is therefore enough to keep track of seeds.
   constexpr std::array<int64_t, 3> kSeeds = {17, 23, 29};
   const std::array<double, 3> point = {x, y, z};
-  std::array<int64_t, 3> offset;  // of the point from the cube's origin
+  std::array<int64_t, 3> offset;  // from the cube's origin to the point
   int64_t origin = 0;
   for (int i = 0; i < 3; ++i) {
     if (!(std::abs(point[i]) < 1e15)) return 0;
@@ -113,20 +114,21 @@ double fractalNoise3(double x, double y, double z) {
     offset[i] = static_cast<int64_t>(units * point[i]) - corner;
     origin += kSeeds[i] * corner;
   }
-  // A corner's bit i says that it is at the far end of axis i.
+  // Bit i of the number of a corner is set if the corner is at the far end of axis i.
   std::array<double, 8> corner;
   for (int c = 0; c < 8; ++c) {
     int64_t seed = origin;
     for (int i = 0; i < 3; ++i) seed += (c >> i & 1) * units * kSeeds[i];
     corner[c] = latticeRandom(seed);
   }
-  // Halve the cube towards the point. A corner of the half is an old corner, or the middle of an edge, a face
-  // or the cube: the mean of that one's corners, displaced in proportion to the spacing.
+  // Replace the cube by the octant that contains the point, again and again. Each corner of the octant is a
+  // corner of the cube, or the midpoint of an edge, of a face or of the cube. A midpoint gets the mean of the
+  // corners of its edge, face or cube, plus a displacement in proportion to the spacing.
   constexpr std::array<double, 8> kShare = {1, 1. / 2, 1. / 2, 1. / 4, 1. / 2, 1. / 4, 1. / 4, 1. / 8};
   for (int64_t half = units / 2; half > 0; half /= 2) {
     int octant = 0;
-    int64_t nearest = origin;       // seed of the octant's corner that is an old one
-    std::array<int64_t, 3> inward;  // what half an edge from there adds
+    int64_t nearest = origin;       // seed of the corner that the octant shares with the cube
+    std::array<int64_t, 3> inward;  // the change of the seed along half an edge from there, by axis
     for (int i = 0; i < 3; ++i) {
       const bool far = offset[i] > half;
       octant |= far << i;
@@ -137,7 +139,8 @@ double fractalNoise3(double x, double y, double z) {
         origin += half * kSeeds[i];
       }
     }
-    // sum[m]: of the corners of the edge, face or cube that runs from the octant's corner along the axes of m
+    // sum[m] is the sum over the corners of the edge, face or cube that extends from the octant's
+    // corner along the axes in m.
     std::array<double, 8> sum;
     for (int m = 0; m < 8; ++m) sum[m] = corner[m ^ octant];
     for (int bit = 1; bit < 8; bit *= 2) {

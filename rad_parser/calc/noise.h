@@ -2,24 +2,27 @@
 #include <cmath>
 #include <cstdint>
 
-// The numeric functions of the expression language that the C library does not have. Each is pure.
+// The numeric functions of the language that the C library lacks. They depend on their arguments only.
 namespace rad::calc {
 
-// A pseudo-random number in [0,1) that depends on x alone. Equal to the original's to rounding. Where x is so
-// large that it has no fractional digits left, so does the result: it stays within [0,1).
+// A pseudo-random number in [0,1) that depends on x alone. Agrees with RADIANCE's rand() up to
+// rounding. If x is so large that a double has no fractional digits left, the result has none
+// either, but stays within [0,1).
 double randomOf(double x);
 
-// Perlin's improved noise: C2, zero at integer points, period 256 along each axis, within [-1,1].
-// Beyond +-2^31 there are no fractions to interpolate with: 0.
+// Perlin's improved noise: twice continuously differentiable, zero at integer points, with period
+// 256 along each axis, within [-1,1]. Returns 0 beyond +-2^31, where coordinates are not resolved
+// well enough to interpolate.
 // Source: K. Perlin, "Improving Noise", Computer Graphics 35(3), 2002.
 double noise3(double x, double y, double z);
 
-// The step of the backward difference by which noise3x, noise3y and noise3z are defined, (f(x) -
-// f(x-step))/step: the values of scenes depend on it, so the exact gradient (off by 1e-3) is no substitute.
+// The step of the backward difference (f(x) - f(x-step))/step that defines noise3x, noise3y and
+// noise3z. The exact gradient, which differs by 1e-3, is no substitute, because the values in existing
+// scenes depend on the step.
 inline constexpr double kNoiseStep = .0005;
 
-// Fractal noise: midpoint displacement on the integer lattice down to a spacing of 1/2000, within about
-// [-1,1]. Beyond +-1e15: 0.
+// Fractal noise by midpoint displacement on the integer lattice, down to a spacing of 1/2000. Within about
+// [-1,1]. Returns 0 beyond +-1e15.
 double fractalNoise3(double x, double y, double z);
 
 }  // namespace rad::calc

@@ -1,7 +1,7 @@
 #include "rad_parser/calc/program.h"
 
 #include <fmt/format.h>
-#include <math.h>  // j0 and its kin are POSIX, not in namespace std
+#include <math.h>  // j0 and the other Bessel functions are POSIX, not in namespace std
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace rad::calc {
 namespace {
 
-// Rounds as the original does: towards zero after adding a half. What is not a number is -1.
+// Rounds as RADIANCE does: adds a half, then truncates towards zero. Returns -1 for NaN.
 int rounded(double x) { return std::isnan(x) ? -1 : static_cast<int>(std::clamp(x, -1e9, 1e9) + .5); }
 
 double checked(double value, uint32_t& faults) {
@@ -90,7 +90,8 @@ double apply(Op op, double a, double b, double c, uint32_t& faults) {
       return checked(::y1(a), faults);
     case Op::atan2:
       return checked(std::atan2(a, b), faults);
-    // The order is rounded as select's index is; C's recurrences take time in proportion to it.
+    // The order is rounded as the index of select() is. Its size is limited because the C library's
+    // recurrences take time in proportion to it.
     case Op::jn:
       return std::abs(a) < 1e6 ? checked(::jn(static_cast<int>(a + .5), b), faults) : 0;
     case Op::yn:
@@ -106,12 +107,12 @@ double apply(Op op, double a, double b, double c, uint32_t& faults) {
     case Op::finite:
       return checked(a, faults);
     default:
-      return 0;  // no operator
+      return 0;  // not an operator
   }
 }
 
-// Makes room for an activation of a frame and fills in what each begins with: constants and cells that have
-// not run.
+// Makes room for an activation of a frame and initializes it: the constants, and the cells, none of
+// which has been computed yet.
 double* Program::enter(const Frame& frame, State& state, uint32_t base, uint32_t cellBase) const {
   const size_t top = size_t{base} + frame.registers, cellTop = size_t{cellBase} + frame.cells;
   if (state.registers_.size() < top) state.registers_.resize(2 * top);
@@ -125,8 +126,8 @@ double* Program::enter(const Frame& frame, State& state, uint32_t base, uint32_t
   return r;
 }
 
-// Another entry on the stack of returns; its size is the caller's, so that the loop can keep it in a
-// register.
+// Pushes an entry onto the stack of returns. The caller keeps the depth of the stack, so that the interpreter
+// can hold it in a register.
 void Program::push(const Frame& frame, State& state, size_t depth, size_t registers, State::Return back) {
   if (depth >= kMaxDepth || registers > kMaxRegisters) {
     throw Error(fmt::format("{}: recursion that is too deep or endless", frame.name));
@@ -137,8 +138,9 @@ void Program::push(const Frame& frame, State& state, size_t depth, size_t regist
 
 void Program::evaluate(const Point& point, State& state, std::span<double> out) const {
   const Instruction* const code = code_.data();
-  // The frame that runs: where its registers and cells begin. top, cellTop: the first ones that no activation
-  // uses. Nothing here is captured or passed by reference, else the loop would work on memory.
+  // base and cellBase are where the registers and cells of the running frame begin; top and cellTop are the
+  // first ones that no activation uses. None of these variables is captured or passed by reference, because
+  // the compiler would then keep it in memory instead of in a register.
   uint32_t base = 0, cellBase = 0;
   double* r = enter(frames_[0], state, 0, 0);
   uint32_t top = frames_[0].registers, cellTop = frames_[0].cells;
@@ -205,7 +207,7 @@ void Program::evaluate(const Point& point, State& state, std::span<double> out) 
           continue;
         }
         break;
-      case Op::choose: {  // lists_[b]: where to go for none of the c choices; then for each
+      case Op::choose: {  // lists_[b]: the target if no choice applies; then those of the c choices
         const double x = r[i->a];
         int n = rounded(x);
         const int choices = static_cast<int>(i->c);
@@ -274,8 +276,8 @@ void Program::evaluate(const Point& point, State& state, std::span<double> out) 
         const State::Cell* callerCells = state.cells_.data() + cellBase;
         State::Cell* cells = state.cells_.data() + cellTop;
         for (uint32_t k = 0; k < callee.parameters; ++k, arguments += 3) {
-          // A register that holds the value, or code that computes it in the caller's frame. The value may be
-          // there all the same if the caller has a cell for it.
+          // The argument is a register that holds the value, or code that computes it in the caller's frame.
+          // If the caller has a cell for it, the value may have been computed in the meantime.
           const bool isDone =
               arguments[1] == kDone || (arguments[2] != kNoCell && callerCells[arguments[2]].pc == kDone);
           cells[k] = {isDone ? kDone : arguments[1], base, cellBase};

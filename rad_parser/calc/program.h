@@ -6,21 +6,21 @@
 
 namespace rad::calc {
 
-// What one evaluation sees: the point at which the renderer stands. All spans belong to the caller.
+// The data of one evaluation, at one point of a surface. The caller owns all spans.
 struct Point {
   std::span<const double> inputs;  // the renderer's variables, in the order of Interface::inputs
-  std::span<const double>
-      reals;  // arg(1), arg(2).. of the primitive; not read where the program was given them
-  std::span<const double> arguments;  // of a program compiled by Library::compileCall
+  // arg(1), arg(2) .. of the primitive. Not read if the program was compiled for their values.
+  std::span<const double> reals;
+  std::span<const double> arguments;  // of the function, in a program of Library::compileCall()
 };
 
-// What went wrong in a value that is therefore 0, as the original defines it: x/0; a power, or a library
-// function's value, that is not a number or not finite.
+// Why an undefined value was replaced by 0, as in RADIANCE: a division by zero, or a power or library
+// function whose result is not a finite number.
 enum Fault : uint32_t { kDivisionByZero = 1, kIllegalPower = 2, kDomainError = 4, kRangeError = 8 };
 
-// A function that the renderer supplies: called with `arity` arguments, of which more may be given. It may
-// depend on the point and nothing else, and may throw. `needs`: bit i for each of Interface::inputs that it
-// reads.
+// A function that the renderer supplies. It is called with all arguments of the call, of which there are at
+// least `arity`. It may depend on the point and its arguments only, and may throw. `needs` has bit i set if
+// it reads input i of Interface::inputs.
 struct HostFunction {
   std::string name;
   int arity = 1;
@@ -28,15 +28,15 @@ struct HostFunction {
   double (*call)(const Point& point, std::span<const double> arguments) = nullptr;
 };
 
-// Registers and stack of evaluations: one for each thread, for any number of programs.
+// The memory of evaluations. Each thread needs one; it serves any number of programs.
 class State {
  public:
-  uint32_t faults = 0;  // Fault bits, collected until the caller clears them
+  uint32_t faults = 0;  // Fault bits of all evaluations since the caller cleared them
 
  private:
   friend class Program;
-  // A value that is computed when first needed. pc: its code; kDone when it has been computed, kBusy while it
-  // is.
+  // A value that is computed when it is first needed. pc: the beginning of its code; kDone once it has been
+  // computed, kBusy during the computation.
   struct Cell {
     uint32_t pc, base, cellBase;
   };
@@ -98,9 +98,9 @@ enum class Op : uint8_t {
   realArgument,
   host,
   call,
-  // an error if it is evaluated
+  // throws an error when it is evaluated
   fail,
-  // instructions that are no values
+  // instructions without a value
   move,
   moveFinite,
   jump,
@@ -114,23 +114,24 @@ enum class Op : uint8_t {
   halt,
 };
 
-// Compiled expressions: immutable, shared by all threads. Straight-line code over registers; what only one
-// branch of an if() needs is in that branch, what several places may need is computed once, at the first.
+// Compiled expressions. Immutable, and shared by all threads. The code is straight-line code over registers.
+// A value that is needed in only one branch of an if() is computed in that branch; a value that several
+// places may need is computed once, when the first of them needs it.
 class Program {
  public:
-  // Number of values that evaluate() writes: one for each expression.
+  // The number of values that evaluate() writes: one for each expression.
   size_t outputs() const { return outputs_.size(); }
 
-  // Bit i: evaluate() reads Point::inputs[i].
+  // Bit i is set if evaluate() may read Point::inputs[i].
   uint64_t inputs() const { return inputs_; }
 
-  // Whether the values depend on nothing. Then any point will do.
+  // Whether the values are the same at every point. An empty Point then suffices.
   bool isConstant() const { return constant_; }
 
-  // Evaluates all expressions at a point. out.size() >= outputs(). Every fault makes its value 0 and sets a
-  // bit in state.faults. Throws Error with the place in the function file: a name that is not defined, an
-  // argument that is missing, recursion beyond kMaxDepth or kMaxCalls. After a throw, state may be used
-  // again. Thread-safe with one state for each thread.
+  // Evaluates all expressions at a point. Requires out.size() >= outputs(). A fault makes its value 0 and
+  // sets a bit of state.faults. Throws Error, with the place in the function file, for an undefined name, a
+  // missing argument, or recursion beyond kMaxDepth or kMaxCalls; the state may be used again afterwards.
+  // Thread-safe if each thread has its own state.
   void evaluate(const Point& point, State& state, std::span<double> out) const;
   double evaluate(const Point& point, State& state) const {
     double value = 0;
@@ -138,13 +139,14 @@ class Program {
     return value;
   }
 
-  // Number of instructions, for tests and curiosity.
+  // The number of instructions, for tests.
   size_t size() const { return code_.size(); }
 
-  // Calls and postponed values under evaluation at one time, and the registers (8 bytes each) that they may
-  // hold.
+  // Limits on the calls and postponed values that are being evaluated at one time, and on their
+  // registers (8 bytes each).
   static constexpr size_t kMaxDepth = 100000, kMaxRegisters = size_t{1} << 25;
-  // Calls in one evaluation, a second or so: recursion that branches ends late though it is not deep.
+  // Limit on the calls in one evaluation, which take about a second. Recursion that branches can run for very
+  // long without being deep.
   static constexpr size_t kMaxCalls = 20000000;
 
  private:
@@ -155,22 +157,22 @@ class Program {
     Op op;
     uint32_t to, a, b, c;
   };
-  // A function's code and what its activation needs: constants in the first registers, then parameters, then
-  // the rest.
+  // The code of a function and the memory of one activation. The first registers hold constants,
+  // the next ones parameters.
   struct Frame {
     std::string name;  // "fun.cal:7: f"
     uint32_t begin = 0;
     uint32_t registers = 0;
     uint32_t firstConstant = 0, constants = 0;
     uint32_t parameters = 0;
-    uint32_t firstCell = 0, cells = 0;  // the first cells are the parameters'
+    uint32_t firstCell = 0, cells = 0;  // the first cells belong to the parameters
   };
 
   double* enter(const Frame& frame, State& state, uint32_t base, uint32_t cellBase) const;
   static void push(const Frame& frame, State& state, size_t depth, size_t registers, State::Return back);
 
   std::vector<Instruction> code_;
-  std::vector<Frame> frames_;  // the first evaluates the expressions
+  std::vector<Frame> frames_;  // the first one evaluates the expressions
   std::vector<double> constants_;
   std::vector<uint32_t> cellStarts_;
   std::vector<uint32_t> lists_;  // operands of instructions that have many
@@ -181,7 +183,8 @@ class Program {
   bool constant_ = false;
 };
 
-// The value of an operator or function of one to three arguments; 0 and a fault where it has none.
+// The value of an operator or of a library function of one to three arguments. Sets a bit of `faults` and
+// returns 0 if the value is undefined.
 double apply(Op op, double a, double b, double c, uint32_t& faults);
 
 }  // namespace rad::calc

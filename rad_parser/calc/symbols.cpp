@@ -152,8 +152,8 @@ std::optional<double> SymbolTable::constantValue(const Syntax& tree, const std::
   return std::nullopt;
 }
 
-// Whether a tree that compiles cannot be evaluated without a ray, a primitive's real arguments and the
-// renderer's functions.
+// Whether a tree that compiles cannot be evaluated without a ray, a primitive's real arguments and
+// the renderer's functions.
 bool SymbolTable::needsRay(const Syntax& tree, const std::string& place) const {
   CompileInput input = compileInput(place);
   input.hasHosts = false;

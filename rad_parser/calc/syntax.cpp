@@ -19,7 +19,8 @@ bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 class Parser {
  public:
-  // oneExpression: text is an expression whose place is `file` alone; else a file with lines.
+  // oneExpression: text is a single expression, whose place in messages is `file`. Otherwise text is a file,
+  // whose lines are given in messages.
   Parser(std::string_view text, std::string_view file, uint32_t line, bool oneExpression)
       : text_(text), file_(file), line_(line), oneExpression_(oneExpression) {
     skipBlank();
@@ -241,7 +242,7 @@ class Parser {
     }
     const std::string word(text_.substr(begin, position_ - begin));
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), s.number);
-    // Only strtod says which of infinity and zero is meant.
+    // from_chars does not distinguish overflow from underflow; strtod does.
     if (error == std::errc::result_out_of_range) s.number = std::strtod(word.c_str(), nullptr);
     skipBlank();
     return s;
@@ -278,7 +279,7 @@ class Parser {
   const std::vector<std::string>* parameters_ = nullptr;
 };
 
-// How tightly a tree binds where it stands as an operand: 0 sum, 1 product, 2 power, 3 sign, 4 primary.
+// The precedence of a tree as an operand: 0 sum, 1 product, 2 power, 3 sign, 4 primary.
 int binding(const Syntax& s) {
   switch (s.kind) {
     case Kind::sum:
@@ -299,7 +300,7 @@ void printTo(std::string& out, const Syntax& s, int least) {
   if (enclose) out += '(';
   switch (s.kind) {
     case Kind::number:
-      // 1e999 is how infinity can be written.
+      // Infinity has no notation of its own; 1e999 is read as infinity.
       out += s.number > 1.7976931348623157e308 ? "1e999" : fmt::format("{}", s.number);
       break;
     case Kind::channel:
@@ -326,7 +327,8 @@ void printTo(std::string& out, const Syntax& s, int least) {
       const int level = binding(s);
       for (size_t i = 0; i < s.args.size(); ++i) {
         if (i > 0) out += s.text[i - 1];
-        // The first operand too: a sum of a sum is another tree than one sum.
+        // Also around the first operand, because a sum whose first operand is a sum is a different
+        // tree from one sum of all.
         printTo(out, s.args[i], level + 1);
       }
       break;

@@ -3,65 +3,64 @@
 
 #include "rad_parser/calc/library.h"
 
-// What scenes take for granted in function files: the variables and functions of RADIANCE's rtrace, and the
-// definitions of its rayinit.cal. The renderer supplies values for the inputs; it need not know how they are
-// used. Source: RADIANCE reference manual, "Function files"; rayinit.cal's list of names.
+// The names that every function file may use: the variables and functions of rtrace, and the definitions of
+// its rayinit.cal. The renderer supplies the values of the variables and needs not know how they are used.
+// Source: RADIANCE reference manual, "Function files"; the names in rayinit.cal.
 namespace rad::calc {
 
-// Index in Point::inputs. Lengths and directions are those of the primitive's own space: its transform, and
-// that of the instance it is seen in, are undone.
+// Indices in Point::inputs. Lengths and directions are in the primitive's own space: its transform, and that
+// of the instance that contains it, have been undone.
 enum Input : uint32_t {
   Dx,
   Dy,
-  Dz,  // ray direction, unit
+  Dz,  // unit ray direction
   Nx,
   Ny,
-  Nz,  // surface normal, unit, unperturbed, as the surface has it (not turned to the ray)
+  Nz,  // unit surface normal, unperturbed and not turned towards the ray
   Px,
   Py,
   Pz,    // intersection point
-  T,     // distance from the ray's start, along all its transmissions
+  T,     // distance from the ray's origin, through all transmissions
   Rdot,  // -D.N, within [-1,1]
-  S,     // 1 over the scale of the transform from that space to the world
+  S,     // reciprocal of the scale of the transform to world space
   Tx,
   Ty,
-  Tz,  // world origin
+  Tz,  // origin of world space
   Ix,
   Iy,
-  Iz,  // world x axis, unit
+  Iz,  // unit x axis of world space
   Jx,
   Jy,
-  Jz,  // world y axis
+  Jz,  // unit y axis
   Kx,
   Ky,
-  Kz,  // world z axis
-  Ts,  // length of this ray, or of the shadow ray that it belongs to
+  Kz,  // unit z axis
+  Ts,  // length of this ray, or of the shadow ray that it is part of
   Lu,
-  Lv,  // local coordinates: of meshes; else 0
+  Lv,  // texture coordinates of meshes; 0 for other surfaces
   NxP,
   NyP,
-  NzP,    // perturbed surface normal: materials with functions or data
+  NzP,    // perturbed surface normal, for materials with functions or data
   RdotP,  // perturbed Rdot
   CrP,
   CgP,
   CbP,  // perturbed material colour
   DxA,
   DyA,
-  DzA,  // direction to the target light source, or 0: prism1, prism2
+  DzA,  // direction to the target light source, or 0, for prism1 and prism2
   kInputs
 };
 
-// Request::available for the kinds of primitives.
+// Request::available by kind of primitive: patterns and textures, materials with functions or data, prisms.
 inline constexpr uint64_t kPointInputs = (uint64_t{1} << NxP) - 1;
 inline constexpr uint64_t kMaterialInputs = (uint64_t{1} << DxA) - 1;
 inline constexpr uint64_t kPrismInputs = kPointInputs | (uint64_t{7} << DxA);
 
-// The inputs in their order, the functions source_corr(value, kind), source_theta(any), source_phi(symmetry)
-// of ies2rad, fprism_val(what, which, rank) of prism panels, and our rayinit.cal, which one along RAYPATH
-// replaces.
+// The inputs in the order of the enumeration, the functions of host_functions.h, and rayinit.cal: the file
+// found along RAYPATH, otherwise kRayinit.
 Interface sceneInterface();
 
-// Our rayinit.cal.
+// This program's own text of rayinit.cal.
 extern const std::string_view kRayinit;
 
 }  // namespace rad::calc

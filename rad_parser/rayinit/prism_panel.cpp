@@ -11,16 +11,12 @@ namespace {
 using Imath::V2d;
 using Imath::V3d;
 
-enum Side {
-  flat,
-  upper,
-  lower,
-  open
-};  // open: from edge to edge, where light enters the grooves and leaves them
+// open: the plane through the edges of the prisms, through which light enters and leaves the grooves.
+enum Side { flat, upper, lower, open };
 
 constexpr int kMostSides = 100000, kMostDepth = 1000;
 
-// Light in a direction, with the fields that two polarizations have become; their lengths are 1 at first.
+// Light in one direction. The two fields represent its polarization; initially their lengths are 1.
 struct Beam {
   V3d direction;
   V3d fields[2];
@@ -30,7 +26,8 @@ struct Beam {
 
 double cross(const V2d& u, const V2d& v) { return u.x * v.y - u.y * v.x; }
 
-// Across the direction: the normal's own part there, and what is at right angles to both.
+// The axes of polarization for light that meets a side with this normal: parallel and perpendicular
+// to the plane of incidence.
 struct Axes {
   V3d parallel, perpendicular;
 };
@@ -68,7 +65,7 @@ class Trace {
   }
 
  private:
-  // What leaves a side, by where it goes from there.
+  // Follows light that leaves a side to the sides that it meets next.
   void goOn(const Beam& beam, Side from, int depth) {
     if (!(beam.share > panel_.threshold)) return;
     if (beam.inside) {
@@ -83,7 +80,8 @@ class Trace {
     }
   }
 
-  // From the side pq of a triangle, to its sides rp and rq: the line through r along the beam divides pq.
+  // Follows light from the side pq of a triangle to its sides rp and rq. The line through r along the beam
+  // divides pq into the parts whose light meets either side.
   void split(const Beam& beam, const V2d& p, const V2d& q, const V2d& r, Side rp, Side rq, int depth) {
     const V2d along(beam.direction.x, beam.direction.y);
     const double width = cross(q - p, along);
@@ -107,7 +105,8 @@ class Trace {
     const V3d& normal = normals_[side];
     const double along = beam.direction.dot(normal), cosine = std::abs(along);
     const double ratio = beam.inside ? 1 / panel_.index : panel_.index;
-    const double beyond2 = ratio * ratio - (1 - cosine * cosine);  // (ratio times the cosine beyond)^2
+    // The square of ratio times the cosine of the angle of refraction.
+    const double beyond2 = ratio * ratio - (1 - cosine * cosine);
     const bool isCoated = (side == upper && panel_.coated == PrismPanel::Coated::upper) ||
                           (side == lower && panel_.coated == PrismPanel::Coated::lower);
 
@@ -132,8 +131,8 @@ class Trace {
     goOn(refracted, side, depth);
   }
 
-  // The fields of `to` from those of `from` by the amplitudes of both axes; its share by what they lose,
-  // times factor.
+  // Computes the fields of `to` from those of `from` by the amplitudes along both axes, and its share by the
+  // energy that the fields keep, times factor.
   void change(const Beam& from, Beam& to, const V3d& normal, double parallel, double perpendicular,
               double factor) {
     const Axes before = axesOf(from.direction, normal), after = axesOf(to.direction, normal);
@@ -161,9 +160,10 @@ class Trace {
   }
 
   const PrismPanel& panel_;
-  V2d foot_, edge_, valley_,
-      nextEdge_;    // of two prisms: where the first begins, its edge, where they meet, the other's edge
-  V3d normals_[3];  // of the glass, outwards
+  // Of two neighbouring prisms: the beginning of the first, its edge, where they meet,
+  // and the edge of the second.
+  V2d foot_, edge_, valley_, nextEdge_;
+  V3d normals_[3];  // of the glass, outwards, by Side
   PanelRays rays_;
   int sides_ = 0;
 };

@@ -6,21 +6,23 @@
 
 namespace rad {
 
-// A transparent panel, flat on one side and of prisms on the other: its normal is x, from the flat side to
-// the prisms, and they run along z. In section a prism rises from its base, a + b long, to an edge `height`
-// above it, where the side towards +y stands on a, the other on b. Units: a, b and height the same, any.
+// A transparent panel with a flat side and a side of prisms. Its normal is x, from the flat side to the
+// prisms, which run along z. In cross-section a prism has a base of length a + b and an edge at `height`
+// above it. Its side towards +y stands on the part a of the base, its other side on b. a, b and height are in
+// the same unit, whichever it is.
 struct PrismPanel {
-  enum class Coated { nothing, upper, lower };  // which side is a mirror: towards +y, towards -y
+  // The side with a mirror coating: neither, that towards +y, or that towards -y.
+  enum class Coated { nothing, upper, lower };
 
   double a = 0, b = 0, height = 0;
-  double index = 1;      // of refraction
-  double threshold = 0;  // shares of the light below this are given up
+  double index = 1;      // index of refraction
+  double threshold = 0;  // smaller shares of the light are not followed
   Coated coated = Coated::nothing;
-  double coating = 0;    // its reflectance
-  double tolerance = 0;  // directions that differ by less, about z (radians), are one
+  double coating = 0;    // reflectance of the coating
+  double tolerance = 0;  // directions whose angles about z differ by less (radians) are merged
 };
 
-// Light that leaves the panel, as a share of what comes.
+// Light that leaves the panel in one direction, as a share of the incident light.
 struct PanelRay {
   Imath::V3d direction;
   double share = 0;
@@ -35,12 +37,13 @@ struct PanelRays {
   std::span<PanelRay> all() { return {rays.data(), count}; }
 };
 
-// Where unpolarized light from a direction (unit, x not 0) goes that falls on the panel evenly: reflected and
-// refracted by Fresnel's formulas at every side that it meets, and split where an edge splits it; in the
-// order in which it is found. Nothing is absorbed in the glass. Polarization is followed as two fields at
-// right angles, which count the same at each side whatever has become of them before; so does RADIANCE's
-// fprism. Requires a + b > 0, height > 0, index >= 1, tolerance > 0. Throws Error where that takes more than
-// kMost directions or a hundred thousand sides.
+// The directions in which unpolarized light leaves the panel, in the order in which they are found.
+// direction: that of the incident light, of unit length, with x not 0. The light falls evenly on the panel.
+// It is reflected and refracted by Fresnel's formulas at every side that it meets, and split where an edge
+// divides it. The glass absorbs nothing. Polarization is represented by two fields at right angles; as in
+// RADIANCE's fprism, both have the same weight at each side, whatever their losses so far.
+// Requires a + b > 0, height > 0, index >= 1, tolerance > 0. Throws Error if there are more than kMost
+// directions or if the light meets more than a hundred thousand sides.
 PanelRays raysThrough(const PrismPanel& panel, const Imath::V3d& direction);
 
 }  // namespace rad
