@@ -1,4 +1,4 @@
-// BSDF files, and answers from what was read.
+// Reads BSDF files and evaluates them.
 #include "shade/bsdf.h"
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// The expression language: files, expressions, evaluation. Errors are answers; crashes and hangs are not.
+// Parses, compiles and evaluates function files and expressions. Errors are allowed;
+// crashes and hangs are not.
 #include <algorithm>
 #include <cstdlib>
 
@@ -33,8 +34,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const double late = program->evaluate({inputs, reals, {}}, state);
     request.reals = reals;
     const double early = library.compile(request)->evaluate({inputs, reals, {}}, state);
-    // Constants known in advance change roundings only, but a rounding can decide an if(): no comparison of
-    // values.
+    // Constants that are known in advance change only roundings. The values are not compared, because a
+    // rounding can decide an if().
     static_cast<void>(late + early);
   } catch (const rad::Error&) {
   }

@@ -1,4 +1,4 @@
-// Data and font files, and answers from what was read.
+// Reads data and font files and evaluates them.
 #include <cmath>
 #include <string>
 

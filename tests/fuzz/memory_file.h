@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-// Bytes as a file that takes no disk.
+// A file in memory with the given bytes.
 class MemoryFile {
  public:
   MemoryFile(const uint8_t* data, size_t size) : descriptor_(memfd_create("fuzz", MFD_CLOEXEC)) {

@@ -1,4 +1,4 @@
-// Meshes of any bytes, as octree.cpp has octrees.
+// Reads meshes of any bytes; see octree.cpp.
 #include <cmath>
 #include <cstdlib>
 

@@ -1,5 +1,5 @@
-// Octrees of any bytes: a description that holds together, or rad::Error; never a crash, a hang or memory
-// beyond what the bytes justify. Scene files that an octree names are not opened.
+// Reads octrees of any bytes. The result is a consistent description or rad::Error, never a crash, a hang, or
+// more memory than the bytes justify. Scene files that an octree names are not opened.
 #include <cstdlib>
 
 #include "memory_file.h"

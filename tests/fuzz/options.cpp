@@ -1,4 +1,5 @@
-// Command lines: a word a line; what is behind an empty line is a file, which the word "@file" names.
+// Parses command lines, one word on each line. The text behind an empty line is a file,
+// which the word "@file" names.
 #include <algorithm>
 #include <cstdlib>
 #include <string>

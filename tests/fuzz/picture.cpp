@@ -1,4 +1,4 @@
-// RADIANCE pictures, and colours from what was read.
+// Reads RADIANCE pictures and evaluates their colours.
 #include "shade/picture.h"
 
 #include "memory_file.h"

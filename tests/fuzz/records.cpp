@@ -1,6 +1,6 @@
-// Records as they come on standard input. The first byte of a file says which: text, floats or doubles, of
-// three or six numbers, with line ends that end a record or do not. What is read, and what is said of a
-// fault, must not depend on how many records are asked for at once.
+// Reads records as from standard input. The first byte selects their form: text, floats or doubles; three or
+// six numbers; line ends that end a record or do not. Neither the records nor the error messages may depend
+// on how many records are requested at a time.
 #include "cli/records.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// A fuzz target without a fuzzer: gives it each file of the folders named, and says how many there were.
+// Runs a fuzz target without a fuzzer: on each file of the given folders. Prints the number of files.
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -18,5 +18,5 @@ int main(int argc, char** argv) {
       ++files;
     }
   std::cout << files << " files\n";
-  return files == 0;  // a folder that has lost its files tests nothing
+  return files == 0;  // a test with an empty folder tests nothing
 }

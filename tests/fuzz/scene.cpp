@@ -1,5 +1,5 @@
-// Scene text, and what the tracer is given of it: a scene that holds together, or rad::Error. Commands are
-// off, so that a "!" line can be xform only.
+// Reads scene text and converts it for the tracer. The result is a consistent scene or rad::Error. Commands
+// are disabled, so the only "!" lines that are executed are xform.
 #include "scene/scene.h"
 
 #include <cmath>

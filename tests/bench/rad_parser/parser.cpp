@@ -1,10 +1,10 @@
-// Time to read scene text of a million quadrangles with names of their own (258 MB), in one run with
-//   - a tokenizer that splits the same text at white space and hands numbers to strtod, and keeps nothing but
-//   them: what
-//     reading costs before names are looked up, modifiers checked and places kept;
-//   - getbbox, where it is on PATH: the original's reader (its own process; it forgets each primitive when
-//   read).
-// The file is in the page cache when it is read, as it is when a program has just written it.
+// The time to read scene text of a million quadrangles with different names (258 MB). In the
+// same run it is compared with
+// - a tokenizer that splits the text at white space, passes numbers to strtod and keeps only these: the cost
+//   of reading without looking up names, checking modifiers and keeping places;
+// - getbbox, if it is on PATH: RADIANCE's reader, in a process of its own, which discards each
+//   primitive after reading it.
+// The file is in the page cache, as after another program has written it.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -37,7 +37,7 @@ std::string millionPolygons() {
   return text;
 }
 
-// A file of the text that ends with the program.
+// A file with the text, which is removed at the end of the program.
 struct TextFile {
   std::string text = millionPolygons();
   std::string path =

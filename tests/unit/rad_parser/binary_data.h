@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-// Data in the portable binary form of octrees and meshes, value by value.
+// Writes data in the portable binary format of octrees and meshes, value by value.
 struct BinaryData {
   std::string bytes;
 

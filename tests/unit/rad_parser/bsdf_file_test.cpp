@@ -10,7 +10,7 @@
 namespace rad {
 namespace {
 
-// Lines 1-6 before the definition, as files of WINDOW 6 begin.
+// Lines 1 to 6, before the definition, as in files of WINDOW 6.
 std::string xml(std::string_view definition, std::string_view bands) {
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -44,12 +44,12 @@ std::string block(double theta, double lower, double upper, int cells) {
       "<UpperTheta>{}</UpperTheta></ThetaBounds></AngleBasisBlock>\n",
       theta, cells, lower, upper);
 }
-// 1 and 2 cells.
+// Rings of 1 and 2 cells.
 std::string smallBasis() {
   return "<AngleBasis><AngleBasisName>small</AngleBasisName>\n" + block(0, 0, 30, 1) + block(60, 30, 90, 2) +
          "</AngleBasis>\n";
 }
-// 2 cells.
+// One ring of 2 cells.
 std::string pairBasis() {
   return "<AngleBasis><AngleBasisName>Pair</AngleBasisName>\n" + block(45, 0, 90, 2) + "</AngleBasis>\n";
 }
@@ -79,7 +79,8 @@ std::string oneTree(std::string_view data, std::string_view structure = kTree4) 
   return xml(structure, band("Visible", "Transmission Front", kTreeBasis, data));
 }
 
-// The sizes of the Klems bases, and the projected solid angles of their rings, are WINDOW 6's own.
+// The numbers of cells of the Klems bases, and the projected solid angles of their
+// rings, are those of WINDOW 6.
 TEST(BsdfFile, KlemsBases) {
   EXPECT_EQ(klemsBasis("LBNL/Klems Full")->cells, 145u);
   EXPECT_EQ(klemsBasis("lbnl/klems half")->cells, 77u);
@@ -87,7 +88,7 @@ TEST(BsdfFile, KlemsBases) {
   EXPECT_EQ(klemsBasis("LBNL/Klems"), nullptr);
 }
 
-// What WINDOW calls the back is the inside of a window: the front of its surface.
+// The side that WINDOW calls the back is the inside of a window, which is the front of its surface.
 TEST(BsdfFile, EachDirectionIsAComponent) {
   std::string bands;
   for (const char* direction : {"Transmission Front", "Transmission Back", "Reflection Front",
@@ -139,7 +140,7 @@ TEST(BsdfFile, NumbersAsFilesSpellThem) {
             (std::vector<float>{1, 0, .3F, 4, .5, 6, 7, 8, 9}));
 }
 
-// Values of a grid, and of the same grid's halves written as branches.
+// The same values as a grid, and with its halves written as branches.
 TEST(BsdfFile, GridsAndBranchesAreTheSame) {
   const auto valueAt = [](const TensorTree& tree, std::vector<double> p) {
     uint32_t node = 0;
@@ -153,7 +154,7 @@ TEST(BsdfFile, GridsAndBranchesAreTheSame) {
     }
     return tree.nodes[node].value;
   };
-  // A grid's last dimension runs fastest; of branches the first dimension does.
+  // In a grid the index of the last dimension varies fastest, in branches that of the first.
   std::string grid = "{";
   for (int i = 0; i < 64; ++i) grid += std::to_string(i) + (i % 2 ? "," : " ");
   grid += "}";
@@ -223,7 +224,7 @@ TEST(BsdfFile, AngleBasesMustCoverWhatTheySay) {
   EXPECT_EQ(basis(block(0, 0, 30, 1) + block(60, 30, 90, 1)),
             "a.xml:11: expected a number of azimuths as nPhis, 2 at least but about the normal");
   EXPECT_EQ(basis(""), "a.xml:9: an angle basis without blocks");
-  // Sizes that no file of this length can fill.
+  // Sizes that a file of this length cannot contain.
   EXPECT_EQ(
       errorOf(xml(std::string(kColumns) + "<AngleBasis><AngleBasisName>b</AngleBasisName>\n" +
                       block(0, 0, 90, 2000000000) + "</AngleBasis>\n",
@@ -252,11 +253,11 @@ TEST(BsdfFile, TreesThatAreWrong) {
   EXPECT_EQ(errorOf(oneTree("{1")), "a.xml:16: expected '}' in the tensor tree");
   EXPECT_EQ(errorOf(xml(kTree3, band("Visible", "Transmission Front", "", "{1}"))),
             "a.xml:12: expected the AngleBasis LBNL/Shirley-Chiu, got \"\"");
-  // Neither depth nor breadth is taken from the stack or from memory without end.
+  // Neither depth nor breadth may take unlimited stack or memory.
   EXPECT_EQ(errorOf(oneTree(std::string(1 << 20, '{'))), "a.xml:16: too deep a tensor tree");
 }
 
-// Cut off anywhere, a file is an error with a place or, where what is missing is not needed, none.
+// A file that is cut off anywhere causes an error with a place, or none if the missing part is not needed.
 TEST(BsdfFile, CutOffAnywhere) {
   for (const std::string& text : {oneMatrix("1 2 3\n4 5 6\n7 8 9"), oneTree("{1 2 3 4 5 6 7 8}", kTree3)})
     for (size_t length = 0; length + 2 < text.size(); ++length)

@@ -20,8 +20,8 @@ std::string errorOf(const std::string& text) {
   return "no error";
 }
 
-// A function that is linear in each coordinate is met exactly, on even and uneven axes, up to one division
-// beyond.
+// A function that is linear in each coordinate is reproduced exactly, on even and uneven axes, up to one
+// division beyond their ends.
 TEST(DataFile, MultilinearFunctionsAreExact) {
   const auto f = [](double x, double y, double z) {
     return 2 + 3 * x - y + .5 * z + x * y - 2 * y * z + .25 * x * y * z;

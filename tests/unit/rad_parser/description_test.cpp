@@ -54,7 +54,7 @@ TEST(ModifierIndex, OfThePrimitivesFromOneOn) {
   EXPECT_EQ(rad::ModifierIndex(d, 2).before("n", 5), 3);
 }
 
-// Surfaces' names are not looked for; modifiers of the same name are.
+// Names of surfaces are never looked up. Modifiers of the same name are.
 TEST(Description, SurfacesAndModifiersMayHaveOneName) {
   const Description d = readText(
       "void plastic a\n0\n0\n5 1 1 1 0 0\na sphere b\n0\n0\n4 0 0 0 1\na sphere b\n0\n0\n4 0 0 0 1\n"

@@ -80,7 +80,7 @@ TEST(FileAccess, FoldersOfTheNamesGivenAndOfRaypath) {
   EXPECT_TRUE(access.allows(scene));
   EXPECT_TRUE(access.allows(below));
   EXPECT_TRUE(access.allows(folder.path("scenery/../scene/lib/chair.rad")));
-  EXPECT_FALSE(access.allows(other));  // its folder's name begins like the one allowed
+  EXPECT_FALSE(access.allows(other));  // the name of its folder begins with that of the allowed one
   EXPECT_FALSE(access.allows(folder.path("scene/../scenery/chair.rad")));
   EXPECT_FALSE(access.allows(folder.path("scene/link.rad")));
   EXPECT_FALSE(access.allows(folder.path("scene/none.rad")));

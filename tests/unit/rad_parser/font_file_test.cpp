@@ -18,7 +18,7 @@ std::string errorOf(const std::string& text) {
   return "no error";
 }
 
-// 'a' a frame with a hole cut by a seam, 'b' a triangle, ' ' a space.
+// 'a' is a frame with a seam to its hole, 'b' a triangle, ' ' a space.
 const char* const kFont =
     "# test\n32 0\n"
     "97 10  20 20 220 20 220 220 20 220 20 20  60 60 60 180 180 180 180 60 60 60\n"
@@ -39,7 +39,7 @@ TEST(FontFile, InsideByTheEvenOddRule) {
   const Glyph& frame = *font.glyph('a');
   const Glyph& triangle = *font.glyph('b');
   for (double x = .25; x < 255; x += 3) {
-    for (double y = .75; y < 255; y += 3) {  // never on the seam itself
+    for (double y = .75; y < 255; y += 3) {  // no point is on the seam itself
       const bool outer = x > 20 && x < 220 && y > 20 && y < 220;
       const bool hole = x > 60 && x < 180 && y > 60 && y < 180;
       EXPECT_EQ(frame.covers(x, y), outer && !hole) << x << " " << y;
@@ -59,7 +59,7 @@ TEST(FontFile, ErrorsHaveTheirPlace) {
   EXPECT_EQ(errorOf(""), "no error");
 }
 
-// Where the text is, over a grid of points: a row of '#' and '.' for each line of points.
+// The points of a grid that the text covers: a row of '#' and '.' for each line of points.
 std::string drawing(const TextLayout& layout, double width, int columns, double height, int rows) {
   std::string out;
   for (int j = 0; j < rows; ++j) {
@@ -89,9 +89,10 @@ TEST(TextLayout, CharactersOfOneWidth) {
   EXPECT_FALSE(layout.covers(.5, -.1));
 }
 
-// With the sizes given in mean widths and spacings, a squeezed text's characters are as wide as their glyphs.
+// In the text with narrow spacing, characters are as wide as their glyphs. Sizes are given in
+// mean widths and spacings.
 TEST(TextLayout, Squeezed) {
-  // One glyph 100 wide and one 200 wide: the mean is 150. A spacing of 50 before and between them.
+  // One glyph is 100 wide and one 200, so the mean is 150. A spacing of 50 is before and between them.
   const FontFile font =
       FontFile::parse("1 4 100 0 200 0 200 255 100 255\n2 4 10 0 210 0 210 255 10 255\n3 0\n", "f.fnt");
   const std::string lines[] = {"\1\2\3\1"};
@@ -113,7 +114,7 @@ TEST(TextLayout, Squeezed) {
   EXPECT_FALSE(covers(701));
 }
 
-// Proportional lines begin their words at the same places whatever the words' glyphs are.
+// With proportional spacing, the words of all lines begin at the same places, whatever their glyphs are.
 TEST(TextLayout, ProportionalColumnsKeepInLine) {
   const FontFile font =
       FontFile::parse("1 4 0 0 150 0 150 255 0 255\n2 4 0 0 250 0 250 255 0 255\n3 0\n", "f.fnt");

@@ -20,10 +20,10 @@ using rad::Status;
 
 std::string fixture(const std::string& name) { return RSPHERE_TESTS "/scenes/octree/" + name; }
 
-constexpr double kUnit = 1. / 4294967296.;  // a step of a coordinate, of the cube's size
+constexpr double kUnit = 1. / 4294967296.;  // step of a coordinate, as a fraction of the cube's size
 
-// A mesh of two patches: the first of three vertices, all with normals, the second of two with (u,v); a
-// triangle of the first, and joining triangles of one and of two vertices away.
+// A mesh of two patches. The first has three vertices with normals and a triangle; the second has two
+// vertices with (u,v), and triangles with one and with two vertices in the first.
 struct MeshData {
   std::string header = "#?RADIANCE\nobj2mesh by hand\nFORMAT=Radiance_tmesh\n\n";
   std::string bounds = std::string(
@@ -74,7 +74,7 @@ std::string errorOfBytes(std::string_view bytes) {
   return error.starts_with(path) ? error.substr(path.size() - 5) : error;
 }
 
-// The triangles of box.obj, whatever their order, each turned so that its lowest vertex comes first.
+// The triangles of box.obj in any order, each with its lowest vertex first.
 TEST(MeshFile, APyramidOfTwoMaterials) {
   const Mesh mesh = rad::readMesh(fixture("box.rtm"));
   ASSERT_EQ(mesh.materials.primitives.size(), 2u);
@@ -138,15 +138,15 @@ TEST(MeshFile, APyramidOfTwoMaterials) {
   EXPECT_TRUE(facets.empty());
 }
 
-// wave.rtm has two patches and triangles that join them. Made of 18 x 18 vertices at (i, j, (i j mod 7) / 8)
-// with (u,v) = (i, j) / 17, two triangles a square, material brick in each third row:
+// wave.rtm has two patches and triangles that join them. It has 18 x 18 vertices at (i, j, (i j mod 7) / 8)
+// with (u,v) = (i, j) / 17, two triangles in each square, and the material brick in every third row:
 //   awk 'BEGIN { n = 18
 //     for (i = 0; i < n; i++) for (j = 0; j < n; j++)
 //       printf "v %d %d %.3f\nvt %g %g\n", i, j, (i*j%7)/8, i/(n-1), j/(n-1)
 //     for (i = 0; i+1 < n; i++) { print i%3 ? "usemtl tile" : "usemtl brick"
 //       for (j = 0; j+1 < n; j++) { a = i*n+j+1; b = a+n
-//         printf "f %d/%d %d/%d %d/%d\nf %d/%d %d/%d %d/%d\n", a,a, b,b, b+1,b+1, a,a, b+1,b+1, a+1,a+1 } }
-//         }'
+//         printf "f %d/%d %d/%d %d/%d\nf %d/%d %d/%d %d/%d\n",
+//           a,a, b,b, b+1,b+1, a,a, b+1,b+1, a+1,a+1 } } }'
 //     > wave.obj; obj2mesh -a box.mat wave.obj > wave.rtm
 TEST(MeshFile, PatchesAreJoined) {
   const Mesh mesh = rad::readMesh(fixture("wave.rtm"));
@@ -161,7 +161,7 @@ TEST(MeshFile, PatchesAreJoined) {
       const V3d p = mesh.position(v);
       const int i = static_cast<int>(std::lround(p.x)), j = static_cast<int>(std::lround(p.y));
       EXPECT_LT((p - V3d(i, j, i * j % 7 / 8.)).length(), near);
-      EXPECT_LT((*mesh.uv(v) - V2d(i / 17., j / 17.)).length(), 5e-6);  // wave.obj has six digits
+      EXPECT_LT((*mesh.uv(v) - V2d(i / 17., j / 17.)).length(), 5e-6);  // wave.obj gives six digits
       grid.push_back(i * 18 + j);
     }
     std::rotate(grid.begin(), std::min_element(grid.begin(), grid.end()), grid.end());
@@ -190,8 +190,8 @@ TEST(MeshFile, VerticesWithAndWithoutNormals) {
   EXPECT_NEAR(mesh.uv(4)->y, 2, 1e-9);
 }
 
-// Directions of a lattice over the sphere, coded by the definition, come back within the bound that the
-// header gives. Codes that no direction has give unit vectors all the same.
+// Directions on a lattice over the sphere, encoded by the definition, are decoded within the error bound of
+// the header. Codes that represent no direction are also decoded to unit vectors.
 TEST(MeshFile, DirectionsOfAllOctants) {
   constexpr double kScale = 11584.5;
   constexpr int kDirections = 20000;
@@ -276,7 +276,7 @@ TEST(MeshFile, AMeshWithoutMaterialsHasNone) {
   data.soleMaterial = -1;
   std::string bytes = data.bytes();
   bytes[bytes.size() - 2] = bytes[bytes.size() - 1] = '\xff';    // of the last triangle
-  bytes[bytes.size() - 15] = bytes[bytes.size() - 14] = '\xff';  // of the one before
+  bytes[bytes.size() - 15] = bytes[bytes.size() - 14] = '\xff';  // of the triangle before it
   const Mesh mesh = readBytes(bytes);
   for (const Mesh::Triangle& t : mesh.triangles) EXPECT_EQ(t.material, Mesh::kNoMaterial);
 }

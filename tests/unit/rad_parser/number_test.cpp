@@ -95,7 +95,8 @@ TEST(Number, ReadAtTheBeginningOfATextAsByTheLibrary) {
     compare(i % 2 ? fmt::format("{:.{}g} 2", any, 1 + i % 17) : fmt::format("{:.{}e}", any, i % 17));
     compare(fmt::format("{:.{}f}", 1e-5 * static_cast<double>(static_cast<int32_t>(random())), i % 12));
   }
-  // Digits are read together with what follows them: the characters beside them, and those beyond ASCII.
+  // Digits are read together with the characters behind them: those next to the digits in
+  // ASCII, and those beyond ASCII.
   for (const char* behind :
        {" 12345678", ":::::::::", "/////////", "\xff\xff\xff\xff\xff\xff\xff\xff", "@@@@@@@@"})
     for (int i = 0; i < 40; ++i)

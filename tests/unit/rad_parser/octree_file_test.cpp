@@ -20,7 +20,7 @@ using rad::Type;
 
 std::string fixture(const std::string& name) { return RSPHERE_TESTS "/scenes/octree/" + name; }
 
-// Octrees that are not frozen name their files from where they were made.
+// Octrees that are not frozen name their files relative to the folder in which they were made.
 class InFolder {
  public:
   explicit InFolder(const std::string& path) : before_(std::filesystem::current_path()) {
@@ -32,7 +32,7 @@ class InFolder {
   std::filesystem::path before_;
 };
 
-// The same primitives, with reals within `within` of themselves.
+// Compares primitives, with a relative error of `within` for real arguments.
 void expectSame(const Description& a, const Description& b, double within) {
   ASSERT_EQ(a.primitives.size(), b.primitives.size());
   for (size_t i = 0; i < a.primitives.size(); ++i) {
@@ -50,13 +50,13 @@ void expectSame(const Description& a, const Description& b, double within) {
   }
 }
 
-// The fields of an octree of our own making: "mat" and two spheres, one leaf.
+// The fields of an octree that a test writes: "mat" and two spheres in one leaf.
 struct OctreeData {
   int width = 4;
   std::string header = "#?RADIANCE\noconv made by hand\nFORMAT=Radiance_octree\n\n";
   std::vector<std::string> files = {};
   int64_t objects = 3;
-  std::string cells;  // empty: one leaf of both spheres
+  std::string cells;  // empty: one leaf with both spheres
   std::string types = std::string("sphere\0plastic\0alias\0\0", 22);
 
   std::string sphere(int64_t modifier, std::string_view name) const {
@@ -104,7 +104,7 @@ TEST(OctreeFile, FrozenIsItsText) {
   ASSERT_EQ(text.primitives.size(), 17u);
   expectSame(octree, text, 1.0001 / 0x80000000);
   EXPECT_EQ(octree.header, (std::vector<std::string>{"#?RADIANCE", "oconv -f every.rad"}));
-  ASSERT_TRUE(octree.cube);  // figures: getinfo -d frozen.oct
+  ASSERT_TRUE(octree.cube);  // the numbers are from getinfo -d frozen.oct
   EXPECT_EQ(octree.cube->size, 5.12502);
   EXPECT_EQ(octree.cube->origin, (std::array{-1.56251, -2.50001, -2.00001}));
   EXPECT_TRUE(text.header.empty());
@@ -197,7 +197,7 @@ TEST(OctreeFile, EveryWidthOfObjectNumbers) {
   }
 }
 
-// The encoding is the truncated mantissa of 31 bits; the ends of what it holds.
+// The encoding truncates to a mantissa of 31 bits. The ends of its range are included.
 TEST(OctreeFile, Reals) {
   const auto decoded = [](int64_t m, int e) {
     OctreeData data;
@@ -231,15 +231,16 @@ TEST(OctreeFile, HeadersAsProgramsWriteThem) {
             (std::vector<std::string>{"#?RADIANCE", "xform -t 1 2 3", "\tCAPDATE= 2020:01:01"}));
   data.header = "#?RADIANCE\r\nFORMAT=Radiance_octree\r\n\r\n";
   EXPECT_EQ(readBytes(data.bytes()).header, std::vector<std::string>{"#?RADIANCE"});
-  data.header = "#?RADIANCE\noconv\n\n";  // without a format the number tells
+  data.header = "#?RADIANCE\noconv\n\n";  // without a format, the number decides
   EXPECT_EQ(readBytes(data.bytes()).primitives.size(), 3u);
   data.header = "#?RADIANCE\n" + std::string(70000, 'x') + "\nFORMAT=Radiance_octree\n\n";
-  EXPECT_NE(errorOfBytes(data.bytes()), "");  // the format is not within the beginning
+  EXPECT_NE(errorOfBytes(data.bytes()), "");  // the format is behind the beginning that is examined
   data.header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n";
   EXPECT_EQ(errorOfBytes(data.bytes()), "t.oct: not an octree: its header says FORMAT=32-bit_rle_rgbe");
 }
 
-// As programs wrote them before headers had a first line of their own, and as other programs may change them.
+// Headers without the first line, as programs wrote them before it was introduced, and headers that
+// other programs have changed.
 TEST(OctreeFile, WithoutAFirstLineOfItsOwnIsAnOctree) {
   OctreeData data;
   data.header = "oconv -f -n 8 !fuzzmaker \nFORMAT=Radiance_octree\n\n";
@@ -258,7 +259,7 @@ TEST(OctreeFile, WithoutAFirstLineOfItsOwnIsAnOctree) {
   EXPECT_EQ(errorOfBytes(data.bytes()), "t.oct: not an octree: its header says FORMAT=ascii");
   data.header = "\n\n";  // no header at all
   EXPECT_NE(errorOfBytes(data.bytes()), "");
-  // Scene text may have empty lines, and words like these.
+  // Scene text may contain empty lines, and words like these.
   for (const char* text :
        {"void plastic m\n\n0 0 0\n", "void plastic FORMAT=x 0 0 0\n\n", "void plastic\nFORMAT=x\n\n0 0 0\n"})
     EXPECT_EQ(readFile(folder.write("text.rad", text)).primitives.size(), 1u) << text;
@@ -270,7 +271,7 @@ TEST(OctreeFile, WhatIsNoOctree) {
                     text = folder.write("text.oct", "void plastic m 0 0 0");
   EXPECT_EQ(errorOf([&] { readFile(empty); }),
             empty + ": not an octree: 0 bytes (did the program that makes it fail?)");
-  EXPECT_EQ(readFile(text).primitives.size(), 1u);  // the content tells, not the name
+  EXPECT_EQ(readFile(text).primitives.size(), 1u);  // the contents decide, not the name
   EXPECT_EQ(errorOf([&] { rad::readOctree(text); }), text + ": not an octree");
   EXPECT_EQ(errorOf([&] { rad::readOctree(empty); }),
             empty + ": not an octree: 0 bytes (did the program that makes it fail?)");
@@ -345,7 +346,7 @@ TEST(OctreeFile, DamagedCells) {
   EXPECT_NE(with(leaf({0})).find("damaged octree: 3 objects in place of 4"), std::string::npos);
 }
 
-// What is announced and does not come: an error as soon as the data end, whatever was announced.
+// Data that are announced but missing are an error as soon as the data end, whatever was announced.
 TEST(OctreeFile, HostileCounts) {
   OctreeData data;
   data.width = 8;
@@ -359,7 +360,7 @@ TEST(OctreeFile, HostileCounts) {
   data.objects = 3;
   data.cells = "\1" + std::string("\x7f\xff\xff\xff\xff\xff\xff\xff", 8);
   EXPECT_NE(errorOfBytes(data.beforeScene()).find("truncated octree at byte"), std::string::npos);
-  data.cells = std::string(10 << 20, '\2');  // ten million cells within each other
+  data.cells = std::string(10 << 20, '\2');  // ten million nested cells
   EXPECT_NE(errorOfBytes(data.beforeScene()).find("truncated octree at byte"), std::string::npos);
   data.cells = std::string(1, '\0');
   data.files = {std::string(1 << 20, 'x')};
@@ -390,7 +391,7 @@ TEST(OctreeFile, TruncatedAnywhereIsAnError) {
   }
 }
 
-// Whatever the bytes say, the answer is a description that holds together, or an error with the file's name.
+// Any bytes give either a consistent description or an error with the name of the file.
 TEST(OctreeFile, FlippedBytesAreReadOrRefused) {
   const TestFolder folder;
   std::mt19937_64 random(5);

@@ -176,7 +176,7 @@ TEST(SceneFile, HostileBytes) {
   EXPECT_EQ(errorOfText("!" + std::string(2 << 20, 'x')), "room.rad:1: command of more than 1048576 bytes");
 }
 
-// Any bytes are read or refused with one line that has a place; a sanitizer sees what else happens.
+// Any bytes are read, or refused with one line that contains a place. Sanitizers detect other faults.
 TEST(SceneFile, SpoiledTextsAreReadOrRefused) {
   const std::string whole =
       "# text\nvoid plastic m 0 0 5 .5 .5 .5 0 0\nm alias n m\nn polygon 'a b' 0 0 9 0 0 0 1e0 0 0 0 +1. 0\n"
@@ -215,7 +215,8 @@ TEST(SceneFile, SpoiledTextsAreReadOrRefused) {
 }
 
 TEST(SceneFile, WordsAcrossBlocks) {
-  // Two million bytes of words of many lengths: some of them cross the ends of the blocks that are read.
+  // Two million bytes of words of many lengths, some of which cross the boundaries of
+  // the blocks that are read.
   std::mt19937 random(3);
   std::string text;
   std::vector<std::string> names;
@@ -236,7 +237,7 @@ TEST(SceneFile, WordsAcrossBlocks) {
   }
 }
 
-// Random descriptions, printed and read again, are the same, digit for digit.
+// Random descriptions that are printed and read again are equal, digit for digit.
 TEST(SceneFile, PrintedScenesReadBackTheSame) {
   std::mt19937_64 random(11);
   for (int round = 0; round < 50; ++round) {
@@ -304,7 +305,7 @@ TEST(SceneFile, FilesThatCannotBeRead) {
             folder.path() + ":1: cannot read: Is a directory");
   const std::string locked = folder.write("locked.rad", "");
   chmod(locked.c_str(), 0);
-  const std::string denied = errorOf([&] { readFile(locked); }, Status::system);  // not for root
+  const std::string denied = errorOf([&] { readFile(locked); }, Status::system);  // except for root
   EXPECT_EQ(denied, geteuid() == 0 ? "" : locked + ": cannot open scene file: Permission denied");
   EXPECT_EQ(errorOf([] { readFile(""); }, Status::system),
             ": cannot open scene file: No such file or directory");
@@ -356,7 +357,7 @@ TEST(SceneFile, AByteOrderMarkIsSkipped) {
   EXPECT_EQ(readFile(file).primitives.size(), 1u);
   EXPECT_EQ(readFile("!xform -mx " + file).primitives.size(), 1u);
   EXPECT_EQ(readFile("!cat " + file).primitives.size(), 1u);
-  // A pipe may give it byte by byte.
+  // A pipe may deliver it byte by byte.
   EXPECT_EQ(
       readText("!printf '\\357'; sleep .02; printf '\\273'; sleep .02; printf '\\277void sphere s 0 0 0'\n")
           .primitives.size(),
@@ -366,7 +367,7 @@ TEST(SceneFile, AByteOrderMarkIsSkipped) {
   EXPECT_EQ(errorOfText("\xef\xbb"), "room.rad:1: undefined modifier \"\xef\xbb\"");
 }
 
-// Their surfaces would be missing, and no answer would show it.
+// Without the error, their surfaces would be missing, and the results would not show it.
 TEST(SceneFile, ACommandThatFailsIsAnErrorWithItsPlace) {
   constexpr std::string_view kMissing = "; surfaces that it makes may be missing from the scene";
   EXPECT_EQ(errorOfText("\n!echo void sphere s 0 0 0; exit 3\n"),
@@ -387,7 +388,8 @@ TEST(SceneFile, ACommandThatFailsIsAnErrorWithItsPlace) {
       errorOf([&] { readFile(outer); }),
       fmt::format("{}:2 (from {}:1): bad status from \"!exit 5\": exit status 5{}", inner, outer, kMissing));
 
-  // Given instead of a scene file it is warned of: rtrace goes on with what the command wrote.
+  // It is only a warning for a command given as a scene file: rtrace continues with
+  // the output of the command.
   std::vector<std::string> warnings;
   EXPECT_EQ(readFile("!echo void sphere s 0 0 0; exit 3", &warnings).primitives.size(), 1u);
   ASSERT_EQ(warnings.size(), 1u);

@@ -11,7 +11,7 @@
 
 #include "rad_parser/scene_file.h"
 
-// A folder that goes with the test.
+// A folder that is removed at the end of the test.
 class TestFolder {
  public:
   TestFolder() {
@@ -26,7 +26,7 @@ class TestFolder {
   TestFolder(const TestFolder&) = delete;
   TestFolder& operator=(const TestFolder&) = delete;
 
-  // Writes a file, and folders on the way to it. Returns its path.
+  // Writes a file, and creates the folders of its path. Returns the path.
   std::string write(const std::string& name, std::string_view text) const {
     const std::filesystem::path path = path_ / name;
     std::filesystem::create_directories(path.parent_path());
@@ -51,7 +51,7 @@ inline rad::Description readFile(const std::string& path, std::vector<std::strin
 
 inline rad::Description readText(std::string_view text) { return rad::readSceneText(text, "room.rad"); }
 
-// What the error says; empty where there is none.
+// The text of the error; empty if there is none.
 template <class Read>
 std::string errorOf(Read read, rad::Status status = rad::Status::input) {
   try {
@@ -66,7 +66,7 @@ inline std::string errorOfText(std::string_view text) {
   return errorOf([&] { readText(text); });
 }
 
-// A word as scene text has it, quoted where it must be.
+// A word as it is written in scene text, in quotes if necessary.
 inline std::string sceneWord(std::string_view word) {
   const char mark = word.find('"') == word.npos ? '"' : '\'';
   return word.empty() || word.find_first_of(" \t\r\n\v\f\"'") != word.npos
@@ -74,7 +74,7 @@ inline std::string sceneWord(std::string_view word) {
              : std::string(word);
 }
 
-// The description as scene text that reads back as the same, digit for digit.
+// Scene text that reads back as the same description, digit for digit.
 inline std::string printScene(const rad::Description& d) {
   std::string text;
   for (const rad::Primitive& p : d.primitives) {

@@ -38,7 +38,7 @@ spot mesh woman 1 woman.rtm 0 0
 )";
 constexpr std::string_view kTriangle = "void polygon p 0 0 3 1 0 0\n";
 
-// The program xform writes 12 digits, of absorption 6.
+// The program xform writes 12 digits, and 6 of absorption.
 void expectSame(const Description& ours, const Description& theirs) {
   ASSERT_EQ(ours.primitives.size(), theirs.primitives.size());
   for (size_t i = 0; i < ours.primitives.size(); ++i) {
@@ -68,7 +68,7 @@ TEST_P(XformProgram, SameArguments) {
   expectSame(readFile(fmt::format("!xform {} {}", GetParam().arguments, file)), readText(GetParam().theirs));
 }
 
-// theirs: what RADIANCE 6.1a's "xform ARGUMENTS t.rad" writes, blanks folded.
+// theirs: the output of "xform ARGUMENTS t.rad" of RADIANCE 6.1a, with blanks folded.
 INSTANTIATE_TEST_SUITE_P(All, XformProgram,
                          testing::Values(Case{"-n x -t 1 2 3 -rz 90 -s 2", kEachRule, R"(
 void spotlight spot 0 0 7 10 10 10 30 0 0 -4
@@ -186,8 +186,8 @@ TEST(Xform, MatrixIsExactWhereItCanBe) {
   EXPECT_EQ(printXform("", "void sphere s 0 0 4 .1 .2 .3 .4"), "void sphere s\n0\n0\n4 0.1 0.2 0.3 0.4\n");
 }
 
-// xform -n out -m steel -s 2 outer.rad, where outer.rad has inner.rad and that a command: "xform outer.rad"
-// gives the same.
+// xform -n out -m steel -s 2 outer.rad, where outer.rad contains inner.rad, which contains a command. "xform
+// outer.rad" gives the same.
 TEST(Xform, CommandsWithinFilesAreTransformedTwice) {
   const TestFolder folder;
   folder.write("lib/inner.rad",

@@ -58,7 +58,7 @@ class Files {
   }
   double value(const std::string& text) { return value(".", text); }
 
-  // What compiling or evaluating says.
+  // The text of the error of compiling or evaluating.
   std::string error(std::string_view file, const std::string& text) {
     try {
       value(file, text);

@@ -13,7 +13,7 @@ TEST(CalcMath, NoiseIsSmoothAndBounded) {
     EXPECT_EQ(noise3(i, 2 * i, -i), 0);
     EXPECT_LE(std::abs(noise3(x, y, z)), 1);
     EXPECT_NEAR(noise3(x, y, z), noise3(x + 256, y - 512, z), 1e-10);
-    // Across a cell's face value and slope do not jump.
+    // Value and slope are continuous across the faces of cells.
     const double step = 1e-5;
     EXPECT_NEAR(noise3(i - step, y, z), 2 * noise3(i, y, z) - noise3(i + step, y, z), 1e-8);
   }

@@ -26,12 +26,12 @@ TEST(CalcScope, NearestDefinitionWins) {
   Files files;
   files.prelude = "mod(n,d) = 100; k = 7; only = 5; kept = 6;";
   files.files["a.cal"] =
-      "before = mod(7,3);\n"  // the shared one: this file has none yet
+      "before = mod(7,3);\n"  // the shared one, because this file has none yet
       "mod(n,d) = n-d*2;\n"
-      "after = mod(7,3);\n"  // its own
+      "after = mod(7,3);\n"  // its own one
       "shared = mod`(7,3);\n"
       "own = `late + `mod(7,3); late = 9;\n"
-      "self(n) = k; k = k+1;\n"  // the k of self is the shared one, as the k in k+1
+      "self(n) = k; k = k+1;\n"  // k is the shared one in self(), and in k+1
       "k2 = k;\n"
       "further = down; down = 3;\n"  // defined further down
       "hidden = `kept;";
@@ -64,7 +64,7 @@ TEST(CalcScope, FilesCanDefineSharedNames) {
   EXPECT_EQ(files.value(".", "v"), 3);
 }
 
-// RADIANCE 6.1a's rules, function file formats: what is a constant by then is replaced by its value.
+// The rules of RADIANCE 6.1a and its file formats: a constant that is known by then is replaced by its value.
 TEST(CalcScope, ConstantsKeepTheValueOfTheirPlace) {
   Files files;
   files.files["a.cal"] =
@@ -112,7 +112,7 @@ TEST(CalcScope, InputsAreVariablesThatMayBeMissing) {
   EXPECT_NO_THROW(files.library().compile(request));
   texts = {"z"};
   EXPECT_THROW(files.library().compile(request), Error);
-  // One's own variable hides an input.
+  // A variable of the file hides an input.
   files.files["a.cal"] = "z = 4;";
   EXPECT_EQ(files.value("a.cal", "z+z`"), 2);
 }
@@ -127,10 +127,10 @@ TEST(CalcScope, ErrorsNameTheirPlace) {
   EXPECT_EQ(files.error("a.cal", "sin"), "room.rad:3: undefined variable \"sin\"");
   EXPECT_EQ(files.error("a.cal", "if(x)"), "room.rad:3: if(): too few arguments");
   EXPECT_EQ(files.value("a.cal", "h(1,2,3)"), 3);
-  // What is not evaluated need not be there.
+  // A name that is not evaluated may be undefined.
   EXPECT_EQ(files.value("a.cal", "if(x,1,f(1))"), 1);
   EXPECT_EQ(files.error("a.cal", "if(z,1,f(1))"), "a.cal:2: undefined variable \"nothing`a\"");
-  // A file with an error has it each time, and so for everyone.
+  // A file with an error reports it at every request.
   EXPECT_EQ(files.error("bad.cal", "v"), "bad.cal:2: expected ')', got \";\"");
   EXPECT_EQ(files.error("bad.cal", "v"), "bad.cal:2: expected ')', got \";\"");
   EXPECT_EQ(files.error("gone.cal", "v"),

@@ -76,7 +76,7 @@ TEST(CalcSyntax, NestingIsLimitedChainsAreNot) {
   EXPECT_EQ(errorOfExpression(sum), "no error");
 }
 
-// Any tree that the grammar can mean, as text with random blanks and comments.
+// A random tree of the grammar as text, with random blanks and comments.
 class Trees {
  public:
   explicit Trees(uint32_t seed) : random_(seed) {}
@@ -145,7 +145,7 @@ TEST(CalcSyntax, PrintedTreesParseToTheSame) {
     ASSERT_NO_THROW(again = parseExpression(text, "test")) << text;
     EXPECT_TRUE(same(tree, again)) << text << "\n" << print(again);
     if (i % 10 == 0) {
-      // The comparison can tell: another operator is another tree.
+      // The comparison detects a different operator.
       const size_t plus = text.find('+');
       if (plus != std::string::npos && text[plus - 1] != 'e') {
         std::string spoiled = text;

@@ -10,7 +10,7 @@
 namespace rad::calc {
 namespace {
 
-// RADIANCE 6.1a: rcalc -n -e '$1=EXPRESSION'; erf and erfc, which it lacks: glibc's.
+// RADIANCE 6.1a: rcalc -n -e '$1=EXPRESSION'. It lacks erf and erfc; their values are those of glibc.
 TEST(CalcValue, LibraryFunctionsAsTheOriginals) {
   const std::pair<const char*, double> table[] = {
       {"sin(.7)", 0.644217687},
@@ -49,12 +49,12 @@ TEST(CalcValue, LibraryFunctionsAsTheOriginals) {
   Files files;
   for (const auto& [text, expected] : table)
     EXPECT_NEAR(files.value(text), expected, 5e-9 * (1 + std::abs(expected))) << text;
-  // The same at run time rather than in advance.
+  // The same, evaluated at run time instead of in advance.
   for (const auto& [text, expected] : table) {
     std::string late;
     for (const char* c = text; *c != '\0'; ++c) {
       late += *c;
-      // "(" + .7 -> "(" + (x-x) + ...: each argument becomes variable
+      // "(" + .7 -> "(" + (x-x) + ...: makes each argument variable
       if (*c == '(' || *c == ',') late += "(x-.25)+";
     }
     if (late.find("+-") == std::string::npos) {
@@ -74,7 +74,7 @@ TEST(CalcValue, BesselFunctions) {
   EXPECT_NEAR(files.value("yn(2,2)"), -0.617408104190683, 1e-14);
 }
 
-// As rcalc has them: rcalc -n -e 'x=0;$1=1/x' prints "Division by zero" and 0, and so on.
+// As in rcalc: rcalc -n -e 'x=0;$1=1/x' prints "Division by zero" and 0, and so on.
 TEST(CalcValue, FaultsAreZeroAndAreNoted) {
   const std::tuple<const char*, double, uint32_t> table[] = {
       {"1/(x-.25)", 0, kDivisionByZero},
@@ -105,7 +105,7 @@ TEST(CalcValue, FaultsAreZeroAndAreNoted) {
   }
 }
 
-// rtrace: "bad constant expression". rcalc, which does no constants in advance, has 0.
+// rtrace reports "bad constant expression". rcalc, which evaluates no constants in advance, returns 0.
 TEST(CalcValue, ConstantsWithoutValueAreErrors) {
   Files files;
   EXPECT_EQ(files.error("1/0*x"), "room.rad:3: constant expression has no value: division by zero");
@@ -125,11 +125,11 @@ TEST(CalcValue, ConstantExpressionsTakeNoInstructions) {
       "sin(x/s) + octaves(2*s));";
   EXPECT_EQ(files.value("c.cal", "K"), 90);
   EXPECT_TRUE(files.compile("c.cal", "K")->isConstant());
-  // The unused first, the input, the product and the end.
+  // The unused first instruction, the input, the product and the end.
   EXPECT_EQ(files.compile("c.cal", "g")->size(), 4u);
   EXPECT_EQ(files.compile("c.cal", "g")->inputs(), 1u);
   EXPECT_FALSE(files.compile("c.cal", "g")->isConstant());
-  // Recursion over a constant is expanded: no call is left, and common parts are one.
+  // Recursion over a constant is expanded: no call is left, and common parts are merged.
   const auto octaves = files.compile("c.cal", "octaves(1/8)");
   EXPECT_LT(octaves->size(), 17u);
   EXPECT_NEAR(files.value("c.cal", "octaves(1/8)"),
@@ -153,7 +153,7 @@ TEST(CalcValue, EqualPartsAreEvaluatedOnce) {
   };
   once("v+v*v", .25 + .0625, 1);
   once("f(v,v)", 1.0625, 1);
-  once("if(x, v, 3) + if(y, v, 4)", .5, 1);  // in branches that are not certain
+  once("if(x, v, 3) + if(y, v, 4)", .5, 1);  // in branches that may not be reached
   once("if(z, v, 3) + if(z, v, 4)", 7, 0);
   once("if(z, count(y), count(x)) + if(y, count(y), 1)", .75, 2);
   once("select(1+x, v, count(y), v*v)", .25, 1);
@@ -214,9 +214,9 @@ TEST(CalcValue, EndlessRecursionIsAnError) {
   EXPECT_EQ(files.error("c.cal", "t(x)"), "c.cal:4: t(): " + end);
   EXPECT_NE(files.error("c.cal", "a").find("is defined by itself"), std::string::npos);
   EXPECT_EQ(files.value("c.cal", "down(y*180000)"), 90000);
-  // Not deep, but some 1e12 calls.
+  // The recursion is not deep, but has about 1e12 calls.
   EXPECT_EQ(files.error("c.cal", "both(y*120)"), "c.cal:6: both(): more than 20000000 calls");
-  // An error leaves the state usable.
+  // The state is usable after an error.
   State state;
   const auto bad = files.compile("c.cal", "f(x)");
   EXPECT_THROW(bad->evaluate({files.inputs, {}, {}}, state), Error);
@@ -248,7 +248,7 @@ TEST(CalcValue, RealArguments) {
   EXPECT_EQ(files.value("c.cal", "arg(-5)+arg(y*6)"), 12);
   EXPECT_EQ(files.error("c.cal", "A1+arg(4)"), "room.rad:3: missing real argument 4");
   EXPECT_EQ(files.error("c.cal", "late(9)"), "c.cal:1: missing real argument 9");
-  // Given in advance they are constants.
+  // They are constants if they are given in advance.
   const std::vector<double> reals = {2, 5};
   const std::vector<std::string> texts = {"A1*n+late(2)"};
   Request request;
@@ -263,7 +263,7 @@ TEST(CalcValue, RealArguments) {
   EXPECT_EQ(files.library().compile(request)->evaluate({files.inputs, {}, {}}, state), 1);
 }
 
-// The tests' own evaluation: by name, each argument anew each time, nothing in advance.
+// An independent evaluation for the tests: by name, each argument anew at every use, nothing in advance.
 class Plain {
  public:
   std::map<std::string, const Definition*> definitions;
@@ -350,8 +350,8 @@ class Plain {
   }
 };
 
-// Random files of variables, functions, functions of functions and recursive functions, and expressions over
-// them.
+// Random files of variables, functions, functions of functions and recursive functions,
+// and expressions with these.
 class RandomFile {
  public:
   explicit RandomFile(uint32_t seed) : random_(seed) {
@@ -430,7 +430,7 @@ class RandomFile {
   std::string text;
 
  private:
-  // Of what has been defined, by whether it is constant: a constant may use only constants.
+  // The definitions so far, by whether they are constant, because a constant may use only constants.
   bool isThere(const std::vector<bool>& defined) const {
     return std::any_of(defined.begin(), defined.end(), [&](bool c) { return c || !constant_; });
   }
@@ -444,7 +444,7 @@ class RandomFile {
   std::mt19937 random_;
   std::vector<std::string> parameters_;
   std::vector<bool> variables_, functions_;
-  bool constant_ = false;  // what is being written is a constant
+  bool constant_ = false;  // a constant is being written
   bool complete_ = false;
 };
 
@@ -465,7 +465,7 @@ TEST(CalcValue, RandomExpressionsAgainstPlainEvaluation) {
       try {
         program = files.compile("c.cal", text);
       } catch (const Error& e) {
-        // Constants that the language refuses, as 1/0.
+        // Constants that the language refuses, such as 1/0.
         ASSERT_NE(std::string(e.what()).find("constant expression has no value"), std::string::npos)
             << e.what();
         ++refused;
@@ -477,7 +477,8 @@ TEST(CalcValue, RandomExpressionsAgainstPlainEvaluation) {
         State state;
         const double value = program->evaluate({files.inputs, {}, {}}, state);
         const double expected = plain.value(tree, nullptr);
-        // Rounding only: a division by a constant is a multiplication, small powers are products.
+        // The difference is rounding: a division by a constant is done by multiplication, and
+        // small powers by products.
         if (std::isfinite(expected)) {
           EXPECT_NEAR(value, expected, 1e-9 * (1 + std::abs(expected))) << text << "\n" << random.text;
         }
@@ -515,7 +516,7 @@ TEST(CalcValue, ThreadsShareProgramsAndLibrary) {
   EXPECT_EQ(fresh.loads, 1);
 }
 
-// What is found out in advance is no less a fault: x*0 is known to be 0.
+// A fault that is found in advance is still a fault: x*0 is known to be 0.
 TEST(CalcValue, FaultsOfWhatFoldsToConstantsAreSeen) {
   Files files;
   EXPECT_EQ(files.value("1/(x*0)"), 0);

@@ -13,7 +13,8 @@ Library sceneLibrary() {
   return Library(sceneInterface(), [](std::string_view) { return std::optional<SourceText>(); });
 }
 
-// The point that a ray hits in the plane z = 0, as a primitive with the transform -s 2 -t -.1 .2 0 sees it.
+// The inputs at the point where a ray hits the plane z = 0, for a primitive with the
+// transform -s 2 -t -.1 .2 0.
 std::vector<double> inputsOf(std::array<double, 3> from, std::array<double, 3> along) {
   std::vector<double> in(kInputs);
   const double length = std::hypot(along[0], along[1], along[2]);
@@ -31,12 +32,12 @@ std::vector<double> inputsOf(std::array<double, 3> from, std::array<double, 3> a
   return in;
 }
 
-// RADIANCE 6.1a, the radiance of
+// The radiance in RADIANCE 6.1a of
 //   void brightfunc f 8 EXPRESSION . -s 2 -t -.1 .2 0 0 4 .9 2 3 4
 //   f glow g 0 0 4 1 1 1 0
 //   g polygon p 0 0 12 0 0 0 10 0 0 10 10 0 0 10 0
-// for the rays 3.7 6.1 6 .1 -.05 -1 and 8.25 1.3 4 -.3 .15 -1: rtrace -h -w -ab 0 -fad. It keeps single
-// precision.
+// for the rays 3.7 6.1 6 .1 -.05 -1 and 8.25 1.3 4 -.3 .15 -1, with rtrace -h -w -ab 0 -fad, which computes
+// radiance in single precision.
 TEST(CalcScene, ValuesOfTheOriginal) {
   struct Row {
     const char* text;
@@ -124,8 +125,7 @@ TEST(CalcScene, VariablesOfSomePrimitivesOnly) {
   EXPECT_NO_THROW(library.compile(request));
 }
 
-// Idx, Idy, Idz turn the reversed ray direction into the frame of the perturbed normal and the up vector: a
-// rotation.
+// Idx, Idy, Idz rotate the reversed ray direction into the frame of the perturbed normal and the up vector.
 TEST(CalcScene, HemisphereFrameIsARotation) {
   Library library = sceneLibrary();
   const std::vector<std::string> texts = {"Idx",          "Idy",          "Idz",
@@ -144,7 +144,7 @@ TEST(CalcScene, HemisphereFrameIsARotation) {
   EXPECT_NEAR(out[0] * out[0] + out[1] * out[1] + out[2] * out[2], 1, 1e-12);
   EXPECT_NEAR(out[3] * out[3] + out[4] * out[4] + out[5] * out[5], 1, 1e-12);
   EXPECT_NEAR(out[5], 1, 1e-12);
-  // x = y x z: the up vector crossed with the normal is the frame's y.
+  // x = y x z, and the y axis of the frame is the up vector crossed with the normal.
   EXPECT_NEAR(out[1], -.6, 1e-12);
   EXPECT_NEAR(out[0], .8 * .48 + .6 * .64, 1e-12);
 }

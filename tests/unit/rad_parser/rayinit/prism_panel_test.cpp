@@ -37,15 +37,15 @@ TEST(PrismPanel, WhatIsNotDenseLetsEverythingPass) {
     const V3d direction = along.normalized();
     const PanelRays rays = raysThrough(panelOf(1, 2, 1.5, 1), direction);
     ASSERT_EQ(rays.count, 1u);
-    EXPECT_NEAR(rays.rays[0].share, 1, 1e-4);  // what is given up
+    EXPECT_NEAR(rays.rays[0].share, 1, 1e-4);  // the rest is below the threshold
     EXPECT_LT((rays.rays[0].direction - direction).length(), 1e-12);
   }
 }
 
-// Nothing is absorbed; only what is given up is missing, and what a coating takes.
+// Nothing is absorbed. Only light below the threshold, and the losses of a coating, are missing.
 TEST(PrismPanel, KeepsTheLight) {
   for (int i = 0; i < 40; ++i) {
-    // Along the prisms light takes more sides than a threshold of 1e-5 lets it.
+    // Light along the prisms meets more sides than a threshold of 1e-5 allows.
     const V3d direction = V3d(std::cos(i * 1.7), std::sin(i * 1.7), .5 * std::sin(i * 1.)).normalized();
     PrismPanel panel = panelOf(1, .3 + .1 * i, .5 + .03 * i, 1.5);
     EXPECT_NEAR(total(raysThrough(panel, direction)), 1, .01) << i;
@@ -57,8 +57,8 @@ TEST(PrismPanel, KeepsTheLight) {
   }
 }
 
-// A right angle sends back what comes straight: total reflection at both sides, and 4% reflected on the way
-// out, which goes round again.
+// Prisms with a right angle return light that arrives along the normal: by total reflection at both sides. 4%
+// are reflected on the way out and make another round.
 TEST(PrismPanel, ARightAngleReflects) {
   const PanelRays rays = raysThrough(panelOf(1, 1, 1, 1.5), V3d(1, 0, 0));
   ASSERT_EQ(rays.count, 1u);
@@ -66,14 +66,15 @@ TEST(PrismPanel, ARightAngleReflects) {
   EXPECT_NEAR(rays.rays[0].share, 1, 1e-4);
 }
 
-// One thin prism, straight on: by Snell's law at its long side, and Fresnel's at right angles to the first.
+// One thin prism with light along the normal: by Snell's law at its long side, and by Fresnel's formulas at a
+// right angle to the first.
 TEST(PrismPanel, TurnsByTheLawOfRefraction) {
   const PanelRays rays = raysThrough(panelOf(3, 0, .3, 1.5), V3d(1, 0, 0));
   const double slope = std::atan2(.3, 3.), turned = std::asin(1.5 * std::sin(slope)) - slope;
   const PanelRay& most = *std::max_element(rays.all().begin(), rays.all().end(),
                                            [](const auto& r, const auto& s) { return r.share < s.share; });
   EXPECT_NEAR(std::abs(std::atan2(most.direction.y, most.direction.x)), turned, 1e-12);
-  EXPECT_LT(most.direction.y, 0);  // towards the thick end, which is below
+  EXPECT_LT(most.direction.y, 0);  // towards the thick end, which is at the bottom
   EXPECT_NEAR(most.share, .96 * .96, 1e-3);
 }
 
@@ -86,8 +87,8 @@ TEST(PrismPanel, EndsWhereItWouldTakeTooLong) {
   EXPECT_THROW(raysThrough(panel, V3d(.6, .48, .64)), Error);
 }
 
-// RADIANCE 6.1a, fprism.cal: rtrace -h -w -ov with prism1 surfaces of direction (dx1, dy1, dz1) or (tau1,
-// tau2, ..) before a sky that shows its direction.
+// RADIANCE 6.1a with fprism.cal: rtrace -h -w -ov with prism1 surfaces of direction (dx1, dy1, dz1) or (tau1,
+// tau2, ..) in front of a sky that encodes its direction.
 struct Given {
   std::vector<double> reals;
   V3d along;
@@ -160,7 +161,7 @@ TEST(PrismPanel, WhatIsNoPanelIsRefused) {
   for (size_t i = 0; i < 10; ++i) {
     std::vector<double> reals = kGiven[2].reals;
     reals[i] = -1;
-    if (i == 2) {  // the thickness counts nothing
+    if (i == 2) {  // the thickness has no effect
       EXPECT_NO_THROW(value("fprism_val(3,1,1)", reals, V3d(.6, .48, .64), V3d(0, 0, 0)));
     } else {
       EXPECT_THROW(value("fprism_val(3,1,1)", reals, V3d(.6, .48, .64), V3d(0, 0, 0)), Error) << i;
