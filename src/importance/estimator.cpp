@@ -499,38 +499,6 @@ void SphereEstimator::addVariances(size_t firstBase, Workspace& w) const {
   }
 }
 
-void Moments::add(const V3d& d, const Rgb& part) {
-  total += part;
-  cylindrical += part * std::sqrt(std::max(0., 1 - d.z * d.z));
-  for (int axis = 0; axis < 3; ++axis) facing[2 * axis + (d[axis] < 0)] += part * std::abs(d[axis]);
-  light += brightness(part) * d;
-}
-
-void Moments::add(const Moments& other, double share) {
-  total += other.total * share;
-  cylindrical += other.cylindrical * share;
-  for (int i = 0; i < 6; ++i) facing[i] += other.facing[i] * share;
-  light += other.light * share;
-}
-
-PointAnswer Moments::answer(const V3d& point, size_t directions) const {
-  PointAnswer a;
-  a.point = point;
-  a.directions = directions;
-  a.mean = total / (4 * kPi);
-  a.scalarIrradiance = total / 4.;
-  a.cylindricalIrradiance = cylindrical / kPi;
-  std::copy(std::begin(facing), std::end(facing), std::begin(a.facing));
-  a.lightVector = light;
-  return a;
-}
-
-PointAnswer integrate(const V3d& point, const std::vector<DirectionSample>& samples) {
-  Moments moments;
-  for (const DirectionSample& s : samples) moments.add(s.direction, s.value * s.solidAngle);
-  return moments.answer(point, samples.size());
-}
-
 RayAnswer directionAnswer(const Scene& scene, const DirectionSample& sample, const Ray& ray) {
   RayAnswer a = answerOf(scene, ray);
   a.direction = sample.direction;

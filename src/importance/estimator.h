@@ -17,9 +17,7 @@
 // - Many glances, rays that are not followed beyond what they hit, tell what can be guessed of diffuse
 // surfaces (transport/radiance_guess.h): their unshadowed or fully shadowed light, and their edges. Only what
 // differs from the guess is left to the directions, and to the indirect rays that they go on with.
-#include <algorithm>
 #include <functional>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
@@ -31,6 +29,7 @@
 #include "importance/direction_sample.h"
 #include "importance/error_estimate.h"
 #include "importance/glints.h"
+#include "importance/moments.h"
 #include "importance/seen_sources.h"
 #include "importance/silhouette.h"
 #include "importance/silhouette_index.h"
@@ -41,19 +40,6 @@
 #include "transport/radiance_guess.h"
 
 namespace rsphere {
-
-// Integrals over directions that PointAnswer has.
-struct Moments {
-  Rgb total{0, 0, 0}, cylindrical{0, 0, 0};  // of L, and of L sin(angle to z)
-  Rgb facing[6];                             // of L |cos|, for +x -x +y -y +z -z
-  V3d light{0, 0, 0};                        // of L d, brightness
-
-  Moments() { std::fill(std::begin(facing), std::end(facing), Rgb(0, 0, 0)); }
-  // part: radiance times solid angle.
-  void add(const V3d& direction, const Rgb& part);
-  void add(const Moments& other, double share);
-  PointAnswer answer(const V3d& point, size_t directions) const;
-};
 
 // What all threads share. Keeps a reference to transport.
 class SphereEstimator {
@@ -154,10 +140,6 @@ class SphereEstimator {
   std::vector<V3d> glances_, fitGlances_;
   double usualDeviation_ = 1;  // of one base direction's radiance, as a share of the mean, sources apart
 };
-
-// The quantities of PointAnswer (all but its standard error) from weighted directions. Definitions:
-// answer.h.
-PointAnswer integrate(const V3d& point, const std::vector<DirectionSample>& samples);
 
 // One direction of a point as -Sd prints it.
 RayAnswer directionAnswer(const Scene& scene, const DirectionSample& sample, const Ray& ray);
