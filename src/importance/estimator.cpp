@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "importance/two_halves.h"
-#include "light/surface_point.h"
 #include "rad_parser/error.h"
 #include "scene/even_sequence.h"
 #include "sphere/directions.h"
@@ -18,14 +16,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Share of the radiance's deviation over all directions that counts for a base direction: the slow part of
-// it, from one side of a room to the other, is no error of an even set. Measured in furnished interiors, .5
-// to .7.
-constexpr double kUnevenShare = .6;
-
-// Rays to measure how the radiance varies on the special objects of one modifier, on all of them together at
-// most, and around; and those at a point for the mean that it is held against.
-constexpr size_t kRaysAModifier = 64, kRaysForContrast = 1024, kRaysForSurroundings = 256;
+// Rays at a point for the mean that the deviation on special objects is held against.
 constexpr int kRaysAPoint = 32;
 
 // Glances for each base direction. Each takes .15 to .5 us, a followed direction 1 to 100.
@@ -68,24 +59,6 @@ void keepPositive(std::vector<DirectionSample>& samples) {
   }
 }
 
-class Values {
- public:
-  void add(double value) {
-    sum_ += value;
-    squares_ += value * value;
-    ++count_;
-  }
-  int count() const { return count_; }
-  double mean() const { return count_ > 0 ? sum_ / count_ : 0; }
-  double deviation() const {
-    return count_ > 1 ? std::sqrt(std::max(0., (squares_ - sum_ * sum_ / count_) / (count_ - 1))) : 0;
-  }
-
- private:
-  double sum_ = 0, squares_ = 0;
-  int count_ = 0;
-};
-
 }  // namespace
 
 SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions& options, bool standardError)
@@ -118,7 +91,7 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
     auto spots = std::make_unique<BrightSpots>(transport.scene(), transport.tracer(), transport.lights());
     if (!spots->empty()) spots_ = std::move(spots);
   }
-  measureContrasts();
+  contrasts_ = measureContrasts(transport, special_, sources_, spots_.get());
   glints_.emplace(transport, special_);
   std::vector<bool> unguessed = sources_.apart();
   for (const int32_t mirror : sources_.mirrors()) unguessed[static_cast<size_t>(mirror)] = true;
@@ -126,64 +99,6 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
   const size_t glances = std::min(kGlances * count, std::max(count, kMostGlances));
   glances_ = rotatedDirections(baseDirections(glances), options.rotation);
   fitGlances_ = baseDirections(RadianceGuess::kFitGlances);
-}
-
-// Rays that start just before a point of an object and hit it from even directions: what its image is like on
-// average, wherever it will be looked at from. Objects with the same modifier share theirs.
-void SphereEstimator::measureContrasts() {
-  const Scene& scene = transport_.scene();
-  std::map<int32_t, std::vector<SpecialObject>> alike;  // by modifier
-  for (const SpecialObject& object : special_)
-    alike[scene.surfaces[object.surface].modifier].push_back(object);
-  if (alike.empty()) return;
-  PathTracer tracer(transport_, spots_.get());
-  tracer.gatherFirstAnew();
-  measureSurroundings(tracer);
-  const size_t rays = std::clamp<size_t>(kRaysForContrast / alike.size(), 2, kRaysAModifier);
-  for (const auto& [modifier, objects] : alike) {
-    Random random(mixBits(objects[0].surface));
-    Values values;
-    for (size_t k = 0; k < rays; ++k) {
-      const SpecialObject& object = objects[k * objects.size() / rays];
-      const SurfacePoint at = samplePoint(scene, object, random);
-      // What is flat is seen from both sides.
-      const bool behind = !std::holds_alternative<Sphere>(shapeOf(scene, object)) && k % 2;
-      const V3d away = diffuseDirection(behind ? -at.normal : at.normal, random.uniform(), random.uniform());
-      const Ray ray = tracer.trace(at.point + at.clearance * away, -away, 0, random.bits());
-      if (shows(scene, object, ray.surface) && !sources_.shown(tracer)) values.add(brightness(ray.value));
-    }
-    for (const SpecialObject& object : objects) candidates_.push_back({object, values.deviation()});
-  }
-}
-
-// What is seen around from points of the scene's surfaces, each surface as often as any other. Two paths a
-// direction tell the noise of paths, which evenness does not lower, from what varies with direction.
-void SphereEstimator::measureSurroundings(PathTracer& tracer) {
-  const Scene& scene = transport_.scene();
-  Random random(mixBits(scene.outermost().size()));
-  Values values;
-  double noise = 0;
-  for (size_t k = 0; k < kRaysForSurroundings; ++k) {
-    const auto surfaces = static_cast<double>(scene.outermost().size());
-    const auto i = static_cast<size_t>(random.uniform() * surfaces);
-    if (std::holds_alternative<Distant>(scene.surfaces[i].shape)) continue;
-    const SurfacePoint at = samplePoint(scene, scene.surfaces[i], random);
-    if (!(at.clearance > 0)) continue;
-    const V3d away = diffuseDirection(at.normal, random.uniform(), random.uniform());
-    double seen[2];
-    bool apart = false;
-    for (double& value : seen) {
-      value = brightness(tracer.trace(at.point + at.clearance * away, away, 0, random.bits()).value);
-      apart = apart || sources_.shown(tracer);
-    }
-    if (apart) continue;
-    values.add((seen[0] + seen[1]) / 2);
-    noise += (seen[0] - seen[1]) * (seen[0] - seen[1]) / 2;
-  }
-  if (!(values.mean() > 0)) return;
-  noise /= static_cast<double>(values.count());
-  const double uneven = std::max(0., std::pow(values.deviation(), 2) - noise / 2);
-  usualDeviation_ = std::sqrt(noise + kUnevenShare * kUnevenShare * uneven) / values.mean();
 }
 
 PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& w) const {
@@ -357,8 +272,8 @@ void SphereEstimator::lookAround(const V3d& point, uint64_t seed, Workspace& w) 
 // is lost without trace.
 void SphereEstimator::chooseTargets(const V3d& point, size_t most, Workspace& w) const {
   w.targets.clear();
-  if (candidates_.empty() || most == 0) return;
-  const double usual = usualDeviation_ * w.around;
+  if (contrasts_.objects.empty() || most == 0) return;
+  const double usual = contrasts_.surroundings * w.around;
   const double baseDensity = static_cast<double>(w.directions.size()) / (4 * kPi);
   double sum = 0;
   const auto add = [&](Silhouette silhouette, double deviation, bool continues) {
@@ -369,7 +284,7 @@ void SphereEstimator::chooseTargets(const V3d& point, size_t most, Workspace& w)
     sum += density * solidAngle;
     w.targets.push_back({std::move(silhouette), density * solidAngle, density, continues});
   };
-  for (const Candidate& c : candidates_)
+  for (const Contrasts::Object& c : contrasts_.objects)
     if (c.deviation > usual) add(silhouetteOf(transport_.scene(), c.object, point), c.deviation, false);
   if (usual > 0) {
     glints_->find(point, kLeastGlint * 4 * kPi * usual * usual, w.glints);

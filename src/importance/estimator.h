@@ -26,6 +26,7 @@
 
 #include "cli/answer.h"
 #include "cli/options.h"
+#include "importance/contrasts.h"
 #include "importance/direction_sample.h"
 #include "importance/error_estimate.h"
 #include "importance/glints.h"
@@ -116,8 +117,6 @@ class SphereEstimator {
   void lookAround(const V3d& point, uint64_t seed, Workspace& w) const;
   void glance(const V3d& point, Workspace& w) const;
   void addVariances(size_t firstBase, Workspace& w) const;
-  void measureContrasts();
-  void measureSurroundings(PathTracer& tracer);
 
   const Transport& transport_;
   SphereOptions options_;
@@ -128,17 +127,11 @@ class SphereEstimator {
   bool standardError_;
   Neighbours neighbours_;  // of the base, where errors are wanted
   std::vector<SpecialObject> special_;
-  // What may get directions of its own with -Sw c.
-  struct Candidate {
-    SpecialObject object;
-    double deviation = 0;  // of the radiance on it, W/sr/m2
-  };
-  std::vector<Candidate> candidates_;
+  Contrasts contrasts_;  // with -Sw c alone
   std::optional<Glints> glints_;
   std::optional<RadianceGuess> guess_;
   std::unique_ptr<const BrightSpots> spots_;  // null where light falls evenly
   std::vector<V3d> glances_, fitGlances_;
-  double usualDeviation_ = 1;  // of one base direction's radiance, as a share of the mean, sources apart
 };
 
 // One direction of a point as -Sd prints it.

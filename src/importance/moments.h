@@ -11,8 +11,8 @@ namespace rsphere {
 struct Moments {
   Rgb total{0, 0, 0};        // of L, W/m2
   Rgb cylindrical{0, 0, 0};  // of L sin(angle to z), W/m2
-  Rgb facing[6];             // of L |cos(angle to the axis)| over the hemispheres around +x -x +y -y +z -z, W/m2
-  V3d light{0, 0, 0};        // of brightness(L) d, W/m2
+  Rgb facing[6];       // of L |cos(angle to the axis)| over the hemispheres around +x -x +y -y +z -z, W/m2
+  V3d light{0, 0, 0};  // of brightness(L) d, W/m2
 
   Moments() { std::fill(std::begin(facing), std::end(facing), Rgb(0, 0, 0)); }
 

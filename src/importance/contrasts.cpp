@@ -1,0 +1,109 @@
+#include "importance/contrasts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "light/surface_point.h"
+
+namespace rsphere {
+namespace {
+
+// Share of the radiance's deviation over all directions that counts for a base direction: the slow part of
+// it, from one side of a room to the other, is no error of an even set. Measured in furnished interiors, .5
+// to .7.
+constexpr double kUnevenShare = .6;
+
+// Rays to measure how the radiance varies on the special objects of one modifier, on all of them together at
+// most, and around.
+constexpr size_t kRaysAModifier = 64, kRaysForContrast = 1024, kRaysForSurroundings = 256;
+
+class Values {
+ public:
+  void add(double value) {
+    sum_ += value;
+    squares_ += value * value;
+    ++count_;
+  }
+  int count() const { return count_; }
+  double mean() const { return count_ > 0 ? sum_ / count_ : 0; }
+  double deviation() const {
+    return count_ > 1 ? std::sqrt(std::max(0., (squares_ - sum_ * sum_ / count_) / (count_ - 1))) : 0;
+  }
+
+ private:
+  double sum_ = 0, squares_ = 0;
+  int count_ = 0;
+};
+
+// Contrasts::surroundings, as seen from points of the scene's surfaces, each surface as often as any other.
+// Two paths are traced in each direction to separate the noise of paths, which even directions do not reduce,
+// from the variation with direction, which they do.
+double measureSurroundings(const Scene& scene, const SeenSources& sources, PathTracer& tracer) {
+  Random random(mixBits(scene.outermost().size()));
+  Values values;
+  double noise = 0;
+  for (size_t k = 0; k < kRaysForSurroundings; ++k) {
+    const auto surfaces = static_cast<double>(scene.outermost().size());
+    const auto i = static_cast<size_t>(random.uniform() * surfaces);
+    if (std::holds_alternative<Distant>(scene.surfaces[i].shape)) continue;
+    const SurfacePoint at = samplePoint(scene, scene.surfaces[i], random);
+    if (!(at.clearance > 0)) continue;
+    const V3d away = diffuseDirection(at.normal, random.uniform(), random.uniform());
+    double seen[2];
+    bool apart = false;
+    for (double& value : seen) {
+      value = brightness(tracer.trace(at.point + at.clearance * away, away, 0, random.bits()).value);
+      apart = apart || sources.shown(tracer);
+    }
+    if (apart) continue;
+    values.add((seen[0] + seen[1]) / 2);
+    noise += (seen[0] - seen[1]) * (seen[0] - seen[1]) / 2;
+  }
+  if (!(values.mean() > 0)) return 1;
+  noise /= static_cast<double>(values.count());
+  const double uneven = std::max(0., std::pow(values.deviation(), 2) - noise / 2);
+  return std::sqrt(noise + kUnevenShare * kUnevenShare * uneven) / values.mean();
+}
+
+// Standard deviation of the brightness on objects with the same modifier. Rays start just before a point of
+// an object and hit it from evenly distributed directions: its average appearance, wherever it will be looked
+// at from.
+double measureDeviation(const Scene& scene, std::span<const SpecialObject> objects, size_t rays,
+                        const SeenSources& sources, PathTracer& tracer) {
+  Random random(mixBits(objects[0].surface));
+  Values values;
+  for (size_t k = 0; k < rays; ++k) {
+    const SpecialObject& object = objects[k * objects.size() / rays];
+    const SurfacePoint at = samplePoint(scene, object, random);
+    // Flat objects are seen from both sides.
+    const bool behind = !std::holds_alternative<Sphere>(shapeOf(scene, object)) && k % 2;
+    const V3d away = diffuseDirection(behind ? -at.normal : at.normal, random.uniform(), random.uniform());
+    const Ray ray = tracer.trace(at.point + at.clearance * away, -away, 0, random.bits());
+    if (shows(scene, object, ray.surface) && !sources.shown(tracer)) values.add(brightness(ray.value));
+  }
+  return values.deviation();
+}
+
+}  // namespace
+
+Contrasts measureContrasts(const Transport& transport, std::span<const SpecialObject> objects,
+                           const SeenSources& sources, const BrightSpots* spots) {
+  Contrasts contrasts;
+  if (objects.empty()) return contrasts;
+  const Scene& scene = transport.scene();
+  std::map<int32_t, std::vector<SpecialObject>> alike;  // by modifier
+  for (const SpecialObject& object : objects)
+    alike[scene.surfaces[object.surface].modifier].push_back(object);
+  PathTracer tracer(transport, spots);
+  tracer.gatherFirstAnew();
+  contrasts.surroundings = measureSurroundings(scene, sources, tracer);
+  const size_t rays = std::clamp<size_t>(kRaysForContrast / alike.size(), 2, kRaysAModifier);
+  for (const auto& [modifier, same] : alike) {
+    const double deviation = measureDeviation(scene, same, rays, sources, tracer);
+    for (const SpecialObject& object : same) contrasts.objects.push_back({object, deviation});
+  }
+  return contrasts;
+}
+
+}  // namespace rsphere
