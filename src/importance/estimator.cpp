@@ -287,8 +287,8 @@ void SphereEstimator::chooseTargets(const V3d& point, size_t most, Workspace& w)
   for (const Contrasts::Object& c : contrasts_.objects)
     if (c.deviation > usual) add(silhouetteOf(transport_.scene(), c.object, point), c.deviation, false);
   if (usual > 0) {
-    glints_->find(point, kLeastGlint * 4 * kPi * usual * usual, w.glints);
-    for (Glint& g : w.glints) add(std::move(g.region), kGlintDeviation * g.brightness, g.continues);
+    for (Glint& g : glints_->find(point, kLeastGlint * 4 * kPi * usual * usual))
+      add(std::move(g.region), kGlintDeviation * g.brightness, g.continues);
   }
   if (sum <= static_cast<double>(most)) return;
   const double scale = static_cast<double>(most) / sum;
@@ -302,7 +302,7 @@ void SphereEstimator::sampleSilhouettes(const V3d& point, uint64_t seed, Workspa
   const auto most = static_cast<size_t>(options_.mostDirections);
   const size_t base = w.directions.size();
 
-  sources_.findImages(point, std::max<size_t>(base / 4, 16), options_.densityFactor, w.images);
+  w.images = sources_.findImages(point, std::max<size_t>(base / 4, 16), options_.densityFactor);
   w.tracer.guessWith(nullptr);
   if (guess_) {
     lookAround(point, mixBits(seed + 2), w);
@@ -313,9 +313,8 @@ void SphereEstimator::sampleSilhouettes(const V3d& point, uint64_t seed, Workspa
   }
 
   // Sources that are seen directly.
-  w.sources.clear();
   double seen = 0;
-  sources_.sample(point, w.images, mixBits(seed + 1), w.tracer, w.sources);
+  w.sources = sources_.sample(point, w.images, mixBits(seed + 1), w.tracer);
   for (const SeenSources::Sample& s : w.sources) {
     seen += s.direction.solidAngle;
     w.samples.push_back(s.direction);

@@ -81,7 +81,6 @@ class SphereEstimator {
     std::optional<LocalGuess> local;            // fitted to these
     double around = 0;                          // mean brightness of these
     std::vector<Target> targets;
-    std::vector<Glint> glints;
     SilhouetteIndex index;  // of the targets, by their places there
     std::vector<SeenSources::Image> images;
     std::vector<SeenSources::Sample> sources;

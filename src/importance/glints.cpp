@@ -178,8 +178,8 @@ bool Glints::shines(const LightSource& source, std::span<const V3d> corners, con
          });
 }
 
-void Glints::find(const V3d& point, double least, std::vector<Glint>& found) const {
-  found.clear();
+std::vector<Glint> Glints::find(const V3d& point, double least) const {
+  std::vector<Glint> found;
   std::vector<V3d> around;
   for (const auto& [ball, reflectance] : balls_) {
     const double nearest = (point - ball.center).length() - ball.radius;
@@ -217,6 +217,7 @@ void Glints::find(const V3d& point, double least, std::vector<Glint>& found) con
       }
     }
   }
+  return found;
 }
 
 }  // namespace rsphere

@@ -24,11 +24,11 @@ class Glints {
   // mirror, of mirror, or of glass and other dielectrics. The sources: all that are not virtual.
   Glints(const Transport& transport, std::span<const SpecialObject> objects);
 
-  // Replaces what is in `found` by the images that a point (world) sees. Left out: those whose solid angle
-  // (sr) times brightness squared is surely below least, and those that shadow rays, one from the point and
-  // up to five to the source, find hidden. A point in or on a ball sees none in it. Depends on the arguments
-  // alone.
-  void find(const V3d& point, double least, std::vector<Glint>& found) const;
+  // The images that a point (world) sees, parts of one image one after the other. Left out: those whose solid
+  // angle (sr) times brightness squared is surely below least, and those that shadow rays, one from the point
+  // and up to five to the source, find hidden. A point in or on a ball sees none in it. Depends on the
+  // arguments alone.
+  std::vector<Glint> find(const V3d& point, double least) const;
 
  private:
   struct Ball {

@@ -99,8 +99,7 @@ struct SmallSources {
 
 SmallSources smallSources(const V3d& point, const PixelMap& map, const SeenSources& sources,
                           PathTracer& tracer, uint64_t seed) {
-  SmallSources small;
-  sources.findImages(point, map.count(), 0, small.images);
+  SmallSources small{sources.findImages(point, map.count(), 0), {}};
   // Pixels are smaller near the rim and the poles.
   for (SeenSources::Image& image : small.images) {
     const double there = map.solidAngle(map.pixelOf(image.region.sample(.5, .5)));
@@ -110,9 +109,7 @@ SmallSources smallSources(const V3d& point, const PixelMap& map, const SeenSourc
   small.images.erase(std::remove_if(small.images.begin(), small.images.end(),
                                     [](const auto& image) { return image.rays == 0; }),
                      small.images.end());
-  std::vector<SeenSources::Sample> samples;
-  sources.sample(point, small.images, seed, tracer, samples);
-  for (const SeenSources::Sample& s : samples) {
+  for (const SeenSources::Sample& s : sources.sample(point, small.images, seed, tracer)) {
     if (!(s.direction.solidAngle > 0)) continue;
     Spot& spot = small.spots[map.pixelOf(s.direction.direction)];
     spot.solidAngle += s.direction.solidAngle;

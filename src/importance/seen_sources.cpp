@@ -134,9 +134,9 @@ bool SeenSources::shownStraight(const PathTracer& tracer, const std::vector<Imag
          });
 }
 
-void SeenSources::findImages(const V3d& point, size_t most, double mirrorFactor,
-                             std::vector<Image>& images) const {
-  images.clear();
+std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t most,
+                                                        double mirrorFactor) const {
+  std::vector<Image> images;
   const Scene& scene = transport_.scene();
   for (const uint32_t i : sources_) {
     const Surface& surface = scene.surfaces[transport_.lights().all()[i].surface];
@@ -166,6 +166,7 @@ void SeenSources::findImages(const V3d& point, size_t most, double mirrorFactor,
   images.erase(std::remove_if(images.begin() + straight, images.end(),
                               [](const Image& i) { return i.rays < kFewestRays; }),
                images.end());
+  return images;
 }
 
 // From the point's mirror image the source is seen through the mirror as through a window.
@@ -206,8 +207,9 @@ void SeenSources::addMirrored(const V3d& point, std::vector<Image>& images) cons
   }
 }
 
-void SeenSources::sample(const V3d& point, const std::vector<Image>& images, uint64_t seed,
-                         PathTracer& tracer, std::vector<Sample>& samples) const {
+std::vector<SeenSources::Sample> SeenSources::sample(const V3d& point, const std::vector<Image>& images,
+                                                     uint64_t seed, PathTracer& tracer) const {
+  std::vector<Sample> samples;
   Random random(seed);
   // Fewer than one ray: some of the images, each standing for others like it.
   double due = random.uniform();
@@ -226,6 +228,7 @@ void SeenSources::sample(const V3d& point, const std::vector<Image>& images, uin
     sampleImage(point, image, rays, solidAngle, random.bits(), tracer, samples);
     for (size_t k = first; k < samples.size(); ++k) samples[k].image = i;
   }
+  return samples;
 }
 
 void SeenSources::sampleImage(const V3d& point, const Image& image, size_t rays, double solidAngle,

@@ -31,7 +31,7 @@ class SeenSources {
   // The images that are integrated apart at a point, with about `most` rays for all of them by the light that
   // each may send, times mirrorFactor for mirrored ones: those not worth half a ray are left to the other
   // directions.
-  void findImages(const V3d& point, size_t most, double mirrorFactor, std::vector<Image>& images) const;
+  std::vector<Image> findImages(const V3d& point, size_t most, double mirrorFactor) const;
 
   // Whether the last primary ray of the tracer showed one of a point's images.
   bool shown(const PathTracer& tracer, const std::vector<Image>& images) const;
@@ -65,8 +65,8 @@ class SeenSources {
   // tell how much of the cell is hidden, and one of those that nothing stopped is followed. Where an image is
   // seen whole its solid angles sum to its own, exact for polygons, spheres and distant sources, within 0.1%
   // for others. Unbiased.
-  void sample(const V3d& point, const std::vector<Image>& images, uint64_t seed, PathTracer& tracer,
-              std::vector<Sample>& samples) const;
+  std::vector<Sample> sample(const V3d& point, const std::vector<Image>& images, uint64_t seed,
+                             PathTracer& tracer) const;
 
  private:
   struct Cell {

@@ -21,9 +21,7 @@ struct Setting : SphereSetting {
                               text),
                       [](RayOptions& o) { o.ambientBounces = 0; }) {}
   std::vector<Glint> seenFrom(const V3d& point, double least = 0) const {
-    std::vector<Glint> found;
-    Glints(*transport, findSpecialObjects(scene, 1)).find(point, least, found);
-    return found;
+    return Glints(*transport, findSpecialObjects(scene, 1)).find(point, least);
   }
 };
 
