@@ -23,14 +23,6 @@ constexpr int kRaysAPoint = 32;
 // Not more than kMostGlances where the base alone is not.
 constexpr size_t kGlances = 4, kMostGlances = 65536;
 
-// More directions than this times the base's density are not sent anywhere: the last factor of two in density
-// would be paid for by everything else.
-constexpr double kMostContrast = 200;
-
-// Share of the base directions' variance that an image of a source may add where it gets no directions of its
-// own; deviation within what is taken for the image, against its brightness.
-constexpr double kLeastGlint = 1e-3, kGlintDeviation = .5;
-
 // Adds what sums to `excess` over all solid angles: in proportion to the guesses, or evenly where all are 0.
 void shareOut(const Rgb& excess, std::span<const Rgb> guesses, std::vector<DirectionSample>& samples) {
   Rgb guessed(0, 0, 0);
@@ -91,8 +83,7 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
     auto spots = std::make_unique<BrightSpots>(transport.scene(), transport.tracer(), transport.lights());
     if (!spots->empty()) spots_ = std::move(spots);
   }
-  contrasts_ = measureContrasts(transport, special_, sources_, spots_.get());
-  glints_.emplace(transport, special_);
+  targets_.emplace(transport, special_, sources_, spots_.get(), options.densityFactor);
   std::vector<bool> unguessed = sources_.apart();
   for (const int32_t mirror : sources_.mirrors()) unguessed[static_cast<size_t>(mirror)] = true;
   guess_.emplace(transport, unguessed);
@@ -266,38 +257,6 @@ void SphereEstimator::lookAround(const V3d& point, uint64_t seed, Workspace& w) 
   }
 }
 
-// Which special objects get directions of their own, and how many on average: in proportion to their
-// silhouettes and to how much more the radiance varies on them than around (Neyman's allocation; the base's
-// own share is already there). Where that is more than `most` all are scaled alike, so that nothing special
-// is lost without trace.
-void SphereEstimator::chooseTargets(const V3d& point, size_t most, Workspace& w) const {
-  w.targets.clear();
-  if (contrasts_.objects.empty() || most == 0) return;
-  const double usual = contrasts_.surroundings * w.around;
-  const double baseDensity = static_cast<double>(w.directions.size()) / (4 * kPi);
-  double sum = 0;
-  const auto add = [&](Silhouette silhouette, double deviation, bool continues) {
-    const double solidAngle = silhouette.regionSolidAngle();
-    if (!(deviation > usual) || !(solidAngle > 0)) return;
-    const double contrast = std::min(usual > 0 ? deviation / usual : kMostContrast, kMostContrast) - 1;
-    const double density = contrast * baseDensity * options_.densityFactor;
-    sum += density * solidAngle;
-    w.targets.push_back({std::move(silhouette), density * solidAngle, density, continues});
-  };
-  for (const Contrasts::Object& c : contrasts_.objects)
-    if (c.deviation > usual) add(silhouetteOf(transport_.scene(), c.object, point), c.deviation, false);
-  if (usual > 0) {
-    for (Glint& g : glints_->find(point, kLeastGlint * 4 * kPi * usual * usual))
-      add(std::move(g.region), kGlintDeviation * g.brightness, g.continues);
-  }
-  if (sum <= static_cast<double>(most)) return;
-  const double scale = static_cast<double>(most) / sum;
-  for (Workspace::Target& target : w.targets) {
-    target.density *= scale;
-    target.expected *= scale;
-  }
-}
-
 void SphereEstimator::sampleSilhouettes(const V3d& point, uint64_t seed, Workspace& w) const {
   const auto most = static_cast<size_t>(options_.mostDirections);
   const size_t base = w.directions.size();
@@ -324,18 +283,11 @@ void SphereEstimator::sampleSilhouettes(const V3d& point, uint64_t seed, Workspa
   // Base and dynamic directions, each with the solid angle that it stands for where all that were sent are
   // even.
   const size_t used = base + w.sources.size();
-  chooseTargets(point, most > used ? most - used : 0, w);
-  w.index.clear();
-  for (uint32_t i = 0; i < w.targets.size(); ++i) w.index.add(i, w.targets[i].silhouette);
-  const auto extraDensity = [&](const V3d& d) {
-    double density = 0;
-    for (const uint32_t i : w.index.near(d))
-      if (w.targets[i].silhouette.contains(d)) density += w.targets[i].density;
-    return density;
-  };
+  const Targets targets =
+      targets_ ? targets_->at(point, w.around, base, most > used ? most - used : 0) : Targets({});
   double total = 0;
   const auto send = [&](const V3d& d, double baseCell, uint64_t raySeed) {
-    const double solidAngle = 1 / (1 / baseCell + extraDensity(d));
+    const double solidAngle = 1 / (1 / baseCell + targets.densityAt(d));
     traceInto(w, point, d, solidAngle, raySeed);
     if (sources_.shown(w.tracer, w.images)) {
       w.samples.back().solidAngle = 0;
@@ -357,7 +309,7 @@ void SphereEstimator::sampleSilhouettes(const V3d& point, uint64_t seed, Workspa
   double due = random.uniform();
   w.runs.clear();
   uint64_t next = base;
-  for (const Workspace::Target& target : w.targets) {
+  for (const Target& target : targets.all()) {
     due += target.expected;
     const double shift1 = random.uniform(), shift2 = random.uniform();
     if (!target.continues) w.runs.push_back(w.samples.size());

@@ -26,15 +26,12 @@
 
 #include "cli/answer.h"
 #include "cli/options.h"
-#include "importance/contrasts.h"
 #include "importance/direction_sample.h"
 #include "importance/error_estimate.h"
-#include "importance/glints.h"
 #include "importance/moments.h"
 #include "importance/seen_sources.h"
-#include "importance/silhouette.h"
-#include "importance/silhouette_index.h"
 #include "importance/special_objects.h"
+#include "importance/targets.h"
 #include "sphere/voronoi.h"
 #include "transport/bright_spots.h"
 #include "transport/path_tracer.h"
@@ -67,12 +64,6 @@ class SphereEstimator {
 
    private:
     friend class SphereEstimator;
-    struct Target {
-      Silhouette silhouette;
-      double expected = 0;     // directions, on average
-      double density = 0;      // of them, per sr of its region
-      bool continues = false;  // the target before: both are parts of one image
-    };
     // Of the set that is being sampled:
     std::vector<V3d> directions, dynamic;  // of the base, and to special objects
     std::vector<V3d> turnedGlances;
@@ -80,8 +71,6 @@ class SphereEstimator {
     std::vector<RadianceGuess::Traced> traced;  // by rays that take no other part
     std::optional<LocalGuess> local;            // fitted to these
     double around = 0;                          // mean brightness of these
-    std::vector<Target> targets;
-    SilhouetteIndex index;  // of the targets, by their places there
     std::vector<SeenSources::Image> images;
     std::vector<SeenSources::Sample> sources;
     std::vector<size_t> rest;                  // samples that showed no source that is integrated apart
@@ -112,7 +101,6 @@ class SphereEstimator {
   void sampleEqually(const V3d& point, uint64_t seed, Workspace& w) const;
   void sampleAsPaper(const V3d& point, uint64_t seed, Workspace& w) const;
   void sampleSilhouettes(const V3d& point, uint64_t seed, Workspace& w) const;
-  void chooseTargets(const V3d& point, size_t most, Workspace& w) const;
   void lookAround(const V3d& point, uint64_t seed, Workspace& w) const;
   void glance(const V3d& point, Workspace& w) const;
   void addVariances(size_t firstBase, Workspace& w) const;
@@ -126,8 +114,7 @@ class SphereEstimator {
   bool standardError_;
   Neighbours neighbours_;  // of the base, where errors are wanted
   std::vector<SpecialObject> special_;
-  Contrasts contrasts_;  // with -Sw c alone
-  std::optional<Glints> glints_;
+  std::optional<TargetChoice> targets_;
   std::optional<RadianceGuess> guess_;
   std::unique_ptr<const BrightSpots> spots_;  // null where light falls evenly
   std::vector<V3d> glances_, fitGlances_;

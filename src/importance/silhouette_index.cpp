@@ -43,10 +43,6 @@ std::array<Cell, 6 * side * side> cellsOf() {
 
 }  // namespace
 
-void SilhouetteIndex::clear() {
-  for (auto& cell : cells_) cell.clear();
-}
-
 void SilhouetteIndex::add(uint32_t number, const Silhouette& silhouette) {
   static const auto kCells = cellsOf<kSide>();
   static const auto kFaces = cellsOf<1>();

@@ -14,9 +14,6 @@ namespace rsphere {
 // caps reach into it.
 class SilhouetteIndex {
  public:
-  // Forgets all.
-  void clear();
-
   // number: what near() calls it by.
   void add(uint32_t number, const Silhouette& silhouette);
 

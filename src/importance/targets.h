@@ -1,0 +1,58 @@
+#pragma once
+// Which regions of the sphere of directions get directions of their own at a point, and how many.
+#include <span>
+#include <vector>
+
+#include "importance/contrasts.h"
+#include "importance/glints.h"
+#include "importance/silhouette_index.h"
+
+namespace rsphere {
+
+// A special object, or the image of a light source in one, that gets directions of its own.
+struct Target {
+  Silhouette silhouette;
+  double density = 0;      // of its own directions, per sr of its region
+  double expected = 0;     // their average number
+  bool continues = false;  // it and the target before it are parts of one image
+};
+
+// The targets of one point.
+class Targets {
+ public:
+  explicit Targets(std::vector<Target> targets);
+
+  std::span<const Target> all() const { return targets_; }
+
+  // The density, per sr, of the targets' own directions around a direction (unit): the sum over all targets
+  // that contain it.
+  double densityAt(const V3d& direction) const;
+
+ private:
+  std::vector<Target> targets_;
+  SilhouetteIndex index_;  // of targets_, by position
+};
+
+// Chooses the targets at any point. Shared by all threads; keeps a reference to transport's scene.
+class TargetChoice {
+ public:
+  // Measures how much radiance varies on the objects (contrasts.h). sources: those integrated apart. spots:
+  // what indirect rays are aimed at, or null. densityFactor: -Sk.
+  TargetChoice(const Transport& transport, std::span<const SpecialObject> objects, const SeenSources& sources,
+               const BrightSpots* spots, double densityFactor);
+
+  // The targets at a point (world). Their directions are as many as bring the density up to Neyman's
+  // allocation, in proportion to the deviation of radiance on them, where the base directions already have
+  // the density that suits the surroundings. If that needs more than `most` directions on average, all
+  // densities are reduced by the same factor, so that no target is dropped. meanBrightness: of what is seen
+  // from the point, W/sr/m2.
+  Targets at(const V3d& point, double meanBrightness, size_t baseDirections, size_t most) const;
+
+ private:
+  const Scene& scene_;
+  double densityFactor_;
+  Contrasts contrasts_;
+  Glints glints_;
+};
+
+}  // namespace rsphere
