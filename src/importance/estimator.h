@@ -1,87 +1,55 @@
 #pragma once
-// The radiance that passes through a point from all around, as an average of traced directions, each weighted
-// by the solid angle it stands for.
+// The quantities of sphere mode at a point: averages over directions that are traced and weighted as -Sw
+// says.
 //
 // Source: Costa, Sousa, Parracho, Cruz, "A New Technique for Spherical Radiance Calculation" (base
-// directions; dynamic directions to special objects; weights by spherical Voronoi cells). What differs with
-// -Sw c, the default, and why:
-// - Light sources that are seen directly are integrated by themselves (seen_sources.h): they are nearly all
-// the error.
-// - Cells keep to the silhouettes. The cell of a base direction is its Voronoi cell on the sphere; inside a
-// silhouette it is shared with the dynamic directions that were sent there, in proportion to their numbers,
-// and outside it is not touched. Plain cells reach over the silhouette's edge from the dense side and bias
-// the mean by a percent.
-// - How many directions a special object gets follows from how much the radiance on it varies, against that
-// of the surroundings, measured by rays that take no other part, so that the mean stays unbiased.
-// - Indirect rays are aimed at where much light falls on little (transport/bright_spots.h).
-// - Many glances, rays that are not followed beyond what they hit, tell what can be guessed of diffuse
-// surfaces (transport/radiance_guess.h): their unshadowed or fully shadowed light, and their edges. Only what
-// differs from the guess is left to the directions, and to the indirect rays that they go on with.
+// directions; dynamic directions to special objects; weights by spherical Voronoi cells). The strategies:
+//   -Sw h  equal_weights.h       base directions alone
+//   -Sw v  voronoi_weights.h     the paper's rule
+//   -Sw c  silhouette_weights.h  the default; its header lists what differs from the paper, and why
 #include <functional>
 #include <memory>
-#include <optional>
-#include <span>
-#include <utility>
 #include <vector>
 
 #include "cli/answer.h"
 #include "cli/options.h"
+#include "importance/base_set.h"
 #include "importance/direction_sample.h"
-#include "importance/error_estimate.h"
-#include "importance/moments.h"
+#include "importance/sampling_strategy.h"
 #include "importance/seen_sources.h"
 #include "importance/special_objects.h"
-#include "importance/targets.h"
 #include "sphere/voronoi.h"
 #include "transport/bright_spots.h"
 #include "transport/path_tracer.h"
-#include "transport/radiance_guess.h"
 
 namespace rsphere {
 
-// What all threads share. Keeps a reference to transport.
+// Shared by all threads. Keeps a reference to transport.
 class SphereEstimator {
  public:
   // Finds the special objects and, for -Sw c, measures how much the radiance on them varies. standardError:
   // whether PointAnswer's is wanted. Throws rad::Error where the base directions' weights fail their check
   // (-Sv).
   SphereEstimator(const Transport& transport, const SphereOptions& options, bool standardError = false);
+  SphereEstimator(const SphereEstimator&) = delete;
+  SphereEstimator& operator=(const SphereEstimator&) = delete;
 
-  // What one thread needs.
+  // The state of one thread.
   struct Workspace {
-    explicit Workspace(const SphereEstimator& estimator)
-        : tracer(estimator.transport_, estimator.spots_.get()) {
-      tracer.gatherFirstAnew();
-    }
+    explicit Workspace(const SphereEstimator& estimator);
     PathTracer tracer;
     // Called before each set of directions; may throw to give the point up.
     std::function<void()> checkStop;
-    // Of the last point; with -Sa only where every direction is wanted (-Sd), which may be a million. Where
-    // glances found more or less than the directions' own guesses say, what is guessed of each is scaled so
-    // that solid angles times radiances sum to the answer's; none is negative unless the answer is.
+    // The directions of the last point; with -Sa only if every direction is wanted (-Sd), because there may
+    // be a million. Where glances found more or less of a guess than the directions did, the difference is
+    // added to the directions' radiances in proportion to their guesses, so that solid angles times radiances
+    // sum to the answer's. No radiance is negative unless the answer is.
     std::vector<DirectionSample> samples;
-    std::vector<Ray> rays;  // what they hit, in the same order; kept with -Sd only
+    std::vector<Ray> rays;  // of the samples, in the same order; kept with -Sd only
 
    private:
     friend class SphereEstimator;
-    // Of the set that is being sampled:
-    std::vector<V3d> directions, dynamic;  // of the base, and to special objects
-    std::vector<V3d> turnedGlances;
-    std::span<const V3d> glances;
-    std::vector<RadianceGuess::Traced> traced;  // by rays that take no other part
-    std::optional<LocalGuess> local;            // fitted to these
-    double around = 0;                          // mean brightness of these
-    std::vector<SeenSources::Image> images;
-    std::vector<SeenSources::Sample> sources;
-    std::vector<size_t> rest;                  // samples that showed no source that is integrated apart
-    std::vector<RadianceGuess::Place> places;  // what they hit, in the same order
-    std::vector<bool> counted;                 // which base directions are among them
-    std::vector<size_t> runs;  // where directions to a target, or to all parts of one, begin in samples
-    Variance variance;         // of the integral of radiance
-    std::vector<DirectionSample> unguessed, guessed;  // parts of the base's samples
-    Moments excess;            // of what glances found, over what the directions' own guesses say
-    std::vector<Rgb> guesses;  // of samples' radiances; empty: none are made
-    VoronoiWorkspace voronoi;
+    VoronoiWorkspace voronoi_;  // memory that is kept for speed alone
   };
 
   // The quantities at a point (world), and the directions in workspace.samples. Depends on point, scene and
@@ -95,29 +63,15 @@ class SphereEstimator {
   const SeenSources& sources() const { return sources_; }
 
  private:
-  void traceInto(Workspace& w, const V3d& point, const V3d& direction, double solidAngle,
-                 uint64_t seed) const;
-  void sampleSet(const V3d& point, uint64_t set, Workspace& w) const;
-  void sampleEqually(const V3d& point, uint64_t seed, Workspace& w) const;
-  void sampleAsPaper(const V3d& point, uint64_t seed, Workspace& w) const;
-  void sampleSilhouettes(const V3d& point, uint64_t seed, Workspace& w) const;
-  void lookAround(const V3d& point, uint64_t seed, Workspace& w) const;
-  void glance(const V3d& point, Workspace& w) const;
-  void addVariances(size_t firstBase, Workspace& w) const;
+  std::unique_ptr<const SamplingStrategy> makeStrategy() const;
 
   const Transport& transport_;
   SphereOptions options_;
-  std::optional<BaseTriangulation> base_;
-  std::vector<V3d> directions_;      // of the base
-  std::vector<double> solidAngles_;  // of the base, sr
+  BaseSet base_;
   SeenSources sources_;
-  bool standardError_;
-  Neighbours neighbours_;  // of the base, where errors are wanted
-  std::vector<SpecialObject> special_;
-  std::optional<TargetChoice> targets_;
-  std::optional<RadianceGuess> guess_;
-  std::unique_ptr<const BrightSpots> spots_;  // null where light falls evenly
-  std::vector<V3d> glances_, fitGlances_;
+  std::vector<SpecialObject> special_;        // none with -Sw h
+  std::unique_ptr<const BrightSpots> spots_;  // null: indirect rays are not aimed
+  std::unique_ptr<const SamplingStrategy> strategy_;
 };
 
 // One direction of a point as -Sd prints it.

@@ -1,0 +1,28 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "cli/options.h"
+#include "importance/error_estimate.h"
+#include "sphere/voronoi.h"
+
+namespace rsphere {
+
+// The even directions that every strategy starts from.
+struct BaseSet {
+  std::vector<V3d> directions;           // unit, world
+  std::vector<double> solidAngles;       // that they represent, sr
+  std::optional<Neighbours> neighbours;  // if standard errors are wanted
+};
+
+// -Sn directions, rotated as -Sr says. Their solid angles are all the same with -Sw h, otherwise those of
+// their Voronoi cells. Throws rad::Error if the cells fail the check of -Sv.
+BaseSet makeBaseSet(const SphereOptions& options, bool standardErrors);
+
+// Which directions share a side of their Voronoi cells in the workspace's last query.
+Neighbours neighboursOf(const VoronoiWorkspace& workspace);
+
+// Throws rad::Error if the cells of the workspace's last query are wrong (voronoiFault).
+void checkCells(const VoronoiWorkspace& workspace);
+
+}  // namespace rsphere

@@ -1,0 +1,20 @@
+#pragma once
+#include "importance/base_set.h"
+#include "importance/sampling_strategy.h"
+
+namespace rsphere {
+
+// -Sw h: the base directions alone, each with the same solid angle.
+class EqualWeights : public SamplingStrategy {
+ public:
+  // Keeps references to both.
+  EqualWeights(const SphereOptions& options, const BaseSet& base) : options_(options), base_(base) {}
+
+  SampledSet sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace& memory) const override;
+
+ private:
+  const SphereOptions& options_;
+  const BaseSet& base_;
+};
+
+}  // namespace rsphere

@@ -1,0 +1,25 @@
+#include "importance/sampling_strategy.h"
+
+#include "sphere/directions.h"
+
+namespace rsphere {
+
+SetAtPoint::SetAtPoint(const V3d& point, uint64_t number, uint64_t rotation)
+    : point_(point),
+      seed_(seedOf(std::initializer_list<double>{point.x, point.y, point.z},
+                   mixBits(rotation + (number << 32)))),
+      first_(number == 0) {}
+
+std::vector<V3d> SetAtPoint::turned(std::span<const V3d> directions) const {
+  if (first_) return {directions.begin(), directions.end()};
+  return rotatedDirections(directions, mixBits(seed_));
+}
+
+Moments SampledSet::moments() const {
+  Moments moments;
+  for (const DirectionSample& s : samples) moments.add(s.direction, s.value * s.solidAngle);
+  moments.add(excess, 1);
+  return moments;
+}
+
+}  // namespace rsphere

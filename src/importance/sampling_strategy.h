@@ -1,0 +1,60 @@
+#pragma once
+// One set of directions at a point, and what a strategy of choosing and weighting them (-Sw) makes of it.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "importance/direction_sample.h"
+#include "importance/error_estimate.h"
+#include "importance/moments.h"
+#include "sphere/voronoi.h"
+#include "transport/path_tracer.h"
+
+namespace rsphere {
+
+// One of the sets of directions that are averaged at a point.
+class SetAtPoint {
+ public:
+  // point: world. number: of the sets at this point, from 0. rotation: -Sr.
+  SetAtPoint(const V3d& point, uint64_t number, uint64_t rotation);
+
+  const V3d& point() const { return point_; }
+
+  // Every random number of the set follows from it.
+  uint64_t seed() const { return seed_; }
+
+  // Whether it is the first set, which uses all directions as they are given.
+  bool isFirst() const { return first_; }
+
+  // The directions as given for the first set; for any other, turned by the random rotation of the set.
+  std::vector<V3d> turned(std::span<const V3d> directions) const;
+
+ private:
+  V3d point_;
+  uint64_t seed_;
+  bool first_;
+};
+
+// The directions of one set, traced and weighted.
+struct SampledSet {
+  std::vector<DirectionSample> samples;
+  std::vector<Ray> rays;  // of the samples, in the same order; kept with -Sd only
+  std::vector<Rgb>
+      guesses;        // of the samples' radiances (radiance_guess.h), W/sr/m2; empty: nothing is guessed
+  Moments excess;     // of the guesses along glances over those along the samples; 0 without guesses
+  Variance variance;  // of moments().total; 0 unless standard errors are wanted
+
+  // The set's estimate of the integrals over all directions.
+  Moments moments() const;
+};
+
+class SamplingStrategy {
+ public:
+  virtual ~SamplingStrategy() = default;
+
+  // Depends on the set, the scene and the options alone. tracer: leaves as it comes. memory: of the thread,
+  // used for speed alone. Throws rad::Error if solid angles fail the check of -Sv.
+  virtual SampledSet sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace& memory) const = 0;
+};
+
+}  // namespace rsphere

@@ -1,0 +1,209 @@
+#include "importance/silhouette_weights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scene/even_sequence.h"
+#include "sphere/directions.h"
+
+namespace rsphere {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Rays at a point for the mean that the deviation on special objects is held against.
+constexpr int kRaysAPoint = 32;
+
+// Glances for each base direction. Each takes .15 to .5 us, a followed direction 1 to 100.
+// Not more than kMostGlances where the base alone is not.
+constexpr size_t kGlances = 4, kMostGlances = 65536;
+
+// The random numbers of a set, by what they are used for. Each use has a stream of its own, so that one that
+// draws more numbers leaves the others as they are.
+enum class Stream : uint64_t {
+  imagesOfSources = 1,
+  surroundings = 2,
+  dynamicDirections = 3,
+  guess = 4,
+  firstRay = 16,  // of the base and dynamic directions; those after it belong to the next rays
+};
+
+uint64_t seedOf(const SetAtPoint& set, Stream stream, uint64_t number = 0) {
+  return mixBits(set.seed() + static_cast<uint64_t>(stream) + number);
+}
+
+// Lets a tracer guess indirect rays for as long as this object lives. Null: nothing is guessed.
+class GuessingTracer {
+ public:
+  GuessingTracer(PathTracer& tracer, const LocalGuess* guess) : tracer_(tracer) { tracer_.guessWith(guess); }
+  ~GuessingTracer() { tracer_.guessWith(nullptr); }
+  GuessingTracer(const GuessingTracer&) = delete;
+  GuessingTracer& operator=(const GuessingTracer&) = delete;
+
+ private:
+  PathTracer& tracer_;
+};
+
+std::vector<bool> unguessedSurfaces(const SeenSources& sources) {
+  std::vector<bool> unguessed = sources.apart();
+  for (const int32_t mirror : sources.mirrors()) unguessed[static_cast<size_t>(mirror)] = true;
+  return unguessed;
+}
+
+std::vector<V3d> glancesFor(const SphereOptions& options) {
+  const auto count = static_cast<size_t>(options.baseDirections);
+  const size_t glances = std::min(kGlances * count, std::max(count, kMostGlances));
+  return rotatedDirections(baseDirections(glances), options.rotation);
+}
+
+}  // namespace
+
+SilhouetteWeights::SilhouetteWeights(const Transport& transport, const SphereOptions& options,
+                                     const BaseSet& base, std::span<const SpecialObject> special,
+                                     const SeenSources& sources, const BrightSpots* spots)
+    : options_(options), base_(base), sources_(sources) {
+  if (!(options.densityFactor > 0)) return;
+  guidance_.emplace(Guidance{TargetChoice(transport, special, sources, spots, options.densityFactor),
+                             RadianceGuess(transport, unguessedSurfaces(sources)), glancesFor(options),
+                             baseDirections(RadianceGuess::kFitGlances)});
+}
+
+SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace&) const {
+  const size_t base = base_.directions.size(), most = static_cast<size_t>(options_.mostDirections);
+  const Images images =
+      sources_.findImages(set.point(), std::max<size_t>(base / 4, 16), options_.densityFactor);
+  const Surroundings around = guidance_ ? lookAround(set, images, tracer) : Surroundings{};
+  const std::optional<LocalGuess> guess = guidance_ ? std::optional(fitGuess(set, around)) : std::nullopt;
+  const GuessingTracer guessing(tracer, guess ? &*guess : nullptr);
+  const std::vector<SeenSources::Sample> toImages =
+      sources_.sample(set.point(), images, seedOf(set, Stream::imagesOfSources), tracer);
+  double filledByImages = 0;
+  for (const SeenSources::Sample& s : toImages) filledByImages += s.direction.solidAngle;
+
+  const size_t used = base + toImages.size(), left = most > used ? most - used : 0;
+  const Targets targets =
+      guidance_ ? guidance_->targets.at(set.point(), around.meanBrightness, base, left) : Targets({});
+  Others others = sampleOthers(set, images, targets, guess ? &*guess : nullptr, tracer);
+  // Together they represent the sphere without the images.
+  const double scale = others.solidAngle > 0 ? std::max(0., 4 * kPi - filledByImages) / others.solidAngle : 0;
+  for (DirectionSample& s : others.samples) s.solidAngle *= scale;
+
+  SampledSet sampled;
+  if (guess) sampled.excess = excessOfGlances(set, others, *guess);
+  if (base_.neighbours) sampled.variance = varianceOf(others, toImages);
+  sampled.samples.reserve(toImages.size() + others.samples.size());
+  for (const SeenSources::Sample& s : toImages) {
+    sampled.samples.push_back(s.direction);
+    if (options_.everyDirection) sampled.rays.push_back(s.ray);
+    if (guess) sampled.guesses.push_back(Rgb(0, 0, 0));
+  }
+  sampled.samples.insert(sampled.samples.end(), others.samples.begin(), others.samples.end());
+  sampled.rays.insert(sampled.rays.end(), others.rays.begin(), others.rays.end());
+  sampled.guesses.insert(sampled.guesses.end(), others.guesses.begin(), others.guesses.end());
+  return sampled;
+}
+
+SilhouetteWeights::Surroundings SilhouetteWeights::lookAround(const SetAtPoint& set, const Images& images,
+                                                              PathTracer& tracer) const {
+  Surroundings around;
+  Random random(mixBits(seedOf(set, Stream::surroundings)));
+  for (int i = 0; i < kRaysAPoint; ++i) {
+    // Stratified in height: the sphere's equal-area slices.
+    const double z = 1 - 2 * (i + random.uniform()) / kRaysAPoint, angle = 2 * kPi * random.uniform();
+    const double r = std::sqrt(std::max(0., 1 - z * z));
+    const V3d direction(r * std::cos(angle), r * std::sin(angle), z);
+    const Ray ray = tracer.trace(set.point(), direction, 0, random.bits());
+    if (sources_.shown(tracer, images)) continue;
+    const Hit& hit = tracer.firstHit();
+    around.traced.push_back({guidance_->guess.placeOf(set.point(), direction, hit), hit.surface, ray.value});
+    around.meanBrightness += brightness(ray.value) / kRaysAPoint;
+  }
+  return around;
+}
+
+LocalGuess SilhouetteWeights::fitGuess(const SetAtPoint& set, const Surroundings& around) const {
+  const uint64_t seed = seedOf(set, Stream::guess);
+  const std::vector<V3d> glances = rotatedDirections(guidance_->fitGlances, mixBits(seed));
+  return guidance_->guess.fit(set.point(), glances, around.traced, mixBits(seed + 1));
+}
+
+SilhouetteWeights::Others SilhouetteWeights::sampleOthers(const SetAtPoint& set, const Images& images,
+                                                          const Targets& targets, const LocalGuess* guess,
+                                                          PathTracer& tracer) const {
+  Others others;
+  // Each gets the solid angle that it represents if all that were sent are even.
+  const auto send = [&](const V3d& d, double baseCell) {
+    const double solidAngle = 1 / (1 / baseCell + targets.densityAt(d));
+    const Ray ray = tracer.trace(set.point(), d, 0, seedOf(set, Stream::firstRay, others.samples.size()));
+    const bool enters = !sources_.shown(tracer, images);
+    others.enters.push_back(enters);
+    if (enters) others.solidAngle += solidAngle;
+    others.samples.push_back({d, enters ? solidAngle : 0, enters ? ray.value : Rgb(0, 0, 0)});
+    if (options_.everyDirection) others.rays.push_back(ray);
+    if (guess)
+      others.guesses.push_back(
+          enters ? guess->from(guidance_->guess.placeOf(set.point(), d, tracer.firstHit())) : Rgb(0, 0, 0));
+  };
+  const std::vector<V3d> base = set.turned(base_.directions);
+  others.samples.reserve(base.size());
+  for (size_t i = 0; i < base.size(); ++i) send(base[i], base_.solidAngles[i]);
+
+  Random random(seedOf(set, Stream::dynamicDirections));
+  const double averageCell = 4 * kPi / static_cast<double>(base.size());
+  // Whole numbers of directions with the right average, one running sum over all objects.
+  double due = random.uniform();
+  for (const Target& target : targets.all()) {
+    due += target.expected;
+    const double shift1 = random.uniform(), shift2 = random.uniform();
+    if (!target.continues) others.runs.push_back(others.samples.size());
+    for (size_t i = 0; due >= 1; --due, ++i) {
+      const Imath::V2d u = evenly(i, shift1, shift2);
+      send(target.silhouette.sample(u.x, u.y), averageCell);
+    }
+  }
+  others.runs.push_back(others.samples.size());
+  return others;
+}
+
+// What glances find of the guess, minus what the directions find of it.
+Moments SilhouetteWeights::excessOfGlances(const SetAtPoint& set, const Others& others,
+                                           const LocalGuess& guess) const {
+  Moments excess;
+  for (size_t i = 0; i < others.samples.size(); ++i)
+    if (others.enters[i])
+      excess.add(others.samples[i].direction, others.guesses[i] * -others.samples[i].solidAngle);
+  const std::vector<V3d> glances = set.turned(guidance_->glances);
+  const double solidAngle = 4 * kPi / static_cast<double>(glances.size());
+  for (const V3d& direction : glances)
+    excess.add(direction, guess.along(set.point(), direction) * solidAngle);
+  return excess;
+}
+
+Variance SilhouetteWeights::varianceOf(const Others& others,
+                                       std::span<const SeenSources::Sample> toImages) const {
+  const size_t base = base_.directions.size();
+  Variance variance;
+  std::vector<DirectionSample> unguessed = others.samples;
+  if (guidance_) {
+    // Of the guess there remains only what the glances miss, which are more than the directions.
+    std::vector<DirectionSample> guessed(others.samples.begin(),
+                                         others.samples.begin() + static_cast<ptrdiff_t>(base));
+    for (size_t i = 0; i < base; ++i) guessed[i].value = others.guesses[i];
+    for (size_t i = 0; i < unguessed.size(); ++i) unguessed[i].value -= others.guesses[i];
+    const double even =
+        std::pow(static_cast<double>(guidance_->glances.size()) / static_cast<double>(base), -1.5);
+    variance += baseVariance(guessed, *base_.neighbours, others.enters) * even;
+  }
+  const std::span<const DirectionSample> samples(unguessed);
+  variance += baseVariance(samples.first(base), *base_.neighbours, others.enters);
+  for (size_t i = 1; i < others.runs.size(); ++i)
+    variance += spreadVariance(samples.subspan(others.runs[i - 1], others.runs[i] - others.runs[i - 1]));
+  for (size_t i = 0, next = 0; i < toImages.size(); i = next) {
+    while (next < toImages.size() && toImages[next].image == toImages[i].image) ++next;
+    variance += partsVariance(toImages.subspan(i, next - i));
+  }
+  return variance;
+}
+
+}  // namespace rsphere
