@@ -42,6 +42,19 @@ void setValue(Raster& raster, size_t pixel, const Rgb& value) {
 // Patterns darker than this say too little of the light that they reflect.
 constexpr double kLeastPattern = .01;
 
+// The random numbers of a picture, by what they are used for.
+class PictureStreams {
+ public:
+  explicit PictureStreams(uint64_t seed) : seed_(seed) {}
+  uint64_t smallSources() const { return mixBits(seed_ + 1); }
+  uint64_t middle(size_t pixel) const { return mixBits(seed_ + 16 + pixel); }
+  // beside: index in kAside.
+  uint64_t aside(size_t pixel, size_t beside) const { return mixBits(middle(pixel) + 1 + beside); }
+
+ private:
+  uint64_t seed_;
+};
+
 // Light of small sources that falls on a pixel.
 struct Spot {
   double solidAngle = 0;
@@ -166,7 +179,8 @@ class PixelTracer {
 Raster drawPoint(const V3d& point, const PixelMap& map, const Transport& transport,
                  const SeenSources& sources, PathTracer& tracer, uint64_t seed,
                  const std::function<void()>& checkStop) {
-  const SmallSources small = smallSources(point, map, sources, tracer, mixBits(seed + 1));
+  const PictureStreams streams(seed);
+  const SmallSources small = smallSources(point, map, sources, tracer, streams.smallSources());
   std::vector<Rgb> direct(map.count(), Rgb(0, 0, 0)), patterns(map.count(), Rgb(1, 1, 1));
   IndirectPixels indirect{map.width(), map.height(), map.wraps(), {}};
   indirect.pixels.resize(map.count());
@@ -176,7 +190,6 @@ Raster drawPoint(const V3d& point, const PixelMap& map, const Transport& transpo
     for (int column = 0; column < map.width(); ++column) {
       const size_t pixel =
           static_cast<size_t>(row) * static_cast<size_t>(map.width()) + static_cast<size_t>(column);
-      const uint64_t pixelSeed = mixBits(seed + 16 + pixel);
       const auto trace = [&](double x, double y, uint64_t raySeed) {
         const auto direction = map.direction(column + x, row + y);
         direct[pixel] = Rgb(0, 0, 0);
@@ -185,9 +198,9 @@ Raster drawPoint(const V3d& point, const PixelMap& map, const Transport& transpo
         direct[pixel] = pixels.trace(*direction, raySeed, indirect.pixels[pixel], patterns[pixel]);
         return small.images.empty() || !sources.shownStraight(tracer, small.images);
       };
-      bool shown = !trace(.5, .5, pixelSeed);
+      bool shown = !trace(.5, .5, streams.middle(pixel));
       for (size_t i = 0; shown && i < kAside.size(); ++i)
-        shown = !trace(.5 + kAside[i][0], .5 + kAside[i][1], mixBits(pixelSeed + 1 + i));
+        shown = !trace(.5 + kAside[i][0], .5 + kAside[i][1], streams.aside(pixel, i));
       if (shown) direct[pixel] = Rgb(0, 0, 0);
     }
   }
