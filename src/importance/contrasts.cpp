@@ -4,19 +4,13 @@
 #include <cmath>
 #include <map>
 
+#include "importance/tuning.h"
 #include "light/surface_point.h"
 
 namespace rsphere {
 namespace {
 
-// Share of the radiance's deviation over all directions that counts for a base direction: the slow part of
-// it, from one side of a room to the other, is no error of an even set. Measured in furnished interiors, .5
-// to .7.
-constexpr double kUnevenShare = .6;
-
-// Rays to measure how the radiance varies on the special objects of one modifier, on all of them together at
-// most, and around.
-constexpr size_t kRaysAModifier = 64, kRaysForContrast = 1024, kRaysForSurroundings = 256;
+using Tuning = tuning::Contrasts;
 
 class Values {
  public:
@@ -43,7 +37,7 @@ double measureSurroundings(const Scene& scene, const SeenSources& sources, PathT
   Random random(mixBits(scene.outermost().size()));
   Values values;
   double noise = 0;
-  for (size_t k = 0; k < kRaysForSurroundings; ++k) {
+  for (size_t k = 0; k < Tuning::kDirectionsAround; ++k) {
     const auto surfaces = static_cast<double>(scene.outermost().size());
     const auto i = static_cast<size_t>(random.uniform() * surfaces);
     if (std::holds_alternative<Distant>(scene.surfaces[i].shape)) continue;
@@ -63,7 +57,7 @@ double measureSurroundings(const Scene& scene, const SeenSources& sources, PathT
   if (!(values.mean() > 0)) return 1;
   noise /= static_cast<double>(values.count());
   const double uneven = std::max(0., std::pow(values.deviation(), 2) - noise / 2);
-  return std::sqrt(noise + kUnevenShare * kUnevenShare * uneven) / values.mean();
+  return std::sqrt(noise + Tuning::kUnevenShare * Tuning::kUnevenShare * uneven) / values.mean();
 }
 
 // Standard deviation of the brightness on objects with the same modifier. Rays start just before a point of
@@ -98,7 +92,7 @@ Contrasts measureContrasts(const Transport& transport, std::span<const SpecialOb
   PathTracer tracer(transport, spots);
   tracer.gatherFirstAnew();
   contrasts.surroundings = measureSurroundings(scene, sources, tracer);
-  const size_t rays = std::clamp<size_t>(kRaysForContrast / alike.size(), 2, kRaysAModifier);
+  const size_t rays = std::clamp<size_t>(Tuning::kMostRays / alike.size(), 2, Tuning::kRaysPerModifier);
   for (const auto& [modifier, same] : alike) {
     const double deviation = measureDeviation(scene, same, rays, sources, tracer);
     for (const SpecialObject& object : same) contrasts.objects.push_back({object, deviation});

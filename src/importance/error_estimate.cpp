@@ -3,16 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "importance/tuning.h"
+
 namespace rsphere {
 namespace {
 
-// Share of the residuals' variance that is left where the set is even. Measured on furnished rooms (see
-// tests/unit/importance): .4 where edges are all, 1 where noise of paths is.
-constexpr double kEvenSet = .8;
-
-// The same for the parts of a source: an edge before it is met by successive parts more often than it crosses
-// one.
-constexpr double kEvenParts = .5;
+using Tuning = tuning::ErrorEstimate;
 
 }  // namespace
 
@@ -33,7 +29,7 @@ Variance baseVariance(std::span<const DirectionSample> base, const Neighbours& n
     const double own = static_cast<double>(count) / (count + 1);
     sum += Variance::of((base[i].value - around / count) * base[i].solidAngle) * own;
   }
-  return sum * kEvenSet;
+  return sum * Tuning::kEvenSet;
 }
 
 Variance spreadVariance(std::span<const DirectionSample> samples) {
@@ -48,7 +44,7 @@ Variance spreadVariance(std::span<const DirectionSample> samples) {
   if (samples.size() < 2) return squares;
   // n points spread evenly leave, of an edge through the region, what the cells on it leave: about n^-1/2 of
   // all.
-  const double even = 1 / (1 + std::sqrt(n) / 8);
+  const double even = 1 / (1 + std::sqrt(n) / Tuning::kEvenRun);
   squares += Variance::of(sum) * (-1 / n);
   return squares * (n / (n - 1) * even);
 }
@@ -60,7 +56,7 @@ Variance partsVariance(std::span<const SeenSources::Sample> samples) {
   size_t pairs = 0;
   for (const auto& s : samples) {
     const double clear = static_cast<double>(s.clear) / s.aimed;
-    edges += Variance::of(s.direction.value * s.part) * (kEvenParts * clear * (1 - clear) / s.aimed);
+    edges += Variance::of(s.direction.value * s.part) * (Tuning::kEvenParts * clear * (1 - clear) / s.aimed);
   }
   const size_t columns = static_cast<size_t>(std::count_if(
       samples.begin(), samples.end(), [&](const auto& s) { return s.row == samples.front().row; }));
@@ -77,7 +73,7 @@ Variance partsVariance(std::span<const SeenSources::Sample> samples) {
     if (samples[i].row == samples[i - 1].row) add(i, i - 1);
   for (size_t i = columns; i < samples.size(); ++i) add(i, i - columns);
   if (pairs == 0) return edges;
-  edges += sum * (kEvenParts * .5 * static_cast<double>(samples.size()) / static_cast<double>(pairs));
+  edges += sum * (Tuning::kEvenParts * .5 * static_cast<double>(samples.size()) / static_cast<double>(pairs));
   return edges;
 }
 

@@ -38,7 +38,7 @@ struct Neighbours {
 // radiance the mean of its neighbours does not tell, times its own solid angle. A slope over the sphere is no
 // error, since an even set integrates it; noise of paths and edges are. Directions with counted[i] false,
 // which others stand for, take no part. Edges, which a set that is more even than a random one partly
-// averages out, count too much by the difference; see kEvenSet.
+// averages out, count too much by the difference; see tuning::ErrorEstimate.
 Variance baseVariance(std::span<const DirectionSample> base, const Neighbours& neighbours,
                       const std::vector<bool>& counted);
 

@@ -4,38 +4,27 @@
 #include <cmath>
 #include <numbers>
 
+#include "importance/tuning.h"
+
 namespace rsphere {
 namespace {
 
-// Of dielectrics, where they are met straight on.
-constexpr double kFresnel = .04;
+using std::numbers::pi;
+using Tuning = tuning::Glints;
 
-// Rougher ones spread an image of a source wider than it is.
-constexpr double kSmooth = .005;
-
-// Steps of regula falsi to where an image is, and the share of its angle that is exact enough.
+// Steps of regula falsi to the reflecting point, and the error at which they end, relative to the angle
+// between the directions to both places.
 constexpr int kSteps = 20;
 constexpr double kExact = 1e-4;
 
-// What is seen wider than this from a ball, half of it against the distance, is divided, since its image is
-// curved; at most so often along each side.
-constexpr double kPart = .12, kMostParts = 16;
-
-// Polygons of more corners than this are taken for disks.
-constexpr size_t kMostCorners = 16;
-
-// How much wider than the source its edge is taken for; and where it is asked, against the way to the
-// corners, whether a part shines.
-constexpr double kWider = 1.1, kAside = .6;
-
 double reflectanceOf(const Material& material) {
   if (const auto* m = std::get_if<Opaque>(&material))
-    return m->roughness <= kSmooth ? m->specularity * (m->metal ? brightness(m->color) : 1) : 0;
+    return m->roughness <= Tuning::kSmooth ? m->specularity * (m->metal ? brightness(m->color) : 1) : 0;
   if (const auto* m = std::get_if<Mirror>(&material)) return brightness(m->reflectance);
   const bool dielectric = std::holds_alternative<Dielectric>(material) ||
                           std::holds_alternative<Interface>(material) ||
                           std::holds_alternative<Glass>(material);
-  return dielectric ? kFresnel : 0;
+  return dielectric ? Tuning::kFresnel : 0;
 }
 
 // Where a sphere mirrors one place to another, as a normal of it: in the plane of both and the center, where
@@ -96,7 +85,7 @@ struct Part {
 std::vector<Part> partsOf(const Scene& scene, const LightSource& source, const Sphere& ball) {
   const auto* polygon = std::get_if<Polygon>(&scene.surfaces[source.surface].shape);
   const bool outlined = polygon && source.map != LightSource::Map::parallelogram;
-  if (outlined && polygon->vertices <= kMostCorners) {
+  if (outlined && polygon->vertices <= Tuning::kMostCorners) {
     const auto first = scene.vertices.begin() + polygon->firstVertex;
     return {{source.center, std::vector<V3d>(first, first + polygon->vertices)}};
   }
@@ -113,7 +102,8 @@ std::vector<Part> partsOf(const Scene& scene, const LightSource& source, const S
   }
   const auto divided = [&](const V3d& half) {
     if (source.distant) return 1;
-    return static_cast<int>(std::min(std::ceil(half.length() / (kPart * distance)), kMostParts));
+    return static_cast<int>(
+        std::min(std::ceil(half.length() / (Tuning::kHalfPart * distance)), Tuning::kMostParts));
   };
   const int columns = divided(u), rows = divided(v);
   u /= columns;
@@ -135,14 +125,14 @@ std::vector<Part> partsOf(const Scene& scene, const LightSource& source, const S
 
 // About that of the source as seen from the ball, `distance` from its surface; not too small.
 double solidAngleFrom(const LightSource& source, const Sphere& ball, double distance) {
-  if (source.distant) return 2 * std::numbers::pi * (1 - source.cosHalfAngle);
+  if (source.distant) return 2 * pi * (1 - source.cosHalfAngle);
   if (source.isPlane()) {
     const V3d away = ball.center - source.center;
     const double front = (source.normal.dot(away) + ball.radius) / away.length();
     return source.area * std::clamp(front, 0., 1.) / (distance * distance);
   }
   const double sine = std::min(1., source.radius / distance);
-  return std::numbers::pi * sine * sine;
+  return pi * sine * sine;
 }
 
 }  // namespace
@@ -174,7 +164,7 @@ bool Glints::shines(const LightSource& source, std::span<const V3d> corners, con
     return transport_.tracer().shadow(at, direction.normalized(), far, source.surface) != Shadow::blocked;
   };
   return seen(middle) || std::any_of(corners.begin(), corners.end(), [&](const V3d& corner) {
-           return seen(middle + kAside * (corner - middle));
+           return seen(middle + Tuning::kToCorners * (corner - middle));
          });
 }
 
@@ -207,7 +197,8 @@ std::vector<Glint> Glints::find(const V3d& point, double least) const {
         for (size_t i = 0; i < part.corners.size(); ++i) {
           const V3d corner = part.corners[i], next = part.corners[(i + 1) % part.corners.size()];
           for (const double share : {0., .5}) {
-            const V3d place = part.middle + kWider * (corner + share * (next - corner) - part.middle);
+            const V3d place =
+                part.middle + Tuning::kEnlarged * (corner + share * (next - corner) - part.middle);
             around.push_back(ball.center + ball.radius * mirrors(ball, point, place, source.distant));
           }
         }

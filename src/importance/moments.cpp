@@ -20,7 +20,7 @@ void Moments::add(const Moments& other, double share) {
 }
 
 PointAnswer Moments::answer(const V3d& point, size_t directions) const {
-  constexpr double pi = std::numbers::pi;
+  using std::numbers::pi;
   PointAnswer a;
   a.point = point;
   a.directions = directions;

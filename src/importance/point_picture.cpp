@@ -3,27 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "importance/smooth_indirect.h"
+#include "importance/tuning.h"
 #include "rad_parser/error.h"
 #include "transport/ray_functions.h"
 
 namespace rsphere {
 namespace {
 
+using std::numbers::pi;
+using Tuning = tuning::Pictures;
+
 // What the sRGB curve makes .5.
 constexpr double kMidBright = .21404114;
-
-// Sources that cover fewer pixels than this are sampled by themselves. A disc of 16 pixels holds the middles
-// of 14 to 21 of them, with a standard deviation of 6% of its light. Samples of each source go by its size,
-// at least kLeastSamples.
-constexpr double kSmallest = 16, kSamplesAPixel = 16, kLeastSamples = 4;
-
-// Places in a pixel, from its middle, at which what lies behind a small source is looked for.
-constexpr std::array<std::array<double, 2>, 4> kAside = {{{-.4, -.4}, {.4, .4}, {-.4, .4}, {.4, -.4}}};
 
 double sRgb(double x) {
   return x <= .0031308 ? 12.92 * x : 1.055 * std::pow(std::min(x, 1.), 1 / 2.4) - .055;
@@ -39,16 +35,13 @@ void setValue(Raster& raster, size_t pixel, const Rgb& value) {
     raster.pixels[3 * pixel + static_cast<size_t>(c)] = static_cast<float>(value[c]);
 }
 
-// Patterns darker than this say too little of the light that they reflect.
-constexpr double kLeastPattern = .01;
-
 // The random numbers of a picture, by what they are used for.
 class PictureStreams {
  public:
   explicit PictureStreams(uint64_t seed) : seed_(seed) {}
   uint64_t smallSources() const { return mixBits(seed_ + 1); }
   uint64_t middle(size_t pixel) const { return mixBits(seed_ + 16 + pixel); }
-  // beside: index in kAside.
+  // beside: index in Tuning::kBeside.
   uint64_t aside(size_t pixel, size_t beside) const { return mixBits(middle(pixel) + 1 + beside); }
 
  private:
@@ -65,23 +58,23 @@ struct Spot {
 
 std::optional<V3d> PixelMap::direction(double x, double y) const {
   if (projection_ == Projection::latitudeLongitude) {
-    const double polar = kPi * y / height_, azimuth = 2 * kPi * x / width_, sine = std::sin(polar);
+    const double polar = pi * y / height_, azimuth = 2 * pi * x / width_, sine = std::sin(polar);
     return V3d(sine * std::cos(azimuth), sine * std::sin(azimuth), std::cos(polar));
   }
   const double right = 2 * x / width_ - 1, up = 1 - 2 * y / height_, radius = std::hypot(right, up);
   if (radius > 1) return std::nullopt;
-  const double sine = std::sin(kPi * radius), scale = radius > 0 ? sine / radius : 0;
-  return V3d(right * scale, std::cos(kPi * radius), up * scale);
+  const double sine = std::sin(pi * radius), scale = radius > 0 ? sine / radius : 0;
+  return V3d(right * scale, std::cos(pi * radius), up * scale);
 }
 
 size_t PixelMap::pixelOf(const V3d& d) const {
   double x = 0, y = 0;
   if (projection_ == Projection::latitudeLongitude) {
     const double azimuth = std::atan2(d.y, d.x);
-    x = (azimuth < 0 ? azimuth + 2 * kPi : azimuth) / (2 * kPi) * width_;
-    y = std::acos(std::clamp(d.z, -1., 1.)) / kPi * height_;
+    x = (azimuth < 0 ? azimuth + 2 * pi : azimuth) / (2 * pi) * width_;
+    y = std::acos(std::clamp(d.z, -1., 1.)) / pi * height_;
   } else {
-    const double sine = std::hypot(d.x, d.z), radius = std::atan2(sine, d.y) / kPi;
+    const double sine = std::hypot(d.x, d.z), radius = std::atan2(sine, d.y) / pi;
     const double scale = sine > 0 ? radius / sine : 0;
     x = (1 + d.x * scale) / 2 * width_;
     y = (1 - d.z * scale) / 2 * height_;
@@ -95,11 +88,11 @@ double PixelMap::solidAngle(size_t pixel) const {
   const auto row = static_cast<double>(pixel / static_cast<size_t>(width_)),
              column = static_cast<double>(pixel % static_cast<size_t>(width_));
   if (projection_ == Projection::latitudeLongitude)
-    return 2 * kPi / width_ * (std::cos(kPi * row / height_) - std::cos(kPi * (row + 1) / height_));
+    return 2 * pi / width_ * (std::cos(pi * row / height_) - std::cos(pi * (row + 1) / height_));
   const double radius = std::hypot(2 * (column + .5) / width_ - 1, 2 * (row + .5) / height_ - 1);
   if (radius > 1) return 0;
-  const double square = 2 * kPi / width_ * (2 * kPi / height_);
-  return radius > 0 ? square * std::sin(kPi * radius) / (kPi * radius) : square;
+  const double square = 2 * pi / width_ * (2 * pi / height_);
+  return radius > 0 ? square * std::sin(pi * radius) / (pi * radius) : square;
 }
 
 namespace {
@@ -116,8 +109,9 @@ SmallSources smallSources(const V3d& point, const PixelMap& map, const SeenSourc
   // Pixels are smaller near the rim and the poles.
   for (SeenSources::Image& image : small.images) {
     const double there = map.solidAngle(map.pixelOf(image.region.sample(.5, .5)));
-    const double pixels = there > 0 ? image.solidAngle / there : kSmallest;
-    image.rays = pixels < kSmallest ? std::max(kLeastSamples, kSamplesAPixel * pixels) : 0;
+    const double pixels = there > 0 ? image.solidAngle / there : Tuning::kSmallest;
+    image.rays =
+        pixels < Tuning::kSmallest ? std::max(Tuning::kLeastSamples, Tuning::kSamplesPerPixel * pixels) : 0;
   }
   small.images.erase(std::remove_if(small.images.begin(), small.images.end(),
                                     [](const auto& image) { return image.rays == 0; }),
@@ -154,7 +148,8 @@ class PixelTracer {
     pattern = ray.pattern;
     // Light that a medium weakens on its way here is not told apart.
     if (hit.surface == kNone || !isBlack(transport_.medium().extinction) ||
-        !transport_.scatterers().empty() || std::min({pattern.x, pattern.y, pattern.z}) < kLeastPattern)
+        !transport_.scatterers().empty() ||
+        std::min({pattern.x, pattern.y, pattern.z}) < Tuning::kLeastPattern)
       return ray.value;
     const Scene& scene = transport_.scene();
     const int32_t material = scene.surfaces[hit.surface].material;
@@ -199,8 +194,8 @@ Raster drawPoint(const V3d& point, const PixelMap& map, const Transport& transpo
         return small.images.empty() || !sources.shownStraight(tracer, small.images);
       };
       bool shown = !trace(.5, .5, streams.middle(pixel));
-      for (size_t i = 0; shown && i < kAside.size(); ++i)
-        shown = !trace(.5 + kAside[i][0], .5 + kAside[i][1], streams.aside(pixel, i));
+      for (size_t i = 0; shown && i < Tuning::kBeside.size(); ++i)
+        shown = !trace(.5 + Tuning::kBeside[i][0], .5 + Tuning::kBeside[i][1], streams.aside(pixel, i));
       if (shown) direct[pixel] = Rgb(0, 0, 0);
     }
   }

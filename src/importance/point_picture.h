@@ -8,6 +8,7 @@
 
 #include "image/picture_file.h"
 #include "importance/seen_sources.h"
+#include "importance/tuning.h"
 
 namespace rsphere {
 
@@ -28,8 +29,11 @@ class PixelMap {
       : projection_(projection), width_(width), height_(height) {}
   // About half a million directions: one each .35 degrees, or .45 degrees.
   explicit PixelMap(Projection projection)
-      : PixelMap(projection, projection == Projection::angularFisheye ? 800 : 1024,
-                 projection == Projection::angularFisheye ? 800 : 512) {}
+      : PixelMap(projection,
+                 projection == Projection::angularFisheye ? tuning::Pictures::kFisheyeSide
+                                                          : 2 * tuning::Pictures::kLatitudeLongitudeHeight,
+                 projection == Projection::angularFisheye ? tuning::Pictures::kFisheyeSide
+                                                          : tuning::Pictures::kLatitudeLongitudeHeight) {}
 
   int width() const { return width_; }
   int height() const { return height_; }

@@ -5,35 +5,22 @@
 #include <numbers>
 #include <optional>
 
+#include "importance/tuning.h"
 #include "scene/even_sequence.h"
 
 namespace rsphere {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-// An image gets no more rays than this, than its parts would have that are kSmallestPart wide, and than its
-// even share in kAlways of all rays.
-constexpr double kUsualRays = 16, kSmallestPart = .02, kAlways = .125;
-
-// Images in mirrors that get fewer rays than this, on average, are left to the base directions.
-constexpr double kFewestRays = .1;
-
-// Of n parts of a half hidden image those on the edge are uncertain: its error falls with n^-3/4, and rays
-// are best spread by light^.8.
-constexpr double kByLight = .8;
-
-// Images in mirrors that are looked for at a point, at most.
-constexpr size_t kMostMirrored = 4096;
-
-// Directions by which a region's share that a shape fills is counted; they cost no rays.
-constexpr size_t kShareTries = 1024;
+using std::numbers::pi;
+using Tuning = tuning::SeenSources;
 
 // The share of light that a surface mirrors sharply, as a rule; 0: it never does.
 struct SharpReflectance {
   double cosine = 1;
 
-  double fresnel() const { return .04 + .96 * std::pow(1 - cosine, 5); }  // Schlick's, of glass
+  double fresnel() const {
+    return Tuning::kFresnel + (1 - Tuning::kFresnel) * std::pow(1 - cosine, 5);
+  }  // Schlick's, of glass
   double operator()(const Mirror& m) const { return maxChannel(m.reflectance); }
   double operator()(const Glass&) const { return std::min(1., 2 * fresnel()); }
   double operator()(const Dielectric&) const { return fresnel(); }
@@ -96,7 +83,7 @@ SeenSources::SeenSources(const Transport& transport) : transport_(transport) {
     const Material* material = scene.materialOf(surface);
     // What is seen by way of a relay is found here as an image.
     if (lights[i].isVirtual() || (material && std::holds_alternative<Illum>(*material))) continue;
-    if (lights[i].distant && !(lights[i].cosHalfAngle > std::cos(kWidestDistant))) continue;
+    if (lights[i].distant && !(lights[i].cosHalfAngle > std::cos(Tuning::kWidestDistant))) continue;
     apart_[lights[i].surface] = true;
     sources_.push_back(i);
   }
@@ -108,12 +95,12 @@ SeenSources::SeenSources(const Transport& transport) : transport_(transport) {
     if (!material || !planeNormal(surface.shape) || !(std::visit(SharpReflectance{}, *material) > 0))
       continue;
     const auto* polygon = std::get_if<Polygon>(&surface.shape);
-    const double area = polygon ? polygon->area : kPi * std::pow(std::get<Ring>(surface.shape).outer, 2);
+    const double area = polygon ? polygon->area : pi * std::pow(std::get<Ring>(surface.shape).outer, 2);
     mirrors.push_back({-area, static_cast<int32_t>(i)});
   }
   std::sort(mirrors.begin(), mirrors.end());
   for (const auto& [area, surface] : mirrors)
-    if ((mirrors_.size() + 1) * sources_.size() <= kMostMirrored) mirrors_.push_back(surface);
+    if ((mirrors_.size() + 1) * sources_.size() <= Tuning::kMostMirrored) mirrors_.push_back(surface);
 }
 
 bool SeenSources::shown(const PathTracer& tracer, const std::vector<Image>& images) const {
@@ -147,7 +134,7 @@ std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t
     image.solidAngle = image.region.regionSolidAngle();
     if (!(image.solidAngle > 0)) continue;
     image.filled = fills(surface.shape, image.region);
-    image.rays = std::pow(brightness(sourceRadiance(scene, surface)) * image.solidAngle, kByLight);
+    image.rays = std::pow(brightness(sourceRadiance(scene, surface)) * image.solidAngle, Tuning::kByLight);
     images.push_back(std::move(image));
   }
   const size_t straight = images.size();
@@ -158,13 +145,13 @@ std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t
   for (size_t i = 0; i < images.size(); ++i) {
     Image& image = images[i];
     const double enough =
-        std::max({kUsualRays, image.solidAngle / (kSmallestPart * kSmallestPart),
-                  kAlways * static_cast<double>(most) / static_cast<double>(images.size())});
+        std::max({Tuning::kUsualRays, image.solidAngle / (Tuning::kSmallestPart * Tuning::kSmallestPart),
+                  Tuning::kOfEvenShare * static_cast<double>(most) / static_cast<double>(images.size())});
     image.rays = std::min(image.rays / sum * static_cast<double>(most), enough);
     if (i < straight && straight <= most) image.rays = std::max(image.rays, 1.);
   }
   images.erase(std::remove_if(images.begin() + straight, images.end(),
-                              [](const Image& i) { return i.rays < kFewestRays; }),
+                              [](const Image& i) { return i.rays < Tuning::kFewestRays; }),
                images.end());
   return images;
 }
@@ -201,7 +188,7 @@ void SeenSources::addMirrored(const V3d& point, std::vector<Image>& images) cons
       const double cosine = std::abs(plane.normal.dot(image.region.sample(.5, .5)));
       image.rays = std::pow(brightness(sourceRadiance(scene, surface)) * image.solidAngle *
                                 std::visit(SharpReflectance{cosine}, material),
-                            kByLight);
+                            Tuning::kByLight);
       images.push_back(std::move(image));
     }
   }
@@ -245,12 +232,12 @@ void SeenSources::sampleImage(const V3d& point, const Image& image, size_t rays,
   if (!image.filled) {
     const double shift1 = random.uniform(), shift2 = random.uniform();
     size_t met = 0;
-    for (size_t i = 0; i < kShareTries; ++i) {
+    for (size_t i = 0; i < Tuning::kShareTries; ++i) {
       const Imath::V2d u = evenly(i, shift1, shift2);
       met += hits(scene, shape, eye, image.region.sample(u.x, u.y), on) && on.cosine > 0;
     }
     if (met == 0) return;
-    share = static_cast<double>(met) / kShareTries;
+    share = static_cast<double>(met) / Tuning::kShareTries;
   }
   const size_t tries = std::max<size_t>(1, static_cast<size_t>(static_cast<double>(rays) / share));
   const auto rows = static_cast<size_t>(std::sqrt(static_cast<double>(tries)));
@@ -297,10 +284,10 @@ void SeenSources::sampleCell(const V3d& point, const Image& image, const Cell& c
   s.row = cell.row;
   s.aimed = s.clear = 0;
   ShapeHit on, chosen{0, V3d(0, 0, 0), 0};
-  for (size_t i = 0; i < kShadowsAlong; ++i)
-    for (size_t k = 0; k < kShadowsAcross; ++k) {
-      const double u = (cell.row + (i + random.uniform()) / kShadowsAlong) / cell.rows,
-                   v = (cell.column + (k + random.uniform()) / kShadowsAcross) / cell.columns;
+  for (size_t i = 0; i < Tuning::kShadowsAlong; ++i)
+    for (size_t k = 0; k < Tuning::kShadowsAcross; ++k) {
+      const double u = (cell.row + (i + random.uniform()) / Tuning::kShadowsAlong) / cell.rows,
+                   v = (cell.column + (k + random.uniform()) / Tuning::kShadowsAcross) / cell.columns;
       const V3d direction = image.region.sample(u, v);
       const double lot = random.uniform();
       if (!hits(transport_.scene(), shape, point, direction, on) || !(on.cosine > 0)) continue;

@@ -14,8 +14,8 @@ namespace rsphere {
 class SeenSources {
  public:
   // Chooses the sources that are integrated apart: all that a view shows as sources (not illum), but for
-  // distant ones wider than kWidestDistant; and the flat surfaces that may mirror them. Keeps a reference to
-  // transport.
+  // distant ones wider than tuning::SeenSources::kWidestDistant; and the flat surfaces that may mirror them.
+  // Keeps a reference to transport.
   explicit SeenSources(const Transport& transport);
 
   // Where a source may be seen from a point.
@@ -83,11 +83,5 @@ class SeenSources {
   std::vector<uint32_t> sources_;  // those apart, index in LightSources
   std::vector<int32_t> mirrors_;   // index in Scene::surfaces
 };
-
-// Shadow rays for each direction to a source that is seen straight.
-inline constexpr size_t kShadowsAlong = 2, kShadowsAcross = 2;
-
-// Half angle (radians) up to which a distant source is integrated apart: 6 degrees, a sun and its halo.
-inline constexpr double kWidestDistant = .1;
 
 }  // namespace rsphere

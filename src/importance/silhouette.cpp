@@ -4,13 +4,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "importance/tuning.h"
 #include "light/spherical_triangle.h"
 #include "shade/scattering.h"
 
 namespace rsphere {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
+using Tuning = tuning::Silhouettes;
 
 // Unit vectors and their products are off by this much, a few ulp of 1: what lies on a region's edge is in
 // it.
@@ -38,12 +40,11 @@ double largestReentrance(const std::vector<V3d>& corners, const std::vector<V3d>
 
 // The corners of a polygon around a circle (world), its sides touching it.
 void addCircle(std::vector<V3d>& corners, const V3d& center, const V3d& axis, double radius) {
-  constexpr int kCorners = 16;
   V3d x, y;
   frame(axis, x, y);
-  const double around = radius / std::cos(kPi / kCorners) * (1 + kRounding);
-  for (int i = 0; i < kCorners; ++i) {
-    const double angle = 2 * kPi * i / kCorners;
+  const double around = radius / std::cos(pi / Tuning::kCorners) * (1 + kRounding);
+  for (int i = 0; i < Tuning::kCorners; ++i) {
+    const double angle = 2 * pi * i / Tuning::kCorners;
     corners.push_back(center + around * (std::cos(angle) * x + std::sin(angle) * y));
   }
 }
@@ -71,7 +72,7 @@ void Silhouette::setCap(const V3d& axis, double versine) {
   corners_.clear();
   const double chord = std::sqrt(2 * versine) * (1 + kRounding) + kRounding;
   squaredChord_ = chord * chord;
-  regionSolidAngle_ = 2 * kPi * versine;
+  regionSolidAngle_ = 2 * pi * versine;
 }
 
 void Silhouette::setBall(const V3d& center, double radius, const V3d& point) {
@@ -148,7 +149,7 @@ bool Silhouette::setHull(std::span<const V3d> points, const V3d& point) {
   for (size_t i = 0; i < points.size(); ++i) {
     const V3d towards = points[i] - point;
     const double depth = towards.dot(middle);
-    if (!(depth > std::cos(kWidestHull) * towards.length())) return false;
+    if (!(depth > std::cos(Tuning::kWidestHull) * towards.length())) return false;
     seen.push_back({towards.dot(x) / depth, towards.dot(y) / depth, i});
   }
   std::sort(seen.begin(), seen.end(),
@@ -204,7 +205,7 @@ bool Silhouette::contains(const V3d& direction) const {
 Silhouette::Cap Silhouette::surroundingCap() const {
   const bool polygon = !corners_.empty();
   // A cap around the corners holds the sides too as long as it is at most half of the sphere.
-  if (polygon && versine_ > 1) return {axis_, kPi};
+  if (polygon && versine_ > 1) return {axis_, pi};
   const double chord = polygon ? std::sqrt(2 * versine_) : std::sqrt(squaredChord_);
   return {axis_, 2 * std::asin(std::min(1., chord / 2)) + (polygon ? slack_ : 0)};
 }
@@ -212,7 +213,7 @@ Silhouette::Cap Silhouette::surroundingCap() const {
 V3d Silhouette::sample(double u1, double u2) const {
   if (corners_.empty()) {
     const double v = u1 * versine_;
-    const double sine = std::sqrt(v * (2 - v)), angle = 2 * kPi * u2;
+    const double sine = std::sqrt(v * (2 - v)), angle = 2 * pi * u2;
     V3d x, y;
     frame(axis_, x, y);
     return (sine * (std::cos(angle) * x + std::sin(angle) * y) + (1 - v) * axis_).normalized();

@@ -10,8 +10,8 @@ namespace rsphere {
 // A region on the sphere of directions that holds every direction in which the object can be seen, and can be
 // sampled evenly: a cap, or a convex spherical polygon. For spheres, distant sources and convex polygons it
 // is the silhouette itself; for rings, cones and cylinders the convex hull of their circles' polygons (1.5%
-// wider at most, but for a ring's hole) where they are seen within a cone of kWidestHull, else a cap around
-// them; for other polygons a cap.
+// wider at most, but for a ring's hole) where they are seen within a cone of
+// tuning::Silhouettes::kWidestHull, else a cap around them; for other polygons a cap.
 class Silhouette {
  public:
   // No direction at all.
@@ -62,14 +62,11 @@ class Silhouette {
   std::vector<double> shares_;  // cumulative solid angles of the triangles around corner 0
 };
 
-// Half angle (radians) around their middle up to which hulls are made.
-inline constexpr double kWidestHull = 1.2;
-
 // The silhouette of a shape as seen from a point (world). vertices: Scene::vertices.
 Silhouette silhouetteOf(const Shape& shape, std::span<const V3d> vertices, const V3d& point);
 
 // The convex hull of places (world) as seen from a point: empty where they do not span one, or one wider than
-// kWidestHull.
+// tuning::Silhouettes::kWidestHull.
 Silhouette hullOf(std::span<const V3d> around, const V3d& point);
 
 // Solid angle of a plane polygon, concave or with holes by a seam, as seen from a point, sr: 0 where the

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace rsphere {
 namespace {
@@ -51,7 +52,7 @@ void SilhouetteIndex::add(uint32_t number, const Silhouette& silhouette) {
   const double cosine = std::cos(angle), sine = std::sin(angle);
   // Nearer to one another than the sum of both angles.
   const auto reaches = [&, axis = axis, angle = angle](const Cell& cell) {
-    return angle + cell.radius >= M_PI ||
+    return angle + cell.radius >= std::numbers::pi ||
            axis.dot(cell.middle) >= cosine * cell.cosine - sine * cell.sine - kRounding;
   };
   for (size_t face = 0; face < kFaces.size(); ++face) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "importance/silhouette.h"
+#include "importance/tuning.h"
 
 namespace rsphere {
 
@@ -22,7 +23,7 @@ class SilhouetteIndex {
   std::span<const uint32_t> near(const V3d& direction) const;
 
  private:
-  static constexpr int kSide = 6;  // cells along a face's edge
+  static constexpr int kSide = tuning::Silhouettes::kSide;
   std::array<std::vector<uint32_t>, 6 * kSide * kSide> cells_;
 };
 

@@ -4,20 +4,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "importance/tuning.h"
 #include "scene/even_sequence.h"
 #include "sphere/directions.h"
 
 namespace rsphere {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-// Rays at a point for the mean that the deviation on special objects is held against.
-constexpr int kRaysAPoint = 32;
-
-// Glances for each base direction. Each takes .15 to .5 us, a followed direction 1 to 100.
-// Not more than kMostGlances where the base alone is not.
-constexpr size_t kGlances = 4, kMostGlances = 65536;
+using std::numbers::pi;
+using Tuning = tuning::SilhouetteWeights;
 
 // The random numbers of a set, by what they are used for. Each use has a stream of its own, so that one that
 // draws more numbers leaves the others as they are.
@@ -53,7 +48,8 @@ std::vector<bool> unguessedSurfaces(const SeenSources& sources) {
 
 std::vector<V3d> glancesFor(const SphereOptions& options) {
   const auto count = static_cast<size_t>(options.baseDirections);
-  const size_t glances = std::min(kGlances * count, std::max(count, kMostGlances));
+  const size_t glances =
+      std::min(Tuning::kGlancesPerDirection * count, std::max(count, Tuning::kMostGlances));
   return rotatedDirections(baseDirections(glances), options.rotation);
 }
 
@@ -71,8 +67,9 @@ SilhouetteWeights::SilhouetteWeights(const Transport& transport, const SphereOpt
 
 SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace&) const {
   const size_t base = base_.directions.size(), most = static_cast<size_t>(options_.mostDirections);
-  const Images images =
-      sources_.findImages(set.point(), std::max<size_t>(base / 4, 16), options_.densityFactor);
+  const Images images = sources_.findImages(
+      set.point(), std::max(base / Tuning::kBaseDirectionsPerRayToImages, Tuning::kLeastRaysToImages),
+      options_.densityFactor);
   const Surroundings around = guidance_ ? lookAround(set, images, tracer) : Surroundings{};
   const std::optional<LocalGuess> guess = guidance_ ? std::optional(fitGuess(set, around)) : std::nullopt;
   const GuessingTracer guessing(tracer, guess ? &*guess : nullptr);
@@ -86,7 +83,7 @@ SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, 
       guidance_ ? guidance_->targets.at(set.point(), around.meanBrightness, base, left) : Targets({});
   Others others = sampleOthers(set, images, targets, guess ? &*guess : nullptr, tracer);
   // Together they represent the sphere without the images.
-  const double scale = others.solidAngle > 0 ? std::max(0., 4 * kPi - filledByImages) / others.solidAngle : 0;
+  const double scale = others.solidAngle > 0 ? std::max(0., 4 * pi - filledByImages) / others.solidAngle : 0;
   for (DirectionSample& s : others.samples) s.solidAngle *= scale;
 
   SampledSet sampled;
@@ -108,16 +105,16 @@ SilhouetteWeights::Surroundings SilhouetteWeights::lookAround(const SetAtPoint& 
                                                               PathTracer& tracer) const {
   Surroundings around;
   Random random(mixBits(seedOf(set, Stream::surroundings)));
-  for (int i = 0; i < kRaysAPoint; ++i) {
+  for (int i = 0; i < Tuning::kRaysAround; ++i) {
     // Stratified in height: the sphere's equal-area slices.
-    const double z = 1 - 2 * (i + random.uniform()) / kRaysAPoint, angle = 2 * kPi * random.uniform();
+    const double z = 1 - 2 * (i + random.uniform()) / Tuning::kRaysAround, angle = 2 * pi * random.uniform();
     const double r = std::sqrt(std::max(0., 1 - z * z));
     const V3d direction(r * std::cos(angle), r * std::sin(angle), z);
     const Ray ray = tracer.trace(set.point(), direction, 0, random.bits());
     if (sources_.shown(tracer, images)) continue;
     const Hit& hit = tracer.firstHit();
     around.traced.push_back({guidance_->guess.placeOf(set.point(), direction, hit), hit.surface, ray.value});
-    around.meanBrightness += brightness(ray.value) / kRaysAPoint;
+    around.meanBrightness += brightness(ray.value) / Tuning::kRaysAround;
   }
   return around;
 }
@@ -150,7 +147,7 @@ SilhouetteWeights::Others SilhouetteWeights::sampleOthers(const SetAtPoint& set,
   for (size_t i = 0; i < base.size(); ++i) send(base[i], base_.solidAngles[i]);
 
   Random random(seedOf(set, Stream::dynamicDirections));
-  const double averageCell = 4 * kPi / static_cast<double>(base.size());
+  const double averageCell = 4 * pi / static_cast<double>(base.size());
   // Whole numbers of directions with the right average, one running sum over all objects.
   double due = random.uniform();
   for (const Target& target : targets.all()) {
@@ -174,7 +171,7 @@ Moments SilhouetteWeights::excessOfGlances(const SetAtPoint& set, const Others& 
     if (others.enters[i])
       excess.add(others.samples[i].direction, others.guesses[i] * -others.samples[i].solidAngle);
   const std::vector<V3d> glances = set.turned(guidance_->glances);
-  const double solidAngle = 4 * kPi / static_cast<double>(glances.size());
+  const double solidAngle = 4 * pi / static_cast<double>(glances.size());
   for (const V3d& direction : glances)
     excess.add(direction, guess.along(set.point(), direction) * solidAngle);
   return excess;

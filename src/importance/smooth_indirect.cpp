@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "importance/tuning.h"
+
 namespace rsphere {
 namespace {
 
@@ -11,15 +13,14 @@ namespace {
 constexpr std::array<float, 5> kSpline = {1 / 16.f, 1 / 4.f, 3 / 8.f, 1 / 4.f, 1 / 16.f};
 constexpr std::array<int, 3> kSteps = {1, 2, 4};
 
-// Least cosine between normals; most rise of one point over the other's plane, for their distance; and most
-// distance between them, for that from the eye.
-constexpr float kSameNormal = .9f, kSamePlane = .25f, kNear = .25f;
+using Tuning = tuning::Pictures;
 
 bool mayShare(const IndirectPixels::Pixel& a, const IndirectPixels::Pixel& b) {
-  if (a.material != b.material || a.normal.dot(b.normal) < kSameNormal) return false;
+  if (a.material != b.material || a.normal.dot(b.normal) < Tuning::kSameNormal) return false;
   const Imath::V3f apart = b.point - a.point;
   const float square = apart.length2(), rise = apart.dot(a.normal);
-  return rise * rise <= kSamePlane * kSamePlane * square && square <= kNear * kNear * a.distance * a.distance;
+  return rise * rise <= Tuning::kSamePlane * Tuning::kSamePlane * square &&
+         square <= Tuning::kNear * Tuning::kNear * a.distance * a.distance;
 }
 
 }  // namespace

@@ -3,18 +3,14 @@
 #include <algorithm>
 #include <numbers>
 
+#include "importance/tuning.h"
+
 namespace rsphere {
 namespace {
 
+using Tuning = tuning::Targets;
+
 constexpr double kFullSphere = 4 * std::numbers::pi;  // sr
-
-// More directions than this times the base's density are not sent anywhere: the last factor of two in density
-// would be paid for by everything else.
-constexpr double kMostContrast = 200;
-
-// Share of the base directions' variance that an image of a source may add where it gets no directions of its
-// own; deviation within what is taken for the image, against its brightness.
-constexpr double kLeastGlint = 1e-3, kGlintDeviation = .5;
 
 }  // namespace
 
@@ -45,7 +41,8 @@ Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDir
   const auto add = [&](Silhouette silhouette, double deviation, bool continues) {
     const double solidAngle = silhouette.regionSolidAngle();
     if (!(deviation > usual) || !(solidAngle > 0)) return;
-    const double contrast = std::min(usual > 0 ? deviation / usual : kMostContrast, kMostContrast) - 1;
+    const double contrast =
+        std::min(usual > 0 ? deviation / usual : Tuning::kMostContrast, Tuning::kMostContrast) - 1;
     const double density = contrast * baseDensity * densityFactor_;
     sum += density * solidAngle;
     targets.push_back({std::move(silhouette), density, density * solidAngle, continues});
@@ -53,8 +50,8 @@ Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDir
   for (const Contrasts::Object& c : contrasts_.objects)
     if (c.deviation > usual) add(silhouetteOf(scene_, c.object, point), c.deviation, false);
   if (usual > 0)
-    for (Glint& g : glints_.find(point, kLeastGlint * kFullSphere * usual * usual))
-      add(std::move(g.region), kGlintDeviation * g.brightness, g.continues);
+    for (Glint& g : glints_.find(point, Tuning::kLeastGlint * kFullSphere * usual * usual))
+      add(std::move(g.region), Tuning::kGlintDeviation * g.brightness, g.continues);
   if (sum > static_cast<double>(most)) {
     const double scale = static_cast<double>(most) / sum;
     for (Target& target : targets) {

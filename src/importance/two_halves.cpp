@@ -3,26 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "importance/tuning.h"
+
 namespace rsphere {
 namespace {
 
-// One half asks for a little less error than is wanted: else one answer in 25, rather than one in 50, needs
-// more sets for its own estimate, and they make what is left of the bias.
-constexpr double kMargin = .95;
+using Tuning = tuning::Stopping;
 
 constexpr double kMostSets = 1e9;  // beyond any -Sx
-
-// Sets of one half for each of the other, at most. A direction that happens to find something very bright,
-// which makes the other half ask for many, is outweighed sooner by more sets of its own half. With equal
-// halves each would depend on its own findings, and the bias were that of one.
-constexpr size_t kMostRatio = 2;
 
 }  // namespace
 
 size_t TwoHalves::setsFor(const Half& other) const {
   const double count = static_cast<double>(other.sets), variance = other.variance / count;
   if (!(variance > 0)) return 1;
-  const double wanted = kMargin * accuracy_ * other.total / count;
+  const double wanted = Tuning::kMargin * accuracy_ * other.total / count;
   const double sets = wanted > 0 ? variance / (2 * wanted * wanted) : kMostSets;
   return static_cast<size_t>(std::clamp(std::ceil(sets), 1., kMostSets));
 }
@@ -34,8 +29,8 @@ std::optional<size_t> TwoHalves::next() const {
   if (b.sets == 0) return 1;
   const bool wantsA = a.sets < setsFor(b), wantsB = b.sets < setsFor(a);
   if (!wantsA && !wantsB && isReached()) return std::nullopt;
-  if (a.sets >= kMostRatio * b.sets) return 1;
-  if (b.sets >= kMostRatio * a.sets) return 0;
+  if (a.sets >= Tuning::kMostRatio * b.sets) return 1;
+  if (b.sets >= Tuning::kMostRatio * a.sets) return 0;
   if (wantsA != wantsB) return wantsA ? 0 : 1;
   return a.sets <= b.sets ? 0 : 1;
 }
