@@ -11,7 +11,7 @@
 namespace rsphere {
 namespace {
 
-// Of the random numbers of a picture, apart from those of the answer.
+// Makes the random numbers of a picture independent of those of the answer.
 constexpr uint64_t kPictureSeed = 0x70696374757265;  // "picture"
 
 void writePicture(const std::string& name, const V3d& point, const SphereEstimator& estimator,
@@ -35,7 +35,7 @@ void Unreached::add(uint64_t record, const PointAnswer& answer) {
   if (answer.reached) return;
   ++missed_;
   const double mean = brightness(answer.mean), error = mean > 0 ? answer.brightnessError / mean : 1e30;
-  // Of equal ones the first in the input, whichever thread had it.
+  // Of equal errors the first in the input is kept, whichever thread answered it.
   if (error < worstError_ || (error == worstError_ && record > worst_)) return;
   worst_ = record;
   worstError_ = error;

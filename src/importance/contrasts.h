@@ -1,7 +1,7 @@
 #pragma once
-// How much radiance varies on special objects, compared with how much it varies elsewhere. It is measured
-// once per scene with rays whose values are used for nothing else, so that the estimates at points stay
-// unbiased.
+// How much radiance varies on special objects, compared with how much it varies elsewhere. It is
+// measured once per scene with rays whose values are used for nothing else, so that the estimates
+// at points stay unbiased.
 #include <span>
 #include <vector>
 

@@ -3,12 +3,12 @@
 
 namespace rsphere {
 
-// A direction of a point: unit, the solid angle it stands for (sr) and the radiance from there (W/sr/m2).
+// One traced direction of a point.
 struct DirectionSample {
-  V3d direction{0, 0, 1};
-  double solidAngle = 0;
-  Rgb value{0, 0, 0};
-  bool toSource = false;  // aimed at a light source that is integrated apart
+  V3d direction{0, 0, 1};  // unit, world
+  double solidAngle = 0;   // that it represents, sr
+  Rgb value{0, 0, 0};      // radiance from there, W/sr/m2
+  bool toSource = false;   // whether it was sent to a light source that is integrated separately
 };
 
 }  // namespace rsphere

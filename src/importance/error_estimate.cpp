@@ -13,19 +13,20 @@ using Tuning = tuning::ErrorEstimate;
 }  // namespace
 
 Variance baseVariance(std::span<const DirectionSample> base, const Neighbours& n,
-                      const std::vector<bool>& counted) {
+                      const std::vector<bool>& enters) {
   Variance sum;
   for (size_t i = 0; i < base.size(); ++i) {
-    if (!counted[i]) continue;
+    if (!enters[i]) continue;
     Rgb around(0, 0, 0);
     int count = 0;
     for (uint32_t k = n.first[i]; k < n.first[i + 1]; ++k) {
-      if (!counted[n.neighbour[k]]) continue;
+      if (!enters[n.neighbour[k]]) continue;
       around += base[n.neighbour[k]].value;
       ++count;
     }
     if (count == 0) continue;
-    // Of a residual against the mean of m others with the same variance, m/(m+1) is the direction's own.
+    // If m neighbours have the same variance, the variance of the difference to their mean is (m+1)/m
+    // times that of the direction.
     const double own = static_cast<double>(count) / (count + 1);
     sum += Variance::of((base[i].value - around / count) * base[i].solidAngle) * own;
   }
@@ -42,16 +43,15 @@ Variance spreadVariance(std::span<const DirectionSample> samples) {
     squares += Variance::of(part);
   }
   if (samples.size() < 2) return squares;
-  // n points spread evenly leave, of an edge through the region, what the cells on it leave: about n^-1/2 of
-  // all.
+  // If an edge crosses the region, only the cells on the edge contribute, about n^1/2 of n.
   const double even = 1 / (1 + std::sqrt(n) / Tuning::kEvenRun);
   squares += Variance::of(sum) * (-1 / n);
   return squares * (n / (n - 1) * even);
 }
 
 Variance partsVariance(std::span<const SeenSources::Sample> samples) {
-  // The grid's rows one after the other: neighbours of a row, and the first that lie one beside the other in
-  // successive rows.
+  // The samples are in the order of the rows of the grid. Pairs are neighbours in a row, and samples that lie
+  // one row of the first row's length apart.
   Variance sum, edges;
   size_t pairs = 0;
   for (const auto& s : samples) {
@@ -62,7 +62,7 @@ Variance partsVariance(std::span<const SeenSources::Sample> samples) {
       samples.begin(), samples.end(), [&](const auto& s) { return s.row == samples.front().row; }));
   const auto add = [&](size_t i, size_t k) {
     ++pairs;
-    // What shadow rays told is no chance of the directions'.
+    // What shadow rays measured is no variance of the directions.
     const double clear = static_cast<double>(samples[i].clear * samples[k].clear) /
                          static_cast<double>(samples[i].aimed * samples[k].aimed);
     sum += Variance::of(samples[i].direction.value * samples[i].part -

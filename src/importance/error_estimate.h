@@ -1,5 +1,5 @@
 #pragma once
-// How far a mean of one set of directions is likely to be off, from that set alone.
+// The variance of an estimate from one set of directions, computed from that set alone.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -9,13 +9,13 @@
 
 namespace rsphere {
 
-// Variance of an integral of radiance, (W/m2)^2: of each channel, and of its brightness, which follows from
-// no channel's alone, as the errors of channels go together.
+// Variance of an integral of radiance, (W/m2)^2, for each channel and for the brightness. The variance of the
+// brightness does not follow from those of the channels, because the errors of channels are correlated.
 struct Variance {
   Rgb channels{0, 0, 0};
   double brightness = 0;
 
-  // That of one value which is off by so much.
+  // The square of one error, W/m2.
   static Variance of(const Rgb& error) {
     const double b = rsphere::brightness(error);
     return {error * error, b * b};
@@ -28,26 +28,27 @@ struct Variance {
   Variance operator*(double factor) const { return {channels * factor, brightness * factor}; }
 };
 
-// Which directions lie beside which on the base: those of direction i at [first[i], first[i + 1]) of
-// neighbour.
+// The neighbours of each direction on the sphere: those of direction i are neighbour[first[i]] to
+// neighbour[first[i + 1] - 1].
 struct Neighbours {
   std::vector<uint32_t> first, neighbour;
 };
 
-// Variance of sum(w L) over the base directions: what of each direction's
-// radiance the mean of its neighbours does not tell, times its own solid angle. A slope over the sphere is no
-// error, since an even set integrates it; noise of paths and edges are. Directions with counted[i] false,
-// which others stand for, take no part. Edges, which a set that is more even than a random one partly
-// averages out, count too much by the difference; see tuning::ErrorEstimate.
+// Variance of the sum of solid angle times radiance over the base directions. Each direction contributes its
+// solid angle times the difference between its radiance and the mean of its neighbours. A slope over the
+// sphere contributes nothing, because an even set integrates it; noise of paths and edges do. An even set
+// averages out a part of the edges, so that the sum is multiplied by tuning::ErrorEstimate::kEvenSet. enters:
+// false for directions that do not enter the sum, because others represent their solid angle.
 Variance baseVariance(std::span<const DirectionSample> base, const Neighbours& neighbours,
-                      const std::vector<bool>& counted);
+                      const std::vector<bool>& enters);
 
-// The same for a run of directions that were spread evenly over a region in this order, none beside the one
-// before it (dynamic directions): by their variance, made smaller by evenness.
+// The same for a run of dynamic directions, which are evenly spread over a region in this order,
+// but successive ones are not neighbours: the variance of independent directions, reduced because
+// the directions are even.
 Variance spreadVariance(std::span<const DirectionSample> samples);
 
-// The same for directions to the parts of one source, in the order of the parts: by differences of successive
-// ones, as something before the source hides parts that lie together.
+// The same for the samples of one image of a light source, in the order of its grid: from differences between
+// neighbouring cells, because an occluder hides cells that lie together.
 Variance partsVariance(std::span<const SeenSources::Sample> samples);
 
 }  // namespace rsphere

@@ -27,9 +27,9 @@ namespace rsphere {
 // Shared by all threads. Keeps a reference to transport.
 class SphereEstimator {
  public:
-  // Finds the special objects and, for -Sw c, measures how much the radiance on them varies. standardError:
-  // whether PointAnswer's is wanted. Throws rad::Error where the base directions' weights fail their check
-  // (-Sv).
+  // Finds the special objects and, for -Sw c, measures how much the radiance on them varies.
+  // standardError: whether PointAnswer's is wanted. Throws rad::Error where the base directions'
+  // weights fail their check (-Sv).
   SphereEstimator(const Transport& transport, const SphereOptions& options, bool standardError = false);
   SphereEstimator(const SphereEstimator&) = delete;
   SphereEstimator& operator=(const SphereEstimator&) = delete;
@@ -52,11 +52,10 @@ class SphereEstimator {
     VoronoiWorkspace voronoi_;  // memory that is kept for speed alone
   };
 
-  // The quantities at a point (world), and the directions in workspace.samples. Depends on point, scene and
-  // options alone.
-  // With -Sa, sets of directions, each turned another way, are averaged until the estimated standard error of
-  // the mean's brightness is below that share of it (two_halves.h), or the next set might exceed
-  // mostOfAllSets().
+  // The quantities at a point (world), and the directions in workspace.samples. Depends on point, scene
+  // and options alone. With -Sa, sets of directions, each turned another way, are averaged until the
+  // estimated standard error of the mean's brightness is below that share of it (two_halves.h), or the
+  // next set might exceed mostOfAllSets().
   PointAnswer estimate(const V3d& point, Workspace& workspace) const;
 
   const std::vector<SpecialObject>& specialObjects() const { return special_; }

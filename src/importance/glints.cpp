@@ -27,14 +27,15 @@ double reflectanceOf(const Material& material) {
   return dielectric ? Tuning::kFresnel : 0;
 }
 
-// Where a sphere mirrors one place to another, as a normal of it: in the plane of both and the center, where
-// it halves the angle between them. to: a place, or a direction (unit) where distant.
+// The normal of the sphere at the point where it mirrors one place to another. It lies in the plane of
+// both places and the center, and halves the angle between the directions to both. to: a place, or a
+// direction (unit) if distant.
 V3d mirrors(const Sphere& ball, const V3d& point, const V3d& to, bool distant) {
   const V3d fromCenter = point - ball.center, a = fromCenter.normalized();
   const V3d b = distant ? to : (to - ball.center).normalized(), across = b - a.dot(b) * a;
   if (!(across.length2() > 1e-20)) return a;
   const V3d side = across.normalized();
-  // An angle from a, as its cosine and sine: those of differences cost no more functions.
+  // An angle from a. Cosines and sines of differences of angles then need no trigonometric functions.
   struct Turn {
     double cosine, sine;
   };
@@ -42,8 +43,8 @@ V3d mirrors(const Sphere& ball, const V3d& point, const V3d& to, bool distant) {
   const double between = std::atan2(whole.sine, whole.cosine);
   const double away = fromCenter.length() / ball.radius,
                inverse = distant ? 0 : ball.radius / (to - ball.center).length();
-  // Of the normal at an angle from a: the sine of how much farther it is from the one place than from the
-  // other, times what does not change its sign.
+  // For the normal at an angle from a: the sine of the difference between its angles to the two places, times
+  // a positive factor. Its root is the reflecting point.
   const auto excess = [&](const Turn& turn) {
     const double inX = turn.cosine * away - 1, inY = turn.sine * away;
     const double outX = whole.cosine * turn.cosine + whole.sine * turn.sine - inverse,
@@ -59,7 +60,7 @@ V3d mirrors(const Sphere& ball, const V3d& point, const V3d& to, bool distant) {
     turn = {std::cos(angle), std::sin(angle)};
     const double at = excess(turn);
     if (std::abs(at) <= kExact * kExact * (atHigh - atLow)) break;
-    // The Illinois rule: an end that stays counts half.
+    // The Illinois rule: the value at an end that stays twice is halved.
     if (at < 0) {
       low = angle;
       atLow = at;
@@ -75,8 +76,8 @@ V3d mirrors(const Sphere& ball, const V3d& point, const V3d& to, bool distant) {
   return turn.cosine * a + turn.sine * side;
 }
 
-// A source as seen from a ball, in parts whose images are not much curved: places, or directions (unit) where
-// it is distant.
+// A part of a source as seen from a ball, so small that its image is hardly curved. Places, or directions
+// (unit) if the source is distant.
 struct Part {
   V3d middle;
   std::vector<V3d> corners;
@@ -123,7 +124,8 @@ std::vector<Part> partsOf(const Scene& scene, const LightSource& source, const S
   return parts;
 }
 
-// About that of the source as seen from the ball, `distance` from its surface; not too small.
+// The approximate solid angle of the source as seen from the ball, `distance` from its surface. It is rather
+// too large than too small.
 double solidAngleFrom(const LightSource& source, const Sphere& ball, double distance) {
   if (source.distant) return 2 * pi * (1 - source.cosHalfAngle);
   if (source.isPlane()) {
@@ -155,7 +157,7 @@ Glints::Glints(const Transport& transport, std::span<const SpecialObject> object
   }
 }
 
-// Whether the source shines from some of five places of a part to a place.
+// Whether `at` sees the source at one or more of five places of a part.
 bool Glints::shines(const LightSource& source, std::span<const V3d> corners, const V3d& middle,
                     const V3d& at) const {
   const auto seen = [&](const V3d& place) {
@@ -179,8 +181,8 @@ std::vector<Glint> Glints::find(const V3d& point, double least) const {
       const double distance =
           source.distant ? kFarAway : (source.center - ball.center).length() - ball.radius;
       if (!(distance > 0) || (source.reach > 0 && distance - source.radius > source.reach)) continue;
-      // A ball sends light from far away to all sides alike: of the solid angle that the source fills there,
-      // a quarter of the square of its radius against the distance to it.
+      // A ball spreads distant light evenly over the sphere. The image therefore fills the solid angle of the
+      // source as seen from the ball, times the square of the ball's radius over the distance to it, over 4.
       const double reached = ball.radius / nearest, radiance = light.brightness * reflectance;
       if (!(radiance * radiance * solidAngleFrom(source, ball, distance) * reached * reached / 4 > least))
         continue;

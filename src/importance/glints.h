@@ -1,7 +1,8 @@
 #pragma once
-// The images of light sources in mirroring balls. Each is small and mostly far brighter than all around it:
-// the few directions that meet one by chance carry too much, and an even share of the ball's own too little.
-// Where they are follows from the law of reflection, so they can have directions of their own.
+// The images of light sources in mirroring balls. Most of them are small and far brighter than everything
+// around them. The few directions that meet one by chance cause much variance, and the directions sent to the
+// ball are spread over all of it. The law of reflection gives the places of the images, so that they can have
+// directions of their own.
 #include <span>
 #include <vector>
 
@@ -11,23 +12,24 @@
 
 namespace rsphere {
 
-// The image of a source or of a part of one: about what it fills.
+// The image of a source, or of a part of one.
 struct Glint {
-  Silhouette region;
-  double brightness = 0;   // W/sr/m2, no more than
-  bool continues = false;  // another part of the image before it
+  Silhouette region;       // approximate
+  double brightness = 0;   // upper bound, W/sr/m2
+  bool continues = false;  // it is another part of the image before it
 };
 
 class Glints {
  public:
-  // Keeps a reference to transport. Of the objects, those that are spheres of metal or plastic as smooth as a
-  // mirror, of mirror, or of glass and other dielectrics. The sources: all that are not virtual.
+  // Uses those objects that are spheres of mirror, of glass or another dielectric, or of metal or
+  // plastic that is smoother than tuning::Glints::kSmooth; and all sources that are not virtual. Keeps
+  // a reference to transport.
   Glints(const Transport& transport, std::span<const SpecialObject> objects);
 
-  // The images that a point (world) sees, parts of one image one after the other. Left out: those whose solid
-  // angle (sr) times brightness squared is surely below least, and those that shadow rays, one from the point
-  // and up to five to the source, find hidden. A point in or on a ball sees none in it. Depends on the
-  // arguments alone.
+  // The images that a point (world) sees; parts of one image follow each other. Two kinds are left out: those
+  // whose solid angle (sr) times squared brightness is estimated to be below `least`, and those that are
+  // hidden according to shadow rays, one from the point and up to five to the source. A point in or on a ball
+  // sees no image in it. Depends on the arguments alone.
   std::vector<Glint> find(const V3d& point, double least) const;
 
  private:

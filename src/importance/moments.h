@@ -6,8 +6,8 @@
 
 namespace rsphere {
 
-// The integrals over all directions from which the quantities of PointAnswer follow. L is radiance, d a unit
-// direction; world axes.
+// The integrals over all directions from which the quantities of PointAnswer follow. L is radiance, d a
+// unit direction; world axes.
 struct Moments {
   Rgb total{0, 0, 0};        // of L, W/m2
   Rgb cylindrical{0, 0, 0};  // of L sin(angle to z), W/m2

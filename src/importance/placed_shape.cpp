@@ -10,7 +10,7 @@ Box3d boxAround(const Sphere& ball) { return ball.radius > 0 ? bounds(ball) : Bo
 
 Sphere ballAround(const Box3d& box) {
   if (box.isEmpty()) return {V3d(0, 0, 0), 0, false};
-  // Rounding may leave a corner outside by an ulp of its coordinates.
+  // The second term keeps the corners inside, as rounding may move them by an ulp of their coordinates.
   const double reach = box.min.length() + box.max.length();
   return {box.center(), box.size().length() / 2 + 1e-15 * reach, false};
 }
@@ -57,7 +57,7 @@ PlacedShape placed(const Shape& shape, std::span<const V3d> vertices, const Plac
   } else if (const auto* polygon = std::get_if<Polygon>(&shape)) {
     for (const V3d& v : vertices.subspan(polygon->firstVertex, polygon->vertices))
       result.vertices.push_back(placement.toOuter.point(v));
-    // A mirror image goes round the other way.
+    // A mirror image reverses the orientation.
     if (placement.toOuter.matrix.determinant() < 0)
       std::reverse(result.vertices.begin(), result.vertices.end());
     result.shape = makePolygon(result.vertices, 0, polygon->vertices);

@@ -1,5 +1,5 @@
 #pragma once
-// What octrees and meshes bring in, as shapes of the world: for silhouettes and for points to look from.
+// The contents of instances and meshes in world coordinates, for silhouettes and for points on surfaces.
 #include <map>
 #include <vector>
 
@@ -8,29 +8,30 @@
 
 namespace rsphere {
 
-// A plain shape with the vertices that it has if it is a polygon.
+// A shape other than an instance or mesh, with its vertices if it is a polygon.
 struct PlacedShape {
   Shape shape;
   std::vector<V3d> vertices;
 };
 
-// A plain shape of an octree as it stands in the world, exact up to rounding.
+// Such a shape from an octree in world coordinates, exact to rounding.
 PlacedShape placed(const Shape& shape, std::span<const V3d> vertices, const Placement& placement);
 
-// A point of a surface in the world: samplePoint()'s for a plain shape; for instances that of any surface in
-// them, each as likely, for meshes that of any triangle. clearance is 0 where there is none.
+// A point of a surface, in world coordinates: samplePoint()'s for shapes other than instances and
+// meshes. Of an instance every surface is equally probable, of a mesh every triangle. clearance
+// is 0 if there is no point.
 SurfacePoint samplePoint(const Scene& scene, const Surface& surface, Random& random);
 
-// Balls that hold what instances and meshes bring in, in their own coordinates; each is computed once, when
-// it is first asked for. Keeps a reference to the scene.
+// Balls around the contents of instances and meshes, in their own coordinates. Each is computed when it is
+// first asked for. Keeps a reference to the scene.
 class BoundingBalls {
  public:
   explicit BoundingBalls(const Scene& scene) : scene_(scene) {}
 
-  // Around everything in a group or a mesh; radius 0 where there is nothing.
+  // Around everything in a group or a mesh. The radius is 0 if it is empty.
   Sphere ofGroup(uint32_t group);
   Sphere ofMesh(uint32_t mesh) { return meshBalls(mesh).all; }
-  // Around the triangles of one material of the mesh's own.
+  // Around the triangles of one material of the mesh.
   Sphere ofFaces(uint32_t mesh, size_t material) { return meshBalls(mesh).byMaterial[material]; }
 
  private:
@@ -46,7 +47,7 @@ class BoundingBalls {
   std::map<uint32_t, MeshBalls> meshes_;
 };
 
-// A ball in the coordinates that hold it.
+// A ball in the coordinates that it is placed in.
 Sphere placed(const Sphere& ball, const Placement& placement);
 
 }  // namespace rsphere

@@ -18,7 +18,7 @@ namespace {
 using std::numbers::pi;
 using Tuning = tuning::Pictures;
 
-// What the sRGB curve makes .5.
+// The linear value that the sRGB curve maps to .5.
 constexpr double kMidBright = .21404114;
 
 double sRgb(double x) {
@@ -48,7 +48,7 @@ class PictureStreams {
   uint64_t seed_;
 };
 
-// Light of small sources that falls on a pixel.
+// The light of small sources in one pixel.
 struct Spot {
   double solidAngle = 0;
   Rgb light{0, 0, 0};  // radiance times solid angle
@@ -97,7 +97,7 @@ double PixelMap::solidAngle(size_t pixel) const {
 
 namespace {
 
-// Of the sources that pixels are not sure to meet: their images, and the light of each on its pixels.
+// The sources that pixels may miss: their images, and their light in each pixel.
 struct SmallSources {
   std::vector<SeenSources::Image> images;
   std::map<size_t, Spot> spots;  // by pixel
@@ -125,7 +125,7 @@ SmallSources smallSources(const V3d& point, const PixelMap& map, const SeenSourc
   return small;
 }
 
-// Traces pixels, and keeps the indirect light of the surface that is seen there apart from all else.
+// Traces pixels, and separates the indirect light of the surface that is seen from all other light.
 class PixelTracer {
  public:
   PixelTracer(const V3d& point, const Transport& transport, PathTracer& tracer)
@@ -139,14 +139,16 @@ class PixelTracer {
   PixelTracer(const PixelTracer&) = delete;
   PixelTracer& operator=(const PixelTracer&) = delete;
 
-  // The value without what `pixel` has of it, which the primary ray's pattern is to be multiplied with.
+  // Returns the radiance without the indirect light that it stores in pixel.light, which is to be
+  // multiplied by `pattern` and added.
   Rgb trace(const V3d& direction, uint64_t seed, IndirectPixels::Pixel& pixel, Rgb& pattern) {
     indirect_ = Rgb(0, 0, 0);
     pixel = {};
     const Ray ray = tracer_.trace(point_, direction, 0, seed);
     const Hit& hit = tracer_.firstHit();
     pattern = ray.pattern;
-    // Light that a medium weakens on its way here is not told apart.
+    // The indirect light is not separated if a medium attenuates it on its way, or if the pattern is
+    // too dark to be divided by.
     if (hit.surface == kNone || !isBlack(transport_.medium().extinction) ||
         !transport_.scatterers().empty() ||
         std::min({pattern.x, pattern.y, pattern.z}) < Tuning::kLeastPattern)

@@ -14,7 +14,7 @@ namespace {
 using std::numbers::pi;
 using Tuning = tuning::SeenSources;
 
-// The share of light that a surface mirrors sharply, as a rule; 0: it never does.
+// The usual fraction of light that a surface mirrors sharply; 0: it never does.
 struct SharpReflectance {
   double cosine = 1;
 
@@ -44,7 +44,7 @@ bool emitsBehind(const Shape& shape, const V3d& point) {
   return normal && normal->dot(point) <= planeOffset(shape);
 }
 
-// Whether a shape's region shows nothing but the shape.
+// Whether the shape fills its region.
 bool fills(const Shape& shape, const Silhouette& s) {
   if (std::holds_alternative<Sphere>(shape) || std::holds_alternative<Distant>(shape)) return true;
   return std::holds_alternative<Polygon>(shape) &&
@@ -81,7 +81,7 @@ SeenSources::SeenSources(const Transport& transport) : transport_(transport) {
   for (uint32_t i = 0; i < lights.size(); ++i) {
     const Surface& surface = scene.surfaces[lights[i].surface];
     const Material* material = scene.materialOf(surface);
-    // What is seen by way of a relay is found here as an image.
+    // Instead of virtual sources, addMirrored() finds the images in mirrors that they represent.
     if (lights[i].isVirtual() || (material && std::holds_alternative<Illum>(*material))) continue;
     if (lights[i].distant && !(lights[i].cosHalfAngle > std::cos(Tuning::kWidestDistant))) continue;
     apart_[lights[i].surface] = true;
@@ -156,7 +156,7 @@ std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t
   return images;
 }
 
-// From the point's mirror image the source is seen through the mirror as through a window.
+// As seen from the mirror image of the point, the mirror is a window through which the source is seen.
 void SeenSources::addMirrored(const V3d& point, std::vector<Image>& images) const {
   const Scene& scene = transport_.scene();
   const auto lights = transport_.lights().all();
@@ -198,7 +198,7 @@ std::vector<SeenSources::Sample> SeenSources::sample(const V3d& point, const std
                                                      uint64_t seed, PathTracer& tracer) const {
   std::vector<Sample> samples;
   Random random(seed);
-  // Fewer than one ray: some of the images, each standing for others like it.
+  // Of the images with less than one ray, some are sampled, with the weight of the others.
   double due = random.uniform();
   for (size_t i = 0; i < images.size(); ++i) {
     const Image& image = images[i];
@@ -264,7 +264,7 @@ void SeenSources::sampleImage(const V3d& point, const Image& image, size_t rays,
       }
       samples.push_back(s);
     }
-  // What is known of the whole is shared by those that met it.
+  // The known solid angle of the whole is divided among the samples that met the source.
   int aimed = 0;
   for (size_t i = first; i < samples.size(); ++i) aimed += samples[i].aimed;
   const double each = solidAngle * share / std::max(1, aimed);
@@ -274,8 +274,8 @@ void SeenSources::sampleImage(const V3d& point, const Image& image, size_t rays,
   }
 }
 
-// Shadow rays to all of a cell of the image's grid; one direction for those that nothing opaque stops, or for
-// all where each is stopped.
+// Sends shadow rays to places all over one cell of the image's grid. The sample is one of those that reached
+// the source, or one of all if something opaque stopped each of them.
 void SeenSources::sampleCell(const V3d& point, const Image& image, const Cell& cell, Random& random,
                              PathTracer& tracer, std::vector<Sample>& samples) const {
   const LightSource& light = transport_.lights().all()[image.source];
@@ -295,7 +295,7 @@ void SeenSources::sampleCell(const V3d& point, const Image& image, const Cell& c
       const bool clear =
           transport_.tracer().shadow(point, direction, on.distance, light.surface) != Shadow::blocked;
       s.clear += clear;
-      // One of n with equal chances: the nth replaces the one before with a chance of 1/n.
+      // The nth ray replaces the choice so far with probability 1/n, which makes all n equally probable.
       if (clear ? lot * s.clear < 1 : s.clear == 0 && lot * s.aimed < 1) {
         s.direction.direction = direction;
         chosen = on;

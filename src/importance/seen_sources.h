@@ -1,8 +1,8 @@
 #pragma once
-// Light sources as they are seen from a point, straight or in something flat that mirrors: few, small,
-// bright, and known, so that they are integrated by themselves rather than left to chance. All directions
-// fall in two classes: those in which such an image of a source shows (also through panes), and the rest.
-// This samples the first class; others leave it out.
+// Images of light sources as seen from a point, directly or in a flat mirror. They are few, small and bright,
+// and their places are known, so they are integrated separately instead of being met by chance. Every
+// direction belongs to one of two classes: either it shows such an image, perhaps through panes, or it does
+// not. This file samples the first class. The other directions of a set leave that class out.
 #include <vector>
 
 #include "importance/direction_sample.h"
@@ -13,58 +13,59 @@ namespace rsphere {
 
 class SeenSources {
  public:
-  // Chooses the sources that are integrated apart: all that a view shows as sources (not illum), but for
-  // distant ones wider than tuning::SeenSources::kWidestDistant; and the flat surfaces that may mirror them.
-  // Keeps a reference to transport.
+  // Chooses the sources that are integrated separately, and the flat surfaces that may mirror them. The
+  // sources are all that look like sources (not illum), except distant ones that are wider than
+  // tuning::SeenSources::kWidestDistant. Keeps a reference to transport.
   explicit SeenSources(const Transport& transport);
 
-  // Where a source may be seen from a point.
+  // An image of a source as seen from a point.
   struct Image {
     uint32_t source = 0;     // index in LightSources
-    int32_t mirror = kNone;  // index in Scene::surfaces; kNone: seen straight
+    int32_t mirror = kNone;  // index in Scene::surfaces; kNone: seen directly
     Silhouette region;
-    double solidAngle = 0;  // sr, if nothing hides it
-    bool filled = true;     // the region shows nothing else
-    double rays = 0;        // to be spent on it, on average
+    double solidAngle = 0;  // of the region, sr
+    bool filled = true;     // whether the source fills the region
+    double rays = 0;        // number of samples on average
   };
 
-  // The images that are integrated apart at a point, with about `most` rays for all of them by the light that
-  // each may send, times mirrorFactor for mirrored ones: those not worth half a ray are left to the other
-  // directions.
+  // The images that are integrated separately at a point. About `most` rays are divided among them according
+  // to the light that each may send; mirrorFactor multiplies the rays of mirrored ones. Mirrored images that
+  // would get fewer than tuning::SeenSources::kFewestRays are left to the other directions.
   std::vector<Image> findImages(const V3d& point, size_t most, double mirrorFactor) const;
 
   // Whether the last primary ray of the tracer showed one of a point's images.
   bool shown(const PathTracer& tracer, const std::vector<Image>& images) const;
 
-  // Whether it showed the source of one of these images straight.
+  // Whether that ray showed the source of one of these images directly.
   bool shownStraight(const PathTracer& tracer, const std::vector<Image>& images) const;
 
-  // Whether it showed a source straight that is integrated apart wherever it is seen from.
+  // Whether that ray showed, directly, a source that is integrated separately at all points.
   bool shown(const PathTracer& tracer) const {
     const PathTracer::Shown& s = tracer.shown();
     return s.source != kNone && s.mirror == kNone && apart_[s.source];
   }
 
-  // Surfaces whose sources are integrated apart where they are seen straight, by index in Scene::surfaces;
-  // and those that may mirror them.
+  // By index in Scene::surfaces: whether the surface is a source that is integrated separately
+  // where it is seen directly.
   const std::vector<bool>& apart() const { return apart_; }
+  // The surfaces that may mirror such sources, as indices in Scene::surfaces.
   const std::vector<int32_t>& mirrors() const { return mirrors_; }
 
   // One traced direction to an image.
   struct Sample {
-    DirectionSample direction;  // solidAngle 0 where something hides the source
-    double part = 0;            // what it would be if nothing did, sr
-    int aimed = 1, clear = 1;   // shadow rays to its part, and those that nothing stopped
+    DirectionSample direction;  // solidAngle: 0 if something hides the source
+    double part = 0;            // its solid angle if nothing hid the source, sr
+    int aimed = 1, clear = 1;   // shadow rays to its cell, and those that reached the source
     Ray ray;
     size_t image = 0;  // index in images
-    size_t row = 0;    // of the grid that lies on it
+    size_t row = 0;    // of the image's grid
   };
 
-  // Directions to the images, each with the solid angle it stands for and the radiance along it; one in each
-  // cell of a grid that is even by solid angle. Of an image that is seen straight 2 x 2 shadow rays
-  // tell how much of the cell is hidden, and one of those that nothing stopped is followed. Where an image is
-  // seen whole its solid angles sum to its own, exact for polygons, spheres and distant sources, within 0.1%
-  // for others. Unbiased.
+  // Directions to the images, each with the solid angle that it represents and the radiance along it; one in
+  // each cell of a grid of equal solid angles. For an image that is seen directly, 2 x 2 shadow rays measure
+  // the visible fraction of the cell, and one of the unobstructed ones is traced. If nothing hides an image,
+  // its solid angles sum to its own: exactly for polygons, spheres and distant sources, within 0.1% for
+  // others. The estimate is unbiased.
   std::vector<Sample> sample(const V3d& point, const std::vector<Image>& images, uint64_t seed,
                              PathTracer& tracer) const;
 
@@ -79,9 +80,9 @@ class SeenSources {
                   std::vector<Sample>& samples) const;
 
   const Transport& transport_;
-  std::vector<bool> apart_;        // by surface
-  std::vector<uint32_t> sources_;  // those apart, index in LightSources
-  std::vector<int32_t> mirrors_;   // index in Scene::surfaces
+  std::vector<bool> apart_;        // by index in Scene::surfaces
+  std::vector<uint32_t> sources_;  // those integrated separately, indices in LightSources
+  std::vector<int32_t> mirrors_;   // indices in Scene::surfaces
 };
 
 }  // namespace rsphere

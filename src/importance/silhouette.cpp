@@ -14,23 +14,22 @@ namespace {
 using std::numbers::pi;
 using Tuning = tuning::Silhouettes;
 
-// Unit vectors and their products are off by this much, a few ulp of 1: what lies on a region's edge is in
-// it.
+// Error of unit vectors and of their products, a few ulp of 1. Directions on the edge of a region are in it.
 constexpr double kRounding = 1e-15;
 
-// Of regions that are narrower than 1e-6 rad the rounding of their corners shows (1e-10 of their width); a
-// cap around the polygon serves instead. As a versine.
+// Smallest versine (1 - cos) of the half angle of a convex polygon, 4.5e-7 rad. In narrower ones the rounding
+// of the corners exceeds 1e-10 of the width, so that a cap around the polygon replaces it.
 constexpr double kTiny = 1e-13;
 
-// No ray hits a plane that it starts so near to: it meets it either before kSamePlace or at a cosine below
-// it.
+// Whether a point is so near to a plane that no ray from there hits it: the distance to the hit or the cosine
+// would be below kSamePlace.
 bool liesInPlane(double height, double coordinates) {
   return std::abs(height) <= std::max(kSamePlace * kSamePlace, 4 * kRounding * coordinates);
 }
 
 double largestCoordinate(const V3d& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
-// How far a corner lies outside a side, at most: rounding where the polygon is convex.
+// The largest distance by which a corner lies outside a side. In a convex polygon it is rounding.
 double largestReentrance(const std::vector<V3d>& corners, const std::vector<V3d>& sides) {
   double outside = 0;
   for (const V3d& side : sides)
@@ -38,7 +37,7 @@ double largestReentrance(const std::vector<V3d>& corners, const std::vector<V3d>
   return outside;
 }
 
-// The corners of a polygon around a circle (world), its sides touching it.
+// Adds the corners of a regular polygon whose sides touch a circle (world) from outside.
 void addCircle(std::vector<V3d>& corners, const V3d& center, const V3d& axis, double radius) {
   V3d x, y;
   frame(axis, x, y);
@@ -87,8 +86,8 @@ void Silhouette::setBall(const V3d& center, double radius, const V3d& point) {
   solidAngle_ = regionSolidAngle_;
 }
 
-// A region between the sides of a convex polygon, its corners (world) in order. False where it is too small
-// or not convex; axis and versine are set even then.
+// Sets the region to a convex polygon whose corners (world) are given in order. False if it is too small or
+// not convex; axis and versine are set even then.
 bool Silhouette::setConvex(std::span<const V3d> corners, const V3d& point) {
   corners_.clear();
   sides_.clear();
@@ -98,7 +97,7 @@ bool Silhouette::setConvex(std::span<const V3d> corners, const V3d& point) {
     sum += triangleSolidAngle(corners[0], corners[i - 1], corners[i], point);
     shares_.push_back(std::abs(sum));
   }
-  // Seen counterclockwise, the sides' normals point inwards.
+  // The normals of the sides point inwards if the corners are seen counterclockwise.
   const double inward = sum < 0 ? -1 : 1;
   V3d middle(0, 0, 0);
   for (size_t i = 0; i < corners.size(); ++i) {
@@ -113,7 +112,7 @@ bool Silhouette::setConvex(std::span<const V3d> corners, const V3d& point) {
   versine_ = 0;
   for (const V3d& corner : corners_) versine_ = std::max(versine_, (corner - axis_).length2() / 2);
   const double outside = largestReentrance(corners_, sides_);
-  // Arcs between corners that are nearly across from one another magnify the rounding of their ends.
+  // Arcs between nearly opposite corners magnify the rounding of the corners.
   slack_ = outside + 2 * kRounding / std::max(1 - versine_, 1e-7);
   regionSolidAngle_ = std::abs(sum);
   return corners_.size() == corners.size() && versine_ > kTiny && outside <= 100 * kRounding && sum != 0 &&
@@ -124,8 +123,8 @@ void Silhouette::setPolygon(const Polygon& polygon, std::span<const V3d> vertice
   solidAngle_ = polygonSolidAngle(vertices, point);
   if (!(solidAngle_ > 0)) return;
   if (setConvex(vertices, point) && std::abs(regionSolidAngle_ - solidAngle_) <= 1e-9 * solidAngle_) return;
-  // A cap that holds the corners holds the sides too only where it is at most a hemisphere; one side of a
-  // plane never fills more.
+  // A cap around the corners contains the sides only if it is at most a hemisphere. The hemisphere on the
+  // other side of the plane always contains the polygon.
   if (versine_ > 1) {
     axis_ = polygon.normal.dot(point - vertices[0]) > 0 ? -polygon.normal : polygon.normal;
     versine_ = 1;
@@ -133,8 +132,8 @@ void Silhouette::setPolygon(const Polygon& polygon, std::span<const V3d> vertice
   setCap(axis_, versine_);
 }
 
-// The convex hull of points as they are seen, found in the plane across their middle (Andrew's monotone
-// chain). False where they reach too far around.
+// Sets the region to the convex hull of points, found on the plane perpendicular to their mean direction
+// (Andrew's monotone chain). False if they reach beyond kWidestHull.
 bool Silhouette::setHull(std::span<const V3d> points, const V3d& point) {
   V3d middle(0, 0, 0), x, y;
   for (const V3d& p : points) middle += p - point;
@@ -175,7 +174,7 @@ bool Silhouette::setHull(std::span<const V3d> points, const V3d& point) {
 Silhouette Silhouette::within(const Silhouette& other) const {
   const Silhouette& smaller = regionSolidAngle_ <= other.regionSolidAngle_ ? *this : other;
   if (corners_.empty() || other.corners_.empty()) return smaller;
-  // Sutherland and Hodgman's clipping; corners need not be of unit length.
+  // Sutherland and Hodgman's clipping. The corners need not have unit length.
   std::vector<V3d> corners = corners_, kept;
   for (const V3d& side : other.sides_) {
     kept.clear();
@@ -204,7 +203,7 @@ bool Silhouette::contains(const V3d& direction) const {
 
 Silhouette::Cap Silhouette::surroundingCap() const {
   const bool polygon = !corners_.empty();
-  // A cap around the corners holds the sides too as long as it is at most half of the sphere.
+  // A cap around the corners contains the sides only if it is at most a hemisphere.
   if (polygon && versine_ > 1) return {axis_, pi};
   const double chord = polygon ? std::sqrt(2 * versine_) : std::sqrt(squaredChord_);
   return {axis_, 2 * std::asin(std::min(1., chord / 2)) + (polygon ? slack_ : 0)};
@@ -257,7 +256,7 @@ Silhouette silhouetteOf(const Shape& shape, std::span<const V3d> vertices, const
     if (polygon->thickness <= kSamePlace) {
       s.setPolygon(*polygon, around, point);
     } else {
-      // What rays hit: the vertices as they are seen along the axis, in the mean plane.
+      // Rays hit the polygon in its mean plane, with the vertices moved there along the axis.
       std::vector<V3d> flat(around.begin(), around.end());
       for (V3d& v : flat)
         v[polygon->axis] += (polygon->offset - polygon->normal.dot(v)) / polygon->normal[polygon->axis];

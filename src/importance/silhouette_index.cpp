@@ -7,7 +7,8 @@
 namespace rsphere {
 namespace {
 
-// A face is the side of the greatest coordinate; the two others over it are places on it, -1 to 1.
+// The direction to a place on a face of the cube. The face is that of the largest coordinate; u and v are the
+// two others divided by it, -1 to 1.
 V3d onFace(int face, double u, double v) {
   V3d d;
   const int axis = face / 2;
@@ -17,7 +18,7 @@ V3d onFace(int face, double u, double v) {
   return d.normalized();
 }
 
-// A cell's middle, and the angle (radians) that holds all of it around there.
+// A cell, within a cap around its middle. radius: half angle, radians; cosine and sine are of it.
 struct Cell {
   V3d middle;
   double radius, cosine, sine;
@@ -47,10 +48,10 @@ std::array<Cell, 6 * side * side> cellsOf() {
 void SilhouetteIndex::add(uint32_t number, const Silhouette& silhouette) {
   static const auto kCells = cellsOf<kSide>();
   static const auto kFaces = cellsOf<1>();
-  constexpr double kRounding = 1e-6;  // of a cosine: far more than what a direction or a cap is off by
+  constexpr double kRounding = 1e-6;  // of a cosine: far more than the errors of directions and caps
   const auto [axis, angle] = silhouette.surroundingCap();
   const double cosine = std::cos(angle), sine = std::sin(angle);
-  // Nearer to one another than the sum of both angles.
+  // The angle between the middles is at most the sum of the half angles.
   const auto reaches = [&, axis = axis, angle = angle](const Cell& cell) {
     return angle + cell.radius >= std::numbers::pi ||
            axis.dot(cell.middle) >= cosine * cell.cosine - sine * cell.sine - kRounding;

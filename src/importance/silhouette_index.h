@@ -1,6 +1,6 @@
 #pragma once
-// Which of many silhouettes may hold a direction: most hold none, and to ask each took a fifth of a point's
-// time.
+// Finds the silhouettes that may contain a direction. Most of them do not, and testing all took a
+// fifth of the time of a point.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -11,15 +11,15 @@
 
 namespace rsphere {
 
-// The sphere of directions in cells, those of a cube's faces; each knows the silhouettes whose surrounding
-// caps reach into it.
+// The sphere of directions, divided into the cells of a cube's faces. Each cell lists the silhouettes whose
+// surrounding caps reach into it.
 class SilhouetteIndex {
  public:
-  // number: what near() calls it by.
+  // number: identifies the silhouette in the answers of near().
   void add(uint32_t number, const Silhouette& silhouette);
 
-  // The numbers, in the order in which they were added, of some silhouettes among which are all that contain
-  // the direction (unit).
+  // The numbers, in the order in which they were added, of all silhouettes that contain the direction (unit),
+  // and of some that do not.
   std::span<const uint32_t> near(const V3d& direction) const;
 
  private:

@@ -12,8 +12,8 @@
 namespace rsphere {
 
 // -Sw c, the default. It differs from the paper's rule (voronoi_weights.h) as follows:
-// - Light sources that are seen directly cause nearly all of the variance, so they are integrated separately
-//   (seen_sources.h).
+// - Light sources that are seen directly cause nearly all of the variance, so they are integrated
+//   separately (seen_sources.h).
 // - Cells keep to the silhouettes. The cell of a base direction is its Voronoi cell on the sphere; inside a
 //   silhouette it is shared with the dynamic directions that were sent there, in proportion to their numbers,
 //   and outside it is not changed. Plain cells reach over the silhouette's edge from the dense side and bias

@@ -8,8 +8,8 @@
 namespace rsphere {
 namespace {
 
-// Taps at -2 to 2 steps of a cubic B-spline, whose variance is one step squared: with steps of 1, 2 and 4
-// pixels together a Gaussian of 4.6 pixels.
+// Weights of a cubic B-spline at -2 to 2 steps. Its variance is one squared step, so that passes with steps
+// of 1, 2 and 4 pixels together are like a Gaussian with a standard deviation of 4.6 pixels.
 constexpr std::array<float, 5> kSpline = {1 / 16.f, 1 / 4.f, 3 / 8.f, 1 / 4.f, 1 / 16.f};
 constexpr std::array<int, 3> kSteps = {1, 2, 4};
 

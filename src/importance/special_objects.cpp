@@ -22,7 +22,7 @@ struct Irregularity {
   static double lobe(const WgmdFunction::Lobe& m) {
     return lobe(std::min(m.share, 1.), m.roughnessAlong, m.roughnessAcross);
   }
-  // A power of cosines as Gaussian of slopes: where both begin to fall alike.
+  // The roughness with which a Gaussian of slopes and a power of cosines have the same curvature at the peak.
   static double roughnessOf(double power) { return std::sqrt(2 / (power + 1)); }
   double operator()(const Opaque& m) const { return lobe(m.specularity, m.roughness); }
   double operator()(const Trans& m) const {
@@ -59,7 +59,7 @@ struct Irregularity {
   double operator()(const Spotlight&) const { return 0; }
 };
 
-// The most irregular material that a surface may show, through the mixtures of its modifiers.
+// The most irregular material that a surface may show, including the alternatives of mixtures.
 struct Shown {
   const Modifier* modifier = nullptr;
   double irregularity = 0;
@@ -128,7 +128,7 @@ class Finder {
   }
 
  private:
-  // What is special in an instance or a mesh that does not stand for its contents.
+  // The special surfaces in an instance or a mesh without a modifier of its own.
   struct Contents {
     size_t objects = 0;
     uint32_t mostIrregular = 0;  // surface
@@ -192,7 +192,8 @@ class Finder {
     return balls_.ofMesh(std::get<MeshInstance>(s.shape).mesh);
   }
 
-  // A surface, and what it brings in, one by one. at: what it lies in itself; null: the world.
+  // Adds the special surfaces in a surface, each as an object. at: the placement of the group that the
+  // surface belongs to; null: the world.
   void add(uint32_t index, const Placement* at) {
     const Surface& s = scene_.surfaces[index];
     const auto* instance = std::get_if<Instance>(&s.shape);
@@ -227,7 +228,7 @@ class Finder {
                 balls_.ofFaces(mesh, m), placement);
   }
 
-  // One ball around everything in an outermost instance or mesh.
+  // Adds an outermost instance or mesh as one object.
   void addAround(uint32_t index) {
     const Surface& s = scene_.surfaces[index];
     const Contents contents = contentsOf(s);

@@ -1,5 +1,5 @@
 #pragma once
-// Which objects are looked at with directions of their own, and how closely.
+// The special objects, those that get directions of their own, and how many.
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,64 +11,72 @@
 
 namespace rsphere {
 
-// How irregular a material scatters: 1 for what shows a sharp image of its surroundings in another shape or
-// place (mirror, dielectric, interface; aBSDF, whose data are meant to have a peak straight on), kPane for
-// glass, else the share of light it reflects or transmits specularly, made smaller by roughness a (rms slope
-// of facets) as 1 / (1 + (a / kSharpRoughness)^2), as the height of the peak is; of two roughnesses
-// (plastic2, metal2, trans2, WGMDfunc), by the root of both factors; ashik2's powers n are taken for
-// roughnesses sqrt(2 / (n + 1)), where its lobe has the same peak. Where a function decides, the most that
-// may be is taken: all of the light, and sharp (BRTDfunc, WGMDfunc); but the directional scattering of
-// plasfunc, its kin and BRTDfunc is given no width at all, and is taken for kSharpRoughness. 0 for diffuse
-// materials, BSDF and light sources.
+// How irregularly a material scatters light, 0 to 1:
+// - 1 if it shows a sharp image of its surroundings in another shape or place: mirror, dielectric, interface,
+//   prisms; aBSDF, whose data are meant to have a peak in the straight direction.
+// - kPane for glass.
+// - For other materials the fraction of light that is reflected or transmitted specularly, divided by 1 + (a
+//   / kSharpRoughness)^2 for the roughness a (rms slope of facets), like the height of the peak. With two
+//   roughnesses (plastic2, metal2, trans2, WGMDfunc) the divisor is the geometric mean of both. The powers n
+//   of ashik2 are converted to roughnesses sqrt(2 / (n + 1)), with which its lobe has the same peak.
+// - If a function decides, the largest possible value: all light, and sharp (BRTDfunc, WGMDfunc). The width
+//   of directional scattering of plasfunc, its relatives and BRTDfunc is not known; kSharpRoughness is
+//   assumed.
+// - 0 for diffuse materials, BSDF and light sources.
 double irregularity(const Material& material);
 
-// The paper gives neither densities nor the criterion's numbers, but what came of them: 2048 directions and
-// 1030 +- 176 more, 2200 to 3500 in all, with 1 to 100 small spheres in a furnished open-plan office. These
-// numbers are set so that examples/openplan gives 2200 to 3500 too, at every one of its points:
+// The constants of special objects. The paper gives neither densities nor the limit of its criterion, but the
+// resulting numbers of directions: 2048 and 1030 +- 176 more, 2200 to 3500 in all, with 1 to 100 small
+// spheres in a furnished open-plan office. The following values are fitted so that examples/openplan has 2200
+// to 3500 directions too, at each of its points (accuracy_test.cpp, SendsAsManyDirectionsAsThePaper; the
+// distribution is in tests/bench/importance/runs/2026-11-21-histogram.txt). They set the numbers of
+// directions of -Sw v, and choose the special objects of both -Sw v and -Sw c.
 //
-// Directions per sr that an irregularity of 1 asks for, times -Sk: 1000 for a hundred spheres of 0.1 m.
+// Directions per sr for an irregularity of 1, times -Sk. A hundred spheres of 0.1 m then get 1000.
 inline constexpr double kDirectionsPerSr = 32000;
-// A highlight is called sharp where no more than some 16 such directions fall in it, four across: it fills 4
-// pi a^2 sr.
+// Roughness (rms slope) of a highlight that is half as irregular as a mirror: derived. It fills 4 pi a^2 sr,
+// so that it gets about 16 of these directions, four across.
 inline constexpr double kSharpRoughness = .0065;
-// A pane's glass: what is seen straight through is no smaller than without it, and its mirror image is faint.
-// Gets 64 directions per sr, a few hundred at most, where as a mirror it would have taken all there are.
+// Irregularity of glass panes. What is seen straight through a pane is as large as without it,
+// and its mirror image is faint. A pane gets 64 directions per sr, a few hundred at most; as a
+// mirror it took all directions.
 inline constexpr double kPane = .002;
-// Less irregular objects are treated as diffuse: their 16 directions per sr are a tenth of the base's own.
+// Objects of less irregularity are treated as diffuse: their 16 directions per sr are a tenth of those of the
+// base.
 inline constexpr double kSpecialIrregularity = .0005;
 
 struct SpecialObject {
   uint32_t surface = 0;  // index in Scene::surfaces
   double irregularity = 0;
   double density = 0;                   // directions per sr
-  std::optional<PlacedShape> placed{};  // in the world, where that is not the surface's own shape
-  bool several = false;                 // `placed` is a ball around others than `surface` too
+  std::optional<PlacedShape> placed{};  // in world coordinates; empty: the surface's own shape
+  bool several = false;                 // whether `placed` is a ball around other surfaces too
 };
 
-// Beyond so many special objects in octrees and meshes each outermost instance is one object: silhouettes are
-// computed for all of them at every point.
+// With more special objects in octrees and meshes than this, each outermost instance is one object, to limit
+// the time, because silhouettes of all objects are computed at every point. Chosen by experiment.
 inline constexpr size_t kMostPlacedObjects = 4096;
 
-// Every surface whose material, or one that its modifiers may stand for, is special; in the order of the
-// scene. Distant sources are none. Those in octrees are placed in the world, as shapes of their own; those in
-// meshes are a ball for each material of a mesh, and so is an instance whose own modifier is special. Beyond
-// kMostPlacedObjects, a ball around each outermost instance that holds any, by its most irregular one.
-// factor: -Sk.
+// All surfaces, except distant sources, whose material or one of whose alternatives in mixtures has at least
+// kSpecialIrregularity; in the order of the scene. Surfaces in octrees are objects with shapes in world
+// coordinates. Surfaces in meshes are represented by a ball for each material of the mesh, and instances
+// whose own modifier is special by one ball. With more than kMostPlacedObjects, each outermost instance that
+// contains any is represented by one ball, with the irregularity of the most irregular one. factor: -Sk.
 std::vector<SpecialObject> findSpecialObjects(const Scene& scene, double factor);
 
-// The object's shape in the world, or the ball around it.
+// The shape of the object, or the ball around it (world).
 const Shape& shapeOf(const Scene& scene, const SpecialObject& object);
 
-// Whether a hit on this surface (index in Scene::surfaces) is one on the object.
+// Whether a hit on the surface (index in Scene::surfaces, or kNone) is a hit on the object.
 bool shows(const Scene& scene, const SpecialObject& object, int32_t surface);
 
-// The object as it is seen from a point (world).
+// The object as seen from a point (world).
 Silhouette silhouetteOf(const Scene& scene, const SpecialObject& object, const V3d& point);
 
 // A point on the object, or on the ball around it (world).
 SurfacePoint samplePoint(const Scene& scene, const SpecialObject& object, Random& random);
 
-// A line for each: surface, material with its type, place, density and why; for -Sl.
+// One line for each object, for -Sl: place, surface, type and name of its material, density, and the reason.
 std::string specialObjectsText(const Scene& scene, const std::vector<SpecialObject>& objects);
 
 }  // namespace rsphere

@@ -24,8 +24,8 @@ class Targets {
 
   std::span<const Target> all() const { return targets_; }
 
-  // The density, per sr, of the targets' own directions around a direction (unit): the sum over all targets
-  // that contain it.
+  // The density, per sr, of the targets' own directions around a direction (unit): the sum over all
+  // targets that contain it.
   double densityAt(const V3d& direction) const;
 
  private:

@@ -3,9 +3,8 @@
 // subsystem. Those of special objects, which the paper asks for but does not give, are in special_objects.h.
 // Tolerances for rounding are not among them; they are where they are used.
 //
-// None of them changes the mean of an estimate over rotations (-Sr), except those of Stopping, slightly.
-// They change its variance and its time, its own estimate of the variance (ErrorEstimate), and pictures
-// (-Si).
+// None of them changes the mean of an estimate over rotations (-Sr), except those of Stopping, slightly. They
+// change its variance and its time, its own estimate of the variance (ErrorEstimate), and pictures (-Si).
 //
 // Each comment gives the meaning and the unit, then after the colon where the value comes from. "Chosen by
 // experiment" means that it was the best of some values that were tried on scenes like those of
@@ -41,8 +40,8 @@ struct SilhouetteWeights {
   // many, with twice as many shadow rays to sources (SeenSources), reduced the error from .53% to .51% beside
   // a goal and from .41% to .40% in the open-plan office, in up to a fifth more time.
   static constexpr size_t kGlancesPerDirection = 4;
-  // Cap on the glances, but never fewer than base directions: chosen by experiment. It applies from 16384
-  // base directions on.
+  // Cap on the glances, but never fewer than base directions: chosen by experiment. It applies from
+  // 16384 base directions on.
   static constexpr size_t kMostGlances = 65536;
   // Directions to images of light sources, as a fraction of the base directions, and at least: chosen by
   // experiment.
@@ -51,9 +50,9 @@ struct SilhouetteWeights {
 
 // Which regions get directions of their own (targets.cpp).
 struct Targets {
-  // Cap on the ratio of deviations, and with it on the density of a target's directions over that of the
-  // base: chosen by experiment. Without it all other targets would pay for the last factor of two in density
-  // of one.
+  // Cap on the ratio of deviations, and with it on the density of a target's directions over that
+  // of the base: chosen by experiment. Without it all other targets would pay for the last factor
+  // of two in density of one.
   static constexpr double kMostContrast = 200;
   // An image of a light source in a ball gets directions of its own if without them it would add more than
   // this share of the variance of all base directions: chosen by experiment.
@@ -74,8 +73,8 @@ struct Glints {
   // ball, because the image of a wider part is noticeably curved; and into this many parts along each side at
   // most: chosen by experiment.
   static constexpr double kHalfPart = .12, kMostParts = 16;
-  // Polygons with more corners than this are replaced by squares around them, to limit the time: chosen by
-  // experiment.
+  // Polygons with more corners than this are replaced by squares around them, to limit the
+  // time: chosen by experiment.
   static constexpr size_t kMostCorners = 16;
   // The region around an image is that of a source enlarged by this factor, so that no edge of the image is
   // left out: chosen by experiment.
@@ -106,8 +105,8 @@ struct SeenSources {
   static constexpr size_t kShareTries = 1024;
   // Shadow rays per direction to a source that is seen straight: by measurement, with kGlancesPerDirection.
   static constexpr size_t kShadowsAlong = 2, kShadowsAcross = 2;
-  // Half angle (rad) up to which a distant source is integrated separately: 6 degrees, a sun and its halo.
-  // Chosen by experiment.
+  // Half angle (rad) up to which a distant source is integrated separately: 6 degrees, a sun and its
+  // halo. Chosen by experiment.
   static constexpr double kWidestDistant = .1;
   // Reflectance of glass at normal incidence: Fresnel's for the index 1.5.
   static constexpr double kFresnel = .04;
@@ -127,9 +126,9 @@ struct Silhouettes {
 
 // The standard error of a mean (error_estimate.cpp).
 struct ErrorEstimate {
-  // Fraction of the variance of independent directions that remains because base directions are even: a
-  // compromise. Measured in furnished rooms it is .4 if edges are all of the variance, and 1 if the noise of
-  // paths is.
+  // Fraction of the variance of independent directions that remains because base directions are
+  // even: a compromise. Measured in furnished rooms it is .4 if edges are all of the variance, and 1
+  // if the noise of paths is.
   static constexpr double kEvenSet = .8;
   // The same for directions to the parts of a light source: chosen by experiment. Differences of successive
   // parts count an edge too often, because it lies between two parts more often than it crosses one.
@@ -141,29 +140,29 @@ struct ErrorEstimate {
 
 // When -Sa has enough sets (two_halves.cpp).
 struct Stopping {
-  // Each half asks for this multiple of the standard error that is wanted: by measurement. One answer in 50,
-  // rather than one in 25, then needs more sets because of its own estimate. Those sets cause what bias there
-  // is.
+  // Each half asks for this multiple of the standard error that is wanted: by measurement. One
+  // answer in 50, rather than one in 25, then needs more sets because of its own estimate. Those
+  // sets cause what bias there is.
   static constexpr double kMargin = .95;
-  // Cap on the ratio of the sets of the halves: chosen by experiment. If one set finds something very bright,
-  // the other half asks for many sets; the cap then gives some to the half of that set, which outweigh it
-  // sooner. With 1, each half would depend on its own sets, and the bias would be that of stopping without
-  // halves.
+  // Cap on the ratio of the sets of the halves: chosen by experiment. If one set finds something very
+  // bright, the other half asks for many sets; the cap then gives some to the half of that set, which
+  // outweigh it sooner. With 1, each half would depend on its own sets, and the bias would be that of
+  // stopping without halves.
   static constexpr size_t kMostRatio = 2;
 };
 
 // Pictures of what a point sees (point_picture.cpp, smooth_indirect.cpp).
 struct Pictures {
-  // Pixels along the height: about half a million pixels in all, one per .45 degrees and one per .35 degrees.
-  // Chosen by experiment.
+  // Pixels along the height: about half a million pixels in all, one per .45 degrees and one per .35
+  // degrees. Chosen by experiment.
   static constexpr int kFisheyeSide = 800, kLatitudeLongitudeHeight = 512;
   // Light sources that cover fewer pixels than this are sampled separately: derived. A disc of 16 pixels
   // holds the middles of 14 to 21 of them, so that its light has a standard deviation of 6%.
   static constexpr double kSmallest = 16;
   // Samples of such a source per pixel, and at least: chosen by experiment.
   static constexpr double kSamplesPerPixel = 16, kLeastSamples = 4;
-  // Places at which the background of a small source is looked for, in pixels from the middle of one: chosen
-  // by experiment.
+  // Places at which the background of a small source is looked for, in pixels from the middle of
+  // one: chosen by experiment.
   static constexpr std::array<std::array<double, 2>, 4> kBeside = {
       {{-.4, -.4}, {.4, .4}, {-.4, .4}, {.4, -.4}}};
   // Indirect light is smoothed if every channel of the pattern it falls on is at least this; the light that a
