@@ -1,0 +1,106 @@
+#include "importance/targets.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "tests/unit/support/scene_of.h"
+#include "tests/unit/support/sphere_setting.h"
+
+namespace rsphere {
+namespace {
+
+using std::numbers::pi;
+
+Target ballAt(const V3d& center, double density) {
+  return {silhouetteOf(Sphere{center, .5}, {}, V3d(0, 0, 0)), density, 0, false};
+}
+
+TEST(Targets, DensitiesAddWhereTargetsOverlap) {
+  const Targets targets({ballAt(V3d(0, 0, 2), 10), ballAt(V3d(0, 0, 3), 5), ballAt(V3d(4, 0, 0), 1)});
+  EXPECT_EQ(targets.densityAt(V3d(0, 0, 1)), 15);
+  EXPECT_EQ(targets.densityAt(V3d(.2, 0, 1).normalized()), 10) << "in the wider of the two alone";
+  EXPECT_EQ(targets.densityAt(V3d(1, 0, 0)), 1);
+  EXPECT_EQ(targets.densityAt(V3d(0, -1, 0)), 0);
+  EXPECT_EQ(Targets({}).densityAt(V3d(0, 0, 1)), 0);
+}
+
+// Chrome balls in a room that is bright on one side: the radiance on them varies more than around.
+struct Setting : SphereSetting {
+  Setting()
+      : SphereSetting(sceneOf("void plastic wall 0 0 5 .5 .5 .5 0 0\nvoid light lamp 0 0 3 20 20 20\n"
+                              "void metal chrome 0 0 5 .9 .9 .9 1 0\n"
+                              "wall bubble room 0 0 4 0 0 0 4\nlamp sphere l 0 0 4 0 0 3 .3\n"
+                              "chrome sphere a 0 0 4 1 0 0 .1\nchrome sphere b 0 0 4 0 1 0 .2\n"),
+                      [](RayOptions& o) { o.ambientBounces = 1; }) {}
+};
+
+struct Choice {
+  Setting setting;
+  std::vector<SpecialObject> objects = findSpecialObjects(setting.scene, 1);
+  SeenSources sources{*setting.transport};
+
+  Targets at(const V3d& point, double meanBrightness, size_t most, double densityFactor = 1) const {
+    return TargetChoice(*setting.transport, objects, sources, nullptr, densityFactor)
+        .at(point, meanBrightness, 2048, most);
+  }
+};
+
+TEST(TargetChoice, SendsAsManyAsTheMostToAllAlike) {
+  const Choice choice;
+  const V3d point(0, 0, 0);
+  const Targets all = choice.at(point, 1e-6, 1000000), few = choice.at(point, 1e-6, 10);
+  ASSERT_GE(all.all().size(), 2u);
+  ASSERT_EQ(all.all().size(), few.all().size());
+  double sum = 0;
+  for (const Target& target : few.all()) sum += target.expected;
+  EXPECT_NEAR(sum, 10, 1e-9);
+  const double scale = few.all()[0].density / all.all()[0].density;
+  EXPECT_LT(scale, 1);
+  for (size_t i = 0; i < all.all().size(); ++i) {
+    const Target& target = few.all()[i];
+    EXPECT_NEAR(target.density / all.all()[i].density, scale, 1e-12 * scale);
+    EXPECT_NEAR(target.expected, target.density * target.silhouette.regionSolidAngle(), 1e-12);
+  }
+  EXPECT_TRUE(choice.at(point, 1e-6, 0).all().empty());
+}
+
+TEST(TargetChoice, NoneWhereAllElseVariesMore) {
+  EXPECT_TRUE(Choice().at(V3d(0, 0, 0), 1e6, 1000).all().empty());
+}
+
+TEST(TargetChoice, DensityIsMultiplied) {
+  const Choice choice;
+  const Targets once = choice.at(V3d(0, 0, 0), .01, 1000000),
+                thrice = choice.at(V3d(0, 0, 0), .01, 1000000, 3);
+  ASSERT_FALSE(once.all().empty());
+  EXPECT_NEAR(thrice.all()[0].density, 3 * once.all()[0].density, 1e-9 * once.all()[0].density);
+}
+
+// Without special objects nothing is measured.
+TEST(Contrasts, NoneOfDiffuseScenes) {
+  const Setting setting;
+  const SeenSources sources(*setting.transport);
+  const Contrasts contrasts = measureContrasts(*setting.transport, {}, sources, nullptr);
+  EXPECT_TRUE(contrasts.objects.empty());
+  EXPECT_EQ(contrasts.surroundings, 1);
+}
+
+// Under a sky that is 1 above and 0 below a mirror shows .9 or 0, with a deviation of at most .45.
+TEST(Contrasts, OfAMirrorUnderHalfASphereOfLight) {
+  const SphereSetting setting(
+      sceneOf("void glow sky 0 0 4 1 1 1 0\nsky source dome 0 0 4 0 0 1 180\n"
+              "void metal chrome 0 0 5 .9 .9 .9 1 0\nchrome sphere s 0 0 4 0 0 0 1\n"));
+  const auto objects = findSpecialObjects(setting.scene, 1);
+  const SeenSources sources(*setting.transport);
+  const Contrasts contrasts = measureContrasts(*setting.transport, objects, sources, nullptr);
+  ASSERT_EQ(contrasts.objects.size(), 1u);
+  EXPECT_NEAR(contrasts.objects[0].deviation, .45, .05);
+  EXPECT_GT(contrasts.surroundings, 0);
+}
+
+}  // namespace
+}  // namespace rsphere
