@@ -19,7 +19,7 @@
 #include "rad_parser/scene_file.h"
 #include "sphere/directions.h"
 #include "transport/answer_rays.h"
-#include "transport/ray_answer.h"
+#include "transport/ray_report.h"
 
 namespace rsphere {
 namespace {

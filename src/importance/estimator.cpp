@@ -11,7 +11,7 @@
 #include "importance/silhouette_weights.h"
 #include "importance/two_halves.h"
 #include "importance/voronoi_weights.h"
-#include "transport/ray_answer.h"
+#include "transport/ray_report.h"
 
 namespace rsphere {
 namespace {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "transport/ray_answer.h"
+#include "transport/ray_report.h"
 
 namespace rsphere {
 

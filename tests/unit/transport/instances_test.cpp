@@ -7,7 +7,7 @@
 
 #include "rad_parser/scene_file.h"
 #include "transport/path_tracer.h"
-#include "transport/ray_answer.h"
+#include "transport/ray_report.h"
 
 // Instances and meshes as rays see them, against the original's figures.
 namespace rsphere {

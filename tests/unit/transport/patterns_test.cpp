@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "tests/unit/transport/transport_fixture.h"
-#include "transport/ray_answer.h"
+#include "transport/ray_report.h"
 
 // Patterns, textures and mixtures as rays meet them: every type against the original's figures, and what
 // their files and arguments may lack.

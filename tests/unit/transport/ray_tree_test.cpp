@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tests/unit/transport/transport_fixture.h"
-#include "transport/ray_answer.h"
+#include "transport/ray_report.h"
 
 // The rays that an observer is shown.
 namespace rsphere {

@@ -1,4 +1,4 @@
-#include "transport/ray_answer.h"
+#include "transport/ray_report.h"
 
 #include "shade/scattering.h"
 #include "transport/ray_functions.h"
