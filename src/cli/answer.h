@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/rgb.h"
+#include "base/rgb.h"
 
 namespace rsphere {
 

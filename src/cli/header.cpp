@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <bit>
 
+#include "base/version.h"
 #include "cli/answer_writer.h"
 #include "cli/output_colors.h"
-#include "cli/version.h"
 
 namespace rsphere {
 namespace {

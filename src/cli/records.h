@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/rgb.h"
 #include "cli/options.h"
-#include "cli/rgb.h"
 #include "rad_parser/error.h"
 
 namespace rsphere {

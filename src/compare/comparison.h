@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "cli/rgb.h"
+#include "base/rgb.h"
 
 namespace rsphere {
 

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "cli/rgb.h"
+#include "base/rgb.h"
 
 namespace rsphere {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/rgb.h"
+#include "base/rgb.h"
 
 namespace rsphere {
 namespace {

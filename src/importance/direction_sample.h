@@ -1,5 +1,5 @@
 #pragma once
-#include "cli/rgb.h"
+#include "base/rgb.h"
 
 namespace rsphere {
 

@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "cli/rgb.h"
+#include "base/rgb.h"
 
 namespace rsphere {
 

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/rgb.h"
+#include "base/rgb.h"
 #include "rad_parser/bsdf_file.h"
 
 namespace rsphere {

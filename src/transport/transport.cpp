@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "cli/version.h"
+#include "base/version.h"
 #include "field/coarse_solution.h"
 #include "field/irradiance_field.h"
 #include "scene/fingerprint.h"

@@ -1,6 +1,6 @@
 #include "cli/header.h"
 
-#include "cli/version.h"
+#include "base/version.h"
 #include "support.h"
 
 namespace rsphere {

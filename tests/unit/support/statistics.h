@@ -6,7 +6,7 @@
 #include <numbers>
 #include <span>
 
-#include "cli/rgb.h"
+#include "base/rgb.h"
 #include "measure/statistics.h"
 #include "scene/random.h"
 
