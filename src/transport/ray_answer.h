@@ -1,0 +1,32 @@
+#pragma once
+#include <string_view>
+
+#include "base/rgb.h"
+
+namespace rsphere {
+
+// The length that rtrace writes where a ray hits nothing or a distant source.
+inline constexpr double kInfiniteLength = 1e10;
+
+// The quantities of one ray that the -o letters of ray mode and of -Sd name. A field that no chosen letter
+// names may keep its default. Names are "*" where nothing was hit; they must live as long as the scene does.
+struct RayAnswer {
+  V3d origin{0, 0, 0}, direction{0, 0, 0};    // o d
+  Rgb value{0, 0, 0};                         // v  radiance W/sr/m2, or irradiance W/m2 under -i -I
+  Rgb mirroredContribution{0, 0, 0};          // r
+  Rgb unmirroredContribution{0, 0, 0};        // x
+  double mirroredLength = kInfiniteLength;    // R
+  double unmirroredLength = kInfiniteLength;  // X
+  double effectiveLength = kInfiniteLength;   // l
+  double firstLength = kInfiniteLength;       // L
+  double u = 0, v = 0;                        // c  local surface coordinates
+  V3d point{0, 0, 0};                         // p
+  V3d normal{0, 0, 0};                        // n  perturbed, facing the ray
+  V3d unperturbedNormal{0, 0, 0};             // N  as the surface has it
+  std::string_view surface = "*", modifier = "*", material = "*";  // s m M
+  double rayWeight = 1;                                            // w
+  Rgb contribution{1, 1, 1};  // W  share of its value in that of the primary ray; times value: V
+  double solidAngle = 0;      // w under -Sd, sr
+};
+
+}  // namespace rsphere

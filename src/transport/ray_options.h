@@ -1,0 +1,60 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/rgb.h"
+#include "shade/shared_definitions.h"
+
+namespace rsphere {
+
+// The options that steer the path of a ray. They are rtrace's, and rtrace(1) explains them. The defaults here
+// are rtrace's too; sphere mode has others (modeDefaults() in cli/option_table.h).
+struct RayOptions {
+  // direct light
+  double directThreshold = .03;      // -dt  share of the possible contribution left untested
+  double directCertainty = .75;      // -dc
+  double directJitter = 0;           // -dj  0 to 1
+  double sourceSubstructuring = .2;  // -ds  largest size/distance of a part of a source; 0: not divided
+  int directRelays = 2;              // -dr
+  int chosenSources = 0;             // -Ss  sources tested at a surface, drawn at random; 0: all of them
+  int directPretest = 512;           // -dp
+  bool sourcesVisible = true;  // -dv  whether a directly seen source shows its radiance instead of black
+  // specular reflection
+  double specularSampling = 1;     // -ss
+  double specularThreshold = .15;  // -st
+  // indirect light
+  int ambientBounces = 0;                                     // -ab
+  double ambientAccuracy = .1;                                // -aa
+  int ambientResolution = 256;                                // -ar
+  int ambientDivisions = 1024;                                // -ad
+  int ambientSuperSamples = 512;                              // -as
+  Rgb ambientValue{0, 0, 0};                                  // -av  W/sr/m2
+  int ambientWeight = 0;                                      // -aw
+  std::string ambientFile;                                    // -af
+  double fieldMemory = 0;                                     // -Sm  MB; 0: no bound
+  std::vector<std::string> ambientExcluded, ambientIncluded;  // -ae -aE, -ai -aI; one or both are empty
+  // limits
+  int reflectionLimit = -10;  // -lr  negative: Russian roulette below -lw, from depth -lr on
+  double weightLimit = 1e-4;  // -lw
+  // medium
+  Rgb mediumExtinction{0, 0, 0};  // -me  per unit length
+  Rgb mediumAlbedo{0, 0, 0};      // -ma
+  double mediumEccentricity = 0;  // -mg
+  double mediumSampling = 0;      // -ms  length (world units) for each sample; 0: one sample a ray
+  // others
+  std::vector<SharedDefinitions> definitions;  // -e -f, in their order
+  bool backFacesVisible = true;                // -bv
+  // random numbers
+  bool uncorrelated = true;  // -u  changes nothing by itself; see Options::numberedRays
+  uint64_t rotation = 0;     // -Sr
+};
+
+// Whether a ray answers irradiance, and of which surface.
+enum class Irradiance : uint8_t {
+  none,     // radiance
+  surface,  // -i  irradiance of the surface that it hits
+  point     // -I  irradiance of a sensor at its origin
+};
+
+}  // namespace rsphere
