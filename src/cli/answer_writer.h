@@ -2,9 +2,10 @@
 #include <cstdint>
 #include <string>
 
-#include "cli/answer.h"
 #include "cli/options.h"
 #include "cli/output_colors.h"
+#include "importance/point_answer.h"
+#include "transport/ray_answer.h"
 
 namespace rsphere {
 

@@ -23,11 +23,11 @@
 #include <memory>
 #include <vector>
 
-#include "cli/options.h"
 #include "field/hemisphere.h"
 #include "field/insert_once.h"
 #include "field/surface_cells.h"
 #include "scene/scene.h"
+#include "transport/ray_options.h"
 
 namespace rsphere {
 

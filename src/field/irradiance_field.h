@@ -18,11 +18,11 @@
 // the same bits. A thread leaves at the end of each primary ray or earlier.
 #include <memory>
 
-#include "cli/options.h"
 #include "field/ambient_file.h"
 #include "field/hemisphere.h"
 #include "field/surface_cells.h"
 #include "scene/scene.h"
+#include "transport/ray_options.h"
 
 namespace rsphere {
 

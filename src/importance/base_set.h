@@ -2,9 +2,9 @@
 #include <optional>
 #include <vector>
 
-#include "cli/options.h"
 #include "importance/error_estimate.h"
 #include "sphere/voronoi.h"
+#include "transport/ray_options.h"
 
 namespace rsphere {
 

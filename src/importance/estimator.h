@@ -11,13 +11,13 @@
 #include <memory>
 #include <vector>
 
-#include "cli/answer.h"
-#include "cli/options.h"
 #include "importance/base_set.h"
 #include "importance/direction_sample.h"
+#include "importance/point_answer.h"
 #include "importance/sampling_strategy.h"
 #include "importance/seen_sources.h"
 #include "importance/special_objects.h"
+#include "importance/sphere_options.h"
 #include "sphere/voronoi.h"
 #include "transport/bright_spots.h"
 #include "transport/path_tracer.h"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "cli/answer.h"
+#include "transport/ray_answer.h"
 
 namespace rsphere {
 

@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "cli/options.h"
 #include "scene/random.h"
 #include "scene/scene.h"
 #include "shade/surface_functions.h"

@@ -14,7 +14,6 @@
 #include <variant>
 #include <vector>
 
-#include "cli/options.h"
 #include "rad_parser/calc/library.h"
 #include "rad_parser/data_file.h"
 #include "rad_parser/font_file.h"
@@ -23,6 +22,7 @@
 #include "scene/scene.h"
 #include "shade/bsdf.h"
 #include "shade/picture.h"
+#include "shade/shared_definitions.h"
 
 namespace rsphere {
 

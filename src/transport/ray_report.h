@@ -2,8 +2,8 @@
 // What rtrace's output letters report of a ray.
 #include <string_view>
 
-#include "cli/answer.h"
 #include "transport/ray.h"
+#include "transport/ray_answer.h"
 #include "transport/transport.h"
 
 namespace rsphere {

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/options.h"
 #include "light/source_choice.h"
 #include "light/sources.h"
 #include "scene/random.h"
@@ -15,6 +14,7 @@
 #include "trace/tracer.h"
 #include "transport/presumed_shadows.h"
 #include "transport/ray.h"
+#include "transport/ray_options.h"
 
 namespace rsphere {
 
