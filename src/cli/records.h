@@ -132,12 +132,6 @@ class RecordText {
   NumberFormat format_;
 };
 
-// The 4-byte pixel of a RADIANCE picture: red, green and blue mantissas, shared exponent + 128. Each channel
-// is rounded to float first and then down to a multiple of 2^(e-8), where 2^e is the power of two above the
-// largest channel. At most 1e-32, or nan: all zero. Beyond 2^127: the largest pixel. Negative channels: zero.
-// Source: RADIANCE file formats, "Picture file format"; G. Ward, "Real Pixels", Graphics Gems II.
-std::array<uint8_t, 4> rgbePixel(const Rgb& c);
-
 // Collects bytes and hands them to a file descriptor in blocks of 64 KiB, or at flush() only.
 class RecordWriter {
  public:

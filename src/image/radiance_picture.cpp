@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-#include "cli/records.h"
+#include "image/rgbe.h"
 
 namespace rsphere {
 namespace {
