@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/records.h"
+#include "cli/record_text.h"
 
 namespace rsphere {
 namespace {

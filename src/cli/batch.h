@@ -6,7 +6,8 @@
 
 #include "cli/messages.h"
 #include "cli/options.h"
-#include "cli/records.h"
+#include "cli/record_reader.h"
+#include "cli/record_writer.h"
 #include "cli/stop_signals.h"
 
 namespace rsphere {

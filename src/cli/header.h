@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "cli/options.h"
-#include "cli/records.h"
+#include "cli/record_writer.h"
 
 namespace rsphere {
 

@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "cli/header.h"
-#include "cli/records.h"
+#include "cli/record_writer.h"
 
 namespace rsphere {
 namespace {

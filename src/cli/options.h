@@ -1,35 +1,14 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "cli/number_format.h"
+#include "cli/output_colors.h"
 #include "importance/sphere_options.h"
 #include "transport/ray_options.h"
 
 namespace rsphere {
-
-enum class NumberFormat : char { ascii = 'a', float32 = 'f', float64 = 'd', rgbe = 'c' };
-
-enum class ColorSpace : uint8_t {
-  rgb,
-  xyz,        // -pXYZ  tristimulus values, Y in lumens
-  primaries,  // -pc
-  photopic,   // -pY -pS -pM: one channel, in lumens (-pM: as rtrace scales it)
-  scotopic,
-  melanopic,
-  average,  // -pA  one channel
-  spectrum  // -co
-};
-
-// How colors are written.
-struct ColorOptions {
-  ColorSpace space = ColorSpace::rgb;
-  std::array<double, 8> primaries{};     // x y of red, green, blue and white
-  int bands = 3;                         // -cs  at most kMostBands count
-  double shortest = 380, longest = 780;  // -cw  nm
-};
-inline constexpr int kMostBands = 24;
 
 // What the command line asks for: answers, or something to be printed instead of them.
 enum class Request : uint8_t { answers, version, defaults, help, features };

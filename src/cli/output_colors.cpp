@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rad_parser/error.h"
+
 namespace rsphere {
 namespace {
 

@@ -4,10 +4,30 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/options.h"
-#include "cli/records.h"
+#include "base/rgb.h"
+#include "cli/record_text.h"
 
 namespace rsphere {
+
+enum class ColorSpace : uint8_t {
+  rgb,
+  xyz,        // -pXYZ  tristimulus values, Y in lumens
+  primaries,  // -pc
+  photopic,   // -pY -pS -pM: one channel, in lumens (-pM: as rtrace scales it)
+  scotopic,
+  melanopic,
+  average,  // -pA  one channel
+  spectrum  // -co
+};
+
+// How colors are written.
+struct ColorOptions {
+  ColorSpace space = ColorSpace::rgb;
+  std::array<double, 8> primaries{};     // x y of red, green, blue and white
+  int bands = 3;                         // -cs  at most kMostBands count
+  double shortest = 380, longest = 780;  // -cw  nm
+};
+inline constexpr int kMostBands = 24;
 
 // What -p.. -cs -cw -co make of red, green and blue. Scenes have three channels; each stands for a part of
 // the spectrum: red from 588 nm up, green from 480 nm, blue below.

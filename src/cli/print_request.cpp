@@ -2,7 +2,7 @@
 
 #include "cli/header.h"
 #include "cli/option_table.h"
-#include "cli/records.h"
+#include "cli/record_writer.h"
 
 namespace rsphere {
 

@@ -9,7 +9,7 @@
 #include "cli/answer_writer.h"
 #include "cli/batch.h"
 #include "cli/read_options.h"
-#include "cli/records.h"
+#include "cli/record_writer.h"
 #include "compare/comparison.h"
 #include "compare/original.h"
 #include "compare/report.h"

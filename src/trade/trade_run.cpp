@@ -13,7 +13,7 @@
 
 #include "cli/batch.h"
 #include "cli/read_options.h"
-#include "cli/records.h"
+#include "cli/record_writer.h"
 #include "measure/records_file.h"
 #include "rad_parser/scene_file.h"
 #include "trade/ladder.h"

@@ -1,14 +1,13 @@
 // Reads records as from standard input. The first byte selects their form: text, floats or doubles; three or
 // six numbers; line ends that end a record or do not. Neither the records nor the error messages may depend
 // on how many records are requested at a time.
-#include "cli/records.h"
-
 #include <cmath>
 #include <cstdlib>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "cli/record_reader.h"
 #include "memory_file.h"
 
 namespace {

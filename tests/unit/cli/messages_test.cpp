@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/records.h"
+#include "cli/record_writer.h"
 #include "support.h"
 
 namespace rsphere {

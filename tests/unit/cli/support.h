@@ -44,7 +44,15 @@ inline std::string contents(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// A file that goes with the test.
+// Numbers as a file of floats or doubles has them.
+template <class Number>
+std::string bytesOf(std::initializer_list<Number> numbers) {
+  std::string bytes;
+  for (const Number x : numbers) bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
+  return bytes;
+}
+
+// A file that is removed at the end of the test.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& text = {}) {

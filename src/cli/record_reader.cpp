@@ -1,4 +1,4 @@
-#include "cli/records.h"
+#include "cli/record_reader.h"
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -10,9 +10,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "cli/number_text.h"
-#include "image/rgbe.h"
 #include "rad_parser/description.h"
+#include "rad_parser/error.h"
 #include "rad_parser/number.h"
 
 namespace rsphere {
@@ -311,97 +310,6 @@ size_t RecordReader::readBinary(std::vector<double>& numbers, size_t most) {
     begin_ += recordSize;
   }
   return count;
-}
-
-void RecordText::number(double x) {
-  switch (format_) {
-    case NumberFormat::ascii:
-      appendScientific(bytes_, x);
-      bytes_ += '\t';
-      break;
-    case NumberFormat::float32: {
-      const auto single = static_cast<float>(x);
-      bytes_.append(reinterpret_cast<const char*>(&single), sizeof single);
-      break;
-    }
-    case NumberFormat::float64:
-    case NumberFormat::rgbe:  // numbers beside a pixel do not occur: parseOptions() allows one colour only
-      bytes_.append(reinterpret_cast<const char*>(&x), sizeof x);
-      break;
-  }
-}
-
-void RecordText::integer(uint64_t n) {
-  if (format_ != NumberFormat::ascii) return number(static_cast<double>(n));
-  char digits[24];
-  bytes_.append(digits, std::to_chars(digits, digits + sizeof digits, n).ptr);
-  bytes_ += '\t';
-}
-
-void RecordText::vector(const V3d& v) {
-  number(v.x);
-  number(v.y);
-  number(v.z);
-}
-
-void RecordText::color(const Rgb& c) {
-  if (format_ != NumberFormat::rgbe) return vector(c);
-  const std::array<uint8_t, 4> pixel = rgbePixel(c);
-  bytes_.append(reinterpret_cast<const char*>(pixel.data()), pixel.size());
-}
-
-void RecordText::spectrum(const Rgb& c, std::span<const int> channels) {
-  const std::array<double, 3> values = {c.x, c.y, c.z};
-  const std::array<uint8_t, 4> pixel = rgbePixel(c);
-  for (const int channel : channels)
-    if (format_ == NumberFormat::rgbe)
-      bytes_ += static_cast<char>(pixel[static_cast<size_t>(channel)]);
-    else
-      number(values[static_cast<size_t>(channel)]);
-  if (format_ == NumberFormat::rgbe) bytes_ += static_cast<char>(pixel[3]);
-}
-
-void RecordText::name(std::string_view n) {
-  bytes_ += n;
-  bytes_ += '\t';
-}
-
-void RecordText::end() {
-  if (format_ == NumberFormat::ascii) bytes_ += '\n';
-}
-
-void RecordWriter::write(std::string_view bytes) {
-  pending_ += bytes;
-  if (!hold_ && pending_.size() >= kBlock) flush();
-}
-
-void RecordWriter::flush() {
-  size_t done = 0;
-  while (done < pending_.size()) {
-    const ssize_t n = ::write(fd_, pending_.data() + done, pending_.size() - done);
-    if (n >= 0) {
-      done += static_cast<size_t>(n);
-      continue;
-    }
-    if (errno == EINTR) continue;
-    if (errno == EAGAIN) {
-      pollfd ready{fd_, POLLOUT, 0};
-      poll(&ready, 1, -1);
-      continue;
-    }
-    const bool closed = errno == EPIPE;
-    const std::string text = systemText("write error");
-    pending_.clear();  // a second attempt would write the same bytes twice
-    if (closed) throw ClosedPipe();
-    throw rad::Error(text, rad::Status::system);
-  }
-  pending_.clear();
-}
-
-std::optional<int64_t> RecordWriter::position() const {
-  const off_t at = lseek(fd_, 0, SEEK_CUR);
-  if (at < 0) return std::nullopt;
-  return static_cast<int64_t>(at) + static_cast<int64_t>(pending_.size());
 }
 
 }  // namespace rsphere

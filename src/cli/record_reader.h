@@ -4,22 +4,14 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "base/rgb.h"
+#include "cli/number_format.h"
 #include "cli/options.h"
-#include "rad_parser/error.h"
 
 namespace rsphere {
-
-// The other end of the output was closed: nobody wants the rest. Not a fault; no message is due.
-class ClosedPipe : public rad::Error {
- public:
-  ClosedPipe() : rad::Error("Broken pipe", rad::Status::signal) {}
-};
 
 // What line ends mean in records of text: nothing, as in rtrace, or the end of a record. Where they end it, a
 // line that is not blank is one record, so that a column too many or too few is found on its own line instead
@@ -108,52 +100,6 @@ class RecordReader {
   int onLine_ = 0;
   std::optional<FirstLine> firstLine_;
   bool firstIsText_ = false;
-};
-
-// The bytes of one number, name or colour after another, as rtrace writes them: in text each followed by a
-// TAB, in binary native floats or doubles; names are text in every format.
-class RecordText {
- public:
-  // Appends to `bytes`, which must live as long.
-  RecordText(std::string& bytes, NumberFormat format) : bytes_(bytes), format_(format) {}
-
-  void number(double x);
-  void integer(uint64_t n);   // in text: all its digits, where "%e" has only seven
-  void vector(const V3d& v);  // three numbers
-  void color(const Rgb& c);   // three numbers, or one RGBE pixel where the format is rgbe
-  // The value of each band's channel (0 red, 1 green, 2 blue), or one pixel with a byte for each band and the
-  // exponent, made as RGBE ones are.
-  void spectrum(const Rgb& c, std::span<const int> channels);
-  void name(std::string_view n);  // the name and a TAB
-  void end();                     // in text: a line end
-
- private:
-  std::string& bytes_;
-  NumberFormat format_;
-};
-
-// Collects bytes and hands them to a file descriptor in blocks of 64 KiB, or at flush() only.
-class RecordWriter {
- public:
-  // The descriptor stays the caller's. What was not flushed is dropped with the writer.
-  explicit RecordWriter(int fd) : fd_(fd) {}
-
-  // Whether bytes are kept until flush(), however many: for a program that writes a group of records before
-  // it reads the answers, where writing early would block both.
-  void holdUntilFlush(bool hold) { hold_ = hold; }
-
-  // Both throw ClosedPipe where nobody reads any more (SIGPIPE must be ignored), rad::Error with
-  // Status::system where the system refuses (disk full).
-  void write(std::string_view bytes);
-  void flush();
-
-  // Where the next byte comes to stand in the file; empty where the output cannot seek.
-  std::optional<int64_t> position() const;
-
- private:
-  int fd_;
-  bool hold_ = false;
-  std::string pending_;
 };
 
 }  // namespace rsphere

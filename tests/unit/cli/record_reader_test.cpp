@@ -1,8 +1,6 @@
-#include "cli/records.h"
+#include "cli/record_reader.h"
 
 #include <cmath>
-#include <csignal>
-#include <cstring>
 #include <limits>
 #include <random>
 
@@ -37,13 +35,6 @@ ReadAll readText(const std::string& text, int perRecord = 3, size_t most = 256,
 
 ReadAll readLines(const std::string& text, size_t most = 256) {
   return readText(text, 3, most, LineEnds::endRecords);
-}
-
-template <class Number>
-std::string bytesOf(std::initializer_list<Number> numbers) {
-  std::string bytes;
-  for (const Number x : numbers) bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
-  return bytes;
 }
 
 using Numbers = std::vector<double>;
@@ -288,68 +279,6 @@ TEST(RecordReader, LinesAcrossBlocksAreWholeAndEndlessOnesAFault) {
             "stdin:1: expected 3 numbers on a line, got more than 65536 bytes");
   EXPECT_EQ(readLines("1 2 " + std::string(10000000, '9')).fault,
             "stdin:1: expected 3 numbers, got \"" + std::string(40, '9') + "...\"");
-}
-
-TEST(RecordText, AsRtraceWritesIt) {
-  std::string bytes;
-  RecordText text(bytes, NumberFormat::ascii);
-  text.vector(V3d(1, -.5, 1e10));
-  text.integer(12345678901);
-  text.name("wall");
-  text.color(Rgb(0, 1, 2));
-  text.end();
-  EXPECT_EQ(bytes,
-            "1.000000e+00\t-5.000000e-01\t1.000000e+10\t12345678901\twall\t0.000000e+00\t1.000000e+00\t2."
-            "000000e+00\t\n");
-  bytes.clear();
-  RecordText floats(bytes, NumberFormat::float32);
-  floats.number(.1);
-  floats.name("wall");
-  floats.integer(3);
-  floats.end();
-  EXPECT_EQ(bytes, bytesOf<float>({.1f}) + "wall\t" + bytesOf<float>({3}));
-  bytes.clear();
-  RecordText doubles(bytes, NumberFormat::float64);
-  doubles.vector(V3d(1, 2, .1));
-  EXPECT_EQ(bytes, bytesOf<double>({1, 2, .1}));
-}
-
-TEST(RecordWriter, WritesInBlocksAndOnFlush) {
-  const TemporaryFile file;
-  RecordWriter writer(file.descriptor);
-  writer.write("abc");
-  EXPECT_EQ(contents(file.path), "");
-  EXPECT_EQ(writer.position(), 3);
-  writer.flush();
-  EXPECT_EQ(contents(file.path), "abc");
-  const std::string block(70000, 'x');
-  writer.write(block);
-  EXPECT_EQ(contents(file.path), "abc" + block);
-  writer.holdUntilFlush(true);
-  writer.write(block);
-  EXPECT_EQ(contents(file.path), "abc" + block);
-  writer.flush();
-  EXPECT_EQ(contents(file.path), "abc" + block + block);
-}
-
-TEST(RecordWriter, PipesCannotSeek) {
-  Pipe pipe;
-  EXPECT_EQ(RecordWriter(pipe.in).position(), std::nullopt);
-}
-
-TEST(RecordWriter, ClosedPipeAndFullDisk) {
-  std::signal(SIGPIPE, SIG_IGN);
-  Pipe pipe;
-  pipe.closeOut();
-  RecordWriter writer(pipe.in);
-  writer.write("x");
-  EXPECT_THROW(writer.flush(), ClosedPipe);
-  EXPECT_NO_THROW(writer.flush()) << "the bytes are gone";
-  const int full = open("/dev/full", O_WRONLY);
-  RecordWriter onFull(full);
-  onFull.write("x");
-  EXPECT_EQ(faultOf([&] { onFull.flush(); }, rad::Status::system), "write error: No space left on device");
-  close(full);
 }
 
 }  // namespace
