@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <sys/eventfd.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,14 +10,11 @@
 #include <condition_variable>
 #include <exception>
 #include <limits>
-#include <list>
 #include <map>
 #include <mutex>
-#include <system_error>
-#include <thread>
 #include <vector>
 
-#include "cli/worker_thread.h"
+#include "cli/threads.h"
 
 namespace rsphere {
 namespace {
@@ -36,23 +32,6 @@ constexpr uint64_t kClaimsAhead = 16;
 constexpr int kRepeatsToRemark = 2;
 
 constexpr uint64_t kNoLimit = std::numeric_limits<uint64_t>::max();
-
-unsigned wantedThreads(const Options& options) {
-  if (options.threads > 0) return static_cast<unsigned>(options.threads);
-  return std::max(1u, std::thread::hardware_concurrency());
-}
-
-// What threadCount() allows, whatever is asked for.
-unsigned mostThreads() {
-  constexpr rlim_t kMost = std::numeric_limits<unsigned>::max();
-  rlim_t most = kMost;
-  for (const auto resource : {RLIMIT_DATA, RLIMIT_AS}) {
-    struct rlimit limit {};
-    if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) continue;
-    most = std::min(most, limit.rlim_cur / 2 / WorkerThread::kStack);
-  }
-  return static_cast<unsigned>(std::max<rlim_t>(most, 1));
-}
 
 // Some records in a row, for one thread.
 struct Claim {
@@ -85,7 +64,7 @@ class Batch {
         messages_(messages),
         signals_(signals),
         answer_(answer),
-        threads_(threadCount(options)),
+        threads_(threadCount(options.threads)),
         perRecord_(options.sphere.on ? 3 : 6),
         interval_(options.height == 0 || options.width <= 1 ? static_cast<uint64_t>(options.width) : 0),
         untilFlush_(interval_),
@@ -97,7 +76,7 @@ class Batch {
   void run();
 
  private:
-  void start(std::list<WorkerThread>& workers);
+  void runWorkers();
   void work(unsigned worker);
   bool take(Claim& claim, size_t most);
   void noteBogus(Claim& claim);
@@ -155,10 +134,7 @@ void Batch::run() {
   reader_.interruptBy(wakes);
   reader_.whenWaiting([this](bool waiting) { waitingForInput(waiting); });
   writer_.holdUntilFlush(interval_ > 1);
-  {
-    std::list<WorkerThread> workers;
-    start(workers);
-  }
+  runWorkers();
   reader_.whenWaiting({});
   reader_.interruptBy({});
   close(wakeFd_);
@@ -173,24 +149,24 @@ void Batch::run() {
   if (remaining_ != kNoLimit && remaining_ > 0) messages_.warning("unexpected EOF on input");
 }
 
-// As many as can be had: answers do not depend on how many there are.
-void Batch::start(std::list<WorkerThread>& workers) {
-  const unsigned wanted = wantedThreads(options_);
+// The answers do not depend on the number of threads.
+void Batch::runWorkers() {
+  const unsigned wanted = wantedThreads(options_.threads);
   if (threads_ < wanted)
     messages_.warning(
         fmt::format("reducing number of threads from {} to {}: the stacks of more would take over "
                     "half of the memory that this process may have",
                     wanted, threads_));
   try {
-    for (unsigned i = 0; i < threads_; ++i) workers.emplace_back([this, i] { work(i); });
-  } catch (const std::system_error& error) {
-    if (workers.empty()) {
-      stop(std::make_exception_ptr(
-          rad::Error(fmt::format("cannot start a thread: {}", error.what()), rad::Status::system)));
-    } else {
-      messages_.warning(fmt::format("reducing number of threads from {} to {}: no more could be started: {}",
-                                    threads_, workers.size(), error.what()));
-    }
+    runOnThreads(
+        threads_, [this](unsigned worker) { work(worker); },
+        [this](unsigned started, const std::string& reason) {
+          messages_.warning(
+              fmt::format("reducing number of threads from {} to {}: no more could be started: {}", threads_,
+                          started, reason));
+        });
+  } catch (const rad::Error&) {
+    stop(std::current_exception());
   }
 }
 
@@ -411,8 +387,6 @@ void Batch::stop(std::exception_ptr error) {
 }
 
 }  // namespace
-
-unsigned threadCount(const Options& options) { return std::min(wantedThreads(options), mostThreads()); }
 
 void runRecords(RecordReader& reader, RecordWriter& writer, const Options& options, const Messages& messages,
                 StopSignals* signals, const AnswerRecord& answer) {

@@ -27,13 +27,8 @@ struct Record {
 // runRecords().
 using AnswerRecord = std::function<void(const Record& record, unsigned worker, std::string& bytes)>;
 
-// How many threads -n asks for: one for each core where it is 0. No more than have room for their stacks
-// (WorkerThread::kStack) in half of the memory that the process may have (RLIMIT_DATA, RLIMIT_AS): the rest
-// is for the scene and the answers. The same each time, unless these limits change.
-unsigned threadCount(const Options& options);
-
 // Reads records to the end of input (or to the -y'th scanline of -x records), has them answered by
-// threadCount() threads of its own, and writes the answers in the order of the input, whatever the number of
+// threadCount() threads (threads.h), and writes the answers in the order of the input, whatever the number of
 // threads. Warns where these are fewer than -n asks for, or where the system starts fewer, which then do all;
 // Status::system where it starts none.
 // - Flush: after every -x records where -y is 0, and after every record where -x is 1; after a bogus record;

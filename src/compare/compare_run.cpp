@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "cli/answer_writer.h"
-#include "cli/batch.h"
 #include "cli/read_options.h"
 #include "cli/record_writer.h"
+#include "cli/threads.h"
 #include "compare/comparison.h"
 #include "compare/original.h"
 #include "compare/report.h"
@@ -41,7 +41,7 @@ Answers answerRays(const Transport& transport, const CompareOptions& options, st
   Answers answers{rays.size() / 6, static_cast<size_t>(options.repeats), {}};
   answers.values.resize(answers.records * answers.repeats);
   std::vector<PathTracer> tracers = rayTracers(transport, options);
-  forEachIndex(answers.records, options, nullptr, [&](size_t i, unsigned worker) {
+  forEachIndex(answers.records, options.threads, nullptr, [&](size_t i, unsigned worker) {
     const std::span<const double> numbers = rays.subspan(6 * i, 6);
     const InputRay in = inputRay(numbers.data(), options.irradiance);
     const double farthest = options.limitDistance ? in.length : 0;
@@ -63,8 +63,8 @@ Answers answerPoints(const Transport& transport, const CompareOptions& options,
     sphere.rotation += r;
     const SphereEstimator estimator(transport, sphere);
     std::vector<SphereEstimator::Workspace> workspaces;
-    for (unsigned k = 0; k < threadCount(options); ++k) workspaces.emplace_back(estimator);
-    forEachIndex(answers.records, options, nullptr, [&](size_t i, unsigned worker) {
+    for (unsigned k = 0; k < threadCount(options.threads); ++k) workspaces.emplace_back(estimator);
+    forEachIndex(answers.records, options.threads, nullptr, [&](size_t i, unsigned worker) {
       const V3d point(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
       answers.values[r * answers.records + i] = estimator.estimate(point, workspaces[worker]).mean;
     });

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/header.h"
+#include "cli/threads.h"
 #include "importance/point_picture.h"
 
 namespace rsphere {
@@ -55,7 +56,7 @@ AnswerRecord answerPoints(const SphereEstimator& estimator, const Transport& tra
                           Unreached& unreached, std::function<void()> checkStop) {
   if (transport.isDark()) warn("no light sources found");
   auto workspaces = std::make_shared<std::vector<SphereEstimator::Workspace>>();
-  for (unsigned i = 0; i < threadCount(options); ++i) {
+  for (unsigned i = 0; i < threadCount(options.threads); ++i) {
     workspaces->emplace_back(estimator);
     workspaces->back().checkStop = checkStop;
   }

@@ -1,18 +1,12 @@
 #include "measure/work.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <atomic>
 #include <ctime>
 #include <exception>
-#include <list>
 #include <mutex>
-#include <system_error>
 
-#include "cli/batch.h"
-#include "cli/worker_thread.h"
-#include "rad_parser/error.h"
+#include "cli/threads.h"
 
 namespace rsphere {
 namespace {
@@ -28,7 +22,7 @@ double secondsOf(clockid_t clock) {
 double threadSeconds() { return secondsOf(CLOCK_THREAD_CPUTIME_ID); }
 double processSeconds() { return secondsOf(CLOCK_PROCESS_CPUTIME_ID); }
 
-bool forEachIndex(size_t count, const Options& options, const StopSignals* signals,
+bool forEachIndex(size_t count, int threads, const StopSignals* signals,
                   const std::function<void(size_t index, unsigned worker)>& work) {
   std::atomic<size_t> next{0};
   std::atomic<bool> stopped{false};
@@ -51,17 +45,8 @@ bool forEachIndex(size_t count, const Options& options, const StopSignals* signa
       stopped = true;
     }
   };
-  {
-    std::list<WorkerThread> workers;
-    const auto threads =
-        static_cast<unsigned>(std::min<size_t>(threadCount(options), std::max<size_t>(count, 1)));
-    try {
-      for (unsigned i = 0; i < threads; ++i) workers.emplace_back([&run, i] { run(i); });
-    } catch (const std::system_error& fault) {  // as many as can be had
-      if (workers.empty())
-        throw rad::Error(fmt::format("cannot start a thread: {}", fault.what()), rad::Status::system);
-    }
-  }
+  const size_t most = std::max<size_t>(count, 1);
+  runOnThreads(static_cast<unsigned>(std::min<size_t>(threadCount(threads), most)), run);
   if (error) std::rethrow_exception(error);
   return !stopped;
 }

@@ -2,15 +2,15 @@
 #include <cstddef>
 #include <functional>
 
-#include "cli/options.h"
 #include "cli/stop_signals.h"
 
 namespace rsphere {
 
-// Calls work(index, worker) for each index below count, on as many threads as -n asks for; `worker` counts
-// them from 0. Throws what work throws first. Once a signal came (signals may be null) no more are begun, and
-// the answer is false.
-bool forEachIndex(size_t count, const Options& options, const StopSignals* signals,
+// Calls work(index, worker) for each index below count, on threadCount(threads) threads, which `worker`
+// numbers from 0. Throws the first exception that work throws. After a signal (signals may be null) no
+// further call begins, and the result is false. Throws rad::Error (Status::system) if no thread can be
+// started.
+bool forEachIndex(size_t count, int threads, const StopSignals* signals,
                   const std::function<void(size_t index, unsigned worker)>& work);
 
 // CPU time of this thread, and of the process, s.

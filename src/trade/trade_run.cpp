@@ -11,9 +11,9 @@
 #include <fstream>
 #include <mutex>
 
-#include "cli/batch.h"
 #include "cli/read_options.h"
 #include "cli/record_writer.h"
+#include "cli/threads.h"
 #include "measure/records_file.h"
 #include "rad_parser/scene_file.h"
 #include "trade/ladder.h"
@@ -127,9 +127,8 @@ std::optional<Reference> Trade::makeReference(Trials& trials, double target) con
   at.leastRotations = kLeastRotations;
   at.points = trials.points();
   at.target = target;
-  Options all = options_;
-  all.threads = 0;
-  at.moreThreads = threadCount(options_) < threadCount(all);
+  const unsigned threads = threadCount(options_.threads);
+  at.moreThreads = threads < threadCount(0);
   const auto start = Clock::now();
   const auto elapsed = [&start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   double said = 0;  // how long it was said to take
@@ -145,7 +144,7 @@ std::optional<Reference> Trade::makeReference(Trials& trials, double target) con
   const auto firstPoints = [&] {
     const std::lock_guard lock(mutex);
     ++answered;
-    if (answered < threadCount(options_) || answered >= at.points) return;
+    if (answered < threads || answered >= at.points) return;
     at.rotations = static_cast<double>(answered) / static_cast<double>(at.points);
     at.seconds = elapsed();
     saySlow();

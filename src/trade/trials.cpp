@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cli/batch.h"
+#include "cli/threads.h"
 #include "measure/work.h"
 
 namespace rsphere {
@@ -24,11 +24,11 @@ bool Trials::run(const Setting& setting, bool standardErrors, bool timed, Trial&
   const SphereEstimator estimator(transport, options.sphere, standardErrors);
   const double setup = threadSeconds() - begin;
   std::vector<SphereEstimator::Workspace> workspaces;
-  for (unsigned k = 0; k < threadCount(options); ++k) workspaces.emplace_back(estimator);
+  for (unsigned k = 0; k < threadCount(options.threads); ++k) workspaces.emplace_back(estimator);
   const size_t count = points_.size() / 3;
   std::vector<PointAnswer> answers(count);
   std::vector<double> seconds(count);
-  const bool whole = forEachIndex(count, options, &signals_, [&](size_t i, unsigned worker) {
+  const bool whole = forEachIndex(count, options.threads, &signals_, [&](size_t i, unsigned worker) {
     const double start = threadSeconds();
     answers[i] =
         estimator.estimate(V3d(points_[3 * i], points_[3 * i + 1], points_[3 * i + 2]), workspaces[worker]);

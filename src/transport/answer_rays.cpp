@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "cli/threads.h"
 #include "transport/ray_report.h"
 
 namespace rsphere {
@@ -14,7 +15,8 @@ uint64_t seedOfRay(std::span<const double> numbers, uint64_t index, const Option
 
 std::vector<PathTracer> rayTracers(const Transport& transport, const Options& options) {
   std::vector<PathTracer> tracers;
-  for (unsigned i = 0; i < threadCount(options); ++i) tracers.emplace_back(transport, transport.spots());
+  for (unsigned i = 0; i < threadCount(options.threads); ++i)
+    tracers.emplace_back(transport, transport.spots());
   return tracers;
 }
 

@@ -1,7 +1,6 @@
 #include "cli/batch.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <atomic>
@@ -181,7 +180,7 @@ TEST(RunRecords, FourOrFiveNumbersOnALineOfPointsAreAFault) {
 TEST(RunRecords, NoMoreThreadsThanAskedFor) {
   std::string text;
   for (int i = 0; i < 400; ++i) text += "1 2 3\n";
-  Options options = parse({"rsphere", "-n", "3", "s.oct"});
+  const Options options = parse({"rsphere", "-n", "3", "s.oct"});
   const TemporaryFile in(text), out;
   RecordReader reader(in.descriptor, NumberFormat::ascii, 3);
   RecordWriter writer(out.descriptor);
@@ -203,8 +202,6 @@ TEST(RunRecords, NoMoreThreadsThanAskedFor) {
   EXPECT_EQ(threads.size(), 3u);
   EXPECT_EQ(workers, (std::set<unsigned>{0, 1, 2}));
   EXPECT_FALSE(threads.contains(std::this_thread::get_id())) << "its stack may be too small";
-  options.threads = 0;
-  EXPECT_EQ(threadCount(options), std::max(1u, std::thread::hardware_concurrency()));
 }
 
 // A program that talks through pipes to runRecords() in a thread.
@@ -515,23 +512,6 @@ TEST(StopSignals, AClosedStandardInputIsAFaultAndNotSomeOtherFile) {
   int status = 0;
   waitpid(pid, &status, 0);
   EXPECT_EQ(status, 2 << 8);
-}
-
-// Of a gigabyte, half is for stacks of 64 MB.
-TEST(Batch, ThreadsAreAsManyAsHaveRoomForTheirStacks) {
-  struct rlimit before {};
-  ASSERT_EQ(getrlimit(RLIMIT_DATA, &before), 0);
-  struct rlimit gigabyte = before;
-  gigabyte.rlim_cur = rlim_t{1} << 30;
-  Options options;
-  options.threads = 1000;
-  ASSERT_EQ(setrlimit(RLIMIT_DATA, &gigabyte), 0);
-  const unsigned many = threadCount(options);
-  options.threads = 5;
-  const unsigned few = threadCount(options);
-  setrlimit(RLIMIT_DATA, &before);
-  EXPECT_EQ(many, 8u);
-  EXPECT_EQ(few, 5u);
 }
 
 TEST(StopSignals, GiveBackTheHandlersBefore) {

@@ -10,26 +10,20 @@
 namespace rsphere {
 namespace {
 
-Options threads(int n) {
-  Options options;
-  options.threads = n;
-  return options;
-}
-
 TEST(ForEachIndex, CallsEachOnce) {
   for (const int n : {1, 3}) {
     std::vector<std::atomic<int>> calls(100);
-    EXPECT_TRUE(forEachIndex(calls.size(), threads(n), nullptr, [&](size_t i, unsigned worker) {
+    EXPECT_TRUE(forEachIndex(calls.size(), n, nullptr, [&](size_t i, unsigned worker) {
       EXPECT_LT(worker, static_cast<unsigned>(n));
       ++calls[i];
     }));
     for (const auto& count : calls) EXPECT_EQ(count, 1);
   }
-  EXPECT_TRUE(forEachIndex(0, threads(2), nullptr, [](size_t, unsigned) { FAIL(); }));
+  EXPECT_TRUE(forEachIndex(0, 2, nullptr, [](size_t, unsigned) { FAIL(); }));
 }
 
 TEST(ForEachIndex, PassesFaultsOn) {
-  EXPECT_THROW(forEachIndex(100, threads(2), nullptr,
+  EXPECT_THROW(forEachIndex(100, 2, nullptr,
                             [](size_t i, unsigned) {
                               if (i == 5) throw std::runtime_error("five");
                             }),
@@ -40,7 +34,7 @@ TEST(ForEachIndex, EndsOnASignal) {
   StopSignals signals("test");
   signals.defer(true);
   size_t calls = 0;
-  EXPECT_FALSE(forEachIndex(100, threads(1), &signals, [&](size_t i, unsigned) {
+  EXPECT_FALSE(forEachIndex(100, 1, &signals, [&](size_t i, unsigned) {
     ++calls;
     if (i == 3) std::raise(SIGTERM);
   }));
