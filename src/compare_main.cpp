@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
     CompareOptions options;
     const std::vector<std::string> words(argv, argv + argc);
     const std::vector<UsedOption> used = parseCompanion(words, compareCompanion(), options);
-    messages.use(options);
+    messages.use(options.messages, commandLine(options, true));
     signals.reportTo(messages.descriptor());
     if (options.request != Request::answers) return printRequest(compareCompanion(), options, messages);
     return static_cast<int>(runCompare(options, used, messages));

@@ -3,11 +3,11 @@
 #include "cli/answer_writer.h"
 #include "cli/batch.h"
 #include "cli/header.h"
+#include "cli/load_scene.h"
 #include "cli/memory_limit.h"
 #include "cli/messages.h"
 #include "cli/option_table.h"
 #include "cli/print_request.h"
-#include "cli/read_options.h"
 #include "cli/record_reader.h"
 #include "cli/record_writer.h"
 #include "cli/stop_signals.h"
@@ -19,8 +19,7 @@ namespace {
 
 void answer(const Options& options, const Messages& messages, StopSignals& signals) {
   const rad::Warn warn = [&](std::string_view text) { messages.warning(text); };
-  const rad::ReadOptions read = readOptions(options, warn);
-  const Scene scene = buildScene(rad::readScene(options.scene, read), read, options.sphere.goals);
+  const Scene scene = loadScene(options, warn);
   RecordWriter writer(1);
   if (options.sphere.listSpecial) {
     writer.write(specialObjectsText(scene, findSpecialObjects(scene, options.sphere.densityFactor)));
@@ -28,7 +27,7 @@ void answer(const Options& options, const Messages& messages, StopSignals& signa
   }
   const Transport transport(scene, options.ray, options.irradiance, options.sphere.basicRadiance, warn);
 
-  RecordReader reader(0, options.in, options.sphere.on ? 3 : 6, lineEnds(options));
+  RecordReader reader(0, options);
   const AnswerWriter answers(options);
   writeHeader(writer, options, scene.description.header, std::time(nullptr));
   writer.flush();  // a program that talks to this one may read the header before it sends a record
@@ -65,7 +64,7 @@ int main(int argc, char** argv) {
     limitMemory();
     StopSignals signals(program);
     const Options options = parseOptions(argc, argv);
-    messages.use(options);
+    messages.use(options.messages, commandLine(options, true));
     signals.reportTo(messages.descriptor());
     if (options.request != Request::answers) return printRequest(options, messages);
     answer(options, messages, signals);

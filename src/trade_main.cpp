@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
     TradeOptions options;
     const std::vector<std::string> words(argv, argv + argc);
     const std::vector<UsedOption> used = parseCompanion(words, tradeCompanion(), options);
-    messages.use(options);
+    messages.use(options.messages, commandLine(options, true));
     signals.reportTo(messages.descriptor());
     if (options.request != Request::answers) return printRequest(tradeCompanion(), options, messages);
     runTrade(options, used, messages, signals);

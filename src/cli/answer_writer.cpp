@@ -60,7 +60,7 @@ void writeLetter(RecordText& text, char letter, const RayAnswer& answer, const O
 
 }  // namespace
 
-int componentCount(const Options& options) {
+int componentCount(const AnswerOptions& options) {
   const int color = OutputColors(options.color).count();
   int count = 0;
   for (const char letter : options.outputs) switch (letter) {

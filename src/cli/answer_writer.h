@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string>
 
-#include "cli/options.h"
+#include "cli/answer_options.h"
 #include "cli/output_colors.h"
 #include "importance/point_answer.h"
 #include "transport/ray_answer.h"
@@ -11,13 +11,13 @@ namespace rsphere {
 
 // How many numbers and names one record of the chosen -o letters has: what the header says as NCOMP. '~'
 // counts as none, as in rtrace.
-int componentCount(const Options& options);
+int componentCount(const AnswerOptions& options);
 
 // Appends records of the chosen -o letters, in their order and in the output format, to a string of bytes.
 // REQUIRES options from parseOptions(), alive as long as this is.
 class AnswerWriter {
  public:
-  explicit AnswerWriter(const Options& options) : options_(options), colors_(options.color) {}
+  explicit AnswerWriter(const AnswerOptions& options) : options_(options), colors_(options.color) {}
 
   // One ray, in ray mode and under -Sd, where `record` is the number of the point's record, from 0 (letter
   // i).
@@ -30,7 +30,7 @@ class AnswerWriter {
   void write(std::string& bytes, const PointAnswer& answer) const;
 
  private:
-  const Options& options_;
+  const AnswerOptions& options_;
   OutputColors colors_;
 };
 

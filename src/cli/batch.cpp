@@ -56,7 +56,7 @@ struct Finished {
 // (output_); who hands in the oldest writes all that are due. Lock order: input_ before output_.
 class Batch {
  public:
-  Batch(RecordReader& reader, RecordWriter& writer, const Options& options, const Messages& messages,
+  Batch(RecordReader& reader, RecordWriter& writer, const AnswerOptions& options, const Messages& messages,
         const StopSignals* signals, const AnswerRecord& answer)
       : reader_(reader),
         writer_(writer),
@@ -65,7 +65,7 @@ class Batch {
         signals_(signals),
         answer_(answer),
         threads_(threadCount(options.threads)),
-        perRecord_(options.sphere.on ? 3 : 6),
+        perRecord_(options.numbersPerRecord()),
         interval_(options.height == 0 || options.width <= 1 ? static_cast<uint64_t>(options.width) : 0),
         untilFlush_(interval_),
         remaining_(options.height == 0 ? kNoLimit
@@ -97,7 +97,7 @@ class Batch {
 
   RecordReader& reader_;
   RecordWriter& writer_;
-  const Options& options_;
+  const AnswerOptions& options_;
   const Messages& messages_;
   const StopSignals* signals_;
   const AnswerRecord& answer_;
@@ -388,8 +388,8 @@ void Batch::stop(std::exception_ptr error) {
 
 }  // namespace
 
-void runRecords(RecordReader& reader, RecordWriter& writer, const Options& options, const Messages& messages,
-                StopSignals* signals, const AnswerRecord& answer) {
+void runRecords(RecordReader& reader, RecordWriter& writer, const AnswerOptions& options,
+                const Messages& messages, StopSignals* signals, const AnswerRecord& answer) {
   if (signals != nullptr) signals->defer(true);
   Batch(reader, writer, options, messages, signals, answer).run();
   if (signals != nullptr) signals->defer(false);

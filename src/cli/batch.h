@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
+#include "cli/answer_options.h"
 #include "cli/messages.h"
-#include "cli/options.h"
 #include "cli/record_reader.h"
 #include "cli/record_writer.h"
 #include "cli/stop_signals.h"
@@ -42,7 +42,7 @@ using AnswerRecord = std::function<void(const Record& record, unsigned worker, s
 // - Warns once where the same ray comes three times in a row and its answers may be noisy, without -u+.
 // - Reports to `messages` every -t seconds, when there are answers.
 // Throws what reader, writer and answer throw. `signals` may be null.
-void runRecords(RecordReader& reader, RecordWriter& writer, const Options& options, const Messages& messages,
-                StopSignals* signals, const AnswerRecord& answer);
+void runRecords(RecordReader& reader, RecordWriter& writer, const AnswerOptions& options,
+                const Messages& messages, StopSignals* signals, const AnswerRecord& answer);
 
 }  // namespace rsphere

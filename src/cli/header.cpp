@@ -54,7 +54,7 @@ std::string versionAnswer(std::string_view program) {
                      versionLine());
 }
 
-std::string commandLine(const Options& options, bool withScene) {
+std::string commandLine(const AnswerOptions& options, bool withScene) {
   std::string line = quoted(options.program);
   for (const std::string& word : options.words) line += ' ' + quoted(word);
   if (withScene)
@@ -62,7 +62,7 @@ std::string commandLine(const Options& options, bool withScene) {
   return line;
 }
 
-std::string provenance(const Options& options, std::span<const std::string> sceneHeader) {
+std::string provenance(const AnswerOptions& options, std::span<const std::string> sceneHeader) {
   std::string text;
   if (sceneHeader.empty()) text += "#?RADIANCE\n";
   for (const std::string& line : sceneHeader) text += line + '\n';
@@ -70,7 +70,7 @@ std::string provenance(const Options& options, std::span<const std::string> scen
   return text + fmt::format("SOFTWARE= {}\n", versionLine());
 }
 
-void writeHeader(RecordWriter& writer, const Options& options, std::span<const std::string> sceneHeader,
+void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<const std::string> sceneHeader,
                  std::time_t now) {
   std::string text;
   if (options.header) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "cli/options.h"
+#include "cli/answer_options.h"
 #include "cli/record_writer.h"
 
 namespace rsphere {
@@ -19,7 +19,7 @@ std::string versionAnswer(std::string_view program);
 
 // The command as it can be typed again: program and options, words quoted where they need it, without a line
 // end; the scene only where asked for.
-std::string commandLine(const Options& options, bool withScene);
+std::string commandLine(const AnswerOptions& options, bool withScene);
 
 // The first lines of a header, as rtrace and rpict begin theirs:
 //   - the lines of the scene's own header (an octree has one: sceneHeader, without line ends), or
@@ -27,7 +27,7 @@ std::string commandLine(const Options& options, bool withScene);
 //   - the command line; the octree is left out, as rtrace does: its header names it. Scene text has no
 //     header, so its names are kept
 //   - SOFTWARE=
-std::string provenance(const Options& options, std::span<const std::string> sceneHeader);
+std::string provenance(const AnswerOptions& options, std::span<const std::string> sceneHeader);
 
 // The name that FORMAT= and -help give a format: "ascii", "float", "double", or that of the colors' pixels.
 std::string_view formatName(NumberFormat format, const ColorOptions& color);
@@ -39,7 +39,7 @@ std::string_view formatName(NumberFormat format, const ColorOptions& color);
 //   not RGB, BigEndian= for floats and doubles, FORMAT=, an empty line
 // The FORMAT line of floats or doubles is padded with blanks so that the records are aligned, if the output
 // can seek. Source: RADIANCE file formats, "Information header"; rtrace(1).
-void writeHeader(RecordWriter& writer, const Options& options, std::span<const std::string> sceneHeader,
+void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<const std::string> sceneHeader,
                  std::time_t now);
 
 }  // namespace rsphere

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <cstring>
 
-#include "cli/header.h"
 #include "cli/record_writer.h"
 
 namespace rsphere {
@@ -29,7 +28,7 @@ Messages::~Messages() {
   if (fd_ != 2) close(fd_);
 }
 
-void Messages::use(const Options& options) {
+void Messages::use(const MessageOptions& options, std::string_view command) {
   warnings_ = options.warnings;
   if (!options.errorFile.empty()) {
     const int fd = open(options.errorFile.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
@@ -39,7 +38,7 @@ void Messages::use(const Options& options) {
           rad::Status::system);
     if (fd_ != 2) close(fd_);
     fd_ = fd;
-    writeAll(fd_, fmt::format("**************\n*** PID {:5}: {}\n\n", getpid(), commandLine(options, true)));
+    writeAll(fd_, fmt::format("**************\n*** PID {:5}: {}\n\n", getpid(), command));
   }
   for (const std::string& remark : options.remarks) warning(remark);
 }

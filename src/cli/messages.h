@@ -1,11 +1,17 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "cli/options.h"
 #include "rad_parser/error.h"
 
 namespace rsphere {
+
+struct MessageOptions {
+  bool warnings = true;              // -w
+  std::string errorFile;             // -e
+  std::vector<std::string> remarks;  // warnings about the command line itself
+};
 
 // The one writer of messages. Each is one write(2) to standard error, or to the file of -e, so that those of
 // several programs never mix; each line of it begins with the program's name, as rtrace's do:
@@ -22,10 +28,10 @@ class Messages {
   Messages(const Messages&) = delete;
   Messages& operator=(const Messages&) = delete;
 
-  // From now on as these options say: -w, and -e, whose file is appended to, beginning with a line of
-  // asterisks, the process id and the command line. Writes the options' own remarks as warnings. Throws
+  // Applies the options from now on, and writes their remarks as warnings. Messages are appended to the file
+  // of -e, after a line of asterisks and a line with the process id and `command`, the command line. Throws
   // rad::Error (Status::system) if the file cannot be opened.
-  void use(const Options& options);
+  void use(const MessageOptions& options, std::string_view command);
 
   void warning(std::string_view text) const;
 

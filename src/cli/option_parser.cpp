@@ -234,7 +234,7 @@ void checkColorOutput(Options& options) {
   checkColors(color);
   const bool oneChannel = color.space >= ColorSpace::photopic && color.space <= ColorSpace::average;
   if (!spectrumHoldsChannels(color) && !oneChannel && color.space != ColorSpace::spectrum)
-    options.remarks.push_back("spectral range incompatible with color output");
+    options.messages.remarks.push_back("spectral range incompatible with color output");
   if (options.out == NumberFormat::rgbe && oneChannel)
     throw rad::Error("color format incompatible with -pY, -pS, -pM");
   if (options.sphere.on && !options.sphere.everyDirection && color.space != ColorSpace::rgb &&
@@ -261,10 +261,10 @@ void checkIrradiance(Options& options) {
   }
   for (const char letter : options.outputs) {
     if (options.sphere.on) break;
-    if (letter == 'V' || letter == 'W') options.remarks.push_back("-oVW options require trace mode");
+    if (letter == 'V' || letter == 'W') options.messages.remarks.push_back("-oVW options require trace mode");
     if (options.irradiance != Irradiance::none &&
         std::string_view("rRxX").find(letter) != std::string_view::npos)
-      options.remarks.push_back("-orRxX options incompatible with -I+ and -i+");
+      options.messages.remarks.push_back("-orRxX options incompatible with -I+ and -i+");
   }
 }
 

@@ -124,7 +124,7 @@ void setErrorFile(Options& options, const OptionEntry&, std::span<const std::str
   if (words[0].find_first_of("=:") != std::string::npos)
     options.ray.definitions.push_back({false, words[0]});
   else
-    options.errorFile = words[0];
+    options.messages.errorFile = words[0];
 }
 
 void setFunctionFile(Options& options, const OptionEntry&, std::span<const std::string> words,
@@ -251,7 +251,7 @@ std::vector<OptionEntry> makeTable() {
 
   add({.name = "-w",
        .group = Group::program,
-       .value = +[](O& o) -> bool& { return o.warnings; },
+       .value = +[](O& o) -> bool& { return o.messages.warnings; },
        .remark = "warning messages on|warning messages off",
        .paragraph = "Switch for warnings. They tell of what is odd but can be answered."});
   add({.name = "-I",
@@ -740,7 +740,10 @@ std::vector<OptionEntry> makeTable() {
            "process id and the command line. A word with = or : in it is no file but definitions, as those "
            "of -f: "
            "-e 'height=2;x(a):a*height'.",
-       .line = +[](const O& o) { return o.errorFile.empty() ? "" : fmt::format("-e {}\t\t", o.errorFile); }});
+       .line = +[](const O& o) {
+         const std::string& file = o.messages.errorFile;
+         return file.empty() ? "" : fmt::format("-e {}\t\t", file);
+       }});
   for (const std::string_view name : {"-P", "-PP"})
     add({.name = name,
          .arguments = "pfile",

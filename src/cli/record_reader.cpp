@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "cli/answer_options.h"
 #include "rad_parser/description.h"
 #include "rad_parser/error.h"
 #include "rad_parser/number.h"
@@ -67,6 +68,10 @@ RecordReader::RecordReader(int fd, NumberFormat format, int numbersPerRecord, Li
       lineEnds_(lineEnds),
       name_(std::move(name)),
       block_(kBlock) {}
+
+RecordReader::RecordReader(int fd, const AnswerOptions& options, std::string name)
+    : RecordReader(fd, options.in, options.numbersPerRecord(),
+                   options.sphere.on ? LineEnds::endRecords : LineEnds::areBlanks, std::move(name)) {}
 
 size_t RecordReader::read(std::vector<double>& numbers, size_t most) {
   const size_t count = format_ != NumberFormat::ascii      ? readBinary(numbers, most)

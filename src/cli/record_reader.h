@@ -9,19 +9,15 @@
 #include <vector>
 
 #include "cli/number_format.h"
-#include "cli/options.h"
 
 namespace rsphere {
+
+struct AnswerOptions;
 
 // What line ends mean in records of text: nothing, as in rtrace, or the end of a record. Where they end it, a
 // line that is not blank is one record, so that a column too many or too few is found on its own line instead
 // of moving all numbers behind it.
 enum class LineEnds : uint8_t { areBlanks, endRecords };
-
-// They end points, which no other program reads in another way; rays are read as rtrace reads them.
-inline LineEnds lineEnds(const Options& options) {
-  return options.sphere.on ? LineEnds::endRecords : LineEnds::areBlanks;
-}
 
 // Reads records of numbers from a file descriptor: text (numbers between white space, each read whole and
 // perhaps in quotes) or native floats or doubles.
@@ -36,6 +32,10 @@ class RecordReader {
   // The descriptor stays the caller's.
   RecordReader(int fd, NumberFormat format, int numbersPerRecord, LineEnds lineEnds = LineEnds::areBlanks,
                std::string name = "stdin");
+
+  // The same for the records that the options name. Line ends end points, because no other program reads
+  // points in another way; they are blanks between the numbers of rays, as in rtrace.
+  RecordReader(int fd, const AnswerOptions& options, std::string name = "stdin");
 
   // Appends the numbers of at least one record, waiting for it, and of up to `most` if they are at hand
   // already. Returns how many records; 0 at the end of input, or when interrupted. Throws rad::Error where

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "cli/answer_writer.h"
-#include "cli/read_options.h"
+#include "cli/load_scene.h"
 #include "cli/record_writer.h"
 #include "cli/threads.h"
 #include "compare/comparison.h"
@@ -16,7 +16,6 @@
 #include "importance/estimator.h"
 #include "measure/records_file.h"
 #include "measure/work.h"
-#include "rad_parser/scene_file.h"
 #include "sphere/directions.h"
 #include "transport/answer_rays.h"
 #include "transport/ray_report.h"
@@ -124,7 +123,7 @@ void refuseWhatPointsHave(const CompareOptions& options) {
 std::string worstText(const CompareOptions& options, const Comparison& comparison, const Answers& ours,
                       const Answers& original, std::span<const double> numbers, const Transport& transport,
                       Original& program) {
-  const size_t per = options.sphere.on ? 3 : 6;
+  const auto per = static_cast<size_t>(options.numbersPerRecord());
   const auto count = std::min(static_cast<size_t>(options.worst), comparison.worst.size());
   if (count == 0) return "";
   const bool hits = !options.sphere.on && options.irradiance != Irradiance::point;
@@ -169,7 +168,7 @@ CompareStatus runCompare(CompareOptions options, std::span<const UsedOption> use
   const std::string recordsName = options.scene.back();
   options.scene.pop_back();
   std::vector<double> numbers = readRecords(recordsName, options);
-  const size_t perRecord = options.sphere.on ? 3 : 6;
+  const auto perRecord = static_cast<size_t>(options.numbersPerRecord());
   if (!options.sphere.on) numbers = withoutBogus(numbers);
   const size_t records = numbers.size() / perRecord;
   if (records == 0) throw rad::Error(fmt::format("{}: no record has a direction", recordsName));
@@ -184,8 +183,7 @@ CompareStatus runCompare(CompareOptions options, std::span<const UsedOption> use
 
   const double start = processSeconds();
   const rad::Warn warn = [&](std::string_view text) { messages.warning(text); };
-  const rad::ReadOptions read = readOptions(options, warn);
-  const Scene scene = buildScene(rad::readScene(options.scene, read), read, options.sphere.goals);
+  const Scene scene = loadScene(options, warn);
   const bool isOctree = scene.description.cube.has_value();
   const Transport transport(scene, options.ray, options.irradiance, options.sphere.basicRadiance, warn);
   if (transport.isDark()) messages.warning("no light sources found");

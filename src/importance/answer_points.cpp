@@ -16,7 +16,8 @@ namespace {
 constexpr uint64_t kPictureSeed = 0x70696374757265;  // "picture"
 
 void writePicture(const std::string& name, const V3d& point, const SphereEstimator& estimator,
-                  const Transport& transport, const Options& options, SphereEstimator::Workspace& workspace) {
+                  const Transport& transport, const AnswerOptions& options,
+                  SphereEstimator::Workspace& workspace) {
   PictureFile file(name);
   const PixelMap map(file.format() == PictureFormat::radiance ? Projection::angularFisheye
                                                               : Projection::latitudeLongitude);
@@ -52,7 +53,7 @@ std::string Unreached::summary(const SphereOptions& options) const {
 }
 
 AnswerRecord answerPoints(const SphereEstimator& estimator, const Transport& transport,
-                          const Options& options, const AnswerWriter& writer, const rad::Warn& warn,
+                          const AnswerOptions& options, const AnswerWriter& writer, const rad::Warn& warn,
                           Unreached& unreached, std::function<void()> checkStop) {
   if (transport.isDark()) warn("no light sources found");
   auto workspaces = std::make_shared<std::vector<SphereEstimator::Workspace>>();

@@ -30,7 +30,7 @@ class Unreached {
 // and each row of a picture; it may throw to abandon a point. All arguments that are references must
 // outlive the returned function.
 AnswerRecord answerPoints(const SphereEstimator& estimator, const Transport& transport,
-                          const Options& options, const AnswerWriter& writer, const rad::Warn& warn,
+                          const AnswerOptions& options, const AnswerWriter& writer, const rad::Warn& warn,
                           Unreached& unreached, std::function<void()> checkStop);
 
 }  // namespace rsphere

@@ -12,7 +12,7 @@
 
 namespace rsphere {
 
-std::vector<double> readRecords(const std::string& name, const Options& options) {
+std::vector<double> readRecords(const std::string& name, const AnswerOptions& options) {
   struct Descriptor {
     int fd;
     ~Descriptor() {
@@ -22,8 +22,7 @@ std::vector<double> readRecords(const std::string& name, const Options& options)
   const Descriptor file{name == "-" ? 0 : open(name.c_str(), O_RDONLY | O_CLOEXEC)};
   if (file.fd < 0)
     throw rad::Error(fmt::format("cannot open \"{}\": {}", name, std::strerror(errno)), rad::Status::system);
-  RecordReader reader(file.fd, options.in, options.sphere.on ? 3 : 6, lineEnds(options),
-                      name == "-" ? "stdin" : name);
+  RecordReader reader(file.fd, options, name == "-" ? "stdin" : name);
   std::vector<double> numbers;
   constexpr size_t kAtOnce = 4096;
   while (reader.read(numbers, kAtOnce) > 0) {

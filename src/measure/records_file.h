@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/options.h"
+#include "cli/answer_options.h"
 
 namespace rsphere {
 
@@ -10,6 +10,6 @@ namespace rsphere {
 // of three, in the format of -f. Throws rad::Error, with the file's name and the line, as RecordReader does;
 // Status::system where the file cannot be read, and Status::input where there is no record in it, or where
 // text is read as floats or doubles.
-std::vector<double> readRecords(const std::string& name, const Options& options);
+std::vector<double> readRecords(const std::string& name, const AnswerOptions& options);
 
 }  // namespace rsphere

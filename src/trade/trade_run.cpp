@@ -11,11 +11,10 @@
 #include <fstream>
 #include <mutex>
 
-#include "cli/read_options.h"
+#include "cli/load_scene.h"
 #include "cli/record_writer.h"
 #include "cli/threads.h"
 #include "measure/records_file.h"
-#include "rad_parser/scene_file.h"
 #include "trade/ladder.h"
 #include "trade/schedule.h"
 #include "trade/trade_report.h"
@@ -271,10 +270,9 @@ void Trade::run() {
       chosenPoints(readRecords(options_.scene.back(), options_), options_.mostPoints);
 
   const rad::Warn warn = [&](std::string_view text) { messages_.warning(text); };
-  Options scenes = options_;
-  scenes.scene.pop_back();  // the points: with -Sc- their folder is none of the scene's
-  const rad::ReadOptions read = readOptions(scenes, warn);
-  const Scene scene = buildScene(rad::readScene(scenes.scene, read), read, options_.sphere.goals);
+  AnswerOptions withoutPoints = options_;
+  withoutPoints.scene.pop_back();  // with -Sc- the folder of the points is none of the scene's
+  const Scene scene = loadScene(withoutPoints, warn);
   signals_.defer(true);
   Trials trials(scene, points, signals_);
   const double target = options_.referenceError > 0 ? options_.referenceError : accuracy / 10;

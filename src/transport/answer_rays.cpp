@@ -8,19 +8,19 @@
 
 namespace rsphere {
 
-uint64_t seedOfRay(std::span<const double> numbers, uint64_t index, const Options& options) {
+uint64_t seedOfRay(std::span<const double> numbers, uint64_t index, const AnswerOptions& options) {
   const uint64_t seed = seedOf(numbers, rotationBits(options.ray));
   return options.numberedRays ? mixBits(seed ^ mixBits(index)) : seed;
 }
 
-std::vector<PathTracer> rayTracers(const Transport& transport, const Options& options) {
+std::vector<PathTracer> rayTracers(const Transport& transport, const AnswerOptions& options) {
   std::vector<PathTracer> tracers;
   for (unsigned i = 0; i < threadCount(options.threads); ++i)
     tracers.emplace_back(transport, transport.spots());
   return tracers;
 }
 
-AnswerRecord answerRays(const Transport& transport, const Options& options, const AnswerWriter& writer,
+AnswerRecord answerRays(const Transport& transport, const AnswerOptions& options, const AnswerWriter& writer,
                         const rad::Warn& warn) {
   const auto tracers = std::make_shared<std::vector<PathTracer>>(rayTracers(transport, options));
   const bool trees = !options.treeOutputs.empty(), value = trees || needsValue(options.outputs);

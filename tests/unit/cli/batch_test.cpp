@@ -37,13 +37,13 @@ Outcome run(std::initializer_list<const char*> words, const std::string& text,
     Options options = parse(words);
     options.threads = threads;
     const TemporaryFile in(text), out, log;
-    options.errorFile = log.path;
+    options.messages.errorFile = log.path;
     Outcome result;
     {
       Messages messages("rsphere");
-      messages.use(options);
+      messages.use(options.messages, "");
       const size_t head = contents(log.path).size();
-      RecordReader reader(in.descriptor, options.in, options.sphere.on ? 3 : 6, lineEnds(options));
+      RecordReader reader(in.descriptor, options);
       RecordWriter writer(out.descriptor);
       try {
         runRecords(reader, writer, options, messages, nullptr, answer);
@@ -209,7 +209,7 @@ class Conversation {
  public:
   explicit Conversation(std::initializer_list<const char*> words, AnswerRecord answer = echo)
       : options_(parse(words)), answer_(std::move(answer)), thread_([this] {
-          RecordReader reader(toChild.out, options_.in, options_.sphere.on ? 3 : 6, lineEnds(options_));
+          RecordReader reader(toChild.out, options_);
           RecordWriter writer(fromChild.in);
           try {
             runRecords(reader, writer, options_, Messages("rsphere"), nullptr, answer_);
@@ -337,9 +337,9 @@ TEST(RunRecords, FullDiskIsASystemFault) {
 TEST(RunRecords, ReportsProgress) {
   Options options = parse({"rsphere", "-t", "0.01", "s.oct"});
   const TemporaryFile in("1 2 3 1 2 3 1 2 3"), out, log;
-  options.errorFile = log.path;
+  options.messages.errorFile = log.path;
   Messages messages("rsphere");
-  messages.use(options);
+  messages.use(options.messages, "");
   RecordReader reader(in.descriptor, NumberFormat::ascii, 3);
   RecordWriter writer(out.descriptor);
   runRecords(reader, writer, options, messages, nullptr,
@@ -355,9 +355,9 @@ TEST(RunRecords, ProgressOfAPipeHasAnEndOnlyWithScanlines) {
                                 : parse({"rsphere", "-t", "0.01", "s.oct"});
     Pipe in;
     const TemporaryFile out, log;
-    options.errorFile = log.path;
+    options.messages.errorFile = log.path;
     Messages messages("rsphere");
-    messages.use(options);
+    messages.use(options.messages, "");
     in.put("1 2 3 1 2 3 1 2 3 1 2 3");
     in.closeIn();
     RecordReader reader(in.out, NumberFormat::ascii, 3);

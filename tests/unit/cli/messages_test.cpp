@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/header.h"
 #include "cli/record_writer.h"
 #include "support.h"
 
@@ -18,6 +19,10 @@ std::string standardErrorOf(Action action) {
   dup2(kept, 2);
   close(kept);
   return contents(file.path);
+}
+
+void use(Messages& messages, const Options& options) {
+  messages.use(options.messages, commandLine(options, true));
 }
 
 TEST(Messages, HaveThePrefixesAndStatusOfRtrace) {
@@ -47,12 +52,12 @@ TEST(Messages, EveryLineHasThePrefix) {
 TEST(Messages, WarningsCanBeSwitchedOff) {
   Messages messages("rtrace");
   EXPECT_EQ(standardErrorOf([&] {
-              messages.use(parse({"rtrace", "-w", "-oV", "s.oct"}));
+              use(messages, parse({"rtrace", "-w", "-oV", "s.oct"}));
               messages.warning("odd");
             }),
             "");
   EXPECT_EQ(standardErrorOf([&] {
-              messages.use(parse({"rtrace", "-oV", "s.oct"}));
+              use(messages, parse({"rtrace", "-oV", "s.oct"}));
             }),
             "rtrace: warning - -oVW options require trace mode\n");
 }
@@ -61,7 +66,7 @@ TEST(Messages, ErrorFileIsAppendedTo) {
   const TemporaryFile file("before\n");
   {
     Messages messages("rsphere");
-    messages.use(parse({"rsphere", "-e", file.path.c_str(), "s.oct"}));
+    use(messages, parse({"rsphere", "-e", file.path.c_str(), "s.oct"}));
     messages.warning("odd");
   }
   EXPECT_EQ(
@@ -74,7 +79,7 @@ TEST(Messages, ErrorFileThatCannotBeOpened) {
   Messages messages("rsphere");
   EXPECT_EQ(faultOf(
                 [&] {
-                  messages.use(parse({"rsphere", "-e", "/no/file", "s.oct"}));
+                  use(messages, parse({"rsphere", "-e", "/no/file", "s.oct"}));
                 },
                 rad::Status::system),
             "cannot open error file \"/no/file\": No such file or directory");

@@ -39,7 +39,7 @@ TEST(ParseOptions, SwitchesToggleOrAreSet) {
   for (const char* on : {"-ld+", "-ld1", "-ldy", "-ldY", "-ldt", "-ldT"})
     EXPECT_TRUE(parse({"rtrace", "-ld", on, "s.oct"}).limitDistance);
   for (const char* off : {"-w-", "-w0", "-wn", "-wN", "-wf", "-wF"})
-    EXPECT_FALSE(parse({"rtrace", off, "s.oct"}).warnings);
+    EXPECT_FALSE(parse({"rtrace", off, "s.oct"}).messages.warnings);
   for (const char* wrong : {"-hx", "-h2", "-h+-", "-w+1", "-u?"})
     EXPECT_EQ(beginningOfFault({"rtrace", wrong, "s.oct"}),
               std::string("command line error at '") + wrong + "'");
@@ -182,7 +182,7 @@ TEST(ParseOptions, DefinitionsKeepTheirOrder) {
   EXPECT_EQ(o.ray.definitions[1].text, "b.cal");
   EXPECT_TRUE(o.ray.definitions[1].isFile);
   EXPECT_EQ(o.ray.definitions[2].text, "c:2;d(x)=x");
-  EXPECT_EQ(o.errorFile, "err.txt");
+  EXPECT_EQ(o.messages.errorFile, "err.txt");
 }
 
 TEST(ParseOptions, PixelsHoldOneColor) {
@@ -202,9 +202,9 @@ TEST(ParseOptions, IrradianceCountsAsInRtrace) {
   EXPECT_EQ(parse({"rtrace", "-i-", "-I-", "s.oct"}).irradiance, Irradiance::none);
   EXPECT_EQ(faultOfOptions({"rtrace", "-I", "-oodL", "s.oct"}),
             "-I+ and -i+ options require some value output");
-  EXPECT_EQ(parse({"rtrace", "-I", "-ovr", "s.oct"}).remarks,
+  EXPECT_EQ(parse({"rtrace", "-I", "-ovr", "s.oct"}).messages.remarks,
             (Names{"-orRxX options incompatible with -I+ and -i+"}));
-  EXPECT_EQ(parse({"rtrace", "-oVW", "s.oct"}).remarks,
+  EXPECT_EQ(parse({"rtrace", "-oVW", "s.oct"}).messages.remarks,
             (Names{"-oVW options require trace mode", "-oVW options require trace mode"}));
 }
 
@@ -237,7 +237,7 @@ TEST(ParseOptions, Words) {
   EXPECT_EQ(options.sphere.goals, (Names{"a", "b"}));
   EXPECT_EQ(options.sphere.weights, Weights::homogeneous);
   EXPECT_EQ(options.sphere.rotation, 12345678901u);
-  EXPECT_EQ(options.errorFile, "err");
+  EXPECT_EQ(options.messages.errorFile, "err");
   EXPECT_EQ(options.ray.ambientFile, "x.amb");
   EXPECT_EQ(faultOfOptions({"rsphere", "-Sw", "x", "s.oct"}),
             "command line error at '-Sw': \"x\" is not h, v or c; see -help");

@@ -96,9 +96,9 @@ TEST(OutputColors, WhatCannotBeIsSaidAsInRtrace) {
   EXPECT_EQ(faultOfOptions({"rtrace", "-pc", ".1", ".1", ".2", ".2", ".3", ".3", ".3", ".4", "s"}),
             "illegal primary chromaticities");  // on one line: rtrace divides by zero
   EXPECT_EQ(faultOfOptions({"rtrace", "-pY", "-ffc", "s"}), "color format incompatible with -pY, -pS, -pM");
-  EXPECT_EQ(parse({"rtrace", "-cw", "500", "600", "s"}).remarks,
+  EXPECT_EQ(parse({"rtrace", "-cw", "500", "600", "s"}).messages.remarks,
             (std::vector<std::string>{"spectral range incompatible with color output"}));
-  EXPECT_TRUE(parse({"rtrace", "-cw", "500", "600", "-pY", "s"}).remarks.empty());
+  EXPECT_TRUE(parse({"rtrace", "-cw", "500", "600", "-pY", "s"}).messages.remarks.empty());
   EXPECT_EQ(faultOfOptions({"rtrace", "-pS", "-cw", "400", "700", "s"}),
             "-pS and -pM need the whole spectrum (-cw 380 780)");
   EXPECT_EQ(faultOfOptions({"rsphere", "-pXYZ", "-ove", "s"}),
