@@ -8,6 +8,7 @@
 #include "cli/messages.h"
 #include "cli/option_table.h"
 #include "cli/print_request.h"
+#include "cli/program.h"
 #include "cli/record_reader.h"
 #include "cli/record_writer.h"
 #include "cli/stop_signals.h"
@@ -60,7 +61,7 @@ int main(int argc, char** argv) {
   const std::string called = argc > 0 ? argv[0] : "rsphere";
   const std::string program = called.substr(called.rfind('/') + 1);
   Messages messages(program);
-  try {
+  return exitStatus(messages, [&] {
     limitMemory();
     StopSignals signals(program);
     const Options options = parseOptions(argc, argv);
@@ -69,9 +70,5 @@ int main(int argc, char** argv) {
     if (options.request != Request::answers) return printRequest(options, messages);
     answer(options, messages, signals);
     return 0;
-  } catch (const rad::Error& error) {
-    return messages.error(error);
-  } catch (const std::bad_alloc&) {
-    return messages.error(rad::Error("out of memory", rad::Status::system));
-  }
+  });
 }

@@ -98,12 +98,14 @@ Options modeDefaults(bool sphereMode);
 Options parseOptions(std::span<const std::string> words);
 Options parseOptions(int argc, char** argv);
 
-// A program beside rsphere that takes all options of rsphere and some of its own. Their entries' values are
-// kept in what it derives from Options, which is then what parseCompanion() has to be given.
+// A program beside rsphere that takes all options of rsphere and some more. The values of the latter are
+// members of a struct that it derives from Options, an object of which parseCompanion() must be given.
 struct Companion {
   std::span<const OptionEntry> own{};
-  std::string_view usage{};  // what stands on its command line after the name
-  bool sphereMode = true;    // what holds where -S does not say
+  std::string_view usage{};  // the rest of its command line, after the name
+  bool sphereMode = true;    // the mode without -S
+  std::string_view name{};   // begins its messages
+  int faultStatus = 0;       // exit status of every fault but a signal; 0: as rtrace(1) gives it
 };
 
 // An option as a command line has it, and its words: the first is the option itself.

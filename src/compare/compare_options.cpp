@@ -72,7 +72,8 @@ std::vector<OptionEntry> makeTable() {
 
 const Companion& compareCompanion() {
   static const std::vector<OptionEntry> table = makeTable();
-  static const Companion companion{table, "[options] scene... records", false};
+  static const Companion companion{table, "[options] scene... records", false, "rsphere-compare",
+                                   static_cast<int>(CompareStatus::trouble)};
   return companion;
 }
 

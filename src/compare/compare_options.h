@@ -5,6 +5,9 @@
 
 namespace rsphere {
 
+// Exit statuses of rsphere-compare. Every fault is `trouble`, as with cmp(1), except a signal (3).
+enum class CompareStatus { same = 0, differs = 1, trouble = 2, undecided = 4 };
+
 // What rsphere-compare has besides rsphere's options.
 struct CompareOptions : Options {
   double tolerance = .01;     // -Ct

@@ -62,7 +62,8 @@ std::vector<OptionEntry> makeTable() {
        .arguments = "file",
        .value = +[](Options& o) -> std::string& { return own(o).plot; },
        .remark = "plot as an SVG file",
-       .paragraph = "Write a plot of error against time, as an SVG file. Names with another picture extension are refused."});
+       .paragraph = "Write a plot of error against time, as an SVG file. Names with another picture "
+                    "extension are refused."});
   return table;
 }
 
@@ -70,7 +71,7 @@ std::vector<OptionEntry> makeTable() {
 
 const Companion& tradeCompanion() {
   static const std::vector<OptionEntry> table = makeTable();
-  static const Companion companion{table, "[options] scene... points", true};
+  static const Companion companion{table, "[options] scene... points", true, "rsphere-trade"};
   return companion;
 }
 

@@ -1,0 +1,23 @@
+#pragma once
+#include <functional>
+#include <span>
+
+#include "cli/messages.h"
+#include "cli/option_table.h"
+#include "cli/stop_signals.h"
+
+namespace rsphere {
+
+// Calls `program` and returns its exit status. If it throws, writes a message and returns the status that
+// rtrace(1) gives to such a fault: that of the rad::Error, or 2 where memory ran out. A faultStatus above 0
+// replaces the status of every fault but a signal or a closed pipe (3).
+int exitStatus(const Messages& messages, const std::function<int()>& program, int faultStatus = 0);
+
+// The main() of a companion: reads the command line into `options` as parseCompanion() does, prints what it
+// asks for instead of answers (-help and the like), or else calls `run`, and returns the exit status.
+using CompanionRun =
+    std::function<int(std::span<const UsedOption> used, const Messages& messages, StopSignals& signals)>;
+int runCompanion(const Companion& companion, int argc, char** argv, Options& options,
+                 const CompanionRun& run);
+
+}  // namespace rsphere
