@@ -1,19 +1,19 @@
 #include <ctime>
 
-#include "cli/answer_writer.h"
-#include "cli/batch.h"
-#include "cli/header.h"
-#include "cli/load_scene.h"
-#include "cli/memory_limit.h"
-#include "cli/messages.h"
+#include "answer/answer_points.h"
+#include "answer/answer_rays.h"
+#include "answer/answer_writer.h"
+#include "answer/batch.h"
+#include "answer/header.h"
+#include "answer/load_scene.h"
+#include "answer/memory_limit.h"
+#include "answer/messages.h"
+#include "answer/record_reader.h"
+#include "answer/record_writer.h"
+#include "answer/stop_signals.h"
 #include "cli/option_table.h"
 #include "cli/print_request.h"
 #include "cli/program.h"
-#include "cli/record_reader.h"
-#include "cli/record_writer.h"
-#include "cli/stop_signals.h"
-#include "importance/answer_points.h"
-#include "transport/answer_rays.h"
 
 namespace rsphere {
 namespace {

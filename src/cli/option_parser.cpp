@@ -10,9 +10,9 @@
 #include <iterator>
 #include <sstream>
 
+#include "answer/output_colors.h"
 #include "cli/option_table.h"
 #include "cli/option_words.h"
-#include "cli/output_colors.h"
 #include "rad_parser/error.h"
 #include "rad_parser/number.h"
 

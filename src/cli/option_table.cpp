@@ -11,8 +11,8 @@
 #include <iomanip>
 #include <iterator>
 
+#include "answer/output_colors.h"
 #include "cli/option_words.h"
-#include "cli/output_colors.h"
 #include "rad_parser/error.h"
 #include "rad_parser/file_path.h"
 #include "rad_parser/number.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cli/header.h"
+#include "answer/header.h"
 #include "cli/option_table.h"
 
 namespace rsphere {

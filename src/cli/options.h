@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/answer_options.h"
-#include "cli/messages.h"
+#include "answer/answer_options.h"
+#include "answer/messages.h"
 
 namespace rsphere {
 

@@ -1,8 +1,8 @@
 #include "cli/print_request.h"
 
-#include "cli/header.h"
+#include "answer/header.h"
+#include "answer/record_writer.h"
 #include "cli/option_table.h"
-#include "cli/record_writer.h"
 
 namespace rsphere {
 

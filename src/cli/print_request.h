@@ -1,5 +1,5 @@
 #pragma once
-#include "cli/messages.h"
+#include "answer/messages.h"
 #include "cli/option_table.h"
 
 namespace rsphere {

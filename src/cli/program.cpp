@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/header.h"
+#include "answer/header.h"
 #include "cli/print_request.h"
 
 namespace rsphere {

@@ -2,9 +2,9 @@
 #include <functional>
 #include <span>
 
-#include "cli/messages.h"
+#include "answer/messages.h"
+#include "answer/stop_signals.h"
 #include "cli/option_table.h"
-#include "cli/stop_signals.h"
 
 namespace rsphere {
 

@@ -6,10 +6,11 @@
 #include <numbers>
 #include <optional>
 
-#include "cli/answer_writer.h"
-#include "cli/load_scene.h"
-#include "cli/record_writer.h"
-#include "cli/threads.h"
+#include "answer/answer_rays.h"
+#include "answer/answer_writer.h"
+#include "answer/load_scene.h"
+#include "answer/record_writer.h"
+#include "answer/threads.h"
 #include "compare/comparison.h"
 #include "compare/original.h"
 #include "compare/report.h"
@@ -17,7 +18,6 @@
 #include "measure/records_file.h"
 #include "measure/work.h"
 #include "sphere/directions.h"
-#include "transport/answer_rays.h"
 #include "transport/ray_report.h"
 
 namespace rsphere {

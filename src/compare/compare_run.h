@@ -1,5 +1,5 @@
 #pragma once
-#include "cli/messages.h"
+#include "answer/messages.h"
 #include "compare/compare_options.h"
 
 namespace rsphere {

@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "cli/record_reader.h"
+#include "answer/record_reader.h"
 #include "rad_parser/error.h"
 
 namespace rsphere {

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/answer_options.h"
+#include "answer/answer_options.h"
 
 namespace rsphere {
 

@@ -6,7 +6,7 @@
 #include <exception>
 #include <mutex>
 
-#include "cli/threads.h"
+#include "answer/threads.h"
 
 namespace rsphere {
 namespace {

@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <functional>
 
-#include "cli/stop_signals.h"
+#include "answer/stop_signals.h"
 
 namespace rsphere {
 

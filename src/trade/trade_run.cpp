@@ -11,9 +11,9 @@
 #include <fstream>
 #include <mutex>
 
-#include "cli/load_scene.h"
-#include "cli/record_writer.h"
-#include "cli/threads.h"
+#include "answer/load_scene.h"
+#include "answer/record_writer.h"
+#include "answer/threads.h"
 #include "measure/records_file.h"
 #include "trade/ladder.h"
 #include "trade/schedule.h"

@@ -1,8 +1,8 @@
 #pragma once
 #include <span>
 
-#include "cli/messages.h"
-#include "cli/stop_signals.h"
+#include "answer/messages.h"
+#include "answer/stop_signals.h"
 #include "trade/trade_options.h"
 
 namespace rsphere {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cli/threads.h"
+#include "answer/threads.h"
 #include "measure/work.h"
 
 namespace rsphere {

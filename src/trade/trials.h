@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "cli/stop_signals.h"
+#include "answer/stop_signals.h"
 #include "importance/estimator.h"
 #include "trade/curve.h"
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "cli/record_reader.h"
+#include "answer/record_reader.h"
 #include "memory_file.h"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "support.h"
+#include "tests/unit/support/command_line.h"
 
 namespace rsphere {
 namespace {

@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "support.h"
+#include "tests/unit/support/command_line.h"
 
 namespace rsphere {
 namespace {

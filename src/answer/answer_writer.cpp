@@ -1,0 +1,200 @@
+#include "answer/answer_writer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "answer/record_text.h"
+
+namespace rsphere {
+namespace {
+
+// Scene units; rtrace starts there so as to be clear of the surface that a sensor lies on.
+constexpr double kSensorHeight = 1.1e-4;
+
+// One letter of a ray's record.
+void writeLetter(RecordText& text, char letter, const RayAnswer& answer, const OutputColors& colors) {
+  switch (letter) {
+    case 'o':
+      return text.vector(answer.origin);
+    case 'd':
+      return text.vector(answer.direction);
+    case 'v':
+      return colors.write(text, answer.value);
+    case 'V':
+      return colors.write(text, answer.value * answer.contribution);
+    case 'r':
+      return colors.write(text, answer.mirroredContribution);
+    case 'x':
+      return colors.write(text, answer.unmirroredContribution);
+    case 'R':
+      return text.number(answer.mirroredLength);
+    case 'X':
+      return text.number(answer.unmirroredLength);
+    case 'l':
+      return text.number(answer.effectiveLength);
+    case 'L':
+      return text.number(answer.firstLength);
+    case 'c':
+      text.number(answer.u);
+      return text.number(answer.v);
+    case 'p':
+      return text.vector(answer.point);
+    case 'n':
+      return text.vector(answer.normal);
+    case 'N':
+      return text.vector(answer.unperturbedNormal);
+    case 's':
+      return text.name(answer.surface);
+    case 'm':
+      return text.name(answer.modifier);
+    case 'M':
+      return text.name(answer.material);
+    case 'w':
+      return text.number(answer.rayWeight);
+    case 'W':
+      return colors.writeCoefficient(text, answer.contribution);
+    case '~':
+      return text.name("~");
+  }
+}
+
+}  // namespace
+
+int componentCount(const AnswerOptions& options) {
+  const int color = OutputColors(options.color).count();
+  int count = 0;
+  for (const char letter : options.outputs) switch (letter) {
+      case 'v':
+      case 'V':
+      case 'r':
+      case 'x':
+      case 'W':
+      case 'e':
+      case 'E':
+      case 'C':
+        count += color;
+        break;
+      case 'o':
+      case 'd':
+      case 'p':
+      case 'n':
+      case 'N':
+      case 'u':
+        count += 3;
+        break;
+      case 'H':
+        count += 6 * color;
+        break;
+      case 'c':
+        count += 2;
+        break;
+      case '~':
+        break;
+      default:
+        count += 1;
+        break;
+    }
+  return count;
+}
+
+void AnswerWriter::write(std::string& bytes, const RayAnswer& answer, uint64_t record) const {
+  if (options_.outputs.empty()) return;  // -ot alone: nothing but the trees
+  RecordText text(bytes, options_.out);
+  for (const char letter : options_.outputs) {
+    if (letter == 'i')
+      text.integer(record);
+    else if (letter == 'w' && options_.sphere.on)
+      text.number(answer.solidAngle);
+    else
+      writeLetter(text, letter, answer, colors_);
+  }
+  text.end();
+}
+
+void AnswerWriter::writeBranch(std::string& bytes, const RayAnswer& answer, int ancestors) const {
+  const auto named = [&](const std::vector<std::string>& list) {
+    return std::find(list.begin(), list.end(), answer.modifier) != list.end();
+  };
+  const bool hit = answer.surface != "*";
+  if (!options_.treeIncluded.empty() && !(hit && named(options_.treeIncluded))) return;
+  if (hit && named(options_.treeExcluded)) return;
+  bytes.append(static_cast<size_t>(ancestors), '\t');
+  RecordText text(bytes, options_.out);
+  for (const char letter : options_.treeOutputs) writeLetter(text, letter, answer, colors_);
+  text.end();
+}
+
+void AnswerWriter::write(std::string& bytes, const PointAnswer& answer) const {
+  RecordText text(bytes, options_.out);
+  for (const char letter : options_.outputs) switch (letter) {
+      case 'o':
+        text.vector(answer.point);
+        break;
+      case 'v':
+        colors_.write(text, answer.mean);
+        break;
+      case 'e':
+        colors_.writeError(text, answer.standardError, answer.brightnessError);
+        break;
+      case 'E':
+        colors_.write(text, answer.scalarIrradiance);
+        break;
+      case 'C':
+        colors_.write(text, answer.cylindricalIrradiance);
+        break;
+      case 'H':
+        for (const Rgb& face : answer.facing) colors_.write(text, face);
+        break;
+      case 'u':
+        text.vector(answer.lightVector);
+        break;
+      case 'k':
+        text.integer(answer.directions);
+        break;
+    }
+  text.end();
+}
+
+namespace {
+
+// Sets unit to the vector's direction; returns its length, and leaves unit alone where that is 0. A vector of
+// unit length to six digits, as text has them, is corrected to first order (right to 4e-13), every other is
+// multiplied by a reciprocal: to the bit what rtrace does where products are fused. On which side of a plane
+// a hit is rounded to depends on it, and with that which square of a checkered floor function files see.
+double makeUnit(const V3d& vector, V3d& unit) {
+  const double square = std::fma(vector.z, vector.z, std::fma(vector.x, vector.x, vector.y * vector.y));
+  if (square == 0) return 0;
+  if (!std::isfinite(square)) {
+    const double largest = std::max({std::fabs(vector.x), std::fabs(vector.y), std::fabs(vector.z)});
+    return largest * makeUnit(vector / largest, unit);
+  }
+  constexpr double kNearlyUnit = 1e-6;
+  const bool nearly = square <= 1 + kNearlyUnit && square >= 1 - kNearlyUnit;
+  const double length = nearly ? .5 + .5 * square : std::sqrt(square);
+  unit = vector * (nearly ? 2 - length : 1 / length);
+  return length;
+}
+
+}  // namespace
+
+InputRay inputRay(const double* numbers, Irradiance irradiance) {
+  InputRay ray;
+  ray.origin = V3d(numbers[0], numbers[1], numbers[2]);
+  const V3d given(numbers[3], numbers[4], numbers[5]);
+  ray.length = makeUnit(given, ray.direction);
+  if (ray.length == 0) return ray;
+  if (irradiance == Irradiance::point) {
+    ray.origin += kSensorHeight * ray.direction;
+    ray.direction = -ray.direction;
+  }
+  return ray;
+}
+
+RayAnswer bogusAnswer(const InputRay& before) {
+  RayAnswer answer;
+  answer.origin = answer.point = before.origin;
+  answer.direction = before.direction;
+  return answer;
+}
+
+}  // namespace rsphere

@@ -1,0 +1,99 @@
+#include "answer/header.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "answer/answer_writer.h"
+#include "answer/output_colors.h"
+#include "base/version.h"
+
+namespace rsphere {
+namespace {
+
+// A word as rtrace prints it in headers: quoted if it has blanks or is empty, or has a quote inside.
+std::string quoted(const std::string& word) {
+  char quote = 0;
+  for (size_t i = 1; i + 1 < word.size(); ++i) {
+    if (word[i] == '"') quote = '\'';
+    if (word[i] == '\'') quote = '"';
+  }
+  const bool blanks =
+      std::any_of(word.begin(), word.end(), [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); });
+  if (quote == 0 && (word.empty() || blanks)) quote = '"';
+  return quote == 0 ? word : quote + word + quote;
+}
+
+std::string dateText(const std::tm& date) {
+  return fmt::format("{:04}:{:02}:{:02} {:02}:{:02}:{:02}", date.tm_year + 1900, date.tm_mon + 1,
+                     date.tm_mday, date.tm_hour, date.tm_min, date.tm_sec);
+}
+
+}  // namespace
+
+std::string_view formatName(NumberFormat format, const ColorOptions& color) {
+  switch (format) {
+    case NumberFormat::ascii:
+      return "ascii";
+    case NumberFormat::float32:
+      return "float";
+    case NumberFormat::float64:
+      return "double";
+    case NumberFormat::rgbe:
+      return OutputColors(color).pixelFormat();
+  }
+  return "unknown";
+}
+
+std::string versionLine() { return fmt::format("rsphere {}", kVersion); }
+
+std::string versionAnswer(std::string_view program) {
+  if (program != "rtrace") return versionLine();
+  return fmt::format("matches {0}: this is {1}, compatible with rtrace of RADIANCE {0}", kRadianceVersion,
+                     versionLine());
+}
+
+std::string commandLine(const AnswerOptions& options, bool withScene) {
+  std::string line = quoted(options.program);
+  for (const std::string& word : options.words) line += ' ' + quoted(word);
+  if (withScene)
+    for (const std::string& word : options.scene) line += ' ' + quoted(word);
+  return line;
+}
+
+std::string provenance(const AnswerOptions& options, std::span<const std::string> sceneHeader) {
+  std::string text;
+  if (sceneHeader.empty()) text += "#?RADIANCE\n";
+  for (const std::string& line : sceneHeader) text += line + '\n';
+  text += commandLine(options, sceneHeader.empty()) + '\n';
+  return text + fmt::format("SOFTWARE= {}\n", versionLine());
+}
+
+void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<const std::string> sceneHeader,
+                 std::time_t now) {
+  std::string text;
+  if (options.header) {
+    text += provenance(options, sceneHeader);
+    std::tm date{};
+    if (localtime_r(&now, &date) != nullptr) text += fmt::format("CAPDATE= {}\n", dateText(date));
+    if (gmtime_r(&now, &date) != nullptr) text += fmt::format("GMT= {}\n", dateText(date));
+    if (options.treeOutputs.empty() && !options.outputs.empty())
+      text += fmt::format("NCOMP={}\n", componentCount(options));
+    text += OutputColors(options.color).headerLines();
+    size_t alignment = 1;
+    if (options.out == NumberFormat::float32) alignment = sizeof(float);
+    if (options.out == NumberFormat::float64) alignment = sizeof(double);
+    if (alignment > 1) text += fmt::format("BigEndian={}\n", std::endian::native == std::endian::big ? 1 : 0);
+    text += fmt::format("FORMAT={}", formatName(options.out, options.color));
+    constexpr size_t kLineEnds = 2;  // of this line and of the empty one
+    if (const auto start = writer.position(); start && alignment > 1)
+      while ((static_cast<size_t>(*start) + text.size() + kLineEnds) % alignment != 0) text += ' ';
+    text += "\n\n";
+  }
+  if (options.width > 0 && options.height > 0)
+    text += fmt::format("-Y {:8} +X {:8}\n", options.height, options.width);
+  writer.write(text);
+}
+
+}  // namespace rsphere

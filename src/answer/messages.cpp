@@ -1,0 +1,80 @@
+#include "answer/messages.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "answer/record_writer.h"
+
+namespace rsphere {
+namespace {
+
+// A message that cannot be written has nobody left to be told.
+void writeAll(int fd, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t n = ::write(fd, text.data(), text.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return;
+    text.remove_prefix(static_cast<size_t>(n));
+  }
+}
+
+}  // namespace
+
+Messages::~Messages() {
+  if (fd_ != 2) close(fd_);
+}
+
+void Messages::use(const MessageOptions& options, std::string_view command) {
+  warnings_ = options.warnings;
+  if (!options.errorFile.empty()) {
+    const int fd = open(options.errorFile.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    if (fd < 0)
+      throw rad::Error(
+          fmt::format("cannot open error file \"{}\": {}", options.errorFile, std::strerror(errno)),
+          rad::Status::system);
+    if (fd_ != 2) close(fd_);
+    fd_ = fd;
+    writeAll(fd_, fmt::format("**************\n*** PID {:5}: {}\n\n", getpid(), command));
+  }
+  for (const std::string& remark : options.remarks) warning(remark);
+}
+
+void Messages::warning(std::string_view text) const {
+  if (warnings_) write("warning - ", text);
+}
+
+int Messages::error(const rad::Error& error) const {
+  const int status = static_cast<int>(error.status());
+  if (dynamic_cast<const ClosedPipe*>(&error) != nullptr) return status;
+  switch (error.status()) {
+    case rad::Status::input:
+      write("fatal - ", error.what());
+      break;
+    case rad::Status::system:
+      write("system - ", error.what());
+      break;
+    case rad::Status::signal:
+      write("signal - ", error.what());
+      break;
+  }
+  return status;
+}
+
+void Messages::report(std::string_view text) const { write("", text); }
+
+void Messages::write(std::string_view kind, std::string_view text) const {
+  std::string lines;
+  while (!text.empty() && text.back() == '\n') text.remove_suffix(1);
+  for (bool first = true; first || !text.empty(); first = false) {
+    const size_t end = text.find('\n');
+    lines += fmt::format("{}: {}{}\n", program_, first ? kind : "", text.substr(0, end));
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  }
+  writeAll(fd_, lines);
+}
+
+}  // namespace rsphere

@@ -1,0 +1,68 @@
+#include "answer/record_text.h"
+
+#include <array>
+#include <charconv>
+
+#include "answer/number_text.h"
+#include "image/rgbe.h"
+
+namespace rsphere {
+
+void RecordText::number(double x) {
+  switch (format_) {
+    case NumberFormat::ascii:
+      appendScientific(bytes_, x);
+      bytes_ += '\t';
+      break;
+    case NumberFormat::float32: {
+      const auto single = static_cast<float>(x);
+      bytes_.append(reinterpret_cast<const char*>(&single), sizeof single);
+      break;
+    }
+    case NumberFormat::float64:
+    case NumberFormat::rgbe:  // numbers beside a pixel do not occur: parseOptions() allows one colour only
+      bytes_.append(reinterpret_cast<const char*>(&x), sizeof x);
+      break;
+  }
+}
+
+void RecordText::integer(uint64_t n) {
+  if (format_ != NumberFormat::ascii) return number(static_cast<double>(n));
+  char digits[24];
+  bytes_.append(digits, std::to_chars(digits, digits + sizeof digits, n).ptr);
+  bytes_ += '\t';
+}
+
+void RecordText::vector(const V3d& v) {
+  number(v.x);
+  number(v.y);
+  number(v.z);
+}
+
+void RecordText::color(const Rgb& c) {
+  if (format_ != NumberFormat::rgbe) return vector(c);
+  const std::array<uint8_t, 4> pixel = rgbePixel(c);
+  bytes_.append(reinterpret_cast<const char*>(pixel.data()), pixel.size());
+}
+
+void RecordText::spectrum(const Rgb& c, std::span<const int> channels) {
+  const std::array<double, 3> values = {c.x, c.y, c.z};
+  const std::array<uint8_t, 4> pixel = rgbePixel(c);
+  for (const int channel : channels)
+    if (format_ == NumberFormat::rgbe)
+      bytes_ += static_cast<char>(pixel[static_cast<size_t>(channel)]);
+    else
+      number(values[static_cast<size_t>(channel)]);
+  if (format_ == NumberFormat::rgbe) bytes_ += static_cast<char>(pixel[3]);
+}
+
+void RecordText::name(std::string_view n) {
+  bytes_ += n;
+  bytes_ += '\t';
+}
+
+void RecordText::end() {
+  if (format_ == NumberFormat::ascii) bytes_ += '\n';
+}
+
+}  // namespace rsphere

@@ -1,0 +1,131 @@
+#include "answer/stop_signals.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <ctime>
+
+#include "rad_parser/error.h"
+
+namespace rsphere {
+namespace {
+
+struct Named {
+  int number;
+  const char* text;
+};
+constexpr std::array<Named, 6> kSignals = {{{SIGINT, "Interrupt"},
+                                            {SIGHUP, "Hangup"},
+                                            {SIGTERM, "Terminate"},
+                                            {SIGALRM, "Alarm clock"},
+                                            {SIGXCPU, "CPU limit exceeded"},
+                                            {SIGXFSZ, "File size exceeded"}}};
+constexpr int kStatus = 3;          // of rtrace(1)
+constexpr unsigned kPatience = 15;  // seconds to finish in, as rtrace has them
+// timeout(1) sends its signal to the process and to its group: the same one twice, microseconds apart, or
+// more where it is interrupted in between. Nobody asks a second time so soon.
+constexpr int64_t kOneRequest = 50'000'000;  // ns
+
+struct State {
+  std::atomic<int> raised{0};  // the first signal
+  std::atomic<int64_t> raisedAt{0};
+  std::atomic<bool> deferred{false};
+  std::atomic<bool> told{false};  // the message is somebody else's by now
+  std::atomic<bool> ending{false};
+  std::atomic<int> messageFd{2};
+  int pipe[2] = {-1, -1};
+  std::array<std::string, kSignals.size()> messages;
+  std::array<struct sigaction, kSignals.size() + 1> before{};  // the last is that of SIGPIPE
+};
+State state;
+
+// The next file opened would take the number of a standard descriptor that is closed, and be read or written
+// in its place. Opened the wrong way round, each use of it is an error, as it would be if it were closed.
+void occupyStandardDescriptors() {
+  for (int fd = 0; fd <= 2; ++fd)
+    if (fcntl(fd, F_GETFD) < 0) {
+      [[maybe_unused]] const int taken = open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
+    }
+}
+
+// ns, on a clock of its own.
+int64_t now() {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
+}
+
+void onSignal(int number) {
+  const int error = errno;
+  int first = 0;
+  const bool again = !state.raised.compare_exchange_strong(first, number);
+  if (!again) state.raisedAt = now();
+  if (again && first == number && now() - state.raisedAt < kOneRequest) {
+    errno = error;
+    return;
+  }
+  if (again || !state.deferred) {
+    // Another thread may be here already, and says it.
+    if (state.ending.exchange(true)) return;
+    for (size_t i = 0; i < kSignals.size() && !state.told; ++i)
+      if (kSignals[i].number == (again ? first : number)) {
+        const std::string& text = state.messages[i];
+        [[maybe_unused]] const ssize_t n = write(state.messageFd, text.data(), text.size());
+      }
+    _exit(kStatus);
+  }
+  alarm(kPatience);
+  [[maybe_unused]] const ssize_t n = write(state.pipe[1], "", 1);
+  errno = error;
+}
+
+}  // namespace
+
+StopSignals::StopSignals(const std::string& program) {
+  occupyStandardDescriptors();
+  if (pipe2(state.pipe, O_CLOEXEC | O_NONBLOCK) != 0)
+    throw rad::Error("cannot make a pipe for signals", rad::Status::system);
+  state.raised = 0;
+  state.deferred = false;
+  state.told = false;
+  state.ending = false;
+  state.messageFd = 2;
+  for (size_t i = 0; i < kSignals.size(); ++i) {
+    state.messages[i] = program + ": signal - " + kSignals[i].text + "\n";
+    struct sigaction action {};
+    action.sa_handler = onSignal;
+    sigemptyset(&action.sa_mask);
+    sigaction(kSignals[i].number, nullptr, &state.before[i]);
+    if (state.before[i].sa_handler != SIG_IGN) sigaction(kSignals[i].number, &action, nullptr);
+  }
+  struct sigaction ignore {};
+  ignore.sa_handler = SIG_IGN;
+  sigemptyset(&ignore.sa_mask);
+  sigaction(SIGPIPE, &ignore, &state.before.back());
+}
+
+StopSignals::~StopSignals() {
+  if (raised()) alarm(0);
+  for (size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i].number, &state.before[i], nullptr);
+  sigaction(SIGPIPE, &state.before.back(), nullptr);
+  close(state.pipe[0]);
+  close(state.pipe[1]);
+}
+
+void StopSignals::reportTo(int fd) { state.messageFd = fd; }
+void StopSignals::defer(bool on) { state.deferred = on; }
+bool StopSignals::raised() const { return state.raised != 0; }
+int StopSignals::descriptor() const { return state.pipe[0]; }
+
+std::string StopSignals::name() const {
+  state.told = true;
+  for (const Named& signal : kSignals)
+    if (signal.number == state.raised) return signal.text;
+  return {};
+}
+
+}  // namespace rsphere
