@@ -33,16 +33,13 @@ void answer(const Options& options, const Messages& messages, StopSignals& signa
   writeHeader(writer, options, scene.description.header, std::time(nullptr));
   writer.flush();  // a program that talks to this one may read the header before it sends a record
   if (options.sphere.on) {
-    const SphereEstimator estimator(transport, options.sphere,
-                                    options.outputs.find('e') != std::string::npos);
     Unreached unreached;
     const auto summarize = [&] {
       if (const std::string text = unreached.summary(options.sphere); !text.empty()) warn(text);
     };
     try {
-      runRecords(
-          reader, writer, options, messages, &signals,
-          answerPoints(estimator, transport, options, answers, warn, unreached, [&] { signals.check(); }));
+      runRecords(reader, writer, options, messages, &signals,
+                 answerPoints(transport, options, answers, warn, unreached, [&] { signals.check(); }));
     } catch (...) {
       summarize();
       throw;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <vector>
 
 #include "answer/header.h"
 #include "answer/threads.h"
@@ -12,11 +11,11 @@
 namespace rsphere {
 namespace {
 
-// Makes the random numbers of a picture independent of those of the answer.
+// Makes the random numbers of a picture differ from those of the answer to the same point.
 constexpr uint64_t kPictureSeed = 0x70696374757265;  // "picture"
 
-void writePicture(const std::string& name, const V3d& point, const SphereEstimator& estimator,
-                  const Transport& transport, const AnswerOptions& options,
+void writePicture(const std::string& name, const V3d& point, const Transport& transport,
+                  const AnswerOptions& options, const SphereEstimator& estimator,
                   SphereEstimator::Workspace& workspace) {
   PictureFile file(name);
   const PixelMap map(file.format() == PictureFormat::radiance ? Projection::angularFisheye
@@ -31,13 +30,22 @@ void writePicture(const std::string& name, const V3d& point, const SphereEstimat
 
 }  // namespace
 
+PointWorkers::PointWorkers(const Transport& transport, const AnswerOptions& options, bool standardError,
+                           const std::function<void()>& checkStop)
+    : estimator_(transport, options.sphere, standardError) {
+  for (unsigned i = 0; i < threadCount(options.threads); ++i) {
+    workspaces_.emplace_back(estimator_);
+    workspaces_.back().checkStop = checkStop;
+  }
+}
+
 void Unreached::add(uint64_t record, const PointAnswer& answer) {
   const std::lock_guard lock(mutex_);
   ++points_;
   if (answer.reached) return;
   ++missed_;
   const double mean = brightness(answer.mean), error = mean > 0 ? answer.brightnessError / mean : 1e30;
-  // Of equal errors the first in the input is kept, whichever thread answered it.
+  // Of equal errors the first record in the input is kept, whichever thread computed it.
   if (error < worstError_ || (error == worstError_ && record > worst_)) return;
   worst_ = record;
   worstError_ = error;
@@ -52,23 +60,20 @@ std::string Unreached::summary(const SphereOptions& options) const {
       options.accuracy, missed_, points_, options.mostOfAllSets(), worst_ + 1, 100 * worstError_);
 }
 
-AnswerRecord answerPoints(const SphereEstimator& estimator, const Transport& transport,
-                          const AnswerOptions& options, const AnswerWriter& writer, const rad::Warn& warn,
-                          Unreached& unreached, std::function<void()> checkStop) {
+AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& options,
+                          const AnswerWriter& writer, const rad::Warn& warn, Unreached& unreached,
+                          const std::function<void()>& checkStop) {
+  const bool standardError = options.outputs.find('e') != std::string::npos;
+  const auto workers = std::make_shared<PointWorkers>(transport, options, standardError, checkStop);
   if (transport.isDark()) warn("no light sources found");
-  auto workspaces = std::make_shared<std::vector<SphereEstimator::Workspace>>();
-  for (unsigned i = 0; i < threadCount(options.threads); ++i) {
-    workspaces->emplace_back(estimator);
-    workspaces->back().checkStop = checkStop;
-  }
-  return [&, workspaces](const Record& record, unsigned worker, std::string& bytes) {
-    SphereEstimator::Workspace& workspace = (*workspaces)[worker];
+  return [&, workers](const Record& record, unsigned worker, std::string& bytes) {
     const V3d point(record.numbers[0], record.numbers[1], record.numbers[2]);
-    const PointAnswer answer = estimator.estimate(point, workspace);
+    const PointAnswer answer = workers->answer(point, worker);
     unreached.add(record.index, answer);
+    SphereEstimator::Workspace& workspace = workers->workspace(worker);
     if (!options.sphere.picture.empty())
-      writePicture(pictureName(options.sphere.picture, record.index), point, estimator, transport, options,
-                   workspace);
+      writePicture(pictureName(options.sphere.picture, record.index), point, transport, options,
+                   workers->estimator(), workspace);
     if (!options.sphere.everyDirection) return writer.write(bytes, answer);
     for (size_t i = 0; i < workspace.samples.size(); ++i)
       writer.write(bytes, directionAnswer(transport.scene(), workspace.samples[i], workspace.rays[i]),

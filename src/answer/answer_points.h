@@ -3,20 +3,48 @@
 #include <functional>
 #include <mutex>
 #include <string>
+#include <vector>
 
+#include "answer/answer_options.h"
 #include "answer/answer_writer.h"
 #include "answer/batch.h"
 #include "importance/estimator.h"
 
 namespace rsphere {
 
-// Collects the points at which -Sa was not reached, for one line at the end. May be called from any thread.
+// The estimator of sphere mode, with a workspace for each thread of -n.
+class PointWorkers {
+ public:
+  // standardError: whether that of PointAnswer is wanted. checkStop is called now and then during an
+  // estimate; it may throw to give the point up. The transport must live as long. Throws what SphereEstimator
+  // throws.
+  PointWorkers(const Transport& transport, const AnswerOptions& options, bool standardError,
+               const std::function<void()>& checkStop = {});
+  PointWorkers(const PointWorkers&) = delete;
+  PointWorkers& operator=(const PointWorkers&) = delete;
+
+  // REQUIRES: worker is below threadCount(options.threads), and no other call for it is under way.
+  PointAnswer answer(const V3d& point, unsigned worker) {
+    return estimator_.estimate(point, workspaces_[worker]);
+  }
+
+  const SphereEstimator& estimator() const { return estimator_; }
+  // After answer(): the directions of the point and their rays.
+  SphereEstimator::Workspace& workspace(unsigned worker) { return workspaces_[worker]; }
+
+ private:
+  SphereEstimator estimator_;
+  std::vector<SphereEstimator::Workspace> workspaces_;
+};
+
+// Collects the points at which the accuracy of -Sa was not reached, for one line at the end. May be called
+// from several threads at once.
 class Unreached {
  public:
   void add(uint64_t record, const PointAnswer& answer);
 
   // "-Sa 0.01 was not reached at 3 of 20 points with at most 8192 directions; the worst is record 7: 1.25%".
-  // Empty if it was reached at all points.
+  // Empty if the accuracy was reached at all points.
   std::string summary(const SphereOptions& options) const;
 
  private:
@@ -25,12 +53,11 @@ class Unreached {
   double worstError_ = -1;  // relative standard error of the mean brightness
 };
 
-// Answers points with their spherical means, or with every direction (-Sd), and writes pictures of what
-// they see (-Si). Warns if nothing can give light. checkStop is called before each set of directions
-// and each row of a picture; it may throw to abandon a point. All arguments that are references must
-// outlive the returned function.
-AnswerRecord answerPoints(const SphereEstimator& estimator, const Transport& transport,
-                          const AnswerOptions& options, const AnswerWriter& writer, const rad::Warn& warn,
-                          Unreached& unreached, std::function<void()> checkStop);
+// The function that answers points in sphere mode: appends the spherical mean, or a record of every direction
+// (-Sd), and writes pictures of the points (-Si). Warns if nothing in the scene gives light. checkStop: see
+// PointWorkers. All arguments must live as long as the result. Throws what PointWorkers throws.
+AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& options,
+                          const AnswerWriter& writer, const rad::Warn& warn, Unreached& unreached,
+                          const std::function<void()>& checkStop);
 
 }  // namespace rsphere

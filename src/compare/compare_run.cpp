@@ -6,15 +6,14 @@
 #include <numbers>
 #include <optional>
 
+#include "answer/answer_points.h"
 #include "answer/answer_rays.h"
 #include "answer/answer_writer.h"
 #include "answer/load_scene.h"
 #include "answer/record_writer.h"
-#include "answer/threads.h"
 #include "compare/comparison.h"
 #include "compare/original.h"
 #include "compare/report.h"
-#include "importance/estimator.h"
 #include "measure/records_file.h"
 #include "measure/work.h"
 #include "sphere/directions.h"
@@ -58,14 +57,12 @@ Answers answerPoints(const Transport& transport, const CompareOptions& options,
   Answers answers{points.size() / 3, static_cast<size_t>(options.repeats), {}};
   answers.values.resize(answers.records * answers.repeats);
   for (size_t r = 0; r < answers.repeats; ++r) {
-    SphereOptions sphere = options.sphere;
-    sphere.rotation += r;
-    const SphereEstimator estimator(transport, sphere);
-    std::vector<SphereEstimator::Workspace> workspaces;
-    for (unsigned k = 0; k < threadCount(options.threads); ++k) workspaces.emplace_back(estimator);
+    AnswerOptions rotated = options;
+    rotated.sphere.rotation += r;
+    PointWorkers workers(transport, rotated, false);
     forEachIndex(answers.records, options.threads, nullptr, [&](size_t i, unsigned worker) {
       const V3d point(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
-      answers.values[r * answers.records + i] = estimator.estimate(point, workspaces[worker]).mean;
+      answers.values[r * answers.records + i] = workers.answer(point, worker).mean;
     });
   }
   return answers;

@@ -61,7 +61,7 @@ std::string slowReference(const ReferenceProgress& p) {
   return fmt::format("{}: {}", text, fmt::join(quicker, ", "));
 }
 
-double costOf(const Options& setting) {
+double costOf(const AnswerOptions& setting) {
   const RayOptions& ray = setting.ray;
   const double rays = ray.ambientBounces > 0 ? std::max(1, ray.ambientDivisions) : 1;
   return setting.sphere.baseDirections * std::pow(rays, .75);

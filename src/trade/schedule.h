@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "cli/options.h"
+#include "answer/answer_options.h"
 
 namespace rsphere {
 
@@ -31,7 +31,7 @@ std::string slowReference(const ReferenceProgress& progress);
 
 // What a setting costs beside others: its directions times the power 3/4 of the indirect rays of each (-ad).
 // Within a factor of two or so for the usual settings, which is enough to tell the time that is left.
-double costOf(const Options& setting);
+double costOf(const AnswerOptions& setting);
 
 // Seconds for the settings that are left, from the seconds that the first `done` of them took.
 double secondsLeft(std::span<const double> costs, size_t done, double seconds);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "answer/threads.h"
 #include "measure/work.h"
 
 namespace rsphere {
@@ -18,20 +17,17 @@ const Transport& Trials::transportOf(const Setting& setting) {
 
 bool Trials::run(const Setting& setting, bool standardErrors, bool timed, Trial& trial,
                  const std::function<void()>& pointAnswered) {
-  const Options& options = setting.options;
+  const AnswerOptions& options = setting.options;
   const Transport& transport = transportOf(setting);
   const double begin = threadSeconds();
-  const SphereEstimator estimator(transport, options.sphere, standardErrors);
+  PointWorkers workers(transport, options, standardErrors);
   const double setup = threadSeconds() - begin;
-  std::vector<SphereEstimator::Workspace> workspaces;
-  for (unsigned k = 0; k < threadCount(options.threads); ++k) workspaces.emplace_back(estimator);
   const size_t count = points_.size() / 3;
   std::vector<PointAnswer> answers(count);
   std::vector<double> seconds(count);
   const bool whole = forEachIndex(count, options.threads, &signals_, [&](size_t i, unsigned worker) {
     const double start = threadSeconds();
-    answers[i] =
-        estimator.estimate(V3d(points_[3 * i], points_[3 * i + 1], points_[3 * i + 2]), workspaces[worker]);
+    answers[i] = workers.answer(V3d(points_[3 * i], points_[3 * i + 1], points_[3 * i + 2]), worker);
     seconds[i] = threadSeconds() - start;
     if (pointAnswered) pointAnswered();
   });

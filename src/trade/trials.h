@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "answer/answer_points.h"
 #include "answer/stop_signals.h"
-#include "importance/estimator.h"
 #include "trade/curve.h"
 
 namespace rsphere {
@@ -14,7 +14,7 @@ namespace rsphere {
 // A setting's options, and those of its words that rays depend on: settings with the same can share a
 // Transport.
 struct Setting {
-  Options options;
+  AnswerOptions options;
   std::string rays;
 };
 

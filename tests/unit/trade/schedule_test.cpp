@@ -51,7 +51,7 @@ TEST(Schedule, ASlowReferenceNamesWhatMakesItQuicker) {
 }
 
 TEST(Schedule, OfSettings) {
-  Options one, four;
+  AnswerOptions one, four;
   one.sphere.baseDirections = four.sphere.baseDirections = 100;
   one.ray.ambientDivisions = 1;
   four.ray.ambientDivisions = 16;
