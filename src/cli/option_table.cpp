@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <iomanip>
 #include <iterator>
 
@@ -242,13 +243,11 @@ std::string weightsLine(const Options& o) {
   return fmt::format("-Sw {}\t\t\t\t", kLetters[static_cast<size_t>(o.sphere.weights)]);
 }
 
-std::vector<OptionEntry> makeTable() {
-  using O = Options;
-  constexpr std::string_view kPhotons = "photon maps are not read; -ab N -aa 0 computes indirect light";
-  constexpr std::string_view kPersist = "a program that waits is kept with a pipe and -x 1";
-  std::vector<OptionEntry> table;
-  const auto add = [&table](OptionEntry entry) { table.push_back(entry); };
+// What appends an option to the table.
+using Add = std::function<void(const OptionEntry&)>;
+using O = Options;
 
+void addRecordOptions(const Add& add) {
   add({.name = "-w",
        .group = Group::program,
        .value = +[](O& o) -> bool& { return o.messages.warnings; },
@@ -332,6 +331,9 @@ std::vector<OptionEntry> makeTable() {
            "blank precedes spec.",
        .glued = true,
        .line = outputsLine});
+}
+
+void addColorOptions(const Add& add) {
   for (size_t i = 0; i < kSpaces.size(); ++i)
     add({.name = kSpaces[i].name,
          .group = Group::color,
@@ -358,6 +360,9 @@ std::vector<OptionEntry> makeTable() {
            "-pS). Three bands are no spectrum, and red, green and blue are written.",
        .glued = true,
        .line = spectralLine});
+}
+
+void addRayOptions(const Add& add) {
   add({.name = "-i",
        .group = Group::records,
        .value = +[](O& o) -> bool& { return o.irradianceAtHit; },
@@ -383,6 +388,9 @@ std::vector<OptionEntry> makeTable() {
        .value = +[](O& o) -> bool& { return o.ray.backFacesVisible; },
        .remark = "back face visibility on|back face visibility off",
        .paragraph = "Switch for whether rays see the backs of surfaces."});
+}
+
+void addDirectOptions(const Add& add) {
   add({.name = "-dt",
        .arguments = "frac",
        .group = Group::direct,
@@ -450,6 +458,9 @@ std::vector<OptionEntry> makeTable() {
        .paragraph =
            "Switch for light sources seen directly; off, they are black there, and light the scene all the "
            "same."});
+}
+
+void addSpecularOptions(const Add& add) {
   add({.name = "-ss",
        .arguments = "samp",
        .group = Group::specular,
@@ -468,6 +479,9 @@ std::vector<OptionEntry> makeTable() {
        .paragraph =
            "Specular reflection or transmission below this fraction sends no rays and takes the indirect "
            "light instead. 0 always sends them, 1 never."});
+}
+
+void addIndirectOptions(const Add& add) {
   add({.name = "-av",
        .arguments = "red grn blu",
        .group = Group::indirect,
@@ -537,6 +551,9 @@ std::vector<OptionEntry> makeTable() {
        .paragraph =
            "Rays added to those of -ad. All of them are spread over the hemisphere together; unlike those "
            "of rtrace, none are placed by what others have found."});
+}
+
+void addMediumOptions(const Add& add) {
   add({.name = "-me",
        .arguments = "rext gext bext",
        .group = Group::medium,
@@ -577,6 +594,9 @@ std::vector<OptionEntry> makeTable() {
        .remark = "mist sampling distance",
        .paragraph = "Length of a ray through mist for each sample of a source that it scatters, at most 16 "
                     "samples. 0: one sample in all."});
+}
+
+void addSpectrumOptions(const Add& add) {
   add({.name = "-cs",
        .arguments = "Ns",
        .group = Group::color,
@@ -597,6 +617,9 @@ std::vector<OptionEntry> makeTable() {
        .remark = "wavelength limits (nm)",
        .paragraph = "Limits of the spectrum, at least 50 nm apart: 380 and 780 unless told otherwise.",
        .line = wavelengthsLine});
+}
+
+void addLimitOptions(const Add& add) {
   add({.name = "-lr",
        .arguments = "N",
        .group = Group::limits,
@@ -619,6 +642,10 @@ std::vector<OptionEntry> makeTable() {
            "diffuse reflection halves the weight, whatever the surface reflects, as in rtrace. The coarse "
            "solution of later bounces keeps the limits of -lr and -lw as if each bounce were such a ray.",
        .line = +[](const O& o) { return fmt::format("-lw {:.2e}\t\t\t", o.ray.weightLimit); }});
+}
+
+void addPhotonOptions(const Add& add) {
+  constexpr std::string_view kPhotons = "photon maps are not read; -ab N -aa 0 computes indirect light";
   add({.name = "-am",
        .arguments = "frac",
        .group = Group::indirect,
@@ -630,7 +657,6 @@ std::vector<OptionEntry> makeTable() {
        .support = Support::unused,
        .line = +[](const O& o) { return fmt::format("-am {:.1f}\t\t\t\t", o.photonRadius); }});
 
-  // What rtrace's -defaults does not print.
   add({.name = "-ap",
        .arguments = "file",
        .group = Group::indirect,
@@ -654,6 +680,9 @@ std::vector<OptionEntry> makeTable() {
        .remark = "photon cache size",
        .paragraph = "Accepted as in rtrace; changes nothing without -ap.",
        .support = Support::unused});
+}
+
+void addModifierOptions(const Add& add) {
   add({.name = "-af",
        .arguments = "file",
        .group = Group::indirect,
@@ -698,6 +727,9 @@ std::vector<OptionEntry> makeTable() {
        .remark = "modifiers with indirect light",
        .paragraph =
            "As -ai, for all modifiers that the file names, between blanks. It is looked for along RAYPATH."});
+}
+
+void addTreeOptions(const Add& add) {
   for (const std::string_view name : {"-te", "-ti"})
     add({.name = name,
          .arguments = "mod",
@@ -722,6 +754,10 @@ std::vector<OptionEntry> makeTable() {
                             "along RAYPATH."
                           : "As -ti, for all modifiers that the file names, between blanks. It is looked "
                             "for along RAYPATH."});
+}
+
+void addProgramOptions(const Add& add) {
+  constexpr std::string_view kPersist = "a program that waits is kept with a pipe and -x 1";
   add({.name = "-f",
        .arguments = "source",
        .group = Group::program,
@@ -764,7 +800,9 @@ std::vector<OptionEntry> makeTable() {
            "Report about every so many seconds how many records were answered, how many a second and, where "
            "the end is known (-y, or input from a file), how long the rest will take, on standard error. "
            "0: never."});
+}
 
+void addDirectionOptions(const Add& add) {
   add({.name = "-S",
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.sphere.on; },
@@ -829,6 +867,9 @@ std::vector<OptionEntry> makeTable() {
                     "source is a surface "
                     "like any other.",
        .line = weightsLine});
+}
+
+void addSphereOptions(const Add& add) {
   add({.name = "-Sg",
        .arguments = "mod",
        .group = Group::sphere,
@@ -927,6 +968,16 @@ std::vector<OptionEntry> makeTable() {
            "Switch for a list of the scene's special objects instead of answers: a line for each with its "
            "place, material, density of directions (1/sr) and why it is special, separated by tabs. Nothing "
            "is read from standard input."});
+}
+
+// The order is that of rtrace's -defaults. -ap to -t are rtrace's too, but its -defaults does not print them.
+std::vector<OptionEntry> makeTable() {
+  std::vector<OptionEntry> table;
+  for (const auto addOptions :
+       {addRecordOptions, addColorOptions, addRayOptions, addDirectOptions, addSpecularOptions,
+        addIndirectOptions, addMediumOptions, addSpectrumOptions, addLimitOptions, addPhotonOptions,
+        addModifierOptions, addTreeOptions, addProgramOptions, addDirectionOptions, addSphereOptions})
+    addOptions([&table](const OptionEntry& entry) { table.push_back(entry); });
   return table;
 }
 
