@@ -319,70 +319,95 @@ std::optional<bool> switched(std::string_view suffix, bool before) {
 
 namespace {
 
-// Reads a command line into options, and answers which options it has.
-std::vector<Use> parse(std::span<const std::string> given, const Companion& companion, Options& options) {
-  const std::string called = given.empty() ? "rsphere" : given[0];
-  options.program = called.substr(called.rfind('/') + 1);
-  Words words(given.subspan(given.empty() ? 0 : 1));
+// The options of a command line, and the mode that they choose.
+struct Given {
+  std::vector<Use> uses;
+  Request request = Request::answers;
+  bool sphereMode = true;
+
+  bool has(std::string_view name) const {
+    return std::any_of(uses.begin(), uses.end(), [&](const Use& use) { return use.entry->name == name; });
+  }
+};
+
+// The option that `word` names, with the words behind it.
+Use takeUse(Words& words, const Companion& companion, const std::string& word) {
+  const OptionEntry* entry = findOption(companion.own, word);
+  if (entry == nullptr) entry = findOption(optionTable(), word);
+  if (entry == nullptr) commandLineError(word, whyUnknown(companion.own, word));
+  Use use{entry, word.substr(entry->name.size()), {}};
+  if (entry->alsoGlued && !use.rest.empty()) use.words.push_back(use.rest);
+  while (use.words.size() < static_cast<size_t>(arity(*entry))) {
+    if (words.atEnd() || !isWord(words.word())) missingWords(word, *entry, use.words.size(), words.atEnd());
+    use.words.push_back(words.take());
+  }
+  return use;
+}
+
+Given takeOptions(Words& words, const Companion& companion, bool sphereMode) {
+  Given given;
+  given.sphereMode = sphereMode;
+  for (words.expand(); !words.atEnd() && startsWith(words.word(), "-"); words.expand()) {
+    const std::string word = words.take();
+    if (word == "-version" || word == "--version") given.request = Request::version;
+    if (word == "-defaults") given.request = Request::defaults;
+    if (word == "-help" || word == "--help") given.request = Request::help;
+    if (given.request != Request::answers) break;
+    if (word == "-features") commandLineError(word, "it must be the first option");
+    Use use = takeUse(words, companion, word);
+    if (use.entry->name == "-S") given.sphereMode = switched(use.rest, given.sphereMode).value();
+    given.uses.push_back(std::move(use));
+  }
+  return given;
+}
+
+std::vector<std::string> takeScene(Words& words) {
+  std::vector<std::string> scene;
+  for (const size_t first = words.at(); !words.atEnd(); words.expand()) {
+    if (startsWith(words.word(), "-"))
+      commandLineError(words.before()[first],
+                       fmt::format("the scene begins here, but '{}' follows; options come before the scene",
+                                   words.word()));
+    scene.push_back(words.take());
+  }
+  if (scene.empty())
+    throw rad::Error(
+        "missing octree argument: an octree, scene files or a '!command' that makes them come "
+        "behind the options; see -help");
+  return scene;
+}
+
+// Reads a command line into options, and returns the options that it uses.
+std::vector<Use> parse(std::span<const std::string> commandLine, const Companion& companion,
+                       Options& options) {
+  const std::string called = commandLine.empty() ? "rsphere" : commandLine[0];
+  const std::string program = called.substr(called.rfind('/') + 1);
+  Words words(commandLine.subspan(commandLine.empty() ? 0 : 1));
   if (!words.atEnd() && words.word() == "-features") {
-    options.request = Request::features;
     words.take();
+    options.program = program;
+    options.request = Request::features;
     options.features.assign(words.rest().begin(), words.rest().end());
     return {};
   }
-  std::vector<Use> uses;
-  Request request = Request::answers;
-  bool sphereMode = companion.sphereMode && options.program != "rtrace", mostGiven = false, uGiven = false;
-  for (words.expand(); !words.atEnd() && startsWith(words.word(), "-"); words.expand()) {
-    const std::string word = words.take();
-    if (word == "-version" || word == "--version") request = Request::version;
-    if (word == "-defaults") request = Request::defaults;
-    if (word == "-help" || word == "--help") request = Request::help;
-    if (request != Request::answers) break;
-    if (word == "-features") commandLineError(word, "it must be the first option");
-    const OptionEntry* entry = findOption(companion.own, word);
-    if (entry == nullptr) entry = findOption(optionTable(), word);
-    if (entry == nullptr) commandLineError(word, whyUnknown(companion.own, word));
-    Use use{entry, word.substr(entry->name.size()), {}};
-    if (entry->alsoGlued && !use.rest.empty()) use.words.push_back(use.rest);
-    while (use.words.size() < static_cast<size_t>(arity(*entry))) {
-      if (words.atEnd() || !isWord(words.word())) missingWords(word, *entry, use.words.size(), words.atEnd());
-      use.words.push_back(words.take());
-    }
-    if (entry->name == "-S") sphereMode = switched(use.rest, sphereMode).value();
-    mostGiven |= entry->name == "-Sx";
-    uGiven |= entry->name == "-u";
-    uses.push_back(std::move(use));
-  }
-  const std::string program = options.program;
-  options = modeDefaults(sphereMode);
+  Given given = takeOptions(words, companion, companion.sphereMode && program != "rtrace");
+  options = modeDefaults(given.sphereMode);
   options.program = program;
-  options.request = request;
+  options.request = given.request;
   options.words.assign(words.before().begin(), words.before().end());
-  for (const Use& use : uses)
+  for (const Use& use : given.uses)
     if (use.entry->name != "-S") apply(use, options);
   if (options.outputs.empty())
     options.outputs = options.sphere.on && options.sphere.everyDirection ? "odwv" : "v";
-  if (request == Request::answers) {
-    for (const size_t first = words.at(); !words.atEnd(); words.expand()) {
-      if (startsWith(words.word(), "-"))
-        commandLineError(words.before()[first],
-                         fmt::format("the scene begins here, but '{}' follows; options come before the scene",
-                                     words.word()));
-      options.scene.push_back(words.take());
-    }
-    if (options.scene.empty())
-      throw rad::Error(
-          "missing octree argument: an octree, scene files or a '!command' that makes them come "
-          "behind the options; see -help");
-  }
-  options.numberedRays = uGiven && options.ray.uncorrelated && !options.sphere.on;
+  const bool answers = options.request == Request::answers;
+  if (answers) options.scene = takeScene(words);
+  options.numberedRays = given.has("-u") && options.ray.uncorrelated && !options.sphere.on;
   splitTree(options);
   checkLetters(options);
-  if (request == Request::answers) checkColorOutput(options);
+  if (answers) checkColorOutput(options);
   checkIrradiance(options);
-  checkTogether(options, mostGiven);
-  return uses;
+  checkTogether(options, given.has("-Sx"));
+  return std::move(given.uses);
 }
 
 }  // namespace
