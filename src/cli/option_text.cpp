@@ -10,65 +10,48 @@
 namespace rsphere {
 namespace {
 
+// The names that -defaults gives the letters of -o: rtrace's words, in sphere mode ours. rtrace has none for
+// c.
+struct LetterName {
+  char letter;
+  std::string_view name;
+};
+constexpr std::array kLetterNames = {
+    LetterName{'t', "trace"},
+    LetterName{'o', "origin"},
+    LetterName{'d', "direction"},
+    LetterName{'r', "reflect_contrib"},
+    LetterName{'R', "reflect_length"},
+    LetterName{'x', "unreflect_contrib"},
+    LetterName{'X', "unreflect_length"},
+    LetterName{'v', "value"},
+    LetterName{'V', "contribution"},
+    LetterName{'l', "length"},
+    LetterName{'L', "first_length"},
+    LetterName{'p', "point"},
+    LetterName{'n', "normal"},
+    LetterName{'N', "unperturbed_normal"},
+    LetterName{'s', "surface"},
+    LetterName{'w', "weight"},
+    LetterName{'W', "coefficient"},
+    LetterName{'m', "modifier"},
+    LetterName{'M', "material"},
+    LetterName{'~', "tilde"},
+    LetterName{'i', "record"},
+    LetterName{'e', "standard_error"},
+    LetterName{'E', "scalar_irradiance"},
+    LetterName{'C', "cylindrical_irradiance"},
+    LetterName{'H', "six_irradiances"},
+    LetterName{'u', "light_vector"},
+    LetterName{'k', "directions"},
+};
+
 std::string_view letterName(char letter, bool sphereRecord) {
-  switch (letter) {
-    case 't':
-      return "trace";
-    case 'o':
-      return sphereRecord ? "point" : "origin";
-    case 'd':
-      return "direction";
-    case 'r':
-      return "reflect_contrib";
-    case 'R':
-      return "reflect_length";
-    case 'x':
-      return "unreflect_contrib";
-    case 'X':
-      return "unreflect_length";
-    case 'v':
-      return sphereRecord ? "mean_radiance" : "value";
-    case 'V':
-      return "contribution";
-    case 'l':
-      return "length";
-    case 'L':
-      return "first_length";
-    case 'p':
-      return "point";
-    case 'n':
-      return "normal";
-    case 'N':
-      return "unperturbed_normal";
-    case 's':
-      return "surface";
-    case 'w':
-      return "weight";
-    case 'W':
-      return "coefficient";
-    case 'm':
-      return "modifier";
-    case 'M':
-      return "material";
-    case '~':
-      return "tilde";
-    case 'i':
-      return "record";
-    case 'e':
-      return "standard_error";
-    case 'E':
-      return "scalar_irradiance";
-    case 'C':
-      return "cylindrical_irradiance";
-    case 'H':
-      return "six_irradiances";
-    case 'u':
-      return "light_vector";
-    case 'k':
-      return "directions";
-    default:
-      return "";  // rtrace has no word for c
-  }
+  if (sphereRecord && letter == 'o') return "point";
+  if (sphereRecord && letter == 'v') return "mean_radiance";
+  for (const LetterName& known : kLetterNames)
+    if (known.letter == letter) return known.name;
+  return "";
 }
 
 // The remark behind '#', where it depends on the values.
