@@ -155,24 +155,43 @@ std::string worstText(const CompareOptions& options, const Comparison& compariso
   return text;
 }
 
+// The numbers of the records to compare.
+std::vector<double> recordsToCompare(const CompareOptions& options, const std::string& name) {
+  std::vector<double> numbers = readRecords(name, options);
+  if (!options.sphere.on) numbers = withoutBogus(numbers);
+  const size_t records = numbers.size() / static_cast<size_t>(options.numbersPerRecord());
+  if (records == 0) throw rad::Error(fmt::format("{}: no record has a direction", name));
+  if (!options.differences.empty() && (options.width < 1 || options.height < 1 ||
+                                       static_cast<size_t>(options.width * options.height) != records))
+    throw rad::Error(fmt::format("-Cp: {} records are no picture of -x {} times -y {}", records,
+                                 options.width, options.height));
+  return numbers;
+}
+
+CompareStatus statusOf(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::same:
+    case Verdict::small:
+      return CompareStatus::same;
+    case Verdict::undecided:
+      return CompareStatus::undecided;
+    case Verdict::differs:
+      break;
+  }
+  return CompareStatus::differs;
+}
+
 }  // namespace
 
 CompareStatus runCompare(CompareOptions options, std::span<const UsedOption> used, const Messages& messages) {
   if (options.scene.size() < 2)
     throw rad::Error("missing argument: a scene and a file of records are needed; see -help");
-  if (options.sphere.on) refuseWhatPointsHave(options);
+  const bool points = options.sphere.on;
+  if (points) refuseWhatPointsHave(options);
   const OriginalProgram program = findOriginal();
   const std::string recordsName = options.scene.back();
   options.scene.pop_back();
-  std::vector<double> numbers = readRecords(recordsName, options);
-  const auto perRecord = static_cast<size_t>(options.numbersPerRecord());
-  if (!options.sphere.on) numbers = withoutBogus(numbers);
-  const size_t records = numbers.size() / perRecord;
-  if (records == 0) throw rad::Error(fmt::format("{}: no record has a direction", recordsName));
-  if (!options.differences.empty() && (options.width < 1 || options.height < 1 ||
-                                       static_cast<size_t>(options.width * options.height) != records))
-    throw rad::Error(fmt::format("-Cp: {} records are no picture of -x {} times -y {}", records,
-                                 options.width, options.height));
+  const std::vector<double> numbers = recordsToCompare(options, recordsName);
   if (options.ray.ambientBounces > 0 && options.ray.ambientAccuracy > 0)
     messages.warning(
         "the original keeps indirect light in a cache, whose error shows as bias, and repeats use it again: "
@@ -185,18 +204,17 @@ CompareStatus runCompare(CompareOptions options, std::span<const UsedOption> use
   const Transport transport(scene, options.ray, options.irradiance, options.sphere.basicRadiance, warn);
   if (transport.isDark()) messages.warning("no light sources found");
   const Answers ours =
-      options.sphere.on ? answerPoints(transport, options, numbers) : answerRays(transport, options, numbers);
+      points ? answerPoints(transport, options, numbers) : answerRays(transport, options, numbers);
   const double ourSeconds = processSeconds() - start;
 
   Original original(program, options.scene, isOctree,
-                    options.sphere.on ? pointOptions(options, used) : originalOptions(options, used));
-  const Answers theirs = options.sphere.on ? originalPoints(original, options, numbers)
-                                           : originalRays(original, numbers, ours.repeats);
-  const Comparison comparison =
-      compare(ours, theirs, options.tolerance, options.shareBeyond, !options.sphere.on);
+                    points ? pointOptions(options, used) : originalOptions(options, used));
+  const Answers theirs =
+      points ? originalPoints(original, options, numbers) : originalRays(original, numbers, ours.repeats);
+  const Comparison comparison = compare(ours, theirs, options.tolerance, options.shareBeyond, !points);
 
   RecordWriter out(1);
-  out.write(fmt::format("{} {}, {} repeats, beside {} ({})\n", records, options.sphere.on ? "points" : "rays",
+  out.write(fmt::format("{} {}, {} repeats, beside {} ({})\n", ours.records, points ? "points" : "rays",
                         options.repeats, program.path, program.version));
   out.write(figuresText(comparison, options.tolerance));
   out.write(histogramText(comparison.records, options.tolerance));
@@ -204,22 +222,12 @@ CompareStatus runCompare(CompareOptions options, std::span<const UsedOption> use
   out.write(fmt::format("CPU time of all repeats, loading included: rsphere {:.2f} s, the original {:.2f} s",
                         ourSeconds, original.seconds()));
   out.write(isOctree ? "\n" : fmt::format(", oconv {:.2f} s\n", original.octreeSeconds()));
-  if (options.sphere.on)
-    out.write(equalErrorText(comparison, options.orientations, ourSeconds, original.seconds()));
+  if (points) out.write(equalErrorText(comparison, options.orientations, ourSeconds, original.seconds()));
   out.flush();
   if (!options.differences.empty())
     writeDifferences(options.differences, options.width, options.height, comparison.records,
                      options.tolerance);
-  switch (comparison.verdict) {
-    case Verdict::same:
-    case Verdict::small:
-      return CompareStatus::same;
-    case Verdict::undecided:
-      return CompareStatus::undecided;
-    case Verdict::differs:
-      break;
-  }
-  return CompareStatus::differs;
+  return statusOf(comparison.verdict);
 }
 
 }  // namespace rsphere
