@@ -9,15 +9,15 @@
 
 namespace rsphere {
 
-// The seed of the random numbers of a ray, the index-th record of the input from 0: it follows from the six
-// numbers of the ray and from -Sr; with -u+ also from index, so that a repeated ray is another sample.
+// The seed of the random numbers of a ray. It depends on the six numbers of the ray and on -Sr; with -u+ it
+// also depends on index, the number of its record from 0, so that a repeated ray is a new sample.
 uint64_t seedOfRay(std::span<const double> numbers, uint64_t index, const AnswerOptions& options);
 
-// A tracer for each thread of -n, which aims at the bright spots of the transport.
+// A tracer for each thread of -n. Each aims at the bright spots of the transport, which must live as long.
 std::vector<PathTracer> rayTracers(const Transport& transport, const AnswerOptions& options);
 
-// Rays in, what rtrace answers out, with their trees (-ot). Warns where values are asked for and there
-// is no light source, as rtrace does. All that is given must live as long as the answer to be called for.
+// The function that answers rays as rtrace does, with their trees (-ot). Warns, as rtrace does, if values are
+// asked for and the scene has no light source. All arguments must live as long as the result.
 AnswerRecord answerRays(const Transport& transport, const AnswerOptions& options, const AnswerWriter& writer,
                         const rad::Warn& warn);
 

@@ -8,10 +8,11 @@
 namespace rsphere {
 namespace {
 
-// Scene units; rtrace starts there so as to be clear of the surface that a sensor lies on.
+// Distance, in scene units, at which rtrace starts the ray of a sensor (-I): clear of
+// the surface that it lies on.
 constexpr double kSensorHeight = 1.1e-4;
 
-// One letter of a ray's record.
+// Writes the quantity of a ray that an -o letter names.
 void writeLetter(RecordText& text, char letter, const RayAnswer& answer, const OutputColors& colors) {
   switch (letter) {
     case 'o':
@@ -98,7 +99,7 @@ int componentCount(const AnswerOptions& options) {
 }
 
 void AnswerWriter::write(std::string& bytes, const RayAnswer& answer, uint64_t record) const {
-  if (options_.outputs.empty()) return;  // -ot alone: nothing but the trees
+  if (options_.outputs.empty()) return;  // -ot alone: only the trees are written
   RecordText text(bytes, options_.out);
   for (const char letter : options_.outputs) {
     if (letter == 'i')
@@ -157,10 +158,11 @@ void AnswerWriter::write(std::string& bytes, const PointAnswer& answer) const {
 
 namespace {
 
-// Sets unit to the vector's direction; returns its length, and leaves unit alone where that is 0. A vector of
-// unit length to six digits, as text has them, is corrected to first order (right to 4e-13), every other is
-// multiplied by a reciprocal: to the bit what rtrace does where products are fused. On which side of a plane
-// a hit is rounded to depends on it, and with that which square of a checkered floor function files see.
+// Normalizes a vector and returns its length. A vector of length 0 leaves `unit` unchanged. The result has
+// the same bits as that of an rtrace compiled with fused multiply-add: vectors whose length is 1 to six
+// digits, which is the precision of text, are corrected to first order (error below 4e-13); others are
+// multiplied by a reciprocal. The bits matter: they decide to which side of a plane a hit is rounded, and so,
+// for example, which square of a checkered floor a function file sees.
 double makeUnit(const V3d& vector, V3d& unit) {
   const double square = std::fma(vector.z, vector.z, std::fma(vector.x, vector.x, vector.y * vector.y));
   if (square == 0) return 0;

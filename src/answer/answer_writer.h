@@ -9,24 +9,25 @@
 
 namespace rsphere {
 
-// How many numbers and names one record of the chosen -o letters has: what the header says as NCOMP. '~'
-// counts as none, as in rtrace.
+// The number of numbers and names in a record of the chosen -o letters, for NCOMP= of the header.
+// '~' adds none, as in rtrace.
 int componentCount(const AnswerOptions& options);
 
-// Appends records of the chosen -o letters, in their order and in the output format, to a string of bytes.
-// REQUIRES options from parseOptions(), alive as long as this is.
+// Appends records to a string of bytes: the quantities that the -o letters name, in their order, in the
+// output format. REQUIRES: the options are from parseOptions() and live as long as the writer.
 class AnswerWriter {
  public:
   explicit AnswerWriter(const AnswerOptions& options) : options_(options), colors_(options.color) {}
 
-  // One ray, in ray mode and under -Sd, where `record` is the number of the point's record, from 0 (letter
-  // i).
+  // A ray of ray mode, or a direction of sphere mode (-Sd). `record` is the number of the input
+  // record from 0, for letter i.
   void write(std::string& bytes, const RayAnswer& answer, uint64_t record = 0) const;
 
-  // One ray of a tree (-ot), behind a TAB for each of its ancestors, unless -te or -ti leaves it out.
+  // A ray of a tree (-ot), after a TAB for each of its ancestors. Writes nothing if
+  // -te or -ti excludes the ray.
   void writeBranch(std::string& bytes, const RayAnswer& answer, int ancestors) const;
 
-  // One point, in sphere mode.
+  // A point of sphere mode.
   void write(std::string& bytes, const PointAnswer& answer) const;
 
  private:
@@ -34,17 +35,17 @@ class AnswerWriter {
   OutputColors colors_;
 };
 
-// The ray that rtrace traces for the six numbers of an input record: direction made a unit vector; under -I
-// the origin is moved 1.1e-4 scene units along it and the direction turned round, and -o prints them so.
-// `length` is that of the given direction (-ld limits the ray to it), 0 where it has none.
+// The ray that rtrace traces for the six numbers of an input record. The direction is normalized. Under -I,
+// the origin is moved by 1.1e-4 scene units along it, and the direction is reversed; -oo and -od show them
+// so. `length` is that of the given direction, which -ld makes the limit of the ray; 0 for a bogus record.
 struct InputRay {
   V3d origin{0, 0, 0}, direction{0, 0, 0};
   double length = 0;
 };
 InputRay inputRay(const double* numbers, Irradiance irradiance);
 
-// What rtrace writes for a record whose direction is zero: the ray before it (zeros if there is none), seeing
-// nothing.
+// The answer of rtrace to a record whose direction is zero: the ray before it (zeros if there is
+// none), as if it hit nothing.
 RayAnswer bogusAnswer(const InputRay& before);
 
 }  // namespace rsphere

@@ -21,39 +21,40 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Records that a thread takes at once: as many as it answers in about this time, so that taking them (a
-// microsecond) does not count and the threads still end together.
+// A thread claims as many records at once as it answers in about this time. A claim costs about a
+// microsecond, which is negligible beside it; and the threads still end at nearly the same time.
 constexpr auto kClaimTime = std::chrono::microseconds(200);
 constexpr size_t kLargestClaim = 256;
-// How many claims a thread may be ahead of the oldest unfinished one.
+// For each thread, the number of claims that may be ahead of the oldest unfinished one.
 constexpr uint64_t kClaimsAhead = 16;
 
-// A ray that comes once more is an accident, twice more a mean of its answers.
+// One repetition of a ray may be an accident; two suggest that someone averages its answers.
 constexpr int kRepeatsToRemark = 2;
 
 constexpr uint64_t kNoLimit = std::numeric_limits<uint64_t>::max();
 
-// Some records in a row, for one thread.
+// Consecutive records, for one thread.
 struct Claim {
   uint64_t number = 0;
   uint64_t firstRecord = 0;
   size_t records = 0;
   std::vector<double> numbers;
-  std::vector<double> before;  // the last record with a direction before them
+  std::vector<double> before;  // the last record before them that has a direction
   bool flush = false;
-  std::exception_ptr error;  // reading failed after them
+  std::exception_ptr error;  // the fault in reading the record after them
 };
 
 struct Finished {
   std::string bytes;
   size_t records = 0;
   bool flush = false;
-  bool last = false;  // nothing after this may be written
+  bool last = false;  // no later claim may be written
   std::exception_ptr error;
 };
 
-// Each thread takes records from the reader (one at a time: input_), answers them, and hands the bytes in
-// (output_); who hands in the oldest writes all that are due. Lock order: input_ before output_.
+// Each thread takes records from the reader (under input_), answers them, and hands in the bytes
+// (under output_). The thread that hands in the oldest claim writes all claims that are due. Lock
+// order: input_ before output_.
 class Batch {
  public:
   Batch(RecordReader& reader, RecordWriter& writer, const AnswerOptions& options, const Messages& messages,
@@ -90,7 +91,7 @@ class Batch {
   void stop(std::exception_ptr error);
   void endInput();
   bool stopping() const { return stopped_ || (signals_ != nullptr && signals_->raised()); }
-  // As rtrace decides it: a direction whose square is zero in floating point has no unit vector.
+  // As in rtrace: a direction whose squared length is zero in floating point cannot be normalized.
   bool isBogus(const double* record) const {
     return perRecord_ == 6 && record[3] * record[3] + record[4] * record[4] + record[5] * record[5] == 0;
   }
@@ -121,7 +122,7 @@ class Batch {
   Clock::time_point start_ = Clock::now(), lastReport_ = start_;
 
   std::atomic<bool> stopped_{false}, waiting_{false};
-  std::atomic<uint64_t> recordsTaken_{0};  // these two for progress reports only
+  std::atomic<uint64_t> recordsTaken_{0};  // this and inputShare_ are for progress reports only
   std::atomic<double> inputShare_{0};
   int wakeFd_ = -1;
 };
@@ -142,7 +143,7 @@ void Batch::run() {
   try {
     writer_.flush();
   } catch (const rad::Error&) {
-    if (!error_) error_ = std::current_exception();  // the first fault is the one to tell
+    if (!error_) error_ = std::current_exception();  // the first fault is reported
   }
   if (error_) std::rethrow_exception(error_);
   if (signals_ != nullptr && signals_->raised()) throw rad::Error(signals_->name(), rad::Status::signal);
@@ -186,7 +187,8 @@ void Batch::work(unsigned worker) {
   }
 }
 
-// The next records, at most `most`, as they are at hand; waits for the first. False when there are no more.
+// Takes the next records: those that have arrived, at most `most`. Waits for the first of them. Returns
+// false when there are no more.
 bool Batch::take(Claim& claim, size_t most) {
   const std::lock_guard input(input_);
   if (inputEnded_ || stopping()) return false;
@@ -245,7 +247,7 @@ void Batch::noteBogus(Claim& claim) {
   }
 }
 
-// Whoever takes the mean of a repeated ray expects new samples, as rtrace draws them.
+// Callers that repeat a ray to average its answers expect new samples each time, which rtrace draws.
 void Batch::remarkRepeats(const double* record, uint64_t index) {
   const RayOptions& ray = options_.ray;
   if (repeatsRemarked_ || options_.numberedRays || (ray.ambientBounces == 0 && ray.directJitter == 0)) return;
@@ -333,7 +335,7 @@ void Batch::handIn(uint64_t number, Finished&& finished) {
   written_.notify_all();
 }
 
-// Wakes the thread that waits for input, and those that wait for answers to be written.
+// Wakes the thread that waits for input and the threads that wait for answers to be written.
 void Batch::endInput() {
   stopped_ = true;
   const uint64_t one = 1;
@@ -370,8 +372,8 @@ void Batch::reportProgress() {
   messages_.report(text);
 }
 
-// How many records there are in all, as far as it can be told: 0 if not. From a file, as many as its length
-// allows if they go on as they began.
+// An estimate of the number of all records; 0 if nothing is known. For a file, it assumes that the rest of
+// the file has as many records per byte as the part that was read.
 double Batch::expectedRecords() const {
   if (options_.height > 0)
     return static_cast<double>(options_.height) * static_cast<double>(std::max<int64_t>(options_.width, 1));

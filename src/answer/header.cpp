@@ -12,7 +12,7 @@
 namespace rsphere {
 namespace {
 
-// A word as rtrace prints it in headers: quoted if it has blanks or is empty, or has a quote inside.
+// A word as rtrace prints it in headers: in quotes if it is empty or contains blanks or a quote.
 std::string quoted(const std::string& word) {
   char quote = 0;
   for (size_t i = 1; i + 1 < word.size(); ++i) {

@@ -9,36 +9,39 @@
 
 namespace rsphere {
 
-// The program's name and version, as SOFTWARE= has them.
+// The program's name and version, for the line SOFTWARE=.
 std::string versionLine();
 
-// What -version prints of a program that was called by this name. Programs that look for RADIANCE run
-// "rtrace -version" and take the first number, the first digit, or the second word for RADIANCE's version:
-// under the name rtrace the version of RADIANCE that is matched comes first, and rsphere's behind it.
+// The text that -version prints if the program is called by this name. Programs that look for RADIANCE
+// run "rtrace -version" and take the first number, the first digit or the second word as RADIANCE's
+// version. Under the name rtrace, the text therefore begins with the version of RADIANCE that is
+// matched; that of rsphere follows.
 std::string versionAnswer(std::string_view program);
 
-// The command as it can be typed again: program and options, words quoted where they need it, without a line
-// end; the scene only where asked for.
+// The command line: program and options, and the scene if withScene. Words are quoted where this is necessary
+// to type the command again. No line end.
 std::string commandLine(const AnswerOptions& options, bool withScene);
 
-// The first lines of a header, as rtrace and rpict begin theirs:
-//   - the lines of the scene's own header (an octree has one: sceneHeader, without line ends), or
-//     "#?RADIANCE"
-//   - the command line; the octree is left out, as rtrace does: its header names it. Scene text has no
-//     header, so its names are kept
+// The first lines of a header, which are those of rtrace and rpict:
+//   - the lines of sceneHeader, the header of an octree (without line ends); for scene text, "#?RADIANCE"
+//   - the command line. As in rtrace, it does not name an octree, whose own header does; it does name scene
+//     text, which has no header
 //   - SOFTWARE=
 std::string provenance(const AnswerOptions& options, std::span<const std::string> sceneHeader);
 
-// The name that FORMAT= and -help give a format: "ascii", "float", "double", or that of the colors' pixels.
+// The name of a format in FORMAT= and -defaults: "ascii", "float", "double", or the format of the pixels.
 std::string_view formatName(NumberFormat format, const ColorOptions& color);
 
-// Writes the information header that rtrace writes before its records, unless switched off (-h-), and then
-// the resolution line where -x and -y are both given, header or not:
+// Writes the information header of rtrace, unless it is switched off (-h-):
 //   - provenance()
-//   - CAPDATE= (local), GMT=, NCOMP= (not for trees), WAVELENGTH_SPLITS= or PRIMARIES= for what is
-//   not RGB, BigEndian= for floats and doubles, FORMAT=, an empty line
-// The FORMAT line of floats or doubles is padded with blanks so that the records are aligned, if the output
-// can seek. Source: RADIANCE file formats, "Information header"; rtrace(1).
+//   - CAPDATE= (local time), GMT=
+//   - NCOMP=, except for ray trees
+//   - WAVELENGTH_SPLITS= or PRIMARIES=, if colors are not written as RGB
+//   - BigEndian=, for floats and doubles
+//   - FORMAT=, an empty line
+// If -x and -y are both given, the resolution line follows, even without a header.
+// If the output is floats or doubles and can seek, blanks after FORMAT= align the records to their size.
+// Source: RADIANCE file formats, "Information header"; rtrace(1).
 void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<const std::string> sceneHeader,
                  std::time_t now);
 

@@ -16,7 +16,7 @@ void limitMemory() {
   if (data.rlim_cur != RLIM_INFINITY || space.rlim_cur != RLIM_INFINITY) return;
   struct sysinfo machine {};
   if (sysinfo(&machine) != 0) return;
-  // What is set aside already: little, but for a sanitizer's terabytes.
+  // The memory in use now is added: it is small, except that a sanitizer reserves terabytes.
   uint64_t used[6] = {};
   std::ifstream pages("/proc/self/statm");
   for (uint64_t& n : used) pages >> n;

@@ -2,9 +2,9 @@
 
 namespace rsphere {
 
-// Where the system sets this process no limit of its own (ulimit -v, -d): lets it have as much memory as the
-// machine has, swap included. Beyond that allocations fail, which is a message and exit status 2, where Linux
-// would give out memory that is not there and then end some process without a word.
+// Limits the memory of this process to that of the machine, swap included, unless the process already has a
+// limit (ulimit -v, -d). An allocation beyond the limit fails, which becomes a message and exit status 2.
+// Without the limit, Linux would grant memory that does not exist and later kill a process without a message.
 void limitMemory();
 
 }  // namespace rsphere

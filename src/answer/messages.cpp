@@ -12,7 +12,7 @@
 namespace rsphere {
 namespace {
 
-// A message that cannot be written has nobody left to be told.
+// Faults are ignored, because there is no other place to report them.
 void writeAll(int fd, std::string_view text) {
   while (!text.empty()) {
     const ssize_t n = ::write(fd, text.data(), text.size());

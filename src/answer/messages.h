@@ -7,14 +7,15 @@
 
 namespace rsphere {
 
+// The options of messages.
 struct MessageOptions {
   bool warnings = true;              // -w
   std::string errorFile;             // -e
   std::vector<std::string> remarks;  // warnings about the command line itself
 };
 
-// The one writer of messages. Each is one write(2) to standard error, or to the file of -e, so that those of
-// several programs never mix; each line of it begins with the program's name, as rtrace's do:
+// The only writer of messages. Each message is one write(2) to standard error, or to the file of -e, so that
+// the messages of several programs do not mix. Each line begins with the program's name, as in rtrace:
 //   rsphere: warning - ...    dropped under -w
 //   rsphere: fatal - ...      exit status 1
 //   rsphere: system - ...     exit status 2
@@ -22,7 +23,7 @@ struct MessageOptions {
 // May be called from several threads at once.
 class Messages {
  public:
-  // `program` is what lines begin with: argv[0] without its folder.
+  // program: argv[0] without its folder.
   explicit Messages(std::string program) : program_(std::move(program)) {}
   ~Messages();
   Messages(const Messages&) = delete;
@@ -35,13 +36,13 @@ class Messages {
 
   void warning(std::string_view text) const;
 
-  // Says why the program stops, and returns its exit status. A closed output pipe is not worth a word.
+  // Writes why the program stops, and returns its exit status. Writes nothing about a closed output pipe.
   int error(const rad::Error& error) const;
 
-  // One line without a class, for progress reports.
+  // Writes a line without a class, for progress reports.
   void report(std::string_view text) const;
 
-  // Where messages go now: for StopSignals::reportTo().
+  // The file that messages are written to at present, for StopSignals::reportTo().
   int descriptor() const { return fd_; }
 
  private:

@@ -10,7 +10,7 @@
 namespace rsphere {
 namespace {
 
-constexpr int kDigits = 7;  // before and after the point, of "%e"
+constexpr int kDigits = 7;  // of "%e", before and after the point
 
 // Powers of ten up to 22 are exact in a double: 5^22 < 2^53.
 constexpr int kLargestExactPower = 22;
@@ -42,7 +42,7 @@ void appendScientific(std::string& text, double x) {
   // floor(log10 of size), or one less: 1233/4096 is just below log10(2).
   int exponent = (binaryExponent * 1233) >> 12;
   const int power = kDigits - 1 - exponent;
-  // Zero, denormals, infinity and nan have exponents far outside.
+  // The exponents of zero, denormals, infinity and nan are far outside this range.
   if (power > kLargestExactPower || power - 1 < -kLargestExactPower) {
     if (size == 0) {
       text.append(std::signbit(x) ? "-0.000000e+00" : "0.000000e+00");
@@ -55,8 +55,8 @@ void appendScientific(std::string& text, double x) {
     ++exponent;
     scaled = power >= 1 ? size * kPowers[power - 1] : size / kPowers[1 - power];
   }
-  // One rounding of a number below 1e7: within 2^-53 * 1e7 = 1.2e-9 of the true one. Nearer than 1e-8 to the
-  // middle between two integers, the library decides with exact arithmetic.
+  // `scaled` is below 1e7 and was rounded once, so its error is below 2^-53 * 1e7 = 1.2e-9. If it is closer
+  // than 1e-8 to the middle between two integers, the library decides with exact arithmetic.
   auto digits = static_cast<uint32_t>(scaled);
   const double rest = scaled - digits;
   if (std::fabs(rest - 0.5) < 1e-8) return appendLibrary(text, x);

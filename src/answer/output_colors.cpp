@@ -12,19 +12,20 @@ namespace {
 
 using Matrix = std::array<std::array<double, 3>, 3>;
 
-// x y of red, green, blue and white: RADIANCE's nominal monitor and equal energy.
+// x y of red, green, blue and white: RADIANCE's nominal monitor, with equal-energy white.
 constexpr std::array<double, 8> kStandard = {.640, .330, .290, .600, .150, .060, 1 / 3., 1 / 3.};
 
 constexpr double kPhotopicEfficacy = 179;   // lm/W of equal-energy white, 380 to 780 nm
 constexpr double kScotopicEfficacy = 412;   // the same for V'(lambda)
 constexpr double kMelanopicEfficacy = 179;  // RADIANCE's choice
 
-// Shares of V'(lambda) and of the melanopic curve in the parts of the spectrum that the channels stand for
-// (rtrace -pS, -pM of RADIANCE 6.1a for pure red, green and blue).
+// Fractions of V'(lambda) and of the melanopic curve in the parts of the spectrum that red, green and blue
+// represent, as rtrace -pS and -pM of RADIANCE 6.1a give them for pure red, green and blue.
 const Rgb kScotopicWeights(740 / 65535., 46459 / 65535., 18336 / 65535.);
 const Rgb kMelanopicWeights(120 / 65535., 39340 / 65535., 26075 / 65535.);
 
-// Wavelengths (nm) between red, green and blue, and where a channel's response is highest.
+// Wavelengths (nm) of the limits between red, green and blue, and of the peaks of the outer channels'
+// responses.
 constexpr double kRedFrom = 588, kGreenFrom = 480;
 constexpr double kRedPeak = 607, kBluePeak = 469;
 constexpr double kLeastRange = 50;
@@ -61,7 +62,7 @@ Matrix inverse(const Matrix& m) {
 
 V3d xyzOf(double x, double y) { return V3d(x / y, 1, (1 - x - y) / y); }
 
-// The columns are the primaries' X, Y, Z for one unit each; together they are white with Y = 1.
+// The matrix whose columns are X, Y, Z of one unit of each primary. Their sum is white with Y = 1.
 Matrix xyzFromRgb(const std::array<double, 8>& p) {
   Matrix columns{};
   for (size_t i = 0; i < 3; ++i) {
@@ -78,10 +79,10 @@ Matrix xyzFromRgb(const std::array<double, 8>& p) {
   return columns;
 }
 
-// Equal-energy white becomes the white of these primaries.
+// The matrix that adapts X, Y, Z from equal-energy white to this white.
 Matrix adaptation(double xWhite, double yWhite) {
-  // The "sharp" transform and its inverse to the digits that RADIANCE has them in: the product of the two is
-  // off unity by 9e-5, and so are rtrace's colors.
+  // The "sharp" transform and its inverse, with the digits that RADIANCE gives them. Their product deviates
+  // from the unit matrix by 9e-5, so that the colors of rtrace deviate too.
   constexpr Matrix sharp = {{{1.2694, -.0988, -.1706}, {-.8364, 1.8006, .0357}, {.0297, -.0315, 1.0018}}};
   constexpr Matrix sharpInverse = {{{.8156, .0472, .1372}, {.3791, .5769, .0440}, {-.0123, .0167, .9955}}};
   constexpr double kSameWhite = 1e-4;
@@ -95,7 +96,7 @@ Matrix adaptation(double xWhite, double yWhite) {
   return product(sharpInverse, product(gains, sharp));
 }
 
-// Mixed with grey of the same luminance until no channel is negative.
+// The color, mixed with just enough grey of the same luminance that no channel is negative.
 V3d intoGamut(V3d color, double luminance) {
   if (luminance < 0) return V3d(0, 0, 0);
   double share = 1;
@@ -104,7 +105,7 @@ V3d intoGamut(V3d color, double luminance) {
   return share < 1 ? color * share + V3d(luminance) * (1 - share) : color;
 }
 
-// The wavelengths between the channels.
+// The wavelengths of the limits between the channels.
 std::array<double, 2> splits(const ColorOptions& o) {
   if (spectrumHoldsChannels(o)) return {kRedFrom, kGreenFrom};
   const double third = (o.longest - o.shortest) / 3;
@@ -112,7 +113,7 @@ std::array<double, 2> splits(const ColorOptions& o) {
 }
 
 bool primariesSpan(const std::array<double, 8>& p) {
-  constexpr double kSame = 1e-4;  // RADIANCE's
+  constexpr double kSame = 1e-4;  // as in RADIANCE
   if (!(p[6] > kSame && p[6] < 1 - kSame && p[7] > kSame && p[7] < 1 - kSame)) return false;
   for (size_t i = 0; i < 6; i += 2)
     for (const double value : {p[i], p[i + 1], p[i] + p[i + 1]})

@@ -20,21 +20,21 @@ enum class ColorSpace : uint8_t {
   spectrum  // -co
 };
 
-// How colors are written.
+// The options that choose how colors are written.
 struct ColorOptions {
   ColorSpace space = ColorSpace::rgb;
   std::array<double, 8> primaries{};     // x y of red, green, blue and white
-  int bands = 3;                         // -cs  at most kMostBands count
+  int bands = 3;                         // -cs  3 to kMostBands
   double shortest = 380, longest = 780;  // -cw  nm
 };
 inline constexpr int kMostBands = 24;
 
-// What -p.. -cs -cw -co make of red, green and blue. Scenes have three channels; each stands for a part of
-// the spectrum: red from 588 nm up, green from 480 nm, blue below.
+// Converts red, green and blue to the colors that -p.., -cs, -cw and -co ask for. Scenes have three channels,
+// each of which represents a part of the spectrum: red from 588 nm up, green from 480 nm, blue below.
 //   -pXYZ        CIE 1931, times 179 lm/W
 //   -pc          RGB of other primaries: von Kries' adaptation to their white between the cones of
-//                the "sharp" transform, and colors outside the gamut mixed with grey until no
-//                channel is negative
+//                the "sharp" transform, and colors outside the gamut mixed with grey
+//                until no channel is negative
 //   -pY -pS -pM  luminance (times 179 lm/W), scotopic luminance (412 lm/W), melanopic (179)
 //   -pA          the mean of the channels
 //   -co          with more than three bands (-cs): each band has the value of its channel
@@ -44,21 +44,21 @@ class OutputColors {
  public:
   explicit OutputColors(const ColorOptions& options);
 
-  // Numbers a color takes: 1, 3 or the bands.
+  // The number of numbers in a color: 1, 3 or the number of bands.
   int count() const { return count_; }
 
   void write(RecordText& text, const Rgb& radiance) const { write(text, radiance, scale_); }
-  // A coefficient: as a color, but for the lumens.
+  // Writes a coefficient: as a color, but without the conversion to lumens.
   void writeCoefficient(RecordText& text, const Rgb& coefficient) const { write(text, coefficient, 1); }
 
-  // A standard error: of red, green and blue as they are, or under -pY that of brightness, in lumens.
-  // REQUIRES one of the two: the errors of other sums of the channels follow from neither.
+  // Writes a standard error: that of red, green and blue, or under -pY that of brightness, in lumens.
+  // REQUIRES: colors are RGB or -pY. The errors of other sums of the channels cannot be computed from these.
   void writeError(RecordText& text, const Rgb& channels, double brightness) const {
     if (options_.space == ColorSpace::photopic) return text.number(scale_ * brightness);
     text.color(channels);
   }
 
-  // The lines of the header that tell of it, with line ends; and FORMAT of its pixels (-fc).
+  // The lines of the header that describe the colors, with line ends, and the FORMAT of their pixels (-fc).
   std::string headerLines() const;
   std::string_view pixelFormat() const;
 
@@ -69,14 +69,16 @@ class OutputColors {
   ColorOptions options_;
   int count_ = 3;
   double scale_ = 1;
-  Rgb weights_{0, 0, 0};      // of one channel
-  Matrix fromRgb_{};          // of three
-  std::vector<int> channel_;  // of each band, from the longest wavelength
+  Rgb weights_{0, 0, 0};      // if a color is one number
+  Matrix fromRgb_{};          // if it is three
+  std::vector<int> channel_;  // if it is bands: the channel of each, from the longest wavelength
 };
 
-// Throws rad::Error, as rtrace words it: bands or limits that cannot be, primaries that span no gamut.
-// Whether the limits of the spectrum leave each channel its place: if not, rtrace warns of it.
+// Throws rad::Error with rtrace's words if the bands or limits are impossible, or if the primaries span no
+// gamut.
 void checkColors(const ColorOptions& options);
+
+// Whether every channel has a part of the spectrum within its limits. rtrace warns if this is not so.
 bool spectrumHoldsChannels(const ColorOptions& options);
 
 // Whether all of -pc's numbers are within .001 of RADIANCE's standard primaries and white.

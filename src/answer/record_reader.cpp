@@ -18,11 +18,11 @@
 namespace rsphere {
 namespace {
 
-// The capacity of a pipe on Linux: more is never at hand at once.
+// The capacity of a pipe on Linux, which is the most that read(2) can return at once from a pipe.
 constexpr size_t kBlock = 65536;
-// A word of text longer than this is no number. The exact decimal digits of any double fit.
+// Longer words are not read as numbers. The exact decimal digits of any double are shorter than this.
 constexpr size_t kLongestWord = 4096;
-// Of a faulty word, this much is shown.
+// Messages show at most this many characters of a malformed word.
 constexpr size_t kShownWord = 40;
 
 bool isSpace(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
@@ -34,7 +34,7 @@ std::string systemText(std::string_view what) {
   return fmt::format("{}: {}", what, std::strerror(error));
 }
 
-// The word as a message can show it on one line.
+// The word in a form that fits on one line of a message.
 std::string shown(std::string_view word) {
   std::string text;
   for (const char c : word.substr(0, kShownWord))
@@ -89,8 +89,8 @@ double RecordReader::shareRead() const {
   return static_cast<double>(at - static_cast<off_t>(end_ - begin_)) / static_cast<double>(status.st_size);
 }
 
-// Makes room and reads what there is, waiting for the first byte. False at the end of input or when
-// interrupted.
+// Makes room in the block and reads what has arrived; waits for the first byte. Returns false at the end of
+// input or when interrupted.
 bool RecordReader::refill() {
   if (atEnd_ || interrupted_) return false;
   std::memmove(block_.data(), block_.data() + begin_, end_ - begin_);
@@ -133,8 +133,8 @@ void RecordReader::malformed(std::string_view word) const {
                                counted(perRecord_), shown(word)));
 }
 
-// What most text is, once the first line is behind: the records at hand that are all plain numbers. Stops
-// before the first that is not.
+// A fast path for most text after the first line: reads the records in the block up to the first that does
+// not consist of plain numbers only.
 size_t RecordReader::readPlain(std::vector<double>& numbers, size_t most) {
   const char* at = block_.data() + begin_;
   const char* const stop = block_.data() + end_;
@@ -181,11 +181,11 @@ size_t RecordReader::readText(std::vector<double>& numbers, size_t most) {
         if (error == std::errc() && end < stop && isSpace(*end)) next = end;
       }
     }
-    if (next == at) {  // not a plain number with its end in sight
+    if (next == at) {  // not a plain number, or its end has not arrived
       while (next < stop && !isSpace(*next)) ++next;
       const std::string_view word(at, static_cast<size_t>(next - at));
       if (next == stop && !atEnd_ && word.size() <= kLongestWord) {
-        // Records at hand are answered before more is asked for.
+        // Records that have arrived are returned before the reader waits for more.
         if (count > 0 || interrupted_) break;
         refill();
         if (interrupted_) break;
@@ -220,7 +220,8 @@ size_t RecordReader::readText(std::vector<double>& numbers, size_t most) {
   return count;
 }
 
-// Reads the numbers of a line into partial_. Throws where it is no record. whole: its end was reached.
+// Reads the numbers of a line into partial_. Throws rad::Error if the line is not a record. whole: the
+// end of the line has arrived.
 void RecordReader::readLine(std::string_view line, bool whole) {
   int count = 0;
   for (size_t at = 0;;) {
@@ -252,7 +253,7 @@ size_t RecordReader::readLines(std::vector<double>& numbers, size_t most) {
     const char* const lineEnd = std::find(at, stop, '\n');
     const bool whole = lineEnd < stop || atEnd_;
     if (!whole && end_ - begin_ < block_.size()) {
-      // Records at hand are answered before more is asked for.
+      // Records that have arrived are returned before the reader waits for more.
       if (count > 0 || interrupted_) break;
       refill();
       if (interrupted_) break;
@@ -267,7 +268,7 @@ size_t RecordReader::readLines(std::vector<double>& numbers, size_t most) {
     try {
       readLine({at, static_cast<size_t>(lineEnd - at)}, whole);
     } catch (const rad::Error&) {
-      if (count > 0) break;  // found again by the next call, after the records before it
+      if (count > 0) break;  // the next call finds the fault again, after these records are returned
       throw;
     }
     numbers.insert(numbers.end(), partial_.begin(), partial_.begin() + perRecord_);

@@ -35,7 +35,7 @@ void RecordWriter::flush() {
     }
     const bool closed = errno == EPIPE;
     const std::string text = fmt::format("write error: {}", std::strerror(errno));
-    pending_.clear();  // a second attempt would write the same bytes twice
+    pending_.clear();  // a second attempt would write some bytes twice
     if (closed) throw ClosedPipe();
     throw rad::Error(text, rad::Status::system);
   }

@@ -8,28 +8,28 @@
 
 namespace rsphere {
 
-// The other end of the output was closed: nobody wants the rest. Not a fault; no message is due.
+// Thrown when the reader of the output has closed its end. This is not a fault, and no message is written.
 class ClosedPipe : public rad::Error {
  public:
   ClosedPipe() : rad::Error("Broken pipe", rad::Status::signal) {}
 };
 
-// Collects bytes and hands them to a file descriptor in blocks of 64 KiB, or at flush() only.
+// Collects bytes and writes them to a file descriptor in blocks of 64 KiB, or only at flush().
 class RecordWriter {
  public:
-  // The descriptor stays the caller's. What was not flushed is dropped with the writer.
+  // The caller keeps the descriptor open, and closes it. The destructor discards bytes that were not flushed.
   explicit RecordWriter(int fd) : fd_(fd) {}
 
-  // Whether bytes are kept until flush(), however many: for a program that writes a group of records before
-  // it reads the answers, where writing early would block both.
+  // Keeps all bytes until flush(), regardless of their number. This is for a program that writes a group of
+  // records before it reads the answers: earlier writes would block both programs.
   void holdUntilFlush(bool hold) { hold_ = hold; }
 
-  // Both throw ClosedPipe where nobody reads any more (SIGPIPE must be ignored), rad::Error with
-  // Status::system where the system refuses (disk full).
+  // Both throw ClosedPipe if the reader has closed its end (SIGPIPE must be ignored), and rad::Error with
+  // Status::system if write(2) fails otherwise, as on a full disk.
   void write(std::string_view bytes);
   void flush();
 
-  // Where the next byte comes to stand in the file; empty where the output cannot seek.
+  // The offset of the next byte in the file; empty if the output cannot seek.
   std::optional<int64_t> position() const;
 
  private:

@@ -24,27 +24,28 @@ constexpr std::array<Named, 6> kSignals = {{{SIGINT, "Interrupt"},
                                             {SIGALRM, "Alarm clock"},
                                             {SIGXCPU, "CPU limit exceeded"},
                                             {SIGXFSZ, "File size exceeded"}}};
-constexpr int kStatus = 3;          // of rtrace(1)
-constexpr unsigned kPatience = 15;  // seconds to finish in, as rtrace has them
-// timeout(1) sends its signal to the process and to its group: the same one twice, microseconds apart, or
-// more where it is interrupted in between. Nobody asks a second time so soon.
+constexpr int kStatus = 3;          // as in rtrace(1)
+constexpr unsigned kPatience = 15;  // seconds in which to finish, as in rtrace
+// timeout(1) sends its signal to the process and to its group: twice within microseconds, or longer if it is
+// interrupted in between. A person who asks a second time is slower than this.
 constexpr int64_t kOneRequest = 50'000'000;  // ns
 
 struct State {
   std::atomic<int> raised{0};  // the first signal
   std::atomic<int64_t> raisedAt{0};
   std::atomic<bool> deferred{false};
-  std::atomic<bool> told{false};  // the message is somebody else's by now
+  std::atomic<bool> told{false};  // whether the caller of name() writes the message
   std::atomic<bool> ending{false};
   std::atomic<int> messageFd{2};
   int pipe[2] = {-1, -1};
   std::array<std::string, kSignals.size()> messages;
-  std::array<struct sigaction, kSignals.size() + 1> before{};  // the last is that of SIGPIPE
+  std::array<struct sigaction, kSignals.size() + 1> before{};  // the last is for SIGPIPE
 };
 State state;
 
-// The next file opened would take the number of a standard descriptor that is closed, and be read or written
-// in its place. Opened the wrong way round, each use of it is an error, as it would be if it were closed.
+// Opens /dev/null in place of each standard descriptor that is closed. Otherwise the next file opened would
+// get its number, and would be read or written in its place. The files are opened for the wrong direction, so
+// that each use is an error, as it is for a closed descriptor.
 void occupyStandardDescriptors() {
   for (int fd = 0; fd <= 2; ++fd)
     if (fcntl(fd, F_GETFD) < 0) {
@@ -52,7 +53,7 @@ void occupyStandardDescriptors() {
     }
 }
 
-// ns, on a clock of its own.
+// Monotonic time, ns.
 int64_t now() {
   timespec time{};
   clock_gettime(CLOCK_MONOTONIC, &time);
@@ -69,7 +70,7 @@ void onSignal(int number) {
     return;
   }
   if (again || !state.deferred) {
-    // Another thread may be here already, and says it.
+    // Another thread may be here already; it writes the message.
     if (state.ending.exchange(true)) return;
     for (size_t i = 0; i < kSignals.size() && !state.told; ++i)
       if (kSignals[i].number == (again ? first : number)) {

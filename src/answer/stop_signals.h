@@ -5,36 +5,38 @@
 
 namespace rsphere {
 
-// Makes the signals that ask a program to end (INT HUP TERM ALRM XCPU XFSZ) end it as rtrace does: a message
-// "rsphere: signal - Terminate" and exit status 3; a second one ends it at once. Signals that were ignored
-// stay so. SIGPIPE is ignored: a closed pipe is an error of write(2) instead. Before defer(), the signal ends
-// the program where it stands; after it, raised() says so and descriptor() becomes readable, and the program
-// has 15 seconds to flush what it has finished. The same signal within 50 ms
-// is the same request: timeout(1) sends it to the process and to its group. Keeps the numbers 0 to 2 for
-// standard input, output and error, should one of them be closed. At most one at a time in a process: signal
-// handlers can reach nothing but process-wide state, all of which is in stop_signals.cpp. The handlers before
-// it come back with its end.
+// Makes the signals that ask a program to end (INT HUP TERM ALRM XCPU XFSZ) end it as in rtrace, with a
+// message "rsphere: signal - Terminate" and exit status 3.
+// - Before defer(true), a signal ends the program at once. After it, raised() becomes true and
+//   descriptor() becomes readable, and the program has 15 seconds to flush the answers that it has
+//   finished. A second signal ends it at once.
+// - The same signal within 50 ms is the same request, because timeout(1) sends its signal to the
+//   process and to its group.
+// - Signals that were ignored remain ignored. SIGPIPE is ignored: a closed pipe is an error of write(2).
+// - The descriptors 0 to 2 are reserved for standard input, output and error, even if these are closed.
+// At most one object at a time may exist in a process: signal handlers can only reach process-wide state, all
+// of which is in stop_signals.cpp. The destructor restores the previous handlers.
 class StopSignals {
  public:
-  // `program` begins the message. Throws rad::Error (Status::system) if there is no descriptor to be had.
+  // `program` begins the message. Throws rad::Error (Status::system) if no descriptor is available.
   explicit StopSignals(const std::string& program);
   ~StopSignals();
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
 
-  // Where the message goes that a signal before defer() gives: standard error unless said otherwise.
+  // Sets the file for the message of a signal that ends the program at once; by default it is standard error.
   void reportTo(int fd);
   void defer(bool on);
 
   bool raised() const;
-  // Throws rad::Error (Status::signal, the signal's name) if one came.
+  // Throws rad::Error (Status::signal, with the signal's name) if a signal was raised.
   void check() const {
     if (raised()) throw rad::Error(name(), rad::Status::signal);
   }
   int descriptor() const;
 
-  // "Terminate" and so on, as rtrace words them; the message is then the caller's to give. Empty if no signal
-  // came.
+  // The signal in rtrace's words, such as "Terminate"; empty if no signal was raised. The caller
+  // must then write the message.
   std::string name() const;
 };
 
