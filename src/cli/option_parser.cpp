@@ -19,21 +19,21 @@
 namespace rsphere {
 namespace {
 
-// As in rtrace(1); also ends a file that names itself.
+// As in rtrace(1). The limit also ends the expansion of a file that names itself.
 constexpr size_t kMostExpanded = 4096;
-constexpr int kLongestWord = 65536;  // bytes; beyond any path
+constexpr int kLongestWord = 65536;  // bytes; longer than any path
 
 struct Use {
   const OptionEntry* entry;
-  std::string rest;                // behind the name, in its own word
-  std::vector<std::string> words;  // behind its own word
+  std::string rest;                // after the name, in the same word
+  std::vector<std::string> words;  // after that word
 };
 
 const Companion kNoCompanion;
 
 std::vector<std::string> splitWords(std::istream& in) { return {std::istream_iterator<std::string>(in), {}}; }
 
-// The command line with a place in it, where words are replaced by what they stand for.
+// The words of a command line and a position among them, at which @file and $VARIABLE are expanded.
 class Words {
  public:
   explicit Words(std::span<const std::string> words) : words_(words.begin(), words.end()) {}
@@ -45,7 +45,7 @@ class Words {
   std::span<const std::string> rest() const { return std::span(words_).subspan(at_); }
   std::span<const std::string> before() const { return std::span(words_).first(at_); }
 
-  // Replaces @file and $VARIABLE here, and what comes of them.
+  // Expands @file and $VARIABLE at this position, and in turn the first word of the result.
   void expand() {
     while (!atEnd() && !word().empty() && (word()[0] == '@' || word()[0] == '$')) {
       const std::string name = word();
@@ -64,7 +64,7 @@ class Words {
     std::ifstream file(name.substr(1));
     std::vector<std::string> words;
     if (file) {
-      // A device without end has more and longer words than may be.
+      // An endless device exceeds the limits on the number and length of words.
       for (std::string word; words.size() <= kMostExpanded && file >> std::setw(kLongestWord + 1) >> word;) {
         if (word.size() > static_cast<size_t>(kLongestWord))
           throw rad::Error(fmt::format("cannot expand '{}': too long a word", name));
@@ -90,8 +90,8 @@ class Words {
 
 bool startsWith(std::string_view text, std::string_view head) { return text.substr(0, head.size()) == head; }
 
-// The option a word names, whole first, then as a switch, then as a name with its value behind it. Null:
-// none.
+// The option that a word names: the whole word, or else a switch with its state, or else a name with its
+// value glued to it. Null if there is none.
 const OptionEntry* findOption(std::span<const OptionEntry> table, std::string_view word) {
   for (const OptionEntry& entry : table)
     if (!entry.glued && entry.name == word) return &entry;
@@ -107,7 +107,7 @@ const OptionEntry* findOption(std::span<const OptionEntry> table, std::string_vi
   return found;
 }
 
-// A word that rtrace takes as an argument: something that can be seen, and nothing that controls a terminal.
+// Whether rtrace accepts the word as an argument: it has visible characters and no control characters.
 bool isWord(const std::string& word) {
   bool seen = false;
   for (const char c : word) {
@@ -118,7 +118,7 @@ bool isWord(const std::string& word) {
   return seen;
 }
 
-// " from 1 to 1000000", where an option's numbers are bounded.
+// " from 1 to 1000000" or the like; empty if the numbers of an option have no bounds.
 std::string rangeText(const Range& range) {
   const auto isBound = [](double x) { return std::abs(x) < std::numeric_limits<int>::max(); };
   if (isBound(range.lowest) && isBound(range.highest))
@@ -148,8 +148,8 @@ int64_t integerWord(const OptionEntry& entry, const std::string& word) {
   return *n;
 }
 
-// The words behind an option that takes more than there are: `found` of them came before the one that cannot
-// be one of them, or before the end of the command line.
+// Throws the error of an option that lacks words: after `found` of them comes an empty word, or
+// the end of the command line.
 [[noreturn]] void missingWords(const std::string& given, const OptionEntry& entry, size_t found, bool atEnd) {
   const int wanted = arity(entry);
   const std::string use = fmt::format("{} {}", entry.name, entry.arguments);
@@ -159,7 +159,7 @@ int64_t integerWord(const OptionEntry& entry, const std::string& word) {
                                       static_cast<size_t>(wanted) - found, wanted, use, why));
 }
 
-// Why a word that begins with a hyphen names no option.
+// The reason why a word that begins with a hyphen names no option.
 std::string whyUnknown(std::span<const OptionEntry> own, std::string_view word) {
   if (startsWith(word, "--") &&
       (findOption(own, word.substr(1)) != nullptr || findOption(optionTable(), word.substr(1)) != nullptr))
@@ -194,8 +194,8 @@ void apply(const Use& use, Options& options) {
   std::visit(Set{use, entry, options}, entry.value);
 }
 
-// Ray mode: t or T ends the letters of the record and begins those of its tree, anew each time. At the end it
-// does nothing.
+// Separates the letters of the record from those of its tree in ray mode: the first begin the letters, the
+// second follow the last t or T. A t or T at the end has no effect.
 void splitTree(Options& options) {
   std::string letters = options.outputs;
   if (options.sphere.on || letters.find_first_of("tT") == std::string::npos) return;
@@ -206,7 +206,7 @@ void splitTree(Options& options) {
     options.treeOutputs = letters.substr(tree + 1);
 }
 
-// -o letters of one mode.
+// Throws rad::Error if a letter of -o does not belong to the mode or to the format of the output.
 void checkLetters(const Options& options) {
   const bool points = options.sphere.on && !options.sphere.everyDirection;
   const std::string_view known = !options.sphere.on ? "odvVwWlLcpnNsmMrRxX~"
@@ -227,7 +227,7 @@ void checkLetters(const Options& options) {
   }
 }
 
-// What rtrace says about colors.
+// The errors and warnings of rtrace about colors.
 void checkColorOutput(Options& options) {
   ColorOptions& color = options.color;
   if (color.space == ColorSpace::spectrum && color.bands == 3) color.space = ColorSpace::rgb;
@@ -243,7 +243,7 @@ void checkColorOutput(Options& options) {
         "-oe needs -pRGB or -pY: standard errors are those of red, green and blue, or of luminance");
 }
 
-// What rtrace says about irradiance and the letters of a ray.
+// Sets options.irradiance; the errors and warnings of rtrace about irradiance and the letters of a ray.
 void checkIrradiance(Options& options) {
   options.irradiance = options.irradianceAtPoint ? Irradiance::point
                        : options.irradianceAtHit ? Irradiance::surface
@@ -268,8 +268,9 @@ void checkIrradiance(Options& options) {
   }
 }
 
-// Most directions of a point with -Sa and no -Sx: half a second to a minute for a point that never gets
-// there. With -Sd all of them are kept until the point is finished, a kilobyte each.
+// Limits of the directions of a point with -Sa but no -Sx. A point that never reaches the accuracy takes
+// half a second to a minute. The limit is lower with -Sd, which keeps all directions until the point is
+// finished, a kilobyte each.
 constexpr int kMostForAccuracy = 1000000, kMostToList = 100000;
 
 void checkTogether(Options& options, bool mostGiven) {
@@ -330,7 +331,7 @@ struct Given {
   }
 };
 
-// The option that `word` names, with the words behind it.
+// Takes the option that `word` names, with the words after it.
 Use takeUse(Words& words, const Companion& companion, const std::string& word) {
   const OptionEntry* entry = findOption(companion.own, word);
   if (entry == nullptr) entry = findOption(optionTable(), word);

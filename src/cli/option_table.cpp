@@ -29,7 +29,7 @@ constexpr Range kCount{0, kLargestInt};
 constexpr int kLongestModifier = 65536;  // bytes, as in scene text
 constexpr size_t kMostModifiers = 1000000;
 
-// The words of a file named on the command line, found along RAYPATH as rtrace does.
+// The words of a file that the command line names. As in rtrace, it is searched for along RAYPATH.
 std::vector<std::string> modifierFile(const OptionEntry& entry, const std::string& name) {
   const auto what = [&] {
     return fmt::format("{} {} file \"{}\"", entry.name[1] == 'a' ? "ambient" : "trace",
@@ -41,7 +41,7 @@ std::vector<std::string> modifierFile(const OptionEntry& entry, const std::strin
   std::vector<std::string> words;
   for (std::string word; path && file >> std::setw(kLongestModifier + 1) >> word;) {
     words.push_back(word);
-    // A device without end has more or longer words.
+    // An endless device exceeds these limits.
     if (words.size() > kMostModifiers || word.size() > size_t{kLongestModifier})
       throw rad::Error(
           fmt::format("{} has too {} words", what(), word.size() > kLongestModifier ? "long" : "many"));
@@ -51,8 +51,8 @@ std::vector<std::string> modifierFile(const OptionEntry& entry, const std::strin
   return words;
 }
 
-// -ae and -aE name modifiers without indirect light, -ai and -aI the only ones with it; -te.. those in ray
-// trees: the last kind given counts.
+// -ae and -aE name modifiers without indirect light; -ai and -aI name the only modifiers with it. -te and so
+// on do the same for ray trees. An option of one kind discards the names of the other kind before it.
 void setModifiers(Options& options, const OptionEntry& entry, std::span<const std::string> words,
                   std::string_view) {
   const bool ambient = entry.name[1] == 'a', exclude = entry.name[2] == 'e' || entry.name[2] == 'E';
@@ -93,7 +93,7 @@ void setThreads(Options& options, const OptionEntry& entry, std::span<const std:
                 std::string_view) {
   const auto n = rad::parseInteger(words[0]);
   if (!n) notInteger(entry.name, words[0]);
-  constexpr int kMostThreads = 4096;  // beyond any machine; a slip of the finger
+  constexpr int kMostThreads = 4096;  // more than any machine has; a larger number is a typing error
   if (*n < 0 || *n > kMostThreads)
     throw rad::Error(fmt::format("bad number of processes: -n {} is not from 0 (one for each core) to {}", *n,
                                  kMostThreads));
@@ -119,7 +119,8 @@ void setRotation(Options& options, const OptionEntry& entry, std::span<const std
   options.sphere.rotation = options.ray.rotation = static_cast<uint64_t>(*n);
 }
 
-// -e takes an expression where its word has '=' or ':', as rtrace tells them apart.
+// As in rtrace, the word of -e is an expression if it contains '=' or ':', and else the name of an error
+// file.
 void setErrorFile(Options& options, const OptionEntry&, std::span<const std::string> words,
                   std::string_view) {
   if (words[0].find_first_of("=:") != std::string::npos)
@@ -204,7 +205,7 @@ std::string outputsLine(const Options& o) {
   return fmt::format("-o{:<9}\t\t\t", fmt::format("{}{}{}", o.outputs, tree, o.treeOutputs));
 }
 
-// Of the options that choose the color space, -defaults prints the one that did.
+// The lines of -defaults for the options that choose the color space: only the one in effect is printed.
 template <size_t I>
 std::string spaceLine(const Options& o) {
   return o.color.space == kSpaces[I].space ? fmt::format("{}\t\t\t\t", kSpaces[I].name) : "";
@@ -243,7 +244,7 @@ std::string weightsLine(const Options& o) {
   return fmt::format("-Sw {}\t\t\t\t", kLetters[static_cast<size_t>(o.sphere.weights)]);
 }
 
-// What appends an option to the table.
+// Appends an option to the table.
 using Add = std::function<void(const OptionEntry&)>;
 using O = Options;
 
@@ -970,7 +971,8 @@ void addSphereOptions(const Add& add) {
            "is read from standard input."});
 }
 
-// The order is that of rtrace's -defaults. -ap to -t are rtrace's too, but its -defaults does not print them.
+// The order is that of rtrace's -defaults. From -ap to -t follow options of rtrace that its -defaults does
+// not print.
 std::vector<OptionEntry> makeTable() {
   std::vector<OptionEntry> table;
   for (const auto addOptions :
@@ -997,21 +999,25 @@ Options modeDefaults(bool sphereMode) {
   Options options;
   options.sphere.on = sphereMode;
   if (!sphereMode) return options;
-  // Thousands of directions are averaged: what one of them lacks in samples is made up for by the others, if
-  // each is unbiased. Four indirect paths a direction, all sources sampled over their whole size, every
-  // highlight followed. In the open-plan office of examples (50 spheres, -ab 3) the rms error is .49% at 69
-  // ms a point with one path, .37% at 161 ms with four, .34% at 331 ms with nine.
+  // The mean of thousands of unbiased directions needs few samples in each of them. The defaults are four
+  // indirect paths for each direction, all light sources sampled over their whole size, and all highlights
+  // followed. Measured in the open-plan office of examples (50 spheres, -ab 3):
+  //   paths      rms error   time for a point
+  //   1          .49%        69 ms
+  //   4          .37%        161 ms
+  //   9          .34%        331 ms
   options.ray.ambientDivisions = 4;
   options.ray.ambientSuperSamples = 0;
   options.ray.ambientAccuracy = 0;
   options.ray.directJitter = 1;
   options.ray.directThreshold = 0;
   options.ray.specularThreshold = 0;
-  // A tenth of rtrace's. Russian roulette keeps the mean right whatever it is; what changes is noise and
-  // time. With -Sn 512 and 60 repeats the rms error of the open-plan office (-ab 3) is the same within its
-  // own error, .40 to .47%, from .1 down to 1e-6, at .4 to 1.1 times the time of 1e-5; that of a white room
-  // (reflectance .9, -ab 9) is .74% from .01 down and .87% at .1. The default is on the safe side, for scenes
-  // in which paths of little weight find something very bright.
+  // A tenth of rtrace's default. Russian roulette keeps the mean unbiased for any value, which only affects
+  // noise and time. Measured with -Sn 512 and 60 repeats:
+  // - The rms error of the open-plan office (-ab 3) is .40 to .47%, equal within its own error, for values
+  //   from .1 down to 1e-6. The time is .4 to 1.1 times that of 1e-5.
+  // - The rms error of a white room (reflectance .9, -ab 9) is .87% at .1, and .74% from .01 down.
+  // The default is chosen small for scenes in which paths of little weight find something very bright.
   options.ray.weightLimit = 1e-5;
   return options;
 }

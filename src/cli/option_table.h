@@ -10,7 +10,7 @@
 
 namespace rsphere {
 
-// Where an option stands in -help and in the manual.
+// The section of -help and of the manual that an option belongs to.
 enum class Group : uint8_t {
   records,
   sphere,
@@ -25,11 +25,10 @@ enum class Group : uint8_t {
   companion  // of another program on the same library
 };
 
-// What happens when an option is used: it works; it is accepted and changes nothing; or the program stops and
-// says why.
+// The effect of an option: it works; it is accepted and changes nothing; or it is an error, with a reason.
 enum class Support : uint8_t { full, unused, refused };
 
-// Numbers outside are an error of the command line. lowest and highest belong to it.
+// The numbers that an option accepts, lowest and highest included. Others are an error of the command line.
 struct Range {
   double lowest = -std::numeric_limits<double>::infinity();
   double highest = std::numeric_limits<double>::infinity();
@@ -37,16 +36,16 @@ struct Range {
 
 struct OptionEntry;
 
-// Where an option's value is kept: the type says how its words are read and how -defaults prints it.
+// Access to the value of an option. The type determines how its words are read and how -defaults prints it.
 using SwitchValue = bool& (*)(Options&);
 using IntegerValue = int& (*)(Options&);
 using CountValue = int64_t& (*)(Options&);
 using RealValue = double& (*)(Options&);
 using ColorValue = Rgb& (*)(Options&);
 using WordValue = std::string& (*)(Options&);
-using WordsValue = std::vector<std::string>& (*)(Options&);  // one more at each use
-// Options with rules of their own: `words` are those after the name; `rest` is what the name's own word has
-// behind it.
+using WordsValue = std::vector<std::string>& (*)(Options&);  // each use adds one
+// For options that no type above describes. `words` are the words after the name; `rest` is the part of the
+// first word that follows the name.
 struct Custom {
   void (*set)(Options& options, const OptionEntry& entry, std::span<const std::string> words,
               std::string_view rest);
@@ -54,47 +53,50 @@ struct Custom {
 using OptionValue = std::variant<std::monostate, SwitchValue, IntegerValue, CountValue, RealValue, ColorValue,
                                  WordValue, WordsValue, Custom>;
 
-// One option: the parser, -defaults, -help and the manual all come from this.
+// One option. The parser, -defaults, -help and the manual are all made from this.
 struct OptionEntry {
   std::string_view name{};       // "-ab"
-  std::string_view arguments{};  // the words after it by name: "N", "red grn blu", or nothing
+  std::string_view arguments{};  // the names of the words after it: "N", "red grn blu", or nothing
   Group group = Group::program;
   OptionValue value{};
-  Range range{};                 // of each number
-  std::string_view unit{};       // of the numbers, where they have one
-  std::string_view remark{};     // one line, as -defaults prints it; for switches "on|off"
+  Range range{};                 // for each of its numbers
+  std::string_view unit{};       // of the numbers, if any
+  std::string_view remark{};     // one line for -defaults; for switches "on|off"
   std::string_view paragraph{};  // for the manual
   Support support = Support::full;
   std::string_view reason{};  // why it is refused
-  // A refused option is let pass with words that ask for nothing ("-me 0 0 0"). Null: never.
+  // Whether a refused option is accepted with these words because they ask for nothing. Null: never.
   bool (*harmless)(std::span<const std::string> words) = nullptr;
   bool glued = false;      // its value follows without a blank: -fio -ospec
-  bool alsoGlued = false;  // it may: -te mod, -temod
-  // The line of -defaults without its remark, where the type alone does not give it; empty: no line.
+  bool alsoGlued = false;  // its value may follow without a blank: -te mod, -temod
+  // The line of -defaults without its remark, if the type does not determine it. It returns "" for no line.
   std::string (*line)(const Options&) = nullptr;
 };
 
-// All of them, in the order in which -defaults prints them: rtrace's first, in rtrace's order, then ours.
+// All options in the order in which -defaults prints them: those of rtrace in rtrace's order, then those of
+// rsphere.
 std::span<const OptionEntry> optionTable();
 
-// The number of words after the option's own.
+// The number of words that follow the option.
 int arity(const OptionEntry& entry);
 
-// What holds before the first option: rtrace's defaults in ray mode; in sphere mode those for thousands of
-// directions whose mean is wanted.
+// The values before the first option: in ray mode the defaults of rtrace; in sphere mode defaults that suit
+// the mean of thousands of directions.
 Options modeDefaults(bool sphereMode);
 
-// Reads a command line; words[0] is the program as it was called.
-// - "@file" and "$VARIABLE", where an option or the scene may stand, are replaced by the words they hold, at
-//   most 4096.
-// - Sphere mode is on unless the program is called rtrace, or -S says otherwise; then the mode's defaults are
-//   set; then the options, in their order. Switches alone toggle; + 1 y Y t T switch on, - 0 n N f F off.
-// - The first word that is no option begins the scene, which takes all the rest.
-// - -version (or --version), -defaults and -help (or --help) end it where they stand; -features is only known
-//   as the first word. Opens the files of @file, -aE and -aI only. Throws rad::Error with rtrace's words:
-//   "command line error at '-ab'", "cannot expand '@x': No such file or directory" (Status::system), "missing
-//   octree argument" and so on; and "option '-ap' is not supported: ..." for what rtrace has and rsphere has
-//   not.
+// Reads a command line, of which words[0] is the name of the program.
+// - "@file" and "$VARIABLE", in the place of an option or of a word of the scene, are replaced by the words
+//   that they contain, at most 4096.
+// - Sphere mode is on, unless the program is called rtrace or -S switches it off. First the
+//   defaults of the mode are set, then the options in their order. A switch alone toggles; + 1 y Y
+//   t T switch on, - 0 n N f F off.
+// - The scene begins at the first word that is not an option, and includes all words after it.
+// - The command line ends at -version (or --version), -defaults or -help (or --help). -features is an
+//   option only as the first word.
+// No files are opened except those of @file, -aE, -aI, -tE and -tI.
+// Throws rad::Error in rtrace's words, such as "command line error at '-ab'", "cannot expand '@x': No such
+// file or directory" (Status::system) or "missing octree argument"; and "option '-ap' is not supported: ..."
+// for an option of rtrace that rsphere lacks.
 Options parseOptions(std::span<const std::string> words);
 Options parseOptions(int argc, char** argv);
 
@@ -108,30 +110,30 @@ struct Companion {
   int faultStatus = 0;       // exit status of every fault but a signal; 0: as rtrace(1) gives it
 };
 
-// An option as a command line has it, and its words: the first is the option itself.
+// An option on a command line, and its words, of which the first is the option itself.
 struct UsedOption {
   const OptionEntry* entry;
   std::vector<std::string> words;
 };
 
-// As parseOptions(), for a companion. Sets the part of `options` that is Options and those of its own that
-// are given; answers the options given, in their order.
+// The same as parseOptions() for a companion. Sets all of Options, and those of the companion's options that
+// the command line gives. Returns the options given, in their order.
 std::vector<UsedOption> parseCompanion(std::span<const std::string> words, const Companion& companion,
                                        Options& options);
 
-// What -help and -defaults print of a companion, and its options as a part of its manual.
+// The texts of -help and -defaults for a companion, and the options as a part of its manual.
 std::string companionHelp(const Companion& companion, Options& options);
 std::string companionDefaults(const Companion& companion, Options& options);
 std::string companionManual(const Companion& companion, Options& defaults);
 
-// What -defaults prints: every option with its present value, in option syntax. Without the remarks (from '#'
-// on) it can be read back by @file.
+// The text of -defaults: every option with its present value, in option syntax. Without the remarks, which
+// begin with '#', it can be read back by @file.
 std::string defaultsText(const Options& options);
 
-// What -help prints: every option, one line each.
+// The text of -help: one line for every option.
 std::string helpText(const Options& options);
 
-// What -features prints for the words after it. `missing` is the first that this program has not.
+// The text of -features for the words after it, and the first of them that this program lacks.
 struct FeatureReport {
   std::string text, missing;
 };

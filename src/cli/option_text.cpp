@@ -10,8 +10,8 @@
 namespace rsphere {
 namespace {
 
-// The names that -defaults gives the letters of -o: rtrace's words, in sphere mode ours. rtrace has none for
-// c.
+// The names of the letters of -o in -defaults: those of rtrace, which has none for c, and those of sphere
+// mode.
 struct LetterName {
   char letter;
   std::string_view name;
@@ -54,7 +54,7 @@ std::string_view letterName(char letter, bool sphereRecord) {
   return "";
 }
 
-// The remark behind '#', where it depends on the values.
+// The remark after '#' in -defaults, which may depend on the values.
 std::string remarkOf(const OptionEntry& entry, const Options& options) {
   const size_t bar = entry.remark.find('|');
   if (const auto* value = std::get_if<SwitchValue>(&entry.value)) {
@@ -80,7 +80,7 @@ std::string remarkOf(const OptionEntry& entry, const Options& options) {
   return std::string(entry.remark);
 }
 
-// The line of -defaults up to its remark, with rtrace's number formats and tabs.
+// The line of -defaults up to its remark, with the number formats and tabs of rtrace.
 std::string lineOf(const OptionEntry& entry, Options& options) {
   if (entry.line != nullptr) return entry.line(options);
   if (const auto* value = std::get_if<SwitchValue>(&entry.value))
@@ -137,7 +137,7 @@ constexpr std::array kGroups = {Group::records,  Group::sphere, Group::direct, G
                                 Group::indirect, Group::limits, Group::medium, Group::color,
                                 Group::trees,    Group::program};
 
-// The value alone, as short as it can be said; empty where there is none to tell.
+// The value alone, in its shortest form; empty if the option has none.
 std::string valueOf(const OptionEntry& entry, Options& options) {
   if (entry.support == Support::refused) return "";
   if (const auto* value = std::get_if<SwitchValue>(&entry.value)) return (*value)(options) ? "on" : "off";
@@ -158,7 +158,7 @@ std::string valueOf(const OptionEntry& entry, Options& options) {
   return "";
 }
 
-// What the manual says behind the paragraph of the unit and the range.
+// The sentences of the manual about the unit and the range.
 std::string unitAndRange(const OptionEntry& entry) {
   std::string text;
   if (!entry.unit.empty()) text += fmt::format("Unit: {}. ", entry.unit);
@@ -171,7 +171,7 @@ std::string unitAndRange(const OptionEntry& entry) {
   return text;
 }
 
-// The same with the default.
+// The same, with the defaults.
 std::string facts(const OptionEntry& entry) {
   std::string text = unitAndRange(entry);
   Options rays = modeDefaults(false), spheres = modeDefaults(true);
@@ -184,7 +184,7 @@ std::string facts(const OptionEntry& entry) {
   return text;
 }
 
-// Text for man(7): no line may begin with a dot or a quote, and a hyphen is a minus.
+// Text for man(7), in which no line may begin with a dot or a quote, and a hyphen is written as a minus.
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -212,7 +212,7 @@ std::string helpLine(const OptionEntry& entry, Options& values) {
                      value.empty() ? "" : fmt::format(" [{}]", value));
 }
 
-// An option's part of a manual; `more` stands behind its paragraph.
+// The part of a manual about an option. `more` follows its paragraph.
 std::string manualEntry(const OptionEntry& entry, const std::string& more) {
   const bool isSwitch = std::holds_alternative<SwitchValue>(entry.value);
   std::string text = fmt::format(".TP\n.BI {}{}\n", escaped(entry.name),
@@ -226,7 +226,7 @@ std::string manualEntry(const OptionEntry& entry, const std::string& more) {
   return text + '\n';
 }
 
-// The features in rtrace's words that hold here.
+// The features of rsphere, in rtrace's words.
 constexpr std::array<std::string_view, 26> kFeatures = {
     "VirtualSources",
     "SecondarySources",

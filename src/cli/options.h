@@ -11,8 +11,7 @@ namespace rsphere {
 // Whether the command line asks for answers or for a text about the program.
 enum class Request : uint8_t { answers, version, defaults, help, features };
 
-// Everything that the command line says, checked but not yet acted upon: no scene and no record has been
-// read.
+// Everything that the command line says. It is checked, but neither the scene nor a record has been read.
 struct Options : AnswerOptions {
   MessageOptions messages;
   bool irradianceAtHit = false,

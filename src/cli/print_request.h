@@ -4,9 +4,9 @@
 
 namespace rsphere {
 
-// Prints what -version, -defaults, -help or -features ask for instead of answers, on standard output. Returns
-// the exit status: 1, with a message, where a feature is missing. Throws what RecordWriter throws. REQUIRES:
-// options.request is not Request::answers.
+// Prints the text of -version, -defaults, -help or -features on standard output. Returns the exit status,
+// which is 1, with a message, if a feature is missing. Throws what RecordWriter throws.
+// REQUIRES: options.request is not Request::answers.
 int printRequest(const Options& options, const Messages& messages);
 
 // The same for a companion.
