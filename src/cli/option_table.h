@@ -73,8 +73,8 @@ struct OptionEntry {
   std::string (*line)(const Options&) = nullptr;
 };
 
-// All options in the order in which -defaults prints them: those of rtrace in rtrace's order, then those of
-// rsphere.
+// All options in the order in which -defaults prints them: those of rtrace in rtrace's
+// order, then those of rsphere.
 std::span<const OptionEntry> optionTable();
 
 // The number of words that follow the option.
@@ -87,9 +87,8 @@ Options modeDefaults(bool sphereMode);
 // Reads a command line, of which words[0] is the name of the program.
 // - "@file" and "$VARIABLE", in the place of an option or of a word of the scene, are replaced by the words
 //   that they contain, at most 4096.
-// - Sphere mode is on, unless the program is called rtrace or -S switches it off. First the
-//   defaults of the mode are set, then the options in their order. A switch alone toggles; + 1 y Y
-//   t T switch on, - 0 n N f F off.
+// - Sphere mode is on unless the program is called rtrace; -S overrides this. First the defaults of the mode
+//   are set, then the options in their order. A switch alone toggles; + 1 y Y t T switch on, - 0 n N f F off.
 // - The scene begins at the first word that is not an option, and includes all words after it.
 // - The command line ends at -version (or --version), -defaults or -help (or --help). -features is an
 //   option only as the first word.

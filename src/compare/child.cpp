@@ -25,7 +25,7 @@ double secondsOf(const timeval& t) {
   return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
 }
 
-// In the child. Answers only where the program could not be started.
+// Called in the child process. Returns only if the program cannot be started.
 void becomeProgram(char* const* words, int in, int out, int errors) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   std::signal(SIGPIPE, SIG_DFL);

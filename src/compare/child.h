@@ -5,17 +5,18 @@
 
 namespace rsphere {
 
-// A file in memory, without a name: nothing stays behind, however the program ends.
+// A file in memory. It has no name, so that nothing is left behind if the program is killed.
 class MemoryFile {
  public:
-  // Throws rad::Error (Status::system) where the system has none. Begins with `bytes`, read from their start.
+  // The file contains `bytes`, and its offset is at their start. Throws rad::Error
+  // (Status::system) if the system refuses.
   explicit MemoryFile(std::string_view bytes = {});
   ~MemoryFile();
   MemoryFile(const MemoryFile&) = delete;
   MemoryFile& operator=(const MemoryFile&) = delete;
 
   int descriptor() const { return fd_; }
-  // A path by which this process and its children can open it.
+  // A path by which this process and its children can open the file.
   std::string path() const;
   std::string contents() const;
 
@@ -24,13 +25,14 @@ class MemoryFile {
 };
 
 struct ChildResult {
-  int status = 0;      // exit status; 128 and the signal's number where one ended it
-  std::string errors;  // what it wrote to standard error
-  double seconds = 0;  // CPU time, with that of its own children
+  int status = 0;      // exit status; 128 plus the number of the signal that ended it
+  std::string errors;  // the text that it wrote to standard error
+  double seconds = 0;  // CPU time, including that of its own children
 };
 
-// Runs words[0], a path, and waits for it. It ends when this process does; status 127 where it cannot be
-// started. Throws rad::Error (Status::system) where there can be no process.
+// Runs the program words[0], a path, with the words after it, and waits for its end. The child is ended if
+// this process ends first. The status is 127 if the program cannot be started. Throws rad::Error
+// (Status::system) if the process cannot be created.
 ChildResult runChild(const std::vector<std::string>& words, const MemoryFile& in, const MemoryFile& out);
 
 }  // namespace rsphere

@@ -8,7 +8,7 @@ namespace rsphere {
 // Exit statuses of rsphere-compare. Every fault is `trouble`, as with cmp(1), except a signal (3).
 enum class CompareStatus { same = 0, differs = 1, trouble = 2, undecided = 4 };
 
-// What rsphere-compare has besides rsphere's options.
+// The options of rsphere-compare: those of rsphere, and its own.
 struct CompareOptions : Options {
   double tolerance = .01;     // -Ct
   double shareBeyond = .001;  // -Cs
@@ -18,7 +18,8 @@ struct CompareOptions : Options {
   std::string differences;    // -Cp
 };
 
-// Its options, for parseCompanion() with a CompareOptions. Ray mode holds unless -S says otherwise.
+// rsphere-compare, for parseCompanion() with a CompareOptions. It is in ray mode unless -S switches to sphere
+// mode.
 const Companion& compareCompanion();
 
 }  // namespace rsphere

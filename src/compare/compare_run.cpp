@@ -22,10 +22,10 @@
 namespace rsphere {
 namespace {
 
-// The random numbers of a repeat; the first has those of rsphere itself.
+// The seed of a repeat. The first repeat has the seed of rsphere itself.
 uint64_t seedOfRepeat(uint64_t seed, size_t repeat) { return repeat == 0 ? seed : mixBits(seed + repeat); }
 
-// Records without a direction ask rtrace to flush; there is nothing to compare.
+// The rays without those whose direction is zero, which ask rtrace to flush and have no answer to compare.
 std::vector<double> withoutBogus(const std::vector<double>& rays) {
   std::vector<double> kept;
   for (size_t i = 0; i < rays.size(); i += 6)
@@ -68,7 +68,7 @@ Answers answerPoints(const Transport& transport, const CompareOptions& options,
   return answers;
 }
 
-// The records `repeats` times over, in one run: equal records get other random numbers each time.
+// Runs the original once for all repeats: it draws different random numbers for equal records of a run.
 Answers originalRays(Original& original, std::span<const double> rays, size_t repeats) {
   std::vector<double> all;
   for (size_t r = 0; r < repeats; ++r) all.insert(all.end(), rays.begin(), rays.end());
@@ -79,7 +79,7 @@ Answers originalRays(Original& original, std::span<const double> rays, size_t re
   return answers;
 }
 
-// The mean of the irradiance of planes that face all ways is F/4, and pi times the mean radiance F/4pi.
+// The mean irradiance of planes of all orientations is F/4, which is pi times the mean radiance F/4pi.
 Answers originalPoints(Original& original, const CompareOptions& options, std::span<const double> points) {
   const auto repeats = static_cast<size_t>(options.repeats),
              count = static_cast<size_t>(options.orientations);
@@ -100,7 +100,8 @@ Answers originalPoints(Original& original, const CompareOptions& options, std::s
   return answers;
 }
 
-// One bounce more, as the plane's own gathering counts as one; few rays from each plane, as there are many.
+// The options of the original for the irradiance of planes. The gathering of the plane itself takes a bounce,
+// so that there is one more. A plane needs few rays, because there are many planes.
 std::vector<std::string> pointOptions(const Options& options, std::span<const UsedOption> used) {
   std::vector<std::string> words = originalOptions(options, used);
   const std::vector<std::string> more{
@@ -155,7 +156,8 @@ std::string worstText(const CompareOptions& options, const Comparison& compariso
   return text;
 }
 
-// The numbers of the records to compare.
+// The numbers of the records to compare. Throws rad::Error if there are none, or too few or
+// many for the picture of -Cp.
 std::vector<double> recordsToCompare(const CompareOptions& options, const std::string& name) {
   std::vector<double> numbers = readRecords(name, options);
   if (!options.sphere.on) numbers = withoutBogus(numbers);

@@ -4,9 +4,9 @@
 
 namespace rsphere {
 
-// Answers the records of the last word of options.scene by rsphere and by the original, and prints on
-// standard output how they compare. REQUIRES options from parseCompanion(), and `used` what it answered.
-// Throws rad::Error.
+// Answers the records in the file that is the last word of options.scene with rsphere and with the original,
+// and prints a comparison on standard output. REQUIRES: options are from parseCompanion(), and `used` is its
+// result. Throws rad::Error.
 CompareStatus runCompare(CompareOptions options, std::span<const UsedOption> used, const Messages& messages);
 
 }  // namespace rsphere

@@ -10,10 +10,10 @@
 namespace rsphere {
 namespace {
 
-// Chance up to which a bias above the tolerance is left out of account where none is certain.
+// If no bias is certain, a bias above the tolerance is ruled out when its probability is below this.
 constexpr double kUndecided = .05;
 
-using Values = std::vector<double>;  // as Answers::values, of one channel
+using Values = std::vector<double>;  // one channel of Answers::values
 
 Values channelOf(const Answers& answers, int channel) {
   Values values;
@@ -39,8 +39,9 @@ std::vector<Pair> pairsOf(const Values& ours, const Values& original, size_t rec
   return pairs;
 }
 
-// What differences of a record are relative to: half of what both say, since an accident of one program that
-// is also in the scale would make its noise look smaller than the other's.
+// The value that the differences of a record are relative to: the mean of both programs. If it were that of
+// one program alone, an outlier of this program would enlarge its scale too, and its noise would look
+// smaller than the other's.
 double scaleOf(const Pair& pair, double mean) {
   const double own = std::abs(pair.original.mean() + pair.ours.mean()) / 2;
   return std::max({own, kDarkest * std::abs(mean), 1e-300});
@@ -83,7 +84,7 @@ ChannelComparison compareChannel(const Values& ours, const Values& original, siz
   c.originalMean = meanOf(pairs, &Pair::original);
   const double scale = c.originalMean != 0 ? std::abs(c.originalMean) : std::max(std::abs(c.ourMean), 1e-300);
   const MeanError error = meanError(pairs, ours, original, independent);
-  // Rounding: answers are floats on the original's way.
+  // The original computes with floats, so that its answers are rounded.
   constexpr double kRounding = 1e-6;
   const auto certain = [&](double excess, double standardError, size_t degrees, double tests) {
     return excess > kRounding && chanceOf(excess, standardError, degrees) < kFalseAlarm / tests;

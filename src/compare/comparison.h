@@ -1,5 +1,5 @@
 #pragma once
-// What repeated answers of two programs to the same records say.
+// Statistics of the repeated answers of two programs to the same records.
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -8,59 +8,59 @@
 
 namespace rsphere {
 
-// The answers of one program: of record i in repeat r at [r * records + i].
+// The answers of one program. The answer to record i in repeat r is at [r * records + i].
 struct Answers {
   size_t records = 0, repeats = 0;
   std::vector<Rgb> values;
   const Rgb& of(size_t record, size_t repeat) const { return values[repeat * records + record]; }
 };
 
-// What differences come to, against the tolerance; the worst last.
+// The result of the comparison with the tolerance, in ascending order of difference.
 enum class Verdict {
-  same,       // no bias is certain, and one as large as the tolerance is ruled out
-  small,      // a bias is certain, and one as large as the tolerance ruled out
-  undecided,  // nothing beyond the tolerance is certain, but noise could hide it
-  differs     // a bias above the tolerance is certain, or more records are beyond it than may be
+  same,       // no bias is certain, and a bias as large as the tolerance is ruled out
+  small,      // a bias is certain, but a bias as large as the tolerance is ruled out
+  undecided,  // no bias above the tolerance is certain, but noise could hide one
+  differs     // a bias above the tolerance is certain, or too many records differ by more than it
 };
 
-// Of one channel. Relative to the original's mean; relative differences of a record to the mean of
-// both programs' values, or to kDarkest of the mean where that is less. Of records, means over the repeats
-// are meant.
+// The comparison of one channel. The bias is relative to the mean of the original. The difference of a record
+// is that of its means over the repeats; it is relative to the mean of both programs for the record, or to
+// kDarkest times the mean of all records where this is larger.
 struct ChannelComparison {
   double ourMean = 0, originalMean = 0;
-  double bias = 0, biasError = 0;          // of the mean, relative, with its standard error
-  double chance = 1;                       // that no bias gives one as large
-  double rms = 0;                          // of records' relative differences
-  double noiseRms = 0;                     // what of it noise accounts for
-  double ourNoise = 0, originalNoise = 0;  // rms of the relative standard deviation of single answers
-  std::array<double, 4> percentiles{};     // of records' relative differences' sizes: see kPercentiles
-  double shareWithin = 0;                  // records within the tolerance
-  size_t beyond = 0;                       // records that are beyond it whatever the noise
+  double bias = 0, biasError = 0;          // relative bias of the mean, and its standard error
+  double chance = 1;                       // probability of so large a bias if there is none
+  double rms = 0;                          // of the records' relative differences
+  double noiseRms = 0;                     // the part of it that noise explains
+  double ourNoise = 0, originalNoise = 0;  // relative standard deviation of single answers, rms
+  std::array<double, 4> percentiles{};     // of the absolute relative differences: see kPercentiles
+  double shareWithin = 0;                  // fraction of records within the tolerance
+  size_t beyond = 0;                       // records that exceed it with certainty
   Verdict verdict = Verdict::same;
 };
 inline constexpr std::array<double, 4> kPercentiles = {.5, .9, .99, 1};
 inline constexpr double kDarkest = .01;
 
-// Chance of a false alarm, for the means of all channels together and for all records together.
+// Probability of a false alarm, for the means of all channels together and for all records together.
 inline constexpr double kFalseAlarm = .001;
 
 struct RecordDifference {
-  double difference = 0, error = 0;  // relative, of brightness, with its standard error
+  double difference = 0, error = 0;  // relative difference of brightness, and its standard error
 };
 
 struct Comparison {
   std::array<ChannelComparison, 3> channels;
   std::vector<RecordDifference> records;
-  std::vector<size_t> worst;  // those that differ most beyond noise first
+  std::vector<size_t> worst;  // indexes, in descending order of the difference beyond noise
   Verdict verdict = Verdict::same;
 };
 
-// REQUIRES: both have the same records, at least one, and the same repeats, at least two. independentRecords:
-// whether errors of one record have nothing to do with those of another; if they may (points that share
-// directions), the error of the mean is told from that of whole repeats. tolerance: relative; shareBeyond:
-// the share of records that may be beyond it.
-// Noise is taken as normal: standard errors are means over repeats, and Student's t is asked how likely they
-// are; per record with 2 (repeats - 1) degrees of freedom and Sidak's correction for the number of records.
+// Compares the answers of two programs. tolerance: relative. shareBeyond: the fraction of records that may
+// exceed it. independentRecords: whether the errors of different records are independent. If they are not
+// (points that share directions), the error of the mean is estimated from the means of whole repeats.
+// Noise is assumed to be normal, and probabilities are those of Student's t: for a record with 2 (repeats -
+// 1) degrees of freedom, and with Sidak's correction for the number of records.
+// REQUIRES: both have the same records, at least one, and the same number of repeats, at least two.
 Comparison compare(const Answers& ours, const Answers& original, double tolerance, double shareBeyond,
                    bool independentRecords);
 

@@ -19,7 +19,7 @@ std::string firstLine(const std::string& text) { return text.substr(0, text.find
 
 [[noreturn]] void fault(const std::string& text) { throw rad::Error(text, rad::Status::system); }
 
-// All programs of that name, in the order of PATH; a name with a slash is a path.
+// The paths of all programs of this name, in the order of PATH. A name with a slash is itself a path.
 std::vector<std::string> programsNamed(const std::string& name) {
   if (name.find('/') != std::string::npos) return {name};
   const char* path = std::getenv("PATH");
@@ -34,7 +34,7 @@ std::vector<std::string> programsNamed(const std::string& name) {
   return found;
 }
 
-// What -version says; empty where the program is rsphere.
+// The text of -version; empty if the program is rsphere.
 std::string originalVersion(const std::string& path) {
   const MemoryFile in, out;
   const ChildResult result = runChild({path, "-version"}, in, out);

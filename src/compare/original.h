@@ -1,5 +1,5 @@
 #pragma once
-// The original rtrace as a child process.
+// RADIANCE's own rtrace, which runs as a child process.
 #include <span>
 #include <string>
 #include <vector>
@@ -13,30 +13,32 @@ struct OriginalProgram {
   std::string path, version;
 };
 
-// $RTRACE, a path or a name on PATH; without it the first rtrace on PATH that is not rsphere by that name,
-// which its -version tells. Throws rad::Error (Status::system), which says how to point at one, where there
-// is none, and where it does not start.
+// Finds the original: $RTRACE, a path or a name on PATH, if it is set; else the first rtrace on PATH whose
+// -version is not that of rsphere. Throws rad::Error (Status::system) if there is none, with advice how to
+// name one, or if it does not start.
 OriginalProgram findOriginal();
 
-// The options to give it for the same answers: those used that are about rays rather than records, and those
-// whose defaults in sphere mode are not rtrace's.
+// The options that make the original compute the same quantities: those in `used` that affect rays rather
+// than records, and in sphere mode those whose defaults differ from rtrace's.
 std::vector<std::string> originalOptions(const Options& options, std::span<const UsedOption> used);
 
 class Original {
  public:
-  // Where the scene is no octree, makes one by the oconv in the program's folder, or on PATH.
+  // If the scene is not an octree, makes one with the oconv in the program's folder, or else on PATH.
+  // Throws rad::Error (Status::system) if this fails.
   Original(OriginalProgram program, const std::vector<std::string>& scene, bool isOctree,
            std::vector<std::string> options);
 
-  // The numbers that it answers to rays, of six numbers each: `perRay` a ray, for -o letters of numbers. All
-  // of them come from one run, so that equal rays get different random numbers. Throws rad::Error
-  // (Status::system) with its message where it fails, or answers less.
+  // The numbers that it answers to rays (six numbers each): `perRay` numbers for each ray, as `letters`
+  // of -o name them. They come from a single run, so that equal rays get different random numbers.
+  // Throws rad::Error (Status::system), with the message of the original, if it fails or returns a
+  // different number of numbers.
   std::vector<double> answers(std::span<const double> rays, const std::string& letters, size_t perRay);
 
-  // The surfaces that rays hit.
+  // The names of the surfaces that rays hit.
   std::vector<std::string> surfaces(std::span<const double> rays);
 
-  // CPU time of what was run so far for answers, and of oconv, s.
+  // CPU time, in seconds, of the runs of answers() so far, and of oconv.
   double seconds() const { return seconds_; }
   double octreeSeconds() const { return octreeSeconds_; }
 

@@ -5,7 +5,7 @@
 
 namespace rsphere {
 
-// Mean and variance of values, one at a time (Welford's updates).
+// Mean and variance of values that are added one at a time (Welford's algorithm).
 class Spread {
  public:
   void add(double x) {
@@ -16,9 +16,9 @@ class Spread {
   }
   size_t count() const { return count_; }
   double mean() const { return mean_; }
-  // Of one value, estimated; 0 for fewer than two.
+  // The sample variance; 0 for fewer than two values.
   double variance() const { return count_ > 1 ? squares_ / static_cast<double>(count_ - 1) : 0; }
-  // Of the mean of independent values.
+  // That of the mean, if the values are independent.
   double standardError() const {
     return count_ > 0 ? std::sqrt(variance() / static_cast<double>(count_)) : 0;
   }
@@ -28,13 +28,14 @@ class Spread {
   double mean_ = 0, squares_ = 0;
 };
 
-// How likely Student's t with that many degrees of freedom lies beyond +t or below -t. 1 for degrees < 1.
-// Error below 1e-14. Source: Abramowitz and Stegun, 26.7.3 and 26.7.4 (finite sums); beyond 200 degrees those
-// of the normal distribution, off by a factor of 1.4 at most where the answer is above 1e-6.
+// The probability that Student's t with that many degrees of freedom lies above |t| or below -|t|; 1 for
+// degrees < 1. Error below 1e-14. Source: Abramowitz and Stegun, 26.7.3 and 26.7.4 (finite sums). Above
+// 200 degrees, the normal distribution is used, which is off by a factor of 1.4 at most where the
+// probability is above 1e-6.
 double beyondT(double t, size_t degrees);
 
-// The same for a difference of which no more is known than its standard error; 0 error: 1 where the
-// difference is 0, else 0.
+// The probability of a difference at least as large, if its expected value is 0: beyondT() of difference over
+// standard error. For a standard error of 0 it is 1 if the difference is 0, and else 0.
 double chanceOf(double difference, double standardError, size_t degrees);
 
 }  // namespace rsphere

@@ -6,14 +6,14 @@
 
 namespace rsphere {
 
-// Calls work(index, worker) for each index below count, on threadCount(threads) threads, which `worker`
-// numbers from 0. Throws the first exception that work throws. After a signal (signals may be null) no
-// further call begins, and the result is false. Throws rad::Error (Status::system) if no thread can be
-// started.
+// Calls work(index, worker) for each index below count, on threadCount(threads) threads, which
+// `worker` numbers from 0. Throws the first exception that work throws. After a signal (signals may
+// be null) no further call begins, and the result is false. Throws rad::Error (Status::system) if
+// no thread can be started.
 bool forEachIndex(size_t count, int threads, const StopSignals* signals,
                   const std::function<void(size_t index, unsigned worker)>& work);
 
-// CPU time of this thread, and of the process, s.
+// CPU time, in seconds, of the calling thread and of the process.
 double threadSeconds();
 double processSeconds();
 
