@@ -1,5 +1,5 @@
 #pragma once
-// Speed and accuracy of settings, from answers of each and a reference.
+// Speed and accuracy of settings, computed from their answers and those of a reference.
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -8,22 +8,23 @@
 
 namespace rsphere {
 
-// Answers (brightness of the mean radiance) of all points in repeat r at [r * points, (r + 1) * points).
+// Answers (brightness of the mean radiance). Those to all points in repeat r are at [r * points, (r + 1) *
+// points).
 struct RepeatedAnswers {
   size_t points = 0;
   std::vector<double> values;
   size_t repeats() const { return points > 0 ? values.size() / points : 0; }
 };
 
-// Means of the points over many repeats. `scale` is what relative errors of a point refer to: its own mean,
-// or kDarkestPoint of the mean over all where that is more.
+// Means of the points over many repeats. Relative errors of a point refer to scale(): the mean of the point,
+// or kDarkestPoint times the mean over all points where this is larger.
 class Reference {
  public:
   explicit Reference(const RepeatedAnswers& answers);
 
   double mean(size_t point) const { return means_[point]; }
   double scale(size_t point) const { return scales_[point]; }
-  // Relative standard error: root mean square over the points, and that of the mean over them.
+  // Relative standard errors: the root mean square over the points, and that of the mean over the points.
   double error() const { return error_; }
   double meanError() const { return meanError_; }
   size_t points() const { return means_.size(); }
@@ -38,37 +39,37 @@ class Reference {
 };
 inline constexpr double kDarkestPoint = .01;
 
-// What was measured of a setting.
+// The measurements of a setting.
 struct Trial {
   std::vector<std::string> words;  // its options
   RepeatedAnswers answers;
-  std::vector<double> estimates;  // estimated standard errors; of point i % points, maybe several times
-  double seconds = 0;             // CPU time a point, without the estimate unless the setting needs it (-Sa)
-  double setupSeconds = 0;        // before the first point
-  double directions = 0;          // a point
+  std::vector<double> estimates;  // standard errors that it estimates; that at i is of point i % points
+  double seconds = 0;             // CPU time for a point, without its error estimate unless -Sa needs it
+  double setupSeconds = 0;        // CPU time before the first point
+  double directions = 0;          // for a point
 };
 
 // All errors are relative to the reference.
 struct Figures {
   std::vector<std::string> words;
   double seconds = 0, setupSeconds = 0, directions = 0;
-  double rms = 0;                  // of an answer's error, without the reference's own
-  double rmsAtMost = 0;            // 95% sure, as far as so few answers tell
-  double largest = 0;              // error found
+  double rms = 0;                  // of the errors of answers, without that of the reference
+  double rmsAtMost = 0;            // upper limit of rms, with a confidence of 95%
+  double largest = 0;              // largest error
   double bias = 0, biasError = 0;  // mean error, and its standard error
-  bool biased = false;             // whether the bias is certain (99%)
-  double estimated = 0;            // rms of the standard errors that it estimates itself
-  bool limited = false;  // the reference's error is more than half of what was found: rms is a guess
-  bool best = false;     // nothing measured is both as fast and as accurate
+  bool biased = false;             // whether the bias is significant (99%)
+  double estimated = 0;            // rms of the standard errors that the setting estimates
+  bool limited = false;  // the error of the reference is over half of that found, so that rms is uncertain
+  bool best = false;     // no other setting is both as fast and as accurate
 };
 
-// REQUIRES at least one repeat, of the reference's points.
+// REQUIRES: the trial has at least one repeat, of the points of the reference.
 Figures figuresOf(const Trial& trial, const Reference& reference);
 
-// Sets `best` of each.
+// Sets Figures::best of each.
 void markBest(std::vector<Figures>& all);
 
-// The fastest of those that meet an accuracy (rmsAtMost); empty where none does.
+// The index of the fastest setting whose rmsAtMost is within the accuracy; empty if there is none.
 std::optional<size_t> cheapest(std::span<const Figures> all, double accuracy);
 
 }  // namespace rsphere

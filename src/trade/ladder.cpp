@@ -19,7 +19,7 @@ std::vector<std::string> wordsOf(const std::string& line) {
   return words;
 }
 
-// -Sx is twice -Sn, as without it.
+// -Sx is twice -Sn, as it is by default.
 std::string directions(char weights, int base) {
   return fmt::format("-Sw {} -Sn {} -Sx {}", weights, base, 2 * base);
 }

@@ -6,11 +6,11 @@
 
 namespace rsphere {
 
-// The settings to measure, each a list of rsphere's options: those of -Tl, or the usual ones from cheap to
-// dear. Throws rad::Error where the file cannot be read (Status::system) or has no setting.
+// The settings to measure, each a list of rsphere's options: those in the file of -Tl, or else a default
+// selection. Throws rad::Error if the file cannot be read (Status::system) or contains no setting.
 std::vector<std::vector<std::string>> ladder(const TradeOptions& options);
 
-// That of the reference.
+// The setting of the reference.
 std::vector<std::string> referenceWords();
 
 }  // namespace rsphere

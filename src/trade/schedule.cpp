@@ -11,7 +11,7 @@ namespace rsphere {
 namespace {
 
 constexpr double kMinute = 60;
-// Fewer than these, and the error's estimate is off by more than a third more often than not.
+// With fewer degrees of freedom, the estimate of the error is usually wrong by more than a third.
 constexpr double kLeastDegrees = 4;
 
 double rotationsNeeded(const ReferenceProgress& p) {
@@ -22,7 +22,7 @@ double rotationsNeeded(const ReferenceProgress& p) {
 
 double secondsOfOne(const ReferenceProgress& p) { return p.seconds / p.rotations; }
 
-// Two digits, rounded up: a bound that is met.
+// Rounded up to two digits, so that the bound can be met.
 double roundedUp(double x) {
   const double unit = std::pow(10., std::floor(std::log10(x)) - 1);
   return std::ceil(x / unit - 1e-9) * unit;

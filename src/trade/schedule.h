@@ -1,5 +1,5 @@
 #pragma once
-// How long measuring will take, from what it took so far.
+// Predicts the time that measurements will take from the time that they have taken so far.
 #include <cstddef>
 #include <span>
 #include <string>
@@ -8,35 +8,36 @@
 
 namespace rsphere {
 
-// How far the reference is.
+// The progress of the reference.
 struct ReferenceProgress {
-  double rotations = 0;          // so far; below 1 the share of the points that were answered once
-  size_t leastRotations = 0;     // how many there are in any case
-  double seconds = 0;            // taken so far
-  double error = 0, target = 0;  // relative standard error so far, and the one that is wanted
+  double rotations = 0;          // finished; below 1, the fraction of the points answered in the first
+  size_t leastRotations = 0;     // minimum number of rotations
+  double seconds = 0;            // time so far
+  double error = 0, target = 0;  // relative standard error so far, and the one asked for
   size_t points = 0;
   bool moreThreads = false;  // whether -n 0 would use more threads
 };
 
-// Whether `error` is known well enough to predict from: it is estimated from the rotations of all points.
+// Whether `error`, which is estimated from the rotations of all points, is accurate enough for predictions.
 bool canPredict(const ReferenceProgress& progress);
 
-// Seconds that are left, as the error falls with the square root of the rotations. Of the rotations that
-// there are in any case alone where the error is not known yet.
+// The remaining time in seconds, given that the error falls with the square root of the number of rotations.
+// If the error is not known yet, the time to the minimum number of rotations.
 double secondsLeft(const ReferenceProgress& progress);
 
-// What to say where the reference takes longer than a minute in all, with the options that make it quicker;
-// empty where it does not. The error of -Te that it names is the one that is reached in about a minute.
+// A message if the whole reference takes longer than a minute, with the options that make it faster;
+// otherwise empty. The error that it suggests for -Te is reached in about a minute.
 std::string slowReference(const ReferenceProgress& progress);
 
-// What a setting costs beside others: its directions times the power 3/4 of the indirect rays of each (-ad).
-// Within a factor of two or so for the usual settings, which is enough to tell the time that is left.
+// The relative cost of a setting: its directions times the indirect rays of each (-ad) to the
+// power 3/4. For the default settings it is right within a factor of about two, which suffices to
+// predict the remaining time.
 double costOf(const AnswerOptions& setting);
 
-// Seconds for the settings that are left, from the seconds that the first `done` of them took.
+// The time in seconds for the remaining settings, predicted from that of the first `done` settings.
 double secondsLeft(std::span<const double> costs, size_t done, double seconds);
 
-// "40 s", "2.5 min", "12 min", "3.5 h".
+// A duration as "40 s", "2.5 min", "12 min" or "3.5 h".
 std::string durationText(double seconds);
 
 }  // namespace rsphere

@@ -5,7 +5,7 @@
 
 namespace rsphere {
 
-// What rsphere-trade has besides rsphere's options.
+// The options of rsphere-trade: those of rsphere, and its own.
 struct TradeOptions : Options {
   int repeats = 4;            // -Tr
   int mostPoints = 32;        // -Tm
@@ -16,7 +16,7 @@ struct TradeOptions : Options {
   std::string plot;           // -Tp
 };
 
-// Its options, for parseCompanion() with a TradeOptions.
+// rsphere-trade, for parseCompanion() with a TradeOptions.
 const Companion& tradeCompanion();
 
 }  // namespace rsphere

@@ -23,7 +23,7 @@ std::string milliseconds(double seconds) {
   return fmt::format("{:.{}f}", 1e3 * seconds, seconds < .01 ? 2 : 1);
 }
 
-// How much larger the error is than the setting says itself.
+// The ratio of the measured error to the one that the setting estimates; 0 if it estimates none.
 double dishonesty(const Figures& f) { return f.estimated > 0 ? f.rms / f.estimated : 0; }
 
 std::string escaped(std::string_view text) {
@@ -54,7 +54,7 @@ size_t seriesOf(const Figures& f) {
   return weights[1] == "h" ? 0 : weights[1] == "v" ? 1 : 2;
 }
 
-// A logarithmic axis from `low` to `high`, drawn from pixel `from` to pixel `to`.
+// A logarithmic axis for values from `low` to `high`, drawn from pixel `from` to pixel `to`.
 struct Axis {
   double low, high, from, to;
   double at(double x) const { return from + (to - from) * std::log(x / low) / std::log(high / low); }
@@ -69,7 +69,7 @@ Axis axisOf(std::span<const Figures> all, double Figures::*value, double from, d
   return {low / 1.3, high * 1.3, from, to};
 }
 
-// 1, 2 and 5 times the powers of ten.
+// The values of an axis that are 1, 2 or 5 times a power of ten.
 std::vector<double> ticksOf(const Axis& axis) {
   std::vector<double> ticks;
   for (int power = -12; power < 12; ++power)

@@ -25,14 +25,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Rotations of the reference begin here, those of settings at 1: none is used by both.
+// Rotations of the reference begin here and those of settings at 1, so that no rotation is used by both.
 constexpr uint64_t kReferenceRotation = uint64_t{1} << 30;
-// Repeats of the reference: its error is not known with fewer, and more help nobody.
+// Limits of the rotations of the reference: with fewer its error is not known, and more would take too long.
 constexpr size_t kLeastRotations = 8, kMostRotations = 100000;
-// Answers whose estimates are asked for, of each setting, at least.
+// Minimum number of answers of each setting whose estimated errors are collected.
 constexpr size_t kEstimates = 8;
 constexpr double kUsualAccuracy = .01;
-// Repeats of a setting that say something of its bias: where a signal ends it early.
+// If a signal ends the measurement of a setting early, it is reported only with this many repeats, which
+// suffice to estimate its bias.
 constexpr size_t kLeastRepeats = 2;
 
 std::vector<double> chosenPoints(const std::vector<double>& all, int most) {
@@ -55,7 +56,7 @@ class Trade {
 
  private:
   Setting settingOf(std::span<const std::string> words) const;
-  // False where a signal came: what is whole by then is in `trial`.
+  // False after a signal; `trial` then has the repeats that were finished.
   bool measure(std::span<const std::string> words, const Setting& given, Trials& trials, Trial& trial) const;
   std::optional<Reference> makeReference(Trials& trials, double target) const;
   void progress(const std::string& text) const;
@@ -69,7 +70,7 @@ class Trade {
   StopSignals& signals_;
 };
 
-// What is given, with a setting's words behind it: they count.
+// The options of the command line, followed by those of the setting, which override them.
 Setting Trade::settingOf(std::span<const std::string> words) const {
   std::vector<std::string> line{options_.program};
   line.insert(line.end(), options_.words.begin(), options_.words.end());
@@ -84,13 +85,13 @@ Setting Trade::settingOf(std::span<const std::string> words) const {
       continue;
     for (const std::string& word : option.words) setting.rays += word + ' ';
   }
-  // One scene is read, for all of them.
+  // The scene is read once for all settings.
   if (options.scene != options_.scene)
     throw rad::Error(fmt::format("\"{}\" is no option", options.scene.front()));
   if (options.sphere.goals != options_.sphere.goals)
     throw rad::Error("-Sg holds for all settings: give it once");
   setting.options = options;
-  setting.options.sphere.everyDirection = false;  // would only cost time
+  setting.options.sphere.everyDirection = false;  // the directions are not used
   return setting;
 }
 
@@ -117,7 +118,7 @@ bool Trade::measure(std::span<const std::string> words, const Setting& given, Tr
   return whole;
 }
 
-// Empty where a signal came before there was one.
+// Empty if a signal ends the program before the first rotation is finished.
 std::optional<Reference> Trade::makeReference(Trials& trials, double target) const {
   Setting setting = settingOf(referenceWords());
   Trial trial;
@@ -130,7 +131,7 @@ std::optional<Reference> Trade::makeReference(Trials& trials, double target) con
   at.moreThreads = threads < threadCount(0);
   const auto start = Clock::now();
   const auto elapsed = [&start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-  double said = 0;  // how long it was said to take
+  double said = 0;  // the time that the last warning predicted
   const auto saySlow = [&] {
     const double whole = at.seconds + secondsLeft(at);
     const std::string slow = slowReference(at);
@@ -172,7 +173,7 @@ void Trade::progress(const std::string& text) const {
   if (options_.progressSeconds > 0 || isatty(2) == 1) messages_.report(text);
 }
 
-// The command with the setting, as it can be typed: without what the setting says otherwise.
+// A command line of rsphere with the options given and those of the setting, which replace options given.
 std::string Trade::pasteLine(std::span<const std::string> words) const {
   std::string line = "rsphere";
   for (const UsedOption& option : used_) {
@@ -187,8 +188,8 @@ std::string Trade::pasteLine(std::span<const std::string> words) const {
   return line + " < " + options_.scene.back();
 }
 
-// The plot is an SVG file: a name that promises something else would be opened by a program that cannot show
-// it.
+// Throws rad::Error if the name of the plot, which is an SVG file, has the extension of another format:
+// programs would open it as a file of that format.
 void checkPlotName(const std::string& name) {
   constexpr std::array<std::string_view, 12> kOthers = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".gif",
                                                         ".bmp", ".hdr", ".exr",  ".pdf", ".eps",  ".ps"};
@@ -208,7 +209,7 @@ void writeFile(const std::string& name, const std::string& text) {
   if (!file) throw rad::Error(fmt::format("cannot write \"{}\"", name), rad::Status::system);
 }
 
-// repeatsOfLast: how many the last setting has where a signal came before it had all; else 0.
+// repeatsOfLast: the number of repeats of the last setting if a signal ended it early; else 0.
 void Trade::report(const std::vector<Figures>& all, size_t repeatsOfLast, const Reference& reference,
                    double accuracy) const {
   std::string text = fmt::format(
@@ -228,7 +229,8 @@ void Trade::report(const std::vector<Figures>& all, size_t repeatsOfLast, const 
     text += fmt::format("\nNone is sure to have an rms error of {:g}%; the nearest, with {:.3f}%:\n  {}\n",
                         100 * accuracy, 100 * most->rms, pasteLine(most->words));
   }
-  // What can be written is, whatever is wrong with the rest: measuring again takes long.
+  // If one of the outputs fails, the others are written nevertheless, because measuring again would take
+  // long.
   std::exception_ptr fault;
   const auto attempt = [&fault](const auto& write) {
     try {
@@ -271,7 +273,7 @@ void Trade::run() {
 
   const rad::Warn warn = [&](std::string_view text) { messages_.warning(text); };
   AnswerOptions withoutPoints = options_;
-  withoutPoints.scene.pop_back();  // with -Sc- the folder of the points is none of the scene's
+  withoutPoints.scene.pop_back();  // with -Sc-, the scene may not name files in the folder of the points
   const Scene scene = loadScene(withoutPoints, warn);
   signals_.defer(true);
   Trials trials(scene, points, signals_);

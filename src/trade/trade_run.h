@@ -7,10 +7,11 @@
 
 namespace rsphere {
 
-// Measures the settings of the ladder at the points of the last word of options.scene, and prints what came
-// of it on standard output. REQUIRES options from parseCompanion(), and `used` what it answered. After a
-// signal, what was measured so far is printed (and written: -Tc -Tp), and rad::Error with Status::signal is
-// thrown. Throws rad::Error.
+// Measures the settings of ladder() at the points in the file that is the last word of options.scene,
+// prints the result on standard output, and writes the files of -Tc and -Tp. After a signal, does so
+// with the measurements that are finished, and throws rad::Error with Status::signal. Throws
+// rad::Error for all faults.
+// REQUIRES: options are from parseCompanion(), and `used` is its result.
 void runTrade(const TradeOptions& options, std::span<const UsedOption> used, const Messages& messages,
               StopSignals& signals);
 

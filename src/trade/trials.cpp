@@ -6,7 +6,7 @@
 
 namespace rsphere {
 
-// One holds the tree of all surfaces.
+// A Transport contains Embree's tree of all surfaces, which is large. Settings share it where possible.
 const Transport& Trials::transportOf(const Setting& setting) {
   auto& transport = transports_[setting.rays];
   if (!transport)

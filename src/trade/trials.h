@@ -11,26 +11,26 @@
 
 namespace rsphere {
 
-// A setting's options, and those of its words that rays depend on: settings with the same can share a
-// Transport.
+// The options of a setting, and the words among them that affect rays. Settings in which these are
+// equal can share a Transport.
 struct Setting {
   AnswerOptions options;
   std::string rays;
 };
 
-// Runs settings on a scene's points.
+// Answers the points of a scene with different settings.
 class Trials {
  public:
-  // The scene, points (three numbers each) and signals must live as long.
+  // points: three numbers each. All arguments must live as long.
   Trials(const Scene& scene, std::span<const double> points, const StopSignals& signals)
       : scene_(scene), points_(points), signals_(signals) {}
 
   size_t points() const { return points_.size() / 3; }
 
-  // Answers all points once, with the rotation of its options. standardErrors: whether estimates are wanted.
-  // Adds to trial.answers, and to the sums of its seconds and directions where `timed`. False, and nothing
-  // added, where a signal came.
-  // pointAnswered: called after each point, from several threads.
+  // Answers all points once, with the rotation of the options, and adds the answers to trial.answers.
+  // standardErrors: also adds the estimated errors to trial.estimates. timed: also adds to trial.seconds and
+  // trial.directions. pointAnswered is called after each point, from several threads. Returns false, and
+  // adds nothing, after a signal.
   bool run(const Setting& setting, bool standardErrors, bool timed, Trial& trial,
            const std::function<void()>& pointAnswered = {});
 
