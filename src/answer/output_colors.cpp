@@ -24,8 +24,8 @@ constexpr double kMelanopicEfficacy = 179;  // RADIANCE's choice
 const Rgb kScotopicWeights(740 / 65535., 46459 / 65535., 18336 / 65535.);
 const Rgb kMelanopicWeights(120 / 65535., 39340 / 65535., 26075 / 65535.);
 
-// Wavelengths (nm) of the limits between red, green and blue, and of the peaks of the outer channels'
-// responses.
+// Wavelengths (nm) of the limits between red, green and blue, and of the peaks of the
+// outer channels' responses.
 constexpr double kRedFrom = 588, kGreenFrom = 480;
 constexpr double kRedPeak = 607, kBluePeak = 469;
 constexpr double kLeastRange = 50;

@@ -74,8 +74,8 @@ class OutputColors {
   std::vector<int> channel_;  // if it is bands: the channel of each, from the longest wavelength
 };
 
-// Throws rad::Error with rtrace's words if the bands or limits are impossible, or if the primaries span no
-// gamut.
+// Throws rad::Error with rtrace's words if the bands or limits are impossible, or if
+// the primaries span no gamut.
 void checkColors(const ColorOptions& options);
 
 // Whether every channel has a part of the spectrum within its limits. rtrace warns if this is not so.

@@ -22,8 +22,8 @@ void* call(void* work) {
   return nullptr;
 }
 
-// A thread with a stack of kStack, which its destructor joins: std::thread cannot choose the size of its
-// stack.
+// A thread with a stack of kStack, which its destructor joins: std::thread cannot
+// choose the size of its stack.
 class Thread {
  public:
   // Throws std::system_error if the thread cannot be started.

@@ -119,8 +119,8 @@ void setRotation(Options& options, const OptionEntry& entry, std::span<const std
   options.sphere.rotation = options.ray.rotation = static_cast<uint64_t>(*n);
 }
 
-// As in rtrace, the word of -e is an expression if it contains '=' or ':', and else the name of an error
-// file.
+// As in rtrace, the word of -e is an expression if it contains '=' or ':', and else
+// the name of an error file.
 void setErrorFile(Options& options, const OptionEntry&, std::span<const std::string> words,
                   std::string_view) {
   if (words[0].find_first_of("=:") != std::string::npos)
@@ -971,8 +971,8 @@ void addSphereOptions(const Add& add) {
            "is read from standard input."});
 }
 
-// The order is that of rtrace's -defaults. From -ap to -t follow options of rtrace that its -defaults does
-// not print.
+// The order is that of rtrace's -defaults. From -ap to -t follow options of rtrace that its
+// -defaults does not print.
 std::vector<OptionEntry> makeTable() {
   std::vector<OptionEntry> table;
   for (const auto addOptions :

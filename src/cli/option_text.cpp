@@ -10,8 +10,8 @@
 namespace rsphere {
 namespace {
 
-// The names of the letters of -o in -defaults: those of rtrace, which has none for c, and those of sphere
-// mode.
+// The names of the letters of -o in -defaults: those of rtrace, which has none for c,
+// and those of sphere mode.
 struct LetterName {
   char letter;
   std::string_view name;

@@ -18,8 +18,8 @@ struct CompareOptions : Options {
   std::string differences;    // -Cp
 };
 
-// rsphere-compare, for parseCompanion() with a CompareOptions. It is in ray mode unless -S switches to sphere
-// mode.
+// rsphere-compare, for parseCompanion() with a CompareOptions. It is in ray mode unless
+// -S switches to sphere mode.
 const Companion& compareCompanion();
 
 }  // namespace rsphere

@@ -29,8 +29,8 @@ class Original {
   Original(OriginalProgram program, const std::vector<std::string>& scene, bool isOctree,
            std::vector<std::string> options);
 
-  // The numbers that it answers to rays (six numbers each): `perRay` numbers for each ray, as `letters`
-  // of -o name them. They come from a single run, so that equal rays get different random numbers.
+  // The numbers that it answers to rays (six numbers each): `perRay` numbers for each ray, as `letters` of -o
+  // name them. They come from a single run, so that equal rays get different random numbers.
   // Throws rad::Error (Status::system), with the message of the original, if it fails or returns a
   // different number of numbers.
   std::vector<double> answers(std::span<const double> rays, const std::string& letters, size_t perRay);

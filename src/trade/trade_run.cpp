@@ -229,8 +229,8 @@ void Trade::report(const std::vector<Figures>& all, size_t repeatsOfLast, const 
     text += fmt::format("\nNone is sure to have an rms error of {:g}%; the nearest, with {:.3f}%:\n  {}\n",
                         100 * accuracy, 100 * most->rms, pasteLine(most->words));
   }
-  // If one of the outputs fails, the others are written nevertheless, because measuring again would take
-  // long.
+  // If one of the outputs fails, the others are written nevertheless, because
+  // measuring again would take long.
   std::exception_ptr fault;
   const auto attempt = [&fault](const auto& write) {
     try {

@@ -71,7 +71,7 @@ TEST(AnswerWriter, WeightIsThatOfARayAndTheSolidAngleOfADirection) {
             "12345678\t2.800000e+01\t4.000000e+00\t5.000000e+00\t6.000000e+00\t\n");
 }
 
-// echo 1 2 30 0 0 5 | rtrace -h -oodlLpnNsmMcwWRX~, nothing in its way (RADIANCE 6.1a).
+// The output of echo 1 2 30 0 0 5 | rtrace -h -oodlLpnNsmMcwWRX~ if the ray hits nothing (RADIANCE 6.1a).
 TEST(AnswerWriter, ARayThatHitsNothing) {
   const double numbers[] = {1, 2, 30, 0, 0, 5};
   EXPECT_EQ(
@@ -92,7 +92,7 @@ TEST(AnswerWriter, RaysOfATreeAreIndented) {
   };
   EXPECT_EQ(branch({"rtrace", "-ov~tmL", "s.oct"}, 2), "\t\tpaint\t1.600000e+01\t\n");
   EXPECT_EQ(branch({"rtrace", "-oTw", "s.oct"}, 0), "2.700000e+01\t\n");
-  // As in rtrace, the TABs are there in binary, too.
+  // As in rtrace, binary output has the TABs too.
   EXPECT_EQ(branch({"rtrace", "-faf", "-otX", "s.oct"}, 1), std::string("\t\0\0\x60\x41", 5));
   EXPECT_EQ(branch({"rtrace", "-otm", "-te", "paint", "s.oct"}, 1), "");
   EXPECT_EQ(branch({"rtrace", "-otm", "-te", "white", "s.oct"}, 0), "paint\t\n");
@@ -104,7 +104,7 @@ TEST(AnswerWriter, RaysOfATreeAreIndented) {
   EXPECT_EQ(written({"rtrace", "-otmL", "s.oct"}, someRay()), "");
 }
 
-// Rays that see nothing are in no list.
+// Rays that hit nothing have no modifier to include or exclude.
 TEST(AnswerWriter, RaysThatHitNothingAreOnlyInTreesWithoutAList) {
   const auto branch = [](std::initializer_list<const char*> words) {
     const Options options = parse(words);
@@ -151,15 +151,15 @@ TEST(AnswerWriter, PixelsAreFourBytes) {
   EXPECT_EQ(bytes, "\x80\x80\x80\x81");
 }
 
-// rtrace -ovodwWcsmMlLpnNrRxX of RADIANCE 6.1a says NCOMP=37.
+// rtrace -ovodwWcsmMlLpnNrRxX of RADIANCE 6.1a writes NCOMP=37.
 TEST(AnswerWriter, ComponentsAreCountedAsInRtrace) {
   EXPECT_EQ(componentCount(parse({"rtrace", "-ovodwWcsmMlLpnNrRxX~", "s.oct"})), 37);
   EXPECT_EQ(componentCount(parse({"rtrace", "s.oct"})), 3);
   EXPECT_EQ(componentCount(parse({"rsphere", "-Sd", "s.oct"})), 10);
 }
 
-// printf '0 0 0 0 0 0 0 0 5 0 0 -2 0 0 0 0 0 0' | rtrace -h -I -oodpv (6.1a): a bogus record repeats the ray
-// before it as it was traced, zeros if there is none.
+// printf '0 0 0 0 0 0 0 0 5 0 0 -2 0 0 0 0 0 0' | rtrace -h -I -oodpv (6.1a): the answer to a bogus record
+// shows the ray before it as it was traced, or zeros if there is none.
 TEST(InputRay, SensorsAreTracedFromAboveThem) {
   const double sensor[] = {0, 0, 5, 0, 0, -2}, nothing[] = {0, 0, 0, 0, 0, 0};
   const InputRay ray = inputRay(sensor, Irradiance::point);

@@ -19,7 +19,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// A record is answered with its numbers, and "bogus" if it is.
+// Answers a record with its numbers, and with "bogus" if it is.
 void echo(const Record& record, unsigned, std::string& bytes) {
   for (const double x : record.numbers) bytes += fmt::format("{} ", x);
   bytes += record.bogus ? "bogus\n" : "\n";
@@ -29,7 +29,7 @@ struct Outcome {
   std::string out, fault, messages;
 };
 
-// Runs over text with this command line, -n 1 and several -n; they must agree.
+// Answers records of text with this command line, once for each of several -n, which must agree.
 Outcome run(std::initializer_list<const char*> words, const std::string& text,
             const AnswerRecord& answer = echo) {
   std::optional<Outcome> first;
@@ -71,7 +71,7 @@ TEST(RunRecords, AnswersInTheOrderOfTheInput) {
       run({"rsphere", "s.oct"}, text, [](const Record& record, unsigned worker, std::string& bytes) {
         EXPECT_EQ(record.index, static_cast<uint64_t>(record.numbers[0]));
         EXPECT_LT(worker, 5u);
-        // Times differ, so that later records are ready earlier.
+        // Some records take longer, so that later ones are finished before them.
         if (record.index % 97 == 0) std::this_thread::sleep_for(1ms);
         echo(record, worker, bytes);
       });
@@ -165,7 +165,7 @@ TEST(RunRecords, FourOrFiveNumbersOnALineOfRaysAreWarnedOfOnce) {
   EXPECT_EQ(run({"rtrace", "s.oct"}, "1 2 3 0 0 1 1 2 3 0 0 1\n").messages, "");
 }
 
-// As with an id before x y z, which used to give four answers for three lines.
+// An identifier before x y z used to give four answers for three lines.
 TEST(RunRecords, FourOrFiveNumbersOnALineOfPointsAreAFault) {
   const auto four = run({"rsphere", "s.oct"}, "\n1 2 3\n\n4 5 6\r\n1 7 8 9\n2 1 1 1\n");
   EXPECT_EQ(four.out, "1 2 3 \n4 5 6 \n");
@@ -194,7 +194,7 @@ TEST(RunRecords, NoMoreThreadsThanAskedFor) {
                threads.insert(std::this_thread::get_id());
                workers.insert(worker);
                oneMore.notify_all();
-               // The first wait for the others, however long a busy machine takes to start them.
+               // The first threads wait for the others, because a busy machine may start them late.
                oneMore.wait_for(lock, 20s, [&] { return threads.size() >= 3; });
                lock.unlock();
                std::this_thread::sleep_for(300us);
@@ -204,7 +204,7 @@ TEST(RunRecords, NoMoreThreadsThanAskedFor) {
   EXPECT_FALSE(threads.contains(std::this_thread::get_id())) << "its stack may be too small";
 }
 
-// A program that talks through pipes to runRecords() in a thread.
+// A program that talks through pipes to runRecords() on another thread.
 class Conversation {
  public:
   explicit Conversation(std::initializer_list<const char*> words, AnswerRecord answer = echo)
@@ -258,7 +258,7 @@ TEST(RunRecords, ZeroDirectionFlushes) {
   }
 }
 
-// A program that writes a whole group before it reads an answer: more than two pipes hold.
+// The program writes a whole group, which is more than two pipes hold, before it reads an answer.
 TEST(RunRecords, GroupsAreWrittenOnceTheyAreWhole) {
   for (const char* threads : {"1", "3"}) {
     constexpr int kGroup = 20000;
@@ -292,8 +292,7 @@ TEST(RunRecords, AClosedOutputEndsAConversationThoughInputIsOpen) {
   }
 }
 
-// What waits to be written is bounded, however long one record takes: 16 batches of at most 256 for each
-// thread.
+// However long one record takes, at most 16 claims of 256 records for each thread wait to be written.
 TEST(RunRecords, EndlessInputNeedsNoMoreMemory) {
   const Options options = parse({"rsphere", "-n", "2", "s.oct"});
   std::string text;
@@ -307,7 +306,7 @@ TEST(RunRecords, EndlessInputNeedsNoMoreMemory) {
              [&](const Record& record, unsigned, std::string& bytes) {
                ++begun;
                if (record.index == 100000) {
-                 // The other goes on, once it has a processor, until it has to wait.
+                 // The other thread continues, when it gets a processor, until it must wait.
                  const auto index = static_cast<int64_t>(record.index);
                  for (int i = 0; i < 1000 && begun - index < 2; ++i) std::this_thread::sleep_for(20ms);
                  std::this_thread::sleep_for(200ms);
@@ -348,7 +347,7 @@ TEST(RunRecords, ReportsProgress) {
   EXPECT_NE(contents(log.path).find(" a second, 100.0% done, 0 seconds left\n"), std::string::npos);
 }
 
-// From a pipe the end is known where -y says so.
+// With input from a pipe, the number of records is known only from -y.
 TEST(RunRecords, ProgressOfAPipeHasAnEndOnlyWithScanlines) {
   for (const bool scanlines : {false, true}) {
     Options options = scanlines ? parse({"rsphere", "-t", "0.01", "-x", "2", "-y", "2", "s.oct"})
@@ -370,8 +369,7 @@ TEST(RunRecords, ProgressOfAPipeHasAnEndOnlyWithScanlines) {
   }
 }
 
-// Signals end a process: a child is one to spare. It answers two records and then waits for input, or is
-// busy.
+// A child process, because signals end it. It answers two records and then waits for input, or is busy.
 class Child {
  public:
   Child(bool deferred, const AnswerRecord& answer) {
@@ -406,7 +404,7 @@ class Child {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
   void send(int signal) const { kill(pid_, signal); }
-  // Whether a signal was sent that no thread has taken yet.
+  // Whether a signal was sent that no thread has handled yet.
   bool isPending() const {
     return contents(fmt::format("/proc/{}/status", pid_)).find("ShdPnd:\t0000000000000000") ==
            std::string::npos;
@@ -433,7 +431,7 @@ TEST(StopSignals, WhileWaitingForInput) {
   }
 }
 
-// Answers two records and holds them back as one group; at the third, `stop` sends signals to the process.
+// Answers two records, which are kept as one group. At the third, `stop` sends signals to the process.
 AnswerRecord stoppedAtTheThird(std::function<void()> stop) {
   return [stop = std::move(stop), ready = std::make_shared<std::atomic<int>>(0)](
              const Record& record, unsigned worker, std::string& bytes) {
@@ -474,7 +472,7 @@ TEST(StopSignals, TheSecondEndsItAtOnce) {
   child.toChild.put("1 2 3\n");
   EXPECT_EQ(busy.getLines(1), "busy\n");
   child.send(SIGTERM);
-  while (child.isPending()) std::this_thread::sleep_for(1ms);  // two that come together are one
+  while (child.isPending()) std::this_thread::sleep_for(1ms);  // two signals that come together are merged
   std::this_thread::sleep_for(100ms);
   const auto start = std::chrono::steady_clock::now();
   child.send(SIGTERM);
@@ -482,7 +480,7 @@ TEST(StopSignals, TheSecondEndsItAtOnce) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, 10s);
 }
 
-// As timeout(1) sends it: to the process and to its group.
+// timeout(1) sends a signal to the process and to its group.
 TEST(StopSignals, TheSameTwiceInAMomentIsOne) {
   const Child child(true, stoppedAtTheThird([] {
                       kill(getpid(), SIGTERM);

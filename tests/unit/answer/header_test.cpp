@@ -27,7 +27,7 @@ TEST(Header, HasTheLinesOfRtraceInItsOrder) {
       "#?RADIANCE\noconv -f s.rad\nrtrace -ovs -ae \"a b\"\n" + kSoftware + "NCOMP=4\nFORMAT=ascii\n\n");
 }
 
-// rtrace's lines for what is not RGB (6.1a).
+// The lines that rtrace (6.1a) writes for colors other than RGB.
 TEST(Header, TellsOfColors) {
   const auto lines = [](std::initializer_list<const char*> words) {
     const std::string text = headerText(words);

@@ -9,7 +9,7 @@
 namespace rsphere {
 namespace {
 
-// Of a process that begins with these limits: that of its data once limitMemory() was called, in MB.
+// The limit of the data of a process, in MB, after limitMemory() in a process that has these limits.
 rlim_t megabytes(rlim_t data, rlim_t space) {
   int ends[2];
   EXPECT_EQ(pipe(ends), 0);

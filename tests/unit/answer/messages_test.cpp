@@ -9,7 +9,7 @@
 namespace rsphere {
 namespace {
 
-// What is written to standard error meanwhile.
+// The text that `action` writes to standard error.
 template <class Action>
 std::string standardErrorOf(Action action) {
   const TemporaryFile file;

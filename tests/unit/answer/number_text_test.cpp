@@ -15,7 +15,7 @@
 namespace rsphere {
 namespace {
 
-// printf is the definition.
+// The text must be that of printf.
 std::string printed(double x) {
   char text[64];
   std::snprintf(text, sizeof text, "%e", x);
@@ -45,7 +45,7 @@ TEST(NumberText, EveryPowerOfTenAndItsNeighbours) {
   }
 }
 
-// Exactly between two 7-digit numbers: printf rounds to even.
+// For values exactly between two 7-digit numbers, printf rounds to even.
 TEST(NumberText, MiddlesBetweenTwoNumbers) {
   for (int i = 1000000; i < 1002000; ++i) {
     expectAsPrinted(i + 0.5);
@@ -62,7 +62,7 @@ TEST(NumberText, AMillionRandomBitPatternsAndAMillionUsualNumbers) {
   for (int i = 0; i < 1000000; ++i) {
     expectAsPrinted(std::bit_cast<double>(random()));
     expectAsPrinted(std::pow(10, exponent(random)) * (random() % 2 == 0 ? 1 : -1));
-    // Few binary digits, as floats have: more middles among them.
+    // Numbers with few binary digits, as floats have, are more often such values.
     expectAsPrinted(static_cast<double>(static_cast<float>(std::pow(10, exponent(random) / 4))));
   }
 }

@@ -32,7 +32,7 @@ void expectNear(const std::vector<double>& numbers, const std::vector<double>& e
 
 const Rgb kLamp(10, 8, 5), kFloor(.8 / 30, .64 / 90, .2 / 90);
 
-// rtrace -h and the option, RADIANCE 6.1a, for rays that see these two colors.
+// The output of rtrace -h with the option (RADIANCE 6.1a) for rays that see these two colors.
 TEST(OutputColors, AreThoseOfTheOriginal) {
   expectNear(written({"-pXYZ"}, kLamp), {1.529085e+03, 1.492117e+03, 9.825419e+02});
   expectNear(written({"-pXYZ"}, kFloor), {2.930881e+00, 2.144180e+00, 6.107408e-01});
@@ -44,7 +44,7 @@ TEST(OutputColors, AreThoseOfTheOriginal) {
   const std::vector<const char*> wide = {"-pc", ".68", ".32", ".265", ".69", ".15", ".06", ".3127", ".329"};
   expectNear(written(wide, kLamp), {9.929738e+00, 8.088112e+00, 5.381193e+00});
   expectNear(written(wide, kFloor), {2.561085e-02, 7.970176e-03, 3.241121e-03});
-  // Pure colors, of which those of the smaller gamut are mixed with grey.
+  // Pure colors. Those outside the smaller gamut are mixed with grey.
   expectNear(written(wide, Rgb(1, 0, 0)), {0.9422708749771118, 0.043866150081157684, 0.024370217695832253});
   expectNear(written(wide, Rgb(0, 0, 1)), {0, 0.011732321232557297, 0.7355017066001892});
   const std::vector<const char*> small = {"-pc", ".64", ".33", ".3", ".6", ".15", ".06", ".3333", ".3333"};
@@ -60,7 +60,7 @@ TEST(OutputColors, StandardPrimariesAreRgb) {
   EXPECT_EQ(parse({"rtrace", "-pY", "-pRGB", "s"}).color.space, ColorSpace::rgb);
 }
 
-// rtrace -co -cs .. -cw .. for pure red and green.
+// The output of rtrace -co -cs .. -cw .. for pure red and green.
 TEST(OutputColors, BandsHaveTheValueOfTheirChannel) {
   const Rgb abc(1, 2, 3);
   expectNear(written({"-cs", "6", "-co+"}, abc), {1, 1, 1, 2, 2, 3});
@@ -73,7 +73,7 @@ TEST(OutputColors, BandsHaveTheValueOfTheirChannel) {
   expectNear(written({"-co", "-co", "-cs", "9"}, abc), {1, 2, 3});
 }
 
-// A coefficient has no lumens.
+// Coefficients are not converted to lumens.
 TEST(OutputColors, CoefficientsAreNotScaled) {
   expectNear(written({"-pY", "-w"}, kLamp, "-oW"), {1});
   expectNear(written({"-pXYZ", "-w"}, kLamp, "-oW"), {1, 1, 1});
@@ -94,7 +94,7 @@ TEST(OutputColors, WhatCannotBeIsSaidAsInRtrace) {
   EXPECT_EQ(faultOfOptions({"rtrace", "-pc", "1", "0", "0", "1", "0", "0", "0", ".3333", "s"}),
             "illegal primary chromaticities");
   EXPECT_EQ(faultOfOptions({"rtrace", "-pc", ".1", ".1", ".2", ".2", ".3", ".3", ".3", ".4", "s"}),
-            "illegal primary chromaticities");  // on one line: rtrace divides by zero
+            "illegal primary chromaticities");  // they lie on a line, where rtrace divides by zero
   EXPECT_EQ(faultOfOptions({"rtrace", "-pY", "-ffc", "s"}), "color format incompatible with -pY, -pS, -pM");
   EXPECT_EQ(parse({"rtrace", "-cw", "500", "600", "s"}).messages.remarks,
             (std::vector<std::string>{"spectral range incompatible with color output"}));

@@ -57,7 +57,7 @@ TEST(RecordReader, NumbersAsRadianceSpellsThem) {
   EXPECT_TRUE(std::signbit(all.numbers[3]));
 }
 
-// rtrace cuts words at 31 characters, which moves all columns after.
+// rtrace cuts words at 31 characters, which shifts all columns after them.
 TEST(RecordReader, LongNumbersAreReadWhole) {
   const std::string third = "0." + std::string(400, '3');
   const ReadAll all =
@@ -95,7 +95,7 @@ TEST(RecordReader, HostileWordsAreShownOnOneShortLine) {
   EXPECT_EQ(fault, "stdin:1: expected 3 numbers, got \"" + std::string(40, '9') + "...\"");
 }
 
-// Blocks are 64 KiB: every place in a record meets their border.
+// Blocks are 64 KiB, so that their limits fall on every position in a record.
 TEST(RecordReader, RecordsAcrossBlocksAreWhole) {
   std::string text;
   Numbers expected;

@@ -17,7 +17,7 @@ TEST(Threads, ZeroIsOneForEachCore) {
   EXPECT_EQ(wantedThreads(7), 7u);
 }
 
-// Of a gigabyte, half is for stacks of 64 MB.
+// Half of the memory limit, a gigabyte, is for stacks of 64 MB.
 TEST(Threads, AreAsManyAsHaveRoomForTheirStacks) {
   struct rlimit before {};
   ASSERT_EQ(getrlimit(RLIMIT_DATA, &before), 0);

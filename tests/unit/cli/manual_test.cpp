@@ -3,8 +3,8 @@
 namespace rsphere {
 namespace {
 
-// man/rsphere.1 is the template man/rsphere.1.in with the options of the table in it. After a change of
-// either, copy the file that this test leaves in the build folder.
+// man/rsphere.1 is the template man/rsphere.1.in, into which the options of the table are inserted. After a
+// change of the template or the table, copy the file that this test writes to the build folder.
 TEST(Manual, IsTheGeneratedOne) {
   const std::string folder = std::string(RSPHERE_TESTS) + "/../man/";
   std::string text = contents(folder + "rsphere.1.in");
@@ -16,7 +16,7 @@ TEST(Manual, IsTheGeneratedOne) {
   EXPECT_TRUE(contents(folder + "rsphere.1") == text) << "differs from rsphere.1 in the folder of this test";
 }
 
-// What man(7) would take for a macro or a wrong sign.
+// The text must contain nothing that man(7) takes for a macro.
 TEST(Manual, OptionsAreCleanText) {
   const std::string text = manualText();
   EXPECT_EQ(text.find("\n'"), std::string::npos);

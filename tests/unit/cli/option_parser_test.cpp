@@ -25,7 +25,7 @@ TEST(ParseOptions, DefaultsAreThoseOfTheModeWhereverItIsGiven) {
   EXPECT_EQ(parse({"rtrace", "-ab", "2", "-S+", "s.oct"}).ray.directJitter, 1);
 }
 
-// The words of a fault that are rtrace's own: those before the reason.
+// The part of a fault's text that rtrace writes too, which precedes the reason.
 std::string beginningOfFault(std::initializer_list<const char*> words) {
   const std::string fault = faultOfOptions(words);
   const size_t reason = fault.find(": ");
@@ -51,7 +51,7 @@ TEST(ParseOptions, LettersAfterSAreOptionsNotSwitches) {
   EXPECT_TRUE(parse({"rsphere", "-Sd", "s.oct"}).sphere.everyDirection);
 }
 
-// rtrace's own words (6.1a), each with exit status 1.
+// The words of rtrace (6.1a), with exit status 1.
 TEST(ParseOptions, ErrorsAreWordedAsThoseOfRtrace) {
   EXPECT_EQ(beginningOfFault({"rtrace", "-ab", "1.5", "s.oct"}), "command line error at '-ab'");
   EXPECT_EQ(beginningOfFault({"rtrace", "-ab", "x", "s.oct"}), "command line error at '-ab'");
@@ -70,7 +70,7 @@ TEST(ParseOptions, ErrorsAreWordedAsThoseOfRtrace) {
   EXPECT_EQ(beginningOfFault({"rsphere", "a.rad", "b.rad", "-h"}), "command line error at 'a.rad'");
 }
 
-// What is behind rtrace's words: why, and what to do about it.
+// The text after rtrace's words gives the reason and a remedy.
 TEST(ParseOptions, ErrorsOfTheCommandLineSayWhy) {
   const auto why = [](std::initializer_list<const char*> words) {
     const std::string fault = faultOfOptions(words);
@@ -146,7 +146,8 @@ TEST(ParseOptions, OutputLettersBelongToTheMode) {
   EXPECT_EQ(beginningOfFault({"rtrace", "-o", "s.oct"}), "empty output specification");
 }
 
-// As rtrace's: the last t with letters behind it begins the tree's; at the end it does nothing.
+// As in rtrace, the letters of the tree follow the last t that has letters after it. A t
+// at the end has no effect.
 TEST(ParseOptions, LettersBehindTAreForTrees) {
   const auto letters = [](const char* word) {
     const Options o = parse({"rtrace", word, "s.oct"});
@@ -165,7 +166,7 @@ TEST(ParseOptions, LettersBehindTAreForTrees) {
   EXPECT_NO_THROW(parse({"rtrace", "-otL", "-I", "s.oct"}));
 }
 
-// Programs glue a modifier to -te; rtrace wants a blank.
+// Some programs write -te and the modifier as one word, which rtrace itself does not accept.
 TEST(ParseOptions, NamesOfTreeModifiersMayBeGlued) {
   EXPECT_EQ(parse({"rtrace", "-tewall", "-te", "roof", "s.oct"}).treeExcluded, (Names{"wall", "roof"}));
   EXPECT_EQ(parse({"rtrace", "-tifloor", "-t", "5", "s.oct"}).treeIncluded, (Names{"floor"}));
@@ -292,7 +293,7 @@ TEST(ParseOptions, WhatCannotBeExpandedIsASystemFault) {
   EXPECT_EQ(faultOfOptions({"rtrace", "$RSPHERE_NO_VARIABLE", "s.oct"}, rad::Status::system),
             "cannot expand '$RSPHERE_NO_VARIABLE': No such file or directory");
   EXPECT_NE(faultOfOptions({"rtrace", "@/tmp", "s.oct"}, rad::Status::system), "no fault");
-  // An option's own words are not expanded, as in rtrace.
+  // As in rtrace, the words after an option are not expanded.
   EXPECT_EQ(beginningOfFault({"rtrace", "-ab", "$HOME", "s.oct"}), "command line error at '-ab'");
 }
 

@@ -35,7 +35,7 @@ TEST(OptionTable, EverythingIsDocumented) {
 }
 
 TEST(OptionTable, EveryOptionOfRtraceIsThere) {
-  // rtrace(1) of RADIANCE 6.1a.
+  // The options in rtrace(1) of RADIANCE 6.1a.
   for (const std::string_view name :
        {"-f",  "-o",  "-te", "-ti",   "-tE",   "-tI", "-i",  "-u",  "-I",  "-h",  "-x",  "-y",
         "-n",  "-e",  "-dj", "-ds",   "-dt",   "-dc", "-dr", "-dp", "-dv", "-ss", "-st", "-bv",
@@ -65,7 +65,7 @@ TEST(OptionTable, DefaultsAreInTheirRanges) {
   }
 }
 
-// Each number at both ends of its range, and just outside.
+// Tests each number at both ends of its range, and just outside.
 TEST(OptionTable, RangesHold) {
   for (const OptionEntry& entry : optionTable()) {
     const bool integer =
@@ -137,7 +137,7 @@ TEST(OptionTable, RefusedOptionsPassWhereTheyAskForNothing) {
   EXPECT_NO_THROW(parse({"rtrace", "-me", "0", "0.0", "0e1", "-ms", "0.063", "s.oct"}));
 }
 
-// rtrace -defaults (RADIANCE 6.1a), byte for byte.
+// The output of rtrace -defaults (RADIANCE 6.1a), byte for byte.
 constexpr const char* kRtraceDefaults =
     "-w+\t\t\t\t# warning messages on\n"
     "-n 1 \t\t\t\t# number of rendering processes\n"
@@ -181,8 +181,8 @@ TEST(Defaults, BeginAsThoseOfRtrace) {
   EXPECT_NE(text.find("\n-S-\t\t\t\t# sphere mode off (rays)\n"), std::string::npos);
 }
 
-// rtrace -I -i -w -x 10 -y 3 -n 12 -ffc -u -lr 5 -ab 2 -av 1 2 3 -h -ld -ovldN~ -dv- -bv0 -lw 0 -am 2.5
-// -defaults (6.1a)
+// The output of rtrace -I -i -w -x 10 -y 3 -n 12 -ffc -u -lr 5 -ab 2 -av 1 2 3 -h -ld -ovldN~ -dv- -bv0 -lw
+// 0 -am 2.5 -defaults (6.1a)
 TEST(Defaults, ShowTheOptionsBeforeThemAsThoseOfRtrace) {
   const std::string text = defaultsText(
       parse({"rtrace",   "-I",   "-i",   "-w",  "-x", "10",  "-y",  "3",         "-n",  "12", "-ffa",
@@ -210,7 +210,7 @@ TEST(Defaults, ShowTheOptionsBeforeThemAsThoseOfRtrace) {
   EXPECT_NE(text.find("-dv-\t\t\t\t# direct visibility off\n"), std::string::npos);
 }
 
-// Without what follows '#', the text is a file of options that changes nothing.
+// Without its remarks, which begin with '#', the text is a file of options that changes nothing.
 TEST(Defaults, CanBeReadBack) {
   for (const std::initializer_list<const char*> words :
        {std::initializer_list<const char*>{"rtrace", "-defaults"},

@@ -48,7 +48,7 @@ TEST(CompareOptions, RefuseWhatIsOutOfRange) {
     EXPECT_THROW(parse(words), rad::Error) << words[0];
 }
 
-// Own options have names that rtrace and rsphere have not, and all are documented.
+// The companion's own options have names that neither rtrace nor rsphere uses, and all are documented.
 TEST(CompareOptions, AreTheirOwn) {
   for (const OptionEntry& entry : compareCompanion().own) {
     EXPECT_EQ(entry.name.substr(0, 2), "-C");

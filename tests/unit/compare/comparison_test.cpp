@@ -12,7 +12,7 @@ double normal(Random& random) {
   return r * std::cos(2 * std::numbers::pi * random.uniform());
 }
 
-// Records from 1 to 2 with a relative noise and bias.
+// Records with values from 1 to 2, with relative noise and bias.
 Answers answersOf(size_t records, size_t repeats, double noise, double bias, uint64_t seed) {
   Random random(seed);
   Answers answers{records, repeats, {}};
@@ -49,7 +49,8 @@ TEST(Compare, TooMuchNoiseIsUndecided) {
   EXPECT_EQ(ofBias(.005, .3, 4).verdict, Verdict::undecided);
 }
 
-// Values that are rarely far brighter: neither program's noise is less for being in the scale of a record.
+// Values with rare bright outliers. The scale of a record is the mean of both programs, so that the outliers of
+// one program do not make its noise look smaller than that of the other.
 TEST(Compare, BothProgramsNoiseIsTakenAlike) {
   const auto rare = [](uint64_t seed) {
     Random random(seed);
@@ -64,7 +65,7 @@ TEST(Compare, BothProgramsNoiseIsTakenAlike) {
   EXPECT_NEAR(c.ourNoise, c.originalNoise, .1 * c.originalNoise);
 }
 
-// kFalseAlarm is for all channels together; the spoiled twin, a tenth of the noise as bias, alarms always.
+// kFalseAlarm holds for all channels together. A bias of a tenth of the noise must always be found.
 TEST(Compare, FalseAlarmsAreAsRareAsSaid) {
   int alarms = 0, spoiled = 0;
   constexpr int kRuns = 300;
@@ -81,7 +82,8 @@ TEST(Compare, FalseAlarmsAreAsRareAsSaid) {
   EXPECT_GT(spoiled, kRuns / 2);
 }
 
-// Where records share their noise, as points that share directions do, only whole repeats tell.
+// If records share their noise, as points that share directions do, the error
+// follows only from whole repeats.
 TEST(Compare, SharedNoiseIsNoBias) {
   int alarms = 0, naive = 0;
   for (uint64_t seed = 0; seed < 200; ++seed) {
@@ -106,7 +108,7 @@ TEST(Compare, FindsTheRecordThatDiffers) {
   EXPECT_EQ(comparison.channels[0].beyond, 1u);
   EXPECT_EQ(comparison.verdict, Verdict::differs);
   EXPECT_NEAR(comparison.records[123].difference, .1, .01);
-  // One of 300 may be beyond it; it is a bias of the mean all the same.
+  // One of 300 records may exceed the tolerance, but it also biases the mean.
   EXPECT_EQ(compare(ours, theirs, .05, .004, true).verdict, Verdict::small);
 }
 
@@ -129,7 +131,7 @@ TEST(Compare, FiguresAreThoseOfTheDefinition) {
   EXPECT_EQ(c.percentiles[0], 0);
 }
 
-// Records that are black by the original count against the mean.
+// The differences of records that are black in the original are relative to the mean.
 TEST(Compare, DarkRecordsHaveAScale) {
   const Answers ours{2, 2, {Rgb(.01, 0, 0), Rgb(1, 0, 0), Rgb(.01, 0, 0), Rgb(1, 0, 0)}};
   const Answers theirs{2, 2, {Rgb(0, 0, 0), Rgb(1, 0, 0), Rgb(0, 0, 0), Rgb(1, 0, 0)}};

@@ -12,7 +12,7 @@ Comparison noisy(double ours, double original) {
   return comparison;
 }
 
-// Noise falls with the number of rays or its square root, time grows with the number.
+// Noise falls with the number of rays or with its square root; the time is proportional to the number.
 TEST(Report, EqualErrorIsASettingOfTheOriginal) {
   EXPECT_EQ(
       equalErrorText(noisy(.01, .04), 128, 2, 3),

@@ -9,7 +9,7 @@
 namespace rsphere {
 namespace {
 
-// One and two degrees have closed forms.
+// For one and two degrees of freedom there are closed forms.
 TEST(BeyondT, IsTheClosedForm) {
   for (const double t : {0., .1, 1., 3., 20.}) {
     EXPECT_NEAR(beyondT(t, 1), 1 - 2 / std::numbers::pi * std::atan(t), 1e-14) << t;
@@ -17,7 +17,7 @@ TEST(BeyondT, IsTheClosedForm) {
   }
 }
 
-// Tables of Student's distribution, two-sided.
+// Values from tables of Student's distribution, two-sided.
 TEST(BeyondT, IsThatOfTables) {
   EXPECT_NEAR(beyondT(2.2281, 10), .05, 1e-5);
   EXPECT_NEAR(beyondT(4.1403, 14), .001, 1e-6);

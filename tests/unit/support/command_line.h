@@ -22,7 +22,7 @@ inline Options parse(std::initializer_list<const char*> words) {
   return parseOptions(list);
 }
 
-// What the fault says that `action` ends with; its status is compared on the way.
+// The text of the fault that `action` throws, whose status must be the given one.
 template <class Action>
 std::string faultOf(Action action, rad::Status status = rad::Status::input) {
   try {
@@ -44,7 +44,7 @@ inline std::string contents(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Numbers as a file of floats or doubles has them.
+// The bytes of a file of floats or doubles.
 template <class Number>
 std::string bytesOf(std::initializer_list<Number> numbers) {
   std::string bytes;
@@ -52,7 +52,7 @@ std::string bytesOf(std::initializer_list<Number> numbers) {
   return bytes;
 }
 
-// A file that is removed at the end of the test.
+// A file that the destructor removes.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& text = {}) {
@@ -94,7 +94,7 @@ class Pipe {
       text.remove_prefix(static_cast<size_t>(n));
     }
   }
-  // Waits until there is something.
+  // Waits for data.
   std::string get() const {
     char block[65536];
     const ssize_t n = read(out, block, sizeof block);
@@ -105,7 +105,7 @@ class Pipe {
     for (std::string more = get(); !more.empty(); more = get()) all += more;
     return all;
   }
-  // Waits for so many line ends.
+  // Waits for this number of line ends.
   std::string getLines(long lines) const {
     std::string all;
     while (std::count(all.begin(), all.end(), '\n') < lines) {

@@ -17,7 +17,7 @@ double normal(Random& random) {
 
 constexpr size_t kPoints = 24;
 
-// What points answer is exactly known: 1, 2, 3 and so on.
+// The exact answers to the points are 1, 2, 3 and so on.
 RepeatedAnswers answersOf(size_t repeats, double noise, double bias, uint64_t seed) {
   Random random(seed);
   RepeatedAnswers answers{kPoints, {}};
@@ -60,7 +60,7 @@ TEST(Figures, AreThoseOfNoiseAndBias) {
   EXPECT_FALSE(figuresOf(trialOf(.01, 0, 3), exact).biased);
 }
 
-// A bias is claimed without reason once in a hundred times; one of half the noise nearly always.
+// A false bias is claimed once in a hundred times; a bias of half the noise is nearly always found.
 TEST(Figures, ClaimNoBiasWhereThereIsNone) {
   int alarms = 0, spoiled = 0;
   for (uint64_t seed = 0; seed < 400; ++seed) {
@@ -72,7 +72,8 @@ TEST(Figures, ClaimNoBiasWhereThereIsNone) {
   EXPECT_GE(spoiled, 300);
 }
 
-// The reference's own noise is no error of a setting, and where it hides the setting's that is said.
+// The noise of the reference is not counted as an error of a setting. If it hides
+// that error, `limited` is set.
 TEST(Figures, AreWithoutTheErrorOfTheReference) {
   const Reference good(answersOf(16, .02, 0, 5));  // .5%
   const Figures f = figuresOf(trialOf(.02, 0, 6), good);

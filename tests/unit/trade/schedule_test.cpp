@@ -16,12 +16,12 @@ ReferenceProgress progress(double rotations, double seconds, double error, size_
   return p;
 }
 
-// Errors fall with the square root of the rotations.
+// Errors fall with the square root of the number of rotations.
 TEST(Schedule, OfTheReference) {
   EXPECT_DOUBLE_EQ(secondsLeft(progress(2, 4, .01)), 396);  // 200 rotations of two seconds
-  EXPECT_DOUBLE_EQ(secondsLeft(progress(2, 4, .001)), 12);  // eight in any case
+  EXPECT_DOUBLE_EQ(secondsLeft(progress(2, 4, .001)), 12);  // eight rotations are the minimum
   EXPECT_DOUBLE_EQ(secondsLeft(progress(10, 20, .0005)), 0);
-  // One rotation, or two of one point, say nothing of the error.
+  // One rotation, or two of a single point, do not suffice to estimate the error.
   EXPECT_FALSE(canPredict(progress(1, 2, 0)));
   EXPECT_FALSE(canPredict(progress(2, 2, .01, 1)));
   EXPECT_TRUE(canPredict(progress(5, 2, .01, 1)));
@@ -31,7 +31,7 @@ TEST(Schedule, OfTheReference) {
 
 TEST(Schedule, ASlowReferenceNamesWhatMakesItQuicker) {
   EXPECT_EQ(slowReference(progress(2, 4, .003)), "");  // 36 s
-  // 30 rotations fit into the minute, with an error of 1% times the square root of 2/30.
+  // A minute suffices for 30 rotations, whose error is 1% times the square root of 2/30.
   EXPECT_EQ(
       slowReference(progress(2, 4, .01)),
       "the reference takes about 6.7 min (error 1% after 2 rotations, 0.1% wanted): -Te 0.0026 ends it after "

@@ -30,7 +30,7 @@ TEST(TradeOptions, AreTheirOwn) {
   }
 }
 
-// Each of the usual settings is a command line of rsphere.
+// Each of the default settings is a valid command line of rsphere.
 TEST(Ladder, IsMadeOfOptions) {
   const TradeOptions options = parse({"-ab", "2", "-Tb", "scene", "points"});
   EXPECT_TRUE(options.bounces);
@@ -61,7 +61,7 @@ TEST(Plot, HasAMarkForEachSetting) {
     all[i].seconds = .001 * static_cast<double>(i + 1);
     all[i].rms = .01 / static_cast<double>(i + 1);
   }
-  all[2].rms = 0;  // has no place
+  all[2].rms = 0;  // is omitted from the plot
   markBest(all);
   const std::string svg = tradePlot(all, "a & b");
   size_t marks = 0;
