@@ -15,8 +15,8 @@ namespace rsphere {
 // The estimator of sphere mode, with a workspace for each thread of -n.
 class PointWorkers {
  public:
-  // standardError: whether that of PointAnswer is wanted. checkStop is called now and then
-  // during an estimate; it may throw to give the point up. The transport must live as long.
+  // standardError: whether that of PointAnswer is wanted. checkStop is called now and then during an
+  // estimate; it may throw to give the point up. The transport must live as long.
   // Throws what SphereEstimator throws.
   PointWorkers(const Transport& transport, const AnswerOptions& options, bool standardError,
                const std::function<void()>& checkStop = {});
@@ -53,9 +53,10 @@ class Unreached {
   double worstError_ = -1;  // relative standard error of the mean brightness
 };
 
-// The function that answers points in sphere mode: appends the spherical mean, or a record of every direction
-// (-Sd), and writes pictures of the points (-Si). Warns if nothing in the scene gives light. checkStop: see
-// PointWorkers. All arguments must live as long as the result. Throws what PointWorkers throws.
+// The function that answers points in sphere mode: appends the spherical mean, or a record of every
+// direction (-Sd), and writes pictures of the points (-Si). Warns if nothing in the scene gives light.
+// checkStop: see PointWorkers; it is copied. The other arguments must live as long as the result. Throws
+// what PointWorkers throws.
 AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& options,
                           const AnswerWriter& writer, const rad::Warn& warn, Unreached& unreached,
                           const std::function<void()>& checkStop);
