@@ -22,7 +22,7 @@ void answer(const Options& options, const Messages& messages, StopSignals& signa
   const rad::Warn warn = [&](std::string_view text) { messages.warning(text); };
   const Scene scene = loadScene(options, warn);
   RecordWriter writer(1);
-  if (options.sphere.listSpecial) {
+  if (options.listSpecial) {
     writer.write(specialObjectsText(scene, findSpecialObjects(scene, options.sphere.densityFactor)));
     return writer.flush();
   }
@@ -32,7 +32,7 @@ void answer(const Options& options, const Messages& messages, StopSignals& signa
   const AnswerWriter answers(options);
   writeHeader(writer, options, scene.description.header, std::time(nullptr));
   writer.flush();  // a program that talks to this one may read the header before it sends a record
-  if (options.sphere.on) {
+  if (options.sphereMode) {
     Unreached unreached;
     const auto summarize = [&] {
       if (const std::string text = unreached.summary(options.sphere); !text.empty()) warn(text);

@@ -12,11 +12,13 @@ namespace rsphere {
 
 // Everything that the answers to the records of a run depend on, and how they are written.
 struct AnswerOptions {
+  bool sphereMode = true;  // -S; else ray mode
   RayOptions ray;
   SphereOptions sphere;
   // scene
   std::vector<std::string> scene;  // an octree, .rad files or '!command'
   bool commands = true;            // -Sc  whether commands in the scene may run
+  std::vector<std::string> goals;  // -Sg
   // input
   NumberFormat in = NumberFormat::ascii;     // -f
   Irradiance irradiance = Irradiance::none;  // -i -I
@@ -33,12 +35,14 @@ struct AnswerOptions {
   bool header = true;              // -h
   std::string program;             // argv[0] without its folder; it and the words are for the header
   std::vector<std::string> words;  // the command line between program and scene, with @file and $VAR replaced
+  std::string picture;             // -Si  the name of the pictures; empty: none
+  bool listSpecial = false;        // -Sl  a list of the special objects instead of answers
   // work
   int threads = 1;             // -n; 0: one for each core
   double progressSeconds = 0;  // -t; 0: no progress reports
 
   // Numbers of an input record: x y z of a point, or origin and direction of a ray.
-  int numbersPerRecord() const { return sphere.on ? 3 : 6; }
+  int numbersPerRecord() const { return sphereMode ? 3 : 6; }
 };
 
 }  // namespace rsphere

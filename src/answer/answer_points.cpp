@@ -71,8 +71,8 @@ AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& optio
     const PointAnswer answer = workers->answer(point, worker);
     unreached.add(record.index, answer);
     SphereEstimator::Workspace& workspace = workers->workspace(worker);
-    if (!options.sphere.picture.empty())
-      writePicture(pictureName(options.sphere.picture, record.index), point, transport, options,
+    if (!options.picture.empty())
+      writePicture(pictureName(options.picture, record.index), point, transport, options,
                    workers->estimator(), workspace);
     if (!options.sphere.everyDirection) return writer.write(bytes, answer);
     for (size_t i = 0; i < workspace.samples.size(); ++i)

@@ -104,7 +104,7 @@ void AnswerWriter::write(std::string& bytes, const RayAnswer& answer, uint64_t r
   for (const char letter : options_.outputs) {
     if (letter == 'i')
       text.integer(record);
-    else if (letter == 'w' && options_.sphere.on)
+    else if (letter == 'w' && options_.sphereMode)
       text.number(answer.solidAngle);
     else
       writeLetter(text, letter, answer, colors_);

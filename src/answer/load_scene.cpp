@@ -12,7 +12,7 @@ Scene loadScene(const AnswerOptions& options, const rad::Warn& warn) {
       if (shared.isFile) named.push_back(shared.text);
     read.files = rad::FileAccess::foldersOf(named);
   }
-  return buildScene(rad::readScene(options.scene, read), read, options.sphere.goals);
+  return buildScene(rad::readScene(options.scene, read), read, options.goals);
 }
 
 }  // namespace rsphere

@@ -71,7 +71,7 @@ RecordReader::RecordReader(int fd, NumberFormat format, int numbersPerRecord, Li
 
 RecordReader::RecordReader(int fd, const AnswerOptions& options, std::string name)
     : RecordReader(fd, options.in, options.numbersPerRecord(),
-                   options.sphere.on ? LineEnds::endRecords : LineEnds::areBlanks, std::move(name)) {}
+                   options.sphereMode ? LineEnds::endRecords : LineEnds::areBlanks, std::move(name)) {}
 
 size_t RecordReader::read(std::vector<double>& numbers, size_t most) {
   const size_t count = format_ != NumberFormat::ascii      ? readBinary(numbers, most)

@@ -198,7 +198,7 @@ void apply(const Use& use, Options& options) {
 // second follow the last t or T. A t or T at the end has no effect.
 void splitTree(Options& options) {
   std::string letters = options.outputs;
-  if (options.sphere.on || letters.find_first_of("tT") == std::string::npos) return;
+  if (options.sphereMode || letters.find_first_of("tT") == std::string::npos) return;
   options.treeShadows = letters.find('T') != std::string::npos;
   if (letters.back() == 't' || letters.back() == 'T') letters.pop_back();
   options.outputs = letters.substr(0, letters.find_first_of("tT"));
@@ -208,17 +208,17 @@ void splitTree(Options& options) {
 
 // Throws rad::Error if a letter of -o does not belong to the mode or to the format of the output.
 void checkLetters(const Options& options) {
-  const bool points = options.sphere.on && !options.sphere.everyDirection;
-  const std::string_view known = !options.sphere.on ? "odvVwWlLcpnNsmMrRxX~"
-                                 : points           ? "oveECHuk"
-                                                    : "iodwvlLcpnNsmM~";
+  const bool points = options.sphereMode && !options.sphere.everyDirection;
+  const std::string_view known = !options.sphereMode ? "odvVwWlLcpnNsmMrRxX~"
+                                 : points            ? "oveECHuk"
+                                                     : "iodwvlLcpnNsmM~";
   for (const char letter : options.outputs + options.treeOutputs) {
     if (known.find(letter) != std::string_view::npos) continue;
-    const std::string_view hint = options.sphere.on ? " (sphere mode)" : "";
+    const std::string_view hint = options.sphereMode ? " (sphere mode)" : "";
     throw rad::Error(fmt::format("unrecognized output option '{}'{}: the letters are {}{}; see -help", letter,
-                                 hint, known, options.sphere.on ? "" : " and t, T for ray trees"));
+                                 hint, known, options.sphereMode ? "" : " and t, T for ray trees"));
   }
-  const std::string_view colors = points ? "veEC" : options.sphere.on ? "v" : "vrx";
+  const std::string_view colors = points ? "veEC" : options.sphereMode ? "v" : "vrx";
   if (options.out == NumberFormat::rgbe && (options.outputs.size() != 1 || !options.treeOutputs.empty() ||
                                             colors.find(options.outputs[0]) == std::string_view::npos)) {
     std::string list;
@@ -237,7 +237,7 @@ void checkColorOutput(Options& options) {
     options.messages.remarks.push_back("spectral range incompatible with color output");
   if (options.out == NumberFormat::rgbe && oneChannel)
     throw rad::Error("color format incompatible with -pY, -pS, -pM");
-  if (options.sphere.on && !options.sphere.everyDirection && color.space != ColorSpace::rgb &&
+  if (options.sphereMode && !options.sphere.everyDirection && color.space != ColorSpace::rgb &&
       color.space != ColorSpace::photopic && options.outputs.find('e') != std::string::npos)
     throw rad::Error(
         "-oe needs -pRGB or -pY: standard errors are those of red, green and blue, or of luminance");
@@ -252,7 +252,7 @@ void checkIrradiance(Options& options) {
     return options.outputs.find_first_of(letters) != std::string::npos;
   };
   if (options.irradiance != Irradiance::none) {
-    if (options.sphere.on)
+    if (options.sphereMode)
       throw rad::Error(
           fmt::format("{} needs ray mode (-S-); in sphere mode -oE, -oC and -oH give irradiances",
                       options.irradianceAtPoint ? "-I" : "-i"));
@@ -260,7 +260,7 @@ void checkIrradiance(Options& options) {
       throw rad::Error("-I+ and -i+ options require some value output");
   }
   for (const char letter : options.outputs) {
-    if (options.sphere.on) break;
+    if (options.sphereMode) break;
     if (letter == 'V' || letter == 'W') options.messages.remarks.push_back("-oVW options require trace mode");
     if (options.irradiance != Irradiance::none &&
         std::string_view("rRxX").find(letter) != std::string_view::npos)
@@ -276,7 +276,7 @@ constexpr int kMostForAccuracy = 1000000, kMostToList = 100000;
 void checkTogether(Options& options, bool mostGiven) {
   if (options.ray.fieldMemory > 0 && !options.ray.ambientFile.empty())
     throw rad::Error("-Sm and -af: what a file has in it is kept in memory as a whole");
-  if (!options.sphere.on) return;
+  if (!options.sphereMode) return;
   if (options.limitDistance) throw rad::Error("-ld needs ray mode (-S-): points have no direction vector");
   SphereOptions& sphere = options.sphere;
   if (!mostGiven) {
@@ -399,10 +399,10 @@ std::vector<Use> parse(std::span<const std::string> commandLine, const Companion
   for (const Use& use : given.uses)
     if (use.entry->name != "-S") apply(use, options);
   if (options.outputs.empty())
-    options.outputs = options.sphere.on && options.sphere.everyDirection ? "odwv" : "v";
+    options.outputs = options.sphereMode && options.sphere.everyDirection ? "odwv" : "v";
   const bool answers = options.request == Request::answers;
   if (answers) options.scene = takeScene(words);
-  options.numberedRays = given.has("-u") && options.ray.uncorrelated && !options.sphere.on;
+  options.numberedRays = given.has("-u") && options.ray.uncorrelated && !options.sphereMode;
   splitTree(options);
   checkLetters(options);
   if (answers) checkColorOutput(options);

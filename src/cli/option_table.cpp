@@ -806,7 +806,7 @@ void addProgramOptions(const Add& add) {
 void addDirectionOptions(const Add& add) {
   add({.name = "-S",
        .group = Group::sphere,
-       .value = +[](O& o) -> bool& { return o.sphere.on; },
+       .value = +[](O& o) -> bool& { return o.sphereMode; },
        .remark = "sphere mode on|sphere mode off (rays)",
        .paragraph =
            "Switch for sphere mode. Off by itself if the program is called by the name rtrace. Wherever it "
@@ -874,7 +874,7 @@ void addSphereOptions(const Add& add) {
   add({.name = "-Sg",
        .arguments = "mod",
        .group = Group::sphere,
-       .value = +[](O& o) -> std::vector<std::string>& { return o.sphere.goals; },
+       .value = +[](O& o) -> std::vector<std::string>& { return o.goals; },
        .remark = "goals",
        .paragraph =
            "Importance instead of radiance: surfaces with modifier mod emit 1 W/sr/m2 from their front and "
@@ -948,7 +948,7 @@ void addSphereOptions(const Add& add) {
   add({.name = "-Si",
        .arguments = "pic",
        .group = Group::sphere,
-       .value = +[](O& o) -> std::string& { return o.sphere.picture; },
+       .value = +[](O& o) -> std::string& { return o.picture; },
        .remark = "picture of each point",
        .paragraph =
            "Draw a picture of what arrives at each point from all directions, in the format that its name "
@@ -963,7 +963,7 @@ void addSphereOptions(const Add& add) {
            "the like) becomes the number of the record, from 0."});
   add({.name = "-Sl",
        .group = Group::sphere,
-       .value = +[](O& o) -> bool& { return o.sphere.listSpecial; },
+       .value = +[](O& o) -> bool& { return o.listSpecial; },
        .remark = "list special objects|answers",
        .paragraph =
            "Switch for a list of the scene's special objects instead of answers: a line for each with its "
@@ -997,7 +997,7 @@ int arity(const OptionEntry& entry) {
 
 Options modeDefaults(bool sphereMode) {
   Options options;
-  options.sphere.on = sphereMode;
+  options.sphereMode = sphereMode;
   if (!sphereMode) return options;
   // The mean of thousands of unbiased directions needs few samples in each of them. The defaults are four
   // indirect paths for each direction, all light sources sampled over their whole size, and all highlights

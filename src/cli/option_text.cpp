@@ -72,7 +72,7 @@ std::string remarkOf(const OptionEntry& entry, const Options& options) {
     std::string remark(entry.remark);
     const std::string_view tree = options.treeShadows || !options.treeOutputs.empty() ? "t" : "";
     for (const char letter : fmt::format("{}{}{}", options.outputs, tree, options.treeOutputs))
-      if (const auto name = letterName(letter, options.sphere.on && !options.sphere.everyDirection);
+      if (const auto name = letterName(letter, options.sphereMode && !options.sphere.everyDirection);
           !name.empty())
         remark += fmt::format(" {}", name);
     return remark;

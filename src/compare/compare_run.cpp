@@ -111,8 +111,7 @@ std::vector<std::string> pointOptions(const Options& options, std::span<const Us
 }
 
 void refuseWhatPointsHave(const CompareOptions& options) {
-  const SphereOptions& sphere = options.sphere;
-  if (!sphere.goals.empty() || sphere.basicRadiance)
+  if (!options.goals.empty() || options.sphere.basicRadiance)
     throw rad::Error("-Sg and -Sb: the original knows no importance to compare with");
   if (!options.ray.sourcesVisible)
     throw rad::Error("-dv-: the original's irradiance has the light of sources; compare rays");
@@ -124,7 +123,7 @@ std::string worstText(const CompareOptions& options, const Comparison& compariso
   const auto per = static_cast<size_t>(options.numbersPerRecord());
   const auto count = std::min(static_cast<size_t>(options.worst), comparison.worst.size());
   if (count == 0) return "";
-  const bool hits = !options.sphere.on && options.irradiance != Irradiance::point;
+  const bool hits = !options.sphereMode && options.irradiance != Irradiance::point;
   std::vector<double> rays;
   for (size_t k = 0; k < count; ++k) {
     const auto record = numbers.subspan(per * comparison.worst[k], per);
@@ -160,7 +159,7 @@ std::string worstText(const CompareOptions& options, const Comparison& compariso
 // many for the picture of -Cp.
 std::vector<double> recordsToCompare(const CompareOptions& options, const std::string& name) {
   std::vector<double> numbers = readRecords(name, options);
-  if (!options.sphere.on) numbers = withoutBogus(numbers);
+  if (!options.sphereMode) numbers = withoutBogus(numbers);
   const size_t records = numbers.size() / static_cast<size_t>(options.numbersPerRecord());
   if (records == 0) throw rad::Error(fmt::format("{}: no record has a direction", name));
   if (!options.differences.empty() && (options.width < 1 || options.height < 1 ||
@@ -188,7 +187,7 @@ CompareStatus statusOf(Verdict verdict) {
 CompareStatus runCompare(CompareOptions options, std::span<const UsedOption> used, const Messages& messages) {
   if (options.scene.size() < 2)
     throw rad::Error("missing argument: a scene and a file of records are needed; see -help");
-  const bool points = options.sphere.on;
+  const bool points = options.sphereMode;
   if (points) refuseWhatPointsHave(options);
   const OriginalProgram program = findOriginal();
   const std::string recordsName = options.scene.back();

@@ -69,7 +69,7 @@ OriginalProgram findOriginal() {
 
 std::vector<std::string> originalOptions(const Options& options, std::span<const UsedOption> used) {
   std::vector<std::string> words;
-  if (options.sphere.on) {
+  if (options.sphereMode) {
     const Options rays = modeDefaults(false), points = modeDefaults(true);
     std::istringstream rayLines(defaultsText(rays)), pointLines(defaultsText(points));
     for (std::string a, b; std::getline(rayLines, a) && std::getline(pointLines, b);) {

@@ -88,8 +88,7 @@ Setting Trade::settingOf(std::span<const std::string> words) const {
   // The scene is read once for all settings.
   if (options.scene != options_.scene)
     throw rad::Error(fmt::format("\"{}\" is no option", options.scene.front()));
-  if (options.sphere.goals != options_.sphere.goals)
-    throw rad::Error("-Sg holds for all settings: give it once");
+  if (options.goals != options_.goals) throw rad::Error("-Sg holds for all settings: give it once");
   setting.options = options;
   setting.options.sphere.everyDirection = false;  // the directions are not used
   return setting;
@@ -312,7 +311,7 @@ void runTrade(const TradeOptions& options, std::span<const UsedOption> used, con
               StopSignals& signals) {
   if (options.scene.size() < 2)
     throw rad::Error("missing argument: a scene and a file of points are needed; see -help");
-  if (!options.sphere.on) throw rad::Error("-S-: rays have no settings of sphere mode to choose among");
+  if (!options.sphereMode) throw rad::Error("-S-: rays have no settings of sphere mode to choose among");
   checkPlotName(options.plot);
   Trade(options, used, messages, signals).run();
 }

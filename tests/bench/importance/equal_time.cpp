@@ -74,7 +74,7 @@ void compare(const Case& c, int rotations) {
   const Options options = parseOptions(static_cast<int>(argv.size()), argv.data());
   const rad::Warn quiet = [](std::string_view) {};
   const rad::ReadOptions read{options.commands, quiet};
-  const Scene scene = buildScene(rad::readScene(options.scene, read), read, options.sphere.goals);
+  const Scene scene = buildScene(rad::readScene(options.scene, read), read, options.goals);
   const Transport transport(scene, options.ray, options.irradiance, options.sphere.basicRadiance, quiet);
 
   const Figures ours = measure(transport, options.sphere, c.points, rotations);

@@ -99,7 +99,7 @@ int run(int argc, char** argv) {
   const Options options = parseOptions(words);
   const rad::Warn quiet = [](std::string_view) {};
   const rad::ReadOptions read{options.commands, quiet};
-  const Scene scene = buildScene(rad::readScene(options.scene, read), read, options.sphere.goals);
+  const Scene scene = buildScene(rad::readScene(options.scene, read), read, options.goals);
   const Transport transport(scene, options.ray, options.irradiance, options.sphere.basicRadiance, quiet);
 
   std::vector<std::vector<Set>> drawn(points.size());

@@ -6,15 +6,15 @@ namespace {
 using Names = std::vector<std::string>;
 
 TEST(ParseOptions, ModeComesFromTheNameAndFromS) {
-  EXPECT_TRUE(parse({"rsphere", "s.oct"}).sphere.on);
-  EXPECT_TRUE(parse({"/usr/bin/rsphere", "s.oct"}).sphere.on);
-  EXPECT_FALSE(parse({"rtrace", "s.oct"}).sphere.on);
-  EXPECT_FALSE(parse({"/a.b/rtrace", "s.oct"}).sphere.on);
-  EXPECT_TRUE(parse({"/rtrace/x", "s.oct"}).sphere.on);
-  EXPECT_FALSE(parse({"rsphere", "-S-", "s.oct"}).sphere.on);
-  EXPECT_FALSE(parse({"rsphere", "-S", "s.oct"}).sphere.on);
-  EXPECT_TRUE(parse({"rtrace", "-S", "s.oct"}).sphere.on);
-  EXPECT_TRUE(parse({"rtrace", "-S+", "-S-", "-S1", "s.oct"}).sphere.on);
+  EXPECT_TRUE(parse({"rsphere", "s.oct"}).sphereMode);
+  EXPECT_TRUE(parse({"/usr/bin/rsphere", "s.oct"}).sphereMode);
+  EXPECT_FALSE(parse({"rtrace", "s.oct"}).sphereMode);
+  EXPECT_FALSE(parse({"/a.b/rtrace", "s.oct"}).sphereMode);
+  EXPECT_TRUE(parse({"/rtrace/x", "s.oct"}).sphereMode);
+  EXPECT_FALSE(parse({"rsphere", "-S-", "s.oct"}).sphereMode);
+  EXPECT_FALSE(parse({"rsphere", "-S", "s.oct"}).sphereMode);
+  EXPECT_TRUE(parse({"rtrace", "-S", "s.oct"}).sphereMode);
+  EXPECT_TRUE(parse({"rtrace", "-S+", "-S-", "-S1", "s.oct"}).sphereMode);
 }
 
 TEST(ParseOptions, DefaultsAreThoseOfTheModeWhereverItIsGiven) {
@@ -235,7 +235,7 @@ TEST(ParseOptions, MostDirectionsFollowTheBase) {
 TEST(ParseOptions, Words) {
   const Options options = parse({"rsphere", "-Sg", "a", "-Sg", "b", "-Sw", "h", "-Sr", "12345678901", "-e",
                                  "err", "-af", "x.amb", "s.oct"});
-  EXPECT_EQ(options.sphere.goals, (Names{"a", "b"}));
+  EXPECT_EQ(options.goals, (Names{"a", "b"}));
   EXPECT_EQ(options.sphere.weights, Weights::homogeneous);
   EXPECT_EQ(options.sphere.rotation, 12345678901u);
   EXPECT_EQ(options.messages.errorFile, "err");

@@ -234,7 +234,7 @@ TEST(Defaults, CanBeReadBack) {
 
 TEST(Defaults, OfSphereModeAreItsOwn) {
   const Options sphere = modeDefaults(true), rays = modeDefaults(false);
-  EXPECT_TRUE(sphere.sphere.on);
+  EXPECT_TRUE(sphere.sphereMode);
   EXPECT_EQ(sphere.ray.ambientDivisions, 4);
   EXPECT_EQ(sphere.ray.directJitter, 1);
   EXPECT_EQ(sphere.ray.directThreshold, 0);

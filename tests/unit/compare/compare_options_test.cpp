@@ -36,9 +36,9 @@ TEST(CompareOptions, AreThoseOfRsphereAndItsOwn) {
   EXPECT_EQ(options.differences, "d.png");
   EXPECT_EQ(options.ray.ambientBounces, 2);
   EXPECT_EQ(options.irradiance, Irradiance::point);
-  EXPECT_FALSE(options.sphere.on);
+  EXPECT_FALSE(options.sphereMode);
   EXPECT_EQ(options.scene, (std::vector<std::string>{"a.oct", "rays"}));
-  EXPECT_TRUE(parse({"-S", "a.oct", "points"}).sphere.on);
+  EXPECT_TRUE(parse({"-S", "a.oct", "points"}).sphereMode);
   EXPECT_EQ(parse({"-S", "a.oct", "points"}).ray.ambientDivisions, modeDefaults(true).ray.ambientDivisions);
 }
 
