@@ -72,15 +72,14 @@ struct CoarseSolution::Patch {
   ~Patch() { delete links.load(std::memory_order_relaxed); }
 };
 
-CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const RayOptions& options)
+CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const FieldOptions& options)
     : scene_(scene),
       grid_(bounds),
-      bounces_(std::max(options.ambientBounces, 1)),
+      bounces_(std::max(options.bounces, 1)),
       ambient_(options.ambientValue),
       patches_(std::make_unique<InsertOnce<CellKey, Patch>>(18)) {
-  spacing_ = kSpacing * std::sqrt(std::min(options.ambientAccuracy, kCoarsestAccuracy) / kSpacingAccuracy);
-  const double asked = options.ambientDivisions + options.ambientSuperSamples;
-  rays_ = static_cast<int>(std::clamp(kRays * asked, kLeastRays, kMostRays));
+  spacing_ = kSpacing * std::sqrt(std::min(options.accuracy, kCoarsestAccuracy) / kSpacingAccuracy);
+  rays_ = static_cast<int>(std::clamp(kRays * options.rays, kLeastRays, kMostRays));
 }
 
 CoarseSolution::~CoarseSolution() = default;

@@ -23,11 +23,11 @@
 #include <memory>
 #include <vector>
 
+#include "field/field_options.h"
 #include "field/hemisphere.h"
 #include "field/insert_once.h"
 #include "field/surface_cells.h"
 #include "scene/scene.h"
-#include "transport/ray_options.h"
 
 namespace rsphere {
 
@@ -68,7 +68,7 @@ class CoarseSolution {
   };
 
   // Keeps a reference to the scene. bounds: of all that can be hit.
-  CoarseSolution(const Scene& scene, const Box3d& bounds, const RayOptions& options);
+  CoarseSolution(const Scene& scene, const Box3d& bounds, const FieldOptions& options);
   ~CoarseSolution();
 
   // The patch that serves a place; null if there is none and the path has to be followed. One of the patches

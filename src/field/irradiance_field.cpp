@@ -97,14 +97,14 @@ struct FieldMemory {
 
 class IrradianceField::Cache {
  public:
-  Cache(const Scene& scene, const Box3d& bounds, const RayOptions& options)
+  Cache(const Scene& scene, const Box3d& bounds, const FieldOptions& options)
       : scene_(scene),
         grid_(bounds),
-        accuracy_(options.ambientAccuracy),
+        accuracy_(options.accuracy),
         // RADIANCE's own meaning of -ar.
         finest_(grid_.size * std::min(accuracy_, .5) /
-                (options.ambientResolution > 0 ? options.ambientResolution : kUnlimited)),
-        bound_(options.fieldMemory > 0 ? static_cast<size_t>(options.fieldMemory * 1e6) : kNoBound) {}
+                (options.resolution > 0 ? options.resolution : kUnlimited)),
+        bound_(options.memory > 0 ? static_cast<size_t>(options.memory * 1e6) : kNoBound) {}
 
   bool find(const SurfacePlace& place, FieldReader& reader, SiteLooker& looker, GatheredLight& light);
   void keepIn(std::unique_ptr<AmbientFile> file) { stored_.emplace(std::move(file)); }
@@ -280,7 +280,7 @@ bool IrradianceField::Cache::find(const SurfacePlace& place, FieldReader& reader
   return true;
 }
 
-IrradianceField::IrradianceField(const Scene& scene, const Box3d& bounds, const RayOptions& options)
+IrradianceField::IrradianceField(const Scene& scene, const Box3d& bounds, const FieldOptions& options)
     : cache_(std::make_unique<Cache>(scene, bounds, options)) {}
 IrradianceField::~IrradianceField() = default;
 

@@ -19,10 +19,10 @@
 #include <memory>
 
 #include "field/ambient_file.h"
+#include "field/field_options.h"
 #include "field/hemisphere.h"
 #include "field/surface_cells.h"
 #include "scene/scene.h"
-#include "transport/ray_options.h"
 
 namespace rsphere {
 
@@ -50,7 +50,7 @@ class SiteLooker {
 class IrradianceField {
  public:
   // Keeps a reference to the scene. bounds: of all that can be hit.
-  IrradianceField(const Scene& scene, const Box3d& bounds, const RayOptions& options);
+  IrradianceField(const Scene& scene, const Box3d& bounds, const FieldOptions& options);
   ~IrradianceField();  // writes new sites to the file
 
   // Reads the sites of earlier runs from the file. New sites are appended from time to time and at the end.

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "importance/error_estimate.h"
+#include "importance/sphere_options.h"
 #include "sphere/voronoi.h"
-#include "transport/ray_options.h"
 
 namespace rsphere {
 

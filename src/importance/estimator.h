@@ -21,6 +21,7 @@
 #include "sphere/voronoi.h"
 #include "transport/bright_spots.h"
 #include "transport/path_tracer.h"
+#include "transport/ray_answer.h"
 
 namespace rsphere {
 

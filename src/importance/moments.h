@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "transport/ray_answer.h"
+#include "importance/point_answer.h"
 
 namespace rsphere {
 
@@ -20,7 +20,7 @@ struct Moments {
   void add(const V3d& direction, const Rgb& part);
   void add(const Moments& other, double share);
 
-  // The quantities at a point (world), without their standard errors. Definitions: cli/answer.h.
+  // The quantities at a point (world), without their standard errors. Definitions: point_answer.h.
   PointAnswer answer(const V3d& point, size_t directions) const;
 };
 

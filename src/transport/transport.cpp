@@ -46,6 +46,12 @@ uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAcc
 
 }  // namespace
 
+FieldOptions fieldOptions(const RayOptions& o) {
+  return {o.ambientBounces,    o.ambientAccuracy,
+          o.ambientResolution, static_cast<double>(o.ambientDivisions + o.ambientSuperSamples),
+          o.ambientValue,      o.fieldMemory};
+}
+
 Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance irradiance, bool basicRadiance,
                      const rad::Warn& warn)
     : scene_(scene),
@@ -98,9 +104,9 @@ void Transport::prepareInterpolation(const rad::Warn& warn) {
                                                });
     if (!openings->empty()) openings_ = std::move(openings);
   }
-  field_ = std::make_unique<IrradianceField>(scene_, bounds, options_);
+  field_ = std::make_unique<IrradianceField>(scene_, bounds, fieldOptions(options_));
   if (options_.ambientBounces > 1) {
-    coarse_ = std::make_unique<CoarseSolution>(scene_, bounds, options_);
+    coarse_ = std::make_unique<CoarseSolution>(scene_, bounds, fieldOptions(options_));
     auto spots = std::make_unique<BrightSpots>(scene_, tracer_, lights_, openings_.get());
     if (!spots->empty()) spots_ = std::move(spots);
   }

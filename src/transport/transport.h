@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "field/field_options.h"
 #include "light/source_choice.h"
 #include "light/sources.h"
 #include "scene/random.h"
@@ -27,6 +28,9 @@ class Openings;
 inline uint64_t rotationBits(const RayOptions& options) {
   return options.rotation == 0 ? 0 : mixBits(options.rotation);
 }
+
+// The options of the fields of interpolated light.
+FieldOptions fieldOptions(const RayOptions& options);
 
 // The scene prepared for tracing, shared by all threads. Constant once it is made, but for the two caches
 // that tracing adds to: field() and coarse(). Keeps a reference to the scene.

@@ -90,7 +90,7 @@ TEST(CoarseSolution, LightIsTheGeometricSeriesInAFurnace) {
   constexpr int kBounces = 4;
   const Traced box(kBox);
   FurnaceLooker looker(box.transport().tracer(), kBounces, [](const SurfacePlace&) { return 1; });
-  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), optionsOf(kBounces));
+  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(optionsOf(kBounces)));
   looker.solve(solution);
   Random random(2);
   int found = 0;
@@ -127,7 +127,7 @@ TEST(CoarseSolution, PatchesServeWhatTheySee) {
   RayOptions options = optionsOf(kBounces);
   options.ambientValue = Rgb(0, 0, 0);
   options.ambientDivisions = 64;
-  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), options);
+  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(options));
   looker.solve(solution);
   Random random(4);
   int found[2] = {0, 0};
@@ -156,7 +156,7 @@ TEST(CoarseSolution, PatchesServeWhatTheySee) {
 TEST(CoarseSolution, NoPatchServesWhatIsSeenFromNear) {
   const Traced box(kBox);
   FurnaceLooker looker(box.transport().tracer(), 2, [](const SurfacePlace&) { return 1; });
-  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), optionsOf(2));
+  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(optionsOf(2)));
   looker.solve(solution);
   SurfacePlace place{V3d(2, 1.5, 0), V3d(0, 0, 1), 0, nullptr, 2.5};
   EXPECT_TRUE(solution.find(place, .5, .5, looker));
