@@ -22,4 +22,16 @@ Moments SampledSet::moments() const {
   return moments;
 }
 
+SampledSet traceEach(const SetAtPoint& set, std::span<const V3d> directions,
+                     std::span<const double> solidAngles, bool keepRays, PathTracer& tracer) {
+  SampledSet sampled;
+  sampled.samples.reserve(directions.size());
+  for (size_t i = 0; i < directions.size(); ++i) {
+    const Ray ray = tracer.trace(set.point(), directions[i], 0, mixBits(set.seed() + i));
+    sampled.samples.push_back({directions[i], solidAngles[i], ray.value});
+    if (keepRays) sampled.rays.push_back(ray);
+  }
+  return sampled;
+}
+
 }  // namespace rsphere

@@ -20,7 +20,7 @@ class SetAtPoint {
 
   const V3d& point() const { return point_; }
 
-  // Every random number of the set follows from it.
+  // Every random number of the set follows from it. Each strategy adds the number of a stream to it.
   uint64_t seed() const { return seed_; }
 
   // Whether it is the first set, which uses all directions as they are given.
@@ -38,22 +38,28 @@ class SetAtPoint {
 // The directions of one set, traced and weighted.
 struct SampledSet {
   std::vector<DirectionSample> samples;
-  std::vector<Ray> rays;  // of the samples, in the same order; kept with -Sd only
-  std::vector<Rgb>
-      guesses;        // of the samples' radiances (radiance_guess.h), W/sr/m2; empty: nothing is guessed
-  Moments excess;     // of the guesses along glances over those along the samples; 0 without guesses
-  Variance variance;  // of moments().total; 0 unless standard errors are wanted
+  std::vector<Ray> rays;     // of the samples, in the same order; kept with -Sd only
+  std::vector<Rgb> guesses;  // of the samples' radiances (radiance_guess.h), W/sr/m2; empty: none
+  Moments excess;            // of the guesses along glances over those along the samples; 0 without guesses
+  Variance variance;         // of moments().total; 0 unless standard errors are wanted
 
   // The set's estimate of the integrals over all directions.
   Moments moments() const;
 };
 
+// Traces each direction once and gives it its solid angle (sr). The random numbers of direction i
+// have stream i of the set.
+SampledSet traceEach(const SetAtPoint& set, std::span<const V3d> directions,
+                     std::span<const double> solidAngles, bool keepRays, PathTracer& tracer);
+
+// A strategy of choosing directions and weighting them. Shared by all threads.
 class SamplingStrategy {
  public:
   virtual ~SamplingStrategy() = default;
 
-  // Depends on the set, the scene and the options alone. tracer: leaves as it comes. memory: of the thread,
-  // used for speed alone. Throws rad::Error if solid angles fail the check of -Sv.
+  // Depends on the set, the scene and the options alone. tracer: the thread's; its settings are
+  // the same afterwards. memory: the thread's, kept for speed alone. Throws rad::Error if solid
+  // angles fail the check of -Sv.
   virtual SampledSet sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace& memory) const = 0;
 };
 

@@ -40,6 +40,13 @@ class GuessingTracer {
   PathTracer& tracer_;
 };
 
+double solidAngleOf(std::span<const SeenSources::Sample> samples) {
+  double sum = 0;
+  for (const SeenSources::Sample& s : samples) sum += s.direction.solidAngle;
+  return sum;
+}
+
+// Light sources that are integrated separately, and the mirrors that show them, are not guessed.
 std::vector<bool> unguessedSurfaces(const SeenSources& sources) {
   std::vector<bool> unguessed = sources.apart();
   for (const int32_t mirror : sources.mirrors()) unguessed[static_cast<size_t>(mirror)] = true;
@@ -75,16 +82,11 @@ SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, 
   const GuessingTracer guessing(tracer, guess ? &*guess : nullptr);
   const std::vector<SeenSources::Sample> toImages =
       sources_.sample(set.point(), images, seedOf(set, Stream::imagesOfSources), tracer);
-  double filledByImages = 0;
-  for (const SeenSources::Sample& s : toImages) filledByImages += s.direction.solidAngle;
-
   const size_t used = base + toImages.size(), left = most > used ? most - used : 0;
   const Targets targets =
       guidance_ ? guidance_->targets.at(set.point(), around.meanBrightness, base, left) : Targets({});
-  Others others = sampleOthers(set, images, targets, guess ? &*guess : nullptr, tracer);
-  // Together they represent the sphere without the images.
-  const double scale = others.solidAngle > 0 ? std::max(0., 4 * pi - filledByImages) / others.solidAngle : 0;
-  for (DirectionSample& s : others.samples) s.solidAngle *= scale;
+  const double besideImages = std::max(0., 4 * pi - solidAngleOf(toImages));
+  const Others others = sampleOthers(set, images, targets, besideImages, guess ? &*guess : nullptr, tracer);
 
   SampledSet sampled;
   if (guess) sampled.excess = excessOfGlances(set, others, *guess);
@@ -106,7 +108,7 @@ SilhouetteWeights::Surroundings SilhouetteWeights::lookAround(const SetAtPoint& 
   Surroundings around;
   Random random(mixBits(seedOf(set, Stream::surroundings)));
   for (int i = 0; i < Tuning::kRaysAround; ++i) {
-    // Stratified in height: the sphere's equal-area slices.
+    // Stratified in height: slices of the sphere with equal areas.
     const double z = 1 - 2 * (i + random.uniform()) / Tuning::kRaysAround, angle = 2 * pi * random.uniform();
     const double r = std::sqrt(std::max(0., 1 - z * z));
     const V3d direction(r * std::cos(angle), r * std::sin(angle), z);
@@ -126,17 +128,18 @@ LocalGuess SilhouetteWeights::fitGuess(const SetAtPoint& set, const Surroundings
 }
 
 SilhouetteWeights::Others SilhouetteWeights::sampleOthers(const SetAtPoint& set, const Images& images,
-                                                          const Targets& targets, const LocalGuess* guess,
-                                                          PathTracer& tracer) const {
+                                                          const Targets& targets, double solidAngle,
+                                                          const LocalGuess* guess, PathTracer& tracer) const {
   Others others;
-  // Each gets the solid angle that it represents if all that were sent are even.
+  double sum = 0;
+  // The solid angle of each is the inverse of the density of all directions around it.
   const auto send = [&](const V3d& d, double baseCell) {
-    const double solidAngle = 1 / (1 / baseCell + targets.densityAt(d));
+    const double cell = 1 / (1 / baseCell + targets.densityAt(d));
     const Ray ray = tracer.trace(set.point(), d, 0, seedOf(set, Stream::firstRay, others.samples.size()));
     const bool enters = !sources_.shown(tracer, images);
     others.enters.push_back(enters);
-    if (enters) others.solidAngle += solidAngle;
-    others.samples.push_back({d, enters ? solidAngle : 0, enters ? ray.value : Rgb(0, 0, 0)});
+    if (enters) sum += cell;
+    others.samples.push_back({d, enters ? cell : 0, enters ? ray.value : Rgb(0, 0, 0)});
     if (options_.everyDirection) others.rays.push_back(ray);
     if (guess)
       others.guesses.push_back(
@@ -148,7 +151,7 @@ SilhouetteWeights::Others SilhouetteWeights::sampleOthers(const SetAtPoint& set,
 
   Random random(seedOf(set, Stream::dynamicDirections));
   const double averageCell = 4 * pi / static_cast<double>(base.size());
-  // Whole numbers of directions with the right average, one running sum over all objects.
+  // A running sum over all targets gives each a whole number of directions with the right average.
   double due = random.uniform();
   for (const Target& target : targets.all()) {
     due += target.expected;
@@ -160,10 +163,11 @@ SilhouetteWeights::Others SilhouetteWeights::sampleOthers(const SetAtPoint& set,
     }
   }
   others.runs.push_back(others.samples.size());
+  const double scale = sum > 0 ? solidAngle / sum : 0;
+  for (DirectionSample& s : others.samples) s.solidAngle *= scale;
   return others;
 }
 
-// What glances find of the guess, minus what the directions find of it.
 Moments SilhouetteWeights::excessOfGlances(const SetAtPoint& set, const Others& others,
                                            const LocalGuess& guess) const {
   Moments excess;
@@ -183,7 +187,7 @@ Variance SilhouetteWeights::varianceOf(const Others& others,
   Variance variance;
   std::vector<DirectionSample> unguessed = others.samples;
   if (guidance_) {
-    // Of the guess there remains only what the glances miss, which are more than the directions.
+    // The error of the guess is that of the glances, which are more numerous than the directions.
     std::vector<DirectionSample> guessed(others.samples.begin(),
                                          others.samples.begin() + static_cast<ptrdiff_t>(base));
     for (size_t i = 0; i < base; ++i) guessed[i].value = others.guesses[i];

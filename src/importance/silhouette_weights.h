@@ -21,10 +21,9 @@ namespace rsphere {
 // - How many directions a special object gets follows from how much the radiance on it varies, compared with
 //   the surroundings. That is measured by separate rays, so that the mean stays unbiased (targets.h).
 // - Indirect rays are aimed at diffuse surfaces that receive much direct light (transport/bright_spots.h).
-// - A control variate reduces the variance of diffuse surfaces (transport/radiance_guess.h). Its integral
-// comes
-//   from many glances, rays that are not followed beyond their first hit. Directions, and the indirect rays
-//   that they spawn, only estimate the difference.
+// - A control variate reduces the variance of diffuse surfaces (transport/radiance_guess.h). Many glances,
+//   rays that are not followed beyond their first hit, estimate its integral. Directions, and the indirect
+//   rays that they spawn, only estimate the difference.
 // With -Sk 0 only the first of these is left.
 class SilhouetteWeights : public SamplingStrategy {
  public:
@@ -33,15 +32,12 @@ class SilhouetteWeights : public SamplingStrategy {
                     std::span<const SpecialObject> special, const SeenSources& sources,
                     const BrightSpots* spots);
 
-  // The steps, each of which passes a value on: images of light sources, a guess of diffuse radiance that is
-  // fitted to what is seen around, directions to the images, targets, all other directions; from these
-  // weights, what glances add, and the variance.
   SampledSet sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace& memory) const override;
 
  private:
   using Images = std::vector<SeenSources::Image>;
 
-  // What reduces the variance of all that is not a light source; absent with -Sk 0.
+  // The means to reduce the variance of light that does not come directly from sources.
   struct Guidance {
     TargetChoice targets;
     RadianceGuess guess;
@@ -59,25 +55,27 @@ class SilhouetteWeights : public SamplingStrategy {
     std::vector<DirectionSample> samples;  // the base directions, then those to targets
     std::vector<Ray> rays;                 // of the samples, with -Sd only
     std::vector<Rgb> guesses;              // of the samples; empty: nothing is guessed
-    // Whether the sample enters the mean: not where it shows an image of a light source, as the image has its
-    // own samples. Then its solid angle, radiance and guess are 0.
+    // Whether the sample enters the mean. It does not if it shows an image of a light source, because the
+    // image has its own samples; then its solid angle, radiance and guess are 0.
     std::vector<bool> enters;
-    // Where the samples of one target begin, or of all parts of one image; at last where the samples end.
+    // The first sample of each target, or of all parts of one image; then the number of all samples.
     std::vector<size_t> runs;
-    double solidAngle = 0;  // sum over all samples, sr
   };
 
+  // The steps of sample(), in this order. Each takes values of those before it.
   Surroundings lookAround(const SetAtPoint& set, const Images& images, PathTracer& tracer) const;
   LocalGuess fitGuess(const SetAtPoint& set, const Surroundings& around) const;
-  Others sampleOthers(const SetAtPoint& set, const Images& images, const Targets& targets,
+  // solidAngle: that all of them represent together, sr. guess: null if nothing is guessed.
+  Others sampleOthers(const SetAtPoint& set, const Images& images, const Targets& targets, double solidAngle,
                       const LocalGuess* guess, PathTracer& tracer) const;
+  // The moments of the guess by glances, minus those by the directions.
   Moments excessOfGlances(const SetAtPoint& set, const Others& others, const LocalGuess& guess) const;
   Variance varianceOf(const Others& others, std::span<const SeenSources::Sample> toImages) const;
 
   const SphereOptions& options_;
   const BaseSet& base_;
   const SeenSources& sources_;
-  std::optional<Guidance> guidance_;
+  std::optional<Guidance> guidance_;  // none with -Sk 0
 };
 
 }  // namespace rsphere

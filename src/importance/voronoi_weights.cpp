@@ -42,13 +42,7 @@ SampledSet VoronoiWeights::sample(const SetAtPoint& set, PathTracer& tracer, Vor
   const auto solidAngles =
       set.isFirst() ? cellSolidAngles(triangulation_, dynamic, memory) : cellSolidAngles(directions, memory);
   if (options_.verify) checkCells(memory);
-  SampledSet sampled;
-  sampled.samples.reserve(directions.size());
-  for (size_t i = 0; i < directions.size(); ++i) {
-    const Ray ray = tracer.trace(set.point(), directions[i], 0, mixBits(set.seed() + i));
-    sampled.samples.push_back({directions[i], solidAngles[i], ray.value});
-    if (options_.everyDirection) sampled.rays.push_back(ray);
-  }
+  SampledSet sampled = traceEach(set, directions, solidAngles, options_.everyDirection, tracer);
   if (base_.neighbours)
     sampled.variance =
         baseVariance(sampled.samples, neighboursOf(memory), std::vector<bool>(directions.size(), true));
