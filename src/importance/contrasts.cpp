@@ -60,9 +60,8 @@ double measureSurroundings(const Scene& scene, const SeenSources& sources, PathT
   return std::sqrt(noise + Tuning::kUnevenShare * Tuning::kUnevenShare * uneven) / values.mean();
 }
 
-// Standard deviation of the brightness on objects with the same modifier. Rays start just before a
-// point of an object and hit it from evenly distributed directions: its average appearance, wherever
-// it will be looked at from.
+// Standard deviation of the brightness on objects with the same modifier. Rays start just in front of points
+// of an object and hit it from evenly distributed directions, because it may be seen from anywhere.
 double measureDeviation(const Scene& scene, std::span<const SpecialObject> objects, size_t rays,
                         const SeenSources& sources, PathTracer& tracer) {
   Random random(mixBits(objects[0].surface));

@@ -13,17 +13,18 @@ namespace rsphere {
 struct Contrasts {
   struct Object {
     SpecialObject object;
-    double deviation = 0;  // standard deviation of the brightness on it, without light sources, W/sr/m2
+    double deviation = 0;  // standard deviation of the brightness on it, W/sr/m2
   };
   std::vector<Object> objects;
-  // Standard deviation of the brightness that one base direction finds, without light sources, relative to
-  // the mean brightness. 1 where it was not measured.
+  // The part of the standard deviation of brightness that is an error of one base direction, relative to the
+  // mean brightness. 1 if it was not measured.
   double surroundings = 1;
 };
 
-// Objects that share a modifier share a measurement. The answer depends on the scene and the options of
-// transport alone. Without special objects nothing is traced.
-// sources: those integrated apart, which do not enter. spots: what indirect rays are aimed at, or null.
+// Measures the contrasts of the scene. Objects with the same modifier share one measurement. The result
+// depends on the scene and the options of transport alone. Without objects nothing is traced.
+// sources: those integrated separately; rays that show one are left out.
+// spots: what indirect rays are aimed at, or null.
 Contrasts measureContrasts(const Transport& transport, std::span<const SpecialObject> objects,
                            const SeenSources& sources, const BrightSpots* spots);
 

@@ -16,7 +16,8 @@
 namespace rsphere {
 namespace {
 
-// Adds what sums to `excess` over all solid angles: in proportion to the guesses, or evenly where all are 0.
+// Adds `excess` (W/m2) to the integral over the samples: in proportion to their guesses, or
+// evenly if all guesses are 0.
 void shareOut(const Rgb& excess, std::span<const Rgb> guesses, std::vector<DirectionSample>& samples) {
   Rgb guessed(0, 0, 0);
   double solidAngle = 0;
@@ -31,7 +32,8 @@ void shareOut(const Rgb& excess, std::span<const Rgb> guesses, std::vector<Direc
   }
 }
 
-// Single values that guesses have made negative become 0, and the others less by as much in all.
+// Sets radiances to 0 that guesses have made negative, and reduces the others so that the
+// integral stays the same.
 void keepPositive(std::vector<DirectionSample>& samples) {
   for (int c = 0; c < 3; ++c) {
     double sum = 0, positive = 0;
@@ -44,9 +46,9 @@ void keepPositive(std::vector<DirectionSample>& samples) {
   }
 }
 
-// The sets of one half (two_halves.h).
+// Sums over the sets of one half (two_halves.h).
 struct Half {
-  Moments moments;  // summed over the sets, as are the next two
+  Moments moments;
   Rgb excess{0, 0, 0};
   Variance variance;
 };
@@ -64,7 +66,7 @@ void append(std::vector<T>& all, std::vector<T>&& more) {
     all.insert(all.end(), more.begin(), more.end());
 }
 
-// The sets as one, each with its share of the average. excess: the average of theirs.
+// All sets as one, each weighted by its share of the average. excess: average over the sets, W/m2.
 SampledSet joined(std::vector<KeptSet> sets, const TwoHalves& halves, const Rgb& excess) {
   SampledSet all;
   for (KeptSet& kept : sets) {
@@ -80,7 +82,7 @@ SampledSet joined(std::vector<KeptSet> sets, const TwoHalves& halves, const Rgb&
   return all;
 }
 
-// What indirect rays are aimed at; null where nothing stands out or nothing is gathered.
+// The spots that indirect rays are aimed at; null if there are none, or no indirect light.
 std::unique_ptr<const BrightSpots> findSpots(const Transport& transport) {
   const RayOptions& rays = transport.options();
   if (rays.ambientBounces <= 0 || rays.ambientDivisions <= 0) return nullptr;
@@ -119,7 +121,7 @@ SphereEstimator::Workspace::Workspace(const SphereEstimator& estimator)
 }
 
 PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) const {
-  // Directions of -Sa may be a million; they are only kept where they are asked for.
+  // -Sa may send a million directions. They are kept only if they are to be printed.
   const bool keep = options_.everyDirection || options_.accuracy <= 0;
   const auto most = static_cast<size_t>(options_.mostOfAllSets());
   std::array<Half, 2> halves;

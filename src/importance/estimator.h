@@ -1,6 +1,5 @@
 #pragma once
-// The quantities of sphere mode at a point: averages over directions that are traced and weighted as -Sw
-// says.
+// Computes the quantities of sphere mode at a point from traced directions, which -Sw chooses and weights.
 //
 // Source: Costa, Sousa, Parracho, Cruz, "A New Technique for Spherical Radiance Calculation" (base
 // directions; dynamic directions to special objects; weights by spherical Voronoi cells). The strategies:
@@ -28,9 +27,9 @@ namespace rsphere {
 // Shared by all threads. Keeps a reference to transport.
 class SphereEstimator {
  public:
-  // Finds the special objects and, for -Sw c, measures how much the radiance on them varies.
-  // standardError: whether PointAnswer's is wanted. Throws rad::Error where the base directions'
-  // weights fail their check (-Sv).
+  // Finds the special objects and, for -Sw c, measures how much the radiance on them varies. standardError:
+  // whether PointAnswer's standard errors are wanted; -Sa computes them in any case. Throws rad::Error if the
+  // solid angles of the base directions fail the check of -Sv.
   SphereEstimator(const Transport& transport, const SphereOptions& options, bool standardError = false);
   SphereEstimator(const SphereEstimator&) = delete;
   SphereEstimator& operator=(const SphereEstimator&) = delete;
@@ -39,12 +38,12 @@ class SphereEstimator {
   struct Workspace {
     explicit Workspace(const SphereEstimator& estimator);
     PathTracer tracer;
-    // Called before each set of directions; may throw to give the point up.
+    // Called before each set of directions; may throw to abandon the point.
     std::function<void()> checkStop;
     // The directions of the last point; with -Sa only if every direction is wanted (-Sd), because there may
-    // be a million. Where glances found more or less of a guess than the directions did, the difference is
-    // added to the directions' radiances in proportion to their guesses, so that solid angles times radiances
-    // sum to the answer's. No radiance is negative unless the answer is.
+    // be a million. Their radiances times solid angles sum to the integral of the answer: the difference
+    // between what glances and directions find of the guess is added to the radiances, in proportion to their
+    // guesses. No radiance is negative unless the answer is.
     std::vector<DirectionSample> samples;
     std::vector<Ray> rays;  // of the samples, in the same order; kept with -Sd only
 
@@ -53,10 +52,10 @@ class SphereEstimator {
     VoronoiWorkspace voronoi_;  // memory that is kept for speed alone
   };
 
-  // The quantities at a point (world), and the directions in workspace.samples. Depends on point, scene
-  // and options alone. With -Sa, sets of directions, each turned another way, are averaged until the
-  // estimated standard error of the mean's brightness is below that share of it (two_halves.h), or the
-  // next set might exceed mostOfAllSets().
+  // The quantities at a point (world); the directions are left in workspace.samples. The answer depends on
+  // the point, the scene and the options alone. With -Sa, sets of directions with different rotations are
+  // averaged until the estimated standard error of the brightness of the mean is below that fraction of it
+  // (two_halves.h), or until the next set might exceed SphereOptions::mostOfAllSets().
   PointAnswer estimate(const V3d& point, Workspace& workspace) const;
 
   const std::vector<SpecialObject>& specialObjects() const { return special_; }

@@ -60,8 +60,7 @@ class PixelMap {
 //   sampled separately. Their light is added to the pixels that they cover, so that none is lost
 //   and none looks larger.
 // - The indirect light of surfaces that are seen directly is averaged over nearby pixels (smooth_indirect.h).
-// checkStop is called once per row; it may throw to abandon the picture. Every random number follows from the
-// seed.
+// checkStop is called once per row; it may throw to abandon the picture. All random numbers follow from seed.
 Raster drawPoint(const V3d& point, const PixelMap& map, const Transport& transport,
                  const SeenSources& sources, PathTracer& tracer, uint64_t seed,
                  const std::function<void()>& checkStop = {});

@@ -6,8 +6,7 @@
 
 namespace rsphere {
 
-// Indirect light on the surfaces that the pixels of a picture show, and the geometry by which pixels may
-// share it.
+// Indirect light on the surfaces that the pixels of a picture show, and the geometry of these surfaces.
 struct IndirectPixels {
   struct Pixel {
     Imath::V3f light{0, 0, 0};  // reflected indirect light over the surface's pattern, W/sr/m2

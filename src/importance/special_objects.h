@@ -19,9 +19,9 @@ namespace rsphere {
 //   / kSharpRoughness)^2 for the roughness a (rms slope of facets), like the height of the peak. With two
 //   roughnesses (plastic2, metal2, trans2, WGMDfunc) the divisor is the geometric mean of both. The powers n
 //   of ashik2 are converted to roughnesses sqrt(2 / (n + 1)), with which its lobe has the same peak.
-// - If a function decides, the largest possible value: all light, and sharp (BRTDfunc, WGMDfunc). The width
-//   of directional scattering of plasfunc, its relatives and BRTDfunc is not known; kSharpRoughness is
-//   assumed.
+// - If a function decides, the largest possible value: all light, and sharp (BRTDfunc, WGMDfunc). The
+//   width of directional scattering of plasfunc, its relatives and BRTDfunc is not known;
+//   kSharpRoughness is assumed.
 // - 0 for diffuse materials, BSDF and light sources.
 double irregularity(const Material& material);
 
@@ -41,8 +41,7 @@ inline constexpr double kSharpRoughness = .0065;
 // and its mirror image is faint. A pane gets 64 directions per sr, a few hundred at most; as a
 // mirror it took all directions.
 inline constexpr double kPane = .002;
-// Objects of less irregularity are treated as diffuse: their 16 directions per sr are a tenth of those of the
-// base.
+// Less irregular objects are treated as diffuse: their 16 directions per sr are a tenth of the base's.
 inline constexpr double kSpecialIrregularity = .0005;
 
 struct SpecialObject {

@@ -43,8 +43,8 @@ struct SilhouetteWeights {
   // Cap on the glances, but never fewer than base directions: chosen by experiment. It applies from
   // 16384 base directions on.
   static constexpr size_t kMostGlances = 65536;
-  // Directions to images of light sources, as a fraction of the base directions, and at least: chosen by
-  // experiment.
+  // Directions to images of light sources are one per so many base directions, and at least the second
+  // number: both chosen by experiment.
   static constexpr size_t kBaseDirectionsPerRayToImages = 4, kLeastRaysToImages = 16;
 };
 

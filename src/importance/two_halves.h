@@ -18,11 +18,10 @@ namespace rsphere {
 // near chrome balls, where few directions find much of the light; and the number of sets for the
 // same error beside the goal:
 //
-//   rule                               beside a goal      near chrome      sets
-//   stop on the sets averaged          -.022 +- .001%   -.119 +- .005%     1
-//   two halves                         -.004 +- .001%   -.034 +- .004%     1.06
-//   a first set decides, and is        +.003 +- .002%   +.004 +- .005%     1.42
-//   not averaged
+//   rule                                        beside a goal     near chrome      sets
+//   stop on the sets averaged                   -.022 +- .001%   -.119 +- .005%   1
+//   two halves                                  -.004 +- .001%   -.034 +- .004%   1.06
+//   a first set decides and is not averaged     +.003 +- .002%   +.004 +- .005%   1.42
 //
 // The last rule was refused, because a third of its answers estimate a larger error than was asked for.
 class TwoHalves {
