@@ -24,7 +24,7 @@ struct Contrasts {
 // Measures the contrasts of the scene. Objects with the same modifier share one measurement. The result
 // depends on the scene and the options of transport alone. Without objects nothing is traced.
 // sources: those integrated separately; rays that show one are left out.
-// spots: what indirect rays are aimed at, or null.
+// spots: patches that indirect rays are aimed at, or null.
 Contrasts measureContrasts(const Transport& transport, std::span<const SpecialObject> objects,
                            const SeenSources& sources, const BrightSpots* spots);
 

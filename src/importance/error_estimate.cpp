@@ -62,7 +62,7 @@ Variance partsVariance(std::span<const SeenSources::Sample> samples) {
       samples.begin(), samples.end(), [&](const auto& s) { return s.row == samples.front().row; }));
   const auto add = [&](size_t i, size_t k) {
     ++pairs;
-    // What shadow rays measured is no variance of the directions.
+    // The part of a difference that shadow rays measured is no variance of the directions.
     const double clear = static_cast<double>(samples[i].clear * samples[k].clear) /
                          static_cast<double>(samples[i].aimed * samples[k].aimed);
     sum += Variance::of(samples[i].direction.value * samples[i].part -

@@ -5,7 +5,7 @@
 // directions; dynamic directions to special objects; weights by spherical Voronoi cells). The strategies:
 //   -Sw h  equal_weights.h       base directions alone
 //   -Sw v  voronoi_weights.h     the paper's rule
-//   -Sw c  silhouette_weights.h  the default; its header lists what differs from the paper, and why
+//   -Sw c  silhouette_weights.h  the default; its header lists the differences from the paper, with reasons
 #include <functional>
 #include <memory>
 #include <vector>
@@ -42,8 +42,8 @@ class SphereEstimator {
     std::function<void()> checkStop;
     // The directions of the last point; with -Sa only if every direction is wanted (-Sd), because there may
     // be a million. Their radiances times solid angles sum to the integral of the answer: the difference
-    // between what glances and directions find of the guess is added to the radiances, in proportion to their
-    // guesses. No radiance is negative unless the answer is.
+    // between the integrals of the guess by glances and by directions is added to the radiances, in
+    // proportion to their guesses. No radiance is negative unless the answer is.
     std::vector<DirectionSample> samples;
     std::vector<Ray> rays;  // of the samples, in the same order; kept with -Sd only
 

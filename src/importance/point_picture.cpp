@@ -35,7 +35,7 @@ void setValue(Raster& raster, size_t pixel, const Rgb& value) {
     raster.pixels[3 * pixel + static_cast<size_t>(c)] = static_cast<float>(value[c]);
 }
 
-// The random numbers of a picture, by what they are used for.
+// The seeds of a picture, each named after its use.
 class PictureStreams {
  public:
   explicit PictureStreams(uint64_t seed) : seed_(seed) {}

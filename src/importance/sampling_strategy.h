@@ -1,5 +1,5 @@
 #pragma once
-// One set of directions at a point, and what a strategy of choosing and weighting them (-Sw) makes of it.
+// Strategies of choosing and weighting directions (-Sw), and one set of directions at a point.
 #include <cstdint>
 #include <span>
 #include <vector>

@@ -14,8 +14,8 @@ namespace {
 using std::numbers::pi;
 using Tuning = tuning::SilhouetteWeights;
 
-// The random numbers of a set, by what they are used for. Each use has a stream of its own, so that one that
-// draws more numbers leaves the others as they are.
+// The streams of random numbers of a set, named after their uses. They are separate, so that a use that draws
+// more numbers does not change the others.
 enum class Stream : uint64_t {
   imagesOfSources = 1,
   surroundings = 2,

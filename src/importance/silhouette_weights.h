@@ -27,7 +27,7 @@ namespace rsphere {
 // With -Sk 0 only the first of these is left.
 class SilhouetteWeights : public SamplingStrategy {
  public:
-  // Keeps references to all of them. spots: what the tracers of sample() aim indirect rays at, or null.
+  // Keeps references to all of them. spots: patches that tracers aim indirect rays at, or null.
   SilhouetteWeights(const Transport& transport, const SphereOptions& options, const BaseSet& base,
                     std::span<const SpecialObject> special, const SeenSources& sources,
                     const BrightSpots* spots);
@@ -44,7 +44,7 @@ class SilhouetteWeights : public SamplingStrategy {
     std::vector<V3d> glances, fitGlances;
   };
 
-  // What separate rays see around a point, light sources that are integrated separately left out.
+  // Findings of separate rays around a point that show no image of a light source.
   struct Surroundings {
     std::vector<RadianceGuess::Traced> traced;
     double meanBrightness = 0;  // W/sr/m2

@@ -37,9 +37,8 @@ inline constexpr double kDirectionsPerSr = 32000;
 // Roughness (rms slope) of a highlight that is half as irregular as a mirror: derived. It fills 4 pi a^2 sr,
 // so that it gets about 16 of these directions, four across.
 inline constexpr double kSharpRoughness = .0065;
-// Irregularity of glass panes. What is seen straight through a pane is as large as without it,
-// and its mirror image is faint. A pane gets 64 directions per sr, a few hundred at most; as a
-// mirror it took all directions.
+// Irregularity of glass panes. Objects behind a pane look as large as without it, and its mirror image is
+// faint. A pane gets 64 directions per sr, a few hundred at most; as a mirror it took all directions.
 inline constexpr double kPane = .002;
 // Less irregular objects are treated as diffuse: their 16 directions per sr are a tenth of the base's.
 inline constexpr double kSpecialIrregularity = .0005;

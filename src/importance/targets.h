@@ -36,15 +36,15 @@ class Targets {
 // Chooses the targets at any point. Shared by all threads; keeps a reference to transport's scene.
 class TargetChoice {
  public:
-  // Measures how much radiance varies on the objects (contrasts.h). sources: those integrated apart. spots:
-  // what indirect rays are aimed at, or null. densityFactor: -Sk.
+  // Measures how much radiance varies on the objects (contrasts.h). sources: those integrated separately.
+  // spots: patches that indirect rays are aimed at, or null. densityFactor: -Sk.
   TargetChoice(const Transport& transport, std::span<const SpecialObject> objects, const SeenSources& sources,
                const BrightSpots* spots, double densityFactor);
 
   // The targets at a point (world). Their directions are as many as bring the density up to Neyman's
   // allocation, in proportion to the deviation of radiance on them, where the base directions already have
   // the density that suits the surroundings. If that needs more than `most` directions on average, all
-  // densities are reduced by the same factor, so that no target is dropped. meanBrightness: of what is seen
+  // densities are reduced by the same factor, so that no target is dropped. meanBrightness: of the view
   // from the point, W/sr/m2.
   Targets at(const V3d& point, double meanBrightness, size_t baseDirections, size_t most) const;
 

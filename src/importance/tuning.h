@@ -1,5 +1,5 @@
 #pragma once
-// The constants of this folder that trade error for time, or that approximate what is not known exactly, by
+// The constants of this folder that trade error for time, or that approximate unknown quantities, by
 // subsystem. Those of special objects, which the paper asks for but does not give, are in special_objects.h.
 // Tolerances for rounding are not among them; they are where they are used.
 //
@@ -142,7 +142,7 @@ struct ErrorEstimate {
 struct Stopping {
   // Each half asks for this multiple of the standard error that is wanted: by measurement. One
   // answer in 50, rather than one in 25, then needs more sets because of its own estimate. Those
-  // sets cause what bias there is.
+  // sets cause the remaining bias.
   static constexpr double kMargin = .95;
   // Cap on the ratio of the sets of the halves: chosen by experiment. If one set finds something very
   // bright, the other half asks for many sets; the cap then gives some to the half of that set, which
@@ -151,7 +151,7 @@ struct Stopping {
   static constexpr size_t kMostRatio = 2;
 };
 
-// Pictures of what a point sees (point_picture.cpp, smooth_indirect.cpp).
+// Pictures of the view from a point (point_picture.cpp, smooth_indirect.cpp).
 struct Pictures {
   // Pixels along the height: about half a million pixels in all, one per .45 degrees and one per .35
   // degrees. Chosen by experiment.
