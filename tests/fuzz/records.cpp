@@ -9,6 +9,7 @@
 
 #include "answer/record_reader.h"
 #include "memory_file.h"
+#include "rad_parser/error.h"
 
 namespace {
 
