@@ -46,7 +46,7 @@ struct RayOptions {
   std::vector<SharedDefinitions> definitions;  // -e -f, in their order
   bool backFacesVisible = true;                // -bv
   // random numbers
-  bool uncorrelated = true;  // -u  changes nothing by itself; see Options::numberedRays
+  bool uncorrelated = true;  // -u  changes nothing by itself; see AnswerOptions::numberedRays
   uint64_t rotation = 0;     // -Sr
 };
 
