@@ -13,8 +13,8 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kFarAway = 1e10;
 constexpr double kTiny = 1e-6;  // world units, cosines: RADIANCE's own figure for "in the plane"
 
-// An affine map that keeps the points of a relay's plane where they are: p goes to p + height(p) * shift. It
-// keeps volumes but for their sign where shift . normal is 0 or -2 (a shear, a shear and a mirror).
+// An affine map that leaves the points of a relay's plane fixed: p goes to p + height(p) * shift. It
+// preserves volume if shift . normal is 0 (a shear) or -2 (a shear combined with a reflection).
 struct Projection {
   V3d normal;
   double offset;
@@ -35,7 +35,8 @@ struct Relay {
   double radius = 0;
 };
 
-// The mirror or prism that decides about the surface: an illum's alternative counts.
+// The modifier of the mirror or prism that makes the surface a relay, which may be the alternative material
+// of an illum; kNone if the surface is no relay.
 int32_t relayMaterial(const Scene& scene, const Surface& surface) {
   int32_t modifier = surface.material;
   const Material* material = scene.materialAt(modifier);
@@ -49,7 +50,7 @@ int32_t relayMaterial(const Scene& scene, const Surface& surface) {
   return relays ? modifier : kNone;
 }
 
-// The farthest that the source reaches from its middle along a unit vector.
+// The largest distance of the source's points from its center, measured along a unit vector.
 double extent(const LightSource& source, const V3d& along) {
   const double u = source.u.dot(along), v = source.v.dot(along);
   switch (source.map) {
@@ -77,11 +78,11 @@ class Images {
     for (uint32_t i = 0; i < scene.outermost().size(); ++i) addRelay(i, warn);
   }
 
-  // Images of one source and images of those, up to `relays` of them one after the other.
+  // Adds the images of one source, and recursively their images, in sequences of up to `relays` relays.
   void addImages(size_t source, int relays) {
     if (relays <= 0) return;
     for (size_t r = 0; r < relays_.size(); ++r) {
-      // A relay does not see its own images, nor the light of its own surface.
+      // A relay makes no image of its own images, nor of light that its own surface emits.
       if (relays_[r].surface == sources_[source].surface) continue;
       if (!lights(source, relays_[r])) continue;
       for (int image = 0; image < imagesBy(relays_[r]); ++image) {
@@ -125,7 +126,7 @@ class Images {
     relays_.push_back(relay);
   }
 
-  // The largest of value(p) over the corners of a relay; a ring's are those of the square around it.
+  // The maximum of value(p) over the corners of a relay. For a ring, the corners of its bounding square.
   template <class Value>
   double mostOver(const Relay& relay, const Value& value) const {
     double most = -kFarAway;
@@ -156,8 +157,9 @@ class Images {
     return Projection{relay.normal, relay.offset, -2. * relay.normal, true};
   }
 
-  // The shear, and the mirror where the light stays on its side, by which a ray from the source's middle
-  // through the relay's middle seems to come from where the prism turns it.
+  // The map to the image in a prism: a shear, combined with a reflection if the light leaves on the side that
+  // it came from. The ray from the source's center through the relay's center, after the prism has turned it,
+  // then appears to come from the center of the image.
   std::optional<Projection> projectByPrism(const LightSource& source, const Relay& relay, int image) {
     FunctionPoint at;
     at.point = relay.center + (relay.offset - relay.center.dot(relay.normal)) * relay.normal;
@@ -183,7 +185,7 @@ class Images {
   bool lights(size_t index, const Relay& relay) const {
     const LightSource& source = sources_[index];
     if (source.isVirtual()) {
-      // Its light leaves the relay before on the side where the image is not.
+      // Its light leaves the preceding relay on the side opposite to the image.
       const Relay& last = relays_[relayOf_[index]];
       double side = source.center.dot(last.normal);
       if (!source.distant) side -= last.offset;
@@ -193,7 +195,7 @@ class Images {
       if (!meetsBeam(source, last, relay)) return false;
     }
     if (source.distant) return true;
-    // RADIANCE's reach ends at the relay's middle.
+    // As in RADIANCE, the reach is compared with the distance to the relay's center.
     if (source.reach > 0 && (relay.center - source.center).length() > source.reach) return false;
     if (source.spot && !meetsCone(source, source.spot->aim, 1 - source.spot->solidAngle / (2 * kPi), relay))
       return false;
@@ -213,8 +215,8 @@ class Images {
     return meetsCone(source, source.beam, source.cosBeam, relay);
   }
 
-  // Whether the relay may be met by rays from the source's middle within a cone; as seen from elsewhere on
-  // the source it may lie as much nearer the cone as the source is wide.
+  // Whether the relay can be hit by rays in a cone around the axis. The cone starts at the source's center;
+  // for rays from the rest of the source, the relay is enlarged by the source's radius.
   static bool meetsCone(const LightSource& source, const V3d& axis, double cosHalf, const Relay& relay) {
     const V3d towards = relay.center - source.center;
     const double distance = towards.length(), radius = relay.radius + source.radius;
@@ -233,7 +235,8 @@ class Images {
     if (source.isPlane()) image.normal = projection.vector(source.normal).normalized();
     if (image.spot) {
       image.spot->aim = projection.vector(image.spot->aim).normalized();
-      // A shear makes no cone of a cone; the lamp itself is asked in the end.
+      // A shear does not map a cone to a cone, so the image has no limit. The spot's cone is tested when the
+      // ray reaches the real source.
       if (!projection.isMirror) image.spot->solidAngle = 4 * kPi;
     }
     if (source.distant) {
@@ -243,8 +246,8 @@ class Images {
     image.center = projection.point(source.center);
     const V3d towards = relay.center - image.center;
     const double distance = towards.length();
-    // A ray from a point of the image through one of the relay keeps within this angle of the line between
-    // their middles, however far it goes on.
+    // As seen from the image's center, every point on a ray from the image through the relay lies within this
+    // angle of the relay's center, however far the ray goes on.
     const double sine = (relay.radius + source.radius) / distance;
     image.cosBeam = -1;
     if (distance > 0 && sine < 1) {
@@ -259,7 +262,7 @@ class Images {
   FunctionScratch scratch_;
   std::vector<LightSource>& sources_;
   std::vector<Relay> relays_;
-  std::vector<size_t> relayOf_;  // by source: index in relays_ of the last one of a virtual source
+  std::vector<size_t> relayOf_;  // by source: for a virtual one, the index in relays_ of its last relay
 };
 
 }  // namespace

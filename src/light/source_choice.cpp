@@ -11,14 +11,15 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Of the source itself, or of what a relay shows an image of, for patterns and reflectances of 1.
+// The brightness (W/sr/m2) of the source, or of the real source whose image it is. Patterns and reflectances
+// are taken as 1.
 double brightnessOf(const Scene& scene, std::span<const LightSource> all, uint32_t index) {
   while (all[index].isVirtual()) index = static_cast<uint32_t>(all[index].relayed);
   return brightness(sourceRadiance(scene, scene.surfaces[all[index].surface]));
 }
 
-// The distance of a source's middle before a surface, or what is left of it where some of the source is
-// behind.
+// The height of a source's center above the surface. If part of the source lies below the surface, half the
+// height of its highest point.
 double before(double height, double radius) {
   return height >= radius ? height : std::max(0., height + radius) / 2;
 }
@@ -50,7 +51,7 @@ double SourceChoice::weigh(const V3d& point, const V3d& front, std::vector<doubl
   for (size_t i = 0; i < near_.size(); ++i) {
     const Near& s = near_[i];
     const V3d towards = s.center - point;
-    // Not nearer than the source is large: beyond, more of it is seen from the side.
+    // The distance is taken as at least the source's radius: nearer, more of the source is seen obliquely.
     const double square = std::max(towards.length2(), s.radius * s.radius);
     const double distance = std::sqrt(square);
     const double above = -towards.dot(s.normal);
@@ -66,7 +67,7 @@ double SourceChoice::weigh(const V3d& point, const V3d& front, std::vector<doubl
     const V3d towards = s.center - point;
     const double distance = towards.length();
     const bool tooFar = r.reach > 0 && distance > r.reach + s.radius;
-    // Of all directions to the source, the one that lies deepest in the cone.
+    // aim . direction for the direction to the source that is closest to the axis of the spot.
     const double deepest =
         distance > s.radius ? (r.spot ? r.spot->aim.dot(towards) : 0) / distance - s.radius / distance : -1;
     const bool outside = r.spot && r.spot->solidAngle < 2 * kPi * (1 + deepest);

@@ -1,7 +1,7 @@
 #pragma once
-// One of many light sources, drawn in proportion to what it would bring if nothing were in its way: a shadow
-// ray or two are then enough where every source had one of its own (Shirley, Wang and Zimmerman 1996, "Monte
-// Carlo techniques for direct lighting calculations", ACM TOG 15/1, section 3).
+// Random choice of one of many light sources, with probability proportional to its estimated unoccluded
+// contribution. One or two shadow rays then suffice instead of one for each source (Shirley, Wang and
+// Zimmerman 1996, "Monte Carlo techniques for direct lighting calculations", ACM TOG 15/1, section 3).
 #include <cstdint>
 #include <vector>
 
@@ -11,18 +11,19 @@ namespace rsphere {
 
 class SourceChoice {
  public:
-  // lights: of the scene, not kept.
+  // Keeps no reference to the scene or to its lights.
   SourceChoice(const Scene& scene, const LightSources& lights);
 
-  // The weight of every source at a point, by its index in LightSources: about the irradiance (W/m2, of
-  // luminance) on a surface there with this normal (unit), or from all sides where front is 0. Greater than 0
-  // wherever LightSources::sample() can have a sample with front before it; how well it fits decides how much
-  // an answer scatters, not what it is in the mean. Returns the sum of the weights.
+  // The weight of every source at a point, by its index in LightSources: approximately the irradiance (W/m2,
+  // of brightness) that it causes on a surface there with this normal (unit), or from all sides if front is
+  // 0. The weight is greater than 0 wherever LightSources::sample() can return a sample for the same front.
+  // Errors of the approximation therefore increase the variance and cause no bias. Returns the sum of the
+  // weights.
   double weigh(const V3d& point, const V3d& front, std::vector<double>& weights) const;
 
  private:
-  // Those that are somewhere. power: brightness times area (W/sr). A source that shines to all sides has no
-  // normal.
+  // Sources at a finite distance. power: brightness times area (W/sr). A source that shines to all sides has
+  // normal 0 and everywhere 1; the others have everywhere 0.
   struct Near {
     V3d center, normal;
     double power, radius, everywhere;
@@ -37,7 +38,7 @@ class SourceChoice {
     double reach;
     std::optional<Spotlight> spot;
   };
-  std::vector<Near> near_;  // one for every source; of no power: a distant one
+  std::vector<Near> near_;  // one for every source; that of a distant source has power 0
   std::vector<Distant> distant_;
   std::vector<Restricted> restricted_;
 };

@@ -14,8 +14,8 @@ namespace rsphere {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kMostParts = 64;  // of a source, as RADIANCE has it: users' -ds are chosen for it
-// What is left of a length that is halved as often as leads to so many parts.
+constexpr int kMostParts = 64;  // of a source; RADIANCE's own limit, for which users choose their -ds
+// The factor on a length by the number of times that it was halved, up to kMostParts parts.
 constexpr std::array<double, 7> kHalved = {1, 1. / 2, 1. / 4, 1. / 8, 1. / 16, 1. / 32, 1. / 64};
 constexpr int kMostHalvings = std::bit_width(static_cast<unsigned>(kMostParts)) - 1;
 static_assert(kHalved.size() == kMostHalvings + 1);
@@ -61,7 +61,8 @@ void setSquare(LightSource& source) {
   source.v *= half;
 }
 
-// Vertices out of the plane by more than rounding leave the image of the square beside the mean plane.
+// If vertices deviate from the plane by more than rounding, the unit square is not mapped into the polygon's
+// mean plane.
 bool isFlat(const Polygon& polygon) { return polygon.thickness <= 1e-9 * std::sqrt(polygon.area); }
 
 void setShape(LightSource& source, const Polygon& polygon, const Scene& scene) {
@@ -77,7 +78,7 @@ void setShape(LightSource& source, const Polygon& polygon, const Scene& scene) {
     source.v = (v[3] - v[0]) / 2;
     return;
   }
-  // Not convex: a square of the same area around the centre, of which some samples miss.
+  // A concave polygon is sampled by a square of the same area around its center; some samples miss it.
   setSquare(source);
   source.map = LightSource::Map::square;
   if (!isConvex(v, polygon.normal)) {
@@ -128,8 +129,8 @@ void setShape(LightSource& source, const Distant& distant, const Scene&) {
   source.sinHalfAngle = std::sin(distant.halfAngle);
 }
 
-// Whether rays aimed at a shape's parts hit it. A goal may have any shape; one that can't be aimed at is met
-// by chance.
+// Whether every ray that is aimed at a part of the shape hits it. A goal may have any shape; one that cannot
+// be aimed at is only hit by chance.
 bool canBeAimedAt(const Shape& shape, const Scene& scene) {
   if (const auto* polygon = std::get_if<Polygon>(&shape))
     return isConvex(std::span(scene.vertices).subspan(polygon->firstVertex, polygon->vertices),
@@ -166,14 +167,14 @@ std::array<V3d, 4> cornersOf(const LightSource& source, const Part& p) {
   return {at(p.s0, p.t0), at(p.s1, p.t0), at(p.s1, p.t1), at(p.s0, p.t1)};
 }
 
-// The share of a part that its ray may lie in.
+// The region around a part's middle that its ray is jittered over.
 Part shrunk(const Part& p, double jitter) {
   const double s = (1 - jitter) / 2 * (p.s1 - p.s0), t = (1 - jitter) / 2 * (p.t1 - p.t0);
   return {p.s0 + s, p.s1 - s, p.t0 + t, p.t1 - t};
 }
 
-// Whether a part is so near that cosine / distance^2 differs much over it: rays that are spread by area would
-// scatter without bound.
+// Whether a part is so near that cosine / distance^2 varies strongly over it. Sampling it by area would then
+// have unbounded variance.
 bool isNear(const LightSource& source, const Part& part, const V3d& point) {
   constexpr double kNear = .5;
   const double width =
@@ -182,8 +183,8 @@ bool isNear(const LightSource& source, const Part& part, const V3d& point) {
   return width * width > kNear * kNear * (middle - point).length2();
 }
 
-// Splits until every part is small against its distance: its half-extents u and v at most `allowed` times
-// that. Each part is used with the way from there to its middle.
+// Splits a part until its half-extents u and v are at most `allowed` times its distance, or there are `most`
+// parts. Calls use() with each of them and with the vector from the point to its middle.
 template <class Position, class Use>
 void split(const Part& part, int most, double u, double v, double allowed, const V3d& from,
            const Position& position, const Use& use) {
@@ -212,8 +213,8 @@ double jittered(double from, double to, double jitter, Random& random) {
   return middle + jitter * (random.uniform() - .5) * (to - from);
 }
 
-// One coordinate of a place drawn evenly from the unit ball: its density, 3/4 (1 - z^2), is that of the
-// middle one of three even draws.
+// One coordinate of a uniformly distributed point in the unit ball. Its density, 3/4 (1 - z^2), is that of
+// the median of three uniform numbers.
 double depthInBall(Random& random) {
   const double a = random.uniform(), b = random.uniform(), c = random.uniform();
   return 2 * std::max(std::min(a, b), std::min(std::max(a, b), c)) - 1;
@@ -239,7 +240,7 @@ void LightSources::measureParts() {
     source.outermost = !source.distant ? source.radius : source.cosHalfAngle > 0 ? source.sinHalfAngle : 1;
     source.extentU = source.u.length();
     source.extentV = source.v.length();
-    // A disk counts as the square of its area, as for rtrace.
+    // A disk is split like the square of the same area, as in rtrace.
     if (source.map == LightSource::Map::disk) source.extentU = source.extentV = std::sqrt(source.area) / 2;
   }
 }
@@ -256,7 +257,7 @@ void LightSources::findSources() {
         scene_.surfaces[surface].shape);
     return source;
   };
-  // As for rtrace, what shines in octrees and meshes is only seen.
+  // As in rtrace, luminous surfaces in octrees and meshes are visible but are not light sources.
   for (uint32_t i = 0; i < scene_.outermost().size(); ++i) {
     const Surface& surface = scene_.surfaces[i];
     if (surface.material == kNone) continue;
@@ -276,15 +277,16 @@ void LightSources::findSources() {
   }
 }
 
-// towards: as sample() has it, for a source that the tests there leave.
+// towards: the vector to the source's center, or the unit direction to a distant source. REQUIRES that the
+// source has passed the tests in sample().
 void LightSources::sampleParts(uint32_t index, const V3d& point, const V3d& towards,
                                const SourceSampling& how, Random& random,
                                std::vector<SourceSample>& samples) const {
   const LightSource& source = sources_[index];
   const double jitter = how.jitter;
 
-  // Adds a sample, where the ray hits the source. omega: what it stands for. length: to the place inside the
-  // source that it is aimed at, which the reach is measured to.
+  // Adds a sample if the ray hits the source. omega: the solid angle (sr) that it represents. length: the
+  // distance to the point on or in the source that it is aimed at, which is compared with the reach.
   const auto add = [&](const V3d& direction, double omega, double length) {
     SourceSample sample{direction, omega, 1e10, 1, -direction, index};
     if (source.hitsWhereAimed && source.map == LightSource::Map::ball && jitter <= 0) {
@@ -295,7 +297,7 @@ void LightSources::sampleParts(uint32_t index, const V3d& point, const V3d& towa
       sample.normal = source.normal;
     } else if (!source.distant || source.isVirtual()) {
       ShapeHit hit;
-      // A virtual source's relay lies before its image.
+      // The relay of a virtual source lies in front of the image.
       const double farthest = source.isVirtual() && !source.distant ? length + source.radius : 1e10;
       if (!intersect(scene_.surfaces[source.surface].shape, scene_.vertices, point, direction, farthest, hit))
         return;
@@ -306,7 +308,7 @@ void LightSources::sampleParts(uint32_t index, const V3d& point, const V3d& towa
     if (source.reach > 0 && length > source.reach) return;
     if (source.spot && !source.distant) {
       if (outsideSpot(*source.spot, direction)) return;
-      // The light comes from a focus behind the surface.
+      // The light diverges from a focus behind the surface.
       const double nearer = length / (length + source.spot->focalLength);
       sample.solidAngle *= nearer * nearer;
     }
@@ -316,8 +318,8 @@ void LightSources::sampleParts(uint32_t index, const V3d& point, const V3d& towa
   const double distance = source.distant ? 1e10 : towards.length();
   if (source.reach > 0 && distance > source.reach + source.radius) return;
   if (source.isVirtual() && -towards.dot(source.beam) < source.cosBeam * distance) return;
-  // A round source: directions spread as the projected solid angle around its middle, so that one ray at the
-  // middle is exact for a surface that faces it, and jittered rays are for every surface.
+  // A round source: directions are uniform by solid angle projected along the middle direction. One ray to
+  // the middle is then exact for a surface that faces the source, and jittered rays are for every surface.
   const auto addRound = [&](const V3d& middle, double sine) {
     if (jitter <= 0) return add(middle, kPi * sine * sine, distance);
     const double s = sine * jitter * std::sqrt(random.uniform());
@@ -325,18 +327,17 @@ void LightSources::sampleParts(uint32_t index, const V3d& point, const V3d& towa
     const double c = std::sqrt(std::max(0., 1 - s * s));
     V3d x, y;
     frame(middle, x, y);
-    // The reach of a glow is measured to a place anywhere in the ball, so that its light does not end
-    // sharply.
+    // The reach of a glow is measured to a random point in the ball, so that its light has no sharp edge.
     double length = distance;
     if (source.reach > 0) length += jitter * source.radius * depthInBall(random);
     if (c > kEdgeOn)
       add(s * (std::cos(angle) * x + std::sin(angle) * y) + c * middle, kPi * sine * sine / c, length);
   };
 
-  // Parts are measured by their half-extents.
+  // The limit for half-extents, which is half that for sizes.
   const double allowed = how.largest / 2;
 
-  // The middle of a plane part, `aim` away.
+  // Adds a sample of a plane part. aim: the vector from the point to the place to hit.
   const auto addMiddle = [&](const V3d& aim, double length, double area) {
     if (!(length > 0)) return;
     const double inverse = 1 / length;
@@ -347,10 +348,11 @@ void LightSources::sampleParts(uint32_t index, const V3d& point, const V3d& towa
     if (!source.hitsWhereAimed || source.reach > 0 || source.spot) return add(direction, omega, length);
     samples.push_back({direction, omega, length, cosine, source.normal, index});
   };
-  // As split(), of a plane source that its two vectors span: its halves as often as either was halved.
+  // The same as split() for a plane source that is spanned by u and v, without recursion: a part is given by
+  // its middle and by the number of times that u and v were halved.
   const auto addMiddles = [&] {
     struct Place {
-      V3d middle;  // the way to it
+      V3d middle;  // the vector from the point to it
       int halvedU, halvedV;
     };
     std::array<Place, kMostHalvings> later;
@@ -380,7 +382,7 @@ void LightSources::sampleParts(uint32_t index, const V3d& point, const V3d& towa
   switch (source.map) {
     case LightSource::Map::cone:
       if (source.cosHalfAngle < kEdgeOn) {
-        // Half the sky or more: spread evenly over the cone instead.
+        // The source fills almost half the sky or more: directions are uniform by solid angle over the cone.
         const double c = 1 - (1 - source.cosHalfAngle) * (jitter > 0 ? random.uniform() * jitter : 0);
         const double angle = 2 * kPi * (jitter > 0 ? random.uniform() : 0);
         const double s = std::sqrt(std::max(0., 1 - c * c));
@@ -417,20 +419,21 @@ void LightSources::sampleParts(uint32_t index, const V3d& point, const V3d& towa
                 (length * length),
             length);
       };
-      // Nearer than that its width counts as much as its length: it is not split with profit.
+      // Nearer than this, the tube's width matters as much as its length, and splitting its length gains
+      // nothing.
       const bool divided = allowed > 0 && fromAxis > 2 * radius;
       split(Part{}, divided ? kMostParts : 1, halfLength, 0, allowed, point, at, use);
       return;
     }
 
     default: {
-      // at: the place on the source of a place on the unit square.
+      // at: maps the unit square to points on the source.
       const auto addPlane = [&](const auto& at) {
         const double height = source.normal.dot(point - source.center);
-        // Spread evenly over the part as it is seen.
+        // Samples the part uniformly by solid angle.
         const auto addNear = [&](Part part) {
-          // In the source's own plane rounding would decide from which side it is seen, and then it fills
-          // half the sky.
+          // For a point in the plane of the source, rounding would decide which side is seen, and the source
+          // would then fill half the sky.
           if (height <= kSamePlace) return;
           const std::array<V3d, 4> whole = cornersOf(source, part);
           const double below = triangleSolidAngle(whole[0], whole[1], whole[2], point);
@@ -460,7 +463,8 @@ void LightSources::sampleParts(uint32_t index, const V3d& point, const V3d& towa
         };
         split(Part{}, allowed > 0 ? kMostParts : 1, source.extentU, source.extentV, allowed, point, at, use);
       };
-      // By far the most, and a call for every place would cost as much as the rest.
+      // Most sources are of these kinds. The map is inlined for them, because a call for every point would
+      // cost as much as the rest.
       if (source.map == LightSource::Map::parallelogram || source.map == LightSource::Map::square)
         return addPlane([&](double s, double t) {
           return source.center + (2 * s - 1) * source.u + (2 * t - 1) * source.v;

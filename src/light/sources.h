@@ -1,7 +1,6 @@
 #pragma once
-// The light sources of a scene and how they are sampled from a point: split into parts that look small from
-// there
-// (-ds), one ray to each part, at its middle or jittered over it (-dj).
+// The light sources of a scene and how they are sampled from a point: a source is split into parts that are
+// small compared with their distance (-ds), and one ray goes to each part, at its middle or jittered (-dj).
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -13,24 +12,24 @@
 
 namespace rsphere {
 
-// A surface that lights others by the direct calculation: light, spotlight, illum, and glow within its reach;
-// with goals in the scene, those goals alone.
+// A surface that is sampled by the direct calculation (next-event estimation): light, spotlight, illum, and
+// glow within its reach. If the scene has importance goals, the goals are the only sources.
 //
-// Virtual sources follow them: what a relay (mirror, prism1, prism2) makes of another source, as an image of
-// its own place and extent that is seen through the relay alone.
+// Virtual sources follow the real ones: images of other sources in a relay (mirror, prism1, prism2). An image
+// has a position and an extent, and can only be seen through its relay.
 struct LightSource {
   int32_t surface =
-      kNone;  // index in Scene::surfaces; the relay of a virtual one: what a ray to it hits first
-  int32_t relayed = kNone;  // index of the source that a ray goes on to from the relay; kNone: a real one
+      kNone;  // index in Scene::surfaces; of a virtual source, its relay, which a ray to it hits first
+  int32_t relayed = kNone;  // index of the source that a ray reaches from the relay; kNone: a real source
   int32_t image = 0;        // which of its relay's images, from 0
   V3d center{0, 0, 0};      // direction to it (unit) where distant
-  double radius = 0;        // of a sphere around it (world units)
-  double reach = 0;         // farther from the sphere it lights nothing directly; 0: no limit
+  double radius = 0;        // of its bounding sphere around center (world units)
+  double reach = 0;         // beyond this distance (world units) it lights nothing directly; 0: no limit
   bool distant = false;
   double sinHalfAngle = 0, cosHalfAngle = 1;  // distant only
   std::optional<Spotlight> spot;
-  // The beam of a virtual source that is not distant: from the image's center, every direction of its light
-  // lies in a cone around beam (unit).
+  // The beam of a virtual source that is not distant: every point that it lights lies, as seen from the
+  // image's center, in this cone around beam (unit).
   V3d beam{0, 0, 1};
   double cosBeam = -1;
 
@@ -40,64 +39,65 @@ struct LightSource {
   // How the unit square lies on the source.
   enum class Map : uint8_t {
     parallelogram,  // center + (2s-1) u + (2t-1) v
-    square,         // the same, of equal area, for a polygon that is not convex: some of it is outside
+    square,         // the same for a concave polygon: a square of equal area, partly outside the polygon
     disk,           // area-preserving on the disk with radii u, v
-    fan,            // a convex polygon as triangles around its first vertex, by area
-    ball,           // no map: the cone of directions that the sphere fills
+    fan,            // a convex polygon as a fan of triangles around its first vertex, by area
+    ball,           // no map: the cone of directions that the sphere subtends
     tube,           // s along the axis (half-length u), t across as seen
     cone            // distant
   } map = Map::parallelogram;
   V3d u{0, 0, 0}, v{0, 0, 0};
-  double extentU = 0, extentV = 0;  // half of what its parts are measured by
-  double outermost = 0;             // how far its points are out from center, along any direction
+  double extentU = 0, extentV = 0;  // half its size along u and v, which decides how it is split
+  double outermost = 0;             // the largest distance of its points from center
   V3d normal{0, 0, 0};              // of plane sources
-  double area = 0;                  // of plane sources; of a tube's length times its diameter
+  double area = 0;                  // of plane sources; of a tube, its length times its diameter
   std::vector<double> fanArea;      // cumulative shares of the fan's triangles
   std::vector<V3d> fanVertices;
-  // A real one, plane and whole: what is aimed at the square's image on it hits it there. Or a sphere that
-  // shines outward.
+  // Rays need no intersection test with the source. Either it is real and flat, and the unit square maps into
+  // it, so that a ray hits it exactly where it was aimed; or it is a sphere that shines outward.
   bool hitsWhereAimed = false;
 };
 
-// One ray towards a source. solidAngle (sr) is what it stands for; the sum over a source's samples estimates
-// the solid angle of the source (exactly for spheres and distant sources as seen by a surface that faces
-// them; for plane ones by area * cosine / distance^2 at the sample).
+// One ray towards a source. solidAngle (sr) is its weight: the sum over a source's samples estimates the
+// solid angle of the source. The estimate uses area * cosine / distance^2 at the sample for plane sources,
+// and is exact for spheres and distant sources as seen by a surface that faces them.
 struct SourceSample {
   V3d direction{0, 0, 0};
   double solidAngle = 0;
-  double distance =
-      0;              // to where the source is hit, or the relay of a virtual one; kFarAway for distant ones
-  double cosine = 1;  // of the hit, positive on the front
+  double distance = 0;  // to the hit on the source, or on a virtual source's relay; 1e10 for distant sources
+  double cosine = 1;    // of the hit, positive on the front
   V3d normal{0, 0, 0};
   uint32_t source = 0;  // index in LightSources
 };
 
 // How a source is sampled.
 struct SourceSampling {
-  double largest = 0;  // size over distance of a part, at most; 0: not split
-  double jitter = 0;   // share of a part that its ray may lie in, 0 to 1
-  // Not 0: sources that lie wholly behind the plane through the point with this normal (unit) are left out.
+  double largest = 0;  // the largest ratio of a part's size to its distance (-ds); 0: sources are not split
+  double jitter = 0;   // the share of a part that its ray is spread over (-dj), 0 to 1
+  // Sources that lie entirely behind the plane through the point with this normal (unit) are omitted. 0: no
+  // source is omitted.
   V3d front{0, 0, 0};
 };
 
 class LightSources {
  public:
-  // Keeps a reference to the scene. Glow of zero or negative reach and distant glow are no light sources
-  // here.
+  // Keeps a reference to the scene. Distant glow and glow whose reach is zero or negative do not become light
+  // sources here.
   explicit LightSources(const Scene& scene);
 
-  // The same, and virtual sources by way of up to `relays` relays one after the other (-dr): see relays.h.
+  // The same, with virtual sources from sequences of up to `relays` relays (-dr): see relays.h.
   LightSources(const Scene& scene, int relays, const SurfaceFunctions& functions, const rad::Warn& warn);
 
   std::span<const LightSource> all() const { return sources_; }
 
-  // Appends the samples of one source as seen from a point; none where the source cannot light it: behind it,
-  // beyond its reach, outside its spot. At most 64 parts. A sample that misses the source it was aimed at is
-  // left out; one to a virtual source is only followed to the first relay: what comes back from there may be
-  // nothing.
+  // Appends the samples of one source as seen from a point, one for each of at most 64 parts. There are none
+  // if the source cannot light the point: it faces away, or the point is beyond its reach or outside its
+  // spot. A sample that misses the source it was aimed at is omitted. A sample of a virtual source is only
+  // tested against the first relay; a ray in its direction may still return no light.
   void sample(uint32_t source, const V3d& point, const SourceSampling& how, Random& random,
               std::vector<SourceSample>& samples) const {
-    // Most are turned away or behind the surface, and most images shine elsewhere: told here, without a call.
+    // Most sources face away or lie behind the surface, and most images shine elsewhere. These tests are
+    // inline because they save the call in most cases.
     const LightSource& light = sources_[source];
     const V3d towards = light.distant ? light.center : light.center - point;
     if (light.isPlane() && towards.dot(light.normal) >= 0) return;
@@ -107,7 +107,8 @@ class LightSources {
   }
 
  private:
-  // Whether a point is out of a virtual source's beam, by more than rounding. Without a root.
+  // Whether a point lies outside a virtual source's beam by more than the rounding error. Needs no square
+  // root.
   static bool surelyBeside(const LightSource& light, const V3d& towards) {
     const double along = -towards.dot(light.beam);
     return along < 0 || along * along < (1 - 1e-12) * light.cosBeam * light.cosBeam * towards.length2();
@@ -121,7 +122,7 @@ class LightSources {
   std::vector<LightSource> sources_;
 };
 
-// Whether a spotlight's cone leaves out the direction towards it (unit).
+// Whether a point lies outside a spotlight's cone. towards: from the point to the light (unit).
 inline bool outsideSpot(const Spotlight& spot, const V3d& towards) {
   constexpr double kTwoPi = 6.283185307179586;
   return spot.solidAngle < kTwoPi * (1 + spot.aim.dot(towards));

@@ -3,16 +3,16 @@
 
 namespace rsphere {
 
-// Solid angle, with its sign, of a triangle as seen from a point. Differences of the corners keep their
-// digits where the triangle is small or far. Source: Van Oosterom and Strackee 1983, IEEE Trans. Biomed. Eng.
-// 30/2.
+// Signed solid angle (sr) of a triangle as seen from a point. It is computed from the differences of the
+// corners, which keeps the relative precision for small and for distant triangles. Source: Van Oosterom and
+// Strackee 1983, IEEE Trans. Biomed. Eng. 30/2.
 double triangleSolidAngle(const V3d& a, const V3d& b, const V3d& c, const V3d& point);
 
-// An even map from the square to the spherical triangle. Arvo's construction: first the corner of the
-// triangle that holds the share u1 of the area, on the side from a to c; then a point between it and b. The
-// corner is found from tan(area / 2) = (a . b x c) / (1 + a.b + b.c + c.a), solved for the half angle from a:
-// no difference of angles and pi, which has few digits left where the triangle is small. Source: Arvo,
-// "Stratified Sampling of Spherical Triangles" (SIGGRAPH 1995). a, b, c: unit.
+// An area-preserving map from the unit square to the spherical triangle a, b, c (unit vectors). Source: Arvo,
+// "Stratified Sampling of Spherical Triangles" (SIGGRAPH 1995). First the corner c is moved along the arc
+// towards a, until the triangle has the share u1 of its area; then u2 selects a point on the arc between this
+// corner and b. Unlike Arvo, we find the corner from tan(area / 2) = (a . b x c) / (1 + a.b + b.c + c.a),
+// solved for half its angle from a. His difference of angles and pi loses most digits in small triangles.
 V3d sampleTriangle(const V3d& a, const V3d& b, const V3d& c, double solidAngle, double u1, double u2);
 
 }  // namespace rsphere

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
-// A thousandth of the size of what is left, but far enough that the object is not taken for where the ray
-// starts.
+// A thousandth of the shape's size, but far enough that the tracer does not take the shape for the surface
+// that the ray starts on.
 double clearanceOf(double size) { return std::max(size * 1e-3, 4 * kSamePlace); }
 
 SurfacePoint pointOn(const Polygon& polygon, std::span<const V3d> all, Random& random) {

@@ -6,16 +6,17 @@
 
 namespace rsphere {
 
-// A point on a shape, its unit normal on the front side, and how far from it a ray may start that is to hit
-// just it.
+// A point on a shape and its unit normal on the front side. clearance: the distance (world units) from the
+// point at which a ray may start that is meant to hit only this point.
 struct SurfacePoint {
   V3d point{0, 0, 0};
   V3d normal{0, 0, 1};
   double clearance = 0;
 };
 
-// Even by area for spheres, cylinders, rings and convex polygons; concave polygons may give points beside
-// them, cones points that are even along the axis. Not for Distant. vertices: Scene::vertices.
+// A random point, uniform by area on spheres, cylinders, rings and convex polygons. On cones it is uniform
+// along the axis instead. For a concave polygon it may lie outside the polygon. Not for Distant. vertices:
+// Scene::vertices.
 SurfacePoint samplePoint(const Shape& shape, std::span<const V3d> vertices, Random& random);
 
 }  // namespace rsphere
