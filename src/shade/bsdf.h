@@ -1,10 +1,10 @@
 #pragma once
-// Bidirectional scattering from XML files: how much goes from one direction to another, and sampling of it.
+// Bidirectional scattering distribution functions from XML files: evaluation and sampling.
 //
-// Directions are unit vectors that point away from the surface, in its own frame: z is its normal, so that
-// z > 0 is the front, and y is "up". Scattering is told for a view and another direction, the view being the
-// one that the data have light arrive from; where they lack this side's transmission the other side's serves,
-// turned round (Helmholtz reciprocity).
+// Directions are unit vectors that point away from the surface, in its local frame: z is its normal, so that
+// z > 0 is the front, and y is "up". Scattering is a function of a view and another direction. The view is
+// looked up as the direction that light arrives from in the data. If the data lack the transmission for the
+// side of the view, that of the other side is used with the directions exchanged (Helmholtz reciprocity).
 //
 // Sources: WINDOW 6's Klems matrices; Ward et al., LBNL-6535E, 2012 (tensor trees); Shirley and Chiu, "A low
 // distortion map between disk and square", JGT 2/3, 1997; RADIANCE's notes on BSDF directions.
@@ -23,11 +23,11 @@ namespace rsphere {
 struct Tristimulus {
   double x = 0, y = 0, z = 0;
 };
-// For RADIANCE's primaries and white; colours outside of what they can mix are mixed with grey of the same
+// For RADIANCE's primaries and white point. Colours outside their gamut are mixed with grey of the same
 // luminance until no channel is negative.
 Rgb rgbOf(const Tristimulus& c);
 
-// One of the four components of a file, but for the part that is the same for all directions.
+// One of the four components of a file, without its diffuse part, which is the same for all directions.
 class DirectedScattering {
  public:
   // incidentFront, scatteredFront: the sides that its data are for.
@@ -37,33 +37,34 @@ class DirectedScattering {
 
   bool transmits() const { return incidentFront_ != scatteredFront_; }
   bool incidentFront() const { return incidentFront_; }
-  // Whether a view on this side asks for the data turned round.
+  // Whether a view on this side needs the data with the directions exchanged.
   bool turned(const V3d& view) const { return transmits() && (view.z > 0) != incidentFront_; }
 
-  // A cell of the data, without what is diffuse: what is constant over it, its smaller projected solid angle
-  // (sr), and its number.
+  // A cell of the data: its value, which is constant over the cell and excludes the diffuse part; its
+  // projected solid angle (sr), the smaller of those for the two directions; and its number.
   struct Cell {
     Tristimulus value;  // 1/sr
     double projectedSolidAngle = 0;
     uint64_t number = 0;
   };
-  // Empty of light where either direction lies beyond the data's angles.
+  // The value is 0 if either direction lies outside the angles of the data.
   virtual Cell cell(const V3d& view, const V3d& other) const = 0;
 
-  // The share of light that is scattered, all directions together, by luminance.
+  // The share of the luminance that is scattered, summed over all directions.
   virtual double albedo(const V3d& view) const = 0;
-  // A direction drawn with the density (by projected solid angle) of luminance, for uniform u1, u2 in [0, 1).
-  // Requires an albedo above 0.
+  // A direction whose density by projected solid angle is proportional to luminance, for uniform u1, u2 in
+  // [0, 1). REQUIRES an albedo above 0.
   virtual V3d sample(const V3d& view, double u1, double u2) const = 0;
 
-  // Projected solid angles (sr) of cells about a view.
+  // Projected solid angles (sr) of the cells for a view.
   struct Resolution {
     double finest = 0, coarsest = 0;  // 0: no data
   };
   virtual Resolution resolution(const V3d& view) const = 0;
-  // Makes it ready to be asked from the other side; false where it cannot be, and answers an albedo of 0.
+  // Prepares views on the other side, with the directions exchanged. Returns false if the data do not allow
+  // that; the albedo of such views is then 0.
   virtual bool prepareTurned() = 0;
-  // Of all cells.
+  // The projected solid angle (sr) of the smallest of all cells, and the largest albedo of all views.
   double finestCell() const { return finestCell_; }
   double largestAlbedo() const { return largestAlbedo_; }
 
@@ -72,19 +73,19 @@ class DirectedScattering {
   double finestCell_ = 0, largestAlbedo_ = 0;
 };
 
-// A file made ready. Not changed by questions: any number of threads may ask.
+// The data of a file, prepared for sampling. Immutable: any number of threads may use it at once.
 class BsdfData {
  public:
-  // name: of the file, for messages. Warns where more than all light is scattered, and of what the data
-  // cannot be asked for.
+  // name: of the file, for messages. Warns if the data scatter more light than arrives, and of transmission
+  // that they do not define.
   BsdfData(const rad::BsdfFile& file, std::string_view name, const rad::Warn& warn);
 
-  // The share of light that is scattered evenly, by the side of the view: the smallest value that the data
-  // have for it, where that is worth more than 1% of the light; the rest is directed.
+  // The share of light that is scattered diffusely, by the side of the view: the smallest value of the data,
+  // if that is more than 1% of the light, otherwise 0. The rest is directed.
   const Rgb& diffuseReflectance(bool front) const { return diffuse_[front ? 0 : 1]; }
   const Rgb& diffuseTransmittance(bool front) const { return diffuse_[front ? 2 : 3]; }
 
-  // The directed part of what a view on this side sees; null where there is none.
+  // The directed part for a view on this side; null if there is none.
   const DirectedScattering* reflection(bool front) const { return directed_[front ? 0 : 1].get(); }
   const DirectedScattering* transmission(bool front) const {
     const auto& own = directed_[front ? 2 : 3];
@@ -97,12 +98,12 @@ class BsdfData {
     return front == (other.z > 0) ? reflection(front) : transmission(front);
   }
 
-  // The finest and the coarsest cells about a view in reflection and transmission; pi where there is no
+  // The finest and the coarsest cells for a view, in reflection and transmission together; pi if there is no
   // directed part.
   DirectedScattering::Resolution resolution(const V3d& view) const;
 
-  // The share of light that goes straight on, and the scattering (1/sr) around that; black where the data
-  // have no narrow peak there. The diffuse part is in neither.
+  // The share of light that is transmitted without deflection, and the scattering (1/sr) around that
+  // direction; black if the data have no narrow peak there. Neither contains the diffuse part.
   struct Through {
     Rgb peak{0, 0, 0}, around{0, 0, 0};
   };

@@ -2,9 +2,9 @@
 // Materials whose directional scattering is a function or table: plasfunc, metfunc, transfunc, plasdata,
 // metdata, transdata and BRTDfunc, as pure functions. Source: RADIANCE reference manual, "Material types".
 //
-// What the functions say is only asked for towards light sources, as the original does: directional indirect
-// light is taken for diffuse (plasfunc and its kin) or left out (BRTDfunc). Whether a material gives back
-// more than it gets is up to its functions.
+// As in RADIANCE, the functions are evaluated for light sources only. For indirect light, the directional
+// component is treated as diffuse (plasfunc and the like) or omitted (BRTDfunc). Whether a material conserves
+// energy depends on its functions.
 #include <array>
 
 #include "shade/scattering.h"
@@ -14,17 +14,18 @@ namespace rsphere {
 struct FunctionScattering {
   V3d normal{0, 0, 1};  // perturbed, on the ray's side
   double cosine = 1;    // -normal . direction
-  Rgb color{1, 1, 1};   // that the functions are told of
+  Rgb color{1, 1, 1};   // passed to the functions as the material's colour
   SharpPaths sharp;
   Rgb diffuseReflection{0, 0, 0}, diffuseTransmission{0, 0, 0};
   Rgb ambientReflection{0, 0, 0}, ambientTransmission{0, 0, 0};
-  // What the functions' values are multiplied by, before the surface and beyond it; black: they aren't asked.
+  // The factors on the functions' values for sources in front of the surface and behind it. If the factor is
+  // black, the functions are not evaluated.
   Rgb directionalReflection{0, 0, 0}, directionalTransmission{0, 0, 0};
 };
 
 FunctionScattering scatter(const FunctionScatterer& material, const Interaction& at);
 
-// Without its sharp paths, which depend on functions that are told what is in here.
+// The sharp paths are missing, because the functions that define them take this result as input.
 FunctionScattering scatter(const BrtdFunction& material, const Interaction& at);
 // Its sharp paths, with the coefficients that its functions give.
 SharpPath sharpTransmission(const FunctionScattering& scattering, const Interaction& at,
@@ -32,13 +33,13 @@ SharpPath sharpTransmission(const FunctionScattering& scattering, const Interact
 SharpPath sharpReflection(const FunctionScattering& scattering, const Interaction& at,
                           const std::array<double, 3>& coefficient);
 
-// The share of a source's radiance that leaves along the ray; see scattering.h. distribution: answers the
-// functions' values, per sr, and is called once at most.
+// The share of a source's radiance that is scattered towards the ray's origin; see scattering.h.
+// distribution: returns the functions' values (1/sr); it is called at most once.
 template <class Distribution>
 Rgb directCoefficient(const FunctionScattering& s, const V3d& toSource, double solidAngle,
                       const Distribution& distribution) {
-  constexpr double kNegligible = 1e-6;               // what is lit from farther aslant, and less, is not lit
-  constexpr double kPerSr = 0.31830988618379067154;  // 1/pi: a diffuse surface's
+  constexpr double kNegligible = 1e-6;               // smaller cosines and coefficients are treated as 0
+  constexpr double kPerSr = 0.31830988618379067154;  // 1/pi: of a diffuse surface
   const double cosine = s.normal.dot(toSource);
   if (std::abs(cosine) <= kNegligible) return Rgb(0, 0, 0);
   const double projected = std::abs(cosine) * solidAngle;

@@ -7,21 +7,21 @@
 
 namespace rsphere {
 
-// A picture as patterns and mixtures use it: radiances over the unit square, or what the longer side makes of
-// it. Immutable.
+// A picture as patterns and mixtures use it: radiances over a rectangle whose shorter side is 1. Immutable.
 class Picture {
  public:
-  // Reads a RADIANCE picture: run-length coded RGBE or XYZE, new or old code or none, in any of the eight
-  // orders of pixels. Its exposure is not undone. Throws rad::Error that begins with the path: no such
-  // picture, or a damaged one (Status::input); no readable file (Status::system).
+  // Reads a RADIANCE picture: RGBE or XYZE, with new, old or no run-length coding, in any of the eight pixel
+  // orders. Its exposure is not undone. Throws rad::Error, which begins with the path: Status::input if the
+  // file is no such picture or is damaged, Status::system if it cannot be read.
   static Picture read(const std::string& path);
 
   size_t width() const { return width_; }
   size_t height() const { return height_; }
 
-  // The colour at (x, y): the middles of the corner pixels are at 0 and at the picture's size, the lower left
-  // one at (0, 0); its shorter side is 1 long (RADIANCE reference manual, "Colorpict"; PIXASPECT counts).
-  // Linear between pixels; beyond them as data files are (rad::DataFile::value).
+  // The colour at (x, y), interpolated linearly between pixels. The center of the lower left pixel is at (0,
+  // 0), the centers of the other corner pixels are at the picture's size, and the shorter side, with regard
+  // to PIXASPECT, is 1 (RADIANCE reference manual, "Colorpict"). Outside, the picture is extended like a data
+  // file (rad::DataFile::value).
   Rgb value(double x, double y) const;
 
  private:
@@ -30,7 +30,7 @@ class Picture {
   };
   size_t width_ = 0, height_ = 0;
   double sizeX_ = 1, sizeY_ = 1;
-  std::vector<Pixel> pixels_;  // the lowest row first, from left to right
+  std::vector<Pixel> pixels_;  // the lowest row first, each from left to right
 };
 
 }  // namespace rsphere

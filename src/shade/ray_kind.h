@@ -2,14 +2,14 @@
 
 namespace rsphere {
 
-// How a ray came about; a ray carries its own kind and, summed up, those of its ancestors.
+// How a ray was generated. A ray carries its own kind and, as a sum of bits, the kinds of its ancestors.
 enum RayKind : unsigned {
   kPrimary = 1,
   kReflectedShadow = 2,  // to a light source on the side that the ray came from
   kReflected = 4,        // mirrored
   kRefracted = 8,
-  kTransmitted = 16,        // straight on, or nearly
-  kReflectedAmbient = 32,   // to gather indirect light
+  kTransmitted = 16,        // undeflected, or nearly
+  kReflectedAmbient = 32,   // gathers indirect light
   kReflectedSpecular = 64,  // a sample of a rough reflection
   kTransmittedShadow = 128,
   kTransmittedAmbient = 256,
@@ -17,7 +17,7 @@ enum RayKind : unsigned {
   kShadow = kReflectedShadow | kTransmittedShadow,
   kAmbient = kReflectedAmbient | kTransmittedAmbient,
   kSpecular = kReflectedSpecular | kTransmittedSpecular,
-  // the kinds that count as a reflection for -lr
+  // the kinds that -lr counts as reflections
   kReflections = kReflectedShadow | kReflected | kReflectedAmbient | kReflectedSpecular
 };
 
