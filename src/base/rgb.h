@@ -4,13 +4,13 @@
 
 namespace rsphere {
 
-// Three channels: radiance (W/sr/m2), irradiance (W/m2), importance or a coefficient, as the name beside it
-// says.
+// Three channels of radiance (W/sr/m2), irradiance (W/m2), importance or a coefficient, as the name of the
+// variable says.
 using Rgb = Imath::Color3<double>;
 using Imath::V3d;
 
-// Weights of the channels in one number, for RADIANCE's primaries and its white point (1/3, 1/3): what
-// rtrace -pY, thresholds and the light vector call brightness.
+// Weights of the channels in the brightness, for RADIANCE's primaries and its white point (1/3, 1/3). rtrace
+// -pY, thresholds and the light vector use this brightness.
 inline constexpr double kRedWeight = .265105820, kGreenWeight = .670105820, kBlueWeight = .064788360;
 inline double brightness(const Rgb& c) { return kRedWeight * c.x + kGreenWeight * c.y + kBlueWeight * c.z; }
 inline double maxChannel(const Rgb& c) {

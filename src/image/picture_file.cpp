@@ -42,7 +42,8 @@ PictureFile::~PictureFile() {
 }
 
 void PictureFile::fail(const std::string& why) {
-  // A picture that ends in the middle would look whole to some readers. A device cannot be made empty.
+  // Some readers would take a truncated picture for a complete one, so the file is emptied. Devices cannot be
+  // emptied; that error is ignored.
   if (fd_ >= 0 && ftruncate(fd_, 0) != 0) errno = 0;
   cannotWrite(name_, why);
 }

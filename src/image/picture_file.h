@@ -12,20 +12,21 @@ struct Raster {
   std::vector<float> pixels;
 };
 
-// What a format keeps.
+// The formats, by the values that they store.
 enum class PictureFormat {
-  radiance,  // RADIANCE's own (HDR): radiance, and a header in which views are told
+  radiance,  // RADIANCE's own (HDR): radiance, and a header that gives the view
   linear,    // EXR and TIFF: radiance
   screen     // PNG, JPEG and all others: screen colours
 };
 
-// The format that the suffix of a name asks for; .pic is RADIANCE's, too. Throws rad::Error (Status::system),
-// with the name, where there is no such format.
+// The format for the suffix of a name; .pic, too, is RADIANCE's. Throws rad::Error (Status::system), with the
+// name, if there is no such format.
 PictureFormat pictureFormat(const std::string& name);
 
-// A file for a picture, made empty when it is opened, so that what cannot be written is known before anything
-// is computed for it. Both throw rad::Error (Status::system), which names the file and what the system says
-// of it: 'cannot write picture "a.png": No space left on device'. A file that is not whole is left empty.
+// A file for a picture. It is created or emptied when it is opened, so that a file that cannot be written
+// causes an error before the picture is computed. The constructor and write() throw rad::Error
+// (Status::system) with the name of the file and the system's message: 'cannot write picture "a.png": No
+// space left on device'. A file that could not be written completely is left empty.
 class PictureFile {
  public:
   explicit PictureFile(std::string name);
@@ -35,7 +36,8 @@ class PictureFile {
 
   PictureFormat format() const { return format_; }
 
-  // Once. header: for PictureFormat::radiance, the lines before FORMAT, each with its line end.
+  // REQUIRES that it has not been called before. header: for PictureFormat::radiance, the lines before
+  // FORMAT, each with its line end.
   void write(const Raster& raster, std::string_view header);
 
  private:

@@ -8,11 +8,11 @@ namespace rsphere {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kNegligible = 1e-6;  // shares and slopes below it are none; RADIANCE's own figure
+constexpr double kNegligible = 1e-6;  // smaller shares and slopes are treated as 0; RADIANCE's own figure
 constexpr double kLeastCosine = .001;
 
-// The rise of a polished WGMDfunc: Ward's exponential for an index of about 1.5, with the original's
-// constant, which leaves .0008 at right angles.
+// The Fresnel rise of a polished WGMDfunc: Ward's exponential for an index of about 1.5. The constant is
+// RADIANCE's; it leaves a rise of .0008 at normal incidence.
 double fresnelRise(double cosine) { return std::exp(-5.85 * cosine) - .00202943064; }
 constexpr double kFresnelSpecularity = .017999;
 
@@ -30,13 +30,13 @@ V3d normalOf(const Interaction& at, double& cosine) {
 
 Rgb gray(double x) { return Rgb(x, x, x); }
 
-// A lobe's slopes along the tangents of its normal.
+// Sets the lobe's tangents and its mean square slopes along them.
 void orient(EllipticLobe& lobe, const V3d& along, double roughnessAlong, double roughnessAcross) {
   lobe.tangents = tangents(lobe.normal, along);
   lobe.alongSquare = roughnessAlong * roughnessAlong;
   lobe.acrossSquare = roughnessAcross * roughnessAcross;
   if (lobe.tangents.given) return;
-  constexpr double kAlike = .001;  // roughnesses this close are one; RADIANCE's own figure
+  constexpr double kAlike = .001;  // roughnesses this close are treated as equal; RADIANCE's own figure
   lobe.disoriented = std::abs(roughnessAlong - roughnessAcross) > kAlike;
   lobe.alongSquare = lobe.acrossSquare = (lobe.alongSquare + lobe.acrossSquare) / 2;
 }
@@ -50,7 +50,7 @@ double reflectedLobe(const EllipticLobe& lobe, const V3d& direction, const V3d& 
          (kPi * up2 * up2 * std::sqrt(along2 * across2));
 }
 
-// Times the cosine of the direction to the source, cosineBeyond > 0.
+// The lobe's value (1/sr) times the cosine of the direction to the source, cosineBeyond > 0.
 double transmittedLobe(const EllipticLobe& lobe, const V3d& toSource, double cosineBeyond,
                        double solidAngle) {
   const double widening = solidAngle / kPi;
@@ -68,7 +68,7 @@ double transmittedLobe(const EllipticLobe& lobe, const V3d& toSource, double cos
   return std::exp(-exponent) / kPi * std::sqrt(cosineBeyond / (lobe.cosine * along2 * across2));
 }
 
-// An offset within the tangent plane, by the Gaussian of the lobe's slopes.
+// A sample of the lobe's Gaussian distribution of slopes, as an offset in the tangent plane.
 V3d offset(const EllipticLobe& lobe, double spread, double u1, double u2) {
   const double v = std::max(1 - std::min(spread, 1.) * u2, kNegligible);
   const double radius = std::sqrt(-std::log(v)), angle = 2 * kPi * u1;
@@ -76,7 +76,7 @@ V3d offset(const EllipticLobe& lobe, double spread, double u1, double u2) {
          radius * std::sin(angle) * std::sqrt(lobe.acrossSquare) * lobe.tangents.across;
 }
 
-// WGMDfunc's reflected and transmitted component: its lobe, or its sharp path.
+// The lobe of a component of WGMDfunc. Sets sharp if the component is to become a sharp path instead.
 EllipticLobe beginLobe(const WgmdComponent& c, const V3d& along, bool& sharp) {
   EllipticLobe lobe;
   lobe.share = c.at.pattern * c.share;
@@ -87,8 +87,8 @@ EllipticLobe beginLobe(const WgmdComponent& c, const V3d& along, bool& sharp) {
   return lobe;
 }
 
-// Decides whether a lobe is sampled (-st), or counts with the indirect light: that of a diffuse component, if
-// there is one.
+// Decides whether a lobe is sampled (-st). If it is not, its share is added to the indirect light of the
+// diffuse component, provided that this is not black.
 void sampleOrAdd(EllipticLobe& lobe, double share, double threshold, DiffuseComponent& diffuse) {
   lobe.sampled = threshold < share - kNegligible;
   if (!lobe.sampled && maxChannel(diffuse.share) > kNegligible) diffuse.ambient += lobe.share;
@@ -104,7 +104,7 @@ Tangents tangents(const V3d& normal, const V3d& direction) {
   Tangents t;
   t.across = normal.cross(direction);
   const double length = t.across.length();
-  // A length of nothing, and what rounding leaves where both are parallel.
+  // The direction is zero, or parallel to the normal up to rounding.
   if (!(length > 1e-12 * direction.length())) {
     t.given = false;
     frame(normal, t.along, t.across);
@@ -259,7 +259,7 @@ AshikhminScattering scatter(const Ashikhmin& m, const Interaction& at, const V3d
   s.powerAlong = m.powerAlong;
   s.powerAcross = m.powerAcross;
   s.tangents = tangents(s.reflection.normal, along);
-  if (!s.tangents.given) {  // their harmonic mean; the constant keeps it from 1/0
+  if (!s.tangents.given) {  // the harmonic mean of the powers; the constant avoids a division by zero
     constexpr double kAbove = 1e-5;
     s.powerAlong = s.powerAcross = 2 / (1 / (m.powerAlong + kAbove) + 1 / (m.powerAcross + kAbove));
   }
@@ -280,7 +280,8 @@ Rgb directCoefficient(const AshikhminScattering& s, const V3d& direction, const 
     const V3d half = (toSource - direction).normalized();
     const double up = half.dot(s.reflection.normal);
     const double a = half.dot(s.tangents.along), b = half.dot(s.tangents.across);
-    // (h.u)^2 and (h.v)^2 sum up to 1 - (h.n)^2; where both are 0 the power makes no difference.
+    // (h.u)^2 + (h.v)^2 = 1 - (h.n)^2. If this is 0, the base of the power is 1 and the exponent is
+    // irrelevant.
     const double within = 1 - up * up;
     const double power = within > 0 ? (s.powerAlong * a * a + s.powerAcross * b * b) / within : 0;
     const double lobe = std::pow(up, power) * std::sqrt((s.powerAlong + 1) * (s.powerAcross + 1)) /

@@ -60,9 +60,10 @@ struct WgmdComponent {
   double share = 0;                                // of a lobe; 0: none
   double roughnessAlong = 0, roughnessAcross = 0;  // either 0: sharp
 };
-// If the share of a sharp reflection is at least that of a polished surface, it rises towards grazing angles
-// (Fresnel), and all other components are reduced accordingly. The transmitted lobe is bent against the
-// perturbation as seen from the front, for rays from either side, so that the path of light is reversible.
+// If the share of a sharp reflection is at least .018, as for a polished surface, it rises towards grazing
+// angles (Fresnel), and all other components are reduced accordingly. The transmitted lobe is bent against
+// the perturbation as seen from the front, for rays from either side, so that the path of light is
+// reversible.
 AnisotropicScattering scatter(const WgmdFunction& material, const WgmdComponent& reflected,
                               const WgmdComponent& transmitted, const Interaction& diffuseReflected,
                               const Interaction& diffuseTransmitted, const V3d& along,

@@ -26,7 +26,7 @@ constexpr double kBelowOne = 1 - 0x1p-53;
 constexpr double kPrimaries[3][2] = {{.640, .330}, {.290, .600}, {.150, .060}};
 
 M33d rgbFromXyz() {
-  M33d primaries;  // row vectors: rgb * primaries = xyz, each row scaled so that white comes out
+  M33d primaries;  // for row vectors: rgb * primaries = xyz; rows are scaled so that (1, 1, 1) gives white
   for (int i = 0; i < 3; ++i) {
     primaries[i][0] = kPrimaries[i][0] / kPrimaries[i][1];
     primaries[i][1] = 1;
@@ -38,8 +38,8 @@ M33d rgbFromXyz() {
   return primaries.inverse();
 }
 
-// Sharpened sensors (Finlayson and Suesstrunk, CIC 2000), in which the smallest of several colours is least
-// distorted: what the original takes as the diffuse part of coloured data.
+// The colour space of sharpened sensors (Finlayson and Suesstrunk, CIC 2000), in which the minimum of several
+// colours by channel is distorted least. As in RADIANCE, this minimum is the diffuse part of coloured data.
 const M33d kXyzFromSharp(.8156, .3791, -.0123, .0472, .5769, .0167, .1372, .0440, .9955);
 const M33d kSharpFromXyz(1.2694, -.8364, .0297, -.0988, 1.8006, -.0315, -.1706, .0357, 1.0018);
 
@@ -56,7 +56,8 @@ Tristimulus ofChromaticity(double y, double u, double v) {
 
 // ---- the diffuse part
 
-// Less is not worth a calculation of its own; grey trees above the other figure are left as they are.
+// 1/sr. A smaller diffuse part is not separated from the data, because a diffuse calculation is not worth its
+// cost; nor is the diffuse part of grey trees separated from the second figure on.
 constexpr double kLeastDiffuse = .01 / kPi;
 constexpr double kMostDiffuseTree = 1.5 / kPi;
 
@@ -68,7 +69,7 @@ class Smallest {
     for (int i = 0; i < 3; ++i) sharp_[i] = std::min(sharp_[i], sharp[i]);
   }
   void addGrey(double y) { y_ = std::min(y_, y); }
-  // 1/sr; 0 where it counts for nothing.
+  // 1/sr; 0 if it is negligible.
   Tristimulus grey() const { return kept({y_, y_, y_}); }
   Tristimulus colored() const {
     const V3d c = sharp_ * kXyzFromSharp;
@@ -87,7 +88,7 @@ class Smallest {
 
 struct Rings {
   struct Ring {
-    double lowerSquare, upperCosine, upperSquare;  // squares of cosines where it begins and ends
+    double lowerSquare, upperCosine, upperSquare;  // cosines at its lower and upper angle, and their squares
     size_t first, cells;
     double projectedSolidAngle;  // of a cell
   };
@@ -122,7 +123,7 @@ struct Rings {
     return {};
   }
 
-  // Even by projected solid angle.
+  // A direction within a cell, uniform by projected solid angle.
   V3d within(size_t cell, double u1, double u2) const {
     const Ring& ring = ringOf(cell);
     const double square = (1 - u1) * ring.lowerSquare + u1 * ring.upperSquare;
@@ -206,7 +207,7 @@ class MatrixScattering final : public DirectedScattering {
   }
 
  private:
-  // For each row, running sums of albedo over cells.
+  // For each row, the cumulative sums of albedo over the cells.
   class Table {
    public:
     Table() = default;
@@ -223,12 +224,12 @@ class MatrixScattering final : public DirectedScattering {
       }
     }
     double total(size_t row) const { return sums_[(row + 1) * cells_ - 1]; }
-    // Leaves in u what it says within the cell.
+    // The cell that a uniform u selects. Sets u to the uniform number that remains for within the cell.
     size_t sample(size_t row, double& u) const {
       const auto sums = std::span(sums_).subspan(row * cells_, cells_);
       const double target = u * sums.back();
       auto found = static_cast<size_t>(std::upper_bound(sums.begin(), sums.end(), target) - sums.begin());
-      // Rounding may lead beyond the last cell that has any.
+      // Rounding may lead beyond the last cell that is not black.
       if (found == cells_)
         found = static_cast<size_t>(std::lower_bound(sums.begin(), sums.end(), sums.back()) - sums.begin());
       const double before = found == 0 ? 0 : sums[found - 1];
@@ -241,7 +242,8 @@ class MatrixScattering final : public DirectedScattering {
     std::vector<float> sums_;
   };
 
-  // Light's own direction, turned round: azimuths of light that goes straight on are the same.
+  // The data give the incident direction as the one in which the light travels: light that is transmitted
+  // without deflection has the same azimuth on both sides.
   std::optional<size_t> incidentCell(const V3d& d) const { return in_.cellOf(-d.x, -d.y, std::abs(d.z)); }
   std::optional<size_t> scatteredCell(const V3d& d) const { return out_.cellOf(d.x, d.y, std::abs(d.z)); }
 
@@ -252,8 +254,8 @@ class MatrixScattering final : public DirectedScattering {
 
 // ---- tensor trees
 
-// Area-preserving from the disk to the square: with unit vectors' x and y, equal areas of [0, 1)^2 are equal
-// projected solid angles.
+// An area-preserving map from the unit disk to the square [0, 1)^2. Applied to x and y of unit vectors, it
+// maps equal projected solid angles to equal areas.
 std::array<double, 2> squareOfDisk(double x, double y) {
   const double r = std::sqrt(x * x + y * y);
   double a = 0, b = 0;
@@ -287,7 +289,7 @@ struct Leaf {
   int depth = 0;
 };
 
-// Where a tree has the point. p: as many as its rank, within [0, 1).
+// The leaf of a tree that contains the point. p: as many coordinates in [0, 1) as the tree's rank.
 Leaf find(const rad::TensorTree& tree, int rank, Coordinates p) {
   Leaf leaf;
   while (const uint32_t children = tree.nodes[leaf.node].children) {
@@ -305,14 +307,14 @@ Leaf find(const rad::TensorTree& tree, int rank, Coordinates p) {
   return leaf;
 }
 
-// Means of a tree over two of its dimensions, as functions of the others. A branch of the tree gets a tree
-// over those others, whose leaves are means; together they have about a third as many nodes as the tree has
-// leaves, as each such level has a quarter of the one below. The rival, a running sum for each cell of view
-// directions, made when it is first met, needs a lock and an upper limit of memory.
+// Means of a tree over two of its dimensions, as functions of the others. Each branch of the tree gets a tree
+// over those others whose leaves are means. Together these have about a third as many nodes as the tree has
+// leaves, because each level needs a quarter of the nodes of the level below. The alternative, cumulative
+// sums for each cell of view directions that are made on first use, needs a lock and a limit on memory.
 class Means {
  public:
   Means() = default;
-  // The dimensions that directions are drawn in are the first two or the last two.
+  // drawFirst: whether directions are drawn in the first two dimensions or in the last two.
   Means(const rad::TensorTree& tree, int rank, bool drawFirst)
       : tree_(&tree), rank_(rank), given_(rank - 2), drawFirst_(drawFirst) {
     roots_.resize(tree.nodes.size() >> rank);
@@ -321,17 +323,17 @@ class Means {
 
   struct Mean {
     double value;
-    int finest, coarsest;  // depth of the smallest and the largest cells
+    int finest, coarsest;  // depths of the smallest and the largest cells
   };
-  // given: coordinates of the dimensions that are not drawn in.
+  // given: the coordinates in the dimensions that are not sampled.
   Mean at(const Coordinates& given) const { return mean(refer(0, 0), given); }
   double largest() const {
     const Reference root = refer(0, 0);
     return root.node == 0 ? root.value : largestBelow(root.node);
   }
 
-  // A point of the two other dimensions with the density of the tree's values (hierarchical warping: McCool
-  // and Harwood 1997).
+  // A point in the two sampled dimensions, with a density proportional to the tree's values (hierarchical
+  // warping: McCool and Harwood 1997).
   std::array<double, 2> draw(Coordinates given, double u1, double u2) const {
     uint32_t node = 0;
     double x = 0, y = 0, width = 1;
@@ -360,7 +362,7 @@ class Means {
   };
   // A constant, or a node of these trees.
   struct Reference {
-    uint32_t node = 0;  // 0: a constant, as the first node is not used
+    uint32_t node = 0;  // 0: a constant; the first node is unused
     float value = 0;
     int depth = 0;
   };
@@ -381,7 +383,7 @@ class Means {
     return quadrant;
   }
 
-  // Takes the second half in proportion to its mass; u is left uniform.
+  // Selects the second half with probability proportional to its mass. Afterwards u is uniform again.
   static bool choose(double first, double second, double& u) {
     const double target = u * (first + second);
     const bool taken = target >= first && second > 0;
@@ -536,7 +538,8 @@ class TreeScattering final : public DirectedScattering {
     return most + 1;
   }
 
-  // The values of the tree's cells. Half of those of isotropic data are for no direction.
+  // Adds the values of the tree's cells. In isotropic data, half of the cells correspond to no direction and
+  // are skipped.
   void collect(Smallest& smallest, bool colored, uint32_t y, uint32_t u, uint32_t v, bool root) const {
     const uint32_t children = trees_.y.nodes[y].children;
     if (children == 0) {
@@ -564,13 +567,15 @@ class TreeScattering final : public DirectedScattering {
     return sum / (1U << rank_);
   }
 
-  // Cosine and sine of the azimuth that isotropic data count from: where light from the view goes.
+  // Cosine and sine of the azimuth from which isotropic data are measured: that in which light from the view
+  // travels on.
   static std::array<double, 2> azimuth(const V3d& view) {
     const double r = std::sqrt(view.x * view.x + view.y * view.y);
     if (!(r > 0)) return {1, 0};
     return {-view.x / r, -view.y / r};
   }
-  // Half of the dimension serves all angles, from grazing to right angles.
+  // The coordinate for the polar angle: the lower half of the dimension covers all angles, from grazing (0)
+  // to normal (.5).
   static double slant(const V3d& d) {
     return std::clamp(.5 - .5 * std::sqrt(d.x * d.x + d.y * d.y), 0., .5 - 0x1p-54);
   }
@@ -585,7 +590,7 @@ class TreeScattering final : public DirectedScattering {
     return {i[0], i[1], o[0], o[1]};
   }
 
-  // Null where the data cannot be asked this way round.
+  // Null if the directions of the data cannot be exchanged.
   const Means* meansFor(const V3d& view) const {
     if (!turned(view)) return &straight_;
     return turned_ ? &*turned_ : nullptr;
@@ -670,8 +675,8 @@ BsdfData::Through BsdfData::through(const V3d& view) const {
   const DirectedScattering* part = transmission(front);
   if (!part) return {};
 
-  // Cells about the direction straight on: points of a grid of 9 by 9, its outer ones left out, 0.6 cells
-  // apart. What counts as a peak, and what as its surroundings, by the original's figures.
+  // Probes cells around the undeflected direction: on the axes and diagonals of a 9 by 9 grid with a spacing
+  // of 0.6 cells, without its corners. The criteria for a peak and its surroundings are RADIANCE's.
   struct Probe {
     double luminance;
     DirectedScattering::Cell cell;

@@ -16,11 +16,11 @@
 namespace rsphere {
 namespace {
 
-// Rows of pixels as the file has them: rows x columns, and where they belong in the picture.
+// The order of the pixels in the file: the numbers of rows and columns, and their places in the picture.
 struct Layout {
   size_t rows = 0, columns = 0;
-  bool columnsAlongX = true;                  // else each row of the file is a column of the picture
-  bool rowsFall = true, columnsFall = false;  // whether they run against their axis
+  bool columnsAlongX = true;                  // otherwise each row of the file is a column of the picture
+  bool rowsFall = true, columnsFall = false;  // whether they run against the direction of their axis
 };
 
 struct Header {
@@ -95,12 +95,12 @@ Header readHeader(std::string_view bytes, const std::string& path) {
   return header;
 }
 
-// The pixels of a file, four bytes each: three mantissas and the exponent that they share.
+// Reads the pixels of a file, of four bytes each: three mantissas and their shared exponent.
 class PixelReader {
  public:
   PixelReader(std::string_view coded, const std::string& path) : left_(coded), path_(path) {}
 
-  // Reads the next row: channel after channel in runs, or pixel after pixel with runs of the old kind.
+  // Reads the next row: either by channel, with run-length coding, or by pixel, with runs of the old code.
   void read(std::vector<Rgbe>& row) {
     const size_t count = row.size();
     if (count >= 8 && count < 32768 && left_.size() >= 4 && left_.starts_with("\2\2") && byteAt(2) < 128) {
@@ -131,7 +131,8 @@ class PixelReader {
     }
   }
 
-  // (1, 1, 1, n) repeats what was before n times; one after another count in steps of 256.
+  // In the old code, (1, 1, 1, n) repeats the preceding pixel n times. In successive ones, n is multiplied by
+  // 1, 256, 256^2 and so on.
   void readPixels(std::vector<Rgbe>& row) {
     int shift = 0;
     for (size_t at = 0; at < row.size();) {
@@ -153,7 +154,7 @@ class PixelReader {
   const std::string& path_;
 };
 
-// Each mantissa stands for the middle of its step. Source: RADIANCE file formats, "Picture File Format".
+// A mantissa is decoded to the middle of its step. Source: RADIANCE file formats, "Picture File Format".
 void decode(const Rgbe& pixel, float* rgb) {
   static const std::array<float, 256> steps = [] {
     std::array<float, 256> s{};
@@ -164,9 +165,9 @@ void decode(const Rgbe& pixel, float* rgb) {
   for (size_t i = 0; i < 3; ++i) rgb[i] = (static_cast<float>(pixel[i]) + .5f) * step;
 }
 
-// CIE XYZ, in lumens as RADIANCE's XYZE pictures have it, to its RGB: primaries (.64,.33), (.29,.60),
-// (.15,.06), equal-energy white, 179 lumens a watt. Source: RADIANCE file formats, "Picture File Format";
-// ra_xyze(1).
+// Converts CIE XYZ, which RADIANCE's XYZE pictures give in lumens, to RADIANCE's RGB: primaries (.64,.33),
+// (.29,.60), (.15,.06), equal-energy white, 179 lumens per watt. Source: RADIANCE file formats, "Picture File
+// Format"; ra_xyze(1).
 void rgbOfXyz(float* c) {
   constexpr double m[3][3] = {{2.5653124, -1.16684962, -.39846279},
                               {-1.02210817, 1.97828662, .04382155},
@@ -176,7 +177,7 @@ void rgbOfXyz(float* c) {
   for (int i = 0; i < 3; ++i) c[i] = static_cast<float>(rgb[i]);
 }
 
-// Two neighbours of a position in pixels and their weights: rad::DataFile::value()'s rule.
+// The two pixels next to a position (in pixels) and their weights, by the rule of rad::DataFile::value().
 struct Weights {
   size_t index;
   double first, second;
@@ -206,8 +207,8 @@ Picture Picture::read(const std::string& path) {
   const std::string bytes = file.contents(path);
   const Header header = readHeader(bytes, path);
   const Layout& layout = header.layout;
-  // A run of the densest code, two bytes for 127 values of a channel, is 16 pixels a byte; of the old one
-  // more, but nobody made such.
+  // Rejects sizes that the file is too short for. The new code packs at most 127 values of a channel into two
+  // bytes, which is 16 pixels per byte. The old code could be denser, but no such files are known.
   const size_t coded = bytes.size() - header.size;
   if (layout.rows > 65536 || layout.columns > 65536 || layout.rows * layout.columns > 32 * coded + 64)
     bad(path, "it ends too early");

@@ -9,13 +9,13 @@ namespace {
 
 constexpr double kPi = std::numbers::pi, kPerPi = std::numbers::inv_pi;
 
-// Shares below this, and squared slopes of facets below it, count as none: RADIANCE's own figure decides
-// whether a surface is polished.
+// Smaller shares and mean square slopes of facets are treated as 0. The figure is RADIANCE's, because it
+// decides whether a surface is polished.
 constexpr double kNegligible = 1e-6;
 
-// Ward's exponential stand-in for Fresnel's equations of a polished surface with a refractive index of
-// about 1.5; the constant makes it 0 at right angles. Used where the given specularity is at least that of
-// such a surface.
+// Ward's exponential approximation of Fresnel's equations for a polished surface with a refractive index of
+// about 1.5. The constant makes it 0 at normal incidence. It is used if the given specularity is at least
+// kFresnelSpecularity.
 double fresnelRise(double cosine) { return std::exp(-5.85 * cosine) - 0.00287989916; }
 constexpr double kFresnelSpecularity = 0.017999;
 
@@ -25,18 +25,18 @@ V3d mirrored(const V3d& direction, const V3d& normal, double cosine) {
   return direction + 2 * cosine * normal;
 }
 
-// Mirrored at the perturbed normal, or at the true one where that would lead under the surface.
+// Mirrored at the perturbed normal, or at the true normal if the former would lead below the surface.
 V3d safelyMirrored(const Interaction& at, const V3d& normal, double cosine) {
   V3d d = mirrored(at.direction, normal, cosine);
   if (perturbed(at) && d.dot(at.normal) <= kNegligible) d = mirrored(at.direction, at.normal, at.cosine);
   return d.normalized();
 }
 
-// What plastic, metal and trans have in common.
+// The specular reflection of plastic, metal and trans.
 struct Gloss {
   bool polished = false;
-  double fresnel = 0;   // rise of the specular share
-  double specular = 0;  // with it
+  double fresnel = 0;   // the rise of the specular share towards grazing angles
+  double specular = 0;  // the specular share, including the rise
 };
 
 Gloss gloss(double specularity, double roughness, double cosine) {
@@ -72,8 +72,8 @@ void addReflection(Scattering& s, const Interaction& at, const Gloss& g, const R
   }
 }
 
-// Fresnel's reflectance of unpolarised light. ratio: index on the ray's side over index beyond. Sets the
-// cosine beyond; 1 for total reflection.
+// Fresnel's reflectance for unpolarised light; 1 for total reflection. ratio: the refractive index on the
+// ray's side over that beyond the boundary. Sets cosineBeyond, the cosine of the refracted ray.
 double fresnelReflectance(double cosine, double ratio, double& cosineBeyond) {
   const double square = 1 - ratio * ratio * (1 - cosine * cosine);
   if (square < kNegligible) return 1;
@@ -83,8 +83,8 @@ double fresnelReflectance(double cosine, double ratio, double& cosineBeyond) {
   return (s * s + p * p) / 2;
 }
 
-// Extinction per unit length of a transmission per unit length; nothing is quite black, and nothing
-// amplifies.
+// The extinction per unit length for a transmission per unit length, limited to 0 to 100: no medium is
+// completely black, and none amplifies light.
 Rgb extinctionOf(const Rgb& transmission, const Rgb& pattern) {
   Rgb e;
   for (int i = 0; i < 3; ++i) {
@@ -94,8 +94,8 @@ Rgb extinctionOf(const Rgb& transmission, const Rgb& pattern) {
   return e;
 }
 
-// Reflection and refraction at a boundary. inner, outer: indices and media beyond the front's back and
-// before it.
+// Reflection and refraction at a boundary. inner, outer: the refractive index and the medium behind the
+// surface and in front of it.
 Scattering scatterAtBoundary(const Interaction& at, double inner, const Medium& innerMedium, double outer,
                              const Medium& outerMedium, bool basic) {
   Scattering s;
@@ -107,7 +107,7 @@ Scattering scatterAtBoundary(const Interaction& at, double inner, const Medium& 
   const double reflectance = fresnelReflectance(s.cosine, ratio, cosineBeyond);
   const bool image = at.flat && (!perturbed(at) || (at.kinds & kAmbient));
   if (reflectance < 1) {
-    // Radiance is squeezed into the smaller solid angle: n^2.
+    // Refraction changes a beam's solid angle, and thus its radiance, by the ratio of the squared indices.
     const double transmittance = (1 - reflectance) * (basic ? 1 : ratio * ratio);
     const double bend = ratio * s.cosine - cosineBeyond;
     V3d d = ratio * at.direction + bend * s.normal;
@@ -139,7 +139,7 @@ V3d perturbedNormal(const Interaction& at, double& cosine) {
   }
   n /= length;
   cosine = -n.dot(at.direction);
-  if (cosine < 0) {  // turned away from the ray: mirror it back across the plane that the ray lies in
+  if (cosine < 0) {  // facing away from the ray: reflect it at the plane perpendicular to the ray
     n += 2 * cosine * at.direction;
     cosine = -cosine;
   }
@@ -212,7 +212,7 @@ Scattering scatter(const Glass& material, const Interaction& at) {
   if (perturbed(at)) s.normal = perturbedNormal(at, s.cosine);
   const double n = material.refraction;
   const double inside = std::sqrt(1 - 1 / (n * n) + s.cosine * s.cosine / (n * n));
-  double reflected[2];  // of a single surface, for the two polarisations
+  double reflected[2];  // amplitudes at a single surface, for the two polarisations
   reflected[0] = (s.cosine - n * inside) / (s.cosine + n * inside);
   reflected[1] = (1 / s.cosine - n / inside) / (1 / s.cosine + n / inside);
   Rgb transmittance(0, 0, 0), reflectance(0, 0, 0);
@@ -283,7 +283,7 @@ Rgb directCoefficient(const Scattering& s, const Interaction& at, const V3d& toS
 }
 
 namespace {
-// Distance of a lobe's sample from its middle, in the tangent plane: exp(-(d/alpha)^2) inverted.
+// The distance d of a lobe's sample from its middle in the tangent plane: the inverse of exp(-(d/alpha)^2).
 double lobeRadius(double alpha2, double spread, double u) {
   const double v = 1 - std::min(spread, 1.) * u;
   return v > kNegligible ? std::sqrt(-alpha2 * std::log(v)) : 1;
@@ -296,7 +296,7 @@ double sampleReflection(const Scattering& s, const Interaction& at, double sprea
   frame(s.normal, x, y);
   const double radius = lobeRadius(s.alpha2, spread, u2), angle = 2 * kPi * u1;
   const V3d half = s.normal + radius * (std::cos(angle) * x + std::sin(angle) * y);
-  // The mirror image of a unit vector, which needs no normalizing.
+  // The mirror image of a unit vector is a unit vector already.
   direction = at.direction - 2 * half.dot(at.direction) / (1 + radius * radius) * half;
   const double out = direction.dot(s.normal);
   if (out <= kNegligible || direction.dot(at.normal) <= kNegligible) return 0;

@@ -62,10 +62,10 @@ struct Scattering {
   SharpPaths sharp;
 
   Rgb diffuseReflection{0, 0, 0}, diffuseTransmission{0, 0, 0};
-  Rgb ambientReflection{0, 0, 0},
-      ambientTransmission{0, 0,
-                          0};  // the diffuse share plus, if that is not 0, lobes that -st leaves unsampled
-  double diffuseFresnel = 0;   // 1 if less light enters a polished surface at grazing angles, else 0
+  // The coefficients of indirect light: the diffuse share plus, if that is not 0, the lobes that are too weak
+  // to be sampled (-st).
+  Rgb ambientReflection{0, 0, 0}, ambientTransmission{0, 0, 0};
+  double diffuseFresnel = 0;  // 1 if less light enters a polished surface at grazing angles, else 0
 
   // Shares of the Gaussian lobes; black: no lobe. alpha2: the mean square slope of the facets.
   Rgb specularReflection{0, 0, 0}, specularTransmission{0, 0, 0};

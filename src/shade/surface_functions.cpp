@@ -40,7 +40,7 @@ std::optional<calc::SourceText> loadFunctionFile(std::string_view name, const ra
   return calc::SourceText{*path, std::move(*text)};
 }
 
-// Whether a word begins a transform behind the other string arguments.
+// Whether a word begins a transform, which follows the other string arguments.
 bool beginsTransform(std::string_view word) {
   if (word == "-t" || word == "-s" || word == "-i") return true;
   return word.size() == 3 && word[0] == '-' && (word[1] == 'r' || word[1] == 'm') && word[2] >= 'x' &&
@@ -59,7 +59,7 @@ std::vector<std::string> linesOf(std::string_view text) {
 
 }  // namespace
 
-// Makes one modifier ready.
+// Reads and compiles one modifier.
 class SurfaceFunctions::Maker {
  public:
   Maker(const SurfaceFunctions& functions, uint32_t primitive)
@@ -130,7 +130,7 @@ class SurfaceFunctions::Maker {
   }
 
  private:
-  // A string argument that names a function, and how many values it is called with.
+  // A string argument that names a function, and the number of values that are passed to it.
   struct Named {
     size_t word;
     int arguments;
@@ -145,7 +145,7 @@ class SurfaceFunctions::Maker {
     return words_[i];
   }
 
-  // The text of a file along RAYPATH, and its path.
+  // find: the path of a file, searched for along RAYPATH. read: the text of the file at a path.
   std::string find(std::string_view name, std::string_view kind) const {
     const auto path = rad::findFile(name, rad::libraryPath(), {}, scene_.files);
     if (!path)
@@ -206,8 +206,8 @@ class SurfaceFunctions::Maker {
     return all;
   }
 
-  // The second and third function of a colour take that colour's value alone where they are made for fewer
-  // than three.
+  // The second and third function of a colour are called with the value of their own channel if they take
+  // fewer than three arguments, otherwise with all three values.
   std::vector<Named> colorCorrections() const {
     const std::string_view file = word(primitive_.type == Type::colorpict ? 4 : 6);
     std::vector<Named> named{{0, 3}};
@@ -216,7 +216,8 @@ class SurfaceFunctions::Maker {
     return named;
   }
 
-  // What stands behind the first `from` string arguments, from the first word that can begin a transform.
+  // Reads the transform among the string arguments after the first `from`, starting at the first word that
+  // can begin one.
   void setTransform(Function& f, size_t from) const {
     while (from < words_.size() && !beginsTransform(words_[from])) ++from;
     if (from >= words_.size()) return;
@@ -268,14 +269,15 @@ class SurfaceFunctions::Maker {
     return f;
   }
 
-  // channels: of its foreground and background; 0 for a mixture.
+  // channels: the number of channels of the foreground and background colours; 0 for a mixture.
   std::unique_ptr<Function> text(size_t fontWord, size_t channels) const {
     auto f = std::make_unique<Function>();
     f->results = std::max<size_t>(channels, 1);
     const auto vector = [&](size_t i) { return V3d(reals_[i], reals_[i + 1], reals_[i + 2]); };
     const V3d r = vector(3), d = vector(6), n = d.cross(r);
     const double n2 = n.length2();
-    // Parallel, or next to nothing: n x d is what the original tests, with the square of 1e-12.
+    // The motion vectors are parallel or too short. The test of n x d, with the square of 1e-12, is
+    // RADIANCE's.
     if (!(n2 * d.length2() > 1e-24)) fail("illegal motion vector");
 
     const auto font = shared(functions_.fonts_, word(fontWord), [&] {
@@ -312,7 +314,8 @@ class SurfaceFunctions::Maker {
     return finish(std::move(f), std::move(s), 4);
   }
 
-  // The function of a word, called with the direction to a source and its solid angle, after `before` others.
+  // The function that a word names, called with the direction to a source and its solid angle, after `before`
+  // other arguments.
   ProgramPointer called(Function& f, size_t file, size_t function, int before) const {
     auto program = functions_.library_.compileCall(request(file), word(function), before + 4);
     use(f, program);
@@ -359,7 +362,7 @@ class SurfaceFunctions::Maker {
     return finish(std::move(f), std::move(s), 13);
   }
 
-  // file: which string argument the XML file's name is; before it there may be a thickness.
+  // file: the index of the string argument that names the XML file. A thickness may precede it.
   std::unique_ptr<Function> bsdf(size_t file) const {
     auto f = std::make_unique<Function>();
     Scatterer s;
@@ -555,7 +558,8 @@ V3d SurfaceFunctions::orientation(int32_t modifier, const FunctionPoint& at, Fun
   const auto v = three(modifier, &Scatterer::orientation, at, scratch);
   const Function& f = ready(modifier);
   const V3d own(v[0], v[1], v[2]);
-  // As for rtrace, an instance turns the point and the normal that it is computed from, but not the result.
+  // As in rtrace, an instance transforms the point and the normal that the functions use, but not their
+  // result.
   return f.moved ? f.placement.toOuter.vector(own) : own;
 }
 

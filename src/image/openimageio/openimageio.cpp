@@ -29,7 +29,7 @@ class MemoryFile {
   MemoryFile& operator=(const MemoryFile&) = delete;
 
   std::string path() const { return "/proc/self/fd/" + std::to_string(fd_); }
-  // False where it cannot be read.
+  // False if it cannot be read.
   bool contents(std::string& bytes) const {
     const off_t size = fd_ < 0 ? -1 : lseek(fd_, 0, SEEK_END);
     if (size < 0) return false;
