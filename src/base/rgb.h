@@ -4,8 +4,8 @@
 
 namespace rsphere {
 
-// Three channels of radiance (W/sr/m2), irradiance (W/m2), importance or a coefficient, as the name of the
-// variable says.
+// Three channels: radiance (W/sr/m2), irradiance (W/m2), importance or a coefficient. The name of the
+// variable says which.
 using Rgb = Imath::Color3<double>;
 using Imath::V3d;
 

@@ -5,7 +5,7 @@ namespace rsphere {
 // The same as in the top CMakeLists.txt; a test compares them.
 inline constexpr const char* kVersion = "0.1.0";
 
-// The version of RADIANCE whose rtrace is matched by ray mode: options, records, header and messages were
+// The version of RADIANCE whose rtrace is matched by ray mode. Options, records, header and messages were
 // compared with it.
 inline constexpr const char* kRadianceVersion = "6.1a";
 

@@ -16,9 +16,9 @@
 namespace rsphere {
 
 // Appends the images of all sources in sequences of up to `relays` relays. Relays are polygons and rings
-// whose material is mirror, prism1 or prism2, or illum with one of them as its alternative material. warn is
-// called for such surfaces of other shapes, which produce no images. functions evaluates prisms; its
-// exceptions pass through.
+// whose material is mirror, prism1 or prism2, or illum with one of them as its alternative material. warn:
+// called for such surfaces of other shapes, which produce no images. functions: evaluates prisms; exceptions
+// that it throws are not caught.
 void addVirtualSources(const Scene& scene, int relays, const SurfaceFunctions& functions,
                        const rad::Warn& warn, std::vector<LightSource>& sources);
 

@@ -16,9 +16,8 @@ class SourceChoice {
 
   // The weight of every source at a point, by its index in LightSources: approximately the irradiance (W/m2,
   // of brightness) that it causes on a surface there with this normal (unit), or from all sides if front is
-  // 0. The weight is greater than 0 wherever LightSources::sample() can return a sample for the same front.
-  // Errors of the approximation therefore increase the variance and cause no bias. Returns the sum of the
-  // weights.
+  // 0. The weight is greater than 0 wherever LightSources::sample() can return a sample for the same front,
+  // so errors of the approximation increase the variance but cause no bias. Returns the sum of the weights.
   double weigh(const V3d& point, const V3d& front, std::vector<double>& weights) const;
 
  private:

@@ -61,8 +61,8 @@ void setSquare(LightSource& source) {
   source.v *= half;
 }
 
-// If vertices deviate from the plane by more than rounding, the unit square is not mapped into the polygon's
-// mean plane.
+// If vertices deviate from the polygon's mean plane by more than rounding, the points that the unit square is
+// mapped to lie outside that plane.
 bool isFlat(const Polygon& polygon) { return polygon.thickness <= 1e-9 * std::sqrt(polygon.area); }
 
 void setShape(LightSource& source, const Polygon& polygon, const Scene& scene) {
@@ -419,8 +419,7 @@ void LightSources::sampleParts(uint32_t index, const V3d& point, const V3d& towa
                 (length * length),
             length);
       };
-      // Nearer than this, the tube's width matters as much as its length, and splitting its length gains
-      // nothing.
+      // Nearer than this, the tube's width matters as much as its length, and splitting does not pay.
       const bool divided = allowed > 0 && fromAxis > 2 * radius;
       split(Part{}, divided ? kMostParts : 1, halfLength, 0, allowed, point, at, use);
       return;

@@ -22,7 +22,7 @@ struct LightSource {
       kNone;  // index in Scene::surfaces; of a virtual source, its relay, which a ray to it hits first
   int32_t relayed = kNone;  // index of the source that a ray reaches from the relay; kNone: a real source
   int32_t image = 0;        // which of its relay's images, from 0
-  V3d center{0, 0, 0};      // direction to it (unit) where distant
+  V3d center{0, 0, 0};      // of a distant source, the direction to it (unit)
   double radius = 0;        // of its bounding sphere around center (world units)
   double reach = 0;         // beyond this distance (world units) it lights nothing directly; 0: no limit
   bool distant = false;
@@ -48,7 +48,7 @@ struct LightSource {
   } map = Map::parallelogram;
   V3d u{0, 0, 0}, v{0, 0, 0};
   double extentU = 0, extentV = 0;  // half its size along u and v, which decides how it is split
-  double outermost = 0;             // the largest distance of its points from center
+  double outermost = 0;             // the largest distance of its points from center; a sine if distant
   V3d normal{0, 0, 0};              // of plane sources
   double area = 0;                  // of plane sources; of a tube, its length times its diameter
   std::vector<double> fanArea;      // cumulative shares of the fan's triangles
@@ -74,15 +74,14 @@ struct SourceSample {
 struct SourceSampling {
   double largest = 0;  // the largest ratio of a part's size to its distance (-ds); 0: sources are not split
   double jitter = 0;   // the share of a part that its ray is spread over (-dj), 0 to 1
-  // Sources that lie entirely behind the plane through the point with this normal (unit) are omitted. 0: no
-  // source is omitted.
+  // Sources that lie entirely behind the plane through the point with this normal (unit) are omitted. If it
+  // is 0, none is omitted.
   V3d front{0, 0, 0};
 };
 
 class LightSources {
  public:
-  // Keeps a reference to the scene. Distant glow and glow whose reach is zero or negative do not become light
-  // sources here.
+  // Keeps a reference to the scene. Distant glow, and glow whose reach is zero or negative, are not included.
   explicit LightSources(const Scene& scene);
 
   // The same, with virtual sources from sequences of up to `relays` relays (-dr): see relays.h.
@@ -107,8 +106,7 @@ class LightSources {
   }
 
  private:
-  // Whether a point lies outside a virtual source's beam by more than the rounding error. Needs no square
-  // root.
+  // Whether a point lies outside a virtual source's beam by more than rounding. Needs no square root.
   static bool surelyBeside(const LightSource& light, const V3d& towards) {
     const double along = -towards.dot(light.beam);
     return along < 0 || along * along < (1 - 1e-12) * light.cosBeam * light.cosBeam * towards.length2();

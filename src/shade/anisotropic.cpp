@@ -280,8 +280,7 @@ Rgb directCoefficient(const AshikhminScattering& s, const V3d& direction, const 
     const V3d half = (toSource - direction).normalized();
     const double up = half.dot(s.reflection.normal);
     const double a = half.dot(s.tangents.along), b = half.dot(s.tangents.across);
-    // (h.u)^2 + (h.v)^2 = 1 - (h.n)^2. If this is 0, the base of the power is 1 and the exponent is
-    // irrelevant.
+    // (h.u)^2 + (h.v)^2 = 1 - (h.n)^2. If this is 0, the base of the power is 1, for any exponent.
     const double within = 1 - up * up;
     const double power = within > 0 ? (s.powerAlong * a * a + s.powerAcross * b * b) / within : 0;
     const double lobe = std::pow(up, power) * std::sqrt((s.powerAlong + 1) * (s.powerAcross + 1)) /

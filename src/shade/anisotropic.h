@@ -62,8 +62,7 @@ struct WgmdComponent {
 };
 // If the share of a sharp reflection is at least .018, as for a polished surface, it rises towards grazing
 // angles (Fresnel), and all other components are reduced accordingly. The transmitted lobe is bent against
-// the perturbation as seen from the front, for rays from either side, so that the path of light is
-// reversible.
+// the perturbation as seen from the front, for rays from either side: paths are then reversible.
 AnisotropicScattering scatter(const WgmdFunction& material, const WgmdComponent& reflected,
                               const WgmdComponent& transmitted, const Interaction& diffuseReflected,
                               const Interaction& diffuseTransmitted, const V3d& along,

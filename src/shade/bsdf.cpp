@@ -567,8 +567,8 @@ class TreeScattering final : public DirectedScattering {
     return sum / (1U << rank_);
   }
 
-  // Cosine and sine of the azimuth from which isotropic data are measured: that in which light from the view
-  // travels on.
+  // Cosine and sine of the azimuth from which isotropic data are measured: the azimuth of light that arrives
+  // from the view and is not deflected.
   static std::array<double, 2> azimuth(const V3d& view) {
     const double r = std::sqrt(view.x * view.x + view.y * view.y);
     if (!(r > 0)) return {1, 0};

@@ -113,8 +113,7 @@ double sampleTransmission(const Scattering& scattering, const Interaction& at, d
 // The perturbed normal, kept on the side of the ray. Sets cosine to -normal . direction (not negative).
 V3d perturbedNormal(const Interaction& at, double& cosine);
 
-// A direction (unit) on the normal's side with a density proportional to its cosine, for uniform u1, u2 in
-// [0, 1).
+// A cosine-weighted direction (unit) on the normal's side, for uniform u1, u2 in [0, 1).
 V3d diffuseDirection(const V3d& normal, double u1, double u2);
 
 }  // namespace rsphere

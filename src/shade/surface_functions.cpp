@@ -276,8 +276,7 @@ class SurfaceFunctions::Maker {
     const auto vector = [&](size_t i) { return V3d(reals_[i], reals_[i + 1], reals_[i + 2]); };
     const V3d r = vector(3), d = vector(6), n = d.cross(r);
     const double n2 = n.length2();
-    // The motion vectors are parallel or too short. The test of n x d, with the square of 1e-12, is
-    // RADIANCE's.
+    // The motion vectors are parallel or too short. RADIANCE's test: the length of n x d, against 1e-12.
     if (!(n2 * d.length2() > 1e-24)) fail("illegal motion vector");
 
     const auto font = shared(functions_.fonts_, word(fontWord), [&] {
@@ -558,8 +557,8 @@ V3d SurfaceFunctions::orientation(int32_t modifier, const FunctionPoint& at, Fun
   const auto v = three(modifier, &Scatterer::orientation, at, scratch);
   const Function& f = ready(modifier);
   const V3d own(v[0], v[1], v[2]);
-  // As in rtrace, an instance transforms the point and the normal that the functions use, but not their
-  // result.
+  // As in rtrace, an instance transforms the point and the normal that the functions use, but not the
+  // direction that they return.
   return f.moved ? f.placement.toOuter.vector(own) : own;
 }
 

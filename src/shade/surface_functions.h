@@ -54,8 +54,8 @@ class SurfaceFunctions {
  public:
   // Keeps a reference to the scene. warn: called with a line, once for each modifier, when a value cannot be
   // computed (division by zero and the like); from any thread, but never from two at once. definitions:
-  // shared by all function files, instead of those of rayinit.cal. Throws rad::Error if these are missing or
-  // invalid.
+  // shared by all function files, instead of those of rayinit.cal. Throws rad::Error if a definition is
+  // missing or invalid.
   explicit SurfaceFunctions(const Scene& scene, rad::Warn warn = {},
                             std::span<const SharedDefinitions> definitions = {});
 
@@ -79,8 +79,8 @@ class SurfaceFunctions {
   V3d orientation(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
   // BSDF, aBSDF: the up direction in the world, of any length.
   V3d up(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
-  // BSDF: the thickness of the geometry that it stands in for, in the world; positive if that lies behind the
-  // surface's front.
+  // BSDF: the thickness of the geometry that it hides, in world units; positive if the geometry lies behind
+  // the surface's front.
   double thickness(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
   // BSDF, aBSDF: the file's data.
   const BsdfData& bsdf(int32_t modifier) const;
