@@ -1,12 +1,12 @@
 #pragma once
-// What is interpolated from, kept from one run to the next (-af FILE) in FILE.rsphere. FILE itself is left to
-// RADIANCE's programs, which keep light of another kind in it: they stop at a file of this format, and a
-// pipeline may name one FILE for both.
+// The sites of the irradiance cache, kept from one run to the next (-af FILE) in FILE.rsphere. FILE itself is
+// left to RADIANCE's programs, which keep another kind of records in it and would stop at a file of this
+// format. A pipeline may therefore name one FILE for both.
 //
-// A file is three lines that say of which scene and options it is, an empty one, and records of one size,
-// each with a checksum. Any number of processes may add to it at once, each under a lock for as long as it
-// writes. What a process that was killed has left of a record is cut off by the next that writes, and looked
-// past by all that read.
+// A file consists of three lines that identify the format, the scene and the options, an empty line, and
+// records of equal size, each with a checksum. Any number of processes may append to it at once; each holds a
+// lock while it writes. If a process is killed while it writes, the next writer overwrites its incomplete
+// record, and readers skip it.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -24,27 +24,28 @@ class AmbientFile {
  public:
   using Record = std::array<std::byte, 212>;
 
-  // Makes the file where there is none, or nothing in it. Null, after a warning, where it is not one of ours
-  // for this scene and these options, and is left as it is; null, too, where it is no regular file
-  // (/dev/null). Throws rad::Error (system) where it cannot be opened or made.
+  // Creates the file, or writes its header if it is empty. Returns null after a warning, and leaves the
+  // file as it is, if it is not an ambient file of ours for this scene and these options. Returns null
+  // without a warning if it is no regular file (/dev/null). Throws rad::Error (system) if it cannot be
+  // opened or created.
   static std::unique_ptr<AmbientFile> open(const std::string& name, uint64_t scene, uint64_t options,
                                            const rad::Warn& warn);
 
-  // open() of the file that goes with a FILE of -af, which is neither opened nor made. Null where FILE is no
-  // regular file (/dev/null), and, after a warning, where FILE is there but the file beside it cannot be
-  // opened: FILE may be kept where nobody may write. Throws rad::Error (system) where FILE is a folder, or
-  // neither it is there nor can the file beside it be opened.
+  // Like open(), for the file that belongs to a FILE given by -af. FILE itself is neither opened nor created.
+  // Returns null if FILE is no regular file (/dev/null), and, after a warning, if FILE exists but the file
+  // beside it cannot be opened, because FILE may be in a folder that is not writable. Throws rad::Error
+  // (system) if FILE is a folder, or if FILE does not exist and the file beside it cannot be opened.
   static std::unique_ptr<AmbientFile> openBeside(const std::string& given, uint64_t scene, uint64_t options,
                                                  const rad::Warn& warn);
   AmbientFile(const AmbientFile&) = delete;
   AmbientFile& operator=(const AmbientFile&) = delete;
   ~AmbientFile();
 
-  // All that was there when it was opened; some may be there twice. Hands them over.
+  // The records that the file had when it was opened, some possibly twice. Moves them out.
   std::vector<Record> take() { return std::move(records_); }
 
-  // Adds records to the file. False where another process has it locked and wait is not set. Warns once where
-  // it cannot be written to, and does nothing from then on.
+  // Appends records to the file. False if another process holds the lock and wait is false. If the file
+  // cannot be written, warns once and does nothing from then on.
   bool add(std::span<const Record> records, bool wait);
 
  private:

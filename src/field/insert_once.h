@@ -7,8 +7,8 @@
 
 namespace rsphere {
 
-// A hash table that many threads read and add to at once without waiting. What is in it stays where it is,
-// and is never changed or taken out by the table itself. Key has hash(); Value is made from a key.
+// A hash table that many threads read and add to concurrently without waiting. The table never moves, changes
+// or removes an entry. Key has hash(); Value is made from a key.
 template <class Key, class Value>
 class InsertOnce {
  public:
@@ -24,13 +24,13 @@ class InsertOnce {
       }
   }
 
-  // Null where there is none.
+  // The value of the key, or null.
   Value* find(const Key& key) {
     return findFrom(buckets_[key.hash() & mask_].load(std::memory_order_acquire), key);
   }
 
-  // What is there under the key, or else what make() returns, as a unique pointer; it may be called for
-  // nothing where another thread is faster.
+  // The value of the key. If there is none, adds the one that make() returns as a unique pointer; that result
+  // is discarded if another thread adds one first.
   template <class Make>
   Value& findOrAdd(const Key& key, Make make) {
     std::atomic<Node*>& bucket = buckets_[key.hash() & mask_];

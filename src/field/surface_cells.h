@@ -1,6 +1,6 @@
 #pragma once
-// Surfaces divided into cells of a hierarchy that the scene alone determines. Each cell has a site: a point
-// of the surface where light can be gathered for the cell's surroundings.
+// A hierarchy of cells on surfaces, which is determined by the scene alone. Each cell has a site: a point of
+// the surface where light can be gathered for the cell's surroundings.
 #include <cstdint>
 #include <optional>
 
@@ -41,24 +41,25 @@ struct CellGrid {
   int levelOf(double side) const;
 };
 
-// Coordinates (world units) on the surface of a place. The frame of a polygon follows its longest edge, so
-// that the cells of a rectangle have their sites on it. Balls and cones have charts of their outsides only.
+// Coordinates (world units) on the surface of a place. The frame of a polygon is aligned with its
+// longest edge, so that the cells of a rectangle have their sites on it. Spheres and cones have charts
+// of their outsides only.
 class SurfaceChart {
  public:
-  // Empty where surfaces have no cells: meshes, the insides of curved surfaces, balls and cones within
+  // Empty for surfaces without cells: meshes, the insides of curved surfaces, and spheres and cones within
   // instances. The scene and the path of the place must outlive the chart.
   static std::optional<SurfaceChart> of(const Scene& scene, const CellGrid& grid, const SurfacePlace& place);
 
-  // A chart of the plane through the place, which all surfaces in that plane share: for surfaces too small
-  // for cells of their own. Its sites need not lie on any surface.
+  // A chart of the plane through the place, shared by all surfaces in that plane. It serves surfaces that are
+  // too small to have cells themselves. Its sites need not lie on any surface.
   static SurfaceChart ofPlane(const CellGrid& grid, const SurfacePlace& place);
 
   double u() const { return u_; }  // of the place
   double v() const { return v_; }
-  // The longer side of the surface; the radius of a ball or the larger one of a cone; infinite for a plane.
+  // The longer side of the surface; the radius of a sphere or the larger one of a cone; infinite for a plane.
   double extent() const;
   bool isCurved() const { return ball_ || cone_; }
-  bool isShared() const { return isShared_; }  // of all surfaces in the plane
+  bool isShared() const { return isShared_; }  // by all surfaces in the plane
 
   // Sides of the cells of a level. They divide the sides of a bounded surface into equal parts.
   double stepU(const CellGrid& grid, int level) const;
@@ -84,7 +85,7 @@ class SurfaceChart {
   std::optional<Placement> placement_;
   const Sphere* ball_ = nullptr;
   const Cone* cone_ = nullptr;
-  // A ball is charted by the faces of a cube: the axis perpendicular to the face, and its sign.
+  // A sphere is charted by the faces of a cube: the axis perpendicular to the face, and its sign.
   int axis_ = 2;
   double sign_ = 1;
 };

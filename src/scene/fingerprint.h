@@ -8,7 +8,8 @@
 
 namespace rsphere {
 
-// 64 bits that tell values in their order from others; the same on every machine of its byte order.
+// A 64-bit hash of a sequence of values, which depends on their order. It is the same on all
+// machines with the same byte order.
 class Fingerprint {
  public:
   void add(uint64_t x) { value_ = mixBits(value_ ^ x); }
@@ -20,11 +21,12 @@ class Fingerprint {
   uint64_t value_ = 0;
 };
 
-// Of the contents of a file that is found along RAYPATH, or that there is none.
+// Adds the contents of a file that is found along RAYPATH, or the fact that there is no such file.
 void addFile(Fingerprint& print, std::string_view name, const rad::FileAccess& access = {});
 
-// Of all that the light in a scene follows from: its description with octrees and meshes, and the contents of
-// files that its modifiers may name. Reads these. Where things stand in the files does not count.
+// A hash of everything that determines the light in a scene: its description, its octrees and meshes,
+// and the contents of the files that its modifiers may name, which are read here. Positions in the
+// files (line numbers) do not enter.
 uint64_t fingerprint(const Scene& scene);
 
 }  // namespace rsphere

@@ -9,24 +9,23 @@
 
 namespace rsphere {
 
-// Materials as scene files give them (RADIANCE reference manual, "Material types"): values only, checked.
-// What they do to light is in shade/. Colours are per channel; angles are in degrees as in the files.
+// Materials as scene files define them (RADIANCE reference manual, "Material types"): validated values only.
+// How they scatter light is in shade/. Colours are per channel; angles are in degrees as in the files.
 
-// plastic: uncoloured highlights. metal: highlights take the material's colour. trans: plastic that also
-// transmits.
+// plastic: uncoloured highlights. metal: highlights have the material's colour.
 struct Opaque {
   Rgb color;
-  double specularity = 0;  // share reflected specularly
-  double roughness = 0;    // rms slope of facets; 0: a perfect mirror's lobe
+  double specularity = 0;  // fraction reflected specularly
+  double roughness = 0;    // rms slope of the facets; 0: perfect mirror reflection
   bool metal = false;
 };
 struct Trans {
   Rgb color;
   double specularity = 0, roughness = 0;
-  double transmissivity = 0;       // share of what is not specularly reflected that passes
-  double transmittedSpecular = 0;  // share of that which is not scattered
+  double transmissivity = 0;       // fraction of the light not reflected specularly that passes
+  double transmittedSpecular = 0;  // fraction of the transmitted light that is not scattered
 };
-// Solid, with Fresnel reflection and absorption per unit length.
+// The surface of a solid, with Fresnel reflection and absorption per unit length.
 struct Dielectric {
   Rgb transmission;  // per unit length
   double refraction = 1;
@@ -38,33 +37,34 @@ struct Interface {
   Rgb outerTransmission;
   double outerRefraction = 1;
 };
-// A thin pane: transmissivity is that of one passage at right angles, without reflections.
+// A thin pane. transmissivity: of one passage at normal incidence, without the reflections.
 struct Glass {
   Rgb transmissivity;
   double refraction = 1.52;
 };
 
-// Materials with function files know them by their own index in Scene::modifiers (SurfaceFunctions).
+// functions, in the materials below: the material's index in Scene::modifiers, by which
+// SurfaceFunctions finds its function files.
 
-// plastic2, metal2 and trans2: highlights of elliptic shape. Roughness is that along the direction that the
-// functions give, projected onto the surface, and across it; both above 0.
+// plastic2, metal2 and trans2: elliptical highlights. The functions give a direction, which is projected onto
+// the surface; the roughnesses along it and across it are both above 0.
 struct Anisotropic {
   Rgb color;
   double specularity = 0;
   double roughnessAlong = 0, roughnessAcross = 0;
   bool metal = false;
-  bool trans = false;  // trans2: light passes, as Trans has it
+  bool trans = false;  // trans2: transmits light as Trans does
   double transmissivity = 0, transmittedSpecular = 0;
   int32_t functions = -1;
 };
-// ashik2: the higher the powers, the smoother. Diffuse and specular colour add up.
+// ashik2: the higher the powers, the smoother the surface. The diffuse and specular colours add up.
 struct Ashikhmin {
   Rgb diffuse, specular;
   double powerAlong = 0, powerAcross = 0;
   int32_t functions = -1;
 };
-// plasfunc, metfunc, transfunc, plasdata, metdata and transdata: what is specular is scattered as a function
-// of the direction to a light source says.
+// plasfunc, metfunc, transfunc, plasdata, metdata and transdata: the specular component is scattered
+// according to a function of the direction to a light source.
 struct FunctionScatterer {
   Rgb color;
   double specularity = 0;
@@ -72,38 +72,38 @@ struct FunctionScatterer {
   double transmissivity = 0, transmittedSpecular = 0;
   int32_t functions = -1;
 };
-// BRTDfunc. What functions say is known here as far as numbers are given in their place.
+// BRTDfunc. Arguments that are numbers are evaluated here; the others are known only at a hit.
 struct BrtdFunction {
   Rgb diffuseFront, diffuseBack, diffuseTransmitted;
-  bool transmits = true;     // sharply: a transmission is other than the word 0
-  bool directional = true;   // there are distribution functions
-  double mostReflected = 1;  // sharply, by either side; 1 where functions decide
+  bool transmits = true;     // sharply: some transmission argument is not "0"
+  bool directional = true;   // some distribution function is not "0"
+  double mostReflected = 1;  // upper bound, sharply, of either side; 1 if functions decide
   double mostTransmitted = 1;
   int32_t functions = -1;
 };
-// WGMDfunc: trans2 with modifiers and functions of its own for each component.
+// WGMDfunc: like trans2, but each component has a modifier and functions.
 struct WgmdFunction {
-  // The most that a lobe may hold, and its least roughness: 1 and 0 where functions decide.
+  // Upper bound of the lobe's share and lower bounds of its roughnesses: 1 and 0 if functions decide.
   struct Lobe {
     double share = 1, roughnessAlong = 0, roughnessAcross = 0;
-    std::optional<int32_t> modifier;  // index in Scene::modifiers or -1 (void); empty: the material's own
+    std::optional<int32_t> modifier;  // index in Scene::modifiers or -1 (void); empty: the material's
   };
   Rgb diffuseFront, diffuseBack, diffuseTransmitted;
   Lobe reflected, transmitted;
   std::optional<int32_t> diffuseTransmittedModifier;
-  bool transmits = true;  // the specular transmission is other than the word 0
+  bool transmits = true;  // the specular transmission is not "0"
   int32_t functions = -1;
 };
 
-// BSDF and aBSDF: scattering from an XML file, and diffuse colours added to it.
+// BSDF and aBSDF: scattering from an XML file, to which diffuse colours are added.
 struct BsdfMaterial {
-  bool aperture = false;  // aBSDF: what goes straight on is told apart
-  bool proxy = false;     // BSDF with a thickness other than the word 0: stands for geometry that it hides
+  bool aperture = false;  // aBSDF: light that passes straight through is separate
+  bool proxy = false;     // BSDF whose thickness is not "0": a proxy for geometry that it hides
   Rgb diffuseFront{0, 0, 0}, diffuseBack{0, 0, 0}, diffuseTransmitted{0, 0, 0};
   int32_t functions = -1;
 };
 
-// What a surface is to rays that it does not concern (illum, mirror).
+// How a surface of illum or mirror is shaded for rays to which it is not a light source.
 struct Alternate {
   enum class Kind : uint8_t { none, pass, modifier } kind = Kind::none;
   int32_t modifier = -1;  // index in Scene::modifiers, for Kind::modifier
@@ -113,26 +113,26 @@ struct Mirror {
   Alternate alternate;
 };
 
-// prism1 and prism2: what is seen in a plane surface comes from one or two directions that functions say.
+// prism1 and prism2: a plane surface that redirects light in one or two directions, given by functions.
 struct Prism {
   int images = 1;
   int32_t functions = -1;
 };
-// Between its front and its back, surfaces of some modifiers are not there. cut: shades the places where its
-// back cuts through a volume that they enclose; Kind::pass leaves those open.
+// Between the front and the back of antimatter, surfaces with certain modifiers do not exist. cut: shades the
+// places where the back cuts through a volume that these surfaces enclose; Kind::pass leaves those open.
 struct Antimatter {
-  uint64_t clips = 0;  // those modifiers, as Surface::clip has them
+  uint64_t clips = 0;  // the bits of those modifiers, see Surface::clip
   Alternate cut{Alternate::Kind::pass};
 };
-// A volume that absorbs and scatters light. sources: whose light is scattered, as "mirror>lamp" by way of a
-// relay.
+// A volume that absorbs and scatters light. sources: the light sources whose light is scattered;
+// "mirror>lamp" is the lamp as seen by way of a mirror or prism.
 struct Mist {
-  Rgb extinction{0, 0, 0};                          // per unit length, on top of what the medium around has
-  bool hasAlbedo = false, hasEccentricity = false;  // else those of the medium around hold
-  Rgb albedo{0, 0, 0};                              // share of the extinction that is scattered
-  double eccentricity = 0;                          // of Henyey and Greenstein's phase function
+  Rgb extinction{0, 0, 0};                          // per unit length, added to the surrounding medium's
+  bool hasAlbedo = false, hasEccentricity = false;  // if not, the surrounding medium's values apply
+  Rgb albedo{0, 0, 0};                              // fraction of the extinction that is scattered
+  double eccentricity = 0;                          // of the Henyey-Greenstein phase function
   std::vector<std::string> sources;
-  uint32_t number = 0;  // among the scene's mists
+  uint32_t number = 0;  // index among the scene's mists
 };
 
 struct Light {
@@ -140,20 +140,20 @@ struct Light {
 };
 struct Illum {
   Rgb radiance;
-  Alternate alternate;  // Kind::none passes rays too
+  Alternate alternate;  // Kind::none also lets rays pass
 };
-// reach: farther than this it is no light source but lights by chance (as seen by indirect rays); negative:
-// it never lights, it is only seen; 0: it is always indirect.
+// reach (world units): beyond this distance it is not sampled as a light source and contributes only to
+// indirect rays that hit it. 0: it always contributes in this way alone. Negative: it does not light the
+// scene and is only seen directly.
 struct Glow {
   Rgb radiance;
   double reach = 0;
 };
 struct Spotlight {
   Rgb radiance;
-  double solidAngle = 0;  // of the cone, sr
-  V3d aim{0, 0, 1};       // unit
-  double focalLength =
-      0;  // length of the aim vector as given: the light comes from this far behind the surface
+  double solidAngle = 0;   // of the cone, sr
+  V3d aim{0, 0, 1};        // unit
+  double focalLength = 0;  // length of the aim vector as given: the focus lies this far behind the surface
 };
 
 using Material = std::variant<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction,

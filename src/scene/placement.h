@@ -10,26 +10,27 @@
 
 namespace rsphere {
 
-// Where an octree or a mesh lies in what holds it. Scales are positive, mirrored or not: as in RADIANCE, a
-// mirroring transform takes normals along like any other vector, so that no surface is turned round.
+// The transform between an octree or mesh and the coordinates that it is placed in. Scales are positive
+// even if the transform mirrors: as in RADIANCE, normals are transformed like any other vector, so that
+// no surface is turned inside out.
 struct Placement {
   rad::Similarity toOuter, toInner;
 
-  // Unit vectors to unit vectors.
+  // Both map unit vectors to unit vectors.
   V3d directionToOuter(const V3d& d) const { return toOuter.vector(d) * toInner.scale; }
   V3d directionToInner(const V3d& d) const { return toInner.vector(d) * toOuter.scale; }
 };
 
-// inner lies in what outer places.
+// The composition of two placements; inner is nested in outer.
 Placement within(const Placement& outer, const Placement& inner);
 
-// The box around a placed box.
+// The bounding box of a transformed box.
 Box3d placed(const Placement& placement, const Box3d& box);
 
-// The placements between the world and a thing that is placed within others, the outermost first. Every ray
-// has one, most of them empty: what is not used is neither set nor copied.
+// The chain of placements that leads from the world to a nested object, outermost first. Every ray carries
+// one, and most are empty, so unused entries are neither initialized nor copied.
 struct PlacementPath {
-  static constexpr size_t kDeepest = 16;  // instances within each other beyond this are refused
+  static constexpr size_t kDeepest = 16;  // deeper nesting of instances is an error
   uint8_t count = 0;
   std::array<uint32_t, kDeepest> placements;  // indices in Scene::placements; `count` of them
 

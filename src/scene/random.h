@@ -5,8 +5,8 @@
 
 namespace rsphere {
 
-// Mixes 64 bits so that every input bit reaches every output bit (SplitMix64's finalizer; Steele, Lea, Flood
-// 2014).
+// Mixes 64 bits so that every input bit affects every output bit (SplitMix64's
+// finalizer; Steele, Lea, Flood 2014).
 inline uint64_t mixBits(uint64_t x) {
   x += 0x9e3779b97f4a7c15u;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -14,16 +14,16 @@ inline uint64_t mixBits(uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// A seed that depends on the numbers of a record alone, so that its answer does not depend on the records
-// around it. -0 and 0 count as the same number.
+// A seed that depends only on the numbers of a record, so that its answer does not depend on the records
+// around it. -0 and 0 give the same seed.
 inline uint64_t seedOf(std::span<const double> numbers, uint64_t seed = 0) {
   for (double x : numbers) seed = mixBits(seed ^ std::bit_cast<uint64_t>(x == 0 ? 0. : x));
   return seed;
 }
 
-// One stream of uniform random numbers (xoroshiro128+, Blackman and Vigna 2018: 53 good bits of 64, 2^128 - 1
-// long). Streams of different seeds are independent for our purposes: 128 bits of state are filled by
-// SplitMix64.
+// A stream of uniform random numbers (xoroshiro128+, Blackman and Vigna 2018: 53 good bits of 64,
+// period 2^128 - 1). Streams of different seeds are independent for our purposes, because
+// SplitMix64 fills the 128 bits of state.
 class Random {
  public:
   explicit Random(uint64_t seed) : a_(mixBits(seed)), b_(mixBits(seed + 0x9e3779b97f4a7c15u)) {}

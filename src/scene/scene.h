@@ -19,12 +19,12 @@ namespace rsphere {
 
 inline constexpr int32_t kNone = -1;
 
-// Multiplies the colour of the materials behind it. What patterns, textures and mixtures compute is prepared
-// when it is first asked for, from the primitive's arguments: shade/surface_functions.h.
+// Multiplies the colour of the materials behind it. The functions and data of patterns, textures and mixtures
+// are prepared from the primitive's arguments when they are first needed: shade/surface_functions.h.
 struct Pattern {};
-// Adds to the normal.
+// Perturbs the normal.
 struct Texture {};
-// Shades a share of a surface with one chain of modifiers and the rest with another; each an index in
+// Shades a surface with a blend of two chains of modifiers. Each is an index in
 // Scene::modifiers, or kNone for void.
 struct Mixture {
   int32_t foreground = kNone, background = kNone;
@@ -32,58 +32,57 @@ struct Mixture {
 
 using Content = std::variant<Material, Pattern, Texture, Mixture>;
 
-// A modifier that some surface uses, itself modified by another (kNone: void).
+// A modifier that some surface uses, and the modifier that modifies it in turn (kNone: void).
 struct Modifier {
   Content content;
   int32_t next = kNone;
-  uint32_t primitive = 0;  // index in Scene::description; of the target where it was an alias
+  uint32_t primitive = 0;  // index in Scene::description; of the target if it was an alias
 };
 
 struct Surface {
   Shape shape;
-  uint32_t primitive = 0;    // index in Scene::description: name and place
+  uint32_t primitive = 0;    // index in Scene::description, which has its name and place
   int32_t modifier = kNone;  // index in Scene::modifiers; kNone: void
   int32_t material = kNone;  // the first material of the chain that modifier begins, or else the mixture that
-                             // ends it: what ties between surfaces and light sources go by. kNone: none
-  uint64_t clip = 0;         // the bit of its modifier in Antimatter::clips; 0: no antimatter names it
-  bool goal = false;         // emits importance 1 from its front, besides what its material does
-  bool smoothed = false;  // its modifier is called "Phong": what perturbs normals bends nothing that passes
+                             // ends it. Decides ties between surfaces, and which are light sources
+  uint64_t clip = 0;         // the bit of its modifier in Antimatter::clips; 0: not clipped by any
+  bool goal = false;         // emits importance 1 from its front, in addition to its material
+  bool smoothed = false;     // its modifier is called "Phong": perturbed normals do not bend transmitted rays
 };
 
-// Surfaces that are traced together, in coordinates of their own: the scene itself, or an octree that
-// instances bring in, once in memory however many they are.
+// Surfaces that share one coordinate system and are traced together: the scene itself, or an octree, which is
+// stored once however many instances of it there are.
 struct SurfaceGroup {
   uint32_t firstSurface = 0, surfaces = 0;  // range in Scene::surfaces
 };
 
-// A mesh file, once in memory.
+// A mesh file, stored once however many instances of it there are.
 struct Mesh {
   rad::Mesh data;                // materials: the cube alone; the rest is part of Scene::description
   std::vector<int32_t> facesOf;  // by material of data: index in Scene::surfaces of its MeshFaces, or kNone
 };
 
-// What the tracer needs of a scene, and only what this scene requires: used modifiers, surfaces that can be
-// hit.
+// A scene prepared for tracing. It has only the modifiers that are used and the surfaces that can be hit.
 struct Scene {
-  rad::FileAccess files;             // those that its modifiers may name
-  rad::Description description;      // of octrees and meshes too, behind the scene's own; without the
-                                     // surfaces' numbers
+  rad::FileAccess files;             // the files that its modifiers may name
+  rad::Description description;      // the scene's, then those of octrees and meshes; the numeric
+                                     // arguments of surfaces are removed
   std::vector<Surface> surfaces;     // by groups, then the MeshFaces
   std::vector<SurfaceGroup> groups;  // [0]: the scene itself
   std::vector<Mesh> meshes;
   std::vector<Placement> placements;
   std::vector<V3d> vertices;  // of the polygons
   std::vector<Modifier> modifiers;
-  bool importance = false;  // there are goals: importance is traced, and every other source is dark
+  bool importance = false;  // there are goals: importance is traced, and all other sources are dark
 
-  // The surfaces that are in the world rather than in an octree or a mesh: the first ones.
+  // The surfaces that belong to the world itself rather than to an octree or a mesh. They are the first ones.
   std::span<const Surface> outermost() const {
     return std::span(surfaces).first(groups.empty() ? 0 : groups[0].surfaces);
   }
-  // Of all on the path together; placements of an empty one leave everything where it is.
+  // The composition of all placements on the path; the identity for an empty path.
   Placement placementOf(const PlacementPath& path) const;
-  // Whether the surface has a modifier of its own: an instance or a mesh then stands for all that it brings
-  // in.
+  // Whether the surface has a modifier. An instance or a mesh with a modifier
+  // applies it to all of its contents.
   bool hasOwnModifier(const Surface& s) const {
     return description.primitives[s.primitive].modifier != rad::kVoid;
   }
@@ -92,37 +91,39 @@ struct Scene {
   }
   // Surface::material of the chain that a modifier begins.
   int32_t firstMaterial(int32_t modifier) const;
-  // The material at an index in modifiers; null at kNone, and where there is no material.
+  // The material at an index in modifiers; null for kNone, and if the modifier is not a material.
   const Material* materialAt(int32_t modifier) const {
     return modifier == kNone ? nullptr : std::get_if<Material>(&modifiers[modifier].content);
   }
-  // Null where the surface has none, and where mixtures alone decide about it.
+  // Null if the surface has no material, or if mixtures alone determine it.
   const Material* materialOf(const Surface& s) const { return materialAt(s.material); }
-  // As -om and -oM print them: "void" where there is none.
+  // As -om and -oM print them: "void" if there is none.
   std::string_view modifierName(const Surface& s) const;
   std::string_view materialName(const Surface& s) const;
   // 'room.rad:12: plastic "wall"', for messages.
   std::string place(uint32_t primitive) const;
 };
 
-// Whether a ray can pass the material: what decides between coincident surfaces, and who can cast full
-// shadows.
+// Whether a ray can pass the material. This decides between coincident surfaces, and which
+// surfaces can cast full shadows.
 bool isTransparent(const Material& material);
 // Light, illum, glow and spotlight.
 bool isLightSource(const Material& material);
-// The radiance a source material is given (W/sr/m2); empty for others.
+// The radiance of a source material, as its arguments give it (W/sr/m2); empty for other materials.
 std::optional<Rgb> sourceRadiance(const Material& material);
-// What a surface is given to send, W/sr/m2, before patterns: 1 of a goal, black where it is no source.
+// The emitted radiance of a surface before patterns, W/sr/m2: 1 for a goal, black if it is not a source.
 Rgb sourceRadiance(const Scene& scene, const Surface& surface);
 
-// Checks and converts what surfaces use of the description, which is kept for names and places, and reads the
-// octrees and meshes that it names (options: for them), each once. Vertices are as the files have them
-// (double precision). Warns of what RADIANCE warns of (negative radii, surfaces without area, vertices out of
-// the plane); a surface without area is left out, and so are distant sources in octrees. Throws rad::Error
-// with the primitive's place: wrong arguments, a used type that is not supported yet, mixtures nested beyond
-// reason, octrees within themselves or deeper than PlacementPath::kDeepest, what rad::readOctree() and
-// rad::readMesh() throw. Or that no surface has the modifier of a goal: surfaces with a modifier of one of
-// these names emit importance (-Sg).
+// Validates and converts the parts of the description that surfaces use, and reads each octree and mesh
+// that it names once (with these options). The description is kept for names and places. Vertices keep the
+// double precision of the files.
+// - Warns where RADIANCE warns: negative radii, surfaces without area, vertices out of the plane.
+// - Leaves out surfaces without area, and distant sources in octrees.
+// - goals (-Sg): surfaces whose modifier has one of these names emit importance.
+// - Throws rad::Error with the primitive's place for: wrong arguments, a used type that is not supported
+//   yet, mixtures nested too deeply, octrees that contain themselves or are nested deeper than
+//   PlacementPath::kDeepest, a goal that is the modifier of no surface, and all errors of
+//   rad::readOctree() and rad::readMesh().
 Scene buildScene(rad::Description description, const rad::ReadOptions& options = {},
                  std::span<const std::string> goals = {});
 

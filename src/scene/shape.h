@@ -14,31 +14,32 @@ namespace rsphere {
 using Imath::Box3d;
 using Imath::V3d;
 
-// Two hits closer than this along a ray are the same place, and no ray hits what is nearer than this to its
-// origin (world units). RADIANCE's own figure: scenes rely on it where surfaces coincide.
+// Hits closer together than this along a ray are treated as coincident, and a ray does not hit
+// anything closer to its origin than this (world units). The value is RADIANCE's: scenes with
+// coincident surfaces rely on it.
 inline constexpr double kSamePlace = 1e-6;
 
-// Where a ray meets a shape. normal: unit, on the front side, whichever side was hit; cosine = -normal .
-// direction, positive where the front was hit. Not set before: there is one on the way of every ray.
+// A ray's hit on a shape. normal: unit, on the front side, whichever side was hit. cosine: -normal .
+// direction, positive if the front was hit. The fields are not initialized, because every ray creates one.
 struct ShapeHit {
   double distance;
   V3d normal;
   double cosine;
 };
 
-// What a ray is tried with, of a polygon.
+// The part of a polygon that intersection tests need.
 struct PolygonFace {
   V3d normal{0, 0, 1};                     // unit, by the right-hand rule; Newell's sum over the vertices
   double offset = 0;                       // normal . p for the points p of the plane
   uint32_t firstVertex = 0, vertices = 0;  // range in Scene::vertices
-  float extent = 0;                        // sum of the box's sizes along the axes but one, or somewhat more
-  uint8_t axis = 2;                        // that one: the largest component of normal
-  bool hasArea = false;                    // else it is never hit
+  float extent = 0;      // sum of the box's sizes along the other axes than axis, rounded up
+  uint8_t axis = 2;      // the axis of the largest component of normal
+  bool hasArea = false;  // if false, it is never hit
 };
 
-// A plane polygon, concave or with holes by a seam. Its inside is where a line to infinity crosses the
-// boundary an odd number of times; its plane is the mean plane of vertices that do not lie in one (RADIANCE
-// reference manual, "polygon").
+// A plane polygon, which may be concave or have holes that are connected by a seam. A point is inside if a
+// line from it to infinity crosses the boundary an odd number of times. If the vertices are not coplanar, the
+// polygon lies in their mean plane (RADIANCE reference manual, "polygon").
 struct Polygon : PolygonFace {
   double area = 0;
   double thickness = 0;  // largest distance of a vertex from the plane
@@ -60,17 +61,18 @@ struct Cone {
   bool inward = false;
 };
 
-// A flat disk, or ring where inner > 0.
+// A flat disk, or a ring if inner is above 0.
 struct Ring {
   V3d center{0, 0, 0};
   V3d normal{0, 0, 1};
   double inner = 0, outer = 1;
 };
 
-// A cone of directions at infinity: "source". Not in the tracer; rays that hit nothing else see it.
+// A cone of directions at infinity: "source". The tracer does not contain it; a ray that hits
+// nothing else sees it.
 struct Distant {
   V3d direction{0, 0, 1};  // unit, towards it
-  double halfAngle = 0;    // radians, to pi
+  double halfAngle = 0;    // radians, at most pi
   double cosHalfAngle = 1;
   double solidAngle = 0;  // sr
 
@@ -83,24 +85,25 @@ struct Distant {
   }
 };
 
-// The surfaces of an octree, brought in by "instance".
+// An octree placed by "instance".
 struct Instance {
   uint32_t placement = 0;  // index in Scene::placements
   uint32_t group = 0;      // index in Scene::groups
 };
 
-// The triangles of a file, brought in by "mesh".
+// A mesh file placed by "mesh".
 struct MeshInstance {
   uint32_t placement = 0;  // index in Scene::placements
   uint32_t mesh = 0;       // index in Scene::meshes
 };
 
-// The triangles of a mesh that have one material of the mesh's own; hit through the mesh's instances.
+// The triangles of a mesh that share one of the mesh's own materials. They are hit through the mesh's
+// instances.
 struct MeshFaces {};
 
 using Shape = std::variant<Polygon, Sphere, Cone, Ring, Distant, Instance, MeshInstance, MeshFaces>;
 
-// Whether rays hit the shape as it stands, by one of the functions below.
+// Whether rays intersect the shape itself, by one of the functions below.
 template <class S>
 inline constexpr bool kIsPlain = std::is_same_v<S, Polygon> || std::is_same_v<S, Sphere> ||
                                  std::is_same_v<S, Cone> || std::is_same_v<S, Ring>;
@@ -109,7 +112,7 @@ inline bool isPlain(const Shape& shape) {
   return std::visit([](const auto& form) { return kIsPlain<std::decay_t<decltype(form)>>; }, shape);
 }
 
-// The normal of polygons and rings; null for what is not plane.
+// The normal of polygons and rings; null for shapes that are not plane.
 inline const V3d* planeNormal(const Shape& shape) {
   if (const auto* polygon = std::get_if<Polygon>(&shape)) return &polygon->normal;
   const auto* ring = std::get_if<Ring>(&shape);
@@ -117,9 +120,9 @@ inline const V3d* planeNormal(const Shape& shape) {
 }
 
 // Each returns whether the ray from origin along the unit vector direction meets the shape farther than
-// kSamePlace and not beyond farthest (the first such place), and fills hit only then. Rounding: distances are
-// right to a few ulp of the largest coordinate that takes part. A ray within kSamePlace of parallel to a
-// plane misses it (as RADIANCE).
+// kSamePlace and not beyond farthest; hit is then the first such point, and otherwise unchanged. Rounding:
+// distances are accurate to a few ulp of the largest coordinate involved. A ray whose cosine to a plane's
+// normal is at most kSamePlace misses the plane (as in RADIANCE).
 inline bool intersect(const PolygonFace& polygon, std::span<const V3d> vertices, const V3d& origin,
                       const V3d& direction, double farthest, ShapeHit& hit);
 bool intersect(const Sphere& sphere, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit);
@@ -132,24 +135,25 @@ Box3d bounds(const Sphere& sphere);
 Box3d bounds(const Cone& cone);
 Box3d bounds(const Ring& ring);
 
-// The two above for any shape: no hit and an empty box where it is not plain.
+// The two above for any shape: no hit and an empty box if the shape is not plain.
 bool intersect(const Shape& shape, std::span<const V3d> vertices, const V3d& origin, const V3d& direction,
                double farthest, ShapeHit& hit);
 Box3d bounds(const Shape& shape, std::span<const V3d> vertices);
 
-// The polygon's plane, area and axis from its vertices (at least 3). Area 0 where they lie on a line.
+// Computes the polygon's plane, area and axis from its vertices (at least 3). The
+// area is 0 if they are collinear.
 Polygon makePolygon(std::span<const V3d> vertices, uint32_t first, uint32_t count);
 
-// Whether a point of the polygon's plane lies inside; points on the boundary count as inside, and those
-// within tolerance (world units) and rounding of it.
+// Whether a point of the polygon's plane lies inside. Points on the boundary, or within tolerance (world
+// units) and rounding of it, are inside.
 bool inside(const PolygonFace& polygon, std::span<const V3d> vertices, const V3d& point,
             double tolerance = 0);
 
-// Whether a ray that meets the polygon's plane at this distance and cosine (of ShapeHit) meets it inside.
+// Whether a ray that meets the polygon's plane at this distance and cosine (see ShapeHit) meets it inside.
 bool meetsInside(const PolygonFace& polygon, std::span<const V3d> vertices, const V3d& origin,
                  const V3d& direction, double distance, double cosine);
 
-// The plane here, where callers can see it: most polygons that a ray is tried with are missed by their plane.
+// The plane test is inline, because most polygons that are tested are missed by their plane.
 inline bool intersect(const PolygonFace& polygon, std::span<const V3d> vertices, const V3d& origin,
                       const V3d& direction, double farthest, ShapeHit& hit) {
   const double cosine = -polygon.normal.dot(direction);

@@ -12,26 +12,27 @@
 
 #include "sphere/predicates.h"
 
-// The Delaunay triangulation of directions, which is their convex hull (predicates.h says of which points),
-// one direction after another: a new one takes away the triangles whose circles hold it and is joined to the
-// rim of the hole (Bowyer 1981, Watson 1981). Inner part of voronoi.h, which checks the input.
+// The Delaunay triangulation of directions, which is the convex hull of their points on the sphere
+// (predicates.h defines these). It is built incrementally: an inserted direction removes the triangles whose
+// circumcircles contain it and is joined to the rim of the hole (Bowyer 1981, Watson 1981). This is an inner
+// part of voronoi.h, which validates the input.
 namespace rsphere {
 
-// One cache line: a step of a walk or of a hole's growth costs one.
+// One cache line, so that a step of a walk or of a hole's growth loads only one.
 struct alignas(64) Triangle {
   double nx = 0, ny = 0, nz = 0,
-         offset = 0;             // outward normal, twice the triangle's area long; normal . corner
-  float bound = 0;               // a plane distance times |normal| that is greater has the right sign
+         offset = 0;             // outward normal of length twice the area; normal . corner
+  float bound = 0;               // beyond() has the right sign if its absolute value exceeds this
   std::uint32_t corner[3] = {};  // sites, counterclockwise as seen from outside
-  std::uint32_t next[3] = {};    // across the edge opposite to that corner: 4 * triangle + its edge
-  std::uint32_t hole = 0;        // the insertion that took it away last
+  std::uint32_t next[3] = {};    // neighbour across the edge opposite each corner: 4 * triangle + edge
+  std::uint32_t hole = 0;        // the insertion that removed it last
 
-  // How far p is beyond the plane, times |normal|.
+  // The distance of p beyond the plane, times |normal|.
   double beyond(const V3d& p) const { return nx * p.x + ny * p.y + nz * p.z - offset; }
 };
 static_assert(sizeof(Triangle) == 64);
 
-// A direction and half of |at|^2 - 1: how far outside the unit sphere rounding has left it.
+// A direction. height: (|at|^2 - 1) / 2, how far rounding has left it outside the unit sphere.
 struct alignas(32) Site {
   V3d at;
   double height = 0;
@@ -41,25 +42,25 @@ struct Delaunay {
   static constexpr std::uint32_t kNone = ~0u;
 
   std::vector<Site> sites;                  // in the order of insertion
-  std::vector<std::uint32_t> standsFor;     // the site that a site was merged into; itself if it is a corner
-  std::vector<std::uint32_t> someTriangle;  // one that has the site as a corner
+  std::vector<std::uint32_t> standsFor;     // the site that each was merged into; itself if it is a corner
+  std::vector<std::uint32_t> someTriangle;  // a triangle with the site as a corner
   std::vector<Triangle> triangles;
-  std::vector<std::uint32_t> unused;  // places in triangles; their corner[0] is kNone
+  std::vector<std::uint32_t> unused;  // free slots in triangles; their corner[0] is kNone
   std::uint32_t insertions = 0;
   PredicateCounts counts;
 
-  // Makes room for that many sites in all.
+  // Reserves memory for this total number of sites.
   void reserve(std::size_t count);
 
   // Starts with four different sites.
   void start(const std::array<Site, 4>& first);
 
-  // Adds a site; its number is that of calls before it, plus 4. It is merged into the one that it equals, or
-  // into the nearest if the hull keeps it hidden, which happens below 1e-15 apart only; so are those that it
-  // hides.
+  // Adds a site. Its index is 4 plus the number of earlier calls. It is merged into a site that it equals, or
+  // into the nearest one if it lies inside the hull, which happens only within 1e-15 of another site. Sites
+  // that it puts inside the hull are merged into it.
   void insert(const Site& added);
 
-  // Is p inside the circle of the triangle?
+  // Whether p lies inside the triangle's circumcircle.
   bool holds(const Triangle& t, const V3d& p) {
     const double beyond = t.beyond(p);
     if (beyond > t.bound) return true;
@@ -82,8 +83,9 @@ struct Delaunay {
     } while (t != first);
   }
 
-  // What is wrong with the triangulation, if anything: triangles that do not fit, a circle that holds the
-  // corner of a neighbour, a surface that is not closed. names[i] is what site i is called.
+  // Describes a defect of the triangulation, if there is one: neighbours that do not refer to each other, a
+  // circumcircle that contains a neighbour's corner, or a surface that is not closed. names[i]: the number by
+  // which the message refers to site i.
   std::optional<std::string> fault(std::span<const std::uint32_t> names) const;
 
   static constexpr int kAfter[3] = {1, 2, 0}, kBefore[3] = {2, 0, 1};
@@ -95,11 +97,12 @@ struct Delaunay {
   };
 
   bool holdsSlowly(const Triangle& t, const V3d& p);
-  // A triangle whose circle holds p, or kNone and the site that p is to be merged into.
+  // Finds a triangle whose circumcircle contains p, or returns kNone and sets equal to the site that p is
+  // to be merged into.
   std::uint32_t locate(const V3d& p, std::uint32_t& equal);
   std::uint32_t locateFromNearest(const V3d& p, std::uint32_t from, std::uint32_t& equal);
-  // Whether the scratch of insert() had to be made longer: each triangle of the hole leaves two edges or
-  // fewer to look at and to its rim.
+  // Lengthens the scratch of insert() if needed; returns whether it did. Each triangle of the hole adds at
+  // most two edges to the pending ones and the rim together.
   bool makeRoom(std::size_t holes, std::size_t rims, std::size_t pending) {
     const std::size_t most = std::max(holes, rims + pending) + 4;
     if (most <= hole_.size()) [[likely]]
@@ -110,8 +113,8 @@ struct Delaunay {
   void lengthenScratch(std::size_t length);
   void mergeHidden(std::uint32_t p, std::span<const std::uint32_t> hole, std::span<const RimEdge> rim);
 
-  // Scratch of insert(), which knows how much of it counts. What stays in hole_ until the next are the
-  // triangles around the last site, lastRim_ of them.
+  // Scratch of insert(), which keeps track of the lengths in use. After an insertion, the first lastRim_
+  // entries of hole_ are the triangles around the new site.
   static constexpr std::size_t kStarts = 6, kLeastScratch = 64;
   std::size_t lastRim_ = 1;
   std::vector<std::uint32_t> hole_;

@@ -11,26 +11,31 @@ namespace rsphere {
 
 using Imath::V3d;
 
-// A homogeneous set of n unit directions: the Fibonacci lattice, direction i at height 1 - (2i+1)/n and
+// A uniform set of n unit directions, the Fibonacci lattice: direction i has height 1 - (2i+1)/n and is
 // turned by i golden angles about z. The set depends on n alone.
 //
-// n: any number; 0 gives an empty set. 20 ns a direction.
+// n: any number; 0 gives an empty set. Takes 20 ns per direction.
 //
-// Cell areas for n = 2048 are within 0.51% rms and 6% at most (the two polar cells) of 4 pi/n. Two rivals
-// were refused. 200 steps of Lloyd's relaxation lead away from it (3.7% rms, 16% at most): grains of hexagons
-// form. Moving the 24 directions next to each pole along z evens areas (0.34% rms, 2.2% at most) but
-// integrates smooth functions worse: exp(20 cos) about random axes by 3.5e-6 rms instead of 2.5e-6, weighted
-// by cells 2.0e-6 instead of 1.8e-6; no change for caps (1.05e-3).
+// Two alternatives were rejected. 200 steps of Lloyd's relaxation form grains of hexagons. Moving the 24
+// directions next to each pole along z equalizes the areas but integrates smooth functions less
+// accurately. For n = 2048:
+//
+//                                                     lattice   relaxed   poles moved
+//   cell area off 4 pi/n, rms                           0.51%      3.7%         0.34%
+//   the same, at most (lattice: the two polar cells)       6%       16%          2.2%
+//   error of exp(20 cos) about random axes, rms        2.5e-6                  3.5e-6
+//   the same, weighted by cells                        1.8e-6                  2.0e-6
+//   error of caps, rms                                1.05e-3                 1.05e-3
 //
 // Source: Gonzalez, "Measurement of areas on a sphere using Fibonacci and latitude-longitude lattices", 2010.
 std::vector<V3d> baseDirections(std::size_t n);
 
-// A rotation drawn from the number: uniform over all rotations where numbers are. 0 is the identity. Row
-// vectors, as Imath has them: v * randomRotation(k). Orthonormal to 4e-16. Source: Shoemake, "Uniform random
-// rotations", Graphics Gems III, 1992.
+// A pseudorandom rotation, determined by the number: uniform over all rotations if the numbers are uniform. 0
+// gives the identity. For row vectors, as in Imath: v * randomRotation(k). Orthonormal to 4e-16. Source:
+// Shoemake, "Uniform random rotations", Graphics Gems III, 1992.
 Imath::M33d randomRotation(std::uint64_t number);
 
-// The directions under randomRotation(rotation), normalized again. rotation 0 returns them unchanged.
+// The directions rotated by randomRotation(rotation) and normalized again. rotation 0 returns them unchanged.
 std::vector<V3d> rotatedDirections(std::span<const V3d> directions, std::uint64_t rotation);
 
 }  // namespace rsphere

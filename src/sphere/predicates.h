@@ -5,30 +5,31 @@
 
 #include "sphere/two_parts.h"
 
-// Which side of a triangle's circle a direction lies on, decided rightly and consistently for all input.
+// On which side of a triangle's circumcircle a direction lies, decided correctly and consistently.
 //
-// The object. A stored triple p stands for the point q = 2p / (1 + |p|^2). The denominator is the first step
-// of Newton's root from 1, so q is the direction of p at radius 1 - e^2/8, where e = |p|^2 - 1: within 2e-32
-// of the unit sphere for vectors normalized in double precision, 1.3e-29 for the worst that is let in (|e| <=
-// 1e-14). The hull of the points q is what is decided: polynomial in the stored doubles, so exact arithmetic
-// can end every doubt. Rounded unit vectors taken as they are were refused: their radii differ by 1e-16,
-// which decides the hull where spacing is below 1e-8.
+// The object. A stored triple p represents the point q = 2p / (1 + |p|^2). (1 + |p|^2) / 2 is the first
+// Newton iterate for |p|, starting at 1, so q has the direction of p and the radius 1 - e^2/8, where e =
+// |p|^2 - 1. That is within 2e-32 of the unit sphere for vectors normalized in double precision, and within
+// 1.3e-29 for the worst that are accepted (|e| <= 1e-14). The predicate decides the convex hull of the
+// points q. It is polynomial in the stored doubles, so exact arithmetic can settle every case. Using the
+// rounded unit vectors as they are was rejected: their radii differ by 1e-16, which decides the hull if the
+// spacing is below 1e-8.
 //
-// Points of one plane are told apart by a symbolic shift, that of a point with lexicographically greater
-// coordinates infinitely larger: first along the radius, then (where all points lie on a great circle) along
-// x, y and z.
+// Ties between coplanar points are broken by a symbolic perturbation. That of a point with lexicographically
+// greater coordinates is infinitely larger. Points move first along the radius, then (if all lie on a great
+// circle) along x, y and z.
 namespace rsphere {
 
 using Imath::V3d;
 
-// Greatest | |p|^2 - 1 | of a direction, and the radius error that follows from it.
+// The greatest | |p|^2 - 1 | of an accepted direction. The error of the radius follows from it.
 inline constexpr double kUnitTolerance = 1e-14;
 
-// Components below it count as zero: fifth powers of the rest neither overflow nor underflow in exact
-// arithmetic.
+// Components below this are set to zero, so that fifth powers of the others neither overflow nor underflow in
+// exact arithmetic.
 inline constexpr double kSmallestComponent = 0x1p-150;
 
-// |p|^2 - 1, to 1e-32 and to 2^-51 of itself where p is a normalized vector.
+// |p|^2 - 1. For a normalized vector p the error is at most 1e-32, and 2^-51 of the value.
 inline double lengthExcess(const V3d& p) {
   const auto [xx, xLow] = product(p.x, p.x);
   const auto [yy, yLow] = product(p.y, p.y);
@@ -38,18 +39,20 @@ inline double lengthExcess(const V3d& p) {
   return (t - 1) + (((tLow + sLow) + zLow) + (yLow + xLow));
 }
 
-// How often each stage gave the answer. filter: the triangle's stored plane, in floating point with an error
-// bound. lifted: coordinates relative to the direction asked for, insensitive to radii. exact: expansions.
-// symbolic: ties.
+// How many predicates each stage decided.
+// - filter: the triangle's stored plane, in floating point with an error bound.
+// - lifted: coordinates relative to the query direction, insensitive to radii.
+// - exact: expansion arithmetic.
+// - symbolic: ties.
 struct PredicateCounts {
   std::uint64_t filter = 0, lifted = 0, exact = 0, symbolic = 0;
 };
 
-// Does the circle through a, b, c (counterclockwise as seen from outside the hull) hold p inside?
-// Requires four different triples within kUnitTolerance of unit length without components below
-// kSmallestComponent other than 0. Always answers; never the same for p inside and for p seen from the
-// opposite orientation (b, a, c). Counts the stage that answered. Source of the expansions: Shewchuk,
-// "Adaptive precision floating-point arithmetic and fast robust geometric predicates", 1997.
+// Whether the circle through a, b, c (counterclockwise as seen from outside the hull) contains p. Requires
+// four different triples within kUnitTolerance of unit length, whose components are 0 or at least
+// kSmallestComponent. Always returns an answer, and the opposite one for the opposite orientation (b, a, c).
+// Adds to the count of the stage that decided. Source of the expansions: Shewchuk, "Adaptive precision
+// floating-point arithmetic and fast robust geometric predicates", 1997.
 bool circleHolds(const V3d& a, const V3d& b, const V3d& c, const V3d& p, PredicateCounts& counts);
 
 }  // namespace rsphere

@@ -1,6 +1,7 @@
 #pragma once
-// Sums and products of two doubles without error (Knuth's sum, Dekker's product): high is the rounded one,
-// low what it lacks. Requires that nothing overflows or underflows, and no contraction (CMakeLists.txt).
+// Sums and products of two doubles without error (Knuth's sum, Dekker's product): high is the rounded result,
+// low its rounding error. Requires that nothing overflows or underflows, and that the compiler does not
+// contract products and sums (CMakeLists.txt).
 namespace rsphere {
 
 struct TwoParts {
@@ -12,7 +13,7 @@ inline TwoParts sum(double a, double b) {
   return {s, (a - (s - fromB)) + (b - fromB)};
 }
 
-// Veltkamp's halves: 26 bits each, so that products of halves are exact.
+// Veltkamp's splitting into halves of 26 bits each, so that products of halves are exact.
 inline TwoParts halves(double a) {
   const double c = 134217729.0 * a, high = c - (c - a);
   return {high, a - high};

@@ -10,21 +10,23 @@
 
 #include "sphere/predicates.h"
 
-// Spherical Voronoi cells: the solid angle for which each direction stands, being the nearest.
+// Spherical Voronoi cells: the solid angle of the directions that are nearest to each given direction.
 //
 // Properties of every function here that takes directions:
-// 1. Directions are unit vectors; |p|^2 may differ from 1 by kUnitTolerance (1e-14). One that is farther
-//    from it, NaN or infinite: std::invalid_argument, which names its place in the list. Components below
-//    2^-150 count as 0.
-// 2. What counts is the direction of the stored triple; rounding of its length does not matter.
-// 3. A cell's relative error is at most 1e-13, or what a change of the input by half an ulp can do to it,
-//    whichever is greater. The sum is 4 pi within 1e-13 to 4096 directions, 1e-12 to a million.
-// 4. Order and rotation do not matter beyond that.
-// 5. One direction: 4 pi. Two: 2 pi each, wherever they are. Three or more on one great or small circle:
-//    lunes. Equal directions are merged and share the area equally. Directions nearer than about 2e-16 may be
-//    merged too (5e-15 if their lengths use the tolerance up), and some cells in a crowd of them be 0. All
-//    in one hemisphere, in a cap of any size, antipodes, cocircular ones and those of regular solids need
-//    no care. No direction: no area.
+// 1. Directions are unit vectors; |p|^2 may differ from 1 by kUnitTolerance (1e-14). A direction that differs
+//    by more, is NaN or infinite causes std::invalid_argument, which names its index in the list. Components
+//    below 2^-150 are set to 0.
+// 2. Only the direction of the stored triple matters; rounding of its length does not.
+// 3. A cell's relative error is at most 1e-13, or the effect of a change of the input by half an ulp,
+//    whichever is greater. The sum is 4 pi within 1e-13 for up to 4096 directions, and within 1e-12 for
+//    up to a million.
+// 4. Reordering or rotating the directions changes nothing beyond that.
+// 5. Special cases need no care by the caller:
+//    - No direction: no area. One direction: 4 pi. Two: 2 pi each, wherever they are.
+//    - Three or more on one great or small circle: lunes.
+//    - All in one hemisphere, in a cap of any size, antipodes, cocircular directions, regular solids.
+//    - Equal directions are merged and share the area equally. Directions nearer than about 2e-16 may be
+//      merged too (5e-15 if their lengths use up the tolerance), and some cells in such a cluster may be 0.
 // 6. At most 2^29 directions; about 300 bytes each.
 // Threads: a BaseTriangulation may be shared once built; a VoronoiWorkspace belongs to one thread at a time.
 namespace rsphere {
@@ -33,8 +35,8 @@ using Imath::V3d;
 
 class VoronoiWorkspace;
 
-// Directions whose triangulation and areas are kept, to be copied for each query. Takes 0.2 us a direction to
-// build.
+// Directions with their triangulation and areas, which every query copies. Building takes 0.2
+// us per direction.
 class BaseTriangulation {
  public:
   explicit BaseTriangulation(std::span<const V3d> directions);
@@ -53,8 +55,8 @@ class BaseTriangulation {
   std::unique_ptr<const Data> data_;
 };
 
-// Memory of one thread for queries and the triangulation of its last one. Queries allocate only where they
-// exceed all before them.
+// One thread's memory for queries, with the triangulation of the last one. A query allocates memory only if
+// it needs more than all earlier ones.
 class VoronoiWorkspace {
  public:
   VoronoiWorkspace();
@@ -62,7 +64,7 @@ class VoronoiWorkspace {
   VoronoiWorkspace(VoronoiWorkspace&&) noexcept;
   VoronoiWorkspace& operator=(VoronoiWorkspace&&) noexcept;
 
-  // How the last query's predicates were answered.
+  // Which stages decided the predicates of the last query.
   const PredicateCounts& counts() const;
 
  private:
@@ -76,9 +78,9 @@ class VoronoiWorkspace {
   std::unique_ptr<Data> data_;
 };
 
-// Solid angles [sr] of the cells of the base directions, then of the dynamic ones, all together.
-// Returns a view into the workspace, valid until its next use. Only cells that dynamic directions touch are
-// computed.
+// Solid angles [sr] of the cells of the base directions and then of the dynamic ones, in one triangulation
+// of both. Returns a view into the workspace, valid until its next use. Only cells next to dynamic
+// directions are recomputed.
 std::span<const double> cellSolidAngles(const BaseTriangulation& base, std::span<const V3d> dynamicDirections,
                                         VoronoiWorkspace& workspace);
 
@@ -86,12 +88,13 @@ std::span<const double> cellSolidAngles(const BaseTriangulation& base, std::span
 std::span<const double> cellSolidAngles(std::span<const V3d> directions, VoronoiWorkspace& workspace);
 std::vector<double> cellSolidAngles(std::span<const V3d> directions);
 
-// The cells themselves, direction i's at [first[i], first[i+1]) of the other lists, counterclockwise as seen
-// from outside: neighbour[k] shares a side with i, and vertex[k] ends that side, before that of
-// neighbour[k+1]. Where four or more directions lie on a circle, vertices are equal within rounding and some
-// sides have no length. A merged direction has the cell of the one it was merged into, mergedInto[i]; others
-// have mergedInto[i] == i. Two directions: one neighbour each and no vertices that mean anything (0, 0, 0).
-// One: neither. Error of a vertex: 1e-15 over the sine of the smallest angle of its triangle.
+// The cells themselves. Direction i's cell is the range [first[i], first[i+1]) of neighbour and vertex,
+// counterclockwise as seen from outside: neighbour[k] shares a side with i, and vertex[k] is the end of that
+// side, at the start of the side shared with neighbour[k+1]. If four or more directions lie on a circle, some
+// vertices are equal within rounding and some sides have no length. A merged direction has the cell of the
+// direction mergedInto[i]; for the others mergedInto[i] == i. With two directions, each has one neighbour and
+// a meaningless vertex (0, 0, 0); with one, it has neither. Error of a vertex: 1e-15 divided by the sine of
+// the smallest angle of its triangle.
 struct VoronoiCells {
   std::vector<std::uint32_t> first, neighbour, mergedInto;
   std::vector<V3d> vertex;
@@ -100,9 +103,10 @@ struct VoronoiCells {
 // The cells of the workspace's last query.
 VoronoiCells voronoiCells(const VoronoiWorkspace& workspace);
 
-// Checks the last query: each triangle's circle holds no corner of its neighbours (for a closed surface that
-// is enough for none to hold any direction), the surface is closed, areas are not negative and sum to 4 pi
-// within 1e-12. Returns what is wrong, or nothing. Takes about as long as building anew.
+// Verifies the last query: no triangle's circumcircle contains a corner of its neighbours (on a closed
+// surface this implies that it contains no direction at all), the surface is closed, and areas are not
+// negative and sum to 4 pi within 1e-12. Returns a description of the defect, or nothing. Takes about as long
+// as building the triangulation.
 std::optional<std::string> voronoiFault(const VoronoiWorkspace& workspace);
 
 }  // namespace rsphere

@@ -1,5 +1,5 @@
 #pragma once
-// The one place that knows Embree 3 from Embree 4.
+// The only file that depends on whether Embree 3 or Embree 4 is used.
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
 #else
@@ -36,8 +36,8 @@ inline void occluded(RTCScene scene, QueryContext& context, RTCRay& ray) {
 }
 #endif
 
-// Calls visit(primitive, user) for the primitives of a scene of one geometry whose bounds come within the
-// radius of the center, until it returns true; whether it did.
+// Calls visit(primitive) for each primitive whose bounds come within the radius of the center, until a call
+// returns true. Returns whether one did. REQUIRES that the scene has only one geometry.
 template <typename Visit>
 bool anyWithin(RTCScene scene, float x, float y, float z, float radius, const Visit& visit) {
   struct Asked {

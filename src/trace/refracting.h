@@ -5,10 +5,11 @@
 
 namespace rsphere {
 
-// Whether each surface, by its index in Scene::surfaces, may refract a ray that meets it: shadow rays leave
-// the straight line there. These are surfaces of dielectric and interface, also in a mixture, as the
-// alternate of mirror or illum, or as the cut of antimatter; and instances and meshes that bring such
-// surfaces in. Other materials let shadow rays pass straight, whatever textures they have.
+// For each surface, by its index in Scene::surfaces: whether it may refract a ray that hits it, so
+// that a shadow ray would leave the straight line there. Such surfaces are those of dielectric and
+// interface (also in a mixture, as the alternate of mirror or illum, or as the cut of antimatter), and
+// instances and meshes that contain such surfaces. All other materials let shadow rays pass straight
+// through, whatever textures they have.
 std::vector<bool> refractingSurfaces(const Scene& scene);
 
 }  // namespace rsphere

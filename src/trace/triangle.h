@@ -12,15 +12,15 @@ struct TriangleHit {
   double weight1, weight2;  // barycentric, of the triangle's vertices 1 and 2
 };
 
-// As the intersect() of shape.h. Rays within rounding (1e-15 of the distance) of an edge count as inside, so
-// that no light leaks between triangles that share one.
+// Like intersect() in shape.h. A ray within rounding of an edge (1e-15 of the distance) hits the triangle, so
+// that no light leaks between triangles that share an edge.
 bool intersect(const rad::Mesh& mesh, uint32_t triangle, const V3d& origin, const V3d& direction,
                double farthest, TriangleHit& hit);
 
 Box3d bounds(const rad::Mesh& mesh, uint32_t triangle);
 
-// What interpolation makes of the vertices' values at a hit: the unit normal, (0, 0, 0) where a vertex has
-// none; (u,v), (0, 0) likewise.
+// The vertices' values interpolated at a hit: the unit normal, or (0, 0, 0) if a vertex has none; the local
+// coordinates (u, v), or (0, 0) if a vertex has none.
 V3d smoothNormal(const rad::Mesh& mesh, uint32_t triangle, const TriangleHit& hit);
 Imath::V2d localCoordinates(const rad::Mesh& mesh, uint32_t triangle, const TriangleHit& hit);
 
