@@ -10,11 +10,11 @@
 namespace rsphere {
 namespace {
 
-constexpr int kCandidates = 24;       // points of a cell that are tried as its site
-constexpr double kAside = .01371;     // of a cell's side; no part of a round number
-constexpr uint32_t kEdges = 16;       // of a polygon, that its frame may lie along
-constexpr double kNormalStep = 1e-9;  // planes whose normals differ by less are one
-constexpr int32_t kPlane = -2;        // in a key, in place of a surface
+constexpr int kCandidates = 24;       // number of points of a cell that are tried as its site
+constexpr double kAside = .01371;     // fraction of a cell's side; irregular, to avoid round coordinates
+constexpr uint32_t kEdges = 16;       // number of a polygon's edges that its frame may be aligned with
+constexpr double kNormalStep = 1e-9;  // step to which components of plane normals are rounded
+constexpr int32_t kPlane = -2;        // in a key, instead of a surface
 
 }  // namespace
 
@@ -105,7 +105,7 @@ std::optional<SurfaceChart> SurfaceChart::of(const Scene& scene, const CellGrid&
     double longest = 0;
     for (uint32_t i = 0; i < std::min(count, kEdges); ++i) {
       const V3d edge = toWorld(corner[(i + 1) % count]) - toWorld(corner[i]);
-      // Of edges that are equal but for rounding the first.
+      // Among edges of equal length within rounding, the first is chosen.
       if (edge.length2() <= longest * (1 + 1e-9)) continue;
       longest = edge.length2();
       chart.x_ = edge;
@@ -151,10 +151,10 @@ SurfaceChart SurfaceChart::ofPlane(const CellGrid& grid, const SurfacePlace& pla
   chart.normal_.normalize();
   frame(chart.normal_, chart.x_, chart.y_);
   const V3d local = place.point - grid.origin;
-  // Three eighths: away from where the offsets of planes in round numbers lie.
+  // The offset of 3/8 keeps the boundaries between planes away from those in round numbers.
   const double offset = std::floor(chart.normal_.dot(local) / grid.lift + .375);
   chart.id_ = mixBits(chart.id_ ^ static_cast<uint64_t>(static_cast<int64_t>(offset)));
-  // In front of all that count as this plane.
+  // In front of all surfaces that share this chart.
   chart.origin_ = grid.origin + (offset + .625) * grid.lift * chart.normal_;
   chart.u_ = local.dot(chart.x_);
   chart.v_ = local.dot(chart.y_);
@@ -219,8 +219,8 @@ std::optional<GatherSite> SurfaceChart::siteAt(const CellGrid& grid, double u, d
 std::optional<GatherSite> SurfaceChart::site(const CellGrid& grid, const CellKey& key) const {
   const double du = stepU(grid, key.level), dv = stepV(grid, key.level);
   for (int c = 0; c < kCandidates; ++c) {
-    // The middle first, but for a little: in the very middle of a floor a wall may stand, which is no wall to
-    // a site in its own plane.
+    // The first candidate is slightly off the middle. A wall may stand in the exact middle of a floor, and it
+    // would not occlude a site that lies in the wall's plane.
     const Imath::V2d in = evenly(static_cast<size_t>(c), .5 + kAside, .5 - kAside);
     if (auto site =
             siteAt(grid, (static_cast<double>(key.i) + in.x) * du, (static_cast<double>(key.j) + in.y) * dv))

@@ -20,7 +20,7 @@ void Fingerprint::add(std::string_view text) {
 void addFile(Fingerprint& print, std::string_view name, const rad::FileAccess& access) {
   const auto path = rad::findFile(name, rad::libraryPath(), {}, access);
   const rad::OpenFile file(path.value_or(""));
-  // A name may be that of a folder as well: "." stands for no function file, and RAYPATH begins with it.
+  // The name may be that of a folder: "." means that there is no function file, and RAYPATH begins with it.
   const bool isOpen = file.descriptor() >= 0 && file.isRegular();
   print.add(uint64_t{isOpen});
   if (isOpen) print.add(file.contents(*path));
@@ -32,7 +32,8 @@ void add(Fingerprint& print, const V3d& v) {
   for (int c = 0; c < 3; ++c) print.add(v[c]);
 }
 
-// Shapes without what follows from it. The description has no more numbers of surfaces.
+// The defining values of shapes, without derived ones. The description no longer has the numeric
+// arguments of surfaces.
 void add(Fingerprint& print, const Polygon& polygon, const Scene& scene) {
   print.add(uint64_t{polygon.vertices});
   for (uint32_t i = 0; i < polygon.vertices; ++i) add(print, scene.vertices[polygon.firstVertex + i]);
@@ -58,7 +59,7 @@ void add(Fingerprint& print, const Distant& distant, const Scene&) {
   add(print, distant.direction);
   print.add(distant.halfAngle);
 }
-// How these are placed is in the description, in words.
+// The placements of these are in the description, as string arguments.
 void add(Fingerprint&, const Instance&, const Scene&) {}
 void add(Fingerprint&, const MeshInstance&, const Scene&) {}
 void add(Fingerprint&, const MeshFaces&, const Scene&) {}
@@ -88,7 +89,7 @@ uint64_t fingerprint(const Scene& scene) {
     for (const double x : d.reals(p)) print.add(x);
     for (size_t i = 0; i < p.strings; ++i) {
       print.add(d.string(p, i));
-      // Octrees and meshes are in the scene already.
+      // The scene already contains the octrees and meshes.
       if (rad::isSurface(p.type) || !seen.insert(d.stringArgs[p.firstString + i]).second) continue;
       addFile(print, d.string(p, i), scene.files);
     }

@@ -20,7 +20,7 @@ using rad::Type;
 
 double radians(double degrees) { return degrees * (std::numbers::pi / 180); }
 double coneSolidAngle(double fullAngleDegrees) {
-  // 4 pi sin^2(a/4) is 2 pi (1 - cos(a/2)) without its cancellation for small cones.
+  // 4 pi sin^2(a/4) equals 2 pi (1 - cos(a/2)), but does not suffer from cancellation for small cones.
   const double s = std::sin(radians(fullAngleDegrees) / 4);
   return 4 * std::numbers::pi * s * s;
 }
@@ -35,7 +35,7 @@ class Builder {
 
   Scene build() {
     addGroup(0);
-    // Octrees that instances name, and those that these name in turn; then the meshes of them all.
+    // Octrees that instances name, including those named by other octrees; then the meshes of them all.
     for (size_t i = 0; i < octrees_.size(); ++i) {
       const Place from = primitive(octrees_[i].namedBy).place;
       addGroup(adopt(read(octrees_[i].namedBy, [&] { return rad::readOctree(octrees_[i].file, options_); }),
@@ -55,9 +55,9 @@ class Builder {
   static constexpr int32_t kUnknown = -2;
   static constexpr int kDeepest = 64;
   static constexpr double kNegligible =
-      1e-6;  // shares and roughnesses below it are none; RADIANCE's own figure
+      1e-6;  // shares and roughnesses below this are treated as 0, as in RADIANCE
 
-  // A file that primitives name; the first of them.
+  // A file that primitives name, and the first primitive that names it.
   struct NamedFile {
     std::string file;
     uint32_t namedBy = 0;
@@ -92,7 +92,8 @@ class Builder {
 
   // ---- modifiers
 
-  // Index in the description of the latest definition of a modifier before primitive i; rad::kVoid: none.
+  // Index in the description of the latest definition of a modifier before primitive i; rad::kVoid
+  // if there is none.
   int32_t definedBefore(uint32_t i, std::string_view name) {
     if (!index_) index_.emplace(scene_.description, firstPrimitive_);
     return index_->before(name, static_cast<int32_t>(i));
@@ -104,7 +105,7 @@ class Builder {
     if (name == "void") return kNone;
     const int32_t described = definedBefore(i, name);
     if (described == rad::kVoid) fail(i, fmt::format("undefined modifier \"{}\"", printable(name)));
-    // A ray that meets modifiers within each other goes as deep, and takes up to 2^depth ways.
+    // A ray that hits nested modifiers recurses as deeply, and splits into up to 2^depth evaluations.
     if (depth_ == kDeepest) fail(i, fmt::format("modifiers name each other more than {} deep", kDeepest));
     ++depth_;
     const int32_t converted = modifier(described);
@@ -148,7 +149,7 @@ class Builder {
     return made;
   }
 
-  // What mirror and illum name.
+  // The alternate material that mirror and illum name.
   Alternate alternate(uint32_t i) {
     if (primitive(i).strings == 0) return {};
     if (scene_.description.string(primitive(i), 0) == "void") return {Alternate::Kind::pass, kNone};
@@ -162,7 +163,7 @@ class Builder {
       fail(i, fmt::format("expected at least {} real arguments, got {}", realArguments, reals(i).size()));
   }
 
-  // A string argument's value where it is a number, else what it may be at worst.
+  // A string argument's value if it is a number, otherwise this bound.
   double numberOr(uint32_t i, size_t argument, double otherwise) const {
     const std::string_view word = scene_.description.string(primitive(i), argument);
     double value = 0;
@@ -170,7 +171,8 @@ class Builder {
     return error == std::errc() && end == word.data() + word.size() ? value : otherwise;
   }
 
-  // What WGMDfunc names for a component; one that holds nothing needs no modifier.
+  // The modifier that WGMDfunc names for a component. A component that reflects or transmits
+  // nothing needs none.
   std::optional<int32_t> componentModifier(uint32_t i, size_t argument, bool used) {
     if (!used || scene_.description.string(primitive(i), argument) == "inherit") return std::nullopt;
     return named(i, argument);
@@ -369,10 +371,12 @@ class Builder {
     return m;
   }
 
-  // Converts the modifier at this index of the description and those that modify it; the same one only once.
+  // Converts the modifier at this index of the description and the chain of those that modify
+  // it, each only once.
   int32_t modifier(int32_t described) {
     if (described == rad::kVoid) return kNone;
-    // The chain from described to void, without recursion: a file may nest as deep as it likes.
+    // Follows the chain from described to void without recursion, because a file may nest as
+    // deeply as it likes.
     std::vector<int32_t> chain;
     int32_t next = described;
     while (next != rad::kVoid && modifierOf_[next] == kUnknown) {
@@ -388,7 +392,7 @@ class Builder {
         target = primitive(target).aliased != rad::kVoid ? primitive(target).aliased
                  : target == i                           ? rad::kVoid
                                                          : primitive(target).modifier;
-      if (target != rad::kVoid) {  // an alias without a target stands for its own modifier
+      if (target != rad::kVoid) {  // an alias without a target is its modifier
         Content made = content(static_cast<uint32_t>(target));
         tellIndex(made, static_cast<int32_t>(scene_.modifiers.size()));
         scene_.modifiers.push_back({std::move(made), converted, static_cast<uint32_t>(target)});
@@ -409,7 +413,7 @@ class Builder {
   }
   // ---- octrees and meshes
 
-  // What a reader of primitive i's file returns; what it throws says which primitive named the file.
+  // Calls a reader of primitive i's file. Its errors get the primitive that named the file appended.
   template <class Read>
   std::invoke_result_t<Read> read(uint32_t i, const Read& reader) const {
     try {
@@ -419,7 +423,7 @@ class Builder {
     }
   }
 
-  // Adds another file's description; the index of its first primitive.
+  // Appends another file's description; returns the index of its first primitive.
   uint32_t adopt(rad::Description&& description, Place from) {
     const auto first = static_cast<uint32_t>(scene_.description.primitives.size());
     rad::append(scene_.description, std::move(description), from);
@@ -427,7 +431,8 @@ class Builder {
     return first;
   }
 
-  // Room for all surfaces from this primitive on: growing by doubling would touch twice the memory.
+  // Reserves memory for all surfaces from this primitive on. Growing the lists by doubling would touch
+  // twice the memory.
   void reserve(uint32_t firstPrimitive) {
     size_t surfaces = 0, coordinates = 0;
     for (const Primitive& p : std::span(scene_.description.primitives).subspan(firstPrimitive)) {
@@ -442,8 +447,8 @@ class Builder {
     makeRoom(scene_.vertices, coordinates / 3);
   }
 
-  // Shapes have been made of surfaces' numbers, a fifth of a large scene: those of modifiers alone are asked
-  // for again.
+  // Removes the numeric arguments of surfaces, which take a fifth of a large scene. Shapes have been made
+  // from them, and only those of modifiers are needed again.
   void dropSurfaceNumbers() {
     rad::Description& d = scene_.description;
     std::vector<double> kept;
@@ -456,7 +461,7 @@ class Builder {
     d.realArgs = std::move(kept);
   }
 
-  // The surfaces among the primitives from this one on.
+  // Adds a group: the surfaces among the primitives from this one on.
   void addGroup(uint32_t firstPrimitive) {
     firstPrimitive_ = firstPrimitive;
     const auto& primitives = scene_.description.primitives;
@@ -469,7 +474,7 @@ class Builder {
     scene_.groups.push_back(group);
   }
 
-  // The number of a file among those of its kind, in the order in which they are first named.
+  // The index of a file among those of its kind, in the order in which they are first named.
   static uint32_t numberOf(const std::string& file, uint32_t i, std::vector<NamedFile>& files,
                            std::unordered_map<std::string, uint32_t>& numbers) {
     const auto [at, isNew] = numbers.try_emplace(file, static_cast<uint32_t>(files.size()));
@@ -477,7 +482,7 @@ class Builder {
     return at->second;
   }
 
-  // A file and the transform of what is in it: the arguments of instance and mesh.
+  // The arguments of instance and mesh: a file name and a transform.
   std::string fileArgument(uint32_t i) const {
     if (primitive(i).strings == 0) fail(i, "expected a file name");
     return std::string(scene_.description.string(primitive(i), 0));
@@ -512,7 +517,7 @@ class Builder {
     return {placement(i), numberOf(file, i, meshes_, meshNumbers_)};
   }
 
-  // Reads a mesh; each material that it uses becomes the modifier of faces of its own.
+  // Reads a mesh. Each material that it uses becomes the modifier of a MeshFaces surface.
   void addMesh(const NamedFile& named) {
     rad::Mesh data = read(named.namedBy, [&] { return rad::readMesh(named.file, warn_, options_.files); });
     std::vector<bool> used(data.materials.primitives.size());
@@ -532,7 +537,7 @@ class Builder {
     rad::Description& d = scene_.description;
     if (facesName_ == kNoWord) {
       facesName_ = static_cast<uint32_t>(d.words.size());
-      d.words.emplace_back("M-Tri");  // what rtrace -os calls them
+      d.words.emplace_back("M-Tri");  // their name in the output of rtrace -os
     }
     rad::Primitive p;
     p.type = Type::mesh;
@@ -545,12 +550,12 @@ class Builder {
     return static_cast<int32_t>(scene_.surfaces.size()) - 1;
   }
 
-  // Octrees within each other: an end to them, and to how deep a ray can be.
+  // Checks that octrees do not contain themselves, and that no ray can be nested too deeply.
   void checkNesting() {
     heights_.assign(scene_.groups.size(), kUnknown);
     if (!octrees_.empty()) height(0, 0);
   }
-  // How many levels of octrees and meshes there are under this group, which is itself at `depth`.
+  // The number of levels of octrees and meshes below this group, which is itself at `depth`.
   int height(uint32_t group, int depth) {
     constexpr int kOpen = -1;
     int& known = heights_[group];
@@ -578,7 +583,7 @@ class Builder {
   // ---- surfaces
 
   void addSurface(uint32_t i) {
-    // Light from far away does not come out of an octree.
+    // An octree cannot contain distant light sources.
     if (firstPrimitive_ > 0 && primitive(i).type == Type::source) return;
     std::optional<Shape> shape = makeShape(i);
     if (shape) addSurface(i, std::move(*shape));
@@ -588,12 +593,12 @@ class Builder {
     Surface surface{std::move(shape), i, modifier(primitive(i).modifier), kNone};
     surface.material = scene_.firstMaterial(surface.modifier);
     surface.smoothed = scene_.modifierName(surface) == "Phong";
-    // Sources in octrees are seen, but do not light by themselves.
+    // Light sources in octrees are visible, but are not sampled as light sources.
     if (firstPrimitive_ == 0) checkLight(i, surface);
     scene_.surfaces.push_back(std::move(surface));
   }
 
-  // Only shapes with a centre that can be aimed at can be sampled as light sources.
+  // Rejects shapes that cannot be sampled as light sources, because rays cannot be aimed at their centre.
   void checkLight(uint32_t i, const Surface& surface) const {
     const Material* material = scene_.materialOf(surface);
     if (!material) return;
@@ -660,7 +665,7 @@ class Builder {
       return std::nullopt;
     }
     const double size = std::sqrt(polygon.area);
-    // A thousandth of the size is what a designer would call bent; single precision files stay far below.
+    // A thousandth of the size is visibly bent; the rounding of single-precision files stays far below.
     if (polygon.thickness > 1e-3 * size) warn(i, "non-planar vertex");
     return polygon;
   }
@@ -752,11 +757,11 @@ class Builder {
   std::unordered_map<std::string, uint32_t> octreeNumbers_, meshNumbers_;
   std::vector<int> heights_;  // by group
   uint32_t facesName_ = kNoWord;
-  std::optional<rad::ModifierIndex> index_;       // made when a modifier is first named by a string argument
-  int depth_ = 0;                                 // of such names within each other
+  std::optional<rad::ModifierIndex> index_;       // made when a string argument first names a modifier
+  int depth_ = 0;                                 // of nested conversions by such names
   std::unordered_map<int32_t, uint64_t> clipOf_;  // Surface::clip of a modifier, by index in the description
   uint32_t mists_ = 0;
-  std::vector<int32_t> modifierOf_;  // by index in the description; kUnknown: not looked at
+  std::vector<int32_t> modifierOf_;  // by index in the description; kUnknown: not converted yet
 };
 
 }  // namespace

@@ -9,10 +9,10 @@
 namespace rsphere {
 namespace {
 
-// Rounding of a coordinate difference, relative to the coordinates: two ulp.
+// The rounding error of a coordinate difference, relative to the coordinates: two ulp.
 constexpr double kRounding = 4.5e-16;
 
-// Takes the first root that is neither at the origin nor too far; roots ascend.
+// Whether a root is neither at the origin nor too far. Callers test roots in ascending order.
 bool within(double t, double farthest) { return t > kSamePlace && t <= farthest; }
 
 }  // namespace
@@ -22,7 +22,7 @@ Polygon makePolygon(std::span<const V3d> all, uint32_t first, uint32_t count) {
   polygon.firstVertex = first;
   polygon.vertices = count;
   const auto vertices = all.subspan(first, count);
-  // Relative to the first vertex, so that the sum keeps its digits far from the origin.
+  // Relative to the first vertex, so that the sum keeps its accuracy far from the origin.
   V3d sum(0, 0, 0);
   for (size_t i = 2; i < vertices.size(); ++i)
     sum += (vertices[i - 1] - vertices[0]).cross(vertices[i] - vertices[0]);
@@ -42,7 +42,7 @@ Polygon makePolygon(std::span<const V3d> all, uint32_t first, uint32_t count) {
   polygon.hasArea = true;
   Box3d box;
   for (const V3d& v : vertices) box.extendBy(v);
-  // Up, by more than rounding to single precision, 2^-24, and the sum move it down.
+  // Rounded up, by more than rounding to single precision (2^-24) and rounding of the sum can reduce it.
   polygon.extent = static_cast<float>(
       (box.size().x + box.size().y + box.size().z - box.size()[polygon.axis]) * (1 + 1e-6));
   return polygon;
@@ -50,10 +50,11 @@ Polygon makePolygon(std::span<const V3d> all, uint32_t first, uint32_t count) {
 
 namespace {
 
-// The cross product of a point that counts as on an edge, at most. size: of what it is computed from.
+// The greatest cross product of a point that is treated as lying on an edge. size: of the coordinates that it
+// is computed from.
 double onEdge(double tolerance, double size) { return (tolerance + kRounding * size) * size; }
 
-// inside() for a point that is in line with an edge, if not on it.
+// inside() for a point that may lie on an edge or on the line through one.
 bool insideClosely(std::span<const V3d> vertices, int xi, int yi, double x, double y, double tolerance) {
   bool odd = false;
   const V3d* from = &vertices.back();
@@ -68,7 +69,7 @@ bool insideClosely(std::span<const V3d> vertices, int xi, int yi, double x, doub
       continue;
     }
     if (std::max(x0, x1) < -tolerance) continue;
-    // The point lies in the edge's box: on the edge, or clearly on one side of it?
+    // The point lies in the edge's box. It is either on the edge or clearly on one side of it.
     const double cross = x0 * y1 - x1 * y0;
     const double size = std::abs(x0) + std::abs(x1) + std::abs(y0) + std::abs(y1);
     if (std::abs(cross) <= onEdge(tolerance, size)) return true;
@@ -79,15 +80,15 @@ bool insideClosely(std::span<const V3d> vertices, int xi, int yi, double x, doub
 
 }  // namespace
 
-// Without branches that depend on where the point is: half of them would be guessed wrongly.
+// Has no branches that depend on the position of the point: half of them would be mispredicted.
 bool inside(const PolygonFace& polygon, std::span<const V3d> all, const V3d& point, double tolerance) {
   const int xi = polygon.axis == 2 ? 0 : polygon.axis + 1;
   const int yi = xi == 2 ? 0 : xi + 1;
   const double x = point[xi], y = point[yi];
   const auto vertices = all.subspan(polygon.firstVertex, polygon.vertices);
-  // Enough for every edge whose box the point is in.
+  // An upper bound for every edge whose box contains the point.
   const double near = onEdge(tolerance, polygon.extent + 4 * tolerance);
-  // Signs as bits: of the way from a vertex to the point, so that there is none where they are equal.
+  // The sign bit. Differences are point minus vertex, so that equal coordinates give a positive sign.
   const auto sign = [](double v) { return std::bit_cast<uint64_t>(v); };
   uint64_t odd = 0;
   double nearest = std::numeric_limits<double>::infinity();
@@ -106,8 +107,9 @@ bool inside(const PolygonFace& polygon, std::span<const V3d> all, const V3d& poi
 bool meetsInside(const PolygonFace& polygon, std::span<const V3d> vertices, const V3d& origin,
                  const V3d& direction, double distance, double cosine) {
   if (!polygon.hasArea) return false;
-  // How far apart two polygons that meet at an edge may see one ray: each has it at its own rounded distance.
-  // Points that near an edge are inside both, or light would leak between them.
+  // The distance between the points at which two polygons that share an edge meet one ray: each rounds
+  // the distance along the ray separately. Points this close to the edge are inside both, or light would
+  // leak between them.
   const double size = std::abs(origin.x) + std::abs(origin.y) + std::abs(origin.z) + distance;
   const double tolerance = 2 * kRounding * size / std::abs(cosine);
   return inside(polygon, vertices, origin + distance * direction, tolerance);
@@ -117,8 +119,8 @@ bool intersect(const Sphere& sphere, const V3d& origin, const V3d& direction, do
                ShapeHit& hit) {
   const V3d m = origin - sphere.center;
   const double b = m.dot(direction);
-  // The distance of the line from the centre, rather than b^2 - c, which loses every digit for a far, small
-  // sphere.
+  // Uses the distance of the line from the centre instead of b^2 - c, which loses all accuracy for a small
+  // sphere far away.
   const V3d closest = m - b * direction;
   const double discriminant = sphere.radius * sphere.radius - closest.length2();
   if (!(discriminant >= 0)) return false;
@@ -135,7 +137,7 @@ bool intersect(const Sphere& sphere, const V3d& origin, const V3d& direction, do
 
 bool intersect(const Cone& cone, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit) {
   const V3d m = origin - cone.base;
-  // Most are missed by far: the ray's line passes the axis farther off than any of its radii.
+  // Early exit for most rays: their line passes the axis at a greater distance than the larger radius.
   const V3d across = direction.cross(cone.axis);
   const double widest = std::max(cone.radius0, cone.radius1), off = m.dot(across);
   if (off * off > 1.000001 * widest * widest * across.length2() + 1e-12 * m.length2()) return false;
@@ -205,8 +207,8 @@ Box3d bounds(const Polygon& polygon, std::span<const V3d> vertices) {
   Box3d box;
   for (const V3d& v : vertices.subspan(polygon.firstVertex, polygon.vertices)) box.extendBy(v);
   if (polygon.area > 0) {
-    // Hits lie on the mean plane, which leaves the vertices' box along the dropped axis where they are not in
-    // a plane.
+    // Hits lie on the mean plane. If the vertices are not coplanar, it extends beyond their box along the
+    // projection axis.
     const double out = polygon.thickness / std::abs(polygon.normal[polygon.axis]);
     box.min[polygon.axis] -= out;
     box.max[polygon.axis] += out;
@@ -220,7 +222,7 @@ Box3d bounds(const Sphere& sphere) {
 }
 
 namespace {
-// Half the size of the box around a disk of radius 1 with this normal.
+// Half the size of the bounding box of a disk with radius 1 and this normal.
 V3d diskExtent(const V3d& normal) {
   V3d extent;
   for (int i = 0; i < 3; ++i) extent[i] = std::sqrt(std::max(0., 1 - normal[i] * normal[i]));

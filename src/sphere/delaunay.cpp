@@ -6,15 +6,16 @@
 namespace rsphere {
 namespace {
 
-// Directions that hide one another are nearer than this: radii differ by at most kUnitTolerance^2 / 8, and a
-// chord of length h cuts h^2/8 off. For vectors normalized in double precision it is 4e-16.
+// Directions farther apart than this cannot hide one another inside the hull: radii differ by at most
+// kUnitTolerance^2 / 8, and a chord of length h lies up to h^2/8 below the sphere. For vectors normalized in
+// double precision, the distance is 4e-16.
 constexpr double kHiddenDistance = 2 * kUnitTolerance;
 
-// Twice the volume of a, b, p and the centre, from differences: right also where the three are close
-// together.
+// Six times the signed volume of the tetrahedron of a, b, p and the centre. It is computed from differences,
+// so it is accurate even if the three are close together.
 double sideOfArc(const V3d& aFromP, const V3d& bFromP, const V3d& p) { return aFromP.cross(bFromP).dot(p); }
 
-// From the apex to another corner; parts: the sum of its absolute components.
+// The vector from the apex to another corner. parts: the sum of its absolute components.
 struct Edge {
   explicit Edge(const V3d& e) : to(e), parts(std::abs(e.x) + std::abs(e.y) + std::abs(e.z)) {}
   V3d to;
@@ -27,9 +28,11 @@ inline void setPlane(Triangle& t, const V3d& apex, const Edge& u, const Edge& v)
   t.ny = n.y;
   t.nz = n.z;
   t.offset = n.dot(apex);
-  // Rounding: normal 4 sqrt(2) roundings of |u||v|, used with p and with the apex; 8 more for the two dot
-  // products. Radii: each may be off by kUnitTolerance/2, at p times |n|, at a corner times at most twice the
-  // opposite edge.
+  // The bound consists of two parts:
+  // - Rounding: the normal has 4 sqrt(2) roundings of |u||v|, used with p and with the apex; the two dot
+  //   products add 8 more.
+  // - Radii: each may be off by kUnitTolerance/2. At p this has the factor |n|, at a corner at most twice
+  //   the opposite edge.
   const double m = u.parts, k = v.parts;
   t.bound = static_cast<float>(0x1p-48 * m * k + 0.51 * kUnitTolerance * (m * k + 4 * (m + k)) + 1e-36);
 }
@@ -74,17 +77,17 @@ void Delaunay::start(const std::array<Site, 4>& first) {
   someTriangle.assign({0, 0, 0, 1});
 }
 
-// Within insert(), its one caller, p stays in registers.
+// Inlined into insert(), its only caller, so that p stays in registers.
 [[gnu::always_inline]] inline std::uint32_t Delaunay::locate(const V3d& p, std::uint32_t& equal) {
-  // A visibility walk: across an edge that separates p from the triangle, until a circle holds p. It ends
-  // where the hull holds the centre and signs are right; elsewhere the limit ends it and the nearest site is
-  // sought instead.
+  // A visibility walk: it crosses an edge that separates p from the triangle, until a circumcircle contains
+  // p. The walk ends if the hull contains the centre and all signs are right. Otherwise the step limit ends
+  // it, and the nearest site is searched for instead.
   const std::uint32_t limit =
       64 + 4 * static_cast<std::uint32_t>(std::sqrt(static_cast<double>(triangles.size())));
   std::uint32_t t = 0, from = kNone;
-  // The next site is near the last one, mostly: of the triangles around that, the walk begins with the one
-  // whose plane p is farthest beyond. Always as many, since the end of a loop that can't be guessed costs
-  // more.
+  // The next site is usually near the last one. Of the triangles around that site, the walk starts at the one
+  // whose plane p is farthest beyond. The number of triangles examined is fixed, because an unpredictable
+  // loop end would cost more.
   double farthest = -std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < kStarts; ++k) {
     const std::uint32_t start = hole_[k < lastRim_ ? k : 0];
@@ -100,7 +103,7 @@ void Delaunay::start(const std::array<Site, 4>& first) {
     }
     const V3d d[3] = {sites[triangle.corner[0]].at - p, sites[triangle.corner[1]].at - p,
                       sites[triangle.corner[2]].at - p};
-    // The edge that separates most: chosen without branches, which nobody could guess.
+    // The edge that separates p most. It is chosen without branches, because they would be unpredictable.
     const double side0 = sideOfArc(d[1], d[2], p), side1 = sideOfArc(d[2], d[0], p),
                  side2 = sideOfArc(d[0], d[1], p);
     const bool oneIsLess = side1 < side0;
@@ -108,7 +111,7 @@ void Delaunay::start(const std::array<Site, 4>& first) {
     const bool twoIsLeast = side2 < less;
     const double least = twoIsLeast ? side2 : less;
     const std::uint32_t across = triangle.next[twoIsLeast ? 2u : static_cast<std::uint32_t>(oneIsLess)] / 4;
-    // Back where it came from: rounding has it on both sides.
+    // The walk would turn back: by rounding, p appears on both sides of the edge.
     if (!(least < 0) || across == from) {
       counts.filter += step;
       break;
@@ -120,7 +123,7 @@ void Delaunay::start(const std::array<Site, 4>& first) {
 }
 
 std::uint32_t Delaunay::locateFromNearest(const V3d& p, std::uint32_t site, std::uint32_t& equal) {
-  // Each step is strictly nearer, so it ends, also on rings where many sites are equally near.
+  // Each step gets strictly nearer, so the loop ends, even on rings where many sites are equally near.
   double distance2 = (sites[site].at - p).length2();
   for (bool nearer = true; nearer;) {
     nearer = false;
@@ -137,7 +140,8 @@ std::uint32_t Delaunay::locateFromNearest(const V3d& p, std::uint32_t site, std:
   }
   equal = site;
   if (sites[site].at == p) return kNone;
-  // The nearest site will be joined to p, so a circle through it holds p; unless p is hidden.
+  // The nearest site will be joined to p, so the circle of one of its triangles contains p, unless p is
+  // hidden inside the hull.
   std::uint32_t found = kNone;
   const std::uint64_t slow = counts.lifted + counts.exact + counts.symbolic;
   std::uint64_t asked = 0;
@@ -146,7 +150,7 @@ std::uint32_t Delaunay::locateFromNearest(const V3d& p, std::uint32_t site, std:
     if (holds(triangles[t], p)) found = t;
     return found != kNone;
   });
-  // Rounding may have ended the descent at a site that is not the nearest.
+  // Rounding may have ended the descent at a site that is not the nearest. Then all triangles are searched.
   for (std::uint32_t t = 0;
        found == kNone && distance2 > kHiddenDistance * kHiddenDistance && t < triangles.size(); ++t) {
     if (triangles[t].corner[0] == kNone) continue;
@@ -176,8 +180,8 @@ void Delaunay::insert(const Site& added) {
   }
   standsFor.push_back(site);
 
-  // The hole, edge by edge counterclockwise, so that its rim comes out in order. Pointers of our own: what is
-  // written cannot change them, as far as the compiler knows.
+  // Grows the hole edge by edge counterclockwise, so that its rim comes out in order. Local pointers let the
+  // compiler assume that writes to the arrays do not change them.
   const std::uint32_t insertion = ++insertions;
   std::size_t holes = 1, rims = 0, pending = 3;
   makeRoom(holes, rims, pending);
@@ -212,7 +216,7 @@ void Delaunay::insert(const Site& added) {
   }
   counts.filter += asked - (counts.lifted + counts.exact + counts.symbolic - slow);
   const std::span<const RimEdge> rim(rim_.data(), rims);
-  // A hole without a site inside has two triangles less than its rim has edges.
+  // If no site lies inside the hole, it has two triangles fewer than its rim has edges.
   if (rims != holes + 2) mergeHidden(site, {hole_.data(), holes}, rim);
 
   if (hole_.size() < rims) hole_.resize(rims);

@@ -19,9 +19,9 @@ struct alignas(64) Block {
   double tangent[3][kBlock];                                 // at the edge opposite to a corner
 };
 
-// Vectors as wide as the machine has them; answers do not depend on it, as nothing is contracted. Each loop
-// is one that GCC 12 puts into vectors: no choice between values that are still to be computed, no square
-// root.
+// Compiled for several vector widths. The answers do not depend on the width, because nothing is contracted.
+// Each loop is written so that GCC 12 vectorizes it: it selects only between values that are already
+// computed, and the square root is in a loop by itself.
 __attribute__((target_clones("avx512f", "avx2", "default"))) void tangents(Block& k) {
   for (int i = 0; i < kBlock; ++i) {
     const double ux = k.ax[i] - k.cx[i], uy = k.ay[i] - k.cy[i], uz = k.az[i] - k.cz[i],
@@ -60,7 +60,7 @@ __attribute__((target_clones("avx512f", "avx2", "default"))) void tangents(Block
   }
 }
 
-// Error 2^-63 relative for |t| <= 1/32.
+// Relative error 2^-63 for |t| <= 1/32.
 inline double arcTangentNearZero(double t) {
   const double s = t * t;
   return t - t * s * (1 / 3.0 - s * (1 / 5.0 - s * (1 / 7.0 - s * (1 / 9.0 - s * (1 / 11.0)))));
@@ -90,7 +90,7 @@ LongVec unit(const Site& s) {
   const long double k = shrinkage(s);
   return {s.at.x - s.at.x * k, s.at.y - s.at.y * k, s.at.z - s.at.z * k};
 }
-// unit(a) - unit(b), rounded at the size of the difference.
+// unit(a) - unit(b), with a rounding error relative to the difference.
 LongVec difference(const Site& a, const Site& b) {
   const long double k = shrinkage(a), l = shrinkage(b);
   return {(0.0L + a.at.x - b.at.x) - (k * a.at.x - l * b.at.x),
@@ -182,8 +182,8 @@ double carefulSolidAngle(const Delaunay& delaunay, std::uint32_t site) {
 }
 
 V3d circumcentre(const V3d& a, const V3d& b, const V3d& c) {
-  // With u = a - c and v = b - c taken as the sphere bends them, |u|^2/2 below c, the normal is
-  // det c + ((|u|^2 v - |v|^2 u) x c) / 2.
+  // Let u = a - c and v = b - c. On the sphere, a and b lie |u|^2/2 and |v|^2/2 below c. With these heights,
+  // the normal is det c + ((|u|^2 v - |v|^2 u) x c) / 2.
   const V3d u = a - c, v = b - c;
   return (c * (2 * c.dot(u.cross(v))) + (v * u.length2() - u * v.length2()).cross(c)).normalized();
 }

@@ -10,7 +10,7 @@
 namespace rsphere {
 namespace {
 
-// A sum of doubles that do not overlap, smallest first; its sign is that of the last.
+// A sum of non-overlapping doubles, smallest first. Its sign is that of the last one.
 template <int N>
 struct Expansion {
   std::array<double, N> part;
@@ -21,7 +21,7 @@ struct Expansion {
   int sign() const { return size == 0 ? 0 : part[size - 1] > 0 ? 1 : -1; }
 };
 
-// Adds one double; the parts stay apart (Shewchuk's grow-expansion with zero elimination).
+// Adds one double and keeps the parts non-overlapping (Shewchuk's grow-expansion with zero elimination).
 template <int N>
 void grow(Expansion<N>& e, double x) {
   int kept = 0;
@@ -109,8 +109,8 @@ int exactSide(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
       .sign();
 }
 
-// The first derivative of exactSide that is not 0, in the order in which the coordinates are shifted. Only
-// points that are not different have none.
+// The sign of the first nonzero derivative of exactSide, in the order in which coordinates are perturbed.
+// Returns 0 only if the points are not all different.
 int shiftedSide(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
   const std::array<const V3d*, 4> row = {&a, &b, &c, &p};
   std::array<int, 4> order;
@@ -135,12 +135,14 @@ int shiftedSide(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
   return 0;
 }
 
-// With u = a - p and |u|^2/2 in place of u's part along p, which for unit vectors is the same:
+// With u = a - p, and |u|^2/2 instead of u's part along p, which is equal for unit vectors,
 //   |u|^2 p.(v x w) + |v|^2 p.(w x u) + |w|^2 p.(u x v)
-// is twice the exact form, whatever the radii are. Returns 0 where rounding might decide.
-// Error: 18 roundings of each product of two squared edges (differences 2, cross 2, dot 3, square 3, product
-// and sums 3; |v||w| <= (|v|^2 + |w|^2)/2), and kUnitTolerance^2 times the squared edges for using the weight
-// (1 + |p|^2)/2 in one form and chords in the other. The factors below are 32 and 2.
+// is twice the exact form, whatever the radii are. Returns 0 if rounding might decide the sign. The error has
+// two terms, which the factors 32 and 2 below bound:
+// - Rounding: 18 roundings of each product of two squared edges (differences 2, cross 2, dot 3, square 3,
+//   product and sums 3; |v||w| <= (|v|^2 + |w|^2)/2).
+// - Radii: kUnitTolerance^2 times the squared edges, because one form uses the weight (1 + |p|^2)/2 and the
+//   other uses chords.
 template <class Real>
 int liftedSide(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
   using Vec = Imath::Vec3<Real>;
@@ -156,8 +158,7 @@ int liftedSide(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
 
 bool circleHolds(const V3d& a, const V3d& b, const V3d& c, const V3d& p, PredicateCounts& counts) {
   int sign = liftedSide<double>(a, b, c, p);
-  // Sites on one circle, rounded, are what the second precision is for: 40 ns, where the exact form takes 2
-  // us.
+  // The second precision is for rounded sites that lie on one circle. It takes 40 ns, the exact form 2 us.
   if (sign == 0) sign = liftedSide<long double>(a, b, c, p);
   if (sign != 0) {
     ++counts.lifted;

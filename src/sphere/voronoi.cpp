@@ -16,13 +16,12 @@ namespace {
 
 constexpr std::uint32_t kNone = Delaunay::kNone;
 constexpr double kSphere = 4 * std::numbers::pi;
-// The square of an ulp of 1 [sr]: no input has smaller cells that rounding would not change beyond
-// recognition.
+// The square of an ulp of 1 [sr]. Rounding of the input changes any smaller cell beyond recognition.
 constexpr double kLeastArea = 0x1p-104;
 
 double withoutDust(double x) { return std::abs(x) < kSmallestComponent ? 0.0 : x; }
 
-// Appends the directions as sites; throws if one is not a unit vector.
+// Appends the directions as sites. Throws if one is not a unit vector.
 void appendChecked(std::span<const V3d> directions, std::vector<Site>& sites) {
   if (sites.size() + directions.size() > (1u << 29)) throw std::invalid_argument("more than 2^29 directions");
   for (const V3d& d : directions) {
@@ -37,8 +36,8 @@ void appendChecked(std::span<const V3d> directions, std::vector<Site>& sites) {
   }
 }
 
-// Directions in the order in which they were inserted. Below four different ones there is no triangulation:
-// sites keep their order, and few names the different ones.
+// Directions in the order of insertion. With fewer than four different directions there is no triangulation:
+// sites then keep the order of the input, and few lists the different ones.
 struct Triangulation {
   Delaunay delaunay;
   std::vector<std::uint32_t> order;  // site -> direction
@@ -67,7 +66,8 @@ void Triangulation::build(std::span<const Site> sites, OrderScratch& scratch) {
   delaunay.reserve(sites.size());
   delaunay.start({sites[few[0]], sites[few[1]], sites[few[2]], sites[few[3]]});
   few.clear();
-  // The order jumps about in memory: among a million, waiting for each site took a third of the time.
+  // The order accesses sites all over memory. For a million directions, a third of the time was spent waiting
+  // for them without this prefetch.
   constexpr std::size_t kAhead = 8;
   for (std::size_t k = 4; k < order.size(); ++k) {
     __builtin_prefetch(&sites[order[std::min(k + kAhead, order.size() - 1)]]);
@@ -103,14 +103,14 @@ struct VoronoiWorkspace::Data {
   OrderScratch scratch;
   std::vector<Site> added;
   std::vector<std::uint32_t> addedOrder, which;
-  std::vector<std::uint8_t> spoiled;  // spoiled: sites that a wide circle touches
+  std::vector<std::uint8_t> spoiled;  // by site: 1 for corners of a triangle with a wide circle
   std::vector<double> area;           // of sites
   std::vector<std::uint32_t> sharers;
   std::vector<double> solidAngles;
 
   void build(std::span<const Site> sites);
   void query(const BaseTriangulation::Data& base, std::span<const V3d> dynamicDirections);
-  void addKeptTriangles(const BaseTriangulation::Data& base);  // and lists the new ones in which
+  void addKeptTriangles(const BaseTriangulation::Data& base);  // also lists the new triangles in which
   void markSpoiled(const Triangle& t) {
     for (std::uint32_t corner : t.corner) spoiled[corner] = 1;
   }
@@ -164,8 +164,8 @@ void VoronoiWorkspace::Data::query(const BaseTriangulation::Data& base,
 }
 
 void VoronoiWorkspace::Data::addKeptTriangles(const BaseTriangulation::Data& base) {
-  // A triangle of the base has no corner that came later; new ones have theirs first. Without branches on
-  // which is which, since no guess at them is good: the kites of a triangle that is gone count 0 times.
+  // Triangles of the base have no corner that was added later; new triangles have theirs first. The loop does
+  // not branch on this, because it is unpredictable: the kites of a triangle that was removed are added as 0.
   const auto& triangles = triangulation.delaunay.triangles;
   const std::size_t kept = base.triangulation.delaunay.sites.size(), places = base.kites.size();
   which.resize(triangles.size());
@@ -192,8 +192,8 @@ void VoronoiWorkspace::Data::finishAreas() {
   for (std::uint32_t site = 0; site < area.size(); ++site) {
     anyMerged = anyMerged || delaunay.standsFor[site] != site;
     if (spoiled[site]) area[site] = carefulSolidAngle(delaunay, site);
-    // A crowd within an ulp: the hull's radii (predicates.h) and the sphere's differ by as much as the cells'
-    // size.
+    // A cluster within an ulp: the radii of the hull's points (predicates.h) differ from 1 by as much as
+    // the cells measure.
     if (area[site] < 0 && area[site] > -kLeastArea) area[site] = 0;
   }
   if (anyMerged) {
@@ -215,7 +215,7 @@ void VoronoiWorkspace::Data::setFlatAreas() {
   std::array<double, 3> cell = {kSphere, kSphere / 2, kSphere / 2};
   if (few.size() == 2) cell[0] = kSphere / 2;
   if (few.size() == 3) {
-    // Both sides of the plane triangle are faces of the hull: a cell is 2 pi less its two angles (kites.h).
+    // Both sides of the plane triangle are faces of the hull: a cell is 2 pi minus its two angles (kites.h).
     for (int i = 0; i < 3; ++i) {
       const long double angle = hullAngle(sites[few[(i + 1) % 3]], sites[few[(i + 2) % 3]], sites[few[i]]);
       cell[i] = static_cast<double>(2 * (std::numbers::pi_v<long double> - angle));
@@ -242,7 +242,7 @@ BaseTriangulation::BaseTriangulation(std::span<const V3d> directions) {
     const Delaunay& delaunay = data->triangulation.delaunay;
     std::vector<std::uint32_t> all(delaunay.triangles.size());
     std::iota(all.begin(), all.end(), 0);
-    // Unused places have no corners to read.
+    // Free slots have no corners, so the kites of another triangle take their place.
     const auto used = std::find_if(all.begin(), all.end(),
                                    [&](std::uint32_t t) { return delaunay.triangles[t].corner[0] != kNone; });
     for (std::uint32_t t : delaunay.unused) all[t] = *used;

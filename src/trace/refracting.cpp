@@ -23,7 +23,7 @@ class Refracting {
   }
 
  private:
-  // A chain of modifiers. Each is looked at once: mixtures of mixtures may name the same ones many times.
+  // A chain of modifiers. Each is examined once, because nested mixtures may name the same ones many times.
   bool modifier(int32_t first) {
     for (int32_t m = first; m != kNone; m = scene_.modifiers[m].next) {
       std::optional<bool>& known = modifiers_[m];
@@ -63,7 +63,7 @@ class Refracting {
   }
 
   const Scene& scene_;
-  std::vector<std::optional<bool>> modifiers_, groups_;  // empty: not looked at yet
+  std::vector<std::optional<bool>> modifiers_, groups_;  // empty: not examined yet
 };
 
 }  // namespace

@@ -12,21 +12,21 @@
 namespace rsphere {
 namespace {
 
-// What a surface does to shadow rays and ties, looked up once.
+// The properties of a surface that shadow rays and ties depend on, looked up once.
 struct Occluder {
   uint32_t surface = 0;
-  int32_t modifier = kNone;  // place of definition: later wins ties
+  int32_t modifier = kNone;  // index in the description: the later definition wins ties
   bool hasMaterial = false;
   bool transparent = false;
-  bool opaqueFront = false, opaqueBack = false;  // surely lets no shadow ray pass when hit there
+  bool opaqueFront = false, opaqueBack = false;  // certainly stops every shadow ray that hits this side
   bool plane = false;
 
   bool stops(double cosine) const { return cosine > 0 ? opaqueFront : opaqueBack; }
 };
 
 bool stopsFromBehind(const Material& material) {
-  // A light source stops rays to other sources from both sides, whatever -bv says; so do materials with
-  // functions, and prisms.
+  // A light source stops rays to other sources from both sides, regardless of -bv. So do prisms and
+  // materials with functions.
   if (const auto* brtd = std::get_if<BrtdFunction>(&material)) return !brtd->transmits;
   if (const auto* wgmd = std::get_if<WgmdFunction>(&material)) return !wgmd->transmits;
   return std::holds_alternative<Anisotropic>(material) || std::holds_alternative<Ashikhmin>(material) ||
@@ -41,7 +41,7 @@ bool stopsFromFront(const Material& material) {
   return std::holds_alternative<Opaque>(material) || stopsFromBehind(material);
 }
 
-// Whether a mixture stands before the surface's material.
+// Whether a mixture precedes the surface's material in the chain.
 bool meetsMixture(const Scene& scene, const Surface& surface) {
   for (int32_t m = surface.modifier; m != surface.material; m = scene.modifiers[m].next)
     if (std::holds_alternative<Mixture>(scene.modifiers[m].content)) return true;
@@ -58,7 +58,7 @@ Occluder makeOccluder(const Scene& scene, uint32_t i, bool backFacesVisible) {
   o.hasMaterial = true;
   const Material* material = scene.materialOf(surface);
   o.transparent = material && isTransparent(*material);
-  // An alternate, antimatter or a mixture has to be asked.
+  // Whether an alternate, antimatter or a mixture stops a ray is only known at the hit.
   if (material && surface.clip == 0 && !meetsMixture(scene, surface)) {
     o.opaqueFront = stopsFromFront(*material);
     o.opaqueBack = stopsFromBehind(*material) || (o.opaqueFront && backFacesVisible);
@@ -66,14 +66,14 @@ Occluder makeOccluder(const Scene& scene, uint32_t i, bool backFacesVisible) {
   return o;
 }
 
-// A surface of a group, in one line of the cache: whatever most tests of it need.
+// A surface of a group. The data that most tests need fits in one cache line.
 struct alignas(64) Face {
-  PolygonFace polygon;  // hasArea: it is one
+  PolygonFace polygon;  // hasArea is false for other shapes
   Occluder occluder;
 };
 static_assert(sizeof(Face) == 64);
 
-// Whether surface a, of two that are hit at the same place, is the one that counts.
+// Whether surface a takes precedence over b, if both are hit at the same place.
 bool wins(const Occluder& a, double cosineA, const Occluder& b, double cosineB) {
   if (a.hasMaterial != b.hasMaterial) return a.hasMaterial;
   if (a.transparent != b.transparent) return b.transparent;
@@ -82,43 +82,44 @@ bool wins(const Occluder& a, double cosineA, const Occluder& b, double cosineB) 
   return a.surface < b.surface;
 }
 
-// Moves a length up, by more than rounding to single precision, 2^-24, and what led there move it down.
+// Increases a length by more than rounding to single precision (2^-24) and earlier rounding can reduce it.
 float roundUp(double x) { return static_cast<float>(x * (1 + 1e-6)); }
 
-// Whether an instance or a mesh hides what it brings in behind a modifier of its own.
+// Whether an instance or a mesh has a modifier, which then applies to all of its contents.
 bool standsForContents(const Occluder& o) { return o.modifier != rad::kVoid; }
 
-// The nearest hit so far, in the coordinates of the tree that was asked.
+// The nearest hit so far, in the coordinates of the tree that is queried.
 struct Found {
   const Occluder* occluder = nullptr;
   ShapeHit hit;
-  PlacementPath path;        // of where it is, from the world's coordinates
-  uint8_t modifierPath = 0;  // how many of these place its modifiers
+  PlacementPath path;        // placements from the world to the surface that was hit
+  uint8_t modifierPath = 0;  // how many of these apply to its modifiers
   const rad::Mesh* mesh = nullptr;
   uint32_t triangle;  // of the mesh
   TriangleHit triangleHit;
 };
 
-// The ray as callbacks see it, in the coordinates of the tree that is asked; Embree hands the context
-// through.
+// The ray for the callbacks, in the coordinates of the tree that is queried. Embree passes the
+// context on to them.
 struct Query {
-  embree::QueryContext context;  // first, so that its address is the query's
+  embree::QueryContext context;  // first, because callbacks cast its address to the query's
   V3d origin, direction;
-  double start = 0;               // where Embree's ray begins, along the true one
-  double farthest = 0;            // as it was asked
-  double samePlace = kSamePlace;  // of the world
-  uint8_t depth = 0;              // of the tree: placements that lead to it
-  Found best;                     // shadow(): the source itself, where it is a surface
+  double start = 0;               // distance along the true ray at which Embree's ray starts
+  double farthest = 0;            // limit of the query
+  double samePlace = kSamePlace;  // the world's, in the units of this tree
+  uint8_t depth = 0;              // of the tree: the number of placements that lead to it
+  Found best;                     // shadow(): the source itself, if it is a surface
   int32_t source = kNone;
-  const Occluder* standIn = nullptr;  // shadow(): what stands for the contents of the tree
-  bool passable = false;              // shadow(): something was hit that may let light pass
-  // The tree's primitives that the ray begins on and cannot meet again, and that it goes to.
+  const Occluder* standIn =
+      nullptr;            // the instance or mesh that hits on the tree's contents may be attributed to
+  bool passable = false;  // shadow(): something was hit that may let light pass
+  // The tree's primitives that the ray starts on and cannot hit again, and that it is aimed at.
   uint32_t from = Tracer::kNoBlocker, target = Tracer::kNoBlocker;
   uint32_t blocker = 0;  // shadow(): the tree's primitive that stopped the ray
-  double stop = 0;       // and at which distance
+  double stop = 0;       // its distance
 
   double reach() const { return best.occluder ? best.hit.distance + samePlace : farthest; }
-  // Whether a hit at least as near as reach() has to give way to the best one.
+  // Whether a hit within reach() yields to the best one.
   bool loses(const Occluder& occluder, const ShapeHit& hit) const {
     return best.occluder && hit.distance >= best.hit.distance - samePlace &&
            !wins(occluder, hit.cosine, *best.occluder, best.hit.cosine);
@@ -131,9 +132,9 @@ double distanceTo(const Box3d& box, const V3d& point) {
   return out.length();
 }
 
-// Whether a polygon or a ring lies in the plane of the surface that the neighborhood is of.
+// Whether the shape is a polygon or ring in the plane of the neighborhood's surface.
 bool liesInPlane(const Shape& shape, const Tracer::Neighborhood& around) {
-  constexpr double kParallel = 1e-9;  // planes whose normals' cosine is as near to 1 or -1
+  constexpr double kParallel = 1e-9;  // planes are parallel if |cosine| of their normals is within this of 1
   const V3d* const normal = planeNormal(shape);
   if (!normal || std::abs(normal->dot(around.normal)) < 1 - kParallel) return false;
   const auto* polygon = std::get_if<Polygon>(&shape);
@@ -147,18 +148,18 @@ float roundDown(double x) {
 
 }  // namespace
 
-// Surfaces that are traced together, with Embree's tree around them.
+// Surfaces that are traced together, and Embree's tree over them.
 class Tracer::Tree {
  public:
-  // The trees that instances and meshes may be of: of groups, of the surfaces of groups that refract, and of
-  // meshes.
+  // The trees of instances and meshes: of all surfaces of each group, of those surfaces of each group that
+  // refract, and of each mesh.
   struct Others {
     std::span<const std::unique_ptr<Tree>> groups, refracting, meshes;
   };
 
-  // A group of surfaces. only: not null where the tree is to have these alone, by index in Scene::surfaces;
-  // what its instances bring in are then the surfaces that refract, but for instances with a modifier of
-  // their own, which all of their contents have.
+  // The tree of a group of surfaces. only: if not null, the tree has only these (by index in
+  // Scene::surfaces), and its instances refer to the trees of refracting surfaces. Instances with a modifier
+  // still refer to whole trees, because all of their contents have that modifier.
   Tree(RTCDevice device, const Scene& scene, const SurfaceGroup& group, bool backFacesVisible,
        const Others& others, const std::vector<bool>* only = nullptr)
       : scene_(scene), others_(others), isWhole_(!only) {
@@ -196,18 +197,18 @@ class Tracer::Tree {
   const Box3d& bounds() const { return bounds_; }
   size_t primitives() const { return primitives_; }
 
-  // The primitive that a ray cannot meet again which begins on this surface: kNoBlocker where there is none.
+  // The primitive that a ray cannot hit again if it starts on this surface; kNoBlocker if there is none.
   uint32_t beginOf(int32_t surface) const {
-    const auto primitive = static_cast<uint32_t>(surface);  // as the world's whole tree has it
+    const auto primitive = static_cast<uint32_t>(surface);  // the same index in the world's whole tree
     return primitive < faces_.size() && faces_[primitive].occluder.plane ? primitive : kNoBlocker;
   }
 
-  // What stands for a surface of this tree, of a group.
+  // The occluder of a surface of this group's tree.
   const Occluder& occluderOf(uint32_t surface) const {
     return faces_[surface - faces_[0].occluder.surface].occluder;
   }
 
-  // Sets query.best where something is nearer, as Tracer::nearest() has it.
+  // Updates query.best if something is nearer; see Tracer::nearest().
   void nearest(Query& query) const {
     RTCRayHit rayHit;
     if (!aim(query, rayHit.ray)) return;
@@ -217,12 +218,12 @@ class Tracer::Tree {
     embree::intersect(tree_, query.context, rayHit);
   }
 
-  // Whether this primitive, of a group's tree, stops the ray.
+  // Whether this primitive of a group's tree stops the ray.
   bool isBlocker(Query& query, uint32_t primitive) const {
     return primitive < faces_.size() && crossSurface(query, primitive);
   }
 
-  // Whether the ray is surely stopped; if not, query.passable says whether it needs to be followed.
+  // Whether the ray is certainly stopped. If not, query.passable says whether it must be followed.
   bool blocks(Query& query) const {
     RTCRay ray;
     if (!aim(query, ray)) return false;
@@ -231,7 +232,7 @@ class Tracer::Tree {
     return ray.tfar < 0;
   }
 
-  // As Tracer::anySmallNear() has it, in the coordinates of the tree.
+  // Like Tracer::anySmallNear(), in the coordinates of the tree.
   bool anySmallNear(const Neighborhood& around) const {
     if (!tree_ || distanceTo(bounds_, around.point) > around.radius) return false;
     const V3d m = around.point - center_;
@@ -242,7 +243,7 @@ class Tracer::Tree {
   }
 
  private:
-  // What an instance or a mesh brings in.
+  // The contents of an instance or a mesh.
   struct Contents {
     const Tree* tree = nullptr;
     uint32_t placement = 0;
@@ -288,8 +289,9 @@ class Tracer::Tree {
     if (bounds_.isEmpty()) return;
     center_ = bounds_.center();
     radius_ = bounds_.size().length() / 2;
-    // A ray of Embree's starts within 2 radii and ends within 4 more: rounding moves its origin by at most
-    // 2^-23 radius a coordinate, and its direction, over that length, by 2^-22.
+    // Embree's ray starts within 2 radii of the center and is at most 4 radii long. Rounding moves its
+    // origin by at most 2^-23 radius per coordinate; rounding of its direction moves it, over that length,
+    // by 2^-22 radius.
     padding_ = radius_ * 0x1p-21;
     tree_ = rtcNewScene(device);
     rtcSetSceneFlags(tree_, RTC_SCENE_FLAG_ROBUST);
@@ -309,7 +311,7 @@ class Tracer::Tree {
     const auto& self = *static_cast<const Tree*>(arguments->geometryUserPtr);
     const Box3d box = self.boundsOf(arguments->primID);
     RTCBounds& out = *arguments->bounds_o;
-    if (box.isEmpty()) {  // left out by Embree
+    if (box.isEmpty()) {  // Embree ignores such primitives
       out.lower_x = std::numeric_limits<float>::infinity(), out.upper_x = -out.lower_x;
       return;
     }
@@ -319,8 +321,8 @@ class Tracer::Tree {
     out.upper_x = -roundDown(-high.x), out.upper_y = -roundDown(-high.y), out.upper_z = -roundDown(-high.z);
   }
 
-  // Embree's ray for a query: begins where the true ray comes near the tree, so that single precision
-  // suffices. False where it never does.
+  // Embree's ray for a query. It starts where the true ray comes near the tree, so that single precision
+  // suffices. False if the true ray never does.
   bool aim(Query& query, RTCRay& ray) const {
     if (!tree_) return false;
     const V3d m = query.origin - center_;
@@ -349,8 +351,8 @@ class Tracer::Tree {
     return true;
   }
 
-  // Embree's callbacks: `meet` returns whether the primitive is now the nearest hit, `cross` whether it
-  // surely stops the ray.
+  // Embree's callbacks. `meet` returns whether the primitive is now the nearest hit, `cross` whether it
+  // certainly stops the ray.
   template <bool (Tree::*meet)(Query&, uint32_t) const>
   static void onIntersect(const RTCIntersectFunctionNArguments* arguments) {
     if (!arguments->valid[0]) return;
@@ -378,7 +380,7 @@ class Tracer::Tree {
     return intersect(shape, scene_.vertices, query.origin, query.direction, query.reach(), hit);
   }
 
-  // Polygons, of which most scenes consist, without a detour.
+  // Most scenes consist of polygons, so these take the short path.
   bool meetSurface(Query& query, uint32_t primitive) const {
     const Face& face = faces_[primitive];
     if (!face.polygon.hasArea) return meetOther(query, face.occluder);
@@ -417,7 +419,8 @@ class Tracer::Tree {
     return true;
   }
 
-  // A mesh without a modifier is hit in its triangles' own materials; in those without one, itself.
+  // A hit on a mesh without a modifier is attributed to the triangle's material, or to the mesh if the
+  // triangle has none.
   const Occluder& triangleOccluder(uint32_t triangle, const Occluder& mesh) const {
     const int32_t material = mesh_->data.triangles[triangle].material;
     return standsForContents(mesh) || material == rad::Mesh::kNoMaterial
@@ -425,7 +428,7 @@ class Tracer::Tree {
                : occluders_[static_cast<size_t>(material)];
   }
 
-  // The same ray in the coordinates of what an instance or a mesh brings in.
+  // The same ray in the coordinates of the contents of an instance or a mesh.
   Query inner(const Query& query, const Occluder& occluder, const Contents& contents) const {
     const Placement& placement = scene_.placements[contents.placement];
     Query in;
@@ -456,7 +459,8 @@ class Tracer::Tree {
     return true;
   }
 
-  // The side that is hit, and the tie with what lies on the source: query.best is where the source itself is.
+  // Whether a hit stops the ray. This depends on the side that is hit, and near the source on the tie with
+  // it: query.best is the source itself.
   bool crosses(Query& query, const Occluder& occluder, const ShapeHit& hit) const {
     if (query.loses(occluder, hit)) return false;
     if (occluder.stops(hit.cosine)) {
@@ -509,7 +513,7 @@ class Tracer::Tree {
   Others others_;
   bool isWhole_ = true;
   const Mesh* mesh_ = nullptr;
-  std::vector<Face> faces_;          // of a group: of each of its surfaces, by Embree's primitive number
+  std::vector<Face> faces_;          // of a group: its surfaces, by Embree's primitive number
   std::vector<Occluder> occluders_;  // of a mesh: by material
   size_t primitives_ = 0;
   Box3d bounds_;
@@ -522,11 +526,10 @@ class Tracer::Tree {
 struct Tracer::Embree {
   RTCDevice device = nullptr;
   std::vector<std::unique_ptr<Tree>> meshes, groups;  // as the scene has them
-  // By group: its surfaces that refract. Null where there are none.
+  // By group: the tree of its refracting surfaces; null if there are none.
   std::vector<std::unique_ptr<Tree>> refracting;
 
-  // Whether a ray of shadow(), which is stopped, meets a surface that may refract it before anything stops
-  // it.
+  // Whether a shadow ray that is stopped hits a surface that may refract it before anything stops it.
   bool refractsBefore(Query& query) const {
     Query bent;
     bent.origin = query.origin;
@@ -534,7 +537,7 @@ struct Tracer::Embree {
     bent.farthest = query.stop;
     refracting[0]->nearest(bent);
     const Found& found = bent.best;
-    // A mesh is there with all of its triangles.
+    // The tree contains all triangles of a mesh, including those that do not refract.
     if (!found.occluder || found.occluder->stops(found.hit.cosine)) return false;
     query.best.occluder = found.occluder;
     query.best.hit = found.hit;
@@ -556,12 +559,12 @@ Tracer::Tracer(const Scene& scene, bool backFacesVisible)
   const auto fail = [] { throw rad::Error("cannot build the ray tracing tree", rad::Status::system); };
   size_t primitives = scene.surfaces.size();
   for (const Mesh& mesh : scene.meshes) primitives += mesh.data.triangles.size();
-  // Threads help only where there is something to build; starting them costs more than a small scene's tree.
+  // Threads only help in large scenes; starting them takes longer than building the tree of a small one.
   e.device = rtcNewDevice(primitives < 20000 ? "threads=1,user_threads=1" : nullptr);
   if (!e.device) fail();
   for (const Mesh& mesh : scene.meshes)
     e.meshes.push_back(std::make_unique<Tree>(e.device, scene, mesh, backFacesVisible));
-  // Those that instances bring in before those that hold the instances.
+  // Trees of instances are built before the trees that contain the instances.
   e.groups.resize(scene.groups.size());
   e.refracting.resize(scene.groups.size());
   const std::vector<bool> refracts = refractingSurfaces(scene);
@@ -654,7 +657,7 @@ Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, 
   query.from = tree.beginOf(from);
   if (source != kNone) {
     query.target = static_cast<uint32_t>(source);
-    // The front is what shines; the tie with whatever lies on the source is decided for that side.
+    // The source emits from its front, so ties with surfaces that lie on it are resolved for that side.
     query.best.occluder = &tree.occluderOf(static_cast<uint32_t>(source));
     query.best.hit = {distance, V3d(0, 0, 0), 1};
     query.farthest += kSamePlace;
@@ -666,8 +669,8 @@ Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, 
     blocked = tree.blocks(query);
   const bool refracted = blocked && embree_->refracting[0] && embree_->refractsBefore(query);
   blocked = blocked && !refracted;
-  // Where a ray gets through, the next one mostly does so too: trying the old blocker would cost more than it
-  // saves.
+  // If a ray is unoccluded, the next one usually is too, so trying the old blocker would cost
+  // more than it saves.
   if (blocker) *blocker = blocked ? query.blocker : kNoBlocker;
   if (blocked) return Shadow::blocked;
   if (refracted) return Shadow::refracted;

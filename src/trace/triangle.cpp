@@ -8,8 +8,9 @@ namespace {
 
 double size(const V3d& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
-// The volume that a ray and an edge span, with its sign: which side of the edge the ray passes on. 0 within
-// rounding, a few ulp of what is multiplied: the two triangles at an edge have its ends in either order.
+// The signed volume spanned by a ray and an edge. Its sign is the side of the edge on which the ray
+// passes. It is 0 within rounding, a few ulp of the factors, because the two triangles at an edge have its
+// ends in either order.
 double side(const V3d& direction, const V3d& from, const V3d& edge) {
   const double volume = direction.dot(from.cross(edge));
   return std::abs(volume) <= 2e-15 * size(from) * size(edge) ? 0 : volume;
@@ -24,7 +25,7 @@ std::optional<Value> interpolated(const std::optional<Value>& a, const std::opti
 
 }  // namespace
 
-// By the sides of the three edges on which the ray passes (Segura and Feito, WSCG 2001): all the same.
+// The ray hits if it passes on the same side of all three edges (Segura and Feito, WSCG 2001).
 bool intersect(const rad::Mesh& mesh, uint32_t triangle, const V3d& origin, const V3d& direction,
                double farthest, TriangleHit& out) {
   const auto& corners = mesh.triangles[triangle].vertices;
