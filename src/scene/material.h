@@ -77,11 +77,11 @@ struct BrtdFunction {
   Rgb diffuseFront, diffuseBack, diffuseTransmitted;
   bool transmits = true;     // sharply: some transmission argument is not "0"
   bool directional = true;   // some distribution function is not "0"
-  double mostReflected = 1;  // upper bound, sharply, of either side; 1 if functions decide
+  double mostReflected = 1;  // upper bound of the sharp reflection of either side; 1 if functions decide
   double mostTransmitted = 1;
   int32_t functions = -1;
 };
-// WGMDfunc: like trans2, but each component has a modifier and functions.
+// WGMDfunc: like trans2, but each component has its own modifier and functions.
 struct WgmdFunction {
   // Upper bound of the lobe's share and lower bounds of its roughnesses: 1 and 0 if functions decide.
   struct Lobe {
@@ -97,7 +97,7 @@ struct WgmdFunction {
 
 // BSDF and aBSDF: scattering from an XML file, to which diffuse colours are added.
 struct BsdfMaterial {
-  bool aperture = false;  // aBSDF: light that passes straight through is separate
+  bool aperture = false;  // aBSDF: light that passes straight through is treated separately
   bool proxy = false;     // BSDF whose thickness is not "0": a proxy for geometry that it hides
   Rgb diffuseFront{0, 0, 0}, diffuseBack{0, 0, 0}, diffuseTransmitted{0, 0, 0};
   int32_t functions = -1;
@@ -142,9 +142,9 @@ struct Illum {
   Rgb radiance;
   Alternate alternate;  // Kind::none also lets rays pass
 };
-// reach (world units): beyond this distance it is not sampled as a light source and contributes only to
-// indirect rays that hit it. 0: it always contributes in this way alone. Negative: it does not light the
-// scene and is only seen directly.
+// reach (world units): beyond this distance it is not sampled as a light source and lights only by indirect
+// rays that happen to hit it. 0: it lights in this way alone, at any distance. Negative: it does not light
+// the scene and is only seen directly.
 struct Glow {
   Rgb radiance;
   double reach = 0;

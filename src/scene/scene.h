@@ -24,8 +24,8 @@ inline constexpr int32_t kNone = -1;
 struct Pattern {};
 // Perturbs the normal.
 struct Texture {};
-// Shades a surface with a blend of two chains of modifiers. Each is an index in
-// Scene::modifiers, or kNone for void.
+// Shades a surface with a blend of two chains of modifiers. Each is an index in Scene::modifiers,
+// or kNone for void.
 struct Mixture {
   int32_t foreground = kNone, background = kNone;
 };
@@ -58,7 +58,7 @@ struct SurfaceGroup {
 
 // A mesh file, stored once however many instances of it there are.
 struct Mesh {
-  rad::Mesh data;                // materials: the cube alone; the rest is part of Scene::description
+  rad::Mesh data;                // its materials keep only the cube; the rest is in Scene::description
   std::vector<int32_t> facesOf;  // by material of data: index in Scene::surfaces of its MeshFaces, or kNone
 };
 
@@ -67,7 +67,7 @@ struct Scene {
   rad::FileAccess files;             // the files that its modifiers may name
   rad::Description description;      // the scene's, then those of octrees and meshes; the numeric
                                      // arguments of surfaces are removed
-  std::vector<Surface> surfaces;     // by groups, then the MeshFaces
+  std::vector<Surface> surfaces;     // those of each group in turn, then the MeshFaces
   std::vector<SurfaceGroup> groups;  // [0]: the scene itself
   std::vector<Mesh> meshes;
   std::vector<Placement> placements;
@@ -81,8 +81,8 @@ struct Scene {
   }
   // The composition of all placements on the path; the identity for an empty path.
   Placement placementOf(const PlacementPath& path) const;
-  // Whether the surface has a modifier. An instance or a mesh with a modifier
-  // applies it to all of its contents.
+  // Whether the surface has a modifier. An instance or a mesh with a modifier applies it to all
+  // of its contents.
   bool hasOwnModifier(const Surface& s) const {
     return description.primitives[s.primitive].modifier != rad::kVoid;
   }
@@ -104,7 +104,7 @@ struct Scene {
   std::string place(uint32_t primitive) const;
 };
 
-// Whether a ray can pass the material. This decides between coincident surfaces, and which
+// Whether a ray can pass the material. Used to choose between coincident surfaces, and to decide which
 // surfaces can cast full shadows.
 bool isTransparent(const Material& material);
 // Light, illum, glow and spotlight.
@@ -114,16 +114,16 @@ std::optional<Rgb> sourceRadiance(const Material& material);
 // The emitted radiance of a surface before patterns, W/sr/m2: 1 for a goal, black if it is not a source.
 Rgb sourceRadiance(const Scene& scene, const Surface& surface);
 
-// Validates and converts the parts of the description that surfaces use, and reads each octree and mesh
-// that it names once (with these options). The description is kept for names and places. Vertices keep the
-// double precision of the files.
+// Validates and converts the parts of the description that surfaces use, and reads the octrees and meshes
+// that it names, each once (with these options). The description is kept for names and places. Vertices keep
+// the double precision of the files.
 // - Warns where RADIANCE warns: negative radii, surfaces without area, vertices out of the plane.
 // - Leaves out surfaces without area, and distant sources in octrees.
 // - goals (-Sg): surfaces whose modifier has one of these names emit importance.
-// - Throws rad::Error with the primitive's place for: wrong arguments, a used type that is not supported
-//   yet, mixtures nested too deeply, octrees that contain themselves or are nested deeper than
-//   PlacementPath::kDeepest, a goal that is the modifier of no surface, and all errors of
-//   rad::readOctree() and rad::readMesh().
+// - Throws rad::Error with the primitive's place for: wrong arguments, a used type that is not supported yet,
+//   mixtures nested too deeply, octrees that contain themselves or are nested deeper than
+//   PlacementPath::kDeepest, a goal that is the modifier of no surface, and all errors of rad::readOctree()
+//   and rad::readMesh().
 Scene buildScene(rad::Description description, const rad::ReadOptions& options = {},
                  std::span<const std::string> goals = {});
 

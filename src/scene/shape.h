@@ -32,9 +32,9 @@ struct PolygonFace {
   V3d normal{0, 0, 1};                     // unit, by the right-hand rule; Newell's sum over the vertices
   double offset = 0;                       // normal . p for the points p of the plane
   uint32_t firstVertex = 0, vertices = 0;  // range in Scene::vertices
-  float extent = 0;      // sum of the box's sizes along the other axes than axis, rounded up
-  uint8_t axis = 2;      // the axis of the largest component of normal
-  bool hasArea = false;  // if false, it is never hit
+  float extent = 0;                        // sum of the box's sizes along the two other axes, rounded up
+  uint8_t axis = 2;                        // the axis of the largest component of normal
+  bool hasArea = false;                    // if false, it is never hit
 };
 
 // A plane polygon, which may be concave or have holes that are connected by a seam. A point is inside if a
@@ -68,7 +68,7 @@ struct Ring {
   double inner = 0, outer = 1;
 };
 
-// A cone of directions at infinity: "source". The tracer does not contain it; a ray that hits
+// A cone of directions at infinity: "source". The tracer does not have it; a ray that hits
 // nothing else sees it.
 struct Distant {
   V3d direction{0, 0, 1};  // unit, towards it
@@ -140,8 +140,8 @@ bool intersect(const Shape& shape, std::span<const V3d> vertices, const V3d& ori
                double farthest, ShapeHit& hit);
 Box3d bounds(const Shape& shape, std::span<const V3d> vertices);
 
-// Computes the polygon's plane, area and axis from its vertices (at least 3). The
-// area is 0 if they are collinear.
+// Computes the polygon's plane, area and axis from its vertices (at least 3). The area is 0 if
+// they are collinear.
 Polygon makePolygon(std::span<const V3d> vertices, uint32_t first, uint32_t count);
 
 // Whether a point of the polygon's plane lies inside. Points on the boundary, or within tolerance (world

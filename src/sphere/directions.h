@@ -25,7 +25,7 @@ using Imath::V3d;
 //   the same, at most (lattice: the two polar cells)       6%       16%          2.2%
 //   error of exp(20 cos) about random axes, rms        2.5e-6                  3.5e-6
 //   the same, weighted by cells                        1.8e-6                  2.0e-6
-//   error of caps, rms                                1.05e-3                 1.05e-3
+//   error of caps                                     1.05e-3                 1.05e-3
 //
 // Source: Gonzalez, "Measurement of areas on a sphere using Fibonacci and latitude-longitude lattices", 2010.
 std::vector<V3d> baseDirections(std::size_t n);

@@ -14,7 +14,7 @@ struct alignas(64) Block {
   double bx[kBlock], by[kBlock], bz[kBlock], bh[kBlock];
   double cx[kBlock], cy[kBlock], cz[kBlock], ch[kBlock];
   double uu[kBlock], vv[kBlock], ww[kBlock];                 // squared edges, opposite to b, a, c
-  double volumeA[kBlock], volumeB[kBlock], volumeC[kBlock];  // from the edges at that corner
+  double volumeA[kBlock], volumeB[kBlock], volumeC[kBlock];  // k, computed from the edges at that corner
   double volume[kBlock], area[kBlock];                       // k and N of kites.h
   double tangent[3][kBlock];                                 // at the edge opposite to a corner
 };

@@ -35,8 +35,7 @@ using Imath::V3d;
 
 class VoronoiWorkspace;
 
-// Directions with their triangulation and areas, which every query copies. Building takes 0.2
-// us per direction.
+// Directions with their triangulation and areas, which every query copies. Building: 0.2 us per direction.
 class BaseTriangulation {
  public:
   explicit BaseTriangulation(std::span<const V3d> directions);

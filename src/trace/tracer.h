@@ -65,9 +65,11 @@ class Tracer {
 
   // Visibility between origin and a light source's surface at the given distance along direction. source:
   // index of that surface, which does not block the ray; kNone if there is none. For a distant source,
-  // distance is kFarAway. blocker: in, the primitive that blocked the last ray, which is tried first; out,
-  // the one that blocked this ray, or kNoBlocker. Consecutive rays to one source are often blocked by the
-  // same surface. The answer does not depend on it. from: as for nearest().
+  // distance is kFarAway.
+  // blocker: in, the primitive that blocked the last ray, which is tried first; out, the one that blocked
+  // this ray, or kNoBlocker. Consecutive rays to one source are often blocked by the same surface. The answer
+  // does not depend on it.
+  // from: as for nearest().
   Shadow shadow(const V3d& origin, const V3d& direction, double distance, int32_t source,
                 uint32_t* blocker = nullptr, int32_t from = kNone) const;
   static constexpr uint32_t kNoBlocker = ~0u;
