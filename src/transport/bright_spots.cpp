@@ -14,36 +14,38 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 constexpr double kParticles = 8192;
-// Panes that a particle passes at most, and the share that each lets pass.
+// The maximal number of panes that a particle passes through, and the transmittance of each.
 constexpr int kPanes = 8;
 constexpr double kPassed = .9;
 
-// Spots have so many particles at least.
+// The minimal number of particles of a spot.
 constexpr size_t kFewest = 12;
 
-// A spot sends back so many times more light, by area, than surfaces do on average.
+// A spot reflects at least this many times more light per area than surfaces do on average.
 constexpr double kBrighter = 6;
 
-// What spots together are worth, against all surfaces were they lit evenly, where aiming pays for itself: it
-// makes a path a quarter dearer. Measured: 31 in a room with a lit lampshade, whose noise falls to a third; 8
-// around a goal in an open-plan office, to two thirds; 2 in a small room around a goal, where it falls
-// little.
+// Aiming pays for itself if the worth of all spots together (Node::worth) exceeds this multiple of the worth
+// that all surfaces would have if they were lit evenly. Aiming makes a path 25% more expensive. Measured:
+//   scene                                  worth   noise with aiming
+//   room with a lit lampshade                 31   one third
+//   open-plan office, around a goal            8   two thirds
+//   small room, around a goal                  2   little less
 constexpr double kLeastWorth = 4;
 
-// How much wider a spot is than its particles.
+// Ratio of the radius of a spot to half the diagonal of the box around its particles.
 constexpr double kWider = 1.15;
 
-// Share of a surface's directions that is not worth the work.
+// A smaller share of aimed directions is not worth the work.
 constexpr double kTooFew = .02;
 
-// Square of half the angle (radians) that a spot is taken to be seen within, at least: what single precision
-// tells from a point.
+// Lower bound of the squared sine of half the angle that a spot subtends. Single precision cannot distinguish
+// smaller spots from points.
 constexpr float kNarrowest = 1e-6f;
 
-// Square of a distance (world units) that makes no difference.
+// Square of a negligible distance (world units).
 constexpr float kNearest = 1e-12f;
 
-// Of what is seen of a spot edge-on, since its normal is a mean.
+// The share of a spot that is visible edge-on. It is not 0 because the normal of a spot is a mean.
 constexpr double kEdgeOn = .05;
 
 double areaOf(const Shape& shape) {
@@ -54,8 +56,8 @@ double areaOf(const Shape& shape) {
   return 0;
 }
 
-// The surface of a room in squares of the mean distance across it (the mean chord of a convex body is 4 V/S;
-// of a room of 10 x 7 x 3 m it is 3.5 m, and its surface 20 times its square).
+// The surface area of a room, divided by the square of the mean distance across it. The mean chord of a
+// convex body is 4 V/S. In a room of 10 x 7 x 3 m this is 3.5 m, and the surface area is 20 times its square.
 constexpr double kRoomSurface = 20;
 
 V3d onDisk(const V3d& normal, double radius, double angle) {
@@ -64,25 +66,25 @@ V3d onDisk(const V3d& normal, double radius, double angle) {
   return radius * std::cos(angle) * x + radius * std::sin(angle) * y;
 }
 
-// A direction on the front side as a diffuse surface sends light.
+// A random direction on the front side, distributed like the light that a diffuse surface reflects.
 V3d sentFrom(const V3d& normal, Random& random) {
   const double u1 = random.uniform(), u2 = random.uniform();
   return diffuseDirection(normal, u1, u2);
 }
 
-// 1 - cos, without its rounding.
+// 1 - cos, without loss of precision for small angles.
 double versineOf(double sine2) { return sine2 / (1 + std::sqrt(1 - sine2)); }
 
 }  // namespace
 
-// Where light from a source met a diffuse surface.
+// A place where light from a source hit a diffuse surface.
 struct BrightSpots::Particle {
   V3d point, normal;
-  double power;  // that is sent back
-  double free;   // how far light gets from there, in a direction at random
+  double power;  // reflected
+  double free;   // distance to the next surface in a random direction
 };
 
-// Particles that lie together, and what they are as a spot.
+// A group of neighbouring particles, and the spot that they form.
 struct BrightSpots::Node {
   std::span<Particle> particles;
   Spot spot;
@@ -97,13 +99,13 @@ struct BrightSpots::Node {
     spot.center = box.center();
     spot.radius = std::max(.5 * kWider * box.size().length(), 4 * kSamePlace);
     for (const Particle& p : some) {
-      if (p.free < spot.radius) continue;  // in a gap, from where nobody else is lit
+      if (p.free < spot.radius) continue;  // in a gap, whose light reaches no other surface
       spot.power += p.power;
       spot.normal += p.normal * p.power;
     }
     if (spot.power > 0) spot.normal /= spot.power;
   }
-  // What the spot is worth: light that comes from it, times how bright it is.
+  // The worth of the spot: the light that it reflects, times its brightness.
   double worth() const { return spot.power * spot.power / area; }
   std::pair<Node, Node> halves() const {
     Box3d box;
@@ -116,7 +118,7 @@ struct BrightSpots::Node {
   }
 };
 
-// What becomes of a particle that is sent out; empty where it meets no diffuse surface.
+// Follows a particle to the first diffuse surface, through panes; empty if it reaches none.
 std::optional<BrightSpots::Particle> BrightSpots::arrived(const Scene& scene, const Tracer& tracer,
                                                           V3d origin, const V3d& direction, double power,
                                                           Random& random) {
@@ -140,7 +142,7 @@ std::optional<BrightSpots::Particle> BrightSpots::arrived(const Scene& scene, co
   return {};
 }
 
-// Of distant sources, those that come in through openings: from where it is bright to where it is dark.
+// The particles of distant sources that enter through openings, from the bright side to the dark side.
 std::vector<BrightSpots::Particle> BrightSpots::particlesThrough(const Openings& openings, const Scene& scene,
                                                                  const Tracer& tracer,
                                                                  const LightSources& lights) const {
@@ -237,7 +239,7 @@ void BrightSpots::find(std::vector<Particle> all, double area, size_t most) {
   if (!(power > 0) || !(area > 0)) return;
   const double usual = power / area;
 
-  // The room is halved and halved again, each time where that gains most.
+  // The particles are divided into groups greedily: each step halves the group where that gains most worth.
   struct Split {
     size_t node;
     double gain;
@@ -285,8 +287,8 @@ void BrightSpots::keep(const Spot& spot, double usual) {
   power_[i] = static_cast<float>(spot.power / usual);
 }
 
-// Of a spot comes what it would send as a small flat surface with its normal. Those that the place lies in or
-// near to are left out.
+// The contribution of a spot is that of a small flat surface with the spot's normal. Spots that contain the
+// point or are near to it are left out.
 __attribute__((target_clones("avx2", "default"))) void BrightSpots::aim(const V3d& point, const V3d& front,
                                                                         Aim& aim) const {
   const auto atX = static_cast<float>(point.x - origin_.x), atY = static_cast<float>(point.y - origin_.y),
@@ -312,7 +314,7 @@ __attribute__((target_clones("avx2", "default"))) void BrightSpots::aim(const V3
   float sum = 0;
   for (size_t i = 0; i < count_; ++i) aim.sum[i] = sum += comes[i];
   aim.count = count_;
-  // Against the light of all other surfaces.
+  // Relative to the light of all other surfaces.
   aim.share = kMostAimed * sum / (sum + static_cast<float>(kPi));
   if (!(aim.share > kTooFew)) aim.share = 0;
 }
@@ -333,7 +335,7 @@ __attribute__((target_clones("avx2", "default"))) double BrightSpots::density(co
   std::array<bool, kMost> in;
   for (size_t i = 0; i < aim.count; ++i) {
     const float x = aim.x[i], y = aim.y[i], z = aim.z[i];
-    // The cross product tells small angles, the cosine does not.
+    // The cross product is precise for small angles; the cosine is not.
     const float cx = y * dz - z * dy, cy = z * dx - x * dz, cz = x * dy - y * dx;
     in[i] = (cx * cx + cy * cy + cz * cz <= aim.sine2[i] * aim.squared[i]) & (x * dx + y * dy + z * dz > 0);
   }

@@ -53,7 +53,7 @@ class BrightSpots {
   struct Spot {
     V3d center{0, 0, 0}, normal{0, 0, 0};  // normal: mean of the normals of its surfaces, not normalized
     double radius = 0;
-    double power = 0;  // reflected, W of luminance
+    double power = 0;  // reflected luminous power, W
   };
   struct Particle;
   struct Node;

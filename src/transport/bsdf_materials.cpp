@@ -1,9 +1,9 @@
-// Surfaces that scatter as an XML file says.
+// Shading of surfaces whose BSDF is given by an XML file.
 //
-// Source: RADIANCE reference manual, "BSDF", "aBSDF". Unlike the original, what is transmitted by chance to
-// indirect light begins behind the thickness too, as the manual has it. The data are constant over cells of
-// directions that may be wide: the view is shifted at random by up to half the size of a cell, which -ss
-// below 1 makes less, so that the cells' edges do not show.
+// Source: RADIANCE reference manual, "BSDF", "aBSDF". Unlike in the original, transmitted indirect rays also
+// start behind the thickness, as the manual says. The data are constant over cells of directions, which may
+// be wide. The view is therefore shifted at random by up to half the size of a cell, or less if -ss is below
+// 1, so that no cell edges are visible.
 #include <algorithm>
 #include <cmath>
 
@@ -13,18 +13,18 @@
 
 namespace rsphere {
 
-// A ray's hit as the data see it.
+// A ray's hit in the frame of the BSDF data.
 struct BsdfHit {
   const BsdfData& data;
   Interaction at;
   V3d normal{0, 0, 1};         // perturbed, on the side that the ray came from
   V3d x{0, 0, 0}, y{0, 0, 0};  // axes of the data's frame in the world
   V3d z{0, 0, 0};              // its normal, on the front
-  V3d view{0, 0, 1};           // where the ray came from, in that frame
-  V3d across{0, 0, 0};         // from the hit to where what is transmitted goes on (world units)
+  V3d view{0, 0, 1};           // direction that the ray came from, in that frame
+  V3d across{0, 0, 0};         // from the hit to the point where transmitted rays start (world units)
   DirectedScattering::Resolution resolution{};
-  BsdfData::Through through{};  // the peak with patterns
-  bool showsThrough = false;    // what goes straight on is seen apart from the rest
+  BsdfData::Through through{};  // the peak of straight transmission, times the pattern
+  bool showsThrough = false;    // whether a ray follows the straight transmission
   Rgb unsampledReflection{0, 0, 0}, unsampledTransmission{0, 0, 0};
 
   V3d local(const V3d& d) const { return V3d(d.dot(x), d.dot(y), d.dot(z)).normalized(); }
@@ -37,7 +37,8 @@ bool SurfaceShading::shadeMaterial(Ray& ray, const BsdfMaterial& material, int32
   const int32_t f = material.functions;
   double thickness = material.proxy ? functions.thickness(f, functionPoint(ray), scratch_) : 0;
   if (std::abs(thickness) <= kNegligible) thickness = 0;
-  // What a proxy hides is seen, and casts shadows, itself; from the hidden side too.
+  // The geometry behind a proxy is traced itself by direct views and shadow rays, and by all rays that come
+  // from its side.
   if (thickness != 0 && ((ray.kinds & kShadow) || !(ray.kinds & (kSpecular | kAmbient)) ||
                          (thickness > 0) != interaction(ray).front)) {
     follower_.pass(ray);
@@ -116,7 +117,8 @@ V3d SurfaceShading::jittered(const V3d& view, double projectedSolidAngle) {
   return v.normalized();
 }
 
-// Draws directions of the directed reflection or transmission, or adds to what is left to indirect light.
+// Follows sampled directions of the directed reflection or transmission. If its albedo is not above the
+// specular threshold (-st), sets the unsampled coefficient of indirect light instead.
 void SurfaceShading::sampleBsdf(Ray& ray, BsdfHit& hit, RayKind kind) {
   const RayOptions& o = t_.options();
   const bool transmits = kind == kTransmittedSpecular;
@@ -134,9 +136,9 @@ void SurfaceShading::sampleBsdf(Ray& ray, BsdfHit& hit, RayKind kind) {
   }
   const double spread = o.specularSampling;
   int samples = spread > 1.5 ? samplesOf(t_, ray, spread) : 1;
-  if (o.weightLimit > 0)  // no more than can be followed
+  if (o.weightLimit > 0)  // not so many samples that each falls below the weight limit
     samples = std::max(1, static_cast<int>(std::min<double>(samples, share * ray.weight / o.weightLimit)));
-  // A single sample is drawn nearer to the middle where -ss is below 1.
+  // Samples are drawn nearer to the middle of the lobe if -ss is below 1.
   const auto place = [&](double u) { return spread < 1 ? .5 + spread * (u - .5) : u; };
   for (int i = 0; i < samples; ++i) {
     const V3d view = jittered(hit.view, hit.resolution.finest);
@@ -160,21 +162,23 @@ void SurfaceShading::sampleBsdf(Ray& ray, BsdfHit& hit, RayKind kind) {
   }
 }
 
-// Scattering (1/sr) of a source's light, without the diffuse part: a mean over views within a cell.
+// The BSDF (1/sr) without its diffuse part for light from a source, averaged over views within a cell.
 Rgb SurfaceShading::directedBsdf(const Ray& ray, const BsdfHit& hit, const V3d& toSource, double solidAngle) {
   const V3d other = hit.local(toSource);
   const DirectedScattering* part = hit.data.between(hit.view, other);
   if (!part) return Rgb(0, 0, 0);
   if (part->transmits() && maxChannel(hit.through.peak) > kNegligible) {
-    // Light that goes straight on is seen through the surface: within the source and the peak together, which
-    // are as far across as circles of 2.5 times their areas.
+    // The peak of straight transmission is left to the ray that is followed through the surface. Only the
+    // scattering around the peak remains within the width of the source plus that of the peak. The widths are
+    // the diameters of circles of 2.5 times their areas.
     const double dx = other.x + hit.view.x, dy = other.y + hit.view.y;
     const double together = std::sqrt(solidAngle * std::abs(other.z)) + std::sqrt(part->finestCell());
     if (dx * dx + dy * dy <= 2.5 * 4 / kPi * together * together) return hit.through.around;
   }
   const double size = part->cell(hit.view, other).projectedSolidAngle;
   const int draws = size > 0 ? samplesOf(t_, ray, 4 * t_.options().specularSampling) : 1;
-  // Cells that are so much finer belong to a peak, whose light must not be spread over the cell beside it.
+  // Cells smaller than this share of the cell of the view belong to a peak, whose light must not be spread
+  // over a neighbouring cell.
   constexpr double kMuchFiner = .12;
   Rgb sum(0, 0, 0);
   int counted = 0;

@@ -11,11 +11,11 @@
 namespace rsphere {
 namespace {
 
-// Sources that are hidden from a place for reasons of their own.
+// Kinds of sources whose visibility is estimated separately, because they are occluded for different reasons.
 constexpr int kSourceKinds = 3;
 int kindOf(const LightSource& light) { return light.isVirtual() ? 2 : light.distant ? 1 : 0; }
 
-// How many sources were tested for shadows, and how many of these are visible.
+// The number of sources that were tested for shadows, and of those that are visible.
 struct Tests {
   int tested = 0, visible = 0;
 
@@ -28,7 +28,7 @@ struct Tests {
 
 }  // namespace
 
-// The radiance of a source along a shadow ray that is not stopped.
+// The radiance of a source along an unoccluded shadow ray.
 Rgb DirectLight::sourceValue(const Ray& ray, const SourceSample& sample) {
   const LightSource& light = t_.lights().all()[sample.source];
   if (light.isVirtual()) {
@@ -60,15 +60,15 @@ Rgb DirectLight::sourceValue(const Ray& ray, const SourceSample& sample) {
   return child.value * passed;
 }
 
-// Whether one of samples_ stands for all of its source.
+// Whether a sample is the only one of its source in samples_.
 bool DirectLight::isWhole(const SourceSample& sample) const {
   const size_t i = static_cast<size_t>(&sample - samples_.data());
   return (i == 0 || samples_[i - 1].source != sample.source) &&
          (i + 1 == samples_.size() || samples_[i + 1].source != sample.source);
 }
 
-// What of a sample's radiance gets to the ray's end; false where none does. to.value: what would if nothing
-// were in the way.
+// Sets value to the radiance of a sample that arrives at the ray's end; false if none arrives. to.value: the
+// unoccluded radiance.
 bool DirectLight::arrives(const Ray& ray, const Contribution& to, Rgb& value) {
   const SourceSample& sample = *to.sample;
   const LightSource& light = t_.lights().all()[sample.source];
@@ -83,13 +83,13 @@ bool DirectLight::arrives(const Ray& ray, const Contribution& to, Rgb& value) {
                  : Shadow::unsure;
   const bool follow = shadow == Shadow::unsure || (shadow == Shadow::clear && light.isVirtual());
   if (follow || settings_.observesAllShadowRays)
-    value = valueFromSource(ray, to);  // settings_.observesAllShadowRays: to be shown
+    value = valueFromSource(ray, to);  // even if blocked when all shadow rays are shown to the observer
   if (shadow == Shadow::blocked) return false;
   if (!follow) value = to.value;
   return !follow || maxChannel(value) > kNegligible;
 }
 
-// What a shadow ray brings through all that may let light pass.
+// The radiance that arrives along a shadow ray through surfaces that may transmit light.
 Rgb DirectLight::valueFromSource(const Ray& ray, const Contribution& to) {
   const V3d& direction = to.sample->direction;
   const bool through = (ray.cosine > 0) != (ray.normal.dot(direction) > 0);
@@ -104,7 +104,7 @@ Rgb DirectLight::valueFromSource(const Ray& ray, const Contribution& to) {
   return child.value;
 }
 
-// count to the power of -dc. A power costs as much as a source's sample.
+// count to the power of -dc, from a table, because computing a power takes as long as sampling a source.
 size_t DirectLight::lookAheadOf(size_t count) {
   for (size_t n = lookAheads_.size(); n <= count; ++n)
     lookAheads_.push_back(
@@ -112,9 +112,10 @@ size_t DirectLight::lookAheadOf(size_t count) {
   return lookAheads_[count];
 }
 
-// Sets the order of the first contributions: brightest first, and as they came where they are equal.
+// Sorts order_ by brightness, brightest first; equal contributions keep their order.
 void DirectLight::rankByBrightness(uint32_t count) {
-  // A few by how many go before each, without a branch: half of those that sorting takes are guessed wrongly.
+  // If there are few contributions, the rank of each is found by comparing all pairs without branches. Half
+  // of the branches of std::sort would be mispredicted.
   constexpr uint32_t kFew = 24;
   if (count > kFew) {
     std::iota(order_.begin(), order_.begin() + count, 0);
@@ -138,12 +139,13 @@ void DirectLight::rankByBrightness(uint32_t count) {
   for (uint32_t i = 0; i < count; ++i) order_[before[i]] = i;
 }
 
-// What each sample of a source could bring, by contributions_ and brightness_. Returns how many bring
-// anything.
+// Fills contributions_ and brightness_ with the unoccluded contributions of all source samples that are not
+// black. Returns their number.
 uint32_t DirectLight::findContributions(const Ray& ray, DirectCoefficient coefficientOf, const V3d& front) {
   const RayOptions& o = t_.options();
   samples_.clear();
-  // With a jitter as wide as this (-dj) a sample may lie nearly anywhere on its source, and needs no parts.
+  // With more jitter (-dj) than this, a sample can lie nearly anywhere on its source, which therefore need
+  // not be divided into parts.
   constexpr double kWideJitter = .5;
   const bool divides =
       o.sourceSubstructuring > kNegligible && !(isOfGather(t_, ray) && o.directJitter > kWideJitter);
@@ -171,8 +173,8 @@ uint32_t DirectLight::findContributions(const Ray& ray, DirectCoefficient coeffi
   return count;
 }
 
-// Of the contributions from `first` on, in their order, one that stands for all: chosen in proportion to what
-// it would add.
+// Estimates the sum of the contributions from position `first` of order_ on by one of them, which is drawn
+// with a probability proportional to its unoccluded brightness.
 void DirectLight::addOneOf(Ray& ray, size_t first, uint32_t count) {
   double rest = state_.random.uniform() * remaining_[first];
   size_t chosen = first;
@@ -188,7 +190,7 @@ void DirectLight::add(Ray& ray, DirectCoefficient coefficientOf, const V3d& fron
   if (count == 0) return;
   const double threshold = t_.options().directThreshold / ray.weight;
 
-  // How many of those still untested are taken together to decide whether they can matter (-dc).
+  // The number of next untested contributions whose sum decides whether testing goes on (-dc).
   size_t lookAhead = count;
   if (threshold > 0) {
     rankByBrightness(count);
@@ -215,10 +217,11 @@ void DirectLight::add(Ray& ray, DirectCoefficient coefficientOf, const V3d& fron
     const Contribution& c = contributions_[order_[tested]];
     test(c, ofKind[kindOf(t_.lights().all()[c.sample->source])]);
   }
-  // Behind an indirect bounce noise averages out and a bias does not.
+  // After an indirect bounce, an unbiased estimate is better: its noise averages out, and a bias would not.
   if (tested < count && ray.ambientLevel > 0) return addOneOf(ray, tested, count);
-  // Sources too weak to be tested are let through as often as those of their kind that were: whether a room
-  // sees the sun says nothing of its lamps, nor they of the sun. So the brightest of each kind is tested.
+  // The visibility of sources that are too weak to be tested is taken to be the mean of the tested sources of
+  // the same kind, because the visibility of lamps does not predict that of the sun, or the reverse. The
+  // brightest source of each kind is therefore always tested.
   for (; tested < count; ++tested) {
     const Contribution& c = contributions_[order_[tested]];
     Tests& tests = ofKind[kindOf(t_.lights().all()[c.sample->source])];
@@ -229,7 +232,7 @@ void DirectLight::add(Ray& ray, DirectCoefficient coefficientOf, const V3d& fron
   }
 }
 
-// As add(), from -Ss sources drawn at random: what each of them brings stands for all.
+// Estimates the sum over all sources from -Ss sources, drawn in proportion to their weights.
 void DirectLight::addOfChosen(Ray& ray, DirectCoefficient coefficientOf, const V3d& front) {
   const double sum = t_.choice().weigh(ray.point, front, sourceWeights_);
   if (!(sum > 0)) return;

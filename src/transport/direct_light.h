@@ -1,5 +1,5 @@
 #pragma once
-// Next-event estimation: the light that comes straight from the light sources, with its shadows.
+// Next-event estimation: direct light from the light sources, with its shadows.
 //
 // All sources are sampled, the brightest contributions are tested for shadows first, and those too weak to
 // matter are estimated without a shadow ray (-dt, -dc). With -Ss sources are drawn at random instead.
@@ -12,13 +12,13 @@
 
 namespace rsphere {
 
-// The share of a source's radiance that leaves along a ray, for the direction of the source (unit) and the
-// solid angle (sr) of a sample of it.
+// The share of a source's radiance that a surface scatters back along a ray, given the direction to the
+// source (unit) and the solid angle (sr) of a sample of it.
 using DirectCoefficient = FunctionRef<Rgb(const V3d& toSource, double solidAngle)>;
 
 class DirectLight {
  public:
-  // Keeps references. follower: follows shadow rays through what may let light pass.
+  // Keeps references. follower: follows shadow rays through surfaces that may transmit light.
   DirectLight(const Transport& transport, const PathSettings& settings, PathState& state,
               RayFollower& follower)
       : t_(transport),
@@ -27,11 +27,11 @@ class DirectLight {
         follower_(follower),
         blockers_(size_t{1} << kBlockerBits, Tracer::kNoBlocker) {}
 
-  // Adds the direct light at the ray's hit to its value (W/sr/m2). front: the normal of a surface that
-  // transmits no light, whose coefficients are 0 behind it; or 0.
+  // Adds the direct light at the ray's hit to its value (W/sr/m2). front: for a surface that transmits no
+  // light its normal, behind which all coefficients are 0; otherwise the null vector.
   void add(Ray& ray, DirectCoefficient coefficientOf, const V3d& front = V3d(0, 0, 0));
 
-  // The same from -Ss sources drawn at random, each of which stands for all.
+  // The same, but estimated from -Ss sources drawn at random.
   void addOfChosen(Ray& ray, DirectCoefficient coefficientOf, const V3d& front);
 
   // Adds the light of one source (index in LightSources) that is scattered at the end of a ray (W/sr/m2).
@@ -60,18 +60,18 @@ class DirectLight {
   const PathSettings& settings_;
   PathState& state_;
   RayFollower& follower_;
-  // Scratch memory of a call, which never calls itself: shadow rays ask for no direct light. Elements beyond
-  // those of this call are left over from earlier ones.
+  // Scratch memory of one call. Calls do not nest, because shadow rays never compute direct light. Elements
+  // beyond those of the current call are left over from earlier calls.
   std::vector<SourceSample> samples_;
   std::vector<Contribution> contributions_;
   std::vector<double> brightness_;  // of the contributions
   std::vector<uint32_t> order_;     // of the contributions, brightest first where not all are tested
   std::vector<double> remaining_;
   std::vector<double> sourceWeights_;
-  // The surface that stopped the last ray from a surface to a source, at a hash of the two.
+  // The surface that blocked the last shadow ray from a surface to a source, at a hash of the two.
   static constexpr int kBlockerBits = 12;
   std::vector<uint32_t> blockers_;
-  std::vector<size_t> lookAheads_;  // by count; as far as they were asked for
+  std::vector<size_t> lookAheads_;  // of lookAheadOf(), by count; computed as far as needed so far
 };
 
 }  // namespace rsphere

@@ -10,7 +10,7 @@
 namespace rsphere {
 namespace {
 
-// A ray that has hit the site.
+// An imagined ray that has hit the site, the parent of the gather's rays.
 Ray rootOf(const Transport& transport, const GatherSite& site, int depth) {
   Ray root;
   root.medium = transport.medium();
@@ -27,7 +27,7 @@ GatheredLight gatherLight(const Transport& transport, PathState& state, const Br
                           RayFollower& follower, const GatherSite& site, int depth) {
   const RayOptions& o = transport.options();
   const Ray root = rootOf(transport, site, depth);
-  V3d x, y;  // the frame of sendOverHemisphere()
+  V3d x, y;  // the same frame as in sendOverHemisphere()
   frame(site.normal, x, y);
   const int count = o.ambientDivisions + o.ambientSuperSamples;
   const HemisphereCells cells(count);

@@ -1,4 +1,4 @@
-// Materials that ask function files: elliptic highlights, programmed and tabulated scattering.
+// Shading of materials that depend on function files: anisotropic lobes, programmed and tabulated scattering.
 #include "shade/function_reflection.h"
 #include "transport/ray_functions.h"
 #include "transport/ray_limits.h"
@@ -7,13 +7,14 @@
 namespace rsphere {
 namespace {
 
-constexpr int kMostTries =
-    10;  // for a sample of ashik2 that does not lie under the surface; RADIANCE's own figure
-// -ss below 1 leaves ashik2's lobe as it is. The original draws one sample a ray, and spreads those of
-// successive rays evenly; ours depend on their own ray alone, and four make their mean as quiet.
+// Maximal number of draws for a sample of ashik2 that lies above the surface; as in RADIANCE.
+constexpr int kMostTries = 10;
+// -ss below 1 does not narrow the lobe of ashik2. The original draws one sample per ray and distributes those
+// of successive rays evenly. Here samples depend on their ray alone, and four of them give as little noise.
 constexpr int kAshikhminSamples = 4;
 
-// Once a material, where a highlight is to be longer one way and no way within the surface is given.
+// Warns once per material if a highlight is anisotropic but its orientation vector gives no direction within
+// the surface.
 void warnOfOrientation(const SurfaceFunctions& functions, int32_t material, const AnisotropicScattering& s) {
   if (s.reflected.disoriented || s.transmitted.disoriented)
     functions.warn(material, "illegal orientation vector");
@@ -21,7 +22,7 @@ void warnOfOrientation(const SurfaceFunctions& functions, int32_t material, cons
 
 }  // namespace
 
-// Whether the ray goes on through a back that isn't to be seen (-bv).
+// Lets the ray pass if it hit a back face and these are invisible (-bv). Returns whether it did.
 bool SurfaceShading::passesBack(Ray& ray) {
   if (ray.cosine >= 0 || t_.options().backFacesVisible) return false;
   follower_.pass(ray);
@@ -133,7 +134,8 @@ bool SurfaceShading::shadeByFunction(Ray& ray, const FunctionScattering& s, cons
 
 // ---- WGMDfunc
 
-// What a component of its own modifiers sees. named: empty for the material's own, `inherited`.
+// The interaction of one component of the material, after the modifiers that it names. named: empty if it has
+// the modifiers of the material, whose interaction is `inherited`.
 Interaction SurfaceShading::component(const Ray& ray, const std::optional<int32_t>& named,
                                       const Interaction& inherited) {
   if (!named) return inherited;
@@ -142,7 +144,7 @@ Interaction SurfaceShading::component(const Ray& ray, const std::optional<int32_
   return interaction(own);
 }
 
-// Its functions are told of the normal that the component's modifiers perturb.
+// The functions of a component get the normal as perturbed by the component's modifiers.
 FunctionPoint SurfaceShading::functionPoint(const Ray& ray, const Interaction& at) const {
   FunctionPoint point = functionPoint(ray);
   point.perturbedCosine = at.cosine;
@@ -166,7 +168,7 @@ bool SurfaceShading::shadeMaterial(Ray& ray, const WgmdFunction& material, int32
     transmitted.roughnessAlong = v[1];
     transmitted.roughnessAcross = v[2];
   }
-  // Only what is transmitted sharply lets shadow rays pass.
+  // Shadow rays pass only if the transmission is sharp.
   if ((ray.kinds & kShadow) && transmitted.roughnessAlong > kNegligible &&
       transmitted.roughnessAcross > kNegligible)
     return true;

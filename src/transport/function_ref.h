@@ -5,7 +5,8 @@
 
 namespace rsphere {
 
-// A callable that is only used while the call that it is handed to lasts: no copy, no allocation.
+// A reference to a callable, to be used only during the call that it is passed to. It neither copies nor
+// allocates.
 template <class Signature>
 class FunctionRef;
 

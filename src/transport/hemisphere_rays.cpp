@@ -21,7 +21,8 @@ void sendOverHemisphere(const Transport& transport, const BrightSpots* aims, Ran
   double shares[3] = {1, openings.share, spots.share};
   shares[2] *= 1 - shares[1];
   shares[0] = 1 - shares[1] - shares[2];
-  // So few rays that a kind might get none are of one kind at random; their density is that of the mixture.
+  // The shares of few rays cannot be rounded to whole numbers of each kind. The kind of each ray is then
+  // drawn at random, and its density is that of the mixture.
   int counts[3] = {rays, 0, 0};
   if (rays < 16 && shares[0] < 1) {
     counts[0] = 0;
@@ -49,8 +50,8 @@ void sendOverHemisphere(const Transport& transport, const BrightSpots* aims, Ran
     each(child, weight.x / (kMeanReflectance * density * rays));
   };
   const double shift1 = random.uniform(), shift2 = random.uniform(), shift3 = random.uniform();
-  // A Fibonacci lattice over the projected hemisphere, shifted at random: as even as a jittered grid for any
-  // number.
+  // A Fibonacci lattice over the projected hemisphere, shifted at random. It is as evenly distributed as a
+  // jittered grid, for any number of rays.
   constexpr double kGolden = .6180339887498949;
   for (int i = 0; i < counts[0]; ++i) {
     const double around = shift2 + i * kGolden;

@@ -12,7 +12,7 @@ namespace rsphere {
 using GatherRay = FunctionRef<void(Ray& child, double part)>;
 
 // Sends about `rays` rays from the hit of the root over the hemisphere around the normal (unit). aims: null
-// where no bright spots are aimed at. Directions behind trueNormal (unit) are left out, and count as dark.
+// if no bright spots are aimed at. No rays are sent behind trueNormal (unit), as if it were dark there.
 void sendOverHemisphere(const Transport& transport, const BrightSpots* aims, Random& random, const Ray& root,
                         const V3d& normal, const V3d& trueNormal, RayKind kind, int rays, GatherRay each);
 

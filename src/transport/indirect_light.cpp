@@ -74,8 +74,8 @@ void IndirectLight::add(Ray& ray, const V3d& normal, const Interaction& at, RayK
     add(ray, -normal, -at.normal, kind, coefficient);
 }
 
-// The number of guessed rays for each ray that is followed. None where -lr ends the descendants of the ray
-// for certain instead of by chance: the guess would then have more light than the rays that are followed.
+// The number of guessed rays for each ray that is followed. It is 0 if -lr ends the descendants of the ray
+// for certain instead of by Russian roulette: the guess would then include light that followed rays lack.
 int IndirectLight::raysToGuess(const Ray& ray) const {
   const int limit = t_.options().reflectionLimit;
   if (!settings_.guess || limit > 0 || (limit < 0 && ray.level + 1 > -limit)) return 0;
@@ -140,8 +140,8 @@ void IndirectLight::gatherStratified(Ray& ray, const Surroundings& at, int guess
       Rgb c = interpolating ? Rgb(kMeanReflectance, kMeanReflectance, kMeanReflectance) : share;
       if (!continueRay(t_, random, child, at.kind, ray, c)) continue;
       if (interpolating) c *= share / kMeanReflectance;
-      // Only after roulette: an aimed direction has a small weight because it brings much light, and must not
-      // end for that.
+      // Only after roulette: an aimed direction has a small weight because it was chosen for being bright,
+      // and must not be ended for that.
       c *= part;
       child.contribution = ray.contribution * passedBy(ray) * c;
       ++child.ambientLevel;

@@ -34,8 +34,8 @@ double reachOf(const Tracer& tracer, const GatherSite& site) {
   return inverse > 0 ? kReachRays / inverse : kFarAway;
 }
 
-// Whether the fields serve the end of a ray: their sites see the whole scene, with nothing cut away by
-// antimatter, and in no medium but the scene's own.
+// Whether interpolated light is valid at the end of a ray. It was gathered in the whole scene, with nothing
+// cut away by antimatter, and in the medium that fills the scene.
 bool isOrdinary(const Ray& ray, const Medium& medium) {
   return !ray.mist && !ray.clips && !ray.clipsBeyond && !ray.scatterers.count &&
          ray.medium.extinction == medium.extinction;
@@ -73,7 +73,7 @@ class Looker final : public SiteLooker, public CoarseSolution::Looker {
   }
   double reach(const GatherSite& site) override { return reachOf(tracer_, site); }
   bool smallObjectNear(const GatherSite& site, double side, double lift) override {
-    // An object as wide as a cell is not smaller than it, whatever rounding does.
+    // Rounding must not make an object that is as wide as the cell seem smaller.
     constexpr double kRounding = 1e-6;
     return tracer_.anySmallNear({site.point, site.normal, side, side * (1 - kRounding), 3 * lift});
   }
@@ -87,7 +87,7 @@ class Looker final : public SiteLooker, public CoarseSolution::Looker {
 }  // namespace
 
 bool InterpolatedLight::add(Ray& ray, const V3d& normal, const V3d& trueNormal, const Rgb& coefficient) {
-  // No other ray asks for the light at an imagined point.
+  // The light at an imagined point (-I) is not interpolated, because no other ray needs it.
   if (ray.surface == kNone || settings_.gathersFirstAnew) return false;
   if (!isOrdinary(ray, t_.medium()) || normal.dot(trueNormal) < kLeastUpright) return false;
   Looker looker(t_.tracer(), gatherer_, ray.depth);
@@ -102,7 +102,7 @@ bool InterpolatedLight::addFromPatch(Ray& ray, const V3d& normal, const V3d& tru
                                      const Rgb& coefficient) {
   Looker looker(t_.tracer(), gatherer_, ray.depth);
   const int beyond = ray.ambientLevel - 1;
-  // No patch is asked for more bounces than these.
+  // Patches never need light of more bounces than these, so that the path ends here.
   const bool isLast = state_.links && ray.ambientLevel >= t_.options().ambientBounces - 1;
   CoarseSolution::Patch* patch = nullptr;
   if (!isLast) {

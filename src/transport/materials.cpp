@@ -1,4 +1,4 @@
-// What each material does to a ray that hits it.
+// Shading of each material: emission, reflection and transmission at the hit of a ray.
 #include "transport/ray_functions.h"
 #include "transport/ray_limits.h"
 #include "transport/surface_shading.h"
@@ -6,15 +6,15 @@
 namespace rsphere {
 namespace {
 
-// A ray whose direction changed by less on its way through panes has gone straight on.
+// A ray is straight if its direction (unit) changed by less than this on its way through panes.
 constexpr double kStraight = 1e-9;
 
 bool beyondReach(const Glow* glow, double distance) {
   return glow && glow->reach >= -kNegligible && distance > glow->reach;
 }
 
-// Whether no direction of light is far brighter than others: the peak of a lobe, share / (4 pi alpha^2) at
-// normal incidence, against what is diffuse, share / pi.
+// Whether the scattered light has no strong peak: the peak of a lobe, share / (4 pi alpha^2) at normal
+// incidence, is at most kMost times the diffuse part, share / pi.
 bool isEven(const Scattering& s) {
   constexpr double kMost = 4;
   return maxChannel(s.specularReflection + s.specularTransmission) <=
@@ -23,7 +23,7 @@ bool isEven(const Scattering& s) {
 
 }  // namespace
 
-// Surfaces that diffuse or scatter by a rough lobe.
+// Surfaces that scatter diffusely or by a rough lobe.
 bool SurfaceShading::shadeDiffusing(Ray& ray, const Scattering& scattering, const Interaction& at) {
   specular_.follow(ray, scattering.sharp);
   if (ray.kinds & kShadow) return true;
@@ -101,8 +101,8 @@ bool SurfaceShading::shadeMaterial(Ray& ray, const Mirror& material, int32_t beh
   const LightSource* target = targetOf(ray);
   const bool aimedHere = target && target->surface == ray.surface;
   if (material.alternate.kind != Alternate::Kind::none && !aimedHere) {
-    // An indirect ray that meets the front takes the mirror's way, as the light that it stands for does; only
-    // what is transparent is passed even then.
+    // An indirect ray that hits the front is reflected by the mirror and not shaded with the alternate
+    // material, because the light along this path is mirrored too. Transparent alternates are an exception.
     const bool free = ray.cosine < 0 || !(ray.kinds & (kAmbient | kSpecular));
     const auto transparent = [&] {
       const int32_t m = material.alternate.modifier;
@@ -118,7 +118,7 @@ bool SurfaceShading::shadeMaterial(Ray& ray, const Mirror& material, int32_t beh
   }
   applyModifiers(ray, behind);
   if (target) {
-    // Textures are left out: the image is where the plane has it.
+    // Textures are ignored: the virtual source is the image in the unperturbed plane.
     relay(ray, kReflected, ray.direction + 2 * ray.cosine * ray.normal, material.reflectance * ray.pattern);
     return true;
   }
@@ -126,12 +126,13 @@ bool SurfaceShading::shadeMaterial(Ray& ray, const Mirror& material, int32_t beh
   return true;
 }
 
-// What a shadow ray is aimed at; null for other rays.
+// The light source that a shadow ray is aimed at; null for other rays.
 const LightSource* SurfaceShading::targetOf(const Ray& ray) const {
   return ray.aimedAt == kNone ? nullptr : &t_.lights().all()[ray.aimedAt];
 }
 
-// Sends a shadow ray that has reached the relay it was aimed at on to the source that is seen there.
+// Continues a shadow ray that has reached the virtual source that it was aimed at, towards the source that is
+// relayed there.
 void SurfaceShading::relay(Ray& ray, RayKind kind, const V3d& direction, Rgb coefficient) {
   Ray child;
   if (!continueRay(t_, state_.random, child, kind, ray, coefficient)) return;
@@ -196,7 +197,7 @@ bool SurfaceShading::shadeMaterial(Ray& ray, const Illum& material, int32_t behi
   const LightSource* aimed = targetOf(ray);
   if (!aimed || aimed->surface != ray.surface || aimed->isVirtual()) {
     if (aimed && !aimed->isVirtual() && ray.cosine > 0) {
-      // Light of an illum or glow behind this illum is what this one stands for.
+      // This illum already represents the light of any illum or glow behind it.
       const Material* other = t_.scene().materialOf(t_.scene().surfaces[aimed->surface]);
       if (!t_.scene().importance && other &&
           (std::holds_alternative<Illum>(*other) || std::holds_alternative<Glow>(*other)))
@@ -208,8 +209,8 @@ bool SurfaceShading::shadeMaterial(Ray& ray, const Illum& material, int32_t behi
   return true;
 }
 
-// Whether an indirect or specular sample met the front of a source whose light the direct calculation has
-// counted.
+// Whether an indirect or specular sample hit the front of a source whose light next-event estimation already
+// includes.
 bool SurfaceShading::countedByDirect(const Ray& ray, const Glow* glow) const {
   return (ray.kinds & (kAmbient | kSpecular)) && !(ray.kinds & kShadow) && ray.cosine >= 0 &&
          !beyondReach(glow, ray.length);
@@ -228,15 +229,15 @@ void SurfaceShading::emit(Ray& ray, const Rgb& radiance, const Glow* glow, int32
   }
   applyModifiers(ray, behind);
   ray.value = radiance * ray.pattern;
-  // Straight on, or mirrored once.
+  // The ray shows this source only if it came straight or was mirrored once.
   const unsigned others = ray.kinds & ~(kPrimary | kTransmitted);
   if (t_.lightOf(ray.surface) == kNone || others != (ray.mirror == kNone ? 0u : kReflected)) return;
   if (state_.shown.source != kNone && (state_.shown.mirror == kNone || ray.mirror != kNone)) return;
   if (isStraight(ray)) state_.shown = {ray.surface, ray.mirror};
 }
 
-// Whether a ray goes where the primary ray went, but for what mirrored it, and through nothing that stops
-// shadow rays: those that are sent to the source have to find it, too.
+// Whether a ray continues the primary ray in a straight line, except for its reflection by ray.mirror, and
+// passes no surface that blocks shadow rays, so that shadow rays to the source reach it as well.
 bool SurfaceShading::isStraight(const Ray& ray) const {
   for (const Ray* before = ray.parent; before; before = before->parent)
     if (before->surface != kNone && before->surface != ray.mirror &&

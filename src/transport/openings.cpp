@@ -13,15 +13,16 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Panes of less than this share of the scene's largest face are no openings: each costs time at every gather.
+// Panes smaller than this share of the largest face of the scene's box are ignored, because every opening
+// costs time in every gather.
 constexpr double kLeastArea = 1e-6;
-// Panes that are asked for their light, the largest first.
+// Number of panes that are probed; the largest are chosen.
 constexpr size_t kMostAsked = 512;
-// Rays that ask what is beyond a pane, each way.
+// Number of probe rays on each side of a pane.
 constexpr int kProbes = 32;
-// The bright side is at least this much brighter than the dark one.
+// The bright side of an opening is at least this many times brighter than the dark one.
 constexpr double kBrighter = 3;
-// Panes of one plane are one opening where they fill at least this share of the rectangle around them.
+// Coplanar panes are merged to one opening if they fill at least this share of the rectangle around them.
 constexpr double kFilled = .7;
 
 bool lightPasses(const Material& material) {
@@ -67,7 +68,7 @@ std::vector<Openings::Opening> Openings::panesOf(const Scene& scene, double leas
   return panes;
 }
 
-// Panes side by side become one, as long as little else is between them.
+// Merges panes that lie side by side with small gaps only.
 void Openings::merge(std::vector<Opening>& panes) {
   for (size_t i = 0; i < panes.size(); ++i)
     for (size_t j = i + 1; j < panes.size();) {
@@ -141,7 +142,7 @@ void Openings::aim(const V3d& point, const V3d& normal, Aim& aim) const {
   for (uint32_t i = 0; i < openings_.size(); ++i) {
     const Opening& o = openings_[i];
     if ((point - o.corner).dot(o.normal) <= 0) continue;
-    // The form factor to the opening, from five of its points.
+    // The form factor to the opening, estimated from five of its points.
     double factor = 0;
     for (int c = 0; c < 5; ++c) {
       const double a = c < 4 ? .1 + .8 * (c & 1) : .5, b = c < 4 ? .1 + .8 * (c >> 1) : .5;
@@ -155,7 +156,7 @@ void Openings::aim(const V3d& point, const V3d& normal, Aim& aim) const {
     seen += factor;
     aim.upTo.emplace_back(i, sum += factor * o.power / o.area);
   }
-  // Where openings fill much of what is seen, rays find them unaimed.
+  // If openings fill much of the view, rays hit them without being aimed.
   if (sum > 0) aim.share = kMostAimed * std::max(0., 1 - 2 * seen);
   if (aim.share < .05) aim.share = 0;
 }

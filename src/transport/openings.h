@@ -35,7 +35,7 @@ class Openings {
   // normal: unit, on the side that the light arrives at. Clears and fills aim.
   void aim(const V3d& point, const V3d& normal, Aim& aim) const;
 
-  // One of the aimed directions (unit) from the point, for uniform u1, u2, u3 in [0, 1): u1 chooses the
+  // One of the aimed directions (unit) from the point, for uniform u1, u2, u3 in [0, 1); u1 chooses the
   // opening. REQUIRES aim.share > 0.
   V3d sample(const Aim& aim, const V3d& point, double u1, double u2, double u3) const;
 

@@ -8,9 +8,9 @@
 namespace rsphere {
 namespace {
 
-constexpr int kMostSteps = 16;  // samples of one source along a ray, RADIANCE's own figure
+constexpr int kMostSteps = 16;  // samples of one source along a ray; as in RADIANCE
 
-// Henyey and Greenstein's phase function times 4 pi; isotropic for g <= 0, as RADIANCE has it.
+// The Henyey-Greenstein phase function times 4 pi; isotropic for g <= 0, as in RADIANCE.
 double phase(double g, double cosine) {
   if (g <= kNegligible) return 1;
   const double d = 1 + g * g - 2 * g * cosine;
@@ -29,7 +29,8 @@ void ParticipatingMedia::participate(Ray& ray) {
   addScattered(ray);
 }
 
-// Light from the sources that is scattered once, into the ray, at a point in every step of it (-ms).
+// Adds single scattering of the light from sources, sampled at one random point in each step along the ray
+// (-ms).
 void ParticipatingMedia::addScattered(Ray& ray) {
   if (ray.scatterers.count == 0 || ray.length >= .99 * kFarAway || ray.medium.eccentricity >= 1 - kNegligible)
     return;
@@ -37,7 +38,7 @@ void ParticipatingMedia::addScattered(Ray& ray) {
   const int steps = stepLength > kNegligible
                         ? static_cast<int>(std::clamp(ray.length / stepLength + .5, 1., double{kMostSteps}))
                         : 1;
-  // Where the light is scattered, as a ray that ends there.
+  // A ray that ends at the point of scattering.
   Ray at;
   at.direction = ray.direction;
   at.medium = ray.medium;
@@ -47,7 +48,7 @@ void ParticipatingMedia::addScattered(Ray& ray) {
   at.depth = ray.depth;
   at.pathLength = ray.pathLength;
   at.contribution = ray.contribution;
-  at.cosine = 0;  // no surface's front or back
+  at.cosine = 0;  // there is no surface, hence neither front nor back
   const Rgb scattered = ray.medium.extinction * ray.medium.albedo * (ray.length / steps / (4 * kPi));
   for (const uint16_t scatterer : ray.scatterers)
     for (int i = 0; i < steps; ++i) {

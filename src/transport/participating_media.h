@@ -12,9 +12,9 @@ class ParticipatingMedia {
   ParticipatingMedia(const Transport& transport, PathState& state, DirectLight& direct)
       : t_(transport), state_(state), direct_(direct) {}
 
-  // Attenuates the ray's radiance by the medium between its origin and its hit, and adds light scattered into
-  // the ray: the ambient value (-av), which is the same everywhere, and light from the sources that mist
-  // names.
+  // Attenuates the ray's radiance by the medium between its origin and its hit, and adds the light that the
+  // medium scatters into the ray: that of the uniform ambient value (-av), and that of the sources named by
+  // mist.
   void participate(Ray& ray);
 
  private:

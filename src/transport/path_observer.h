@@ -1,12 +1,13 @@
 #pragma once
-// What a caller may learn of a path besides its radiance.
+// Results of a path besides its radiance.
 #include <functional>
 
 #include "transport/ray.h"
 
 namespace rsphere {
 
-// The light source that a primary ray showed, and what mirrored it. Indices in Scene::surfaces; kNone: none.
+// The light source that a primary ray showed, and the surface that mirrored it. Indices in Scene::surfaces;
+// kNone: none.
 struct ShownSource {
   int32_t source = kNone;
   int32_t mirror = kNone;

@@ -25,7 +25,7 @@ struct PathState {
   V3d primaryDirection{0, 0, 1};  // unit
   ShownSource shown;
   Hit firstHit;                            // of the primary ray
-  CoarseSolution::Links* links = nullptr;  // gets the light that is found, where the path is a patch's
+  CoarseSolution::Links* links = nullptr;  // of a path from a patch: collects the light that it finds
 };
 
 }  // namespace rsphere

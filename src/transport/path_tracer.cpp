@@ -16,16 +16,15 @@
 namespace rsphere {
 namespace {
 
-constexpr double kMeterLength =
-    1e-5;  // -I: world units from the ray's origin to its imagined surface, as rtrace
+// -I: distance (world units) from the ray's origin to its imagined surface, as in rtrace.
+constexpr double kMeterLength = 1e-5;
 
-// Rays are traced one inside the other. The deepest takes 40 MB of stack at most; runRecords() gives its
-// threads more.
+// The maximal depth of the recursion. It takes at most 40 MB of stack; runRecords() gives its threads more.
 constexpr int kDeepest = 20500;
-// What the work at one surface may need of it, tracing a ray through octrees within octrees included.
+// Stack (bytes) that the work at one surface may need, including a ray through nested octrees.
 constexpr uintptr_t kStackReserve = 512 << 10;
 
-// Where this thread's stack ends. Asked of the system once a thread.
+// The lowest address of this thread's stack. The system is asked once per thread.
 uintptr_t stackEnd() {
   thread_local const uintptr_t end = [] {
     pthread_attr_t attributes;
@@ -52,7 +51,7 @@ void checkDepth(const Ray& ray) {
 
 }  // namespace
 
-// The recursion, and all that it is made of.
+// The recursion and its parts.
 class PathTracer::Path final : public RayFollower, public SiteGatherer {
  public:
   Path(const Transport& transport, const BrightSpots* spots)
@@ -221,8 +220,8 @@ void PathTracer::Path::passOn(Ray& child, Ray& ray) {
 }
 
 void PathTracer::Path::finish(Ray& ray) {
-  // Rays that only ask for the light of an unobstructed source are not shown. Nor are shadow rays that meet
-  // nothing: rounding made them miss their source.
+  // Rays that only determine the light of an unobstructed source are not shown. Shadow rays that hit nothing
+  // are not shown either: they miss their source by rounding errors.
   if (settings_.observer && !ray.unobstructed && (ray.aimedAt == kNone || ray.surface != kNone))
     settings_.observer(ray);
   media_.participate(ray);
@@ -233,7 +232,7 @@ void PathTracer::Path::find(Ray& ray) {
   if (ray.depth == 0) state_.firstHit = hit;
 }
 
-// Gathers within gathers each have a path of their own.
+// The path for gathers within this path. Nested gathers each use another one.
 PathTracer::Path& PathTracer::Path::gatherer() {
   if (!gatherer_) gatherer_ = std::make_unique<Path>(t_, t_.spots());
   return *gatherer_;

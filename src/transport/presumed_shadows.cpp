@@ -6,16 +6,16 @@
 namespace rsphere {
 namespace {
 
-constexpr int kCells = 20;  // along a side, twice as many for distant sources; RADIANCE's own figure
+constexpr int kCells = 20;  // along a side, twice as many for distant sources; as in RADIANCE
 
-// The middle of the cell of `count` cells between -1 and 1 that x lies in.
+// If -1 to 1 is divided into `count` cells, the middle of the cell that contains x.
 double middle(double x, int count) {
   const double cell = std::clamp(std::floor((x + 1) * count / 2), 0., count - 1.);
   return 2 * (cell + .5) / count - 1;
 }
 
 int largestAxis(const V3d& v) {
-  int axis = 2;  // the later one of two that are equal
+  int axis = 2;  // the later one if two are equal
   for (int i = 1; i >= 0; --i)
     if (std::abs(v[i]) > std::abs(v[axis])) axis = i;
   return axis;
@@ -39,17 +39,17 @@ bool PresumedShadows::isOpaque(const Hit& hit) const {
   if (hit.path.count > 0 || static_cast<size_t>(hit.surface) >= scene_.outermost().size()) return false;
   const Surface& surface = scene_.surfaces[hit.surface];
   const Material* material = scene_.materialOf(surface);
-  // Shadow rays pass no mirror, but rtrace does not presume so.
+  // Mirrors block shadow rays, but rtrace does not assume so here.
   return isPlain(surface.shape) && material && !std::holds_alternative<Mirror>(*material) &&
          !std::holds_alternative<Prism>(*material) && tracer_.stopsShadows(hit.surface, hit.cosine > 0);
 }
 
-// The line from a source through the middle of a shadow ray's cell; false where the ray has none.
+// Sets the line from a source through the middle of a shadow ray's cell; false if the ray has no cell.
 bool PresumedShadows::middleOfCell(const LightSource& light, const V3d& point, const V3d& direction,
                                    V3d& origin, V3d& onward) const {
   if (light.distant) {
-    // The side of the cube that faces the source most, spread out so that every ray to the source that leaves
-    // the cube comes by.
+    // The grid lies in the plane of the cube's side that faces the source most. It is extended beyond that
+    // side, so that every ray to the source that leaves the cube crosses it.
     const V3d& to = light.center;
     const int axis = largestAxis(to), a = (axis + 1) % 3, b = (axis + 2) % 3;
     const double along = std::abs(to[axis]);
@@ -67,7 +67,7 @@ bool PresumedShadows::middleOfCell(const LightSource& light, const V3d& point, c
     onward = -to;
     return true;
   }
-  // The side of a cube of directions, in the source's own frame where it is plane.
+  // The side of a cube of directions. If the source is plane, the cube is aligned with the source.
   V3d axes[3] = {V3d(1, 0, 0), V3d(0, 1, 0), V3d(0, 0, 1)};
   if (light.isPlane()) {
     axes[2] = light.normal;
@@ -81,7 +81,7 @@ bool PresumedShadows::middleOfCell(const LightSource& light, const V3d& point, c
     onward +=
         (i == axis ? std::copysign(1., from[i]) : middle(from[i] / std::abs(from[axis]), kCells)) * axes[i];
   onward.normalize();
-  // Just before the source, whose center may lie within it.
+  // The line starts just in front of the source, because the source's center may lie inside it.
   constexpr double kBefore = .01;
   origin =
       light.center + light.radius * (light.isPlane() ? kBefore * light.normal : (1 + 5 * kBefore) * onward);
@@ -98,7 +98,7 @@ bool PresumedShadows::hide(uint32_t source, const V3d& point, const V3d& directi
     first = tracer_.nearest(origin + passed * onward, onward);
     if (first.surface == kNone) return false;
     if (first.surface != light.surface && isOpaque(first)) {
-      // What lies so near the side of the cube rtrace looks for on its other side, and does not find.
+      // A surface this near to the side of the cube is missed by rtrace, which searches on the other side.
       constexpr double kLost = 1;  // world units
       if (light.distant && passed + first.distance <= kLost) return false;
       break;

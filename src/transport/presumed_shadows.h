@@ -1,14 +1,16 @@
 #pragma once
-// The shadows that rtrace presumes without following a ray. Before it follows a shadow ray, rtrace holds the
-// straight line to the source against one surface: the first opaque one that a line meets which leaves the
-// source through the middle of the ray's cell. Cells are 40 x 40 over the scene's cube as a distant source
-// sees it, and 20 x 20 on each side of a cube of directions around other sources. Where the straight line
-// meets that surface, the source is taken as hidden, even where the ray would be refracted past the surface.
+// The occlusion that rtrace assumes without tracing a shadow ray. Before it traces a shadow ray, rtrace looks
+// up the ray's cell in a grid around the source:
+// - distant sources: 40 x 40 cells over the scene's cube as seen from the source,
+// - other sources: 20 x 20 cells on each side of a cube of directions around the source.
+// Each cell stores one surface: the first opaque one on the line that leaves the source through the middle of
+// the cell. If the straight line from the point to the source intersects that surface, rtrace takes the
+// source as hidden, even if the shadow ray would be refracted past the surface.
 //
-// Without them places behind thick slabs of dielectric are brighter than rtrace's: by .7% on average in a
-// scene of small boards on a slab, where they are wrong at half of the places between a board's straight and
-// its refracted shadow. What rtrace adds to its cells when it finds shadows depends on the order of its rays
-// and is left out.
+// Without this test, places behind thick slabs of dielectric are brighter than with rtrace. In a scene of
+// small boards on a slab they are brighter by .7% on average, and wrong at half of the places between the
+// straight and the refracted shadow of a board. The surfaces that rtrace adds to its cells when it finds
+// shadows are left out, because they depend on the order of its rays.
 #include "light/sources.h"
 #include "trace/tracer.h"
 
@@ -19,8 +21,9 @@ class PresumedShadows {
   // Keeps references to all three.
   PresumedShadows(const Scene& scene, const Tracer& tracer, const LightSources& lights);
 
-  // Whether rtrace presumes that no light of the source comes to the point along a straight line. direction:
-  // unit, towards the source; distance: to its surface, or kFarAway. Costs a ray or a few.
+  // Whether rtrace assumes that the source is hidden from the point along a straight line. direction: unit,
+  // towards the source; distance: to its surface, or kFarAway. Costs one ray, or a few if surfaces that are
+  // not opaque lie in front.
   bool hide(uint32_t source, const V3d& point, const V3d& direction, double distance) const;
 
  private:
@@ -31,7 +34,7 @@ class PresumedShadows {
   const Scene& scene_;
   const Tracer& tracer_;
   const LightSources& lights_;
-  V3d corner_{0, 0, 0};  // the lowest of the scene's cube
+  V3d corner_{0, 0, 0};  // lowest corner of the scene's cube
   double size_ = 0;
 };
 

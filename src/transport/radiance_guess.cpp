@@ -10,25 +10,25 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Sources that send most are guessed with, others count as light from around.
+// Only the sources that contribute most are guessed one by one; the others become ambient light.
 constexpr size_t kMostLights = 32;
 
-// Shadow rays by which the share of a source's light that arrives is estimated.
+// Number of shadow rays that estimate the mean visibility of a source.
 constexpr double kShadowRays = 12;
 
-// Where a source adds more than this times the mean guess, shadow rays to kSeenSide^2 fixed places on it
-// replace its share: a few percent of the glances, where most of the light is. Where only some of them see
-// it, to kPenumbraSide^2: beside a goal penumbrae are most of what the guess misses.
+// If a source adds more than kBright times the mean guess at a place, shadow rays to kSeenSide^2 fixed points
+// on it replace its mean visibility. This concerns a few percent of the glances, which carry most of the
+// light. If only some of these points are visible, the place is in penumbra and kPenumbraSide^2 points are
+// used instead: beside a goal, penumbrae cause most of the error of the guess.
 constexpr double kBright = 16;
 constexpr int kSeenSide = 2, kPenumbraSide = 4;
 
-// Nearer than this times its radius the shape of a source with four corners matters: its factor is then
-// exact, and else that of a small surface, up to a seventh off at grazing angles: that is close enough for a
-// guess.
+// The factor of a source with four corners is exact within this many times its radius. Beyond, it is that of
+// a small surface, with an error of up to a seventh at grazing angles, which is accurate enough for a guess.
 constexpr double kNear = 3;
 
-// Irradiance by a triangle or parallelogram of radiance 1, what is below the horizon left out: Lambert's sum
-// over its sides. corners: from the place. normal: unit, of the place.
+// Irradiance from a triangle or parallelogram of radiance 1, clipped at the horizon, by Lambert's sum over
+// its sides. corners: relative to the place. normal: unit, of the place.
 template <size_t N>
 double irradianceFrom(const std::array<V3d, N>& corners, const V3d& normal) {
   std::array<V3d, 2 * N> kept;
@@ -48,8 +48,8 @@ double irradianceFrom(const std::array<V3d, N>& corners, const V3d& normal) {
   return std::abs(sum) / 2;
 }
 
-// Following an indirect ray takes about as long as so many guesses for each bounce that is left to it. Not
-// more of them than that are made for each one that is followed.
+// Following an indirect ray takes about as long as kBouncePrice guesses for each bounce that it may still
+// make. At most kMostGuesses are made for each followed ray.
 constexpr double kBouncePrice = 30, kMostGuesses = 6;
 
 double middleOf(std::vector<double>& values) {
@@ -92,7 +92,7 @@ RadianceGuess::Place RadianceGuess::placeOf(const V3d& point, const V3d& directi
   return placeOf(hit.surface, point + hit.distance * direction, hit.normal, direction);
 }
 
-// Irradiance for a radiance of 1 where nothing is in between, sr.
+// Unoccluded irradiance from a source of radiance 1, sr.
 double RadianceGuess::factor(uint32_t source, const Place& at) const {
   const LightSource& light = transport_.lights().all()[source];
   if (light.distant) return 2 * kPi * (1 - light.cosHalfAngle) * std::max(0., at.normal.dot(light.center));
@@ -125,13 +125,13 @@ double RadianceGuess::sent(const Light& light, const Place& at) const {
   return factor(light.source, at) / kPi * brightness(light.radiance * at.reflectance);
 }
 
-// Of some places on the source that do not depend on chance, the share that is seen.
+// The share of some fixed points on the source that are visible from the place.
 double RadianceGuess::seenFrom(const Place& at, uint32_t source) const {
   const LightSource& light = transport_.lights().all()[source];
   const bool ball = light.map == LightSource::Map::ball;
   V3d u = light.u, v = light.v;
   if (ball) {
-    // A square across the view that is as large as the ball's disk.
+    // A square perpendicular to the view with the area of the ball's disk.
     frame((light.center - at.point).normalized(), u, v);
     u *= .886 * light.radius;
     v *= .886 * light.radius;
@@ -158,7 +158,8 @@ double RadianceGuess::seenFrom(const Place& at, uint32_t source) const {
   return roughly > 0 && roughly < 1 ? share(kPenumbraSide) : roughly;
 }
 
-// sent: brightness that would come back from each place if nothing hid the light.
+// The mean visibility of a light from the places. sent: brightness that each place would reflect if the light
+// were not occluded.
 double RadianceGuess::shareThatArrives(const Light& light, std::span<const double> sent,
                                        std::span<const Place> places, Random& random) const {
   double sum = 0;
@@ -211,7 +212,7 @@ LocalGuess RadianceGuess::fit(const V3d& point, std::span<const V3d> glances, st
     arriving += light.share * -sum;
   }
   local.bright_ = kBright * arriving / static_cast<double>(std::max<size_t>(1, glances.size()));
-  // The middle one rather than the mean: few directions by chance see what is very bright.
+  // The median instead of the mean, because a few directions hit something very bright by chance.
   std::vector<double> around[3];
   for (const Traced& t : traced) {
     const Place& at = t.place;
@@ -221,8 +222,9 @@ LocalGuess RadianceGuess::fit(const V3d& point, std::span<const V3d> glances, st
       if (at.reflectance[c] > 0) around[c].push_back(rest[c] / at.reflectance[c]);
   }
   for (int c = 0; c < 3; ++c) local.ambient_[c] = std::max(0., middleOf(around[c]));
-  // What is left to the directions here, and how much of it comes from which indirect ray was followed; of
-  // that the mean distance, so that one ray by chance at something bright does not tell of all.
+  // The variance that the guess leaves to the directions, and the part of it that the random choice of
+  // indirect rays causes. That part is estimated from the mean absolute difference of two guesses: it is less
+  // sensitive than a mean square to single rays that hit something bright by chance.
   double rests = 0, squares = 0, guessed = 0;
   for (const Traced& t : traced) {
     const double rest = brightness(t.radiance - local.from(t.place));
@@ -273,10 +275,10 @@ Rgb LocalGuess::indirect(const Ray& traced) const {
 int LocalGuess::raysToGuess(int bounces) const {
   if (bounces > 1) return 0;
   const int left = guess_->transport_.options().ambientBounces - bounces;
-  // After the second surface all counts about half as much.
+  // Beyond the second surface, all contributions have about half the weight.
   const double pay = std::sqrt(kBouncePrice * left * shareGuessed_);
   const auto rays = static_cast<int>(std::lround(std::min(pay, kMostGuesses) / (1 + bounces)));
-  // One is as good as none: what it takes from the followed ray's noise it has itself.
+  // A single guess adds as much variance as it removes.
   return rays > 1 ? rays : 0;
 }
 

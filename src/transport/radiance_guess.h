@@ -1,14 +1,19 @@
 #pragma once
-// What a ray is likely to show, at the price of finding what it hits: the diffuse reflectance there, times
-// what the light sources send, times the share of it that arrives as a rule, and even light from around.
-// Where radiance follows the guess, from the bright part of a partition beside a goal to the edge of a dark
-// desktop, many cheap guesses tell what few traced rays miss (a control variate: traced less guessed, plus
-// the mean of many guesses). The paper names diffuse objects near to light sources as future work; this
-// serves them and all other diffuse ones, seen directly or by indirect rays.
+// A cheap guess of the radiance along a ray, which costs only the search for its first hit: the diffuse
+// reflectance there, times the sum of
+// - the unoccluded direct light of each source, times the mean visibility of that source, and
+// - uniform ambient light.
+// The guess is a control variate: the estimate is the mean of traced minus guessed radiance, plus the mean of
+// many guesses. It reduces the variance where radiance is correlated with the guess, as between the bright
+// part of a partition beside a goal and the edge of a dark desktop. The paper names diffuse objects near
+// light sources as future work; the guess covers these and all other diffuse objects, seen directly or by
+// indirect rays.
 //
-// Refused: dynamic directions to surfaces near to sources (two tenths more of them gained 7% there);
-// highlights of sources in glossy surfaces (an office gained 3%); and, for the noise of indirect rays,
-// directions that neighbours share out among them (nothing).
+// Rejected alternatives:
+// - Dynamic directions to surfaces near sources: 20% more directions gained 7% there.
+// - Guesses of the highlights of sources in glossy surfaces: an office gained 3%.
+// - Directions of indirect rays stratified over neighbouring points, against the noise of indirect rays: no
+//   gain.
 #include <span>
 #include <vector>
 
@@ -19,29 +24,30 @@ namespace rsphere {
 
 class RadianceGuess;
 
-// The guess as it was fitted to what is seen from a point. Its answers depend on that and on the arguments
-// alone. Keeps a reference to the guess.
+// The guess as fitted to the view from a point. Its answers depend only on that fit and on the arguments.
+// Keeps a reference to the guess.
 class LocalGuess {
  public:
-  // What a ray hits; reflectance 0: nothing that is guessed.
+  // The hit of a ray. If the reflectance is 0, the guess is 0.
   struct Place {
     V3d point{0, 0, 0}, normal{0, 0, 1};  // world; unit, towards where the ray came from
     Rgb reflectance{0, 0, 0};
   };
 
-  // Of the radiance from there, W/sr/m2.
+  // The guessed radiance from a place, W/sr/m2.
   Rgb from(const Place& place) const { return from(place, true); }
-  // Of what a ray from a point (world) brings, W/sr/m2.
+  // The guessed radiance along a ray from a point (world), W/sr/m2.
   Rgb along(const V3d& point, const V3d& direction) const;
 
-  // The same of an indirect ray, without the shadow rays that a guess of bright places takes: there are many
-  // rays, each of which counts little. start: the surface that it leaves (index in Scene::surfaces).
+  // The guessed radiance along an indirect ray, W/sr/m2. No shadow rays are traced to bright places, because
+  // there are many indirect rays and each has a small weight. start: the surface that the ray leaves (index
+  // in Scene::surfaces).
   Rgb indirect(const V3d& point, const V3d& direction, int32_t start) const;
   Rgb indirect(const Ray& traced) const;
 
-  // How many indirect rays to guess for one that is followed, from where `bounces` indirect ones led: what
-  // makes most of the time, by what the noise of followed ones adds to what few directions miss. 0 where that
-  // is little. REQUIRES fewer bounces than -ab.
+  // The number of guessed rays per followed indirect ray, after `bounces` indirect bounces, that minimizes
+  // the variance for a given time. It follows from the share of the noise of indirect rays in the variance; 0
+  // if that share is small. REQUIRES fewer bounces than -ab.
   int raysToGuess(int bounces) const;
 
   bool expectsLight() const { return !lights_.empty(); }
@@ -49,42 +55,42 @@ class LocalGuess {
  private:
   friend class RadianceGuess;
   explicit LocalGuess(const RadianceGuess& guess) : guess_(&guess) {}
-  // looking: shadow rays tell of bright places.
+  // looking: shadow rays decide the visibility of sources that light the place brightly.
   Rgb direct(const Place& at, bool looking) const;
   Rgb from(const Place& place, bool looking) const;
 
   struct Light {
     uint32_t source = 0;    // index in LightSources
     Rgb radiance{0, 0, 0};  // W/sr/m2
-    double share = 0;       // of its light that arrives where it might
+    double share = 0;       // mean visibility from the places that face it
   };
   const RadianceGuess* guess_;
   std::vector<Light> lights_;
   Rgb ambient_{0, 0, 0};     // other light, as the radiance of a white surface
-  double bright_ = 0;        // what a source adds in brightness from which on shadow rays are asked, W/sr/m2
-  double shareGuessed_ = 0;  // of the variance of what is left, what guesses of indirect rays vary by
+  double bright_ = 0;        // shadow rays are traced if a source adds more brightness than this, W/sr/m2
+  double shareGuessed_ = 0;  // variance of guessed indirect rays, relative to the variance that remains
 };
 
 class RadianceGuess {
  public:
   using Place = LocalGuess::Place;
 
-  // unguessed: by surface (index in Scene::surfaces), those whose guess is to be 0, as it is for all but
-  // plastic and metal. Keeps a reference to transport.
+  // unguessed: by surface (index in Scene::surfaces), whether its guess is to be 0. It is 0 anyway for all
+  // materials but plastic and metal. Keeps a reference to transport.
   RadianceGuess(const Transport& transport, const std::vector<bool>& unguessed);
 
-  // What a direction that was traced hit, and the radiance from there.
+  // The hit of a traced direction, and the radiance from there.
   struct Traced {
     Place place;
     int32_t surface = kNone;  // index in Scene::surfaces
     Rgb radiance{0, 0, 0};
   };
 
-  // Where Tracer::nearest found hit from a point (world) in a direction.
+  // The place of a hit that Tracer::nearest found from a point (world) in a direction.
   Place placeOf(const V3d& point, const V3d& direction, const Hit& hit) const;
 
-  // Fits the guess to what is seen from a point (world). glances: even directions, about kFitGlances of them.
-  // The mean stays unbiased where neither glances nor traced take part in what is summed.
+  // Fits the guess to the view from a point (world). glances: about kFitGlances evenly spread directions. The
+  // estimate stays unbiased as long as it contains neither the glances nor the traced directions.
   LocalGuess fit(const V3d& point, std::span<const V3d> glances, std::span<const Traced> traced,
                  uint64_t seed) const;
 

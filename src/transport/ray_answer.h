@@ -8,8 +8,8 @@ namespace rsphere {
 // The length that rtrace writes where a ray hits nothing or a distant source.
 inline constexpr double kInfiniteLength = 1e10;
 
-// The quantities of one ray that the -o letters of ray mode and of -Sd name. A field that no chosen letter
-// names may keep its default. Names are "*" where nothing was hit; they must live as long as the scene does.
+// The quantities of one ray that the -o letters of ray mode and of -Sd report. A field may keep its default
+// if its letter was not chosen. Names are "*" if nothing was hit; they must live as long as the scene.
 struct RayAnswer {
   V3d origin{0, 0, 0}, direction{0, 0, 0};    // o d
   Rgb value{0, 0, 0};                         // v  radiance W/sr/m2, or irradiance W/m2 under -i -I

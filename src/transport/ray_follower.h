@@ -1,14 +1,14 @@
 #pragma once
-// The recursion of the path tracer as its parts see it: they find where light may come from, and ask for the
-// radiance from there.
+// The path tracer's recursion as an interface for its parts: they choose directions that light may come from,
+// and request the radiance along them.
 #include "transport/ray.h"
 
 namespace rsphere {
 
 class RayFollower {
  public:
-  // Traces a ray: sets what it hits and its radiance at its origin. Origin, direction and all that it
-  // inherits from its parent are set (continueRay()).
+  // Traces a ray: sets its hit and its radiance at its origin. REQUIRES that its origin, its direction and
+  // the fields that it inherits from its parent are set (continueRay()).
   virtual void follow(Ray& ray) = 0;
 
   // Continues a ray straight through the surface that it hit, as if nothing were there; its value becomes
@@ -17,8 +17,8 @@ class RayFollower {
   // The same with a child that inherits from the ray, whose medium may differ.
   virtual void passOn(Ray& child, Ray& ray) = 0;
 
-  // Shades a ray that hit something with a chain of modifiers (index in Scene::modifiers); false where the
-  // chain has no material, and nothing was done.
+  // Shades a ray that hit a surface with a chain of modifiers (index in Scene::modifiers). False, with
+  // nothing done, if the chain has no material.
   virtual bool shade(Ray& ray, int32_t modifier) = 0;
 
  protected:

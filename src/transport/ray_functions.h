@@ -1,5 +1,5 @@
 #pragma once
-// What the parts of PathTracer share, inside this folder.
+// Constants and small functions of rays that the parts of PathTracer share.
 #include <cmath>
 #include <numbers>
 
@@ -10,31 +10,33 @@ namespace rsphere {
 
 inline constexpr double kPi = std::numbers::pi;
 
-// Shares of light below it are not followed; RADIANCE's own figure.
+// Paths whose share of the light is smaller are not followed; the same value as in RADIANCE.
 inline constexpr double kNegligible = 1e-6;
 
-// A white diffuse surface whose radiance is pi times the mean of what it receives: the irradiance (-i, -I).
+// A diffuse material of reflectance pi. Its radiance is pi times the mean incident radiance, which is the
+// irradiance (-i, -I).
 inline const Opaque kIrradianceMeter{Rgb(kPi, kPi, kPi), 0, 0, false};
 
 inline bool isBlack(const Rgb& c) { return !(maxChannel(c) > 0); }
 
-// How far what is seen along the ray seems to be: the mirrored image where it is most of the light.
+// The apparent distance of the object seen along the ray: that of the mirrored image if it gives more than
+// half of the light.
 inline double apparentLength(const Ray& ray) {
   return brightness(ray.mirrored) > .5 * brightness(ray.value) ? ray.mirroredLength : ray.unmirroredLength;
 }
 
-// Whether there is a medium at all: one that matters within kFarAway.
+// Whether the extinction is large enough to matter over a distance of kFarAway.
 inline bool isMedium(const Rgb& extinction) { return maxChannel(extinction) > 1 / kFarAway; }
 
-// The share of light that a medium lets through. extinction: per unit length.
+// The transmittance of a medium. extinction: per unit length.
 inline Rgb passing(const Rgb& extinction, double length) {
   if (!isMedium(extinction)) return Rgb(1, 1, 1);
   return Rgb(std::exp(-extinction.x * length), std::exp(-extinction.y * length),
              std::exp(-extinction.z * length));
 }
 
-// The share of a ray's radiance that the medium along it lets through. Shadow rays lose what is absorbed
-// alone: what is scattered out of them is taken to be scattered in again.
+// The transmittance of the medium along a ray. Shadow rays are attenuated by absorption alone: it is assumed
+// that in-scattering replaces the light that is scattered out of them.
 inline Rgb passedBy(const Ray& ray) {
   const Medium& medium = ray.medium;
   if (!isMedium(medium.extinction)) return Rgb(1, 1, 1);
@@ -43,7 +45,7 @@ inline Rgb passedBy(const Ray& ray) {
                  ray.length);
 }
 
-// What a ray has from the one that it goes on from, whatever made it.
+// Sets the fields that a child has from its parent, whatever its kind.
 inline void inherit(Ray& child, const Ray& parent, RayKind kind) {
   child.parent = &parent;
   child.origin = parent.point;
@@ -70,14 +72,14 @@ inline void flip(Ray& ray) {
   ray.perturbation = -ray.perturbation;
 }
 
-// Makes a hit from behind one from the front.
+// Turns a hit from behind into a hit from the front.
 inline void turnRound(Ray& ray) {
   if (!(ray.cosine < 0)) return;
   flip(ray);
   ray.fromBehind = !ray.fromBehind;
 }
 
-// Whether the ray hit the front of the surface as the scene has it, however it was turned since.
+// Whether the ray hit the front of the surface as the scene defines it, regardless of later flips.
 inline bool hitFront(const Ray& ray) { return (ray.cosine > 0) != (ray.fromBehind != ray.insideOut); }
 
 }  // namespace rsphere

@@ -7,15 +7,15 @@
 namespace rsphere {
 namespace {
 
-// Rounded once by a fused multiply-add: where a plane lies at 0, the sign of what rounding leaves of the
-// coordinate decides on which side of the plane the point is, and function files with floor() depend on it.
+// Fused multiply-add rounds only once. On a plane at coordinate 0, the sign of the rounding error decides on
+// which side of the plane a point lies, and function files that call floor() depend on it.
 V3d along(const V3d& origin, double distance, const V3d& direction) {
   return V3d(std::fma(distance, direction.x, origin.x), std::fma(distance, direction.y, origin.y),
              std::fma(distance, direction.z, origin.z));
 }
 
-// Sets the distant source in the direction of a ray. The first one that is neither glow nor an illum that
-// lets light pass hides the others; without one, it is the first glow.
+// Sets the distant source in the direction of a ray. The first one that is neither a glow nor an illum that
+// transmits light hides the others; if there is none, it is the first glow.
 void findDistant(const Transport& transport, Ray& ray) {
   const Scene& scene = transport.scene();
   const auto sees = [&](int32_t surface) {
@@ -41,12 +41,12 @@ void findDistant(const Transport& transport, Ray& ray) {
       return;
     }
   }
-  // The illum has the light behind it already; an indirect ray through it would add that light twice.
+  // The illum already includes the light behind it. An indirect ray through it would add that light twice.
   if (passedIllum && (ray.kinds & (kAmbient | kSpecular))) return;
   ray.surface = glow;
 }
 
-// Sets the hit of a shadow ray to the source that it is aimed at, whatever else is in its way.
+// Sets the hit of a shadow ray on the source that it is aimed at, and ignores all other surfaces.
 void findTarget(const Transport& transport, Ray& ray) {
   const Scene& scene = transport.scene();
   const LightSource& target = transport.lights().all()[ray.aimedAt];

@@ -12,7 +12,7 @@ namespace rsphere {
 // are rtrace's too; sphere mode has others (modeDefaults() in cli/option_table.h).
 struct RayOptions {
   // direct light
-  double directThreshold = .03;      // -dt  share of the possible contribution left untested
+  double directThreshold = .03;      // -dt  share of the direct light that may be left untested for shadows
   double directCertainty = .75;      // -dc
   double directJitter = 0;           // -dj  0 to 1
   double sourceSubstructuring = .2;  // -ds  largest size/distance of a part of a source; 0: not divided
@@ -35,7 +35,7 @@ struct RayOptions {
   double fieldMemory = 0;                                     // -Sm  MB; 0: no bound
   std::vector<std::string> ambientExcluded, ambientIncluded;  // -ae -aE, -ai -aI; one or both are empty
   // limits
-  int reflectionLimit = -10;  // -lr  negative: Russian roulette below -lw, from depth -lr on
+  int reflectionLimit = -10;  // -lr  its absolute value, if not 0; not positive: Russian roulette below -lw
   double weightLimit = 1e-4;  // -lw
   // medium
   Rgb mediumExtinction{0, 0, 0};  // -me  per unit length
@@ -50,7 +50,7 @@ struct RayOptions {
   uint64_t rotation = 0;     // -Sr
 };
 
-// Whether a ray answers irradiance, and of which surface.
+// Whether the answer for a ray is radiance or irradiance, and of which surface.
 enum class Irradiance : uint8_t {
   none,     // radiance
   surface,  // -i  irradiance of the surface that it hits

@@ -1,5 +1,5 @@
 #pragma once
-// What rtrace's output letters report of a ray.
+// The quantities of a ray that rtrace's output letters report.
 #include <string_view>
 
 #include "transport/ray.h"
@@ -8,11 +8,11 @@
 
 namespace rsphere {
 
-// Of a ray that was traced.
+// The answer for a ray that was traced.
 RayAnswer answerOf(const Scene& scene, const Ray& ray);
 
-// Of a ray that an observer was shown: answerOf() with the ray's weight and its contribution, which is zero
-// for a shadow ray that brings no light from its source.
+// The answer for a ray that an observer was shown (RayObserver): answerOf() with the ray's weight and its
+// contribution, which is zero for a shadow ray that receives no light from its source.
 RayAnswer branchAnswer(const Transport& transport, const Ray& ray);
 
 // Whether the letters need a ray's value, or only what it hits.

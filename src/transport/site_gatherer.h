@@ -1,6 +1,6 @@
 #pragma once
-// Final gathers, as the irradiance cache and the coarse solution ask for them. Their paths begin anew: they
-// depend on nothing of the path that caused them.
+// Final gathers for the irradiance cache and the coarse solution. Their paths start with a new state and do
+// not depend on the path that requested them.
 #include "field/coarse_solution.h"
 #include "field/hemisphere.h"
 
@@ -8,11 +8,11 @@ namespace rsphere {
 
 class SiteGatherer {
  public:
-  // The indirect light of a site, by -ad + -as rays. depth: of the ray that asks for it; only the limit of
-  // nesting depends on it.
+  // The indirect light of a site, estimated with -ad + -as rays. depth: of the ray that requests it; only the
+  // limit of nesting depends on it.
   virtual GatheredLight gather(const GatherSite& site, uint64_t seed, int depth) = 0;
 
-  // Sends about `rays` rays from a patch of the coarse solution, and notes the patches and the light that
+  // Sends about `rays` rays from a patch of the coarse solution, and records the patches and the light that
   // they find.
   virtual void link(const GatherSite& site, int rays, uint64_t seed, int depth,
                     CoarseSolution::Links& links) = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Sharp reflection and refraction, and rough highlights, which are sampled.
+// Light from sharp reflection and refraction, and from glossy lobes by sampling.
 #include "shade/scattering.h"
 #include "transport/function_ref.h"
 #include "transport/path_state.h"
@@ -8,8 +8,8 @@
 
 namespace rsphere {
 
-// Draws a direction (unit) of a lobe for two uniform numbers in [0, 1); returns its weight, 0 where the draw
-// is lost. Weights have a mean of 1.
+// Draws a direction (unit) of a lobe for two uniform numbers in [0, 1). Returns its weight, which is 0 if the
+// draw gives no valid direction. The mean of the weights is 1.
 using LobeSampler = FunctionRef<double(double u1, double u2, V3d& direction)>;
 
 class SpecularLight {
@@ -21,11 +21,11 @@ class SpecularLight {
   // Follows a ray along sharp paths, and adds their light to its value (W/sr/m2).
   void follow(Ray& ray, const SharpPaths& sharp);
 
-  // Adds the light of the highlights of a surface, if they are to be sampled.
+  // Adds the light of the lobes of a surface that are to be sampled.
   void sampleLobes(Ray& ray, const Scattering& scattering, const Interaction& at);
 
-  // The same of one lobe. share: of the light of the lobe in the ray's radiance. least: the number of samples
-  // that a ray of weight 1 takes whatever -ss is.
+  // The same for one lobe. share: of the light of the lobe in the ray's radiance. least: minimal number of
+  // samples of a ray of weight 1, whatever -ss is.
   void sampleLobe(Ray& ray, RayKind kind, const Rgb& share, LobeSampler draw, int least = 1);
 
  private:

@@ -1,4 +1,4 @@
-// What a hit surface does to a ray: its chain of modifiers down to a material, mixtures.
+// Shading of the surface that a ray hit: its chain of modifiers down to a material, and mixtures.
 #include "transport/surface_shading.h"
 
 #include "transport/ray_functions.h"
@@ -14,7 +14,7 @@ void SurfaceShading::shadeHit(Ray& ray) {
   follower_.pass(ray);
 }
 
-// What the surface emits and scatters; false where it has no material.
+// Sets the radiance that the surface emits and scatters; false if it has no material.
 bool SurfaceShading::shadeSurface(Ray& ray) {
   const Surface& surface = t_.scene().surfaces[ray.surface];
   if (!surface.goal || ray.cosine < 0) return shade(ray, surface.modifier);
@@ -27,7 +27,7 @@ bool SurfaceShading::shadeSurface(Ray& ray) {
   return shaded;
 }
 
-// Shades the ray with a chain of modifiers; false where it has no material.
+// Shades the ray with a chain of modifiers; false if the chain has no material.
 bool SurfaceShading::shade(Ray& ray, int32_t modifier) {
   const bool meters = t_.irradiance() == Irradiance::surface && !(ray.kinds & ~(kPrimary | kTransmitted));
   for (; modifier != kNone; modifier = t_.scene().modifiers[modifier].next) {
@@ -35,7 +35,7 @@ bool SurfaceShading::shade(Ray& ray, int32_t modifier) {
     const auto* material = std::get_if<Material>(&m.content);
     if (!material) {
       if (applyModifier(ray, modifier)) {
-        // Nothing shows what a material is mixed from but the mixture itself.
+        // A mixture of materials must be the last modifier of a chain.
         if (m.next != kNone) throw rad::Error(t_.scene().place(m.primitive) + ": inappropriate modifier");
         return true;
       }
@@ -55,7 +55,7 @@ bool SurfaceShading::shade(Ray& ray, int32_t modifier) {
   return false;
 }
 
-// What a pattern, texture or mixture does to the ray; whether it has shaded it with a material.
+// Applies a pattern, texture or mixture to the ray. Returns whether a mixture has shaded it with a material.
 bool SurfaceShading::applyModifier(Ray& ray, int32_t modifier) {
   const Content& content = t_.scene().modifiers[modifier].content;
   if (const auto* mixture = std::get_if<Mixture>(&content)) return shadeMixture(ray, modifier, *mixture);
@@ -67,7 +67,7 @@ bool SurfaceShading::applyModifier(Ray& ray, int32_t modifier) {
   return false;
 }
 
-// The modifiers of a material: patterns, textures, and mixtures of them.
+// Applies the modifiers of a material: patterns, textures, and mixtures of them.
 void SurfaceShading::applyModifiers(Ray& ray, int32_t modifier) {
   for (; modifier != kNone; modifier = t_.scene().modifiers[modifier].next) {
     const Modifier& m = t_.scene().modifiers[modifier];
@@ -93,7 +93,7 @@ bool SurfaceShading::shadeMixture(Ray& ray, int32_t modifier, const Mixture& mix
     side.ray.contribution *= side.share;
     side.shaded = shade(side.ray, chains[i]);
   }
-  // Beside a material void is a hole.
+  // If one component of a mixture is a material, void as the other component is transparent.
   for (int i = 0; i < 2; ++i)
     if (sides[i].counts && !sides[i].shaded && sides[1 - i].shaded) follower_.pass(sides[i].ray);
   const Ray& a = sides[0].ray;

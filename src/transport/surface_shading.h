@@ -30,7 +30,7 @@ class SurfaceShading {
   // antimatter or has no material.
   void shadeHit(Ray& ray);
 
-  // Adds the emission of a goal to shade(), of any surface; false where it has no material.
+  // As shade(), for a surface of any kind: adds the emission of a goal. False if it has no material.
   bool shadeSurface(Ray& ray);
 
   // RayFollower::shade().

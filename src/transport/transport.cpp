@@ -16,11 +16,12 @@
 namespace rsphere {
 namespace {
 
-// Of all that gathered light follows from besides the scene, this version of the program among it.
+// A fingerprint of everything that determines gathered light besides the scene, including the version of the
+// program.
 uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAccess& access) {
   Fingerprint print;
   print.add(kVersion);
-  print.add(uint64_t{4});  // how it is gathered, between two versions
+  print.add(uint64_t{4});  // changes with the method of gathering between two versions
   for (const double x :
        {o.directThreshold, o.directCertainty, o.directJitter, o.sourceSubstructuring, o.specularSampling,
         o.specularThreshold, o.ambientAccuracy, o.weightLimit, o.mediumEccentricity, o.mediumSampling})
@@ -160,7 +161,7 @@ void Transport::findScatterers(const rad::Warn& warn) {
     for (const std::string& name : mist->sources) {
       const auto source = sourceNamed(name);
       if (!source) {
-        // With goals in the scene every lamp is dark.
+        // In a scene with goals, light sources do not emit, so that the warning would be pointless.
         if (warn && !scene_.importance)
           warn(fmt::format("{}: unknown source \"{}\"", scene_.place(m.primitive), rad::printable(name)));
         continue;

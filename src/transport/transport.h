@@ -24,7 +24,8 @@ class CoarseSolution;
 class IrradianceField;
 class Openings;
 
-// Changes seeds with -Sr; 0 for -Sr 0, where seeds follow from places and rays alone.
+// Seeds are combined with these bits, so that -Sr changes them. 0 for -Sr 0: seeds then depend only on places
+// and rays.
 inline uint64_t rotationBits(const RayOptions& options) {
   return options.rotation == 0 ? 0 : mixBits(options.rotation);
 }
@@ -32,13 +33,13 @@ inline uint64_t rotationBits(const RayOptions& options) {
 // The options of the fields of interpolated light.
 FieldOptions fieldOptions(const RayOptions& options);
 
-// The scene prepared for tracing, shared by all threads. Constant once it is made, but for the two caches
-// that tracing adds to: field() and coarse(). Keeps a reference to the scene.
+// The scene prepared for tracing, shared by all threads. It is constant once constructed, except for the two
+// caches that tracing adds to: field() and coarse(). Keeps a reference to the scene.
 class Transport {
  public:
-  // basicRadiance: refraction does not change radiance by the square of the index (-Sb). warn: gets the
-  // warnings of SurfaceFunctions and LightSources. Traces some paths where light is interpolated (-aa), to
-  // find the openings that daylight comes in by.
+  // basicRadiance: refraction does not scale radiance by the square of the refractive index (-Sb). warn: gets
+  // the warnings of SurfaceFunctions and LightSources. If light is interpolated (-aa), the constructor traces
+  // some paths to find the openings that daylight enters through.
   Transport(const Scene& scene, const RayOptions& options, Irradiance irradiance, bool basicRadiance = false,
             const rad::Warn& warn = {});
   ~Transport();
@@ -54,35 +55,37 @@ class Transport {
   bool basicRadiance() const { return basicRadiance_; }
   // Index in LightSources of a surface's own light, or kNone.
   int32_t lightOf(int32_t surface) const { return lightOf_[surface]; }
-  // The radiance that a light source has whatever it is seen from, by index in LightSources; null where that
-  // is to be computed.
+  // The radiance of a light source (index in LightSources) if it is the same from all points and directions;
+  // null if it has to be computed for each ray.
   const Rgb* constantRadiance(uint32_t source) const {
     return constantRadiance_[source] ? &*constantRadiance_[source] : nullptr;
   }
   // Whether indirect light is computed on the surface (-ae, -ai).
   bool isAmbient(int32_t surface) const { return surface == kNone || ambient_.empty() || ambient_[surface]; }
-  // Of what no mist and no dielectric fills (-me -ma -mg).
+  // The medium of the space outside of mist and dielectrics (-me -ma -mg).
   Medium medium() const {
     return {options_.mediumExtinction, options_.mediumAlbedo, options_.mediumEccentricity};
   }
-  // Light sources that some mist names, as indices in LightSources; and which of these one does.
+  // Light sources that any mist names, as indices in LightSources; and those that one mist names, as
+  // positions in scatterers().
   const std::vector<uint32_t>& scatterers() const { return scatterers_; }
   const std::vector<uint16_t>& scatterersOf(const Mist& mist) const { return scatterersOf_[mist.number]; }
-  // Whether nothing can give light: no light sources, no glow, no ambient value, no goals.
+  // Whether the scene has no light at all: no light sources, no glow, no ambient value, no goals.
   bool isDark() const;
-  // Whether rtrace warns of it: no light source, and either no surface that glows or no indirect light (-ab),
-  // by which alone glow of no reach lights surfaces. The ambient value does not count.
+  // Whether rtrace warns that there are no light sources: there is none, and either no surface glows or there
+  // is no indirect light (-ab), which alone carries the light of glow without reach. The ambient value makes
+  // no difference.
   bool lacksSources() const;
-  // Surfaces of type source that shine, in the order of the scene.
+  // Surfaces of type source that emit light, in the order of the scene.
   const std::vector<int32_t>& distant() const { return distant_; }
   // The irradiance cache of first diffuse surfaces; null without interpolation (-aa 0). Tracing adds to it.
   IrradianceField* field() const { return field_.get(); }
   // The coarse solution, which gives the light of second and later diffuse surfaces; null where paths are
   // followed instead (-aa 0, -ab 1). Tracing adds to it.
   CoarseSolution* coarse() const { return coarse_.get(); }
-  // The openings that daylight comes in by; null where none were found.
+  // The openings that daylight enters through; null if none were found.
   const Openings* openings() const { return openings_.get(); }
-  // Patches of strong direct light that gathers aim at; null where none stands out.
+  // Patches of strong direct light that gathers aim at; null if there are none.
   const BrightSpots* spots() const { return spots_.get(); }
 
  private:

@@ -1,4 +1,4 @@
-// Materials of surfaces that bound volumes: mist, and antimatter, which cuts other surfaces away.
+// Shading of materials that bound volumes: mist, and antimatter, which cuts other surfaces away.
 #include <fmt/format.h>
 
 #include "transport/ray_functions.h"
@@ -7,7 +7,7 @@
 namespace rsphere {
 namespace {
 
-// What is left of an extinction when a mist's own is taken off again: not below the medium around everything.
+// An extinction minus that of a mist, but at least that of the medium outside of all mist.
 double without(double extinction, double mist, double around) {
   const double rest = extinction - mist;
   return rest < around + 1e-12 * mist ? around : rest;
@@ -40,7 +40,7 @@ bool SurfaceShading::shadeMaterial(Ray& ray, const Mist& mist, int32_t behind) {
   } else {
     size_t removed = 0;
     for (const uint16_t s : sources) removed += child.scatterers.remove(s);
-    // It began inside.
+    // The ray began inside the mist.
     if (removed < sources.size()) addTo(ray);
     const Medium around = t_.medium();
     const Medium& before = ray.mist ? ray.mist->medium : around;
@@ -60,7 +60,7 @@ bool SurfaceShading::shadeMaterial(Ray& ray, const Antimatter& antimatter, int32
   else
     ray.clipsBeyond = ray.clips & ~antimatter.clips;
   if (antimatter.cut.kind == Alternate::Kind::modifier) {
-    // Whether the ray has gone into one of the volumes that it was blind to: then it meets the cut here.
+    // If the ray has entered more of the volumes that are cut away than it has left, it hits the cut here.
     int inside = 0;
     for (const Ray* r = &ray; r->parent; r = r->parent) {
       const Ray& before = *r->parent;
@@ -70,8 +70,8 @@ bool SurfaceShading::shadeMaterial(Ray& ray, const Antimatter& antimatter, int32
       inside += hitFront(before) ? 1 : -1;
     }
     if (inside > 0) {
-      // The material is on the other side of the antimatter's surface: a dielectric is left here, not
-      // entered.
+      // The material lies on the other side of the antimatter's surface: a ray that leaves the antimatter
+      // enters a dielectric, and the reverse.
       flip(ray);
       ray.insideOut = !ray.insideOut;
       return shade(ray, antimatter.cut.modifier);
