@@ -67,8 +67,8 @@ bool DirectLight::isWhole(const SourceSample& sample) const {
          (i + 1 == samples_.size() || samples_[i + 1].source != sample.source);
 }
 
-// Sets value to the radiance of a sample that arrives at the ray's end; false if none arrives. to.value: the
-// unoccluded radiance.
+// Sets value to the radiance of a sample that arrives at the ray's end; false if none arrives. to.value: its
+// radiance without occlusion.
 bool DirectLight::arrives(const Ray& ray, const Contribution& to, Rgb& value) {
   const SourceSample& sample = *to.sample;
   const LightSource& light = t_.lights().all()[sample.source];

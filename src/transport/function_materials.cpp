@@ -13,8 +13,8 @@ constexpr int kMostTries = 10;
 // of successive rays evenly. Here samples depend on their ray alone, and four of them give as little noise.
 constexpr int kAshikhminSamples = 4;
 
-// Warns once per material if a highlight is anisotropic but its orientation vector gives no direction within
-// the surface.
+// Warns once per material if a highlight is anisotropic but its orientation vector gives no direction
+// within the surface.
 void warnOfOrientation(const SurfaceFunctions& functions, int32_t material, const AnisotropicScattering& s) {
   if (s.reflected.disoriented || s.transmitted.disoriented)
     functions.warn(material, "illegal orientation vector");

@@ -5,8 +5,8 @@
 
 namespace rsphere {
 
-// A reference to a callable, to be used only during the call that it is passed to. It neither copies nor
-// allocates.
+// A reference to a callable, to be used only during the call that it is passed to. Nothing is copied or
+// allocated to make one.
 template <class Signature>
 class FunctionRef;
 

@@ -131,8 +131,8 @@ const LightSource* SurfaceShading::targetOf(const Ray& ray) const {
   return ray.aimedAt == kNone ? nullptr : &t_.lights().all()[ray.aimedAt];
 }
 
-// Continues a shadow ray that has reached the virtual source that it was aimed at, towards the source that is
-// relayed there.
+// Continues a shadow ray that has reached the virtual source that it was aimed at. It goes on towards the
+// source that is relayed there.
 void SurfaceShading::relay(Ray& ray, RayKind kind, const V3d& direction, Rgb coefficient) {
   Ray child;
   if (!continueRay(t_, state_.random, child, kind, ray, coefficient)) return;
@@ -209,8 +209,8 @@ bool SurfaceShading::shadeMaterial(Ray& ray, const Illum& material, int32_t behi
   return true;
 }
 
-// Whether an indirect or specular sample hit the front of a source whose light next-event estimation already
-// includes.
+// Whether an indirect or specular sample hit the front of a source whose light is already included by
+// next-event estimation.
 bool SurfaceShading::countedByDirect(const Ray& ray, const Glow* glow) const {
   return (ray.kinds & (kAmbient | kSpecular)) && !(ray.kinds & kShadow) && ray.cosine >= 0 &&
          !beyondReach(glow, ray.length);

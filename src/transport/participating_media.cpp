@@ -29,8 +29,8 @@ void ParticipatingMedia::participate(Ray& ray) {
   addScattered(ray);
 }
 
-// Adds single scattering of the light from sources, sampled at one random point in each step along the ray
-// (-ms).
+// Adds single scattering of the light from sources. It is sampled at one random point in each step (-ms)
+// along the ray.
 void ParticipatingMedia::addScattered(Ray& ray) {
   if (ray.scatterers.count == 0 || ray.length >= .99 * kFarAway || ray.medium.eccentricity >= 1 - kNegligible)
     return;

@@ -13,8 +13,7 @@ class ParticipatingMedia {
       : t_(transport), state_(state), direct_(direct) {}
 
   // Attenuates the ray's radiance by the medium between its origin and its hit, and adds the light that the
-  // medium scatters into the ray: that of the uniform ambient value (-av), and that of the sources named by
-  // mist.
+  // medium scatters into the ray: that of the uniform ambient value (-av) and of the sources that mist names.
   void participate(Ray& ray);
 
  private:

@@ -6,8 +6,8 @@
 
 namespace rsphere {
 
-// The light source that a primary ray showed, and the surface that mirrored it. Indices in Scene::surfaces;
-// kNone: none.
+// The light source that a primary ray showed, and the surface that mirrored it: indices in Scene::surfaces,
+// or kNone if there is none.
 struct ShownSource {
   int32_t source = kNone;
   int32_t mirror = kNone;

@@ -12,8 +12,8 @@
 // Rejected alternatives:
 // - Dynamic directions to surfaces near sources: 20% more directions gained 7% there.
 // - Guesses of the highlights of sources in glossy surfaces: an office gained 3%.
-// - Directions of indirect rays stratified over neighbouring points, against the noise of indirect rays: no
-//   gain.
+// - Directions of indirect rays that are distributed among neighbouring directions, against the noise of
+//   indirect rays: no gain.
 #include <span>
 #include <vector>
 
@@ -39,9 +39,9 @@ class LocalGuess {
   // The guessed radiance along a ray from a point (world), W/sr/m2.
   Rgb along(const V3d& point, const V3d& direction) const;
 
-  // The guessed radiance along an indirect ray, W/sr/m2. No shadow rays are traced to bright places, because
-  // there are many indirect rays and each has a small weight. start: the surface that the ray leaves (index
-  // in Scene::surfaces).
+  // The guessed radiance along an indirect ray, W/sr/m2. No shadow rays are traced, because there are many
+  // indirect rays and each has a small weight. start: the surface that the ray leaves (index in
+  // Scene::surfaces).
   Rgb indirect(const V3d& point, const V3d& direction, int32_t start) const;
   Rgb indirect(const Ray& traced) const;
 

@@ -12,8 +12,8 @@ class SiteGatherer {
   // limit of nesting depends on it.
   virtual GatheredLight gather(const GatherSite& site, uint64_t seed, int depth) = 0;
 
-  // Sends about `rays` rays from a patch of the coarse solution, and records the patches and the light that
-  // they find.
+  // Sends about `rays` rays from a patch of the coarse solution, and records the patches and the light
+  // that they find.
   virtual void link(const GatherSite& site, int rays, uint64_t seed, int depth,
                     CoarseSolution::Links& links) = 0;
 

@@ -16,8 +16,7 @@
 namespace rsphere {
 namespace {
 
-// A fingerprint of everything that determines gathered light besides the scene, including the version of the
-// program.
+// A fingerprint of everything but the scene that determines gathered light, the program's version included.
 uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAccess& access) {
   Fingerprint print;
   print.add(kVersion);

@@ -24,8 +24,8 @@ class CoarseSolution;
 class IrradianceField;
 class Openings;
 
-// Seeds are combined with these bits, so that -Sr changes them. 0 for -Sr 0: seeds then depend only on places
-// and rays.
+// Seeds are combined with these bits, so that -Sr changes them. 0 for -Sr 0, where seeds depend only on
+// places and rays.
 inline uint64_t rotationBits(const RayOptions& options) {
   return options.rotation == 0 ? 0 : mixBits(options.rotation);
 }
@@ -72,9 +72,9 @@ class Transport {
   const std::vector<uint16_t>& scatterersOf(const Mist& mist) const { return scatterersOf_[mist.number]; }
   // Whether the scene has no light at all: no light sources, no glow, no ambient value, no goals.
   bool isDark() const;
-  // Whether rtrace warns that there are no light sources: there is none, and either no surface glows or there
-  // is no indirect light (-ab), which alone carries the light of glow without reach. The ambient value makes
-  // no difference.
+  // Whether rtrace warns that there are no light sources: there is none, and either no surface glows or
+  // there is no indirect light (-ab), which alone carries the light of glow without reach. The ambient value
+  // makes no difference.
   bool lacksSources() const;
   // Surfaces of type source that emit light, in the order of the scene.
   const std::vector<int32_t>& distant() const { return distant_; }
