@@ -71,7 +71,7 @@ class DirectLight {
   // The surface that blocked the last shadow ray from a surface to a source, at a hash of the two.
   static constexpr int kBlockerBits = 12;
   std::vector<uint32_t> blockers_;
-  std::vector<size_t> lookAheads_;  // of lookAheadOf(), by count; computed as far as needed so far
+  std::vector<size_t> lookAheads_;  // values of lookAheadOf(), by its argument; computed as far as needed
 };
 
 }  // namespace rsphere

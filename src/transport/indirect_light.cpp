@@ -13,8 +13,8 @@
 namespace rsphere {
 namespace {
 
-// A hemisphere in side x side strata of equal projected solid angle. Some directions are aimed at bright spots
-// instead of a stratum.
+// A hemisphere in side x side strata of equal projected solid angle. Some directions are aimed at bright
+// spots instead of a stratum.
 struct Strata {
   int side;
   V3d normal, trueNormal, x, y;

@@ -209,8 +209,8 @@ bool SurfaceShading::shadeMaterial(Ray& ray, const Illum& material, int32_t behi
   return true;
 }
 
-// Whether an indirect or specular sample hit the front of a source whose light is already included by
-// next-event estimation.
+// Whether an indirect or specular sample hit the front of a source whose light next-event estimation already
+// includes, so that it must not be added again.
 bool SurfaceShading::countedByDirect(const Ray& ray, const Glow* glow) const {
   return (ray.kinds & (kAmbient | kSpecular)) && !(ray.kinds & kShadow) && ray.cosine >= 0 &&
          !beyondReach(glow, ray.length);

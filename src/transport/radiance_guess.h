@@ -40,8 +40,8 @@ class LocalGuess {
   Rgb along(const V3d& point, const V3d& direction) const;
 
   // The guessed radiance along an indirect ray, W/sr/m2. No shadow rays are traced, because there are many
-  // indirect rays and each has a small weight. start: the surface that the ray leaves (index in
-  // Scene::surfaces).
+  // indirect rays and each has a small weight. start: the surface that the ray leaves, as an index in
+  // Scene::surfaces, or kNone.
   Rgb indirect(const V3d& point, const V3d& direction, int32_t start) const;
   Rgb indirect(const Ray& traced) const;
 

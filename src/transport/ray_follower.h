@@ -11,8 +11,8 @@ class RayFollower {
   // the fields that it inherits from its parent are set (continueRay()).
   virtual void follow(Ray& ray) = 0;
 
-  // Continues a ray straight through the surface that it hit, as if nothing were there; its value becomes
-  // what is seen beyond.
+  // Continues a ray straight through the surface that it hit, as if nothing were there; its value becomes the
+  // radiance from beyond the surface.
   virtual void pass(Ray& ray) = 0;
   // The same with a child that inherits from the ray, whose medium may differ.
   virtual void passOn(Ray& child, Ray& ray) = 0;

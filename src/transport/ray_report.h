@@ -15,7 +15,7 @@ RayAnswer answerOf(const Scene& scene, const Ray& ray);
 // contribution, which is zero for a shadow ray that receives no light from its source.
 RayAnswer branchAnswer(const Transport& transport, const Ray& ray);
 
-// Whether the letters need a ray's value, or only what it hits.
+// Whether the letters need a ray's value, and not only its hit.
 bool needsValue(std::string_view letters);
 
 }  // namespace rsphere

@@ -86,7 +86,7 @@ TEST_F(AmbientFiles, OfOthersAreLeftAsTheyAre) {
   EXPECT_THROW(open("nowhere/a"), rad::Error);
 }
 
-// The FILE of -af may hold what RADIANCE's programs keep.
+// The file named by -af may hold the ambient values of RADIANCE's programs.
 TEST_F(AmbientFiles, GoBesideTheFileThatIsNamed) {
   const auto beside = [this](const std::string& given) {
     warning_.clear();
@@ -112,7 +112,7 @@ TEST_F(AmbientFiles, GoBesideTheFileThatIsNamed) {
   EXPECT_THROW(beside(file("folder")), rad::Error);
   EXPECT_FALSE(std::filesystem::exists(file("folder.rsphere")));
   EXPECT_THROW(beside(file("nowhere/a")), rad::Error);
-  // Where only the file itself can be read, as in a folder that nobody may write to.
+  // The file beside it cannot be opened, as in a folder that nobody may write to.
   write("b", theirs);
   std::filesystem::create_directory(file("b.rsphere"));
   EXPECT_FALSE(beside(file("b")));
@@ -120,7 +120,7 @@ TEST_F(AmbientFiles, GoBesideTheFileThatIsNamed) {
                           "\": Is a directory: indirect light is not kept");
 }
 
-// A room whose light is known from the file alone where the file knows it.
+// In this room, light at places that the file contains is taken from the file alone.
 TEST_F(AmbientFiles, ValuesAreTakenFromThem) {
   constexpr const char* kRoom = R"(
 void plastic wall 0 0 5 .5 .5 .5 0 0
@@ -156,7 +156,8 @@ wall polygon floor 0 0 12 -5 -5 0 5 -5 0 5 5 0 -5 5 0
   EXPECT_NEAR(Traced(kRoom, o).value(origin, down), 2 * anew, .01 * anew);
 }
 
-// Every option that light follows from; and what it does not follow from.
+// A file is only used with the same values of all options that light depends on. The values of the others
+// may differ between runs.
 TEST_F(AmbientFiles, AreOfTheirOptions) {
   constexpr const char* kRoom = "void plastic wall 0 0 5 .5 .5 .5 0 0 wall sphere ball 0 0 4 0 0 0 1";
   const auto made = [&](const RayOptions& o, Irradiance irradiance = Irradiance::none, bool basic = false) {

@@ -18,7 +18,7 @@ constexpr double kReflectance = .6, kAmbient = .3;
 const std::string kBox = "void plastic gray 0 0 5 .6 .6 .6 0 0\n" + roomOf("gray", V3d(4, 3, 2.5));
 constexpr const char* kAcross = "gray polygon across 0 0 12 1.03 0 0 1.03 3 0 1.03 3 2.5 1.03 0 2.5\n";
 
-// Follows rays from surface to surface as the header asks for it. Every surface shines with a radiance.
+// Follows rays from surface to surface as the header requires. Every surface emits a radiance.
 class FurnaceLooker final : public CoarseSolution::Looker {
  public:
   using Shine = std::function<double(const SurfacePlace& place)>;
@@ -26,7 +26,7 @@ class FurnaceLooker final : public CoarseSolution::Looker {
       : tracer_(tracer), bounces_(bounces), shine_(std::move(shine)) {}
   void solve(CoarseSolution& solution) { solution_ = &solution; }
 
-  // What a ray from inside the box meets.
+  // The hit of a ray from inside the box.
   SurfacePlace placeAlong(const V3d& from, const V3d& direction) const {
     const Hit hit = tracer_.nearest(from, direction);
     EXPECT_NE(hit.surface, kNone);
@@ -46,7 +46,7 @@ class FurnaceLooker final : public CoarseSolution::Looker {
         links.addLight(beyond, Rgb(1, 1, 1) * coefficient * shine_(place));
         coefficient *= kReflectance;
         const double v1 = random.uniform(), v2 = random.uniform();
-        // Some paths go on, as they do where no patch serves.
+        // Some paths are continued, as if there were no patch.
         const bool goesOn = random.uniform() < .3;
         CoarseSolution::Patch* const patch = solution_->find(place, v1, v2, *this);
         if (patch && !goesOn) {
@@ -84,8 +84,8 @@ RayOptions optionsOf(int bounces) {
   return o;
 }
 
-// Where all shines with 1 and reflects the same share r, 1 + r + r^2 ... arrives, and at last the ambient
-// value: whatever the patches and their links are.
+// If all surfaces emit radiance 1 and have the same reflectance r, the incident radiance is 1 + r + r^2 ...,
+// ending with the ambient value, whatever the patches and their links are.
 TEST(CoarseSolution, LightIsTheGeometricSeriesInAFurnace) {
   constexpr int kBounces = 4;
   const Traced box(kBox);
@@ -117,8 +117,7 @@ TEST(CoarseSolution, LightIsTheGeometricSeriesInAFurnace) {
   EXPECT_LE(static_cast<size_t>(looker.linked), solution.patches()) << "a patch is linked once";
 }
 
-// Beside a wall without thickness, whose one side alone has light: a patch that serves a place on the dark
-// side has none.
+// A wall of zero thickness with light on one side alone: the patches of places on the dark side are dark.
 TEST(CoarseSolution, PatchesServeWhatTheySee) {
   constexpr int kBounces = 2;
   const Traced box(kBox + kAcross);
@@ -134,7 +133,7 @@ TEST(CoarseSolution, PatchesServeWhatTheySee) {
   for (int i = 0; i < 200; ++i) {
     const bool dark = i % 2;
     const V3d from(dark ? 2 : .5, 1.5, 1.3);
-    // Near to the wall, on the floor and on the ceiling.
+    // Places near the wall, on the floor and on the ceiling.
     const V3d to(dark ? between(random, 1.031, 1.5) : between(random, .6, 1.029), between(random, .1, 2.9),
                  i % 3 ? 0 : 2.5);
     const SurfacePlace place = looker.placeAlong(from, (to - from).normalized());
@@ -152,7 +151,7 @@ TEST(CoarseSolution, PatchesServeWhatTheySee) {
   EXPECT_GT(found[1], 10) << "or nothing is told";
 }
 
-// A ray that has come from nearby follows its path: there patches would show.
+// The path of a ray from nearby is followed instead, because patches would be visible there.
 TEST(CoarseSolution, NoPatchServesWhatIsSeenFromNear) {
   const Traced box(kBox);
   FurnaceLooker looker(box.transport().tracer(), 2, [](const SurfacePlace&) { return 1; });

@@ -56,14 +56,14 @@ TEST(Hemisphere, SumsWhatIntegralsGive) {
   const LinearLight light;
   const GatheredLight flat = light.gather(V3d(0, 0, 0), 2);
   EXPECT_NEAR(flat.mean.x, 1, 1e-6);
-  // Half of an even sky is left in the mean of upright and upside down.
+  // Of a uniform sky, a share of (1 + cos) / 2 lies above a tilted surface.
   for (const double angle : {0., .3, .8, 1.5}) {
     const V3d tilted(std::sin(angle), 0, std::cos(angle));
     EXPECT_NEAR(flat.meanOfTilted(V3d(0, 0, 1), tilted).x, (1 + std::cos(angle)) / 2, 1e-5) << angle;
   }
   EXPECT_NEAR(flat.noise, 0, 1e-6);
   EXPECT_NEAR(flat.reach, 2, 1e-6);
-  // Over the hemisphere, the integrals of d_x^2 and of cos^2 are two thirds of pi.
+  // The integrals of d_x^2 and of cos^2 over the hemisphere are two thirds of pi.
   const GatheredLight linear = light.gather(V3d(.3, -.2, .5), 2);
   EXPECT_NEAR(linear.mean.x, 1 + .5 * 2 / 3, .01);
   // The integral of L times the cosine to a tilted normal, by quadrature.
@@ -77,13 +77,13 @@ TEST(Hemisphere, SumsWhatIntegralsGive) {
       sum += (1 + V3d(.3, -.2, .5).dot(d)) * std::max(0., d.dot(tilted)) * 2 / kSteps / kSteps;
     }
   EXPECT_NEAR(linear.meanOfTilted(V3d(0, 0, 1), tilted).x, sum, .01);
-  // A large wall in +x that is brighter: more light nearer to it.
+  // A large wall in +x is brighter, so that the light increases towards it.
   EXPECT_GT(linear.perLength[0].x, 0);
   EXPECT_LT(linear.perLength[0].y, 0);
 }
 
-// A ceiling of height 1 above a plane, bright where x > 0: the light at x is 1/2 + x / (2 sqrt(1 + x^2)), its
-// slope at 0 a half.
+// A ceiling at height 1 above a plane is bright where x > 0. The light at x is 1/2 + x / (2 sqrt(1 + x^2)),
+// and its slope at 0 is a half.
 TEST(Hemisphere, SlopeUnderHalfACeilingIsAHalf) {
   const HemisphereCells cells(4096);
   std::vector<Rgb> radiance(cells.count());
@@ -158,8 +158,8 @@ TEST(IrradianceField, AnswersTheSameInAnyOrderAndForAnyThread) {
   other.join();
 }
 
-// A bound (-Sm) of a twentieth of what is asked for: the same values, to the bit, on several threads, and no
-// more memory than that and what the questions of the moment need.
+// With a bound (-Sm) of a twentieth of the memory needed, several threads get the same values to the bit. The
+// memory exceeds the bound by at most what the queries under way need.
 TEST(IrradianceField, ForgetsBeyondItsBoundAndAnswersTheSame) {
   RayOptions o = interpolated(.2);
   o.ambientDivisions = 16;
@@ -193,7 +193,7 @@ TEST(IrradianceField, ForgetsBeyondItsBoundAndAnswersTheSame) {
   EXPECT_GT(field.sitesMade(), 2 * whole.transport().field()->sitesMade()) << "something was forgotten";
 }
 
-// Two diffuse surfaces on: the same mean as with single paths, of less spread.
+// Light of second diffuse surfaces has the same mean as with single paths, and less variance.
 TEST(IrradianceField, TellsTheLightOfSecondSurfaces) {
   for (const int bounces : {2, 4}) {
     Traced field(kRoom, interpolated(.15, bounces)), anew(kRoom, interpolated(0, bounces));
@@ -208,8 +208,8 @@ TEST(IrradianceField, TellsTheLightOfSecondSurfaces) {
   }
 }
 
-// A pane before a window does not stand for what is seen through it: the change along a wall is that of a
-// bright half far outside.
+// The distance of a pane in a window is not that of the light seen through it: the gradient along a wall is
+// that of a bright half space far outside.
 TEST(IrradianceField, LooksThroughPanes) {
   const std::string room = R"(
 void plastic wall 0 0 5 .5 .5 .5 0 0
@@ -232,14 +232,14 @@ wall polygon ceiling 0 0 12 0 0 3 0 4 3 6 4 3 6 0 3
   }
 }
 
-// Of the light from above at a point, the share that a rectangle with a corner over the point and sides a and
-// b hides at height c (the form factor of a parallel rectangle).
+// The share of the light from above that a rectangle hides from a point: one corner is over the point at
+// height c, and its sides are a and b (the form factor of a parallel rectangle).
 double hiddenByCorner(double a, double b, double c) {
   const double x = a / c, y = b / c, p = std::sqrt(1 + x * x), q = std::sqrt(1 + y * y);
   return (x / p * std::atan(y / p) + y / q * std::atan(x / q)) / (2 * M_PI);
 }
 
-// A plate of 2 m, .8 m above the ground: its shadow is there however far the ground goes on.
+// A plate of 2 m, .8 m above the ground: its shadow is found, however far the ground extends.
 TEST(IrradianceField, FindsTheShadowOfAPlateOnAWideGround) {
   RayOptions finely = interpolated(.1, 1);
   finely.ambientResolution = 256;  // .23 m
@@ -259,7 +259,7 @@ TEST(IrradianceField, FindsTheShadowOfAPlateOnAWideGround) {
   }
 }
 
-// A box of 2 m on the ground: of the light from above, what its walls leave.
+// A box of 2 m on the ground: the light from above that its walls do not occlude.
 TEST(IrradianceField, FindsTheShadowOfABoxOnAWideGround) {
   for (const double half : {10., 300.}) {
     const std::string scene = fmt::format(
@@ -283,8 +283,8 @@ TEST(IrradianceField, FindsTheShadowOfABoxOnAWideGround) {
   }
 }
 
-// A sky of radiance 1, and a modifier `waves` for a gray material whose normal it tilts, by so many degrees,
-// towards another side every few centimetres.
+// A sky of radiance 1, and a modifier `waves` for a gray material. It tilts the normal by this many degrees,
+// in a direction that changes every few centimetres.
 std::string wavesUnderASky(int degrees) {
   return fmt::format(
       "void glow g 0 0 4 1 1 1 0\ng source sky 0 0 4 0 0 1 360\n"
@@ -293,9 +293,9 @@ std::string wavesUnderASky(int degrees) {
       std::tan(degrees * M_PI / 180));
 }
 
-// A perturbed normal, tilted by so many degrees towards another side every few centimetres, under an even
-// sky: light that comes from behind the surface does not arrive, light from behind the perturbed normal
-// neither. That is the mean of upright and tilted, (1 + cos) / 2, however it is gathered.
+// Perturbed normals under a uniform sky, tilted in a direction that changes every few centimetres. No light
+// arrives from behind the surface, nor from behind the perturbed normal. The result is the mean of upright
+// and tilted, (1 + cos) / 2, however light is gathered.
 TEST(IrradianceField, TiltedNormalsUnderAnEvenSky) {
   for (const int tilt : {0, 17, 45}) {
     const double angle = tilt * M_PI / 180;
@@ -314,7 +314,7 @@ TEST(IrradianceField, TiltedNormalsUnderAnEvenSky) {
   }
 }
 
-// Beside a wall, where tilted normals see more of it or less: as gathered anew.
+// Beside a wall, tilted normals face it more or less. Interpolated light equals light gathered anew.
 TEST(IrradianceField, TiltedNormalsBesideAWall) {
   for (const int tilt : {17, 45}) {
     const std::string floor = wavesUnderASky(tilt) +
@@ -332,8 +332,8 @@ TEST(IrradianceField, TiltedNormalsBesideAWall) {
   }
 }
 
-// -aw would have answers depend on those before; -av is what surfaces without computed light get (-ae), and
-// what paths end in.
+// -aw is ignored, because answers would depend on earlier ones. -av is the light of surfaces without computed
+// light (-ae), and of the ends of paths.
 TEST(IrradianceField, AmbientValueAndExcludedSurfaces) {
   RayOptions o = interpolated(.2);
   const V3d origin(2, 2, 1.5), down(.2, .1, -1);
@@ -352,9 +352,9 @@ TEST(IrradianceField, AmbientValueAndExcludedSurfaces) {
   EXPECT_NEAR(Traced(kRoom, o).value(origin, down), direct, 1e-6);
 }
 
-// Where the floor has the ambient value for its indirect light (-ae, -aE), or all but the walls have (-ai,
-// -aI): on the walls the same mean as with what is gathered anew, at first and at second surfaces; on the
-// floor the same to the bit.
+// The indirect light of the floor is the ambient value (-ae, -aE), or that of all surfaces but the walls
+// (-ai, -aI). On the walls the mean is the same as with light gathered anew, at first and at second surfaces.
+// On the floor the values are the same to the bit.
 TEST(IrradianceField, ExcludedSurfacesGiveTheAmbientValueToOthers) {
   std::string room = kRoom;
   const std::string_view floor = "wall polygon floor";

@@ -12,7 +12,7 @@
 namespace rsphere {
 namespace {
 
-// Apart from each other, so that a ray towards one meets no other.
+// The shapes are far enough apart that a ray towards one hits no other.
 constexpr const char* kShapes = R"(
 void plastic gray 0 0 5 .5 .5 .5 0 0
 gray polygon rectangle 0 0 12 0 0 0 5 0 0 5 3 0 0 3 0
@@ -24,7 +24,7 @@ gray sphere ball 0 0 4 50 0 0 1.5
 gray cone stump 0 0 8 60 0 0 60 1 3 2 1
 )";
 
-// Where a ray from a random place beside the surface towards its middle meets it.
+// The hit of a ray from a random place beside the surface towards its middle.
 struct Met {
   SurfacePlace place;
   V3d from{0, 0, 0};
@@ -67,8 +67,8 @@ TEST(CellGrid, SidesHalveFromLevelToLevel) {
   EXPECT_GT(CellGrid(Box3d()).size, 0) << "an empty scene";
 }
 
-// A ray from a site straight down meets the surface that the cell belongs to, at the height of the lift; and
-// it is on the side that the place was seen from.
+// A ray from a site straight down hits the surface that the cell belongs to, at a distance of the lift. The
+// site is on the side that the place was seen from.
 TEST(SurfaceCells, SitesLieAboveTheirSurfaces) {
   const Traced t(kShapes);
   const CellGrid grid(t.transport().tracer().bounds());
@@ -94,7 +94,7 @@ TEST(SurfaceCells, SitesLieAboveTheirSurfaces) {
           EXPECT_NEAR((site->normal - place.normal).length(), 0, 1e-9);
           EXPECT_GT(site->normal.dot(from - site->point), 0);
         }
-        // It lies in the cell that the place lies in.
+        // The site and the place lie in the same cell.
         EXPECT_LE((site->point - place.point).length(),
                   1.01 * std::hypot(chart->stepU(grid, level), chart->stepV(grid, level)) + grid.lift);
       }
@@ -124,8 +124,8 @@ TEST(SurfaceCells, CellsAreEqualPartsAndTheirNumbersEndAtTheEdges) {
   }
 }
 
-// A key names a surface, its side and a cell of it: what is anywhere in the cell has the same, all else
-// another.
+// A key identifies a surface, its side and a cell of it: all places in the cell have the same key, and all
+// others have another.
 TEST(SurfaceCells, KeysNameCells) {
   const Traced t(kShapes);
   const CellGrid grid(t.transport().tracer().bounds());
@@ -141,7 +141,7 @@ TEST(SurfaceCells, KeysNameCells) {
   EXPECT_FALSE(keyAt(.1, .1, 1) == keyAt(.1, .1, 1, 1)) << "another surface";
 }
 
-// What is too small for cells of its own shares those of its plane, a side each.
+// Surfaces that are too small for separate cells share those of their plane, one set for each side.
 TEST(SurfaceCells, PlanesAreSharedByAllThatLiesInThem) {
   const Traced t(kShapes);
   const CellGrid grid(t.transport().tracer().bounds());

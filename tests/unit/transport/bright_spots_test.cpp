@@ -36,7 +36,7 @@ TEST(BrightSpots, AreWhereLightIsThick) {
   BrightSpots::Aim aim;
   spotsOf(pot).aim(V3d(3, 3, 0), V3d(0, 0, 1), aim);
   EXPECT_GT(aim.share, .1);
-  // From the back of the floor nothing is before the surface.
+  // No spot is in front of the back of the floor.
   spotsOf(pot).aim(V3d(3, 3, 0), V3d(0, 0, -1), aim);
   EXPECT_EQ(aim.share, 0);
 }
@@ -48,8 +48,8 @@ TEST(BrightSpots, AreNotWhereItIsEven) {
   EXPECT_TRUE(spotsOf(Traced("")).empty());
 }
 
-// What is aimed is as dense as density() says: summed by it over even directions of a cap, or over those that
-// were sampled there.
+// The density of aimed directions is density(): the integral of a function over a cap, weighted with this
+// density, agrees with the mean over sampled directions.
 TEST(BrightSpots, AreAimedAtAsDensitySays) {
   const Traced pot(kRoom + kPot);
   const BrightSpots spots = spotsOf(pot);
@@ -81,8 +81,8 @@ TEST(BrightSpots, AreAimedAtAsDensitySays) {
   }
 }
 
-// Aimed paths bring the same light with less noise. The mean is that of 20 million paths that are not aimed,
-// with a standard error of 1.9e-6 (mean() below with that count).
+// Aimed paths give the same mean with less noise. The reference is the mean of 20 million paths that are not
+// aimed, with a standard error of 1.9e-6 (mean() below with that count).
 TEST(BrightSpots, LeaveTheMeanAsItIs) {
   Traced pot(kRoom + kPot, unbiased(2));
   const BrightSpots spots = spotsOf(pot);
@@ -138,10 +138,10 @@ TEST(BrightSpots, AreWhereTheSunShinesThroughOpenings) {
       const V3d at = point - d * (point.z / d.z);
       onSunlit.add(d.z < 0 && std::abs(at.x - 2) < .5 && std::abs(at.y - 1.5) < .5);
     }
-    // Spots are round and overlap: they cover the square and something beside it.
+    // Spots are round and overlap: they cover the square and a margin around it.
     EXPECT_GT(onSunlit.mean(), .5);
   }
-  // Without openings few of the particles that the sun sends to so wide a scene come through the window.
+  // Without openings, few of the particles that the sun sends to so wide a scene enter through the window.
   BrightSpots::Aim aim;
   spotsOf(room).aim(V3d(2, 2, 3), V3d(0, 0, -1), aim);
   EXPECT_EQ(aim.share, 0);
@@ -152,7 +152,7 @@ TEST(BrightSpots, ThroughOpeningsLeaveTheMeanAsItIs) {
   const Openings openings = openingsOf(kSunlit);
   const BrightSpots spots(room.scene(), room.transport().tracer(), room.transport().lights(), &openings);
   PathTracer aimed(room.transport(), &spots);
-  // Of the north wall, below the sill, from where no ground is seen through the window.
+  // A ray to the north wall, below the sill, where no ground is visible through the window.
   const V3d origin(2, 2, .9), north = V3d(.1, 1, 0).normalized();
   Sample with, without;
   for (uint64_t i = 0; i < 30000; ++i) {

@@ -1,4 +1,4 @@
-// Surfaces that scatter as XML files say.
+// Surfaces whose BSDF is given by an XML file.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -12,7 +12,7 @@
 namespace rsphere {
 namespace {
 
-// The files of support/bsdf_xml.h in a folder of this process.
+// Writes the files of support/bsdf_xml.h to a folder of this process.
 class BsdfMaterials : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -44,7 +44,7 @@ constexpr std::string_view kAbove = "s1 0 0 4 .5 .3 2 .1\n";
 constexpr std::string_view kBelow = "s1 0 0 4 -.3 .1 -2 .1\n";
 
 // rtrace -h -w -aa 0 -ab 0 -st 0 -ss 0 -dj 0 -ds 0 -dt 0 of RADIANCE 6.1a. Its values vary by up to 3e-4 from
-// cell to cell, and its colours by some percent: support/bsdf_xml.h's are exact in ours.
+// cell to cell, and its colours by some percent. rsphere reproduces those of support/bsdf_xml.h exactly.
 TEST_F(BsdfMaterials, DirectLightAsTheOriginal) {
   struct Row {
     const char* material;
@@ -262,9 +262,8 @@ TEST_F(BsdfMaterials, DirectLightAsTheOriginal) {
   }
 }
 
-// Under a sky that is the same everywhere the radiance is the share of light that is scattered; whether that
-// is sampled (-st 0) or left to indirect light (-st 1) makes no difference. -ss near 0 keeps the view in its
-// cell.
+// Under a uniform sky of radiance 1, the radiance is the albedo, whether the lobe is sampled (-st 0) or left
+// to indirect light (-st 1). -ss near 0 keeps the view in its cell.
 TEST_F(BsdfMaterials, AlbedoUnderAnEvenSky) {
   for (const char* name : {"half", "quarter", "tree4", "tree3", "treec"}) {
     for (const bool aperture : {false, true}) {
@@ -287,9 +286,9 @@ TEST_F(BsdfMaterials, AlbedoUnderAnEvenSky) {
           if (data.reflection(front)) expected += data.reflection(front)->albedo(view);
           if (data.transmission(front)) expected += data.transmission(front)->albedo(view);
           const double ours = brightness(traced.color(V3d(.1, .1, -2 * direction.z), direction));
-          // Colour: a drawn direction's chromaticity, clipped, for all of the lobe.
+          // The clipped chromaticity of the sampled direction gives the colour of the whole lobe.
           if (aperture && threshold == 0 && brightness(data.through(view).peak) > 0)
-            EXPECT_LE(ours, expected * 1.001) << name;  // a draw of the peak is dropped: seen through instead
+            EXPECT_LE(ours, expected * 1.001) << name;  // samples of the peak are dropped: it is seen through
           else
             EXPECT_NEAR(ours, expected, 2e-3 * expected) << name << front << aperture << threshold;
         }
@@ -298,8 +297,8 @@ TEST_F(BsdfMaterials, AlbedoUnderAnEvenSky) {
   }
 }
 
-// Light found by samples, and the same light by the direct calculation: a disk in the sky as glow without
-// reach, and as light.
+// Light found by samples equals light from next-event estimation. The light is that of a disk in the sky, as
+// glow without reach and as a light source.
 TEST_F(BsdfMaterials, SamplesAndDirectLightAgree) {
   for (const V3d& direction : {V3d(.5, .2, -1), V3d(-.2, -.15, 1)}) {
     const std::string rest = "s source s1 0 0 4 .35 .2 1 20\n" +
@@ -315,7 +314,7 @@ TEST_F(BsdfMaterials, SamplesAndDirectLightAgree) {
   }
 }
 
-// With a thickness it is not there for views and shadows, nor for rays from the side that it hides.
+// A surface with a thickness is invisible to views and shadow rays, and to rays from the side that it hides.
 TEST_F(BsdfMaterials, ProxiesAreSeenThrough) {
   const std::string inside = "void plastic red 0 0 5 .8 .1 .1 0 0\nred sphere hidden 0 0 4 0 0 -.05 .02\n";
   const auto scene = [&](const std::string& thickness) {
@@ -334,10 +333,10 @@ TEST_F(BsdfMaterials, ProxiesAreSeenThrough) {
             bare.value(V3d(0, 0, 1), V3d(.001, 0, -1)));
 }
 
-// Indirect rays use the data, and what they transmit goes on behind what is hidden. rtrace -h -w -aa 0 -ab 2
-// -ad 1024 -as 0, RADIANCE 6.1a: 0.5535 without a difference for the sign, and for -.2 0.305: it begins its
-// indirect rays at the wrong side of the thickness, against its manual. What ours must be then: the same as
-// without anything hidden and no thickness.
+// Indirect rays use the data, and transmitted rays start behind the hidden geometry. rtrace -h -w -aa 0 -ab 2
+// -ad 1024 -as 0 (RADIANCE 6.1a) gives 0.5535 without a difference for the sign, and 0.305 for -.2: contrary
+// to its manual, its indirect rays start on the wrong side of the thickness. The correct result is the same
+// as without thickness and hidden geometry.
 TEST_F(BsdfMaterials, TransmittedLightBeginsBehindWhatIsHidden) {
   const std::string floor =
       "void plastic f 0 0 5 .5 .5 .5 0 0\nf polygon fl 0 0 12 -9 -9 -1 9 -9 -1 9 9 -1 -9 9 -1\n";
@@ -364,7 +363,7 @@ TEST_F(BsdfMaterials, TransmittedLightBeginsBehindWhatIsHidden) {
   }
 }
 
-// Irradiance (-i) is taken of what lies behind proxies and apertures, and of other surfaces themselves.
+// Irradiance (-i) is that of the surface behind a proxy or aperture, and of all other surfaces themselves.
 TEST_F(BsdfMaterials, IrradianceMetersPassProxies) {
   const std::string rest =
       "void light lamp 0 0 3 9 9 9\nlamp sphere s 0 0 4 0 0 -2 .1\n" + std::string(kPane) +
@@ -373,7 +372,7 @@ TEST_F(BsdfMaterials, IrradianceMetersPassProxies) {
     Traced traced(located(material) + rest, unbiased(), Irradiance::surface);
     return traced.seen(V3d(.1, .1, 1), V3d(0, 0, -1));
   };
-  // The ray's own answer says what it hit first; a meter that was passed has no value of the lamp above.
+  // The answer names the first hit of the ray; a meter that was passed has no light of the lamp above.
   const auto lit = [&](const char* material, double z) {
     Traced traced(located(material) + "void light l2 0 0 3 9 9 9\nl2 sphere s2 0 0 4 0 0 .5 .1\n" + rest,
                   unbiased(), Irradiance::surface);

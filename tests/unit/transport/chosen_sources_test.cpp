@@ -1,4 +1,4 @@
-// -Ss: a few light sources, drawn at random, stand for all.
+// -Ss: direct light is estimated from a few light sources that are drawn at random.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -17,7 +17,7 @@ RayOptions withChosen(int count) {
 }
 
 // Four lamps over a floor, one of them hidden from it by a screen, one behind a pane, one near, and a mirror
-// that shows them once more.
+// that makes a virtual source of each.
 std::string room(const std::string& paint) {
   return "void light weak\n0\n0\n3 4 4 4\nvoid light strong\n0\n0\n3 30 30 30\nvoid glass pane\n0\n0\n3 .9 "
          ".9 .9\n"
@@ -44,8 +44,8 @@ TEST(ChosenSources, StandForAll) {
   }
 }
 
-// Where a surface has a narrow highlight all sources are tested: chance would seldom find the one that shines
-// there.
+// If a surface has a narrow highlight, all sources are tested, because random choice would rarely select the
+// source in the highlight.
 TEST(ChosenSources, AreAllWhereThereIsAHighlight) {
   const std::string polished = "void plastic paint\n0\n0\n5 .5 .5 .5 .05 .02\n";
   const V3d from(0, 0, 2), down(0, .01, -1);

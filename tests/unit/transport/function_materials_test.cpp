@@ -10,8 +10,8 @@
 
 #include "tests/unit/transport/transport_fixture.h"
 
-// Materials that ask function files, as rays meet them: every type against the original's figures, what they
-// do to shadows, and what their files and arguments may lack.
+// Materials that depend on function files: every type against values of the original, their effect on
+// shadows, and errors in their files and arguments.
 namespace rsphere {
 namespace {
 
@@ -32,8 +32,8 @@ const std::array<Shot, 6> kShots = {{{{3, -2, 2.5}, {-2.85, 1.65, -1.3}},
                                      {{2.4, 2, 2.4}, {-.4, -1.7, -1.73}},
                                      {{2.9, .3, .3}, {-1.2, -.4, .23}}}};
 
-// What rtrace -h -w -ab 0 -dj 0 -dt 0 -ds 0 -ss 0 -st 1 -lr 6 -lw 0 -av .1 .1 .1 (RADIANCE 6.1a, with its own
-// rayinit.cal) prints for kShots in tests/scenes/materials, where the scene is the text and kRoom. The first
+// The output of rtrace -h -w -ab 0 -dj 0 -dt 0 -ds 0 -ss 0 -st 1 -lr 6 -lw 0 -av .1 .1 .1 (RADIANCE 6.1a,
+// with its own rayinit.cal) for kShots in tests/scenes/materials. The scene is the text and kRoom. The first
 // three shots see the ball, two the pane from above, the last one the pane from below.
 struct Figures {
   const char* name;
@@ -309,15 +309,15 @@ TEST_F(FunctionMaterials, HaveTheOriginalsFigures) {
 
 // ---- sampled lobes
 
-// A sky that is no light source, as seen by one sample of a lobe after the other, against the lobe of direct
-// light: the same sky as many small sources.
+// The mean of lobe samples under a sky that is not a light source, compared with next-event estimation of the
+// same sky divided into many small sources.
 TEST_F(FunctionMaterials, SampledLobesSeeWhatDirectLightSees) {
   constexpr const char* kSky =
       "void brightfunc slope 2 1+Dx*.5+Dz*.3 . 0 0\nslope glow shine 0 0 4 1 1 1 0\nshine source sky 0 0 4 0 "
       "0 1 360\n";
   constexpr const char* kPlane = "M polygon plane 0 0 12 -9 -9 0 9 -9 0 9 9 0 -9 9 0\n";
   std::string suns = "void brightfunc slope 2 1+Dx*.5+Dz*.3 . 0 0\nslope light shine 0 0 3 1 1 1\n";
-  // A lattice of equal discs of the hemisphere's solid angle in all.
+  // A lattice of equal discs whose total solid angle is that of the hemisphere.
   constexpr int kSuns = 2000;
   for (int i = 0; i < kSuns; ++i) {
     const double z = (i + .5) / kSuns, r = std::sqrt(1 - z * z), a = 2.39996322973 * i;
@@ -395,7 +395,7 @@ TEST_F(FunctionMaterials, OnlySharpTransmissionLetsLightPass) {
               1e-12);
 }
 
-// -i: the irradiance of what is opaque; what is transparent is passed, here to nothing (rtrace -i).
+// -i gives the irradiance of opaque surfaces. Transparent ones are passed, here into the void (rtrace -i).
 TEST_F(FunctionMaterials, AreMeteredUnlessTransparent) {
   const auto irradiance = [](const std::string& material) {
     Traced scene(material +
@@ -416,7 +416,7 @@ TEST_F(FunctionMaterials, AreMeteredUnlessTransparent) {
             0);
 }
 
-// -bv-: from behind all but BRTDfunc are not there.
+// -bv-: all materials but BRTDfunc are invisible from behind.
 TEST_F(FunctionMaterials, BacksMayBeInvisible) {
   RayOptions o = plain();
   o.backFacesVisible = false;
@@ -435,7 +435,7 @@ TEST_F(FunctionMaterials, BacksMayBeInvisible) {
   EXPECT_NEAR(from("void BRTDfunc M 10 0 0 0 0 0 0 0 0 0 . 0 9 .5 .5 .5 .2 .2 .2 0 0 0\n", -1), .02, 1e-12);
 }
 
-// ---- what is wrong
+// ---- errors
 
 std::string errorOf(const std::string& material) {
   try {
@@ -481,9 +481,9 @@ TEST_F(FunctionMaterials, NameTheirFaultsWithTheirPlace) {
   expectError("void WGMDfunc M 13 void 0 0 0 void 0 0 0 void 0 0 1 . 0 8 0 0 0 0 0 0 0 0", "at least 9 real");
   expectError("void WGMDfunc M 13 paint .1 0 0 void 0 0 0 void 0 0 1 . 0 9 0 0 0 0 0 0 0 0 0",
               "undefined modifier \"paint\"");
-  // A component that holds nothing needs no modifier.
+  // A component with a share of 0 needs no modifier.
   EXPECT_EQ(errorOf("void WGMDfunc M 13 paint 0 0 0 paint 0 0 0 paint 0 0 1 . 0 9 0 0 0 0 0 0 0 0 0"), "");
-  // A function that is never asked need not be there.
+  // A function that is never evaluated need not exist.
   EXPECT_EQ(errorOf("void BRTDfunc M 10 0 0 0 0 0 0 0 0 0 . 0 9 0 0 0 0 0 0 0 0 0"), "");
 }
 

@@ -83,7 +83,7 @@ RayOptions optionsOf(const Settings& s) {
   return o;
 }
 
-// The sum of what is seen in random directions from random places in a room, and of the irradiance there.
+// The sum of radiance in random directions from random places in a room, and of the irradiance there.
 double lightIn(const Room& room, const std::string& scene, const Settings& settings, int rays) {
   Traced radiance(scene, optionsOf(settings)), irradiance(scene, optionsOf(settings), Irradiance::point);
   Random random(11);
@@ -112,8 +112,8 @@ TEST(LightLeaks, NoneReachesAClosedRoomOfThinWalls) {
           << c.name << ", -ab " << s.bounces << " -aa " << s.accuracy << " -ar " << s.resolution;
 }
 
-// A sill, and on its middle a wall or a pane without thickness, with the sky on one side: its plane passes
-// through the middles of the sill's cells.
+// A sill with a wall or pane of zero thickness on its middle, and the sky on one side. The plane of the wall
+// passes through the centres of the sill's cells.
 TEST(LightLeaks, EachSideOfAStandingPaneHasItsOwnLight) {
   const std::string sill = R"(
 void glow sky_glow 0 0 4 1 1 1 0
@@ -126,7 +126,7 @@ pane polygon p 0 0 12 0 -2 0 0 -2 2 0 2 2 0 2 0
   const double bright = .5 * (std::numbers::pi / 4 - .5) / std::numbers::pi;
   struct Case {
     const char* pane;
-    double most;  // that arrives behind it, in shares of what does before it
+    double most;  // upper bound of the light behind it, relative to the light in front of it
   };
   for (const Case& c :
        {Case{"void plastic pane 0 0 5 0 0 0 0 0\n", 0}, Case{"void glass pane 0 0 3 .05 .05 .05\n", .05}})

@@ -45,7 +45,7 @@ double shareAt(const Openings& openings, const V3d& point, const V3d& normal) {
   return aim.share;
 }
 
-// Where a line from a point meets the window's plane or the skylight's, whether it is in their glass.
+// Whether a line from a point intersects the glass of the window, or of the skylight.
 bool isInWindow(const V3d& point, const V3d& d) {
   if (!(d.y < 0)) return false;
   const V3d at = point - d * (point.y / d.y);
@@ -64,7 +64,7 @@ TEST(Openings, AreFoundWhereDaylightComesIn) {
   EXPECT_GT(shareAt(window, floor, up), .1);
   EXPECT_EQ(shareAt(window, V3d(2, 3, 1), V3d(0, 1, 0)), 0) << "it is behind";
   EXPECT_EQ(shareAt(window, V3d(2, -3, 0), up), 0) << "outdoors";
-  // However the window is divided, and whichever way round its panes are.
+  // The openings do not depend on how the window is divided or which way its panes face.
   const Openings halves = openingsOf(kSky + kRoom + kHalves);
   const Openings turned = openingsOf(kSky + kRoom + "clear polygon window 0 0 12 1 0 1 1 0 2 3 0 2 3 0 1\n");
   for (const Openings* other : {&halves, &turned}) {
@@ -89,8 +89,8 @@ TEST(Openings, AreNotFoundElsewhere) {
   EXPECT_TRUE(openingsOf("void plastic gray 0 0 5 .5 .5 .5 0 0\n" + lamp).empty());
 }
 
-// Aimed directions lead through the panes, and are as dense as density() says: it sums to 1 over all
-// directions, and a function has the same mean by it and over those that were sampled.
+// Aimed directions lead through the panes, and their density is density(): it integrates to 1 over all
+// directions, and a function has the same mean with this density as over the sampled directions.
 TEST(Openings, AreAimedAtAsDensitySays) {
   const Openings openings = openingsOf(kSky + kRoom + kWindow + kSkylight);
   ASSERT_FALSE(openings.empty());

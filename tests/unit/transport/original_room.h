@@ -7,7 +7,7 @@
 
 namespace rsphere {
 
-// The room in which the original was asked for figures: oconv room.rad | rtrace -h, RADIANCE 6.1a.
+// The room in which reference values were computed: oconv room.rad | rtrace -h, RADIANCE 6.1a.
 inline const std::string kRoom = R"(
 void plastic wall 0 0 5 .57 .51 .5 0 0
 wall polygon floor 0 0 12 0 0 0 4 0 0 4 5 0 0 5 0
@@ -43,7 +43,7 @@ inline RayOptions originalOptions() {
   return o;
 }
 
-// Within the digits of the figures and of single precision.
+// Expects agreement within the printed digits and single precision.
 inline void expectFigures(const std::string& scene, const std::vector<OriginalFigure>& figures) {
   Traced traced(scene, originalOptions());
   for (const OriginalFigure& f : figures) {

@@ -25,21 +25,21 @@ std::string light(double radiance) {
 std::string glow(double radiance, double reach) {
   return fmt::format("void glow sky\n0\n0\n4 {r} {r} {r} {}\n", reach, fmt::arg("r", radiance));
 }
-// A level square of half-size 10, that faces up.
+// A horizontal square of half-size 10 that faces up.
 std::string floor(const char* modifier, double z = 0, double half = 10, bool up = true) {
   const double a = up ? -half : half;
   return fmt::format("{} polygon floor\n0\n0\n12 {a} {n} {z} {b} {n} {z} {b} {p} {z} {a} {p} {z}\n", modifier,
                      fmt::arg("a", a), fmt::arg("b", -a), fmt::arg("n", -half), fmt::arg("p", half),
                      fmt::arg("z", z));
 }
-// -I as the command asks for it: the ray comes down to the point from a little above.
+// Irradiance as with -I on the command line: the ray comes down to the point from a little above.
 double irradianceAt(Traced& traced, const V3d& point, const V3d& normal, uint64_t seed = 1) {
   return traced.value(point + 1.1e-4 * normal, -normal, seed);
 }
 
-// ---- light at all
+// ---- scenes without light
 
-// Glow and an ambient value light a scene as well as lamps do.
+// Glow and an ambient value are light as well as lamps are.
 TEST(Light, IsMissedOnlyWhereNothingCanGiveIt) {
   const std::string walls = plastic("paint", .5) + floor("paint");
   RayOptions ambient;
@@ -67,12 +67,12 @@ TEST(Enclosure, OfGlowIsSeenAsItIs) {
         << "hole or wrong side, ray " << i;
 }
 
-// A furnace: whatever stands in even light of 1 that it does not absorb is seen as 1.
+// A furnace: in uniform light of radiance 1, a surface that absorbs nothing has radiance 1.
 TEST(Enclosure, FurnaceHidesWhatAbsorbsNothing) {
   const std::string sky = glow(1, 0) + "sky source all\n0\n0\n4 0 0 1 360\n";
   struct Case {
     std::string material;
-    double lost;  // at most, by the model
+    double lost;  // largest share that the model loses
   };
   for (const auto& [material, lost] :
        std::vector<Case>{{"void plastic m\n0\n0\n5 1 1 1 0 0\n", 0},
@@ -90,8 +90,9 @@ TEST(Enclosure, FurnaceHidesWhatAbsorbsNothing) {
   }
 }
 
-// The integrating sphere: with -ab n a radiance ray sees L_n = L_inf (1 - q^(n+1)). First hand, the wall's
-// radiance is p Ls (r/R)^2; of what it sends, the lamp, which indirect rays see as black, takes (r/R)^2.
+// The integrating sphere: with -ab n a radiance ray sees L_n = L_inf (1 - q^(n+1)). By direct light, the
+// radiance of the wall is p Ls (r/R)^2. The lamp, which is black to indirect rays, absorbs a share of (r/R)^2
+// of the light that the wall reflects.
 TEST(Enclosure, IntegratingSphereSumsItsGeometricSeries) {
   for (const double p : {.3, .8})
     for (const int bounces : {0, 1, 2, 8}) {
@@ -107,7 +108,8 @@ TEST(Enclosure, IntegratingSphereSumsItsGeometricSeries) {
     }
 }
 
-// Glow of no reach is met by indirect rays alone: with -ab 1 a floor sees the sky, with -ab 0 nothing.
+// The light of glow without reach comes by indirect rays alone: a floor receives light of the sky with -ab 1,
+// and none with -ab 0.
 TEST(Ambient, FirstBounceMeetsGlow) {
   const double p = .5;
   const std::string scene =
@@ -139,7 +141,7 @@ TEST(Ambient, DivisionsLowerTheSpread) {
   const Sample one = Traced(scene, o).mean(V3d(0, 0, 1), kDown, 20000);
   o.ambientDivisions = 256;
   const Sample many = Traced(scene, o).mean(V3d(0, 0, 1), kDown, 1000);
-  // Of radiance 1 over a cone of 30 degrees half-angle at 45: E = pi sin^2(30) cos(45).
+  // Irradiance of radiance 1 over a cone of 30 degrees half-angle at 45 degrees: E = pi sin^2(30) cos(45).
   const double expected = .5 * .25 * std::sqrt(.5);
   expectMean(one, expected, 1.1);
   expectMean(many, expected, 1.02);
@@ -181,7 +183,7 @@ TEST(Irradiance, OfSunSphereAndSky) {
   EXPECT_NEAR(irradianceAt(half, kOrigin, kUp), kPi, 1e-9);
 }
 
-// -i replaces what is hit by a white meter; glass is passed, and sources stay.
+// -i replaces the surface that is hit by a white meter. Glass is passed, and sources are not replaced.
 TEST(Irradiance, AtTheSurfaceIsPiTimesRadianceOverReflectance) {
   const std::string scene = plastic("m", .25) + floor("m") + light(5) + "lamp sphere l\n0\n0\n4 3 0 4 .5\n";
   Traced radiance(scene), meters(scene, {}, Irradiance::surface);
@@ -215,8 +217,8 @@ TEST(Direct, LightIsFilteredByGlass) {
   EXPECT_NEAR(Traced(scene + floor("g", 3)).value(V3d(0, 0, 1), kDown) / open, .88, 2e-3);
 }
 
-// A board on a slab of glass: its shadow on the floor lies where the refracted rays to the lamp meet it. The
-// lamp is a spotlight, of which no shadows are presumed (presumed_shadows.h).
+// A board on a slab of glass: its shadow on the floor lies where refracted rays to the lamp hit the board.
+// The lamp is a spotlight, for which no shadows are presumed (presumed_shadows.h).
 TEST(Direct, RefractedPathDecidesAboutShadowsBehindASlab) {
   const double index = 1.5, lampX = 14, lampZ = 20, left = -1, right = .5;
   const std::string slab = fmt::format(
@@ -247,7 +249,8 @@ TEST(Direct, RefractedPathDecidesAboutShadowsBehindASlab) {
   EXPECT_GT(shadowed, 50);
 }
 
-// A lamp that is hidden by a board on the straight line but not on the refracted one: the ray has to meet it.
+// A board hides a lamp on the straight line but not on the refracted path. The shadow ray lights the surface
+// only if it hits the lamp.
 TEST(Direct, RefractedShadowRaysLightWhereTheyMeetTheirSource) {
   const auto scene = [](double board, double lamp) {
     return fmt::format(
@@ -258,8 +261,8 @@ TEST(Direct, RefractedShadowRaysLightWhereTheyMeetTheirSource) {
            floor("glass", 1, 20, false) + floor("glass", 3, 20) +
            fmt::format("gray polygon board\n0\n0\n12 {0} -5 5 {1} -5 5 {1} 5 5 {0} 5 5\n", board, board + .5);
   };
-  // The ray that is aimed at the middle of a lamp at x = 3 meets it at 2.6; the one for a lamp at 6 passes
-  // at 5.1.
+  // The ray that is aimed at the middle of a lamp at x = 3 hits it at 2.6. The ray that is aimed at a lamp at
+  // x = 6 misses it, at 5.1.
   const V3d from(0, .1, .5);
   const double open = Traced(scene(15, 3)).value(from, kDown);
   EXPECT_GT(open, 0);
@@ -268,9 +271,9 @@ TEST(Direct, RefractedShadowRaysLightWhereTheyMeetTheirSource) {
   EXPECT_EQ(Traced(scene(15, 6)).value(from, kDown), 0) << "the refracted ray passes the lamp";
 }
 
-// Boards on a slab of glass in the sun, places where a board is on the straight line to the sun and not on
-// the refracted one: rtrace presumes some of them to be in its shadow. Its figures (RADIANCE 6.1a, -dj 0 -ds
-// 0).
+// Boards on a slab of glass in the sun, and places where a board is on the straight line to the sun but not
+// on the refracted path. rtrace presumes that some of these places are in shadow. The values are those of
+// rtrace (RADIANCE 6.1a, -dj 0 -ds 0).
 TEST(Direct, ShadowsBehindASlabArePresumedAsByTheOriginal) {
   std::string text =
       "void light L 0 0 3 1000 1000 1000\nL source s 0 0 4 0.672716 -0.0749422 0.736096 .5\n"
@@ -324,7 +327,7 @@ TEST(Direct, ShadowsBehindASlabArePresumedAsByTheOriginal) {
   EXPECT_GT(dark, 8);
 }
 
-// Far too many equal lamps to be tested one by one: with -dt the untested are guessed by the tested.
+// With -dt, most of many equal lamps are not tested. Their visibility is estimated from the tested ones.
 TEST(Direct, ThresholdKeepsToItsShare) {
   std::string scene = plastic("m", .5) + floor("m") + light(1);
   for (int i = 0; i < 100; ++i)
@@ -339,8 +342,8 @@ TEST(Direct, ThresholdKeepsToItsShare) {
   }
 }
 
-// A roof hides the sun, which is tested first. Lamps that are too weak to be tested are guessed by the lamps
-// that were: all are visible.
+// A roof hides the sun, which is tested first. The visibility of lamps that are too weak to be tested is
+// estimated from the tested lamps: all are visible.
 TEST(Direct, HiddenSunTakesNothingFromUntestedLamps) {
   std::string scene = plastic("m", .5) + floor("m") + floor("m", 6, 20) + light(1) +
                       "void light fire\n0\n0\n3 1e6 1e6 1e6\nfire source sun\n0\n0\n4 0 0 1 .5\n";
@@ -355,8 +358,8 @@ TEST(Direct, HiddenSunTakesNothingFromUntestedLamps) {
   EXPECT_NEAR(Traced(scene, o).value(V3d(0, 0, 1), kDown), exact, 1e-9 * exact);
 }
 
-// Two lamps that a floor sees and a hundred weaker ones that a board hides from most of it. Behind an
-// indirect bounce the mean is that of testing all of them.
+// Two lamps illuminate a floor, and a board hides a hundred weaker ones from most of it. After an indirect
+// bounce the mean is the same as if all of them were tested.
 TEST(Direct, ThresholdLeavesTheMeanBehindABounceAsItIs) {
   std::string scene = plastic("m", .5) + floor("m") + floor("m", 5, 3) + light(1) +
                       "lamp sphere left\n0\n0\n4 -6 0 6 .4\nlamp sphere right\n0\n0\n4 6 0 6 .4\n";
@@ -372,8 +375,8 @@ TEST(Direct, ThresholdLeavesTheMeanBehindABounceAsItIs) {
   expectMean(meanWith(.5, 20000), all.mean(), 1.1);
 }
 
-// A roof hides the sun, which is weaker than the lamps under it and therefore not among those that are tested
-// for being bright.
+// A roof hides the sun. The sun is weaker than the lamps under the roof, and therefore not among the
+// brightest sources, which are always tested.
 TEST(Direct, VisibleLampsTellNothingOfAHiddenSun) {
   std::string scene = plastic("m", .5) + floor("m") + floor("m", 6, 20) + light(1) +
                       "void light fire\n0\n0\n3 20 20 20\nfire source sun\n0\n0\n4 0 0 1 .5\n";
@@ -386,7 +389,7 @@ TEST(Direct, VisibleLampsTellNothingOfAHiddenSun) {
   EXPECT_NEAR(Traced(scene, o).value(V3d(0, 0, 1), kDown), exact, 1e-9 * exact);
 }
 
-// ---- who is seen
+// ---- visibility of sources
 
 TEST(Sources, VisibilityFollowsTheOption) {
   RayOptions hidden;
@@ -397,7 +400,7 @@ TEST(Sources, VisibilityFollowsTheOption) {
   const std::string shine = plastic("m", .5) + floor("m") + light(2) + ball;
   EXPECT_EQ(Traced(shine, hidden).value(V3d(0, 0, 1), kDown), Traced(shine).value(V3d(0, 0, 1), kDown))
       << "what it lights stays lit";
-  // Glow of no reach is no light source: it is seen in any case. Within its reach it is one.
+  // Glow without reach is not a light source, and always visible. Glow with a reach is a source within it.
   const auto glowing = [&](double reach) {
     return Traced(glow(2, reach) + "sky sphere g\n0\n0\n4 0 0 5 1\n", hidden).value(kOrigin, kUp);
   };
@@ -417,7 +420,7 @@ TEST(Sources, RaysAlongTheHorizonBetweenTwoHemispheresSeeTheSky) {
     Traced scene(fmt::format("void {} bright\n0\n0\n{}\n{}void {} dim\n0\n0\n{}\n{}",
                              skyGlows ? "glow" : "light", skyGlows ? "4 8 8 8 0" : "3 8 8 8", sky,
                              groundGlows ? "glow" : "light", groundGlows ? "4 2 2 2 0" : "3 2 2 2", ground));
-    // Where both are seen, one that is not glow hides the other.
+    // Where both are visible, one that is not glow hides the other.
     const double horizon = skyGlows && !groundGlows ? 2 : 8;
     for (double angle = 0; angle < 2 * kPi; angle += .1) {
       const auto at = [&](double z) {
@@ -451,7 +454,7 @@ TEST(Sources, SpotlightIsSeenFromWithinItsConeOnly) {
   EXPECT_EQ(Traced(scene).value(V3d(6, 0, 0), V3d(-6, 0, 10)), 0);
 }
 
-// illum lights, but is not seen: the eye sees its alternate, or through it.
+// illum illuminates, but is not visible: the view shows its alternate, or passes through it.
 TEST(Sources, IllumIsSeenAsItsAlternate) {
   const std::string before = glow(1, 0) + "sky source all\n0\n0\n4 0 0 1 360\n" + plastic("gray", .5);
   for (const auto& [alternate, expected] : {std::pair("0", 1.), {"1 void", 1.}, {"1 black", 0.}}) {
@@ -486,7 +489,7 @@ TEST(Mirror, GivesWayToItsAlternate) {
             0);
 }
 
-// Straight through a ball of index 1 there is no reflection: what is left is exp(-a d).
+// There is no reflection along a straight path through a ball of index 1: the transmittance is exp(-a d).
 TEST(Medium, AbsorbsByItsLength) {
   const std::string sky = glow(1, 0) + "sky source all\n0\n0\n4 0 0 1 360\n";
   Traced scene(sky + "void dielectric d\n0\n0\n5 .5 .9 1 1 0\nd sphere s\n0\n0\n4 0 0 0 1.5\n", unbiased());
@@ -536,7 +539,7 @@ TEST(Limits, ReflectionsAndWeightEndPathsWhereTheyAreTold) {
   expectMean(seen(-10, .2), all, 1.3);
 }
 
-// As in rtrace: only where a path would be gambled for.
+// The error occurs where a path would be subject to roulette, as in rtrace.
 TEST(Limits, RussianRouletteNeedsAWeight) {
   const std::string lamp = light(1) + "lamp sphere bulb\n0\n0\n4 0 0 5 .5\n";
   RayOptions options;
@@ -550,7 +553,7 @@ TEST(Limits, RussianRouletteNeedsAWeight) {
   EXPECT_GT(limited.value(V3d(0, 0, 1), kDown), 0);
 }
 
-// rtrace -h -ld -op (6.1a): the end of a ray that meets nothing as far as it goes.
+// rtrace -h -ld -op (6.1a): the end of a ray that hits nothing within its maximal length.
 TEST(Limits, LimitedRaysEndWhereTheyAreLimited) {
   Traced empty(light(1) + "lamp sphere bulb\n0\n0\n4 0 0 5 .5\n");
   EXPECT_EQ(empty.tracer().cast(kOrigin, kUp, 3).point, V3d(0, 0, 3));
@@ -558,7 +561,7 @@ TEST(Limits, LimitedRaysEndWhereTheyAreLimited) {
   EXPECT_EQ(empty.tracer().cast(kOrigin, kUp, 7).point, V3d(0, 0, 4.5));
 }
 
-// Russian roulette may cost variance, never the mean.
+// Russian roulette may increase the variance, but does not change the mean.
 TEST(Limits, RouletteKeepsTheMean) {
   const std::string scene =
       plastic("wall", .7) + light(100) + "wall bubble s\n0\n0\n4 0 0 0 1\nlamp sphere l\n0\n0\n4 0 0 .3 .1\n";
@@ -574,7 +577,7 @@ TEST(Limits, RouletteKeepsTheMean) {
     EXPECT_LT(std::abs(cut.mean() - full.mean()), kMostSigmas * error) << "-lw " << lw;
     EXPECT_GT(.05 * full.mean(), kMostSigmas * error) << "5% would have been noticed";
   }
-  // Without the weight that survivors get, the mean would be lower: -lr above 0 cuts so.
+  // If survivors did not get a higher weight, the mean would be lower, as it is with -lr above 0.
   RayOptions o = unbiased(12);
   o.weightLimit = .2;
   o.reflectionLimit = 1000;

@@ -11,8 +11,8 @@
 #include "tests/unit/transport/transport_fixture.h"
 #include "transport/ray_report.h"
 
-// Patterns, textures and mixtures as rays meet them: every type against the original's figures, and what
-// their files and arguments may lack.
+// Patterns, textures and mixtures: every type against values of the original, and errors in their
+// files and arguments.
 namespace rsphere {
 namespace {
 
@@ -35,8 +35,8 @@ const std::array<Shot, 8> kShots = {{{{-.33, .42, 3.2}, {3.3, -.66, -3.2}},
                                      {{-2.17, -1.81, 3.2}, {1.89, 1.79, -1.2}},
                                      {{-.42, 2.4, 3.2}, {.43, -2.32, -1.2}}}};
 
-// What rtrace -h -w -ab 0 -dj 0 -dt 0 -ds 0 -st 0 -lw 0 -lr 6 (RADIANCE 6.1a, with its own rayinit.cal)
-// prints for kShots in tests/scenes/patterns, where the scene is the text, kFloor, and kSky if sky is set.
+// The output of rtrace -h -w -ab 0 -dj 0 -dt 0 -ds 0 -st 0 -lw 0 -lr 6 (RADIANCE 6.1a, with its own
+// rayinit.cal) for kShots in tests/scenes/patterns. The scene is the text, kFloor, and kSky if sky is set.
 struct Figures {
   const char* name;
   const char* text;
@@ -548,7 +548,8 @@ TEST_F(Patterns, AreTheOriginals) {
   }
 }
 
-// Turned over, a surface keeps its own front: textures bend the normal the same way in the world.
+// Seen from behind, a surface keeps its front: in the world, textures perturb the normal in the same
+// direction from both sides.
 TEST_F(Patterns, TextureIsTheFrontsWhicheverSideIsSeen) {
   const std::string head = "void texfunc T\n4 .2 .1 0 .\n0\n0\nT metal M\n0\n0\n5 1 1 1 1 0\n";
   const std::string up = "M polygon p\n0\n0\n9 -9 -9 0 9 -9 0 0 9 0\n";
@@ -631,7 +632,7 @@ TEST_F(Patterns, WarnsOnceOfWhatHasNoValue) {
   EXPECT_EQ(warnings[0], "room.rad:1: brightfunc \"P\": compute error");
 }
 
-// The meter of -i is plain, whatever the pattern; a texture before the material still tilts it.
+// The meter of -i ignores patterns. A texture before the material still tilts it.
 TEST_F(Patterns, IrradianceIgnoresPatterns) {
   const std::string sky = "void glow g\n0\n0\n4 1 1 1 0\ng source sky\n0\n0\n4 0 0 1 360\n";
   const std::string chain = "void brightfunc P\n2 .3 .\n0\n0\nP plastic Q\n0\n0\n5 .5 .5 .5 0 0\n";
@@ -677,8 +678,8 @@ TEST_F(Patterns, MixtureWithoutAMaterialBehindItIsTheMaterial) {
   EXPECT_EQ(none.materialName(none.surfaces[0]), "void");
 }
 
-// A goal emits whatever its modifiers are: a plastic surface beside one that is mixed receives importance
-// from it.
+// A goal emits whatever its modifiers are: a plastic surface beside a goal with a mixture receives
+// importance from it.
 TEST_F(Patterns, GoalMayBeAMixture) {
   const std::string text =
       "void plastic Q\n0\n0\n5 .5 .5 .5 0 0\nvoid mixfunc G\n4 Q void .5 .\n0\n0\n"
@@ -692,14 +693,14 @@ TEST_F(Patterns, GoalMayBeAMixture) {
   Sample floor;
   for (uint64_t i = 0; i < 4000; ++i)
     floor.add(tracer.trace(V3d(0, 0, 1), V3d(0, 0, -1), 0, mixBits(i)).value.x);
-  // .5/pi times the irradiance under the middle of a square: 4 / pi times that of a quarter, with a = b =
-  // 1/2.
+  // .5/pi times the irradiance under the middle of a square, which is 4 / pi times that of a quarter, with
+  // a = b = 1/2.
   const double side = 1 / std::sqrt(5.), factor = 4 / 3.14159265358979 * side * std::atan(side);
   EXPECT_NEAR(floor.mean(), .5 * factor, 5 * floor.standardError());
 }
 
-// The goal reflects the importance of a second one, which takes random numbers: those of the seed, and not of
-// the path that was traced before.
+// The goal reflects the importance of a second one, which takes random numbers. They depend on the seed, and
+// not on the path that was traced before.
 TEST_F(Patterns, RaysToAGoalTakeTheRandomNumbersOfTheirSeed) {
   const std::string text =
       "void plastic G\n0\n0\n5 .5 .5 .5 0 0\n"
@@ -746,7 +747,7 @@ TEST_F(Patterns, SharedDefinitionsAreSeenByAllFunctionFiles) {
   EXPECT_EQ(value({{false, "noon=1"}, {false, "tone(x)=x*noon;noon=3"}}), 9);
   EXPECT_EQ(value({{true, "shared.cal"}, {false, "noon=3"}}), 1.5);
   EXPECT_EQ(value({{false, "noon=3"}, {true, "shared.cal"}}), 1);
-  // What rayinit.cal has is replaced.
+  // Definitions of rayinit.cal are replaced.
   EXPECT_EQ(value({{false, "tone(x)=bound(0,x,9);noon=4;bound(a,x,b)=a+x+b"}}), 13);
   const auto fault = [&](SharedDefinitions definitions, rad::Status status) {
     try {

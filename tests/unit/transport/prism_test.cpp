@@ -1,4 +1,4 @@
-// prism1 and prism2: plane surfaces that send light on as functions say.
+// prism1 and prism2: plane surfaces that redirect light by functions.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ TEST(Prism, ThatReflectsIsAMirror) {
   }
 }
 
-// A window that changes nothing but brightness, with a frame of nothing.
+// A window that changes only the brightness, with nothing around it.
 TEST(Prism, ThatTurnsNothingIsAPane) {
   Traced lit = meters(lamp() +
                       "void prism1 pane 5 .8 Dx Dy Dz . 0 0\n"
@@ -68,16 +68,16 @@ TEST(Prism, TurnsTheSunByItsFunctions) {
   const std::string sun = "void light bright 0 0 3 1e5 1e5 1e5\nbright source sun 0 0 4 3 1 4 .5\n";
   const std::string plane = "glazing polygon ceiling 0 0 12 -5 -5 2 5 -5 2 5 5 2 -5 5 2\n";
   const double sine = std::sin(.25 * kPi / 180), e = 1e5 * kPi * sine * sine;
-  // From above the light goes on where it should; from below rays go on to the sun.
+  // Light from above goes on in the redirected direction; rays from below go on to the sun.
   const std::string down = "if(Dz,3,0) if(Dz,1,0) if(Dz,4,-1)", aside = "if(Dz,3,1) if(Dz,1,0) if(Dz,4,-1)";
   Traced one = meters(sun + "void prism1 glazing 5 .7 " + down + " . 0 0\n" + plane);
   EXPECT_NEAR(irradianceAt(one, V3d(0, 0, 0)), .7 * e, 1e-4 * e);
   EXPECT_NEAR(irradianceAt(one, V3d(-4.9, -4.9, 0)), .7 * e, 1e-4 * e);
   Traced two = meters(sun + "void prism2 glazing 9 .4 " + down + " .3 " + aside + " . 0 0\n" + plane);
   EXPECT_NEAR(irradianceAt(two, V3d(0, 0, 0)), (.4 + .3 / std::sqrt(2.)) * e, 1e-4 * e);
-  // The light along x comes from 2 before: out of the ceiling here.
+  // The light along x comes from a place that is 2 before, which lies outside of the ceiling here.
   EXPECT_NEAR(irradianceAt(two, V3d(-4.5, 0, 0)), .4 * e, 1e-4 * e);
-  // A share of nothing makes no source, and neither does a function that fails.
+  // A share of 0 makes no virtual source, and neither does a function that fails.
   Traced dark = meters(sun + "void prism1 glazing 5 0 " + down + " . 0 0\n" + plane);
   EXPECT_EQ(irradianceAt(dark, V3d(0, 0, 0)), 0);
   Traced failing = meters(sun + "void prism1 glazing 5 .7 1/(Dx-Dx) 0 1 . 0 0\n" + plane);
@@ -94,8 +94,8 @@ TEST(Prism, ShowsWhatItTurnsTo) {
   EXPECT_EQ(scene.color(V3d(-3, 0, 1.7), V3d(1, 0, 0)), Rgb(0, 0, 0));
 }
 
-// In functions DxA DyA DzA are the direction to the source that a shadow ray is for, in the primitive's own
-// coordinates, and 0 to other rays.
+// In functions, DxA DyA DzA are the direction to the source that a shadow ray is aimed at, in the coordinates
+// of the primitive; for other rays they are 0.
 TEST(Prism, FunctionsKnowTheTarget) {
   Traced lit = meters(lamp() +
                       "void prism1 pane 7 1-.5*if(DxA*DxA+DyA*DyA+DzA*DzA-.5,1,0) Dx Dy Dz . -rx 90 0 0\n"

@@ -29,7 +29,7 @@ RadianceGuess guessOf(const Traced& t) {
   return RadianceGuess(t.transport(), lights);
 }
 
-// Fitted to what is seen from the point, as spherical means are.
+// A guess fitted to the view from the point, in the same way as for spherical means.
 LocalGuess fitted(const RadianceGuess& guess, Traced& t, const V3d& point, int rays = 0) {
   Random random(5);
   std::vector<V3d> glances(RadianceGuess::kFitGlances);
@@ -45,7 +45,7 @@ LocalGuess fitted(const RadianceGuess& guess, Traced& t, const V3d& point, int r
   return guess.fit(point, glances, traced, 1);
 }
 
-// Where nothing is in between, the guess is the light of every kind of source.
+// Without occlusion, the guess equals the radiance, for every kind of source.
 TEST(RadianceGuess, IsTheRadianceWhereNothingIsHidden) {
   struct Case {
     const char* lamp;
@@ -82,7 +82,7 @@ TEST(RadianceGuess, KnowsNothingOfMirrorsLightsAndNothing) {
   EXPECT_GT(local.along(point, V3d(0, 1, 0)).y, 0) << "the diffuse half of steel";
 }
 
-// What no light of the source reaches is not expected to have any.
+// The guess includes no light of a source that reaches no place.
 TEST(RadianceGuess, LeavesOutSourcesThatAreShutOut) {
   const std::string lid = "gray polygon lid 0 0 12 -99 -99 3 99 -99 3 99 99 3 -99 99 3\n";
   const std::string sun = "lamp source l 0 0 4 0 0 1 1\n";
@@ -111,8 +111,8 @@ const std::string kShaded =
     "lamp sphere bulb 0 0 4 3 3 2.5 .05\ngray tube shade 0 0 7 3 3 2.4 3 3 2.7 .3\n"
     "gray cylinder outside 0 0 7 3 3 2.4 3 3 2.7 .302\n";
 
-// What is guessed of indirect rays takes noise from them and leaves their mean, at one bounce and at several,
-// aimed at bright spots or not, with one direction or with several at the first bounce.
+// The guess of indirect rays reduces their noise and does not change their mean: with one bounce and with
+// several, aimed at bright spots or not, with one direction or with several at the first bounce.
 TEST(RadianceGuess, OfIndirectRaysLeavesTheMeanAsItIs) {
   struct Case {
     const std::string* light;
@@ -148,7 +148,7 @@ TEST(RadianceGuess, OfIndirectRaysLeavesTheMeanAsItIs) {
   }
 }
 
-// Where -lr cuts paths off, nothing is guessed of what is cut off.
+// If -lr ends paths, the light beyond is not guessed.
 TEST(RadianceGuess, EndsWherePathsDo) {
   for (const int limit : {1, -1}) {
     RayOptions options = finely(3);

@@ -74,7 +74,7 @@ TEST(RayTree, IsThatOfTheOriginal) {
   }
 }
 
-// Without T, shadow rays are shown only where they go through something.
+// With -ot instead of -oT, shadow rays are shown only if they pass through a surface.
 TEST(RayTree, LeavesOutShadowRaysInTheClear) {
   Traced room(kRoom);
   int through = 0;
@@ -83,7 +83,7 @@ TEST(RayTree, LeavesOutShadowRaysInTheClear) {
   EXPECT_EQ(through, 2);  // the pane, and the bulb behind it
 }
 
-// All light comes from the bulb, so what its rays contribute is the value of the primary ray.
+// All light comes from the bulb, so that the contributions of rays to it sum to the value of the primary ray.
 TEST(RayTree, ContributionsSumToTheValue) {
   RayOptions options = unbiased(2);
   options.ambientDivisions = 16;
@@ -116,7 +116,7 @@ TEST(RayTree, ChangesNoAnswer) {
   }
 }
 
-// Surfaces of nothing are passed one by one where each is to be shown.
+// Surfaces without a material are passed one by one if each is to be shown to an observer.
 TEST(RayTree, ShowsSurfacesOfNothing) {
   Traced room(
       "void polygon a 0 0 12 -1 -1 1 1 -1 1 1 1 1 -1 1 1\nvoid polygon b 0 0 12 -1 -1 2 1 -1 2 1 1 2 -1 1 2\n"

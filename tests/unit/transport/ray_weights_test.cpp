@@ -1,6 +1,6 @@
-// Where indirect light is interpolated (-aa above 0), an ambient ray has half the weight of its parent, as in
-// RADIANCE, however many there are (-ad). So the limits of weight (-lw) and of reflections (-lr) end bounces,
-// and take no light from bounces that are followed.
+// If indirect light is interpolated (-aa above 0), an ambient ray has half the weight of its parent, as in
+// RADIANCE, regardless of their number (-ad). The limits of weight (-lw) and reflections (-lr) therefore end
+// paths after some bounces, and take no light from bounces that are followed.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ TEST(RayWeights, LeaveTheWholeSky) {
   EXPECT_EQ(ended.value(V3d(0, 0, 0), V3d(0, 0, 1)), 0) << "half is less than the least weight";
 }
 
-// Walls that shine with radiance .2 and reflect .4 of what arrives.
+// Walls that emit radiance .2 and have a reflectance of .4.
 constexpr double kShine = .2, kReflects = .4;
 constexpr const char* kWall = R"(
 void plastic gray 0 0 5 .5 .5 .5 0 0
@@ -49,7 +49,7 @@ void mixfunc wall 4 gray shine .8 . 0 0
 )";
 const std::string kBox = roomOf("wall", V3d(2, 2, 2));
 
-// The radiance in a furnace after so many bounces.
+// The radiance in a furnace with this number of bounces.
 double seriesTo(int bounces) {
   double sum = 0;
   for (int i = 0; i <= bounces; ++i) sum += kShine * std::pow(kReflects, i);
@@ -70,7 +70,8 @@ TEST(RayWeights, LeaveEveryBounceInAFurnace) {
   }
 }
 
-// The inside of a ball is not interpolated, and no patches serve it. Behind a small pane of glass at the eye.
+// Light is not interpolated on the inside of a ball, and there are no patches. One view is through a small
+// pane of glass, the other is past it.
 TEST(RayWeights, LeaveSurfacesThatAreNotInterpolatedTheirLight) {
   const std::string ball = std::string(kWall) + "wall bubble room 0 0 4 0 0 0 3\n";
   const std::string pane = "void glass clear 0 0 3 .5 .5 .5\nclear ring pane 0 0 8 0 0 .1 0 0 1 0 .01\n";
@@ -84,7 +85,7 @@ TEST(RayWeights, LeaveSurfacesThatAreNotInterpolatedTheirLight) {
   }
 }
 
-// Diffuse reflections count for -lr, wherever light is gathered.
+// Diffuse reflections are included in the limit -lr, wherever light is gathered.
 TEST(RayWeights, LimitOfReflectionsEndsBounces) {
   for (const int limit : {1, 2}) {
     Traced furnace(kWall + kBox, interpolated(3, 64, {limit, 1e-4}));

@@ -10,7 +10,7 @@
 
 namespace rsphere {
 
-// A scene with what is needed to trace rays in it.
+// A scene, prepared for tracing, and a tracer.
 class Traced {
  public:
   explicit Traced(const std::string& text, const RayOptions& options = {},
@@ -20,7 +20,7 @@ class Traced {
   Rgb color(const V3d& origin, const V3d& direction, uint64_t seed = 1, double farthest = 0) {
     return tracer_.trace(origin, direction.normalized(), farthest, seed).value;
   }
-  // Of one channel: these scenes are gray unless a test says otherwise.
+  // The red channel alone: the scenes are gray unless a test says otherwise.
   double value(const V3d& origin, const V3d& direction, uint64_t seed = 1, double farthest = 0) {
     return color(origin, direction, seed, farthest).x;
   }
@@ -29,7 +29,7 @@ class Traced {
     for (int i = 0; i < count; ++i) sample.add(value(origin, direction, mixBits(seed + i)));
     return sample;
   }
-  // Which surface a ray sees.
+  // The name of the surface that a ray sees.
   std::string seen(const V3d& origin, const V3d& direction) {
     const Ray ray = tracer_.trace(origin, direction.normalized(), 0, 1);
     return ray.surface == kNone ? "" : std::string(scene_.surfaceName(scene_.surfaces[ray.surface]));
@@ -56,7 +56,7 @@ inline std::string roomOf(const std::string& modifier, const V3d& size) {
       modifier, size.x, size.y, size.z);
 }
 
-// Every path followed and every source tested: means are right.
+// Options for unbiased means: every path is followed and every source is tested.
 inline RayOptions unbiased(int bounces = 0) {
   RayOptions o;
   o.directThreshold = 0;

@@ -1,5 +1,5 @@
-// Light by way of mirrors: the image of a source is where plane mirrors show it (Euclid), as bright as they
-// reflect.
+// Light reflected by mirrors: the image of a source lies where plane mirrors show it (Euclid), and its
+// radiance is reduced by their reflectance.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ std::string mirror(double x, double faces, double reflectance = .9, const char* 
       name, reflectance, x, -20 * faces, 20 * faces);
 }
 
-// On a surface with this normal, by a small ball there.
+// The irradiance by a small ball on a surface with this normal.
 double irradianceBy(const V3d& lamp, const V3d& point, const V3d& normal = V3d(0, 0, 1)) {
   const V3d to = lamp - point;
   return kRadiance * kPi * kRadius * kRadius * std::max(0., to.dot(normal)) / std::pow(to.length(), 3);
@@ -75,7 +75,7 @@ TEST(VirtualSource, MirrorsShowImagesOfImages) {
   }
 }
 
-// The mirror is a window: its image lights what sees it through there, and nothing else.
+// The mirror acts as a window: the image illuminates only places that see it through the mirror.
 TEST(VirtualSource, IsSeenThroughTheMirrorAlone) {
   const std::string pane =
       "void mirror silver 0 0 3 1 1 1\nsilver polygon pane 0 0 12 0 -.2 .5 0 .2 .5 0 .2 .9 0 -.2 .9\n";
@@ -101,9 +101,9 @@ TEST(VirtualSource, IsSeenThroughTheMirrorAlone) {
   }
 }
 
-// Of a ceiling light that reaches behind the mirror's plane the part before it is mirrored. RADIANCE 6.1a
-// leaves such images out where the mirror's plane is not near the origin: it looks at the wrong end of the
-// light.
+// If a ceiling light extends behind the plane of the mirror, the part in front of it is mirrored. RADIANCE
+// 6.1a leaves such images out if the plane of the mirror is not near the origin, because it tests the wrong
+// end of the light.
 TEST(VirtualSource, OfASourcePartlyBehindTheMirrorIsThatOfTheRest) {
   constexpr double kWall = 4, kHeight = 3;
   const std::string scene = fmt::format(
@@ -135,12 +135,12 @@ TEST(VirtualSource, OfTheSunComesFromTheMirroredDirection) {
       meters("void light bright 0 0 3 1e5 1e5 1e5\nbright source sun 0 0 4 3 1 4 .5\n" + mirror(0, 1), 1);
   const double sine = std::sin(.25 * kPi / 180), e = 1e5 * kPi * sine * sine * 4 / std::sqrt(26.);
   EXPECT_NEAR(irradianceAt(lit, V3d(2, 0, 0)), e * 1.9, 1e-4 * e);
-  // Its light reaches no farther than the mirror is high.
+  // The height of the mirror limits how far its light reaches.
   EXPECT_NEAR(irradianceAt(lit, V3d(17, 0, 0)), e, 1e-4 * e);
 }
 
-// What the direct calculation brings by way of the mirror is black to rays that gather indirect light, and to
-// samples of rough reflections.
+// Light that next-event estimation includes via the mirror is black to rays that gather indirect light, and
+// to samples of rough reflections.
 TEST(VirtualSource, IsNotCountedTwice) {
   RayOptions gathering = unbiased(2);
   gathering.directJitter = 0;
@@ -156,7 +156,7 @@ TEST(VirtualSource, IsNotCountedTwice) {
   EXPECT_NEAR(irradianceAt(lit, kPoint), expected, 1e-4 * expected);
 }
 
-// A shadow in the mirror, and before it.
+// An occluder between the lamp and the mirror, and between the mirror and the place.
 TEST(VirtualSource, IsHiddenByWhatStandsInTheWay) {
   const double direct = irradianceBy(kLamp, kPoint), image = irradianceBy(V3d(-1, .3, 2), kPoint);
   const V3d onMirror = V3d(0, kPoint.y + 2. / 3 * (.3 - kPoint.y), 2. / 3 * 2);
@@ -166,7 +166,7 @@ TEST(VirtualSource, IsHiddenByWhatStandsInTheWay) {
     Traced hidden = meters(lamp(kLamp) + mirror(0, 1) + black + "black " + ball, 1);
     EXPECT_NEAR(irradianceAt(hidden, kPoint), direct, 1e-4 * direct) << at;
   }
-  // A pane before the mirror, which the light goes through twice, 1/cosine as thick.
+  // A pane in front of the mirror, which the light passes twice, with a path length of thickness / cosine.
   const V3d way = V3d(-1, .3, 2) - kPoint;
   const double passed = std::pow(.5, 2 * way.length() / std::abs(way.x));
   Traced dimmed = meters(lamp(kLamp) + mirror(0, 1) +
@@ -189,7 +189,7 @@ TEST(VirtualSource, MirrorsThatAreNotPlaneAreWarnedOf) {
       << warnings[0];
 }
 
-// How many sources a scene makes: those that cannot light anything are left out.
+// The number of sources in a scene: virtual sources that cannot illuminate anything are left out.
 TEST(VirtualSource, IsLeftOutWhereGeometryShowsItNeverLights) {
   const auto count = [](const std::string& text, int relays) {
     const Scene scene = sceneOf(text);
@@ -203,7 +203,7 @@ TEST(VirtualSource, IsLeftOutWhereGeometryShowsItNeverLights) {
   // The second mirror faces away from the first one's light, or lies behind it.
   EXPECT_EQ(count(lamp(kLamp) + mirror(0, 1) + mirror(4, 1, 1, "other"), 3), 2u);
   EXPECT_EQ(count(lamp(kLamp) + mirror(0, 1) + mirror(-2, -1, 1, "other"), 3), 2u);
-  // A panel that shines up lights no mirror below it.
+  // A panel that emits upwards illuminates no mirror below it.
   const std::string panel =
       "void light bright 0 0 3 1 1 1\nbright polygon panel 0 0 12 1 0 2 2 0 2 2 1 2 1 1 2\n";
   const std::string low =
@@ -214,7 +214,7 @@ TEST(VirtualSource, IsLeftOutWhereGeometryShowsItNeverLights) {
   const std::string spot =
       "void spotlight beam 0 0 7 1 1 1 40 1 0 0\nbeam ring spot 0 0 8 1 0 1 1 0 0 0 .05\n";
   EXPECT_EQ(count(spot + low, 1), 1u);
-  // Two small mirrors side by side: the second is out of the first one's beam.
+  // Two small mirrors side by side: the second lies outside the beam of the first.
   const std::string small =
       "void mirror silver 0 0 3 1 1 1\n"
       "silver polygon first 0 0 12 0 -.1 0 0 .1 0 0 .1 .2 0 -.1 .2\n"

@@ -1,5 +1,5 @@
-// Media and antimatter. Beer and Lambert for what passes; what is scattered once is an integral along the ray
-// (Henyey and Greenstein 1941 for the phase function).
+// Media and antimatter. Transmittance follows Beer and Lambert; single scattering is an integral along the
+// ray (phase function: Henyey and Greenstein 1941).
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// A ball of mist around (x, 0, 0); words and reals as a scene file has them, with their numbers.
+// A ball of mist around (x, 0, 0). arguments: as in a scene file, with the numbers of strings and reals.
 std::string mist(const std::string& name, const std::string& arguments, double x = 0, double radius = 1) {
   return fmt::format("void mist {0} {1}\n{0} sphere {0}_ball 0 0 4 {2} 0 0 {3}\n", name, arguments, x,
                      radius);
@@ -43,16 +43,16 @@ TEST(Medium, AbsorbsAsBeerAndLambertSay) {
   expectColor(everywhere.color(kEye, kAhead), exponential(-15. * k));
   Traced ball(kWall + mist("fog", "0 0 3 .1 .2 .4"));
   expectColor(ball.color(kEye, kAhead), exponential(-2. * k));
-  // Off the middle, and from inside it.
+  // A ray that passes beside the middle, and one that starts inside.
   expectColor(ball.color(V3d(-5, .6, 0), kAhead), exponential(-1.6 * k));
-  // On top of what is everywhere, and that alone beyond.
+  // Inside, the extinction is added to that of the medium everywhere, which is alone outside.
   Traced both(kWall + mist("fog", "0 0 3 .1 .2 .4"), inMedium(k));
   expectColor(both.color(kEye, kAhead), exponential(-17. * k));
   // A pattern multiplies it.
   Traced half("void brightfunc half 2 .5 . 0 0\n" + kWall +
               "half mist fog 0 0 3 .1 .2 .4\nfog sphere ball 0 0 4 0 0 0 1\n");
   expectColor(half.color(kEye, kAhead), exponential(-1. * k));
-  // Surfaces of nothing in it change nothing.
+  // Surfaces without a material inside it change nothing.
   Traced divided(kWall + mist("fog", "0 0 3 .1 .2 .4") +
                  "void ring a 0 0 8 .5 0 0 1 0 0 0 1\n"
                  "void ring b 0 0 8 .7 0 0 1 0 0 0 1\n");
@@ -72,7 +72,7 @@ TEST(Medium, ScattersIndirectLight) {
   Traced everywhere(kWall, o);
   const Rgb passed = exponential(Rgb(-1.5, -3, -4.5));
   expectColor(everywhere.color(kEye, kAhead), passed + Rgb(.5, .6, .7) * 2. * (Rgb(1, 1, 1) - passed));
-  // The albedo of mist counts within it, that of the outer one again between it and the outer one's end.
+  // The albedo of a mist applies inside of it. Beyond, in the mist around it, that of the outer mist applies.
   RayOptions clear;
   clear.ambientValue = Rgb(1, 1, 1);
   Traced nested(
@@ -84,7 +84,7 @@ TEST(Medium, ScattersIndirectLight) {
   EXPECT_NEAR(nested.value(kEye, kAhead), expected, 1e-9);
 }
 
-// Shadow rays lose what is absorbed: what is scattered out of them counts as scattered in.
+// Shadow rays are attenuated by absorption alone: in-scattering is assumed to replace out-scattered light.
 TEST(Medium, DimsDirectLightByAbsorptionAlone) {
   const std::string lamp = "void light bright 0 0 3 1000 1000 1000\nbright sphere lamp 0 0 4 0 0 2 .01\n";
   const auto irradiance = [&](const std::string& more, const RayOptions& o) {
@@ -97,11 +97,11 @@ TEST(Medium, DimsDirectLightByAbsorptionAlone) {
   EXPECT_NEAR(irradiance(mist("fog", "0 0 6 .1 .1 .1 .75 .75 .75"), {}) / clear, std::exp(-.05), 1e-9);
 }
 
-// Light of a small ball, scattered once into a ray through mist that holds them both.
+// Light of a small ball, scattered once into a ray. Both lie within the mist.
 struct Scattered {
   double extinction, albedo, eccentricity;
   V3d lamp{0, 1, .5};
-  double share = 1;  // of the lamp that is seen
+  double share = 1;  // visible share of the lamp
 
   static constexpr double kRadius = .01, kRadiance = 1e4, kMist = 3;
 
@@ -137,7 +137,7 @@ TEST(Mist, ScattersLightOnce) {
   }
 }
 
-// A ray that begins inside learns so when it leaves.
+// Only when a ray leaves the mist is it known to have started inside.
 TEST(Mist, ScattersFromTheInside) {
   const Scattered s{.2, .8, .3};
   RayOptions o;
@@ -158,7 +158,7 @@ TEST(Mist, SamplingDistanceChangesTheNoiseAlone) {
   EXPECT_LT(sixteen.standardError(), one.standardError());
 }
 
-// Without arguments of its own it is the air around that scatters, in the volume alone.
+// A mist without arguments scatters with the properties of the surrounding medium, inside its volume alone.
 TEST(Mist, MarksABeamInTheGlobalMedium) {
   Scattered s{.05, .9, .4};
   RayOptions o = inMedium(Rgb(.05, .05, .05), Rgb(.9, .9, .9));
@@ -182,7 +182,7 @@ TEST(Mist, ScattersRelayedLight) {
   o.mediumSampling = .3;
   Traced relayed(s.scene("glass>lamp") + mirror, o);
   expectMean(relayed.mean(kEye, kAhead, 4000), s.along(kEye, kAhead, 2, 8), 1.02);
-  // What stands in the way hides it.
+  // An object in the way hides it.
   Traced hidden(s.scene("glass>lamp") + mirror +
                     "void plastic black 0 0 5 0 0 0 0 0\n"
                     "black polygon lid 0 0 12 -90 3.2 -90 90 3.2 -90 90 3.2 90 -90 3.2 90\n",
@@ -256,7 +256,7 @@ TEST(Antimatter, MakesHoles) {
   expectColor(board.color(kEye, kAhead), Rgb(0, 0, 1));
   expectColor(board.color(V3d(-5, .4, .2), kAhead), Rgb(0, 0, 1));
   expectColor(board.color(V3d(-5, .6, 0), kAhead), Rgb(1, 0, 0));
-  // Other modifiers are there all the same, and so is this one beyond the antimatter.
+  // Surfaces with other modifiers are not cut away, nor are those with this one beyond the antimatter.
   Traced other(std::string(kBoards) +
                "void glow green 0 0 4 0 1 0 0\nvoid antimatter hole 2 void green 0 0\n"
                "hole sphere ball 0 0 4 0 0 0 .5\n");
@@ -267,7 +267,7 @@ TEST(Antimatter, MakesHoles) {
   expectColor(two.color(kEye, kAhead), Rgb(1, 0, 0));
 }
 
-// What is cut is shaded with the first modifier, where the antimatter ends inside the volume.
+// The cut is shaded with the first modifier, where the antimatter ends inside the volume.
 TEST(Antimatter, ShowsTheCut) {
   const std::string block =
       "void glow red 0 0 4 1 0 0 0\nred sphere block 0 0 4 0 0 0 1\n"
@@ -281,7 +281,7 @@ TEST(Antimatter, ShowsTheCut) {
   EXPECT_NEAR(scene.tracer().trace(V3d(-5, .6, 0), kAhead, 0, 1).unmirroredLength, 4.2, 1e-9);
 }
 
-// A hollow in glass is the same whether antimatter cuts it or the glass has an inner surface of its own.
+// A hollow in glass gives the same result whether antimatter cuts it or the glass has an inner surface.
 TEST(Antimatter, OfADielectricRefractsAtTheHollowAsAnInnerSurfaceDoes) {
   std::string sky;
   Random placed(3);
@@ -307,7 +307,7 @@ TEST(Antimatter, OfADielectricRefractsAtTheHollowAsAnInnerSurfaceDoes) {
     EXPECT_NEAR((cut.color(from, to - from) - expected).length(), 0, 1e-6) << i;
     change += (full.color(from, to - from) - expected).length();
   }
-  EXPECT_GT(change, 50);  // the hollow is met
+  EXPECT_GT(change, 50);  // the hollow is hit
 }
 
 TEST(Antimatter, LetsLightThrough) {
