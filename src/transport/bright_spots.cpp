@@ -29,7 +29,7 @@ constexpr double kBrighter = 6;
 //   scene                                  worth   noise with aiming
 //   room with a lit lampshade                 31   one third
 //   open-plan office, around a goal            8   two thirds
-//   small room, around a goal                  2   little less
+//   small room, around a goal                  2   slightly less
 constexpr double kLeastWorth = 4;
 
 // Ratio of the radius of a spot to half the diagonal of the box around its particles.

@@ -138,7 +138,7 @@ void SurfaceShading::sampleBsdf(Ray& ray, BsdfHit& hit, RayKind kind) {
   int samples = spread > 1.5 ? samplesOf(t_, ray, spread) : 1;
   if (o.weightLimit > 0)  // not so many samples that each falls below the weight limit
     samples = std::max(1, static_cast<int>(std::min<double>(samples, share * ray.weight / o.weightLimit)));
-  // Samples are drawn nearer to the middle of the lobe if -ss is below 1.
+  // If -ss is below 1, there is a single sample, and it is drawn nearer to the middle of the lobe.
   const auto place = [&](double u) { return spread < 1 ? .5 + spread * (u - .5) : u; };
   for (int i = 0; i < samples; ++i) {
     const V3d view = jittered(hit.view, hit.resolution.finest);

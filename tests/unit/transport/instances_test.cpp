@@ -9,7 +9,7 @@
 #include "transport/path_tracer.h"
 #include "transport/ray_report.h"
 
-// Instances and meshes as rays see them, against the original's figures.
+// Rays that hit instances and meshes, compared with the original.
 namespace rsphere {
 namespace {
 
