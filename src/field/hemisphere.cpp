@@ -2,14 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/constants.h"
 
 namespace rsphere {
-namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-}  // namespace
 
 HemisphereCells::HemisphereCells(int rays)
     : rings_(std::max(1, static_cast<int>(std::sqrt(rays / kPi) + .5))),

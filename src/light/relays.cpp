@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/constants.h"
 #include "shade/scattering.h"
 
 namespace rsphere {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kFarAway = 1e10;
 constexpr double kTiny = 1e-6;  // world units, cosines: RADIANCE's own figure for "in the plane"
 
 // An affine map that leaves the points of a relay's plane fixed: p goes to p + height(p) * shift. It

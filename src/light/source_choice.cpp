@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/constants.h"
 #include "shade/scattering.h"
 
 namespace rsphere {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // The brightness (W/sr/m2) of the source, or of the real source whose image it is. Patterns and reflectances
 // are taken as 1.

@@ -4,8 +4,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <numbers>
 
+#include "base/constants.h"
 #include "light/relays.h"
 #include "light/spherical_triangle.h"
 #include "shade/scattering.h"
@@ -13,7 +13,6 @@
 namespace rsphere {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kMostParts = 64;  // of a source; RADIANCE's own limit, for which users choose their -ds
 // The factor on a length by the number of times that it was halved, up to kMostParts parts.
 constexpr std::array<double, 7> kHalved = {1, 1. / 2, 1. / 4, 1. / 8, 1. / 16, 1. / 32, 1. / 64};

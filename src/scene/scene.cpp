@@ -10,6 +10,8 @@
 #include <type_traits>
 #include <unordered_map>
 
+#include "base/constants.h"
+
 namespace rsphere {
 namespace {
 
@@ -54,8 +56,6 @@ class Builder {
  private:
   static constexpr int32_t kUnknown = -2;
   static constexpr int kDeepest = 64;
-  static constexpr double kNegligible =
-      1e-6;  // shares and roughnesses below this are treated as 0, as in RADIANCE
 
   // A file that primitives name, and the first primitive that names it.
   struct NamedFile {

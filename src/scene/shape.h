@@ -19,6 +19,9 @@ using Imath::V3d;
 // coincident surfaces rely on it.
 inline constexpr double kSamePlace = 1e-6;
 
+// The length of a ray that hits nothing (world units): RADIANCE's infinity.
+inline constexpr double kFarAway = 1e10;
+
 // A ray's hit on a shape. normal: unit, on the front side, whichever side was hit. cosine: -normal .
 // direction, positive if the front was hit. The fields are not initialized, because every ray creates one.
 struct ShapeHit {

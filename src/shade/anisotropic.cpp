@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/constants.h"
 
 namespace rsphere {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kNegligible = 1e-6;  // smaller shares and slopes are treated as 0; RADIANCE's own figure
 constexpr double kLeastCosine = .001;
 
 // The Fresnel rise of a polished WGMDfunc: Ward's exponential for an index of about 1.5. The constant is
@@ -21,11 +20,9 @@ double schlick(double cosine) {
   return c2 * c2 * c;
 }
 
-bool perturbed(const Interaction& at) { return at.perturbation.length2() > kNegligible * kNegligible; }
-
 V3d normalOf(const Interaction& at, double& cosine) {
   cosine = at.cosine;
-  return perturbed(at) ? perturbedNormal(at, cosine) : at.normal;
+  return isPerturbed(at) ? perturbedNormal(at, cosine) : at.normal;
 }
 
 Rgb gray(double x) { return Rgb(x, x, x); }
@@ -122,7 +119,7 @@ AnisotropicScattering scatter(const Anisotropic& m, const Interaction& at, const
   const V3d normal = normalOf(at, cosine);
   cosine = std::max(cosine, kLeastCosine);
   s.reflection.normal = s.transmission.normal = normal;
-  s.widenReflection = at.flat && !perturbed(at);
+  s.widenReflection = at.flat && !isPerturbed(at);
   const Rgb color = m.color * at.pattern;
   const double passes = m.transmissivity * (1 - m.specularity);
   const double straight = passes * m.transmittedSpecular;
@@ -141,7 +138,7 @@ AnisotropicScattering scatter(const Anisotropic& m, const Interaction& at, const
     s.transmitted = lobe;
     s.transmitted.share = color * straight;
     s.transmitted.transmitted = at.direction;
-    if (perturbed(at) && !at.smoothed) {
+    if (isPerturbed(at) && !at.smoothed) {
       const V3d bent = at.direction - at.perturbation;
       if (bent.dot(at.normal) < -kNegligible) s.transmitted.transmitted = bent.normalized();
     }
@@ -175,13 +172,13 @@ AnisotropicScattering scatter(const WgmdFunction& m, const WgmdComponent& reflec
   }
   s.reflection.ambient = s.reflection.share;
   s.transmission.ambient = s.transmission.share;
-  s.widenReflection = reflected.at.flat && !perturbed(reflected.at);
+  s.widenReflection = reflected.at.flat && !isPerturbed(reflected.at);
 
   if (maxChannel(s.transmitted.share) > 0) {
     const Interaction& at = transmitted.at;
     V3d& through = s.transmitted.transmitted;
     through = at.direction;
-    if (perturbed(at) && !(at.kinds & (kShadow | kAmbient)) && !at.smoothed) {
+    if (isPerturbed(at) && !(at.kinds & (kShadow | kAmbient)) && !at.smoothed) {
       const V3d bend = s.transmitted.normal - at.normal;
       const V3d bent = at.front ? at.direction - bend : at.direction + bend;
       if (bent.dot(at.normal) < 0) through = bent.normalized();
@@ -198,7 +195,7 @@ AnisotropicScattering scatter(const WgmdFunction& m, const WgmdComponent& reflec
   if (mirrors) {
     const Interaction& at = reflected.at;
     V3d mirrored = at.direction - 2 * at.direction.dot(s.reflected.normal) * s.reflected.normal;
-    if (perturbed(at) && mirrored.dot(at.normal) <= 0) mirrored = at.direction + 2 * at.cosine * at.normal;
+    if (isPerturbed(at) && mirrored.dot(at.normal) <= 0) mirrored = at.direction + 2 * at.cosine * at.normal;
     s.sharp.add({mirrored.normalized(), s.reflected.share, kReflected,
                  s.widenReflection && (at.kinds & kAmbient) != 0});
     s.reflected.share = Rgb(0, 0, 0);

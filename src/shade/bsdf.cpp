@@ -7,9 +7,10 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <span>
+
+#include "base/constants.h"
 
 namespace rsphere {
 namespace {
@@ -17,7 +18,6 @@ namespace {
 using Imath::M33d;
 using rad::BsdfFile;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kBelowOne = 1 - 0x1p-53;
 
 // ---- colour
@@ -701,8 +701,7 @@ BsdfData::Through BsdfData::through(const V3d& view) const {
   std::sort(found.begin(), found.end(),
             [](const Probe& a, const Probe& b) { return a.luminance > b.luminance; });
 
-  constexpr double kNegligible = 1e-6, kSizeOfPeak = 1.5, kHeightOfPeak = 8, kLeastAround = .2,
-                   kLeastPeak = .0005;
+  constexpr double kSizeOfPeak = 1.5, kHeightOfPeak = 8, kLeastAround = .2, kLeastPeak = .0005;
   if (found[0].luminance <= kNegligible ||
       found[0].cell.projectedSolidAngle > kSizeOfPeak * part->finestCell())
     return {};

@@ -5,15 +5,11 @@
 namespace rsphere {
 namespace {
 
-constexpr double kNegligible = 1e-6;
-
-bool perturbed(const Interaction& at) { return at.perturbation.length2() > kNegligible * kNegligible; }
-
 FunctionScattering begin(const Interaction& at) {
   FunctionScattering s;
   s.normal = at.normal;
   s.cosine = at.cosine;
-  if (perturbed(at)) s.normal = perturbedNormal(at, s.cosine);
+  if (isPerturbed(at)) s.normal = perturbedNormal(at, s.cosine);
   return s;
 }
 
@@ -47,7 +43,7 @@ FunctionScattering scatter(const BrtdFunction& m, const Interaction& at) {
 
 SharpPath sharpTransmission(const FunctionScattering& s, const Interaction& at,
                             const std::array<double, 3>& coefficient) {
-  const bool straight = !perturbed(at) || (at.kinds & (kShadow | kAmbient));
+  const bool straight = !isPerturbed(at) || (at.kinds & (kShadow | kAmbient));
   SharpPath path{at.direction, colorOf(coefficient), kTransmitted, false};
   path.lengthCounts = straight && brightness(s.diffuseReflection) + brightness(s.diffuseTransmission) < 1;
   if (!straight && !at.smoothed) {
@@ -61,7 +57,7 @@ SharpPath sharpTransmission(const FunctionScattering& s, const Interaction& at,
 SharpPath sharpReflection(const FunctionScattering& s, const Interaction& at,
                           const std::array<double, 3>& coefficient) {
   return {(at.direction + 2 * s.cosine * s.normal).normalized(), colorOf(coefficient), kReflected,
-          at.flat && (!perturbed(at) || (at.kinds & kAmbient))};
+          at.flat && (!isPerturbed(at) || (at.kinds & kAmbient))};
 }
 
 }  // namespace rsphere

@@ -7,6 +7,7 @@
 // energy depends on its functions.
 #include <array>
 
+#include "base/constants.h"
 #include "shade/scattering.h"
 
 namespace rsphere {
@@ -38,12 +39,10 @@ SharpPath sharpReflection(const FunctionScattering& scattering, const Interactio
 template <class Distribution>
 Rgb directCoefficient(const FunctionScattering& s, const V3d& toSource, double solidAngle,
                       const Distribution& distribution) {
-  constexpr double kNegligible = 1e-6;               // smaller cosines and coefficients are treated as 0
-  constexpr double kPerSr = 0.31830988618379067154;  // 1/pi: of a diffuse surface
   const double cosine = s.normal.dot(toSource);
   if (std::abs(cosine) <= kNegligible) return Rgb(0, 0, 0);
   const double projected = std::abs(cosine) * solidAngle;
-  Rgb sum = (cosine > 0 ? s.diffuseReflection : s.diffuseTransmission) * (kPerSr * projected);
+  Rgb sum = (cosine > 0 ? s.diffuseReflection : s.diffuseTransmission) * (kPerPi * projected);
   const Rgb& directional = cosine > 0 ? s.directionalReflection : s.directionalTransmission;
   if (maxChannel(directional) > kNegligible) {
     const Rgb value = distribution();

@@ -2,24 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/constants.h"
 
 namespace rsphere {
 namespace {
-
-constexpr double kPi = std::numbers::pi, kPerPi = std::numbers::inv_pi;
-
-// Smaller shares and mean square slopes of facets are treated as 0. The figure is RADIANCE's, because it
-// decides whether a surface is polished.
-constexpr double kNegligible = 1e-6;
 
 // Ward's exponential approximation of Fresnel's equations for a polished surface with a refractive index of
 // about 1.5. The constant makes it 0 at normal incidence. It is used if the given specularity is at least
 // kFresnelSpecularity.
 double fresnelRise(double cosine) { return std::exp(-5.85 * cosine) - 0.00287989916; }
 constexpr double kFresnelSpecularity = 0.017999;
-
-bool perturbed(const Interaction& at) { return at.perturbation.length2() > kNegligible * kNegligible; }
 
 V3d mirrored(const V3d& direction, const V3d& normal, double cosine) {
   return direction + 2 * cosine * normal;
@@ -28,7 +21,7 @@ V3d mirrored(const V3d& direction, const V3d& normal, double cosine) {
 // Mirrored at the perturbed normal, or at the true normal if the former would lead below the surface.
 V3d safelyMirrored(const Interaction& at, const V3d& normal, double cosine) {
   V3d d = mirrored(at.direction, normal, cosine);
-  if (perturbed(at) && d.dot(at.normal) <= kNegligible) d = mirrored(at.direction, at.normal, at.cosine);
+  if (isPerturbed(at) && d.dot(at.normal) <= kNegligible) d = mirrored(at.direction, at.normal, at.cosine);
   return d.normalized();
 }
 
@@ -53,10 +46,10 @@ Gloss gloss(double specularity, double roughness, double cosine) {
 void beginScattering(Scattering& s, const Interaction& at, double roughness) {
   s.normal = at.normal;
   s.cosine = at.cosine;
-  if (perturbed(at)) s.normal = perturbedNormal(at, s.cosine);
+  if (isPerturbed(at)) s.normal = perturbedNormal(at, s.cosine);
   s.cosine = std::max(s.cosine, .001);
   s.alpha2 = roughness * roughness;
-  s.widenReflection = at.flat && !perturbed(at);
+  s.widenReflection = at.flat && !isPerturbed(at);
 }
 
 void addReflection(Scattering& s, const Interaction& at, const Gloss& g, const Rgb& color,
@@ -105,13 +98,13 @@ Scattering scatterAtBoundary(const Interaction& at, double inner, const Medium& 
   const double ratio = at.front ? outer / inner : inner / outer;
   double cosineBeyond = 0;
   const double reflectance = fresnelReflectance(s.cosine, ratio, cosineBeyond);
-  const bool image = at.flat && (!perturbed(at) || (at.kinds & kAmbient));
+  const bool image = at.flat && (!isPerturbed(at) || (at.kinds & kAmbient));
   if (reflectance < 1) {
     // Refraction changes a beam's solid angle, and thus its radiance, by the ratio of the squared indices.
     const double transmittance = (1 - reflectance) * (basic ? 1 : ratio * ratio);
     const double bend = ratio * s.cosine - cosineBeyond;
     V3d d = ratio * at.direction + bend * s.normal;
-    if (perturbed(at) && d.dot(at.normal) >= -kNegligible) d = ratio * at.direction + bend * at.normal;
+    if (isPerturbed(at) && d.dot(at.normal) >= -kNegligible) d = ratio * at.direction + bend * at.normal;
     s.sharp.add({d.normalized(), Rgb(transmittance, transmittance, transmittance), kRefracted,
                  image || std::abs(ratio - 1) <= kNegligible, true, at.front ? innerMedium : outerMedium});
   }
@@ -174,7 +167,7 @@ Scattering scatter(const Trans& material, const Interaction& at, double specular
   s.diffuseFresnel = g.polished && g.specular >= kFresnelSpecularity;
   if (straight > kNegligible) {
     s.transmitted = at.direction;
-    if (perturbed(at) && !(at.kinds & (kShadow | kAmbient)) && !at.smoothed) {
+    if (isPerturbed(at) && !(at.kinds & (kShadow | kAmbient)) && !at.smoothed) {
       const V3d bent = at.direction - at.perturbation;
       if (bent.dot(at.normal) < -kNegligible) s.transmitted = bent.normalized();
     }
@@ -209,7 +202,7 @@ Scattering scatter(const Glass& material, const Interaction& at) {
   Scattering s;
   s.normal = at.normal;
   s.cosine = at.cosine;
-  if (perturbed(at)) s.normal = perturbedNormal(at, s.cosine);
+  if (isPerturbed(at)) s.normal = perturbedNormal(at, s.cosine);
   const double n = material.refraction;
   const double inside = std::sqrt(1 - 1 / (n * n) + s.cosine * s.cosine / (n * n));
   double reflected[2];  // amplitudes at a single surface, for the two polarisations
@@ -228,17 +221,17 @@ Scattering scatter(const Glass& material, const Interaction& at) {
   transmittance *= at.pattern;
   if (maxChannel(transmittance) > 0) {
     V3d d = at.direction;
-    const bool bends = perturbed(at) && !(at.kinds & (kShadow | kAmbient)) && !at.smoothed;
+    const bool bends = isPerturbed(at) && !(at.kinds & (kShadow | kAmbient)) && !at.smoothed;
     if (bends) {
       d += 2 * (1 - n) * at.perturbation;
       const double length = d.length();
       d = length > 0 ? d / length : at.direction;
     }
-    s.sharp.add({d, transmittance, kTransmitted, !perturbed(at) || (at.kinds & (kShadow | kAmbient)) != 0});
+    s.sharp.add({d, transmittance, kTransmitted, !isPerturbed(at) || (at.kinds & (kShadow | kAmbient)) != 0});
   }
   if (!(at.kinds & kShadow))
     s.sharp.add({mirrored(at.direction, s.normal, s.cosine).normalized(), reflectance, kReflected,
-                 at.flat && (!perturbed(at) || (at.kinds & kAmbient))});
+                 at.flat && (!isPerturbed(at) || (at.kinds & kAmbient))});
   return s;
 }
 
@@ -246,7 +239,7 @@ Scattering scatter(const Mirror& material, const Interaction& at) {
   Scattering s;
   s.normal = at.normal;
   s.cosine = at.cosine;
-  const bool bends = perturbed(at) && !(at.kinds & kAmbient);
+  const bool bends = isPerturbed(at) && !(at.kinds & kAmbient);
   if (bends) s.normal = perturbedNormal(at, s.cosine);
   s.sharp.add({safelyMirrored(at, s.normal, s.cosine), material.reflectance * at.pattern, kReflected,
                at.flat && !bends});

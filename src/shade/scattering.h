@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 
+#include "base/constants.h"
 #include "scene/frame.h"
 #include "scene/material.h"
 #include "shade/ray_kind.h"
@@ -109,6 +110,11 @@ double sampleReflection(const Scattering& scattering, const Interaction& at, dou
 // The same for the transmitted lobe. The weight is 1, or 0 if the sample lies above the surface.
 double sampleTransmission(const Scattering& scattering, const Interaction& at, double spread, double u1,
                           double u2, V3d& direction);
+
+// Whether a texture tilts the normal.
+inline bool isPerturbed(const Interaction& at) {
+  return at.perturbation.length2() > kNegligible * kNegligible;
+}
 
 // The perturbed normal, kept on the side of the ray. Sets cosine to -normal . direction (not negative).
 V3d perturbedNormal(const Interaction& at, double& cosine);

@@ -23,8 +23,6 @@
 
 namespace rsphere {
 
-inline constexpr double kFarAway = 1e10;  // RADIANCE's infinity: the length of a ray that hits nothing
-
 struct Hit {
   int32_t surface = kNone;  // index in Scene::surfaces
   double distance = kFarAway;

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
+#include "base/constants.h"
 #include "light/surface_point.h"
 #include "shade/scattering.h"
 
 namespace rsphere {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 constexpr double kParticles = 8192;
 // The maximal number of panes that a particle passes through, and the transmittance of each.

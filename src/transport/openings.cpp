@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/constants.h"
 #include "scene/even_sequence.h"
 #include "scene/random.h"
 #include "shade/scattering.h"
 
 namespace rsphere {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Panes smaller than this share of the largest face of the scene's box are ignored, because every opening
 // costs time in every gather.

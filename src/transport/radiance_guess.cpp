@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "base/constants.h"
 
 namespace rsphere {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Only the sources that contribute most are guessed one by one; the others become ambient light.
 constexpr size_t kMostLights = 32;

@@ -1,17 +1,12 @@
 #pragma once
 // Constants and small functions of rays that the parts of PathTracer share.
 #include <cmath>
-#include <numbers>
 
+#include "base/constants.h"
 #include "scene/material.h"
 #include "transport/ray.h"
 
 namespace rsphere {
-
-inline constexpr double kPi = std::numbers::pi;
-
-// Paths whose share of the light is smaller are not followed; the same value as in RADIANCE.
-inline constexpr double kNegligible = 1e-6;
 
 // A diffuse material of reflectance pi. Its radiance is pi times the mean incident radiance, which is the
 // irradiance (-i, -I).
