@@ -6,13 +6,36 @@
 #include "transport/ray_limits.h"
 
 namespace rsphere {
+namespace {
+
+// The weight below which sharp paths of a gather's rays are followed by Russian roulette, with a probability
+// in proportion to their weight. Gathers begin with a weight of 1/2, so that one of their rays has at most 32
+// descendants at a time on average. Without a limit their number doubles at each surface of nested transparent
+// objects, up to -lr. The reflections of a pane of glass, 1/12 of the light, remain above it.
+constexpr double kWeakPath = 1. / 64;
+
+// Whether the path of a child goes on. If so, its weight is at least kWeakPath, and its coefficient makes up
+// for the paths that do not go on.
+bool survives(Random& random, Ray& child, Rgb& coefficient) {
+  const double probability = child.weight / kWeakPath;
+  if (probability >= 1) return true;
+  if (random.uniform() >= probability) return false;
+  coefficient /= probability;
+  child.contribution /= probability;
+  child.weight = kWeakPath;
+  return true;
+}
+
+}  // namespace
 
 void SpecularLight::follow(Ray& ray, const SharpPaths& sharp) {
+  const bool roulette = !(ray.kinds & kShadow) && isOfGather(t_, ray);
   for (const SharpPath& path : sharp) {
     if ((ray.kinds & kShadow) && path.kind == kReflected) continue;
     Ray child;
     Rgb coefficient = path.coefficient;
     if (isBlack(coefficient) || !continueRay(t_, state_.random, child, path.kind, ray, coefficient)) continue;
+    if (roulette && !survives(state_.random, child, coefficient)) continue;
     child.direction = path.direction;
     if (path.entersMedium) child.medium = path.medium;
     follower_.follow(child);

@@ -93,5 +93,37 @@ TEST(RayWeights, LimitOfReflectionsEndsBounces) {
   }
 }
 
+// A gather follows weak sharp paths by Russian roulette. Two concentric balls reflect and transmit 40% each, so
+// that every ray splits in two weak paths at every surface. In terms of the radiance of the sky, the radiance
+// is a inwards and b outwards between the balls, and i within the inner one:
+// a = .4 + .4 b, b = .4 i + .4 a, i = .4 a + .4 i.
+struct GlazedGather {
+  double mean = 0, standardError = 0;
+};
+GlazedGather gatherThroughBalls(int reflections) {
+  const std::string scene =
+      "void glow g 0 0 4 1 1 1 0\ng source sky 0 0 4 0 0 1 360\n"
+      "void BRTDfunc layer 10 .4 .4 .4 .4 .4 .4 0 0 0 . 0 9 0 0 0 0 0 0 0 0 0\n"
+      "layer sphere inner 0 0 4 0 0 0 1\nlayer sphere outer 0 0 4 0 0 0 2\n";
+  Sample sample;
+  for (uint64_t rotation = 1; rotation <= 16; ++rotation) {
+    RayOptions o = interpolated(1, 1024, {reflections, 1e-6});
+    o.rotation = rotation;
+    Traced glazed(scene, o, Irradiance::point);
+    sample.add(glazed.value(V3d(0, 0, 0), V3d(0, 0, 1), rotation) / std::numbers::pi);
+  }
+  return {sample.mean(), sample.standardError()};
+}
+
+TEST(RayWeights, GathersFollowWeakSharpPathsByRoulette) {
+  constexpr double kExpected = 4. / 11;
+  const GlazedGather all = gatherThroughBalls(-100);
+  ASSERT_LT(all.standardError, .01 * kExpected);
+  EXPECT_NEAR(all.mean, kExpected, 4 * all.standardError);
+  // Light is missing where paths end after a few reflections.
+  const GlazedGather cut = gatherThroughBalls(-3);
+  EXPECT_LT(cut.mean, kExpected - 4 * cut.standardError);
+}
+
 }  // namespace
 }  // namespace rsphere
