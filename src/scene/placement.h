@@ -27,8 +27,9 @@ Placement within(const Placement& outer, const Placement& inner);
 // The bounding box of a transformed box.
 Box3d placed(const Placement& placement, const Box3d& box);
 
-// The chain of placements that leads from the world to a nested object, outermost first. Every ray carries
-// one, and most are empty, so unused entries are neither initialized nor copied.
+// The instances that contain an object, as their placements, outermost first; empty for an object in the
+// scene itself. Hits and rays store a path and copy it often. As most paths are empty, the entries beyond
+// `count` are neither initialized nor copied.
 struct PlacementPath {
   static constexpr size_t kDeepest = 16;  // deeper nesting of instances is an error
   uint8_t count = 0;

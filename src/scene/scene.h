@@ -47,7 +47,11 @@ struct Surface {
                              // ends it. Decides ties between surfaces, and which are light sources
   uint64_t clip = 0;         // the bit of its modifier in Antimatter::clips; 0: not clipped by any
   bool goal = false;         // emits importance 1 from its front, in addition to its material
-  bool smoothed = false;     // its modifier is called "Phong": perturbed normals do not bend transmitted rays
+  // Whether its modifier is called "Phong", the customary name of textures that smooth a surface by
+  // interpolated normals. As in rtrace, such a texture does not deflect rays that pass straight through a
+  // thin surface (trans, glass and the like). Refraction by dielectric and interface follows the perturbed
+  // normal even so.
+  bool smoothed = false;
 };
 
 // Surfaces that share one coordinate system and are traced together: the scene itself, or an octree, which is

@@ -61,8 +61,9 @@ class DirectedScattering {
     double finest = 0, coarsest = 0;  // 0: no data
   };
   virtual Resolution resolution(const V3d& view) const = 0;
-  // Prepares views on the other side, with the directions exchanged. Returns false if the data do not allow
-  // that; the albedo of such views is then 0.
+  // Prepares albedo() and sample() for views from the side without data of its own, for which the directions
+  // are exchanged (see turned()). Returns false if these data do not determine the scattering there, as those
+  // of isotropic trees, which store one angle less; the albedo is then 0 for views from that side.
   virtual bool prepareTurned() = 0;
   // The projected solid angle (sr) of the smallest of all cells, and the largest albedo of all views.
   double finestCell() const { return finestCell_; }

@@ -22,7 +22,7 @@ struct Interaction {
   double cosine = 1;          // -normal . direction, above 0
   bool front = true;          // whether the surface's front was hit
   bool flat = false;          // a plane surface, whose sharp reflections show an undistorted image
-  bool smoothed = false;      // the perturbation comes from interpolated normals and bends no transmitted ray
+  bool smoothed = false;      // see Surface::smoothed
   V3d perturbation{0, 0, 0};  // of the normal, the sum of all textures, for the side that the ray came from
   Rgb pattern{1, 1, 1};       // the patterns' factor on the material's colour
   unsigned kinds = kPrimary;  // of the ray and its ancestors
@@ -55,8 +55,12 @@ struct SharpPaths {
   const SharpPath* end() const { return path.data() + count; }
 };
 
-// How a surface point scatters light towards the ray's origin. The coefficients are shares of radiance; their
-// sum is at most 1.
+// How a surface point scatters light towards the ray's origin. The coefficients are factors on radiance.
+// Their sum over sharp paths, diffuse shares and lobes (not those of indirect light, which repeat some of
+// these) is at most 1 in each channel, if all values of the material and the pattern are within 0 to 1.
+// CAVEAT: refraction scales radiance by the squared ratio of the refractive index on the ray's side to that
+// beyond the boundary, so that the coefficient of a refracted path can exceed 1, unless basic radiance is
+// transported.
 struct Scattering {
   V3d normal{0, 0, 1};  // perturbed
   double cosine = 1;    // -normal . direction, at least 0.001
