@@ -307,6 +307,9 @@ void addRecordOptions(const Add& add) {
        .value = +[](O& o) -> bool& { return o.header; },
        .remark = "output header|no header",
        .paragraph = "Switch for the information header before the records."});
+}
+
+void addFormatOptions(const Add& add) {
   add({.name = "-f",
        .arguments = "io",
        .group = Group::records,
@@ -391,7 +394,7 @@ void addRayOptions(const Add& add) {
        .paragraph = "Switch for whether rays see the backs of surfaces."});
 }
 
-void addDirectOptions(const Add& add) {
+void addShadowOptions(const Add& add) {
   add({.name = "-dt",
        .arguments = "frac",
        .group = Group::direct,
@@ -411,6 +414,9 @@ void addDirectOptions(const Add& add) {
        .remark = "direct certainty",
        .paragraph =
            "How sure -dt is: 1 holds the error of the sum below it, 0 only that of any one shadow edge."});
+}
+
+void addSourceOptions(const Add& add) {
   add({.name = "-dj",
        .arguments = "frac",
        .group = Group::direct,
@@ -482,7 +488,7 @@ void addSpecularOptions(const Add& add) {
            "light instead. 0 always sends them, 1 never."});
 }
 
-void addIndirectOptions(const Add& add) {
+void addAmbientOptions(const Add& add) {
   add({.name = "-av",
        .arguments = "red grn blu",
        .group = Group::indirect,
@@ -509,6 +515,9 @@ void addIndirectOptions(const Add& add) {
        .unit = "bounces",
        .remark = "ambient bounces",
        .paragraph = "Most diffuse reflections of an indirect path. 0: no indirect light."});
+}
+
+void addGatheringOptions(const Add& add) {
   add({.name = "-aa",
        .arguments = "acc",
        .group = Group::indirect,
@@ -831,6 +840,9 @@ void addDirectionOptions(const Add& add) {
            "sources, a quarter of -Sn at most unless there are more sources, count as well; where there is "
            "no room for them, they come on top. Rays that only guess, and shadow rays, do not count. Not "
            "given, it grows with -Sn to twice that; see -Sa."});
+}
+
+void addWeightOptions(const Add& add) {
   add({.name = "-Sk",
        .arguments = "F",
        .group = Group::sphere,
@@ -870,7 +882,8 @@ void addDirectionOptions(const Add& add) {
        .line = weightsLine});
 }
 
-void addSphereOptions(const Add& add) {
+// What a record of sphere mode answers.
+void addAnswerOptions(const Add& add) {
   add({.name = "-Sg",
        .arguments = "mod",
        .group = Group::sphere,
@@ -892,6 +905,10 @@ void addSphereOptions(const Add& add) {
        .remark = "every direction|mean of directions",
        .paragraph = "Switch for a record of every direction instead of the mean of a point; see Output under "
                     "DESCRIPTION."});
+}
+
+// Options of rsphere that hold in ray mode as well.
+void addBothModesOptions(const Add& add) {
   add({.name = "-Ss",
        .arguments = "N",
        .group = Group::sphere,
@@ -938,6 +955,10 @@ void addSphereOptions(const Add& add) {
            "folders "
            "of what the command line names and of RAYPATH, or below them, wherever symbolic links may point. "
            "Holds in ray mode as well."});
+}
+
+// What shows how an answer came about.
+void addInspectionOptions(const Add& add) {
   add({.name = "-Sv",
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.sphere.verify; },
@@ -976,9 +997,11 @@ void addSphereOptions(const Add& add) {
 std::vector<OptionEntry> makeTable() {
   std::vector<OptionEntry> table;
   for (const auto addOptions :
-       {addRecordOptions, addColorOptions, addRayOptions, addDirectOptions, addSpecularOptions,
-        addIndirectOptions, addMediumOptions, addSpectrumOptions, addLimitOptions, addPhotonOptions,
-        addModifierOptions, addTreeOptions, addProgramOptions, addDirectionOptions, addSphereOptions})
+       {addRecordOptions,    addFormatOptions,    addColorOptions,   addRayOptions,       addShadowOptions,
+        addSourceOptions,    addSpecularOptions,  addAmbientOptions, addGatheringOptions, addMediumOptions,
+        addSpectrumOptions,  addLimitOptions,     addPhotonOptions,  addModifierOptions,  addTreeOptions,
+        addProgramOptions,   addDirectionOptions, addWeightOptions,  addAnswerOptions,    addBothModesOptions,
+        addInspectionOptions})
     addOptions([&table](const OptionEntry& entry) { table.push_back(entry); });
   return table;
 }
