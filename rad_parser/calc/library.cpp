@@ -74,7 +74,7 @@ struct Library::Tables {
     std::optional<SourceText> source = load(file);
     if (source) return std::move(*source);
     throw Error(fmt::format("{}cannot find function file \"{}\"{}", place, file,
-                            interface.searched != nullptr ? interface.searched(file) : ""),
+                            interface.searched ? interface.searched(file) : ""),
                 Status::system);
   }
 

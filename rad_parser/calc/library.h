@@ -40,8 +40,8 @@ struct Interface {
   std::vector<HostFunction> hosts;  // its functions
   std::string_view preludeName;     // the file that is read first, into the shared context; may be empty
   std::string_view preludeText;     // used if there is no such file
-  // The end of a message about a function file that was not found (" in .:/usr/local/lib/ray"); may be null.
-  std::string (*searched)(std::string_view file) = nullptr;
+  // The end of a message about a function file that was not found (" in .:/usr/local/lib/ray"); may be empty.
+  std::function<std::string(std::string_view file)> searched{};
 };
 
 // Finds and reads a function file. Empty if there is none. Called while the library is locked, so it

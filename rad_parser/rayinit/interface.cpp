@@ -1,11 +1,10 @@
 #include "rad_parser/rayinit/interface.h"
 
-#include "rad_parser/file_path.h"
 #include "rad_parser/rayinit/host_functions.h"
 
 namespace rad::calc {
 
-Interface sceneInterface() {
+Interface sceneInterface(const FileAccess& access) {
   Interface i;
   i.inputs = {"Dx", "Dy",  "Dz",  "Nx",  "Ny",    "Nz",  "Px",  "Py",  "Pz",  "T",   "Rdot", "S",  "Tx",
               "Ty", "Tz",  "Ix",  "Iy",  "Iz",    "Jx",  "Jy",  "Jz",  "Kx",  "Ky",  "Kz",   "Ts", "Lu",
@@ -13,7 +12,7 @@ Interface sceneInterface() {
   i.hosts = sceneHostFunctions();
   i.preludeName = "rayinit.cal";
   i.preludeText = kRayinit;
-  i.searched = [](std::string_view file) { return FileAccess().remark(file); };
+  i.searched = [access](std::string_view file) { return access.remark(file); };
   return i;
 }
 

@@ -408,7 +408,7 @@ SurfaceFunctions::SurfaceFunctions(const Scene& scene, rad::Warn warn,
       warn_(std::move(warn)),
       ready_(scene.modifiers.size()),
       library_(
-          calc::sceneInterface(),
+          calc::sceneInterface(scene.files),
           [&files = scene.files](std::string_view name) { return loadFunctionFile(name, files); }, warn_) {
   for (const SharedDefinitions& shared : definitions)
     if (shared.isFile)
