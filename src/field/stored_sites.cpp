@@ -34,7 +34,8 @@ AmbientFile::Record recordOf(const CellKey& key, const GatheredLight& light) {
   size_t n = 0;
   forNumbers(light, [&](const float& x) { numbers[n++] = x; });
   AmbientFile::Record record;
-  static_assert(std::is_trivially_copyable_v<CellKey> && sizeof key + sizeof numbers == sizeof record);
+  static_assert(sizeof(SurfaceId) == sizeof(int32_t) && std::is_trivially_copyable_v<CellKey> &&
+                sizeof key + sizeof numbers == sizeof record);
   std::memcpy(record.data(), &key, sizeof key);
   std::memcpy(record.data() + sizeof key, &numbers, sizeof numbers);
   return record;

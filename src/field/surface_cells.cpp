@@ -14,13 +14,13 @@ constexpr int kCandidates = 24;       // number of points of a cell that are tri
 constexpr double kAside = .01371;     // fraction of a cell's side; irregular, to avoid round coordinates
 constexpr uint32_t kEdges = 16;       // number of a polygon's edges that its frame may be aligned with
 constexpr double kNormalStep = 1e-9;  // step to which components of plane normals are rounded
-constexpr int32_t kPlane = -2;        // in a key, instead of a surface
+constexpr SurfaceId kPlane(-2);       // in a key, instead of a surface
 
 }  // namespace
 
 uint64_t CellKey::hash() const {
   const auto both =
-      static_cast<uint64_t>(static_cast<uint32_t>(surface)) << 32 | static_cast<uint32_t>(level);
+      static_cast<uint64_t>(static_cast<uint32_t>(surface.number())) << 32 | static_cast<uint32_t>(level);
   uint64_t h = mixBits(chart ^ both);
   h = mixBits(h ^ static_cast<uint64_t>(i));
   return mixBits(h ^ static_cast<uint64_t>(j) * 0x9e3779b97f4a7c15u);

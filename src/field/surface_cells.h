@@ -13,14 +13,15 @@ namespace rsphere {
 struct SurfacePlace {
   V3d point{0, 0, 0};
   V3d normal{0, 0, 1};  // unit, geometric (not perturbed), on the side where the light arrives
-  int32_t surface = kNone;
+  SurfaceId surface;
   const PlacementPath* path = nullptr;  // placement of the surface by instances; null: none
   double distance = 0;                  // length of the ray that hit the place (world units)
 };
 
 // Identifies a cell: surface, side, level and indices.
 struct CellKey {
-  int32_t surface = 0, level = 0;
+  SurfaceId surface{0};
+  int32_t level = 0;
   int64_t i = 0, j = 0;
   uint64_t chart = 0;  // identifies the side of the surface and its placement by instances
   bool operator==(const CellKey&) const = default;
@@ -76,7 +77,7 @@ class SurfaceChart {
   std::optional<GatherSite> siteAt(const CellGrid& grid, double u, double v) const;
 
   const Scene* scene_ = nullptr;
-  int32_t surface_ = kNone;
+  SurfaceId surface_;
   bool isShared_ = false;
   uint64_t id_ = 0;
   V3d origin_{0, 0, 0}, x_{1, 0, 0}, y_{0, 1, 0}, normal_{0, 0, 1};

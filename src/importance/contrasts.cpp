@@ -39,7 +39,7 @@ double measureSurroundings(const Scene& scene, const SeenSources& sources, PathT
   double noise = 0;
   for (size_t k = 0; k < Tuning::kDirectionsAround; ++k) {
     const auto surfaces = static_cast<double>(scene.outermost().size());
-    const auto i = static_cast<size_t>(random.uniform() * surfaces);
+    const SurfaceId i(static_cast<size_t>(random.uniform() * surfaces));
     if (std::holds_alternative<Distant>(scene.surfaces[i].shape)) continue;
     const SurfacePoint at = samplePoint(scene, scene.surfaces[i], random);
     if (!(at.clearance > 0)) continue;
@@ -64,7 +64,7 @@ double measureSurroundings(const Scene& scene, const SeenSources& sources, PathT
 // of an object and hit it from evenly distributed directions, because it may be seen from anywhere.
 double measureDeviation(const Scene& scene, std::span<const SpecialObject> objects, size_t rays,
                         const SeenSources& sources, PathTracer& tracer) {
-  Random random(mixBits(objects[0].surface));
+  Random random(mixBits(objects[0].surface.index()));
   Values values;
   for (size_t k = 0; k < rays; ++k) {
     const SpecialObject& object = objects[k * objects.size() / rays];

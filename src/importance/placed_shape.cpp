@@ -70,9 +70,9 @@ SurfacePoint samplePoint(const Scene& scene, const Surface& surface, Random& ran
     return placed(pointOnTriangle(scene.meshes[mesh->mesh].data, random), scene.placements[mesh->placement]);
   if (const auto* instance = std::get_if<Instance>(&surface.shape)) {
     const SurfaceGroup& group = scene.groups[instance->group];
-    if (group.surfaces == 0) return {};
-    const auto i = static_cast<uint32_t>(random.uniform() * group.surfaces);
-    return placed(samplePoint(scene, scene.surfaces[group.firstSurface + i], random),
+    if (group.surfaces.size() == 0) return {};
+    const auto i = static_cast<size_t>(random.uniform() * static_cast<double>(group.surfaces.size()));
+    return placed(samplePoint(scene, scene.surfaces[group.surfaces[i]], random),
                   scene.placements[instance->placement]);
   }
   return samplePoint(surface.shape, scene.vertices, random);
@@ -83,8 +83,7 @@ Sphere BoundingBalls::ofGroup(uint32_t index) {
   if (known != groups_.end()) return known->second;
   const SurfaceGroup& group = scene_.groups[index];
   Box3d box;
-  for (uint32_t i = group.firstSurface; i < group.firstSurface + group.surfaces; ++i)
-    box.extendBy(boxOf(scene_.surfaces[i]));
+  for (const SurfaceId i : group.surfaces) box.extendBy(boxOf(scene_.surfaces[i]));
   return groups_[index] = ballAround(box);
 }
 

@@ -88,15 +88,15 @@ SeenSources::SeenSources(const Transport& transport) : transport_(transport) {
     sources_.push_back(i);
   }
   if (sources_.empty()) return;
-  std::vector<std::pair<double, int32_t>> mirrors;  // by area
-  for (size_t i = 0; i < scene.outermost().size(); ++i) {
+  std::vector<std::pair<double, SurfaceId>> mirrors;  // by area
+  for (const SurfaceId i : scene.outermostIds()) {
     const Surface& surface = scene.surfaces[i];
     const Material* material = scene.materialOf(surface);
     if (!material || !planeNormal(surface.shape) || !(std::visit(SharpReflectance{}, *material) > 0))
       continue;
     const auto* polygon = std::get_if<Polygon>(&surface.shape);
     const double area = polygon ? polygon->area : pi * std::pow(std::get<Ring>(surface.shape).outer, 2);
-    mirrors.push_back({-area, static_cast<int32_t>(i)});
+    mirrors.push_back({-area, i});
   }
   std::sort(mirrors.begin(), mirrors.end());
   for (const auto& [area, surface] : mirrors)
@@ -160,7 +160,7 @@ std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t
 void SeenSources::addMirrored(const V3d& point, std::vector<Image>& images) const {
   const Scene& scene = transport_.scene();
   const auto lights = transport_.lights().all();
-  for (const int32_t m : mirrors_) {
+  for (const SurfaceId m : mirrors_) {
     const Surface& mirror = scene.surfaces[m];
     const Material& material = *scene.materialOf(mirror);
     const Plane plane(mirror.shape);

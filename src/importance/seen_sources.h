@@ -20,8 +20,8 @@ class SeenSources {
 
   // An image of a source as seen from a point.
   struct Image {
-    uint32_t source = 0;     // index in LightSources
-    int32_t mirror = kNone;  // index in Scene::surfaces; kNone: seen directly
+    uint32_t source = 0;  // index in LightSources
+    SurfaceId mirror;     // kNone: seen directly
     Silhouette region;
     double solidAngle = 0;  // of the region, sr
     bool filled = true;     // whether the source fills the region
@@ -47,9 +47,9 @@ class SeenSources {
 
   // By index in Scene::surfaces: whether the surface is a source that is integrated separately
   // where it is seen directly.
-  const std::vector<bool>& apart() const { return apart_; }
+  const ById<SurfaceId, bool>& apart() const { return apart_; }
   // The surfaces that may mirror such sources, as indices in Scene::surfaces.
-  const std::vector<int32_t>& mirrors() const { return mirrors_; }
+  const std::vector<SurfaceId>& mirrors() const { return mirrors_; }
 
   // One traced direction to an image.
   struct Sample {
@@ -80,9 +80,9 @@ class SeenSources {
                   std::vector<Sample>& samples) const;
 
   const Transport& transport_;
-  std::vector<bool> apart_;        // by index in Scene::surfaces
+  ById<SurfaceId, bool> apart_;
   std::vector<uint32_t> sources_;  // those integrated separately, indices in LightSources
-  std::vector<int32_t> mirrors_;   // indices in Scene::surfaces
+  std::vector<SurfaceId> mirrors_;
 };
 
 }  // namespace rsphere

@@ -47,9 +47,9 @@ double solidAngleOf(std::span<const SeenSources::Sample> samples) {
 }
 
 // Light sources that are integrated separately, and the mirrors that show them, are not guessed.
-std::vector<bool> unguessedSurfaces(const SeenSources& sources) {
-  std::vector<bool> unguessed = sources.apart();
-  for (const int32_t mirror : sources.mirrors()) unguessed[static_cast<size_t>(mirror)] = true;
+ById<SurfaceId, bool> unguessedSurfaces(const SeenSources& sources) {
+  ById<SurfaceId, bool> unguessed = sources.apart();
+  for (const SurfaceId mirror : sources.mirrors()) unguessed[mirror] = true;
   return unguessed;
 }
 

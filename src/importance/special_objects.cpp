@@ -118,7 +118,7 @@ class Finder {
     size_t placedObjects = 0;
     for (const Surface& s : scene_.outermost()) placedObjects += contentsOf(s).objects;
     const bool each = placedObjects <= kMostPlacedObjects;
-    for (uint32_t i = 0; i < scene_.outermost().size(); ++i) {
+    for (const SurfaceId i : scene_.outermostIds()) {
       if (each || contentsOf(scene_.surfaces[i]).objects == 0)
         add(i, nullptr);
       else
@@ -131,15 +131,15 @@ class Finder {
   // The special surfaces in an instance or a mesh without a modifier of its own.
   struct Contents {
     size_t objects = 0;
-    uint32_t mostIrregular = 0;  // surface
+    SurfaceId mostIrregular;
     double irregularity = 0;
   };
 
-  double irregularityOf(uint32_t surface) const {
+  double irregularityOf(SurfaceId surface) const {
     return mostIrregular(scene_, scene_.surfaces[surface].modifier).irregularity;
   }
 
-  void count(Contents& contents, uint32_t surface, size_t objects, double irregularity) const {
+  void count(Contents& contents, SurfaceId surface, size_t objects, double irregularity) const {
     if (irregularity < kSpecialIrregularity) return;
     contents.objects += objects;
     if (irregularity > contents.irregularity) {
@@ -152,9 +152,8 @@ class Finder {
     if (scene_.hasOwnModifier(s)) return {};
     Contents contents;
     if (const auto* mesh = std::get_if<MeshInstance>(&s.shape)) {
-      for (const int32_t faces : scene_.meshes[mesh->mesh].facesOf)
-        if (faces != kNone)
-          count(contents, static_cast<uint32_t>(faces), 1, irregularityOf(static_cast<uint32_t>(faces)));
+      for (const SurfaceId faces : scene_.meshes[mesh->mesh].facesOf)
+        if (faces != kNone) count(contents, faces, 1, irregularityOf(faces));
     } else if (const auto* instance = std::get_if<Instance>(&s.shape)) {
       return contentsOfGroup(instance->group);
     }
@@ -166,7 +165,7 @@ class Finder {
     if (known != groups_.end()) return known->second;
     const SurfaceGroup& group = scene_.groups[index];
     Contents contents;
-    for (uint32_t i = group.firstSurface; i < group.firstSurface + group.surfaces; ++i) {
+    for (const SurfaceId i : group.surfaces) {
       const Contents inner = contentsOf(scene_.surfaces[i]);
       if (inner.objects > 0)
         count(contents, inner.mostIrregular, inner.objects, inner.irregularity);
@@ -176,13 +175,13 @@ class Finder {
     return groups_[index] = contents;
   }
 
-  void addObject(uint32_t surface, double irregularity, std::optional<PlacedShape> placedShape,
+  void addObject(SurfaceId surface, double irregularity, std::optional<PlacedShape> placedShape,
                  bool several = false) {
     if (irregularity >= kSpecialIrregularity)
       objects_.push_back({surface, irregularity, irregularity * kDirectionsPerSr * factor_,
                           std::move(placedShape), several});
   }
-  void addBall(uint32_t surface, double irregularity, const Sphere& ball, const Placement& placement,
+  void addBall(SurfaceId surface, double irregularity, const Sphere& ball, const Placement& placement,
                bool several = false) {
     if (ball.radius > 0) addObject(surface, irregularity, PlacedShape{placed(ball, placement), {}}, several);
   }
@@ -194,7 +193,7 @@ class Finder {
 
   // Adds the special surfaces in a surface, each as an object. at: the placement of the group that the
   // surface belongs to; null: the world.
-  void add(uint32_t index, const Placement* at) {
+  void add(SurfaceId index, const Placement* at) {
     const Surface& s = scene_.surfaces[index];
     const auto* instance = std::get_if<Instance>(&s.shape);
     const auto* mesh = std::get_if<MeshInstance>(&s.shape);
@@ -217,19 +216,18 @@ class Finder {
   void addContents(const Surface& s, const Placement& placement) {
     if (const auto* instance = std::get_if<Instance>(&s.shape)) {
       const SurfaceGroup& group = scene_.groups[instance->group];
-      for (uint32_t i = group.firstSurface; i < group.firstSurface + group.surfaces; ++i) add(i, &placement);
+      for (const SurfaceId i : group.surfaces) add(i, &placement);
       return;
     }
     const uint32_t mesh = std::get<MeshInstance>(s.shape).mesh;
-    const std::vector<int32_t>& facesOf = scene_.meshes[mesh].facesOf;
+    const std::vector<SurfaceId>& facesOf = scene_.meshes[mesh].facesOf;
     for (size_t m = 0; m < facesOf.size(); ++m)
       if (facesOf[m] != kNone)
-        addBall(static_cast<uint32_t>(facesOf[m]), irregularityOf(static_cast<uint32_t>(facesOf[m])),
-                balls_.ofFaces(mesh, m), placement);
+        addBall(facesOf[m], irregularityOf(facesOf[m]), balls_.ofFaces(mesh, m), placement);
   }
 
   // Adds an outermost instance or mesh as one object.
-  void addAround(uint32_t index) {
+  void addAround(SurfaceId index) {
     const Surface& s = scene_.surfaces[index];
     const Contents contents = contentsOf(s);
     const auto* instance = std::get_if<Instance>(&s.shape);
@@ -256,10 +254,10 @@ const Shape& shapeOf(const Scene& scene, const SpecialObject& object) {
   return object.placed ? object.placed->shape : scene.surfaces[object.surface].shape;
 }
 
-bool shows(const Scene& scene, const SpecialObject& object, int32_t surface) {
+bool shows(const Scene& scene, const SpecialObject& object, SurfaceId surface) {
   if (surface == kNone) return false;
-  if (!object.several) return static_cast<uint32_t>(surface) == object.surface;
-  const int32_t modifier = scene.surfaces[static_cast<size_t>(surface)].modifier;
+  if (!object.several) return surface == object.surface;
+  const int32_t modifier = scene.surfaces[surface].modifier;
   return mostIrregular(scene, modifier).irregularity >= kSpecialIrregularity;
 }
 

@@ -44,7 +44,7 @@ inline constexpr double kPane = .002;
 inline constexpr double kSpecialIrregularity = .0005;
 
 struct SpecialObject {
-  uint32_t surface = 0;  // index in Scene::surfaces
+  SurfaceId surface;
   double irregularity = 0;
   double density = 0;                   // directions per sr
   std::optional<PlacedShape> placed{};  // in world coordinates; empty: the surface's own shape
@@ -66,7 +66,7 @@ std::vector<SpecialObject> findSpecialObjects(const Scene& scene, double factor)
 const Shape& shapeOf(const Scene& scene, const SpecialObject& object);
 
 // Whether a hit on the surface (index in Scene::surfaces, or kNone) is a hit on the object.
-bool shows(const Scene& scene, const SpecialObject& object, int32_t surface);
+bool shows(const Scene& scene, const SpecialObject& object, SurfaceId surface);
 
 // The object as seen from a point (world).
 Silhouette silhouetteOf(const Scene& scene, const SpecialObject& object, const V3d& point);

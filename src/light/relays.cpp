@@ -25,7 +25,7 @@ struct Projection {
 };
 
 struct Relay {
-  int32_t surface;
+  SurfaceId surface;
   int32_t modifier;  // of the material
   V3d normal;
   double offset = 0;    // normal . p for the points p of the plane
@@ -73,7 +73,7 @@ class Images {
   Images(const Scene& scene, const SurfaceFunctions& functions, const rad::Warn& warn,
          std::vector<LightSource>& sources)
       : scene_(scene), functions_(functions), sources_(sources) {
-    for (uint32_t i = 0; i < scene.outermost().size(); ++i) addRelay(i, warn);
+    for (const SurfaceId i : scene.outermostIds()) addRelay(i, warn);
   }
 
   // Adds the images of one source, and recursively their images, in sequences of up to `relays` relays.
@@ -97,10 +97,10 @@ class Images {
   }
 
  private:
-  void addRelay(uint32_t index, const rad::Warn& warn) {
+  void addRelay(SurfaceId index, const rad::Warn& warn) {
     const Surface& surface = scene_.surfaces[index];
     Relay relay;
-    relay.surface = static_cast<int32_t>(index);
+    relay.surface = index;
     relay.modifier = relayMaterial(scene_, surface);
     if (relay.modifier == kNone) return;
     if (const auto* polygon = std::get_if<Polygon>(&surface.shape)) {

@@ -245,9 +245,9 @@ void LightSources::measureParts() {
 }
 
 void LightSources::findSources() {
-  const auto add = [&](uint32_t surface) -> LightSource& {
+  const auto add = [&](SurfaceId surface) -> LightSource& {
     LightSource& source = sources_.emplace_back();
-    source.surface = static_cast<int32_t>(surface);
+    source.surface = surface;
     std::visit(
         [&](const auto& shape) {
           using S = std::decay_t<decltype(shape)>;
@@ -257,7 +257,7 @@ void LightSources::findSources() {
     return source;
   };
   // As in rtrace, luminous surfaces in octrees and meshes are visible but are not light sources.
-  for (uint32_t i = 0; i < scene_.outermost().size(); ++i) {
+  for (const SurfaceId i : scene_.outermostIds()) {
     const Surface& surface = scene_.surfaces[i];
     if (surface.material == kNone) continue;
     if (scene_.importance) {

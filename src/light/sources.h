@@ -18,8 +18,7 @@ namespace rsphere {
 // Virtual sources follow the real ones: images of other sources in a relay (mirror, prism1, prism2). An image
 // has a position and an extent, and can only be seen through its relay.
 struct LightSource {
-  int32_t surface =
-      kNone;  // index in Scene::surfaces; of a virtual source, its relay, which a ray to it hits first
+  SurfaceId surface;        // of a virtual source, its relay, which a ray to it hits first
   int32_t relayed = kNone;  // index of the source that a ray reaches from the relay; kNone: a real source
   int32_t image = 0;        // which of its relay's images, from 0
   V3d center{0, 0, 0};      // of a distant source, the direction to it (unit)

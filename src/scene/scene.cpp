@@ -466,12 +466,11 @@ class Builder {
     firstPrimitive_ = firstPrimitive;
     const auto& primitives = scene_.description.primitives;
     modifierOf_.resize(primitives.size(), kUnknown);
-    SurfaceGroup group{static_cast<uint32_t>(scene_.surfaces.size()), 0};
+    const size_t firstSurface = scene_.surfaces.size();
     reserve(firstPrimitive);
     for (uint32_t i = firstPrimitive; i < primitives.size(); ++i)
       if (rad::isSurface(primitives[i].type)) addSurface(i);
-    group.surfaces = static_cast<uint32_t>(scene_.surfaces.size()) - group.firstSurface;
-    scene_.groups.push_back(group);
+    scene_.groups.push_back({{firstSurface, scene_.surfaces.size() - firstSurface}});
   }
 
   // The index of a file among those of its kind, in the order in which they are first named.
@@ -527,13 +526,13 @@ class Builder {
     firstPrimitive_ = adopt(std::move(data.materials), primitive(named.namedBy).place);
     data.materials.cube = cube;
     modifierOf_.resize(scene_.description.primitives.size(), kUnknown);
-    std::vector<int32_t> facesOf(used.size(), kNone);
+    std::vector<SurfaceId> facesOf(used.size());
     for (size_t m = 0; m < used.size(); ++m)
       if (used[m]) facesOf[m] = addFaces(static_cast<int32_t>(firstPrimitive_ + m));
     scene_.meshes.push_back({std::move(data), std::move(facesOf)});
   }
 
-  int32_t addFaces(int32_t described) {
+  SurfaceId addFaces(int32_t described) {
     rad::Description& d = scene_.description;
     if (facesName_ == kNoWord) {
       facesName_ = static_cast<uint32_t>(d.words.size());
@@ -547,7 +546,7 @@ class Builder {
     d.primitives.push_back(p);
     modifierOf_.push_back(kUnknown);
     addSurface(static_cast<uint32_t>(d.primitives.size()) - 1, MeshFaces{});
-    return static_cast<int32_t>(scene_.surfaces.size()) - 1;
+    return scene_.surfaces.last();
   }
 
   // Checks that octrees do not contain themselves, and that no ray can be nested too deeply.
@@ -563,7 +562,7 @@ class Builder {
     known = kOpen;
     int highest = 0;
     const SurfaceGroup& g = scene_.groups[group];
-    for (uint32_t s = g.firstSurface; s < g.firstSurface + g.surfaces; ++s) {
+    for (const SurfaceId s : g.surfaces) {
       const Surface& surface = scene_.surfaces[s];
       int under = 0;
       if (const auto* instance = std::get_if<Instance>(&surface.shape)) {

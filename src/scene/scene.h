@@ -11,13 +11,12 @@
 #include "rad_parser/error.h"
 #include "rad_parser/mesh_file.h"
 #include "rad_parser/scene_file.h"
+#include "scene/ids.h"
 #include "scene/material.h"
 #include "scene/placement.h"
 #include "scene/shape.h"
 
 namespace rsphere {
-
-inline constexpr int32_t kNone = -1;
 
 // Multiplies the colour of the materials behind it. The functions and data of patterns, textures and mixtures
 // are prepared from the primitive's arguments when they are first needed: shade/surface_functions.h.
@@ -57,22 +56,22 @@ struct Surface {
 // Surfaces that share one coordinate system and are traced together: the scene itself, or an octree, which is
 // stored once however many instances of it there are.
 struct SurfaceGroup {
-  uint32_t firstSurface = 0, surfaces = 0;  // range in Scene::surfaces
+  IdRange<SurfaceId> surfaces;
 };
 
 // A mesh file, stored once however many instances of it there are.
 struct Mesh {
-  rad::Mesh data;                // its materials keep only the cube; the rest is in Scene::description
-  std::vector<int32_t> facesOf;  // by material of data: index in Scene::surfaces of its MeshFaces, or kNone
+  rad::Mesh data;                  // its materials keep only the cube; the rest is in Scene::description
+  std::vector<SurfaceId> facesOf;  // by material of data: its MeshFaces, or kNone
 };
 
 // A scene prepared for tracing. It has only the modifiers that are used and the surfaces that can be hit.
 struct Scene {
-  rad::FileAccess files;             // the files that its modifiers may name
-  rad::Description description;      // the scene's, then those of octrees and meshes; the numeric
-                                     // arguments of surfaces are removed
-  std::vector<Surface> surfaces;     // those of each group in turn, then the MeshFaces
-  std::vector<SurfaceGroup> groups;  // [0]: the scene itself
+  rad::FileAccess files;              // the files that its modifiers may name
+  rad::Description description;       // the scene's, then those of octrees and meshes; the numeric
+                                      // arguments of surfaces are removed
+  ById<SurfaceId, Surface> surfaces;  // those of each group in turn, then the MeshFaces
+  std::vector<SurfaceGroup> groups;   // [0]: the scene itself
   std::vector<Mesh> meshes;
   std::vector<Placement> placements;
   std::vector<V3d> vertices;  // of the polygons
@@ -80,8 +79,9 @@ struct Scene {
   bool importance = false;  // there are goals: importance is traced, and all other sources are dark
 
   // The surfaces that belong to the world itself rather than to an octree or a mesh. They are the first ones.
-  std::span<const Surface> outermost() const {
-    return std::span(surfaces).first(groups.empty() ? 0 : groups[0].surfaces);
+  std::span<const Surface> outermost() const { return std::span(surfaces).first(outermostIds().size()); }
+  IdRange<SurfaceId> outermostIds() const {
+    return groups.empty() ? IdRange<SurfaceId>() : groups[0].surfaces;
   }
   // The composition of all placements on the path; the identity for an empty path.
   Placement placementOf(const PlacementPath& path) const;

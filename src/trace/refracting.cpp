@@ -15,7 +15,7 @@ class Refracting {
     if (const auto* instance = std::get_if<Instance>(&s.shape); instance && !isOne)
       return group(instance->group);
     if (const auto* mesh = std::get_if<MeshInstance>(&s.shape); mesh && !isOne) {
-      for (const int32_t faces : scene_.meshes[mesh->mesh].facesOf)
+      for (const SurfaceId faces : scene_.meshes[mesh->mesh].facesOf)
         if (faces != kNone && modifier(scene_.surfaces[faces].modifier)) return true;
       return false;
     }
@@ -56,8 +56,8 @@ class Refracting {
     if (groups_[g]) return *groups_[g];
     bool refracts = false;
     const SurfaceGroup& group = scene_.groups[g];
-    for (uint32_t i = 0; i < group.surfaces && !refracts; ++i)
-      refracts = surface(scene_.surfaces[group.firstSurface + i]);
+    for (const SurfaceId i : group.surfaces)
+      if (!refracts) refracts = surface(scene_.surfaces[i]);
     groups_[g] = refracts;
     return refracts;
   }
@@ -68,10 +68,10 @@ class Refracting {
 
 }  // namespace
 
-std::vector<bool> refractingSurfaces(const Scene& scene) {
+ById<SurfaceId, bool> refractingSurfaces(const Scene& scene) {
   Refracting refracting(scene);
-  std::vector<bool> result(scene.surfaces.size());
-  for (size_t i = 0; i < result.size(); ++i) result[i] = refracting.surface(scene.surfaces[i]);
+  ById<SurfaceId, bool> result(scene.surfaces.size());
+  for (const SurfaceId i : result.ids()) result[i] = refracting.surface(scene.surfaces[i]);
   return result;
 }
 

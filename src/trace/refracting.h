@@ -10,6 +10,6 @@ namespace rsphere {
 // interface (also in a mixture, as the alternate of mirror or illum, or as the cut of antimatter), and
 // instances and meshes that contain such surfaces. All other materials let shadow rays pass straight
 // through, whatever textures they have.
-std::vector<bool> refractingSurfaces(const Scene& scene);
+ById<SurfaceId, bool> refractingSurfaces(const Scene& scene);
 
 }  // namespace rsphere

@@ -14,7 +14,7 @@ namespace {
 
 // The properties of a surface that shadow rays and ties depend on, looked up once.
 struct Occluder {
-  uint32_t surface = 0;
+  SurfaceId surface;
   int32_t modifier = kNone;  // index in the description: the later definition wins ties
   bool hasMaterial = false;
   bool transparent = false;
@@ -48,7 +48,7 @@ bool meetsMixture(const Scene& scene, const Surface& surface) {
   return false;
 }
 
-Occluder makeOccluder(const Scene& scene, uint32_t i, bool backFacesVisible) {
+Occluder makeOccluder(const Scene& scene, SurfaceId i, bool backFacesVisible) {
   const Surface& surface = scene.surfaces[i];
   Occluder o;
   o.surface = i;
@@ -109,7 +109,7 @@ struct Query {
   double samePlace = kSamePlace;  // the world's, in the units of this tree
   uint8_t depth = 0;              // of the tree: the number of placements that lead to it
   Found best;                     // shadow(): the source itself, if it is a surface
-  int32_t source = kNone;
+  SurfaceId source;
   const Occluder* standIn =
       nullptr;            // the instance or mesh that hits on the tree's contents may be attributed to
   bool passable = false;  // shadow(): something was hit that may let light pass
@@ -161,10 +161,10 @@ class Tracer::Tree {
   // Scene::surfaces), and its instances refer to the trees of refracting surfaces. Instances with a modifier
   // still refer to whole trees, because all of their contents have that modifier.
   Tree(RTCDevice device, const Scene& scene, const SurfaceGroup& group, bool backFacesVisible,
-       const Others& others, const std::vector<bool>* only = nullptr)
+       const Others& others, const ById<SurfaceId, bool>* only = nullptr)
       : scene_(scene), others_(others), isWhole_(!only) {
-    if (isWhole_) faces_.reserve(group.surfaces);
-    for (uint32_t i = group.firstSurface; i < group.firstSurface + group.surfaces; ++i) {
+    if (isWhole_) faces_.reserve(group.surfaces.size());
+    for (const SurfaceId i : group.surfaces) {
       if (only && !(*only)[i]) continue;
       const Box3d box = boundsOf(scene.surfaces[i]);
       primitives_ += !box.isEmpty();
@@ -181,8 +181,7 @@ class Tracer::Tree {
       : scene_(scene), mesh_(&mesh) {
     occluders_.resize(mesh.facesOf.size());
     for (size_t i = 0; i < mesh.facesOf.size(); ++i)
-      if (mesh.facesOf[i] != kNone)
-        occluders_[i] = makeOccluder(scene, static_cast<uint32_t>(mesh.facesOf[i]), backFacesVisible);
+      if (mesh.facesOf[i] != kNone) occluders_[i] = makeOccluder(scene, mesh.facesOf[i], backFacesVisible);
     primitives_ = mesh.data.triangles.size();
     for (uint32_t i = 0; i < primitives_; ++i) bounds_.extendBy(rsphere::bounds(mesh.data, i));
     build(device, primitives_, onIntersect<&Tree::meetTriangle>, onOccluded<&Tree::crossTriangle>);
@@ -197,16 +196,17 @@ class Tracer::Tree {
   const Box3d& bounds() const { return bounds_; }
   size_t primitives() const { return primitives_; }
 
+  // Embree's number of a surface in the world's whole tree; kNoBlocker for kNone.
+  static uint32_t primitiveOf(SurfaceId surface) { return static_cast<uint32_t>(surface.number()); }
+
   // The primitive that a ray cannot hit again if it starts on this surface; kNoBlocker if there is none.
-  uint32_t beginOf(int32_t surface) const {
-    const auto primitive = static_cast<uint32_t>(surface);  // the same index in the world's whole tree
+  uint32_t beginOf(SurfaceId surface) const {
+    const uint32_t primitive = primitiveOf(surface);
     return primitive < faces_.size() && faces_[primitive].occluder.plane ? primitive : kNoBlocker;
   }
 
-  // The occluder of a surface of this group's tree.
-  const Occluder& occluderOf(uint32_t surface) const {
-    return faces_[surface - faces_[0].occluder.surface].occluder;
-  }
+  // The occluder of a surface of the world's whole tree.
+  const Occluder& occluderOf(SurfaceId surface) const { return faces_[primitiveOf(surface)].occluder; }
 
   // Updates query.best if something is nearer; see Tracer::nearest().
   void nearest(Query& query) const {
@@ -474,7 +474,7 @@ class Tracer::Tree {
   bool crossSurface(Query& query, uint32_t primitive) const {
     const Face& face = faces_[primitive];
     const Occluder& occluder = query.standIn ? *query.standIn : face.occluder;
-    if (static_cast<int32_t>(occluder.surface) == query.source) return false;
+    if (occluder.surface == query.source) return false;
     if (!face.polygon.hasArea) return crossOther(query, face.occluder, occluder);
     ShapeHit hit;
     return meets(query, face.polygon, hit) && crosses(query, occluder, hit);
@@ -567,17 +567,18 @@ Tracer::Tracer(const Scene& scene, bool backFacesVisible)
   // Trees of instances are built before the trees that contain the instances.
   e.groups.resize(scene.groups.size());
   e.refracting.resize(scene.groups.size());
-  const std::vector<bool> refracts = refractingSurfaces(scene);
+  const ById<SurfaceId, bool> refracts = refractingSurfaces(scene);
   const Tree::Others others{e.groups, e.refracting, e.meshes};
   const auto build = [&](const auto& self, size_t g) -> void {
     const SurfaceGroup& group = scene.groups[g];
-    const auto first = refracts.begin() + group.firstSurface, last = first + group.surfaces;
     if (scene.groups.size() > 1)
-      for (const Surface& surface : std::span(scene.surfaces).subspan(group.firstSurface, group.surfaces))
-        if (const auto* instance = std::get_if<Instance>(&surface.shape))
+      for (const SurfaceId surface : group.surfaces)
+        if (const auto* instance = std::get_if<Instance>(&scene.surfaces[surface].shape))
           if (!e.groups[instance->group]) self(self, instance->group);
     e.groups[g] = std::make_unique<Tree>(e.device, scene, group, backFacesVisible, others);
-    if (std::find(first, last, true) != last)
+    bool refractsAny = false;
+    for (const SurfaceId s : group.surfaces) refractsAny = refractsAny || refracts[s];
+    if (refractsAny)
       e.refracting[g] = std::make_unique<Tree>(e.device, scene, group, backFacesVisible, others, &refracts);
   };
   if (!scene.groups.empty()) {
@@ -597,7 +598,7 @@ size_t Tracer::primitives() const {
   return sum;
 }
 
-Hit Tracer::nearest(const V3d& origin, const V3d& direction, double farthest, int32_t from) const {
+Hit Tracer::nearest(const V3d& origin, const V3d& direction, double farthest, SurfaceId from) const {
   Hit result;
   if (embree_->groups.empty()) return result;
   Query query;
@@ -608,7 +609,7 @@ Hit Tracer::nearest(const V3d& origin, const V3d& direction, double farthest, in
   embree_->groups[0]->nearest(query);
   const Found& found = query.best;
   if (!found.occluder) return result;
-  result.surface = static_cast<int32_t>(found.occluder->surface);
+  result.surface = found.occluder->surface;
   result.distance = found.hit.distance;
   result.normal = found.hit.normal;
   result.cosine = found.hit.cosine;
@@ -627,8 +628,8 @@ Hit Tracer::nearest(const V3d& origin, const V3d& direction, double farthest, in
   return result;
 }
 
-bool Tracer::stopsShadows(int32_t surface, bool front) const {
-  const Occluder o = makeOccluder(scene_, static_cast<uint32_t>(surface), backFacesVisible_);
+bool Tracer::stopsShadows(SurfaceId surface, bool front) const {
+  const Occluder o = makeOccluder(scene_, surface, backFacesVisible_);
   return front ? o.opaqueFront : o.opaqueBack;
 }
 
@@ -645,8 +646,8 @@ bool Tracer::anySmallNear(const Neighborhood& around) const {
   return !embree_->groups.empty() && embree_->groups[0]->anySmallNear(around);
 }
 
-Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, int32_t source,
-                      uint32_t* blocker, int32_t from) const {
+Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, SurfaceId source,
+                      uint32_t* blocker, SurfaceId from) const {
   if (embree_->groups.empty()) return Shadow::clear;
   const Tree& tree = *embree_->groups[0];
   Query query;
@@ -656,9 +657,9 @@ Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, 
   query.source = source;
   query.from = tree.beginOf(from);
   if (source != kNone) {
-    query.target = static_cast<uint32_t>(source);
+    query.target = Tree::primitiveOf(source);
     // The source emits from its front, so ties with surfaces that lie on it are resolved for that side.
-    query.best.occluder = &tree.occluderOf(static_cast<uint32_t>(source));
+    query.best.occluder = &tree.occluderOf(source);
     query.best.hit = {distance, V3d(0, 0, 0), 1};
     query.farthest += kSamePlace;
   }

@@ -24,7 +24,7 @@
 namespace rsphere {
 
 struct Hit {
-  int32_t surface = kNone;  // index in Scene::surfaces
+  SurfaceId surface;
   double distance = kFarAway;
   V3d normal{0, 0, 0};  // unit, on the surface's front side
   double cosine = 0;    // -normal . direction: positive where the front was hit
@@ -56,25 +56,25 @@ class Tracer {
   // RADIANCE's rules decide: a surface with a material wins over one without, then an opaque one over a
   // transparent one, then one hit from its front, then the one whose modifier is defined later. If an
   // instance or a mesh has a modifier, hits on its contents are reported as hits on the instance or mesh.
-  // from: index of the surface that the ray starts on. If it is plane, the ray cannot hit it again. It
+  // from: the surface that the ray starts on. If it is plane, the ray cannot hit it again. It
   // affects the answer by rounding only.
   Hit nearest(const V3d& origin, const V3d& direction, double farthest = kFarAway,
-              int32_t from = kNone) const;
+              SurfaceId from = kNone) const;
 
   // Visibility between origin and a light source's surface at the given distance along direction. source:
-  // index of that surface, which does not block the ray; kNone if there is none. For a distant source,
+  // that surface, which does not block the ray; kNone if there is none. For a distant source,
   // distance is kFarAway.
   // blocker: in, the primitive that blocked the last ray, which is tried first; out, the one that blocked
   // this ray, or kNoBlocker. Consecutive rays to one source are often blocked by the same surface. The answer
   // does not depend on it.
   // from: as for nearest().
-  Shadow shadow(const V3d& origin, const V3d& direction, double distance, int32_t source,
-                uint32_t* blocker = nullptr, int32_t from = kNone) const;
+  Shadow shadow(const V3d& origin, const V3d& direction, double distance, SurfaceId source,
+                uint32_t* blocker = nullptr, SurfaceId from = kNone) const;
   static constexpr uint32_t kNoBlocker = ~0u;
 
   // Whether a surface stops every shadow ray that hits its front, or its back. Other rays may still get
   // through: through prisms, and through the backs of light sources if back faces are invisible (-bv).
-  bool stopsShadows(int32_t surface, bool front) const;
+  bool stopsShadows(SurfaceId surface, bool front) const;
 
   // Whether the segment from origin along the unit vector direction, of this length (world units), hits
   // nothing: nothing that could block, refract or transmit a shadow ray.

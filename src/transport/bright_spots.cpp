@@ -120,7 +120,7 @@ struct BrightSpots::Node {
 std::optional<BrightSpots::Particle> BrightSpots::arrived(const Scene& scene, const Tracer& tracer,
                                                           V3d origin, const V3d& direction, double power,
                                                           Random& random) {
-  int32_t from = kNone;
+  SurfaceId from;
   for (int pane = 0; pane < kPanes; ++pane) {
     const Hit hit = tracer.nearest(origin, direction, kFarAway, from);
     if (hit.surface == kNone) break;

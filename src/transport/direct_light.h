@@ -51,8 +51,8 @@ class DirectLight {
   void addOneOf(Ray& ray, size_t first, uint32_t count);
   bool arrives(const Ray& ray, const Contribution& to, Rgb& value);
   bool isWhole(const SourceSample& sample) const;
-  uint32_t& blockerOf(int32_t surface, uint32_t source) {
-    const uint64_t both = (uint64_t{static_cast<uint32_t>(surface)} << 32) | source;
+  uint32_t& blockerOf(SurfaceId surface, uint32_t source) {
+    const uint64_t both = (uint64_t{static_cast<uint32_t>(surface.number())} << 32) | source;
     return blockers_[(both * 0x9e3779b97f4a7c15u) >> (64 - kBlockerBits)];  // Fibonacci hashing
   }
 

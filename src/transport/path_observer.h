@@ -6,11 +6,11 @@
 
 namespace rsphere {
 
-// The light source that a primary ray showed, and the surface that mirrored it: indices in Scene::surfaces,
-// or kNone if there is none.
+// The light source that a primary ray showed, and the surface that mirrored it;
+// kNone if there is none.
 struct ShownSource {
-  int32_t source = kNone;
-  int32_t mirror = kNone;
+  SurfaceId source;
+  SurfaceId mirror;
   bool operator==(const ShownSource&) const = default;
 };
 

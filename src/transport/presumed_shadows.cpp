@@ -36,7 +36,7 @@ PresumedShadows::PresumedShadows(const Scene& scene, const Tracer& tracer, const
 }
 
 bool PresumedShadows::isOpaque(const Hit& hit) const {
-  if (hit.path.count > 0 || static_cast<size_t>(hit.surface) >= scene_.outermost().size()) return false;
+  if (hit.path.count > 0 || hit.surface.index() >= scene_.outermost().size()) return false;
   const Surface& surface = scene_.surfaces[hit.surface];
   const Material* material = scene_.materialOf(surface);
   // Mirrors block shadow rays, but rtrace does not assume so here.

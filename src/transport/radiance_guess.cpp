@@ -60,11 +60,11 @@ double middleOf(std::vector<double>& values) {
 
 }  // namespace
 
-RadianceGuess::RadianceGuess(const Transport& transport, const std::vector<bool>& unguessed)
+RadianceGuess::RadianceGuess(const Transport& transport, const ById<SurfaceId, bool>& unguessed)
     : transport_(transport) {
   const Scene& scene = transport.scene();
   reflectance_.assign(scene.surfaces.size(), Rgb(0, 0, 0));
-  for (size_t i = 0; i < scene.surfaces.size(); ++i) {
+  for (const SurfaceId i : scene.surfaces.ids()) {
     const Material* material = scene.materialOf(scene.surfaces[i]);
     if (!material || unguessed[i]) continue;
     if (const auto* m = std::get_if<Opaque>(material)) reflectance_[i] = m->color * (1 - m->specularity);
@@ -77,11 +77,12 @@ RadianceGuess::RadianceGuess(const Transport& transport, const std::vector<bool>
   }
 }
 
-RadianceGuess::Place RadianceGuess::placeAlong(const V3d& point, const V3d& direction, int32_t start) const {
+RadianceGuess::Place RadianceGuess::placeAlong(const V3d& point, const V3d& direction,
+                                               SurfaceId start) const {
   return placeOf(point, direction, transport_.tracer().nearest(point, direction, kFarAway, start));
 }
 
-RadianceGuess::Place RadianceGuess::placeOf(int32_t surface, const V3d& point, const V3d& normal,
+RadianceGuess::Place RadianceGuess::placeOf(SurfaceId surface, const V3d& point, const V3d& normal,
                                             const V3d& direction) const {
   if (surface == kNone) return {};
   return {point, normal.dot(direction) > 0 ? -normal : normal, reflectance_[surface]};
@@ -163,7 +164,7 @@ double RadianceGuess::shareThatArrives(const Light& light, std::span<const doubl
                                        std::span<const Place> places, Random& random) const {
   double sum = 0;
   for (const double s : sent) sum += s;
-  const int32_t surface = transport_.lights().all()[light.source].surface;
+  const SurfaceId surface = transport_.lights().all()[light.source].surface;
   std::vector<SourceSample> samples;
   int asked = 0, arrived = 0;
   double due = random.uniform();
@@ -263,7 +264,7 @@ Rgb LocalGuess::along(const V3d& point, const V3d& direction) const {
   return from(guess_->placeAlong(point, direction, kNone), true);
 }
 
-Rgb LocalGuess::indirect(const V3d& point, const V3d& direction, int32_t start) const {
+Rgb LocalGuess::indirect(const V3d& point, const V3d& direction, SurfaceId start) const {
   return from(guess_->placeAlong(point, direction, start), false);
 }
 

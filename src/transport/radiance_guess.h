@@ -42,7 +42,7 @@ class LocalGuess {
   // The guessed radiance along an indirect ray, W/sr/m2. No shadow rays are traced, because there are many
   // indirect rays and each has a small weight. start: the surface that the ray leaves, as an index in
   // Scene::surfaces, or kNone.
-  Rgb indirect(const V3d& point, const V3d& direction, int32_t start) const;
+  Rgb indirect(const V3d& point, const V3d& direction, SurfaceId start) const;
   Rgb indirect(const Ray& traced) const;
 
   // The number of guessed rays per followed indirect ray, after `bounces` indirect bounces, that minimizes
@@ -77,12 +77,12 @@ class RadianceGuess {
 
   // unguessed: by surface (index in Scene::surfaces), whether its guess is to be 0. It is 0 anyway for all
   // materials but plastic and metal. Keeps a reference to transport.
-  RadianceGuess(const Transport& transport, const std::vector<bool>& unguessed);
+  RadianceGuess(const Transport& transport, const ById<SurfaceId, bool>& unguessed);
 
   // The hit of a traced direction, and the radiance from there.
   struct Traced {
     Place place;
-    int32_t surface = kNone;  // index in Scene::surfaces
+    SurfaceId surface;
     Rgb radiance{0, 0, 0};
   };
 
@@ -99,8 +99,8 @@ class RadianceGuess {
  private:
   friend class LocalGuess;
   using Light = LocalGuess::Light;
-  Place placeOf(int32_t surface, const V3d& point, const V3d& normal, const V3d& direction) const;
-  Place placeAlong(const V3d& point, const V3d& direction, int32_t start) const;
+  Place placeOf(SurfaceId surface, const V3d& point, const V3d& normal, const V3d& direction) const;
+  Place placeAlong(const V3d& point, const V3d& direction, SurfaceId start) const;
   double factor(uint32_t source, const Place& at) const;
   double sent(const Light& light, const Place& at) const;
   double seenFrom(const Place& at, uint32_t source) const;
@@ -108,8 +108,8 @@ class RadianceGuess {
                           Random& random) const;
 
   const Transport& transport_;
-  std::vector<Rgb> reflectance_;  // diffuse, by surface
-  std::vector<Light> lights_;     // share not set
+  ById<SurfaceId, Rgb> reflectance_;  // diffuse, by surface
+  std::vector<Light> lights_;         // share not set
 };
 
 }  // namespace rsphere

@@ -57,8 +57,8 @@ struct Ray {
   double pathLength = 0;        // total length of its ancestors
   double shadowLength = 0;      // total length of those ancestors that are shadow rays
   int32_t aimedAt = kNone;      // light source that a shadow ray is aimed at
-  int32_t mirror = kNone;       // the flat surface that mirrored the primary ray into this one, if nothing
-                                // else deflected it; an index in Scene::surfaces
+  SurfaceId mirror;             // the flat surface that mirrored the primary ray into this one, if nothing
+                                // else deflected it
   bool unobstructed = false;    // of a shadow ray: it hits its target, whatever else is in its way
   const Ray* parent = nullptr;  // null: a primary ray, or one that does not depend on earlier rays
   Medium medium{};              // that it travels through
@@ -68,7 +68,7 @@ struct Ray {
   uint64_t clipsBeyond = 0;   // the same for a ray that continues beyond the surface that it hits
   Rgb contribution{1, 1, 1};  // share of its radiance, at its origin, in that of the primary ray
 
-  int32_t surface = kNone;  // hit, index in Scene::surfaces
+  SurfaceId surface;  // hit
   double length = kFarAway;
   V3d point{0, 0, 0};       // the hit or the end (farthest); the origin if no hit or a distant source
   V3d normal{0, 0, 0};      // once shaded, on the side that the ray came from

@@ -18,7 +18,7 @@ V3d along(const V3d& origin, double distance, const V3d& direction) {
 // transmits light hides the others; if there is none, it is the first glow.
 void findDistant(const Transport& transport, Ray& ray) {
   const Scene& scene = transport.scene();
-  const auto sees = [&](int32_t surface) {
+  const auto sees = [&](SurfaceId surface) {
     return std::get<Distant>(scene.surfaces[surface].shape).isSeenAlong(ray.direction);
   };
   if (ray.aimedAt != kNone) {
@@ -26,9 +26,9 @@ void findDistant(const Transport& transport, Ray& ray) {
     if (light.distant && !light.isVirtual() && sees(light.surface)) ray.surface = light.surface;
     return;
   }
-  int32_t glow = kNone;
+  SurfaceId glow;
   bool passedIllum = false;
-  for (const int32_t s : transport.distant()) {
+  for (const SurfaceId s : transport.distant()) {
     if (!sees(s)) continue;
     const Material& material = *scene.materialOf(scene.surfaces[s]);
     if (std::holds_alternative<Glow>(material)) {

@@ -15,7 +15,7 @@ bool continueRay(const Transport& transport, Random& random, Ray& child, RayKind
     ++child.level;
     child.farthest = 0;
     if (kind == kReflected && !(parent.kinds & ~(kPrimary | kTransmitted)) && parent.surface != kNone &&
-        static_cast<size_t>(parent.surface) < transport.scene().outermost().size() &&
+        parent.surface.index() < transport.scene().outermost().size() &&
         planeNormal(transport.scene().surfaces[parent.surface].shape))
       child.mirror = parent.surface;
   } else {

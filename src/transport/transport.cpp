@@ -73,12 +73,12 @@ Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance i
         (surface.modifier == surface.material && scene.modifiers[surface.material].next == kNone))
       constantRadiance_[i] = sourceRadiance(scene, surface);
   }
-  for (size_t i = 0; i < scene.surfaces.size(); ++i) {
+  for (const SurfaceId i : scene.surfaces.ids()) {
     const Surface& s = scene.surfaces[i];
     const Material* material = scene.materialOf(s);
     if (scene.importance || !std::holds_alternative<Distant>(s.shape) || !material) continue;
     const auto radiance = sourceRadiance(*material);
-    if (radiance && maxChannel(*radiance) > kNegligible) distant_.push_back(static_cast<int32_t>(i));
+    if (radiance && maxChannel(*radiance) > kNegligible) distant_.push_back(i);
   }
   findScatterers(warn);
   if (options.ambientAccuracy > 0 && options.ambientBounces > 0 && options.ambientDivisions > 0)
@@ -87,7 +87,7 @@ Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance i
   const auto& names = including ? options.ambientIncluded : options.ambientExcluded;
   if (names.empty()) return;
   ambient_.resize(scene.surfaces.size());
-  for (size_t i = 0; i < scene.surfaces.size(); ++i)
+  for (const SurfaceId i : scene.surfaces.ids())
     ambient_[i] = (std::find(names.begin(), names.end(), scene.modifierName(scene.surfaces[i])) !=
                    names.end()) == including;
 }

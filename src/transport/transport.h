@@ -54,14 +54,16 @@ class Transport {
   Irradiance irradiance() const { return irradiance_; }
   bool basicRadiance() const { return basicRadiance_; }
   // Index in LightSources of a surface's own light, or kNone.
-  int32_t lightOf(int32_t surface) const { return lightOf_[surface]; }
+  int32_t lightOf(SurfaceId surface) const { return lightOf_[surface]; }
   // The radiance of a light source (index in LightSources) if it is the same from all points and directions;
   // null if it has to be computed for each ray.
   const Rgb* constantRadiance(uint32_t source) const {
     return constantRadiance_[source] ? &*constantRadiance_[source] : nullptr;
   }
   // Whether indirect light is computed on the surface (-ae, -ai).
-  bool isAmbient(int32_t surface) const { return surface == kNone || ambient_.empty() || ambient_[surface]; }
+  bool isAmbient(SurfaceId surface) const {
+    return surface == kNone || ambient_.empty() || ambient_[surface];
+  }
   // The medium of the space outside of mist and dielectrics (-me -ma -mg).
   Medium medium() const {
     return {options_.mediumExtinction, options_.mediumAlbedo, options_.mediumEccentricity};
@@ -77,7 +79,7 @@ class Transport {
   // makes no difference.
   bool lacksSources() const;
   // Surfaces of type source that emit light, in the order of the scene.
-  const std::vector<int32_t>& distant() const { return distant_; }
+  const std::vector<SurfaceId>& distant() const { return distant_; }
   // The irradiance cache of first diffuse surfaces; null without interpolation (-aa 0). Tracing adds to it.
   IrradianceField* field() const { return field_.get(); }
   // The coarse solution, which gives the light of second and later diffuse surfaces; null where paths are
@@ -103,12 +105,12 @@ class Transport {
   LightSources lights_;
   PresumedShadows presumedShadows_;
   SourceChoice choice_;
-  std::vector<int32_t> lightOf_;
+  ById<SurfaceId, int32_t> lightOf_;
   std::vector<std::optional<Rgb>> constantRadiance_;
-  std::vector<int32_t> distant_;
+  std::vector<SurfaceId> distant_;
   std::vector<uint32_t> scatterers_;
   std::vector<std::vector<uint16_t>> scatterersOf_;  // by Mist::number
-  std::vector<bool> ambient_;                        // by surface; empty: all of them
+  ById<SurfaceId, bool> ambient_;                    // empty: all of them
   std::unique_ptr<const Openings> openings_;
   std::unique_ptr<IrradianceField> field_;
   std::unique_ptr<CoarseSolution> coarse_;

@@ -157,7 +157,7 @@ TEST(CoarseSolution, NoPatchServesWhatIsSeenFromNear) {
   FurnaceLooker looker(box.transport().tracer(), 2, [](const SurfacePlace&) { return 1; });
   CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(optionsOf(2)));
   looker.solve(solution);
-  SurfacePlace place{V3d(2, 1.5, 0), V3d(0, 0, 1), 0, nullptr, 2.5};
+  SurfacePlace place{V3d(2, 1.5, 0), V3d(0, 0, 1), SurfaceId(0), nullptr, 2.5};
   EXPECT_TRUE(solution.find(place, .5, .5, looker));
   place.distance = 1e-3;
   EXPECT_FALSE(solution.find(place, .5, .5, looker));

@@ -30,7 +30,7 @@ struct Met {
   V3d from{0, 0, 0};
 };
 
-std::vector<Met> placesOn(const Traced& t, int32_t surface, const V3d& middle, int count) {
+std::vector<Met> placesOn(const Traced& t, SurfaceId surface, const V3d& middle, int count) {
   std::vector<Met> found;
   Random random(3);
   while (static_cast<int>(found.size()) < count) {
@@ -72,11 +72,11 @@ TEST(CellGrid, SidesHalveFromLevelToLevel) {
 TEST(SurfaceCells, SitesLieAboveTheirSurfaces) {
   const Traced t(kShapes);
   const CellGrid grid(t.transport().tracer().bounds());
-  for (int32_t s = 0; s < 7; ++s) {
+  for (const SurfaceId s : t.scene().surfaces.ids()) {
     int without = 0, all = 0;
-    for (const auto& [place, from] : placesOn(t, s, kMiddles[s], 60)) {
+    for (const auto& [place, from] : placesOn(t, s, kMiddles[s.index()], 60)) {
       const auto chart = SurfaceChart::of(t.scene(), grid, place);
-      const bool within = s >= 5 && (place.point - kMiddles[s]).dot(place.normal) < 0;
+      const bool within = s.index() >= 5 && (place.point - kMiddles[s.index()]).dot(place.normal) < 0;
       ASSERT_EQ(chart.has_value(), !within) << t.scene().surfaceName(t.scene().surfaces[s]);
       if (!chart) continue;
       for (const int level : {3, 5, 7, 9}) {
@@ -90,7 +90,7 @@ TEST(SurfaceCells, SitesLieAboveTheirSurfaces) {
         const Hit hit = t.transport().tracer().nearest(site->point, -site->normal);
         EXPECT_EQ(hit.surface, s);
         EXPECT_NEAR(hit.distance, grid.lift, 1e-3 * grid.lift);
-        if (s < 5) {
+        if (s.index() < 5) {
           EXPECT_NEAR((site->normal - place.normal).length(), 0, 1e-9);
           EXPECT_GT(site->normal.dot(from - site->point), 0);
         }
@@ -99,7 +99,7 @@ TEST(SurfaceCells, SitesLieAboveTheirSurfaces) {
                   1.01 * std::hypot(chart->stepU(grid, level), chart->stepV(grid, level)) + grid.lift);
       }
     }
-    if (s == 0 || s == 5 || s == 6)
+    if (s.index() == 0 || s.index() >= 5)
       EXPECT_EQ(without, 0) << "cells of rectangles, balls and cones are whole";
     else
       EXPECT_LT(without, .15 * all);
@@ -109,7 +109,7 @@ TEST(SurfaceCells, SitesLieAboveTheirSurfaces) {
 TEST(SurfaceCells, CellsAreEqualPartsAndTheirNumbersEndAtTheEdges) {
   const Traced t(kShapes);
   const CellGrid grid(t.transport().tracer().bounds());
-  const SurfacePlace place{V3d(1, 2, 0), V3d(0, 0, 1), 0, nullptr, 1};
+  const SurfacePlace place{V3d(1, 2, 0), V3d(0, 0, 1), SurfaceId(0), nullptr, 1};
   const auto chart = SurfaceChart::of(t.scene(), grid, place);
   ASSERT_TRUE(chart);
   EXPECT_EQ(chart->extent(), 5);
@@ -129,16 +129,16 @@ TEST(SurfaceCells, CellsAreEqualPartsAndTheirNumbersEndAtTheEdges) {
 TEST(SurfaceCells, KeysNameCells) {
   const Traced t(kShapes);
   const CellGrid grid(t.transport().tracer().bounds());
-  const auto keyAt = [&](double x, double y, double up, int32_t surface = 0) {
-    const auto chart =
-        SurfaceChart::of(t.scene(), grid, {V3d(x, y, surface ? 10 : 0), V3d(0, 0, up), surface, nullptr, 1});
+  const auto keyAt = [&](double x, double y, double up, SurfaceId surface = SurfaceId(0)) {
+    const auto chart = SurfaceChart::of(
+        t.scene(), grid, {V3d(x, y, surface != SurfaceId(0) ? 10 : 0), V3d(0, 0, up), surface, nullptr, 1});
     return chart->cellAt(grid, 4, chart->u(), chart->v());
   };
   EXPECT_EQ(keyAt(.1, .1, 1), keyAt(.2, .15, 1));
   EXPECT_EQ(keyAt(.1, .1, 1).hash(), keyAt(.2, .15, 1).hash());
   EXPECT_FALSE(keyAt(.1, .1, 1) == keyAt(4.9, .1, 1));
   EXPECT_FALSE(keyAt(.1, .1, 1) == keyAt(.1, .1, -1)) << "the other side";
-  EXPECT_FALSE(keyAt(.1, .1, 1) == keyAt(.1, .1, 1, 1)) << "another surface";
+  EXPECT_FALSE(keyAt(.1, .1, 1) == keyAt(.1, .1, 1, SurfaceId(1))) << "another surface";
 }
 
 // Surfaces that are too small for separate cells share those of their plane, one set for each side.
@@ -147,7 +147,7 @@ TEST(SurfaceCells, PlanesAreSharedByAllThatLiesInThem) {
   const CellGrid grid(t.transport().tracer().bounds());
   const V3d normal = V3d(1, 2, 3).normalized(), along = V3d(3, 0, -1), middle(2, 1, 4);
   const auto chartOf = [&](const V3d& point, const V3d& n) {
-    return SurfaceChart::ofPlane(grid, {point, n, 0, nullptr, 1});
+    return SurfaceChart::ofPlane(grid, {point, n, SurfaceId(0), nullptr, 1});
   };
   const auto keyOf = [&](const SurfaceChart& chart) { return chart.cellAt(grid, 6, .1, .1); };
   const SurfaceChart here = chartOf(middle, normal);

@@ -106,7 +106,7 @@ TEST(SeenSources, SunAndItsImageInAPane) {
   PathTracer tracer(*setting.transport);
   const double glass = brightness(tracer.trace(point, V3d(-1, 0, 1).normalized(), 0, 1).value);
   EXPECT_GT(glass, 5);
-  EXPECT_EQ(tracer.shown().mirror, 1);
+  EXPECT_EQ(tracer.shown().mirror, SurfaceId(1));
   // The glass has no other light to mirror or let pass.
   const double exact = (100 + glass) * solidAngle / (4 * kPi);
   EXPECT_NEAR(setting.apart(point) / exact, 1, 1e-4);

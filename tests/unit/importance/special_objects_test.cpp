@@ -68,7 +68,7 @@ TEST(Irregularity, OfEllipticHighlightsByBothRoughnesses) {
 TEST(Irregularity, OfFunctionsByWhatIsKnown) {
   const auto of = [](const std::string& material) {
     const Scene scene = sceneOf(material + "\nM sphere s 0 0 4 0 0 0 1\n");
-    return irregularity(*scene.materialOf(scene.surfaces[0]));
+    return irregularity(*scene.materialOf(scene.surfaces.at(0)));
   };
   EXPECT_EQ(of("void plasfunc M 2 f . 0 4 .5 .5 .5 .2"), .1) << "of unknown width: half of a sharp one";
   EXPECT_EQ(of("void metdata M 4 f d.dat . x 0 4 .5 .5 .5 0"), 0);

@@ -297,7 +297,7 @@ TEST(Source, SamplesHitTheSourceWhereTheySay) {
         EXPECT_GT(s.solidAngle, 0);
         EXPECT_NEAR(s.cosine, -s.normal.dot(s.direction), 1e-12);
         const V3d hit = point + s.distance * s.direction;
-        const auto& shape = scene.surfaces[0].shape;
+        const auto& shape = scene.surfaces.at(0).shape;
         if (const auto* p = std::get_if<Polygon>(&shape)) {
           EXPECT_TRUE(inside(*p, scene.vertices, hit, 1e-12));
         }

@@ -17,7 +17,7 @@ Scene alone(const char* shape) {
 }
 
 bool meets(const Scene& scene, const V3d& origin, const V3d& direction, ShapeHit& hit) {
-  return intersect(scene.surfaces[0].shape, scene.vertices, origin, direction, 1e10, hit);
+  return intersect(scene.surfaces.at(0).shape, scene.vertices, origin, direction, 1e10, hit);
 }
 
 constexpr const char* kShapes[] = {
@@ -42,7 +42,7 @@ TEST(SurfacePoint, RaysFromBeforeTheFrontMeetIt) {
     Random random(1);
     int met = 0, steep = 0;
     for (int i = 0; i < 2000; ++i) {
-      const SurfacePoint at = samplePoint(scene.surfaces[0].shape, scene.vertices, random);
+      const SurfacePoint at = samplePoint(scene.surfaces.at(0).shape, scene.vertices, random);
       ASSERT_NEAR(at.normal.length(), 1, 1e-12) << shape;
       V3d away = randomDirection(random);
       if (away.dot(at.normal) < 0) away = -away;
@@ -85,7 +85,7 @@ TEST(SurfacePoint, EvenByArea) {
     Random random(2);
     Sample square;
     for (int i = 0; i < 50000; ++i) {
-      const SurfacePoint at = samplePoint(scene.surfaces[0].shape, scene.vertices, random);
+      const SurfacePoint at = samplePoint(scene.surfaces.at(0).shape, scene.vertices, random);
       const double along = (at.point - c.middle).dot(c.axis);
       square.add(along * along);
     }

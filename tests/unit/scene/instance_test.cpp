@@ -39,9 +39,9 @@ TEST(Instances, AnOctreeIsThereOnceHoweverOftenItIsNamed) {
   EXPECT_EQ(scene.outermost().size(), 1000u);
   EXPECT_EQ(scene.surfaces.size(), 1002u);
   EXPECT_EQ(scene.placements.size(), 1000u);
-  EXPECT_EQ(scene.surfaceName(scene.surfaces[1001]), "lid");
-  EXPECT_EQ(scene.modifierName(scene.surfaces[1001]), "gray");
-  EXPECT_EQ(scene.modifierName(scene.surfaces[7]), "void");
+  EXPECT_EQ(scene.surfaceName(scene.surfaces.at(1001)), "lid");
+  EXPECT_EQ(scene.modifierName(scene.surfaces.at(1001)), "gray");
+  EXPECT_EQ(scene.modifierName(scene.surfaces.at(7)), "void");
   const Placement& p = scene.placements[2];
   EXPECT_EQ(p.toOuter.point(V3d(1, 0, 0)), V3d(8, 0, 0));
   EXPECT_EQ(p.toInner.point(V3d(8, 0, 0)), V3d(1, 0, 0));
@@ -105,7 +105,7 @@ TEST(Instances, DistantSourcesInOctreesAreLeftOut) {
       folder.octree("a.oct", std::string(kGray) +
                                  "void light sun\n0\n0\n3 1 1 1\nsun source far\n0\n0\n4 0 0 1 1\n" + kBall);
   const Scene scene = sceneOf(instance(oct));
-  EXPECT_EQ(scene.groups[1].surfaces, 1u);
+  EXPECT_EQ(scene.groups[1].surfaces.size(), 1u);
 }
 
 TEST(Instances, WhatIsWrongWithThem) {
@@ -134,11 +134,11 @@ TEST(Meshes, TrianglesOfEachMaterialAreASurface) {
   ASSERT_EQ(scene.meshes.size(), 1u);
   EXPECT_EQ(scene.outermost().size(), 2u);
   ASSERT_EQ(scene.meshes[0].facesOf.size(), 2u);
-  const Surface& brick = scene.surfaces[static_cast<size_t>(scene.meshes[0].facesOf[0])];
+  const Surface& brick = scene.surfaces[scene.meshes[0].facesOf[0]];
   EXPECT_EQ(scene.surfaceName(brick), "M-Tri");
   EXPECT_EQ(scene.modifierName(brick), "brick");
   EXPECT_EQ(scene.materialName(brick), "brick");
-  EXPECT_EQ(scene.modifierName(scene.surfaces[1]), "gray");
+  EXPECT_EQ(scene.modifierName(scene.surfaces.at(1)), "gray");
   EXPECT_EQ(scene.place(brick.primitive), file + ": object 1 (from room.rad:5): mesh \"M-Tri\"");
 }
 

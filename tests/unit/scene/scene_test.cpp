@@ -140,7 +140,7 @@ TEST(Scene, LooksAtUsedModifiersOnly) {
   EXPECT_EQ(plastic.specularity, .04);
   EXPECT_EQ(plastic.roughness, .05);
   EXPECT_FALSE(plastic.metal);
-  EXPECT_EQ(scene.surfaces[1].modifier, 0);
+  EXPECT_EQ(scene.surfaces.at(1).modifier, 0);
 }
 
 TEST(Scene, FollowsAliasesAndRedefinitions) {
@@ -152,15 +152,15 @@ TEST(Scene, FollowsAliasesAndRedefinitions) {
       "b sphere first\n0\n0\n4 5 0 0 1\n"
       "void sphere none\n0\n0\n4 9 0 0 1\n");
   ASSERT_EQ(scene.surfaces.size(), 3u);
-  const auto red = [&](int i) { return materialAt<Opaque>(scene, scene.surfaces[i].material).color.x; };
+  const auto red = [&](int i) { return materialAt<Opaque>(scene, scene.surfaces.at(i).material).color.x; };
   EXPECT_EQ(red(0), .2);
   EXPECT_EQ(red(1), .1);
-  EXPECT_EQ(scene.surfaceName(scene.surfaces[1]), "first");
-  EXPECT_EQ(scene.modifierName(scene.surfaces[1]), "b");
-  EXPECT_EQ(scene.materialName(scene.surfaces[1]), "a");
-  EXPECT_EQ(scene.surfaces[2].modifier, kNone);
-  EXPECT_EQ(scene.modifierName(scene.surfaces[2]), "void");
-  EXPECT_EQ(scene.materialName(scene.surfaces[2]), "void");
+  EXPECT_EQ(scene.surfaceName(scene.surfaces.at(1)), "first");
+  EXPECT_EQ(scene.modifierName(scene.surfaces.at(1)), "b");
+  EXPECT_EQ(scene.materialName(scene.surfaces.at(1)), "a");
+  EXPECT_EQ(scene.surfaces.at(2).modifier, kNone);
+  EXPECT_EQ(scene.modifierName(scene.surfaces.at(2)), "void");
+  EXPECT_EQ(scene.materialName(scene.surfaces.at(2)), "void");
 }
 
 TEST(Scene, ReadsAlternatesOfMirrorAndIllum) {
@@ -169,7 +169,7 @@ TEST(Scene, ReadsAlternatesOfMirrorAndIllum) {
       "void illum i0\n0\n0\n3 1 1 1\nvoid illum i1\n1 void\n0\n3 1 1 1\nvoid illum i2\n1 pane\n0\n3 1 1 1\n"
       "i0 sphere a\n0\n0\n4 0 0 0 1\ni1 sphere b\n0\n0\n4 0 0 0 1\ni2 sphere c\n0\n0\n4 0 0 0 1\n");
   const auto alternate = [&](int i) {
-    return materialAt<Illum>(scene, scene.surfaces[i].material).alternate;
+    return materialAt<Illum>(scene, scene.surfaces.at(i).material).alternate;
   };
   EXPECT_EQ(alternate(0).kind, Alternate::Kind::none);
   EXPECT_EQ(alternate(1).kind, Alternate::Kind::pass);
@@ -181,15 +181,15 @@ TEST(Scene, MeasuresCones) {
   const Scene scene = sceneOf(
       "void spotlight s\n0\n0\n7 1 1 1 60 0 0 -2\ns sphere a\n0\n0\n4 0 0 0 1\n"
       "void light sun\n0\n0\n3 1 1 1\nsun source b\n0\n0\n4 0 0 2 .533\nsun source c\n0\n0\n4 0 1 0 180\n");
-  const auto& spot = materialAt<Spotlight>(scene, scene.surfaces[0].material);
+  const auto& spot = materialAt<Spotlight>(scene, scene.surfaces.at(0).material);
   EXPECT_NEAR(spot.solidAngle, 2 * kPi * (1 - std::cos(kPi / 6)), 1e-14);
   EXPECT_EQ(spot.aim, V3d(0, 0, -1));
   EXPECT_EQ(spot.focalLength, 2);
-  const auto& sun = std::get<Distant>(scene.surfaces[1].shape);
+  const auto& sun = std::get<Distant>(scene.surfaces.at(1).shape);
   EXPECT_EQ(sun.direction, V3d(0, 0, 1));
   const double w = .533 * kPi / 180;
   EXPECT_NEAR(sun.solidAngle, kPi * w * w / 4 * (1 - w * w / 48), 1e-14);
-  EXPECT_NEAR(std::get<Distant>(scene.surfaces[2].shape).solidAngle, 2 * kPi, 1e-14);
+  EXPECT_NEAR(std::get<Distant>(scene.surfaces.at(2).shape).solidAngle, 2 * kPi, 1e-14);
 }
 
 TEST(Scene, DropsALastVertexThatRepeatsTheFirst) {

@@ -53,7 +53,7 @@ struct Both {
 };
 
 std::string nameOf(const Scene& scene, const Hit& hit) {
-  const std::string name(scene.surfaceName(scene.surfaces[static_cast<size_t>(hit.surface)]));
+  const std::string name(scene.surfaceName(scene.surfaces[hit.surface]));
   return name.substr(name.rfind('.') + 1);
 }
 
@@ -124,7 +124,7 @@ TEST(Instances, PathsLeadToTheOctreesCoordinates) {
     if (hit.surface == kNone) continue;
     ASSERT_EQ(hit.path.count, 2);
     const V3d at = both.placed.placementOf(hit.path).toInner.point(from + hit.distance * d);
-    const auto* sphere = std::get_if<Sphere>(&both.placed.surfaces[static_cast<size_t>(hit.surface)].shape);
+    const auto* sphere = std::get_if<Sphere>(&both.placed.surfaces[hit.surface].shape);
     if (!sphere) continue;
     ++spheres;
     EXPECT_NEAR((at - sphere->center).length(), sphere->radius, 1e-12);
@@ -260,7 +260,7 @@ TEST(Meshes, OneThousandOfThemTakeTheMemoryOfOne) {
   EXPECT_EQ(tracer.primitives(), 1000u + 5000u);
   const Hit hit = tracer.nearest(V3d(777.5, .5, 5), V3d(0, 0, -1));
   ASSERT_NE(hit.surface, kNone);
-  EXPECT_EQ(scene.surfaceName(scene.surfaces[static_cast<size_t>(hit.surface)]), "m777");
+  EXPECT_EQ(scene.surfaceName(scene.surfaces[hit.surface]), "m777");
 }
 
 }  // namespace

@@ -73,11 +73,11 @@ bool meets(const Scene& scene, const Surface& surface, const V3d& origin, const 
 // Every surface asked in turn. No two of these scenes' surfaces coincide but by accident.
 Hit nearestOfAll(const Scene& scene, const V3d& origin, const V3d& direction, double farthest) {
   Hit nearest;
-  for (size_t i = 0; i < scene.surfaces.size(); ++i) {
+  for (const SurfaceId i : scene.surfaces.ids()) {
     ShapeHit hit;
     if (!meets(scene, scene.surfaces[i], origin, direction, farthest, hit)) continue;
     if (hit.distance >= nearest.distance) continue;
-    nearest = {static_cast<int32_t>(i), hit.distance, hit.normal, hit.cosine};
+    nearest = {i, hit.distance, hit.normal, hit.cosine};
   }
   return nearest;
 }
@@ -133,8 +133,8 @@ TEST(Tracer, FindsAMillimetreSphereInASceneOfSixThousandKilometres) {
     const V3d origin = center + (i % 2 ? 1. : 1e6) * away;
     const V3d across = away.cross(randomDirection(random)).normalized();
     const V3d at = center + .9e-3 * across, past = center + 1.1e-3 * across;
-    EXPECT_EQ(tracer.nearest(origin, (at - origin).normalized()).surface, 0);
-    EXPECT_EQ(tracer.nearest(origin, (past - origin).normalized()).surface, 1);
+    EXPECT_EQ(tracer.nearest(origin, (at - origin).normalized()).surface, SurfaceId(0));
+    EXPECT_EQ(tracer.nearest(origin, (past - origin).normalized()).surface, SurfaceId(1));
   }
 }
 
@@ -216,12 +216,12 @@ TEST(Tracer, TakesAnyNumberOfCoincidentSurfaces) {
 
 // By the loop: what lies before the source.
 Shadow shadowOfAll(const Scene& scene, const V3d& origin, const V3d& direction, double distance,
-                   int32_t source) {
+                   SurfaceId source) {
   Shadow shadow = Shadow::clear;
-  for (size_t i = 0; i < scene.surfaces.size(); ++i) {
+  for (const SurfaceId i : scene.surfaces.ids()) {
     const Surface& s = scene.surfaces[i];
     ShapeHit hit;
-    if (static_cast<int32_t>(i) == source) continue;
+    if (i == source) continue;
     if (!meets(scene, s, origin, direction, distance - kSamePlace, hit)) continue;
     if (const Material* m = scene.materialOf(s); m && !isTransparent(*m)) return Shadow::blocked;
     shadow = Shadow::unsure;
@@ -234,7 +234,7 @@ TEST(Tracer, TellsShadowsAsALoopOverAllSurfacesDoes) {
     const V3d place(shift, shift, -shift);
     const Scene scene = sceneOf(clutter(place, 90) +
                                 fmt::format("lamp sphere l\n0\n0\n4{} 1\n", text(place + V3d(0, 0, 14))));
-    const auto lamp = static_cast<int32_t>(scene.surfaces.size()) - 1;
+    const SurfaceId lamp = scene.surfaces.last();
     const Tracer tracer(scene, true);
     Random random(15);
     int counts[3] = {0, 0, 0}, wrong = 0;
@@ -249,7 +249,7 @@ TEST(Tracer, TellsShadowsAsALoopOverAllSurfacesDoes) {
         ASSERT_TRUE(meets(scene, scene.surfaces[lamp], origin, direction, kFarAway, hit));
         distance = hit.distance;
       }
-      const int32_t source = distant ? kNone : lamp;
+      const SurfaceId source = distant ? kNone : lamp;
       const Shadow expected = shadowOfAll(scene, origin, direction, distance, source);
       ++counts[static_cast<int>(expected)];
       wrong += tracer.shadow(origin, direction, distance, source) != expected;
@@ -337,9 +337,9 @@ TEST(Tracer, TieAtTheSourceDecidesItsShadow) {
   const auto shadowAt = [](const std::string& surfaces) {
     const Scene scene = sceneOf(kMaterials + surfaces);
     const Tracer tracer(scene, true);
-    int32_t lamp = kNone;
-    for (size_t i = 0; i < scene.surfaces.size(); ++i)
-      if (scene.surfaceName(scene.surfaces[i]) == "lamp") lamp = static_cast<int32_t>(i);
+    SurfaceId lamp;
+    for (const SurfaceId i : scene.surfaces.ids())
+      if (scene.surfaceName(scene.surfaces[i]) == "lamp") lamp = i;
     return tracer.shadow(V3d(.25, .125, 3), V3d(0, 0, -1), 3, lamp);
   };
   const std::string lamp = square("lamp", "lamp"), plate = square("gray", "plate");
@@ -365,15 +365,15 @@ TEST(Tracer, OpaqueFromBehindOnlyWhereBackFacesAreVisible) {
 TEST(Tracer, RaysDoNotHitWhereTheyStart) {
   const Scene scene = sceneOf(kMaterials + square("gray", "a") + square("gray", "b", true, -5));
   const Tracer tracer(scene, true);
-  EXPECT_EQ(tracer.nearest(V3d(0, 0, 0), V3d(0, 0, -1)).surface, 1);
-  EXPECT_EQ(tracer.nearest(V3d(0, 0, .5e-6), V3d(0, 0, -1)).surface, 1);
-  EXPECT_EQ(tracer.nearest(V3d(0, 0, 2e-6), V3d(0, 0, -1)).surface, 0);
+  EXPECT_EQ(tracer.nearest(V3d(0, 0, 0), V3d(0, 0, -1)).surface, SurfaceId(1));
+  EXPECT_EQ(tracer.nearest(V3d(0, 0, .5e-6), V3d(0, 0, -1)).surface, SurfaceId(1));
+  EXPECT_EQ(tracer.nearest(V3d(0, 0, 2e-6), V3d(0, 0, -1)).surface, SurfaceId(0));
 }
 
 TEST(Tracer, StopsAtTheFarthestPlace) {
   const Scene scene = sceneOf(kMaterials + square("gray", "a"));
   const Tracer tracer(scene, true);
-  EXPECT_EQ(tracer.nearest(V3d(0, 0, 5), V3d(0, 0, -1), 5).surface, 0);
+  EXPECT_EQ(tracer.nearest(V3d(0, 0, 5), V3d(0, 0, -1), 5).surface, SurfaceId(0));
   const Hit miss = tracer.nearest(V3d(0, 0, 5), V3d(0, 0, -1), 4.999);
   EXPECT_EQ(miss.surface, kNone);
   EXPECT_EQ(miss.distance, kFarAway);

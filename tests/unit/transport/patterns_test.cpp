@@ -670,12 +670,12 @@ TEST_F(Patterns, ThreadsMeetAModifierForTheFirstTimeTogether) {
 
 TEST_F(Patterns, MixtureWithoutAMaterialBehindItIsTheMaterial) {
   const Scene scene = sceneOf(std::string(kGlowA) + "void mixfunc M\n4 A void .5 .\n0\n0\n" + kFloor);
-  EXPECT_EQ(scene.materialName(scene.surfaces[0]), "M");
-  EXPECT_EQ(scene.materialOf(scene.surfaces[0]), nullptr);
+  EXPECT_EQ(scene.materialName(scene.surfaces.at(0)), "M");
+  EXPECT_EQ(scene.materialOf(scene.surfaces.at(0)), nullptr);
   const Scene behind = sceneOf(std::string(kGlowA) + "A mixfunc M\n4 void void .5 .\n0\n0\n" + kFloor);
-  EXPECT_EQ(behind.materialName(behind.surfaces[0]), "A");
+  EXPECT_EQ(behind.materialName(behind.surfaces.at(0)), "A");
   const Scene none = sceneOf(std::string("void brightfunc M\n2 .5 .\n0\n0\n") + kFloor);
-  EXPECT_EQ(none.materialName(none.surfaces[0]), "void");
+  EXPECT_EQ(none.materialName(none.surfaces.at(0)), "void");
 }
 
 // A goal emits whatever its modifiers are: a plastic surface beside a goal with a mixture receives

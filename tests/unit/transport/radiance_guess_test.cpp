@@ -24,7 +24,7 @@ RayOptions finely(int bounces) {
 }
 
 RadianceGuess guessOf(const Traced& t) {
-  std::vector<bool> lights(t.scene().surfaces.size(), false);
+  ById<SurfaceId, bool> lights(t.scene().surfaces.size(), false);
   for (const LightSource& l : t.transport().lights().all()) lights[l.surface] = true;
   return RadianceGuess(t.transport(), lights);
 }

@@ -1,0 +1,13 @@
+#pragma once
+#include "rad_parser/id.h"
+
+namespace rsphere {
+
+using rad::ById;
+using rad::IdRange;
+
+inline constexpr rad::None kNone;
+
+using SurfaceId = rad::Id<struct SurfaceTag>;  // index in Scene::surfaces
+
+}  // namespace rsphere
