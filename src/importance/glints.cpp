@@ -149,8 +149,8 @@ Glints::Glints(const Transport& transport, std::span<const SpecialObject> object
     const double reflectance = material ? reflectanceOf(*material) : 0;
     if (reflectance > 0) balls_.push_back({*sphere, reflectance});
   }
-  const auto all = transport.lights().all();
-  for (uint32_t i = 0; i < all.size(); ++i) {
+  const auto& all = transport.lights().all();
+  for (const LightId i : all.ids()) {
     if (all[i].isVirtual()) continue;
     const double bright = brightness(sourceRadiance(scene, scene.surfaces[all[i].surface]));
     if (bright > 0) lights_.push_back({i, bright});

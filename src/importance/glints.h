@@ -38,7 +38,7 @@ class Glints {
     double reflectance = 0;
   };
   struct Light {
-    uint32_t source = 0;  // index in LightSources
+    LightId source;
     double brightness = 0;
   };
   bool shines(const LightSource& source, std::span<const V3d> corners, const V3d& middle,

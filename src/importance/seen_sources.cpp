@@ -77,8 +77,8 @@ struct Plane {
 SeenSources::SeenSources(const Transport& transport) : transport_(transport) {
   const Scene& scene = transport.scene();
   apart_.assign(scene.surfaces.size(), false);
-  const auto lights = transport.lights().all();
-  for (uint32_t i = 0; i < lights.size(); ++i) {
+  const auto& lights = transport.lights().all();
+  for (const LightId i : lights.ids()) {
     const Surface& surface = scene.surfaces[lights[i].surface];
     const Material* material = scene.materialOf(surface);
     // Instead of virtual sources, addMirrored() finds the images in mirrors that they represent.
@@ -106,7 +106,7 @@ SeenSources::SeenSources(const Transport& transport) : transport_(transport) {
 bool SeenSources::shown(const PathTracer& tracer, const std::vector<Image>& images) const {
   const PathTracer::Shown& s = tracer.shown();
   if (s.source == kNone || !apart_[s.source]) return false;
-  const auto lights = transport_.lights().all();
+  const auto& lights = transport_.lights().all();
   return s.mirror == kNone || std::any_of(images.begin(), images.end(), [&](const Image& image) {
            return image.mirror == s.mirror && lights[image.source].surface == s.source;
          });
@@ -114,7 +114,7 @@ bool SeenSources::shown(const PathTracer& tracer, const std::vector<Image>& imag
 
 bool SeenSources::shownStraight(const PathTracer& tracer, const std::vector<Image>& images) const {
   const PathTracer::Shown& s = tracer.shown();
-  const auto lights = transport_.lights().all();
+  const auto& lights = transport_.lights().all();
   return s.source != kNone && s.mirror == kNone &&
          std::any_of(images.begin(), images.end(), [&](const Image& image) {
            return image.mirror == kNone && lights[image.source].surface == s.source;
@@ -125,7 +125,7 @@ std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t
                                                         double mirrorFactor) const {
   std::vector<Image> images;
   const Scene& scene = transport_.scene();
-  for (const uint32_t i : sources_) {
+  for (const LightId i : sources_) {
     const Surface& surface = scene.surfaces[transport_.lights().all()[i].surface];
     if (emitsBehind(surface.shape, point)) continue;
     Image image;
@@ -159,7 +159,7 @@ std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t
 // As seen from the mirror image of the point, the mirror is a window through which the source is seen.
 void SeenSources::addMirrored(const V3d& point, std::vector<Image>& images) const {
   const Scene& scene = transport_.scene();
-  const auto lights = transport_.lights().all();
+  const auto& lights = transport_.lights().all();
   for (const SurfaceId m : mirrors_) {
     const Surface& mirror = scene.surfaces[m];
     const Material& material = *scene.materialOf(mirror);
@@ -168,7 +168,7 @@ void SeenSources::addMirrored(const V3d& point, std::vector<Image>& images) cons
     if (height < 0 && std::holds_alternative<Mirror>(material)) continue;
     const V3d behind = plane.mirrored(point);
     std::optional<Silhouette> window;
-    for (const uint32_t i : sources_) {
+    for (const LightId i : sources_) {
       const LightSource& light = lights[i];
       if (light.surface == m) continue;
       const double before = light.distant ? side * plane.normal.dot(light.center) + light.sinHalfAngle

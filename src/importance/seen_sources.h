@@ -20,8 +20,8 @@ class SeenSources {
 
   // An image of a source as seen from a point.
   struct Image {
-    uint32_t source = 0;  // index in LightSources
-    SurfaceId mirror;     // kNone: seen directly
+    LightId source;
+    SurfaceId mirror;  // kNone: seen directly
     Silhouette region;
     double solidAngle = 0;  // of the region, sr
     bool filled = true;     // whether the source fills the region
@@ -81,7 +81,7 @@ class SeenSources {
 
   const Transport& transport_;
   ById<SurfaceId, bool> apart_;
-  std::vector<uint32_t> sources_;  // those integrated separately, indices in LightSources
+  std::vector<LightId> sources_;  // those integrated separately
   std::vector<SurfaceId> mirrors_;
 };
 

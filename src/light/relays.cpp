@@ -71,13 +71,13 @@ double extent(const LightSource& source, const V3d& along) {
 class Images {
  public:
   Images(const Scene& scene, const SurfaceFunctions& functions, const rad::Warn& warn,
-         std::vector<LightSource>& sources)
+         ById<LightId, LightSource>& sources)
       : scene_(scene), functions_(functions), sources_(sources) {
     for (const SurfaceId i : scene.outermostIds()) addRelay(i, warn);
   }
 
   // Adds the images of one source, and recursively their images, in sequences of up to `relays` relays.
-  void addImages(size_t source, int relays) {
+  void addImages(LightId source, int relays) {
     if (relays <= 0) return;
     for (size_t r = 0; r < relays_.size(); ++r) {
       // A relay makes no image of its own images, nor of light that its own surface emits.
@@ -89,9 +89,9 @@ class Images {
         relayOf_.resize(sources_.size());
         relayOf_.push_back(r);
         sources_.push_back(imageOf(sources_[source], relays_[r], *projection));
-        sources_.back().relayed = static_cast<int32_t>(source);
+        sources_.back().relayed = source;
         sources_.back().image = image;
-        addImages(sources_.size() - 1, relays - 1);
+        addImages(sources_.last(), relays - 1);
       }
     }
   }
@@ -180,7 +180,7 @@ class Images {
   }
 
   // Whether light of a source can reach the relay at all.
-  bool lights(size_t index, const Relay& relay) const {
+  bool lights(LightId index, const Relay& relay) const {
     const LightSource& source = sources_[index];
     if (source.isVirtual()) {
       // Its light leaves the preceding relay on the side opposite to the image.
@@ -258,19 +258,18 @@ class Images {
   const Scene& scene_;
   const SurfaceFunctions& functions_;
   FunctionScratch scratch_;
-  std::vector<LightSource>& sources_;
+  ById<LightId, LightSource>& sources_;
   std::vector<Relay> relays_;
-  std::vector<size_t> relayOf_;  // by source: for a virtual one, the index in relays_ of its last relay
+  ById<LightId, size_t> relayOf_;  // for a virtual one, the index in relays_ of its last relay
 };
 
 }  // namespace
 
 void addVirtualSources(const Scene& scene, int relays, const SurfaceFunctions& functions,
-                       const rad::Warn& warn, std::vector<LightSource>& sources) {
+                       const rad::Warn& warn, ById<LightId, LightSource>& sources) {
   if (relays <= 0 || sources.empty()) return;
   Images images(scene, functions, warn, sources);
-  const size_t real = sources.size();
-  for (size_t i = 0; i < real; ++i) images.addImages(i, relays);
+  for (const LightId real : sources.ids()) images.addImages(real, relays);
 }
 
 }  // namespace rsphere

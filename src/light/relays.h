@@ -20,6 +20,6 @@ namespace rsphere {
 // called for such surfaces of other shapes, which produce no images. functions: evaluates prisms; exceptions
 // that it throws are not caught.
 void addVirtualSources(const Scene& scene, int relays, const SurfaceFunctions& functions,
-                       const rad::Warn& warn, std::vector<LightSource>& sources);
+                       const rad::Warn& warn, ById<LightId, LightSource>& sources);
 
 }  // namespace rsphere

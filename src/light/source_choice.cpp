@@ -11,8 +11,8 @@ namespace {
 
 // The brightness (W/sr/m2) of the source, or of the real source whose image it is. Patterns and reflectances
 // are taken as 1.
-double brightnessOf(const Scene& scene, std::span<const LightSource> all, uint32_t index) {
-  while (all[index].isVirtual()) index = static_cast<uint32_t>(all[index].relayed);
+double brightnessOf(const Scene& scene, const ById<LightId, LightSource>& all, LightId index) {
+  while (all[index].isVirtual()) index = all[index].relayed;
   return brightness(sourceRadiance(scene, scene.surfaces[all[index].surface]));
 }
 
@@ -25,9 +25,9 @@ double before(double height, double radius) {
 }  // namespace
 
 SourceChoice::SourceChoice(const Scene& scene, const LightSources& lights) {
-  const std::span<const LightSource> all = lights.all();
+  const auto& all = lights.all();
   near_.resize(all.size());
-  for (uint32_t i = 0; i < all.size(); ++i) {
+  for (const LightId i : all.ids()) {
     const LightSource& source = all[i];
     const double bright = brightnessOf(scene, all, i);
     if (source.distant) {
@@ -43,10 +43,10 @@ SourceChoice::SourceChoice(const Scene& scene, const LightSources& lights) {
   }
 }
 
-double SourceChoice::weigh(const V3d& point, const V3d& front, std::vector<double>& weights) const {
+double SourceChoice::weigh(const V3d& point, const V3d& front, ById<LightId, double>& weights) const {
   weights.resize(near_.size());
   const double anySide = front == V3d(0, 0, 0) ? 1 : 0;
-  for (size_t i = 0; i < near_.size(); ++i) {
+  for (const LightId i : near_.ids()) {
     const Near& s = near_[i];
     const V3d towards = s.center - point;
     // The distance is taken as at least the source's radius: nearer, more of the source is seen obliquely.

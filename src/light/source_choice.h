@@ -14,11 +14,11 @@ class SourceChoice {
   // Keeps no reference to the scene or to its lights.
   SourceChoice(const Scene& scene, const LightSources& lights);
 
-  // The weight of every source at a point, by its index in LightSources: approximately the irradiance (W/m2,
+  // The weight of every source at a point: approximately the irradiance (W/m2,
   // of brightness) that it causes on a surface there with this normal (unit), or from all sides if front is
   // 0. The weight is greater than 0 wherever LightSources::sample() can return a sample for the same front,
   // so errors of the approximation increase the variance but cause no bias. Returns the sum of the weights.
-  double weigh(const V3d& point, const V3d& front, std::vector<double>& weights) const;
+  double weigh(const V3d& point, const V3d& front, ById<LightId, double>& weights) const;
 
  private:
   // Sources at a finite distance. power: brightness times area (W/sr). A source that shines to all sides has
@@ -28,16 +28,16 @@ class SourceChoice {
     double power, radius, everywhere;
   };
   struct Distant {
-    uint32_t source;
+    LightId source;
     V3d direction;
     double power, sine;  // power: brightness times solid angle (W/m2)
   };
   struct Restricted {
-    uint32_t source;
+    LightId source;
     double reach;
     std::optional<Spotlight> spot;
   };
-  std::vector<Near> near_;  // one for every source; that of a distant source has power 0
+  ById<LightId, Near> near_;  // one for every source; that of a distant source has power 0
   std::vector<Distant> distant_;
   std::vector<Restricted> restricted_;
 };

@@ -278,9 +278,8 @@ void LightSources::findSources() {
 
 // towards: the vector to the source's center, or the unit direction to a distant source. REQUIRES that the
 // source has passed the tests in sample().
-void LightSources::sampleParts(uint32_t index, const V3d& point, const V3d& towards,
-                               const SourceSampling& how, Random& random,
-                               std::vector<SourceSample>& samples) const {
+void LightSources::sampleParts(LightId index, const V3d& point, const V3d& towards, const SourceSampling& how,
+                               Random& random, std::vector<SourceSample>& samples) const {
   const LightSource& source = sources_[index];
   const double jitter = how.jitter;
 

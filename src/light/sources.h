@@ -18,12 +18,12 @@ namespace rsphere {
 // Virtual sources follow the real ones: images of other sources in a relay (mirror, prism1, prism2). An image
 // has a position and an extent, and can only be seen through its relay.
 struct LightSource {
-  SurfaceId surface;        // of a virtual source, its relay, which a ray to it hits first
-  int32_t relayed = kNone;  // index of the source that a ray reaches from the relay; kNone: a real source
-  int32_t image = 0;        // which of its relay's images, from 0
-  V3d center{0, 0, 0};      // of a distant source, the direction to it (unit)
-  double radius = 0;        // of its bounding sphere around center (world units)
-  double reach = 0;         // beyond this distance (world units) it lights nothing directly; 0: no limit
+  SurfaceId surface;    // of a virtual source, its relay, which a ray to it hits first
+  LightId relayed;      // the source that a ray reaches from the relay; kNone: a real source
+  int32_t image = 0;    // which of its relay's images, from 0
+  V3d center{0, 0, 0};  // of a distant source, the direction to it (unit)
+  double radius = 0;    // of its bounding sphere around center (world units)
+  double reach = 0;     // beyond this distance (world units) it lights nothing directly; 0: no limit
   bool distant = false;
   double sinHalfAngle = 0, cosHalfAngle = 1;  // distant only
   std::optional<Spotlight> spot;
@@ -66,7 +66,7 @@ struct SourceSample {
   double distance = 0;  // to the hit on the source, or on a virtual source's relay; 1e10 for distant sources
   double cosine = 1;    // of the hit, positive on the front
   V3d normal{0, 0, 0};
-  uint32_t source = 0;  // index in LightSources
+  LightId source;
 };
 
 // How a source is sampled.
@@ -86,13 +86,13 @@ class LightSources {
   // The same, with virtual sources from sequences of up to `relays` relays (-dr): see relays.h.
   LightSources(const Scene& scene, int relays, const SurfaceFunctions& functions, const rad::Warn& warn);
 
-  std::span<const LightSource> all() const { return sources_; }
+  const ById<LightId, LightSource>& all() const { return sources_; }
 
   // Appends the samples of one source as seen from a point, one for each of at most 64 parts. There are none
   // if the source cannot light the point: it faces away, or the point is beyond its reach or outside its
   // spot. A sample that misses the source it was aimed at is omitted. A sample of a virtual source is only
   // tested against the first relay; a ray in its direction may still return no light.
-  void sample(uint32_t source, const V3d& point, const SourceSampling& how, Random& random,
+  void sample(LightId source, const V3d& point, const SourceSampling& how, Random& random,
               std::vector<SourceSample>& samples) const {
     // Most sources face away or lie behind the surface, and most images shine elsewhere. These tests are
     // inline because they save the call in most cases.
@@ -110,13 +110,13 @@ class LightSources {
     const double along = -towards.dot(light.beam);
     return along < 0 || along * along < (1 - 1e-12) * light.cosBeam * light.cosBeam * towards.length2();
   }
-  void sampleParts(uint32_t source, const V3d& point, const V3d& towards, const SourceSampling& how,
+  void sampleParts(LightId source, const V3d& point, const V3d& towards, const SourceSampling& how,
                    Random& random, std::vector<SourceSample>& samples) const;
   void findSources();
   void measureParts();
 
   const Scene& scene_;
-  std::vector<LightSource> sources_;
+  ById<LightId, LightSource> sources_;
 };
 
 // Whether a point lies outside a spotlight's cone. towards: from the point to the light (unit).

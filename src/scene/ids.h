@@ -9,5 +9,6 @@ using rad::IdRange;
 inline constexpr rad::None kNone;
 
 using SurfaceId = rad::Id<struct SurfaceTag>;  // index in Scene::surfaces
+using LightId = rad::Id<struct LightTag>;      // index in LightSources::all()
 
 }  // namespace rsphere

@@ -35,7 +35,7 @@ Rgb DirectLight::sourceValue(const Ray& ray, const SourceSample& sample) {
     Ray child;
     Rgb whole(1, 1, 1);
     if (!continueRay(t_, state_.random, child, kReflectedShadow, ray, whole)) return Rgb(0, 0, 0);
-    child.aimedAt = static_cast<int32_t>(sample.source);
+    child.aimedAt = sample.source;
     child.direction = sample.direction;
     child.unobstructed = true;
     follower_.follow(child);
@@ -49,7 +49,7 @@ Rgb DirectLight::sourceValue(const Ray& ray, const SourceSample& sample) {
   child.direction = sample.direction;
   child.kind = kReflectedShadow;
   child.kinds = ray.kinds | kReflectedShadow;
-  child.aimedAt = static_cast<int32_t>(sample.source);
+  child.aimedAt = sample.source;
   child.pathLength = ray.pathLength + ray.length;
   child.surface = light.surface;
   child.length = sample.distance;
@@ -98,7 +98,7 @@ Rgb DirectLight::valueFromSource(const Ray& ray, const Contribution& to) {
   if (!continueRay(t_, state_.random, child, through ? kTransmittedShadow : kReflectedShadow, ray, whole))
     return Rgb(0, 0, 0);
   child.contribution *= to.coefficient;
-  child.aimedAt = static_cast<int32_t>(to.sample->source);
+  child.aimedAt = to.sample->source;
   child.direction = direction;
   follower_.follow(child);
   return child.value;
@@ -150,7 +150,7 @@ uint32_t DirectLight::findContributions(const Ray& ray, DirectCoefficient coeffi
   const bool divides =
       o.sourceSubstructuring > kNegligible && !(isOfGather(t_, ray) && o.directJitter > kWideJitter);
   const SourceSampling how{divides ? o.sourceSubstructuring / ray.weight : 0, o.directJitter, front};
-  for (uint32_t i = 0; i < t_.lights().all().size(); ++i)
+  for (const LightId i : t_.lights().all().ids())
     t_.lights().sample(i, ray.point, how, state_.random, samples_);
   if (contributions_.size() < samples_.size()) {
     contributions_.resize(samples_.size());
@@ -239,7 +239,7 @@ void DirectLight::addOfChosen(Ray& ray, DirectCoefficient coefficientOf, const V
   const int draws = std::max(1, static_cast<int>(t_.options().chosenSources * ray.weight + .5));
   const double step = sum / draws;
   double next = state_.random.uniform() * step, passed = 0;
-  for (uint32_t i = 0; i < sourceWeights_.size(); ++i) {
+  for (const LightId i : sourceWeights_.ids()) {
     for (passed += sourceWeights_[i]; next < passed; next += step) {
       samples_.clear();
       t_.lights().sample(i, ray.point, {0, 1, front}, state_.random, samples_);
@@ -255,7 +255,7 @@ void DirectLight::addOfChosen(Ray& ray, DirectCoefficient coefficientOf, const V
   }
 }
 
-void DirectLight::addFromSource(const Ray& at, uint32_t source, DirectCoefficient coefficientOf, Rgb& sum) {
+void DirectLight::addFromSource(const Ray& at, LightId source, DirectCoefficient coefficientOf, Rgb& sum) {
   samples_.clear();
   t_.lights().sample(source, at.point, {0, t_.options().directJitter}, state_.random, samples_);
   for (const SourceSample& sample : samples_) {

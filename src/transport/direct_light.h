@@ -34,8 +34,8 @@ class DirectLight {
   // The same, but estimated from -Ss sources drawn at random.
   void addOfChosen(Ray& ray, DirectCoefficient coefficientOf, const V3d& front);
 
-  // Adds the light of one source (index in LightSources) that is scattered at the end of a ray (W/sr/m2).
-  void addFromSource(const Ray& at, uint32_t source, DirectCoefficient coefficientOf, Rgb& sum);
+  // Adds the light of one source that is scattered at the end of a ray (W/sr/m2).
+  void addFromSource(const Ray& at, LightId source, DirectCoefficient coefficientOf, Rgb& sum);
 
  private:
   struct Contribution {
@@ -51,8 +51,9 @@ class DirectLight {
   void addOneOf(Ray& ray, size_t first, uint32_t count);
   bool arrives(const Ray& ray, const Contribution& to, Rgb& value);
   bool isWhole(const SourceSample& sample) const;
-  uint32_t& blockerOf(SurfaceId surface, uint32_t source) {
-    const uint64_t both = (uint64_t{static_cast<uint32_t>(surface.number())} << 32) | source;
+  uint32_t& blockerOf(SurfaceId surface, LightId source) {
+    const uint64_t both =
+        (uint64_t{static_cast<uint32_t>(surface.number())} << 32) | static_cast<uint32_t>(source.number());
     return blockers_[(both * 0x9e3779b97f4a7c15u) >> (64 - kBlockerBits)];  // Fibonacci hashing
   }
 
@@ -67,7 +68,7 @@ class DirectLight {
   std::vector<double> brightness_;  // of the contributions
   std::vector<uint32_t> order_;     // of the contributions, brightest first where not all are tested
   std::vector<double> remaining_;
-  std::vector<double> sourceWeights_;
+  ById<LightId, double> sourceWeights_;
   // The surface that blocked the last shadow ray from a surface to a source, at a hash of the two.
   static constexpr int kBlockerBits = 12;
   std::vector<uint32_t> blockers_;

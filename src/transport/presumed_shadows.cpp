@@ -88,7 +88,7 @@ bool PresumedShadows::middleOfCell(const LightSource& light, const V3d& point, c
   return true;
 }
 
-bool PresumedShadows::hide(uint32_t source, const V3d& point, const V3d& direction, double distance) const {
+bool PresumedShadows::hide(LightId source, const V3d& point, const V3d& direction, double distance) const {
   const LightSource& light = lights_.all()[source];
   if (light.isVirtual() || light.reach > 0 || light.spot) return false;
   V3d origin, onward;

@@ -24,7 +24,7 @@ class PresumedShadows {
   // Whether rtrace assumes that the source is hidden from the point along a straight line. direction: unit,
   // towards the source; distance: to its surface, or kFarAway. Costs one ray, or a few if surfaces that are
   // not opaque lie in front.
-  bool hide(uint32_t source, const V3d& point, const V3d& direction, double distance) const;
+  bool hide(LightId source, const V3d& point, const V3d& direction, double distance) const;
 
  private:
   bool middleOfCell(const LightSource& light, const V3d& point, const V3d& direction, V3d& origin,

@@ -69,8 +69,8 @@ RadianceGuess::RadianceGuess(const Transport& transport, const ById<SurfaceId, b
     if (!material || unguessed[i]) continue;
     if (const auto* m = std::get_if<Opaque>(material)) reflectance_[i] = m->color * (1 - m->specularity);
   }
-  const auto lights = transport.lights().all();
-  for (uint32_t i = 0; i < lights.size(); ++i) {
+  const auto& lights = transport.lights().all();
+  for (const LightId i : lights.ids()) {
     if (lights[i].isVirtual()) continue;
     const Rgb radiance = sourceRadiance(scene, scene.surfaces[lights[i].surface]);
     if (brightness(radiance) > 0) lights_.push_back({i, radiance, 0});
@@ -93,7 +93,7 @@ RadianceGuess::Place RadianceGuess::placeOf(const V3d& point, const V3d& directi
 }
 
 // Unoccluded irradiance from a source of radiance 1, sr.
-double RadianceGuess::factor(uint32_t source, const Place& at) const {
+double RadianceGuess::factor(LightId source, const Place& at) const {
   const LightSource& light = transport_.lights().all()[source];
   if (light.distant) return 2 * kPi * (1 - light.cosHalfAngle) * std::max(0., at.normal.dot(light.center));
   const V3d to = light.center - at.point;
@@ -126,7 +126,7 @@ double RadianceGuess::sent(const Light& light, const Place& at) const {
 }
 
 // The share of some fixed points on the source that are visible from the place.
-double RadianceGuess::seenFrom(const Place& at, uint32_t source) const {
+double RadianceGuess::seenFrom(const Place& at, LightId source) const {
   const LightSource& light = transport_.lights().all()[source];
   const bool ball = light.map == LightSource::Map::ball;
   V3d u = light.u, v = light.v;

@@ -60,7 +60,7 @@ class LocalGuess {
   Rgb from(const Place& place, bool looking) const;
 
   struct Light {
-    uint32_t source = 0;    // index in LightSources
+    LightId source;
     Rgb radiance{0, 0, 0};  // W/sr/m2
     double share = 0;       // mean visibility from the places that face it
   };
@@ -101,9 +101,9 @@ class RadianceGuess {
   using Light = LocalGuess::Light;
   Place placeOf(SurfaceId surface, const V3d& point, const V3d& normal, const V3d& direction) const;
   Place placeAlong(const V3d& point, const V3d& direction, SurfaceId start) const;
-  double factor(uint32_t source, const Place& at) const;
+  double factor(LightId source, const Place& at) const;
   double sent(const Light& light, const Place& at) const;
-  double seenFrom(const Place& at, uint32_t source) const;
+  double seenFrom(const Place& at, LightId source) const;
   double shareThatArrives(const Light& light, std::span<const double> sent, std::span<const Place> places,
                           Random& random) const;
 

@@ -56,7 +56,7 @@ struct Ray {
   int ambientLevel = 0;         // number of indirect bounces that led to it
   double pathLength = 0;        // total length of its ancestors
   double shadowLength = 0;      // total length of those ancestors that are shadow rays
-  int32_t aimedAt = kNone;      // light source that a shadow ray is aimed at
+  LightId aimedAt;              // light source that a shadow ray is aimed at
   SurfaceId mirror;             // the flat surface that mirrored the primary ray into this one, if nothing
                                 // else deflected it
   bool unobstructed = false;    // of a shadow ray: it hits its target, whatever else is in its way

@@ -63,11 +63,11 @@ Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance i
       lights_(scene, options.directRelays, functions_, warn),
       presumedShadows_(scene, tracer_, lights_),
       choice_(scene, lights_),
-      lightOf_(scene.surfaces.size(), kNone) {
+      lightOf_(scene.surfaces.size()) {
   constantRadiance_.resize(lights_.all().size());
-  for (size_t i = 0; i < lights_.all().size(); ++i) {
+  for (const LightId i : lights_.all().ids()) {
     if (lights_.all()[i].isVirtual()) continue;
-    lightOf_[lights_.all()[i].surface] = static_cast<int32_t>(i);
+    lightOf_[lights_.all()[i].surface] = i;
     const Surface& surface = scene.surfaces[lights_.all()[i].surface];
     if (surface.goal ||
         (surface.modifier == surface.material && scene.modifiers[surface.material].next == kNone))
@@ -133,21 +133,20 @@ bool Transport::lacksSources() const {
          !(options_.ambientBounces > 0 && glows(scene_.outermost()));
 }
 
-std::optional<uint32_t> Transport::sourceNamed(std::string_view name) const {
-  const auto all = lights_.all();
+LightId Transport::sourceNamed(std::string_view name) const {
+  const auto& all = lights_.all();
   for (size_t i = all.size(); i-- > 0;) {
     std::string_view rest = name;
-    const LightSource* light = &all[i];
-    for (; light->isVirtual(); light = &all[static_cast<size_t>(light->relayed)]) {
+    const LightSource* light = &all[LightId(i)];
+    for (; light->isVirtual(); light = &all[light->relayed]) {
       const size_t end = rest.find('>');
       if (end == rest.npos || rest.substr(0, end) != scene_.surfaceName(scene_.surfaces[light->surface]))
         break;
       rest.remove_prefix(end + 1);
     }
-    if (!light->isVirtual() && rest == scene_.surfaceName(scene_.surfaces[light->surface]))
-      return static_cast<uint32_t>(i);
+    if (!light->isVirtual() && rest == scene_.surfaceName(scene_.surfaces[light->surface])) return LightId(i);
   }
-  return std::nullopt;
+  return kNone;
 }
 
 void Transport::findScatterers(const rad::Warn& warn) {
@@ -158,15 +157,15 @@ void Transport::findScatterers(const rad::Warn& warn) {
     if (scatterersOf_.size() <= mist->number) scatterersOf_.resize(mist->number + 1);
     auto& own = scatterersOf_[mist->number];
     for (const std::string& name : mist->sources) {
-      const auto source = sourceNamed(name);
-      if (!source) {
+      const LightId source = sourceNamed(name);
+      if (source == kNone) {
         // In a scene with goals, light sources do not emit, so that the warning would be pointless.
         if (warn && !scene_.importance)
           warn(fmt::format("{}: unknown source \"{}\"", scene_.place(m.primitive), rad::printable(name)));
         continue;
       }
-      auto found = std::find(scatterers_.begin(), scatterers_.end(), *source);
-      if (found == scatterers_.end()) found = scatterers_.insert(found, *source);
+      auto found = std::find(scatterers_.begin(), scatterers_.end(), source);
+      if (found == scatterers_.end()) found = scatterers_.insert(found, source);
       const auto position = static_cast<uint16_t>(found - scatterers_.begin());
       if (std::find(own.begin(), own.end(), position) == own.end()) own.push_back(position);
     }

@@ -53,11 +53,11 @@ class Transport {
   const RayOptions& options() const { return options_; }
   Irradiance irradiance() const { return irradiance_; }
   bool basicRadiance() const { return basicRadiance_; }
-  // Index in LightSources of a surface's own light, or kNone.
-  int32_t lightOf(SurfaceId surface) const { return lightOf_[surface]; }
-  // The radiance of a light source (index in LightSources) if it is the same from all points and directions;
+  // A surface's own light, or kNone.
+  LightId lightOf(SurfaceId surface) const { return lightOf_[surface]; }
+  // The radiance of a light source if it is the same from all points and directions;
   // null if it has to be computed for each ray.
-  const Rgb* constantRadiance(uint32_t source) const {
+  const Rgb* constantRadiance(LightId source) const {
     return constantRadiance_[source] ? &*constantRadiance_[source] : nullptr;
   }
   // Whether indirect light is computed on the surface (-ae, -ai).
@@ -68,9 +68,9 @@ class Transport {
   Medium medium() const {
     return {options_.mediumExtinction, options_.mediumAlbedo, options_.mediumEccentricity};
   }
-  // Light sources that any mist names, as indices in LightSources; and those that one mist names, as
+  // Light sources that any mist names; and those that one mist names, as
   // positions in scatterers().
-  const std::vector<uint32_t>& scatterers() const { return scatterers_; }
+  const std::vector<LightId>& scatterers() const { return scatterers_; }
   const std::vector<uint16_t>& scatterersOf(const Mist& mist) const { return scatterersOf_[mist.number]; }
   // Whether the scene has no light at all: no light sources, no glow, no ambient value, no goals.
   bool isDark() const;
@@ -94,7 +94,7 @@ class Transport {
   void prepareInterpolation(const rad::Warn& warn);
   bool glows(std::span<const Surface> surfaces) const;
   void findScatterers(const rad::Warn& warn);
-  std::optional<uint32_t> sourceNamed(std::string_view name) const;
+  LightId sourceNamed(std::string_view name) const;
 
   const Scene& scene_;
   RayOptions options_;
@@ -105,10 +105,10 @@ class Transport {
   LightSources lights_;
   PresumedShadows presumedShadows_;
   SourceChoice choice_;
-  ById<SurfaceId, int32_t> lightOf_;
-  std::vector<std::optional<Rgb>> constantRadiance_;
+  ById<SurfaceId, LightId> lightOf_;
+  ById<LightId, std::optional<Rgb>> constantRadiance_;
   std::vector<SurfaceId> distant_;
-  std::vector<uint32_t> scatterers_;
+  std::vector<LightId> scatterers_;
   std::vector<std::vector<uint16_t>> scatterersOf_;  // by Mist::number
   ById<SurfaceId, bool> ambient_;                    // empty: all of them
   std::unique_ptr<const Openings> openings_;

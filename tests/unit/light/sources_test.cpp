@@ -28,7 +28,7 @@ std::vector<SourceSample> samplesAt(const Scene& scene, const V3d& point, const 
   const LightSources sources(scene);
   Random random(seed);
   std::vector<SourceSample> samples;
-  for (uint32_t i = 0; i < sources.all().size(); ++i) sources.sample(i, point, how, random, samples);
+  for (const LightId i : sources.all().ids()) sources.sample(i, point, how, random, samples);
   return samples;
 }
 
@@ -48,7 +48,7 @@ Sample meanIrradiance(const Scene& scene, const V3d& point, const V3d& normal, c
   std::vector<SourceSample> samples;
   for (int i = 0; i < count; ++i) {
     samples.clear();
-    for (uint32_t k = 0; k < sources.all().size(); ++k) sources.sample(k, point, how, random, samples);
+    for (const LightId k : sources.all().ids()) sources.sample(k, point, how, random, samples);
     e.add(irradiance(samples, normal));
   }
   return e;
@@ -239,8 +239,8 @@ TEST(Source, OnlyWhatShinesIsASource) {
       "lamp sphere d\n0\n0\n4 9 0 0 1\nwindow sphere e\n0\n0\n4 13 0 0 1\n");
   const LightSources sources(scene);
   ASSERT_EQ(sources.all().size(), 2u);
-  EXPECT_EQ(scene.surfaceName(scene.surfaces[sources.all()[0].surface]), "d");
-  EXPECT_EQ(scene.surfaceName(scene.surfaces[sources.all()[1].surface]), "e");
+  EXPECT_EQ(scene.surfaceName(scene.surfaces[sources.all().at(0).surface]), "d");
+  EXPECT_EQ(scene.surfaceName(scene.surfaces[sources.all().at(1).surface]), "e");
 }
 
 // A cone of 60 degrees that looks down. Its light comes from a focus behind the surface: that far away, it

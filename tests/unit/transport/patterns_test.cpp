@@ -709,7 +709,8 @@ TEST_F(Patterns, RaysToAGoalTakeTheRandomNumbersOfTheirSeed) {
   const std::vector<std::string> goals = {"G"};
   const Scene scene = buildScene(rad::readSceneText(text, "room.rad"), {}, goals);
   const Transport transport(scene, unbiased(), Irradiance::none);
-  const SourceSample sample{.direction = V3d(0, 0, 1), .distance = 1, .normal = V3d(0, 0, -1), .source = 0};
+  const SourceSample sample{
+      .direction = V3d(0, 0, 1), .distance = 1, .normal = V3d(0, 0, -1), .source = LightId(0)};
   const auto toGoal = [&](PathTracer& tracer, uint64_t seed) {
     return tracer.traceToSource(V3d(0, 0, 1), sample, seed).value;
   };
