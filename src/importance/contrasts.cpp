@@ -85,7 +85,7 @@ Contrasts measureContrasts(const Transport& transport, std::span<const SpecialOb
   Contrasts contrasts;
   if (objects.empty()) return contrasts;
   const Scene& scene = transport.scene();
-  std::map<int32_t, std::vector<SpecialObject>> alike;  // by modifier
+  std::map<ModifierId, std::vector<SpecialObject>> alike;  // by modifier
   for (const SpecialObject& object : objects)
     alike[scene.surfaces[object.surface].modifier].push_back(object);
   PathTracer tracer(transport, spots);

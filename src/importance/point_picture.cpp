@@ -154,7 +154,7 @@ class PixelTracer {
         std::min({pattern.x, pattern.y, pattern.z}) < Tuning::kLeastPattern)
       return ray.value;
     const Scene& scene = transport_.scene();
-    const int32_t material = scene.surfaces[hit.surface].material;
+    const ModifierId material = scene.surfaces[hit.surface].material;
     if (!scene.materialAt(material)) return ray.value;
     pixel.material = material;
     pixel.light = Imath::V3f(indirect_ / pattern);

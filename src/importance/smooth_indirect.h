@@ -12,7 +12,7 @@ struct IndirectPixels {
     Imath::V3f light{0, 0, 0};  // reflected indirect light over the surface's pattern, W/sr/m2
     Imath::V3f point{0, 0, 0}, normal{0, 0, 0};
     float distance = 0;
-    int32_t material = kNone;  // kNone: the light is left as it is
+    ModifierId material;  // kNone: the light is left as it is
   };
   int width = 0, height = 0;
   bool wraps = false;  // whether the first column continues the last

@@ -64,7 +64,7 @@ struct Shown {
   const Modifier* modifier = nullptr;
   double irregularity = 0;
 };
-Shown mostIrregular(const Scene& scene, int32_t modifier) {
+Shown mostIrregular(const Scene& scene, ModifierId modifier) {
   Shown most;
   for (; modifier != kNone; modifier = scene.modifiers[modifier].next) {
     const Modifier& m = scene.modifiers[modifier];
@@ -257,7 +257,7 @@ const Shape& shapeOf(const Scene& scene, const SpecialObject& object) {
 bool shows(const Scene& scene, const SpecialObject& object, SurfaceId surface) {
   if (surface == kNone) return false;
   if (!object.several) return surface == object.surface;
-  const int32_t modifier = scene.surfaces[surface].modifier;
+  const ModifierId modifier = scene.surfaces[surface].modifier;
   return mostIrregular(scene, modifier).irregularity >= kSpecialIrregularity;
 }
 

@@ -26,7 +26,7 @@ struct Projection {
 
 struct Relay {
   SurfaceId surface;
-  int32_t modifier;  // of the material
+  ModifierId modifier;  // of the material
   V3d normal;
   double offset = 0;    // normal . p for the points p of the plane
   V3d center{0, 0, 0};  // of a sphere around it
@@ -35,8 +35,8 @@ struct Relay {
 
 // The modifier of the mirror or prism that makes the surface a relay, which may be the alternative material
 // of an illum; kNone if the surface is no relay.
-int32_t relayMaterial(const Scene& scene, const Surface& surface) {
-  int32_t modifier = surface.material;
+ModifierId relayMaterial(const Scene& scene, const Surface& surface) {
+  ModifierId modifier = surface.material;
   const Material* material = scene.materialAt(modifier);
   if (const auto* illum = material ? std::get_if<Illum>(material) : nullptr;
       illum && illum->alternate.kind == Alternate::Kind::modifier) {

@@ -95,7 +95,7 @@ uint64_t fingerprint(const Scene& scene) {
     }
   }
   for (const Surface& s : scene.surfaces) {
-    print.add(uint64_t{static_cast<uint32_t>(s.modifier)} << 1 | static_cast<uint64_t>(s.goal));
+    print.add(uint64_t{static_cast<uint32_t>(s.modifier.number())} << 1 | static_cast<uint64_t>(s.goal));
     std::visit([&](const auto& shape) { add(print, shape, scene); }, s.shape);
   }
   for (const Mesh& mesh : scene.meshes) add(print, mesh.data);

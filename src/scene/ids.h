@@ -8,7 +8,8 @@ using rad::IdRange;
 
 inline constexpr rad::None kNone;
 
-using SurfaceId = rad::Id<struct SurfaceTag>;  // index in Scene::surfaces
-using LightId = rad::Id<struct LightTag>;      // index in LightSources::all()
+using SurfaceId = rad::Id<struct SurfaceTag>;    // index in Scene::surfaces
+using ModifierId = rad::Id<struct ModifierTag>;  // index in Scene::modifiers
+using LightId = rad::Id<struct LightTag>;        // index in LightSources::all()
 
 }  // namespace rsphere

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/rgb.h"
+#include "scene/ids.h"
 
 namespace rsphere {
 
@@ -43,8 +44,8 @@ struct Glass {
   double refraction = 1.52;
 };
 
-// functions, in the materials below: the material's index in Scene::modifiers, by which
-// SurfaceFunctions finds its function files.
+// functions, in the materials below: the material itself as a modifier, by which SurfaceFunctions finds its
+// function files.
 
 // plastic2, metal2 and trans2: elliptical highlights. The functions give a direction, which is projected onto
 // the surface; the roughnesses along it and across it are both above 0.
@@ -55,13 +56,13 @@ struct Anisotropic {
   bool metal = false;
   bool trans = false;  // trans2: transmits light as Trans does
   double transmissivity = 0, transmittedSpecular = 0;
-  int32_t functions = -1;
+  ModifierId functions = kNone;
 };
 // ashik2: the higher the powers, the smoother the surface. The diffuse and specular colours add up.
 struct Ashikhmin {
   Rgb diffuse, specular;
   double powerAlong = 0, powerAcross = 0;
-  int32_t functions = -1;
+  ModifierId functions = kNone;
 };
 // plasfunc, metfunc, transfunc, plasdata, metdata and transdata: the specular component is scattered
 // according to a function of the direction to a light source.
@@ -70,7 +71,7 @@ struct FunctionScatterer {
   double specularity = 0;
   bool metal = false;
   double transmissivity = 0, transmittedSpecular = 0;
-  int32_t functions = -1;
+  ModifierId functions = kNone;
 };
 // BRTDfunc. Arguments that are numbers are evaluated here; the others are known only at a hit.
 struct BrtdFunction {
@@ -79,20 +80,20 @@ struct BrtdFunction {
   bool directional = true;   // some distribution function is not "0"
   double mostReflected = 1;  // upper bound of the sharp reflection of either side; 1 if functions decide
   double mostTransmitted = 1;
-  int32_t functions = -1;
+  ModifierId functions = kNone;
 };
 // WGMDfunc: like trans2, but each component has its own modifier and functions.
 struct WgmdFunction {
   // Upper bound of the lobe's share and lower bounds of its roughnesses: 1 and 0 if functions decide.
   struct Lobe {
     double share = 1, roughnessAlong = 0, roughnessAcross = 0;
-    std::optional<int32_t> modifier;  // index in Scene::modifiers or -1 (void); empty: the material's
+    std::optional<ModifierId> modifier;  // kNone: void; empty: the material's
   };
   Rgb diffuseFront, diffuseBack, diffuseTransmitted;
   Lobe reflected, transmitted;
-  std::optional<int32_t> diffuseTransmittedModifier;
+  std::optional<ModifierId> diffuseTransmittedModifier;
   bool transmits = true;  // the specular transmission is not "0"
-  int32_t functions = -1;
+  ModifierId functions = kNone;
 };
 
 // BSDF and aBSDF: scattering from an XML file, to which diffuse colours are added.
@@ -100,13 +101,13 @@ struct BsdfMaterial {
   bool aperture = false;  // aBSDF: light that passes straight through is treated separately
   bool proxy = false;     // BSDF whose thickness is not "0": a proxy for geometry that it hides
   Rgb diffuseFront{0, 0, 0}, diffuseBack{0, 0, 0}, diffuseTransmitted{0, 0, 0};
-  int32_t functions = -1;
+  ModifierId functions = kNone;
 };
 
 // How a surface of illum or mirror is shaded for rays to which it is not a light source.
 struct Alternate {
   enum class Kind : uint8_t { none, pass, modifier } kind = Kind::none;
-  int32_t modifier = -1;  // index in Scene::modifiers, for Kind::modifier
+  ModifierId modifier = kNone;  // for Kind::modifier
 };
 struct Mirror {
   Rgb reflectance;
@@ -116,7 +117,7 @@ struct Mirror {
 // prism1 and prism2: a plane surface that redirects light in one or two directions, given by functions.
 struct Prism {
   int images = 1;
-  int32_t functions = -1;
+  ModifierId functions = kNone;
 };
 // Between the front and the back of antimatter, surfaces with certain modifiers do not exist. cut: shades the
 // places where the back cuts through a volume that these surfaces enclose; Kind::pass leaves those open.

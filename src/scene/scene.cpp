@@ -54,7 +54,8 @@ class Builder {
   }
 
  private:
-  static constexpr int32_t kUnknown = -2;
+  static constexpr ModifierId kUnknown{-2};  // not converted yet
+  static constexpr int kUnmeasured = -2;
   static constexpr int kDeepest = 64;
 
   // A file that primitives name, and the first primitive that names it.
@@ -100,7 +101,7 @@ class Builder {
   }
 
   // The modifier that a string argument of primitive i names: its latest definition before i; kNone for void.
-  int32_t named(uint32_t i, size_t argument) {
+  ModifierId named(uint32_t i, size_t argument) {
     const std::string_view name = scene_.description.string(primitive(i), argument);
     if (name == "void") return kNone;
     const int32_t described = definedBefore(i, name);
@@ -108,7 +109,7 @@ class Builder {
     // A ray that hits nested modifiers recurses as deeply, and splits into up to 2^depth evaluations.
     if (depth_ == kDeepest) fail(i, fmt::format("modifiers name each other more than {} deep", kDeepest));
     ++depth_;
-    const int32_t converted = modifier(described);
+    const ModifierId converted = modifier(described);
     --depth_;
     return converted;
   }
@@ -173,7 +174,7 @@ class Builder {
 
   // The modifier that WGMDfunc names for a component. A component that reflects or transmits
   // nothing needs none.
-  std::optional<int32_t> componentModifier(uint32_t i, size_t argument, bool used) {
+  std::optional<ModifierId> componentModifier(uint32_t i, size_t argument, bool used) {
     if (!used || scene_.description.string(primitive(i), argument) == "inherit") return std::nullopt;
     return named(i, argument);
   }
@@ -184,7 +185,7 @@ class Builder {
   }
 
   Content mixture(uint32_t i) {
-    const int32_t foreground = named(i, 0);
+    const ModifierId foreground = named(i, 0);
     return Mixture{foreground, named(i, 1)};
   }
 
@@ -373,7 +374,7 @@ class Builder {
 
   // Converts the modifier at this index of the description and the chain of those that modify
   // it, each only once.
-  int32_t modifier(int32_t described) {
+  ModifierId modifier(int32_t described) {
     if (described == rad::kVoid) return kNone;
     // Follows the chain from described to void without recursion, because a file may nest as
     // deeply as it likes.
@@ -383,7 +384,7 @@ class Builder {
       chain.push_back(next);
       next = primitive(next).modifier;
     }
-    int32_t converted = next == rad::kVoid ? kNone : modifierOf_[next];
+    ModifierId converted = next == rad::kVoid ? kNone : modifierOf_[next];
     while (!chain.empty()) {
       const int32_t i = chain.back();
       chain.pop_back();
@@ -394,16 +395,16 @@ class Builder {
                                                          : primitive(target).modifier;
       if (target != rad::kVoid) {  // an alias without a target is its modifier
         Content made = content(static_cast<uint32_t>(target));
-        tellIndex(made, static_cast<int32_t>(scene_.modifiers.size()));
+        tellIndex(made, ModifierId(scene_.modifiers.size()));
         scene_.modifiers.push_back({std::move(made), converted, static_cast<uint32_t>(target)});
-        converted = static_cast<int32_t>(scene_.modifiers.size()) - 1;
+        converted = scene_.modifiers.last();
       }
       modifierOf_[i] = converted;
     }
     return converted;
   }
 
-  static void tellIndex(Content& content, int32_t index) {
+  static void tellIndex(Content& content, ModifierId index) {
     if (auto* material = std::get_if<Material>(&content))
       std::visit(
           [index](auto& kind) {
@@ -551,14 +552,14 @@ class Builder {
 
   // Checks that octrees do not contain themselves, and that no ray can be nested too deeply.
   void checkNesting() {
-    heights_.assign(scene_.groups.size(), kUnknown);
+    heights_.assign(scene_.groups.size(), kUnmeasured);
     if (!octrees_.empty()) height(0, 0);
   }
   // The number of levels of octrees and meshes below this group, which is itself at `depth`.
   int height(uint32_t group, int depth) {
     constexpr int kOpen = -1;
     int& known = heights_[group];
-    if (known != kUnknown) return known;
+    if (known != kUnmeasured) return known;
     known = kOpen;
     int highest = 0;
     const SurfaceGroup& g = scene_.groups[group];
@@ -760,12 +761,12 @@ class Builder {
   int depth_ = 0;                                 // of nested conversions by such names
   std::unordered_map<int32_t, uint64_t> clipOf_;  // Surface::clip of a modifier, by index in the description
   uint32_t mists_ = 0;
-  std::vector<int32_t> modifierOf_;  // by index in the description; kUnknown: not converted yet
+  std::vector<ModifierId> modifierOf_;  // by index in the description; kUnknown: not converted yet
 };
 
 }  // namespace
 
-int32_t Scene::firstMaterial(int32_t modifier) const {
+ModifierId Scene::firstMaterial(ModifierId modifier) const {
   for (; modifier != kNone; modifier = modifiers[modifier].next) {
     const Modifier& m = modifiers[modifier];
     if (std::holds_alternative<Material>(m.content)) return modifier;

@@ -23,10 +23,9 @@ namespace rsphere {
 struct Pattern {};
 // Perturbs the normal.
 struct Texture {};
-// Shades a surface with a blend of two chains of modifiers. Each is an index in Scene::modifiers,
-// or kNone for void.
+// Shades a surface with a blend of two chains of modifiers. kNone: void.
 struct Mixture {
-  int32_t foreground = kNone, background = kNone;
+  ModifierId foreground, background;
 };
 
 using Content = std::variant<Material, Pattern, Texture, Mixture>;
@@ -34,18 +33,18 @@ using Content = std::variant<Material, Pattern, Texture, Mixture>;
 // A modifier that some surface uses, and the modifier that modifies it in turn (kNone: void).
 struct Modifier {
   Content content;
-  int32_t next = kNone;
+  ModifierId next;
   uint32_t primitive = 0;  // index in Scene::description; of the target if it was an alias
 };
 
 struct Surface {
   Shape shape;
-  uint32_t primitive = 0;    // index in Scene::description, which has its name and place
-  int32_t modifier = kNone;  // index in Scene::modifiers; kNone: void
-  int32_t material = kNone;  // the first material of the chain that modifier begins, or else the mixture that
-                             // ends it. Decides ties between surfaces, and which are light sources
-  uint64_t clip = 0;         // the bit of its modifier in Antimatter::clips; 0: not clipped by any
-  bool goal = false;         // emits importance 1 from its front, in addition to its material
+  uint32_t primitive = 0;  // index in Scene::description, which has its name and place
+  ModifierId modifier;     // kNone: void
+  ModifierId material;     // the first material of the chain that modifier begins, or else the mixture that
+                           // ends it. Decides ties between surfaces, and which are light sources
+  uint64_t clip = 0;       // the bit of its modifier in Antimatter::clips; 0: not clipped by any
+  bool goal = false;       // emits importance 1 from its front, in addition to its material
   // Whether its modifier is called "Phong", the customary name of textures that smooth a surface by
   // interpolated normals. As in rtrace, such a texture does not deflect rays that pass straight through a
   // thin surface (trans, glass and the like). Refraction by dielectric and interface follows the perturbed
@@ -75,7 +74,7 @@ struct Scene {
   std::vector<Mesh> meshes;
   std::vector<Placement> placements;
   std::vector<V3d> vertices;  // of the polygons
-  std::vector<Modifier> modifiers;
+  ById<ModifierId, Modifier> modifiers;
   bool importance = false;  // there are goals: importance is traced, and all other sources are dark
 
   // The surfaces that belong to the world itself rather than to an octree or a mesh. They are the first ones.
@@ -94,9 +93,9 @@ struct Scene {
     return description.name(description.primitives[s.primitive]);
   }
   // Surface::material of the chain that a modifier begins.
-  int32_t firstMaterial(int32_t modifier) const;
-  // The material at an index in modifiers; null for kNone, and if the modifier is not a material.
-  const Material* materialAt(int32_t modifier) const {
+  ModifierId firstMaterial(ModifierId modifier) const;
+  // Null for kNone, and if the modifier is not a material.
+  const Material* materialAt(ModifierId modifier) const {
     return modifier == kNone ? nullptr : std::get_if<Material>(&modifiers[modifier].content);
   }
   // Null if the surface has no material, or if mixtures alone determine it.

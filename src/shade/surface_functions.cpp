@@ -417,18 +417,17 @@ SurfaceFunctions::SurfaceFunctions(const Scene& scene, rad::Warn warn,
       library_.define(shared.text, fmt::format("-e '{}'", shared.text));
 }
 
-const SurfaceFunctions::Function& SurfaceFunctions::prepare(int32_t modifier) const {
+const SurfaceFunctions::Function& SurfaceFunctions::prepare(ModifierId modifier) const {
   const std::lock_guard lock(mutex_);
-  auto& slot = ready_[static_cast<size_t>(modifier)];
+  auto& slot = ready_[modifier.index()];
   if (const Function* f = slot.load(std::memory_order_relaxed)) return *f;
-  functions_.push_back(Maker(*this, scene_.modifiers[static_cast<size_t>(modifier)].primitive).make());
+  functions_.push_back(Maker(*this, scene_.modifiers[modifier].primitive).make());
   slot.store(functions_.back().get(), std::memory_order_release);
   return *functions_.back();
 }
 
-std::span<const double> SurfaceFunctions::realsOf(int32_t modifier) const {
-  return scene_.description.reals(
-      scene_.description.primitives[scene_.modifiers[static_cast<size_t>(modifier)].primitive]);
+std::span<const double> SurfaceFunctions::realsOf(ModifierId modifier) const {
+  return scene_.description.reals(scene_.description.primitives[scene_.modifiers[modifier].primitive]);
 }
 
 const Placement* SurfaceFunctions::placementOf(const Function& f, const FunctionPoint& at,
@@ -467,20 +466,19 @@ void SurfaceFunctions::setInputs(const Function& f, const FunctionPoint& at, Fun
   if (needs & bits(DxA, 3)) put(&in[DxA], direction(at.toTarget));
 }
 
-void SurfaceFunctions::warn(int32_t modifier, std::string_view problem) const {
+void SurfaceFunctions::warn(ModifierId modifier, std::string_view problem) const {
   if (!warn_ || ready(modifier).warned.exchange(true)) return;
   const std::lock_guard lock(mutex_);
-  warn_(fmt::format("{}: {}", scene_.place(scene_.modifiers[static_cast<size_t>(modifier)].primitive),
-                    problem));
+  warn_(fmt::format("{}: {}", scene_.place(scene_.modifiers[modifier].primitive), problem));
 }
 
-bool SurfaceFunctions::computed(int32_t modifier, const FunctionScratch& scratch) const {
+bool SurfaceFunctions::computed(ModifierId modifier, const FunctionScratch& scratch) const {
   if (scratch.state.faults == 0) return true;
   warn(modifier, "compute error");
   return false;
 }
 
-bool SurfaceFunctions::evaluate(int32_t modifier, const Function& f, const FunctionPoint& at,
+bool SurfaceFunctions::evaluate(ModifierId modifier, const Function& f, const FunctionPoint& at,
                                 FunctionScratch& scratch, std::array<double, 3>& out) const {
   if (const auto* text = std::get_if<Text>(&f.what)) {
     const Placement* placement = placementOf(f, at, scratch);
@@ -521,14 +519,14 @@ bool SurfaceFunctions::evaluate(int32_t modifier, const Function& f, const Funct
   return computed(modifier, scratch);
 }
 
-Rgb SurfaceFunctions::pattern(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const {
+Rgb SurfaceFunctions::pattern(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const {
   const Function& f = ready(modifier);
   std::array<double, 3> v;
   if (!evaluate(modifier, f, at, scratch, v)) return Rgb(1, 1, 1);
   return f.results == 1 ? Rgb(v[0], v[0], v[0]) : Rgb(v[0], v[1], v[2]);
 }
 
-V3d SurfaceFunctions::texture(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const {
+V3d SurfaceFunctions::texture(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const {
   const Function& f = ready(modifier);
   std::array<double, 3> v;
   if (!evaluate(modifier, f, at, scratch, v)) return V3d(0, 0, 0);
@@ -537,13 +535,14 @@ V3d SurfaceFunctions::texture(int32_t modifier, const FunctionPoint& at, Functio
   return placement ? placement->directionToOuter(own) : own;
 }
 
-double SurfaceFunctions::mixture(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const {
+double SurfaceFunctions::mixture(ModifierId modifier, const FunctionPoint& at,
+                                 FunctionScratch& scratch) const {
   std::array<double, 3> v;
   if (!evaluate(modifier, ready(modifier), at, scratch, v)) return -1;
   return std::clamp(v[0], 0., 1.);
 }
 
-std::array<double, 3> SurfaceFunctions::three(int32_t modifier, ProgramPointer Scatterer::*program,
+std::array<double, 3> SurfaceFunctions::three(ModifierId modifier, ProgramPointer Scatterer::*program,
                                               const FunctionPoint& at, FunctionScratch& scratch) const {
   const Function& f = ready(modifier);
   setInputs(f, at, scratch);
@@ -553,7 +552,8 @@ std::array<double, 3> SurfaceFunctions::three(int32_t modifier, ProgramPointer S
   return computed(modifier, scratch) ? v : std::array<double, 3>{};
 }
 
-V3d SurfaceFunctions::orientation(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const {
+V3d SurfaceFunctions::orientation(ModifierId modifier, const FunctionPoint& at,
+                                  FunctionScratch& scratch) const {
   const auto v = three(modifier, &Scatterer::orientation, at, scratch);
   const Function& f = ready(modifier);
   const V3d own(v[0], v[1], v[2]);
@@ -562,7 +562,7 @@ V3d SurfaceFunctions::orientation(int32_t modifier, const FunctionPoint& at, Fun
   return f.moved ? f.placement.toOuter.vector(own) : own;
 }
 
-double SurfaceFunctions::thickness(int32_t modifier, const FunctionPoint& at,
+double SurfaceFunctions::thickness(ModifierId modifier, const FunctionPoint& at,
                                    FunctionScratch& scratch) const {
   const Function& f = ready(modifier);
   setInputs(f, at, scratch);
@@ -574,28 +574,28 @@ double SurfaceFunctions::thickness(int32_t modifier, const FunctionPoint& at,
   return placement ? own * std::abs(placement->toOuter.scale) : own;
 }
 
-V3d SurfaceFunctions::up(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const {
+V3d SurfaceFunctions::up(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const {
   const auto v = three(modifier, &Scatterer::orientation, at, scratch);
   const Placement* placement = placementOf(ready(modifier), at, scratch);
   const V3d own(v[0], v[1], v[2]);
   return placement ? placement->directionToOuter(own) : own;
 }
 
-const BsdfData& SurfaceFunctions::bsdf(int32_t modifier) const {
+const BsdfData& SurfaceFunctions::bsdf(ModifierId modifier) const {
   return *std::get<Scatterer>(ready(modifier).what).bsdf;
 }
 
-std::array<double, 3> SurfaceFunctions::reflection(int32_t modifier, const FunctionPoint& at,
+std::array<double, 3> SurfaceFunctions::reflection(ModifierId modifier, const FunctionPoint& at,
                                                    FunctionScratch& scratch) const {
   return three(modifier, &Scatterer::reflection, at, scratch);
 }
 
-std::array<double, 3> SurfaceFunctions::transmission(int32_t modifier, const FunctionPoint& at,
+std::array<double, 3> SurfaceFunctions::transmission(ModifierId modifier, const FunctionPoint& at,
                                                      FunctionScratch& scratch) const {
   return three(modifier, &Scatterer::transmission, at, scratch);
 }
 
-Rgb SurfaceFunctions::distribution(int32_t modifier, const FunctionPoint& at, const V3d& toSource,
+Rgb SurfaceFunctions::distribution(ModifierId modifier, const FunctionPoint& at, const V3d& toSource,
                                    double solidAngle, FunctionScratch& scratch) const {
   const Function& f = ready(modifier);
   const Scatterer& s = std::get<Scatterer>(f.what);
@@ -621,7 +621,7 @@ Rgb SurfaceFunctions::distribution(int32_t modifier, const FunctionPoint& at, co
   return s.gray ? Rgb(value.x, value.x, value.x) : value;
 }
 
-SurfaceFunctions::Redirection SurfaceFunctions::redirection(int32_t modifier, int image,
+SurfaceFunctions::Redirection SurfaceFunctions::redirection(ModifierId modifier, int image,
                                                             const FunctionPoint& at,
                                                             FunctionScratch& scratch) const {
   const Function& f = ready(modifier);

@@ -59,39 +59,40 @@ class SurfaceFunctions {
   explicit SurfaceFunctions(const Scene& scene, rad::Warn warn = {},
                             std::span<const SharedDefinitions> definitions = {});
 
-  // Each of these functions takes the index of a modifier in Scene::modifiers. If a value cannot be computed,
-  // it returns the neutral value given below. It throws rad::Error, with the modifier's place in the scene
-  // file, when it first needs something that is missing or invalid: function files, data, pictures, fonts or
-  // texts (Status::system if there is no such file), their contents, a transform, or the number of arguments;
-  // and whenever an expression uses a name that does not exist.
+  // Each of these functions takes a modifier. If a value cannot be computed, it returns the neutral value
+  // given below. It throws rad::Error, with the modifier's place in the scene file, when it first needs
+  // something that is missing or invalid: function files, data, pictures, fonts or texts (Status::system if
+  // there is no such file), their contents, a transform, or the number of arguments; and whenever an
+  // expression uses a name that does not exist.
 
   // The factor on the colour of the material that it modifies. Neutral value: (1, 1, 1).
-  Rgb pattern(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
+  Rgb pattern(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
   // The perturbation that is added to the surface's normal, in the world. Neutral value: (0, 0, 0).
-  V3d texture(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
+  V3d texture(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
   // The foreground's share, 0 to 1; negative if it cannot be computed: the mixture is then ignored.
-  double mixture(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
+  double mixture(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
 
   // The same for materials; the neutral value is 0.
 
   // The direction in the world that highlights are oriented by (ux uy uz), of any length: plastic2, metal2,
   // trans2, ashik2, WGMDfunc.
-  V3d orientation(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
+  V3d orientation(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
   // BSDF, aBSDF: the up direction in the world, of any length.
-  V3d up(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
+  V3d up(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
   // BSDF: the thickness of the geometry that it hides, in world units; positive if the geometry lies behind
   // the surface's front.
-  double thickness(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
+  double thickness(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
   // BSDF, aBSDF: the file's data.
-  const BsdfData& bsdf(int32_t modifier) const;
+  const BsdfData& bsdf(ModifierId modifier) const;
   // BRTDfunc: the coefficients of sharp reflection and transmission. WGMDfunc: share, roughness along and
   // roughness across of the reflected and the transmitted lobe.
-  std::array<double, 3> reflection(int32_t modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
-  std::array<double, 3> transmission(int32_t modifier, const FunctionPoint& at,
+  std::array<double, 3> reflection(ModifierId modifier, const FunctionPoint& at,
+                                   FunctionScratch& scratch) const;
+  std::array<double, 3> transmission(ModifierId modifier, const FunctionPoint& at,
                                      FunctionScratch& scratch) const;
   // plasfunc and the like, BRTDfunc: the bidirectional scattering (1/sr) towards the ray's origin of light
   // from a source that fills solidAngle (sr) in direction toSource (unit, world).
-  Rgb distribution(int32_t modifier, const FunctionPoint& at, const V3d& toSource, double solidAngle,
+  Rgb distribution(ModifierId modifier, const FunctionPoint& at, const V3d& toSource, double solidAngle,
                    FunctionScratch& scratch) const;
 
   // prism1, prism2, for one of its images (0 or 1): the coefficient of the redirected ray, and its direction
@@ -100,11 +101,11 @@ class SurfaceFunctions {
     double coefficient = 0;
     V3d direction{0, 0, 0};
   };
-  Redirection redirection(int32_t modifier, int image, const FunctionPoint& at,
+  Redirection redirection(ModifierId modifier, int image, const FunctionPoint& at,
                           FunctionScratch& scratch) const;
 
   // Warns of a problem with a modifier; only of the first one for each modifier.
-  void warn(int32_t modifier, std::string_view problem) const;
+  void warn(ModifierId modifier, std::string_view problem) const;
 
  private:
   using ProgramPointer = std::shared_ptr<const rad::calc::Program>;
@@ -169,22 +170,22 @@ class SurfaceFunctions {
   template <class T>
   using Cache = std::map<std::string, std::shared_ptr<const T>, std::less<>>;
 
-  const Function& ready(int32_t modifier) const {
-    const Function* f = ready_[static_cast<size_t>(modifier)].load(std::memory_order_acquire);
+  const Function& ready(ModifierId modifier) const {
+    const Function* f = ready_[modifier.index()].load(std::memory_order_acquire);
     return f ? *f : prepare(modifier);
   }
-  const Function& prepare(int32_t modifier) const;
-  std::span<const double> realsOf(int32_t modifier) const;
+  const Function& prepare(ModifierId modifier) const;
+  std::span<const double> realsOf(ModifierId modifier) const;
   // The placement of the function's coordinates in the world; null if they are world coordinates. A placement
   // composed for this call is kept in scratch.
   const Placement* placementOf(const Function& f, const FunctionPoint& at, FunctionScratch& scratch) const;
   void setInputs(const Function& f, const FunctionPoint& at, FunctionScratch& scratch) const;
   // Whether no fault has occurred since the faults were cleared; otherwise warns.
-  bool computed(int32_t modifier, const FunctionScratch& scratch) const;
-  std::array<double, 3> three(int32_t modifier, ProgramPointer Scatterer::*program, const FunctionPoint& at,
-                              FunctionScratch& scratch) const;
+  bool computed(ModifierId modifier, const FunctionScratch& scratch) const;
+  std::array<double, 3> three(ModifierId modifier, ProgramPointer Scatterer::*program,
+                              const FunctionPoint& at, FunctionScratch& scratch) const;
   // The function's numbers. If they cannot be computed, warns and returns false.
-  bool evaluate(int32_t modifier, const Function& f, const FunctionPoint& at, FunctionScratch& scratch,
+  bool evaluate(ModifierId modifier, const Function& f, const FunctionPoint& at, FunctionScratch& scratch,
                 std::array<double, 3>& out) const;
 
   class Maker;

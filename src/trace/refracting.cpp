@@ -24,8 +24,8 @@ class Refracting {
 
  private:
   // A chain of modifiers. Each is examined once, because nested mixtures may name the same ones many times.
-  bool modifier(int32_t first) {
-    for (int32_t m = first; m != kNone; m = scene_.modifiers[m].next) {
+  bool modifier(ModifierId first) {
+    for (ModifierId m = first; m != kNone; m = scene_.modifiers[m].next) {
       std::optional<bool>& known = modifiers_[m];
       if (!known) {
         const Content& content = scene_.modifiers[m].content;
@@ -63,7 +63,9 @@ class Refracting {
   }
 
   const Scene& scene_;
-  std::vector<std::optional<bool>> modifiers_, groups_;  // empty: not examined yet
+  // Empty: not examined yet.
+  ById<ModifierId, std::optional<bool>> modifiers_;
+  std::vector<std::optional<bool>> groups_;
 };
 
 }  // namespace

@@ -43,7 +43,7 @@ bool stopsFromFront(const Material& material) {
 
 // Whether a mixture precedes the surface's material in the chain.
 bool meetsMixture(const Scene& scene, const Surface& surface) {
-  for (int32_t m = surface.modifier; m != surface.material; m = scene.modifiers[m].next)
+  for (ModifierId m = surface.modifier; m != surface.material; m = scene.modifiers[m].next)
     if (std::holds_alternative<Mixture>(scene.modifiers[m].content)) return true;
   return false;
 }

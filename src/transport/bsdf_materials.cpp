@@ -31,10 +31,10 @@ struct BsdfHit {
   V3d world(const V3d& d) const { return (d.x * x + d.y * y + d.z * z).normalized(); }
 };
 
-bool SurfaceShading::shadeMaterial(Ray& ray, const BsdfMaterial& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const BsdfMaterial& material, ModifierId behind) {
   if (passesBack(ray)) return true;
   const SurfaceFunctions& functions = t_.functions();
-  const int32_t f = material.functions;
+  const ModifierId f = material.functions;
   double thickness = material.proxy ? functions.thickness(f, functionPoint(ray), scratch_) : 0;
   if (std::abs(thickness) <= kNegligible) thickness = 0;
   // The geometry behind a proxy is traced itself by direct views and shadow rays, and by all rays that come

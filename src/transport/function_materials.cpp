@@ -15,7 +15,8 @@ constexpr int kAshikhminSamples = 4;
 
 // Warns once per material if a highlight is anisotropic but its orientation vector gives no direction
 // within the surface.
-void warnOfOrientation(const SurfaceFunctions& functions, int32_t material, const AnisotropicScattering& s) {
+void warnOfOrientation(const SurfaceFunctions& functions, ModifierId material,
+                       const AnisotropicScattering& s) {
   if (s.reflected.disoriented || s.transmitted.disoriented)
     functions.warn(material, "illegal orientation vector");
 }
@@ -29,7 +30,7 @@ bool SurfaceShading::passesBack(Ray& ray) {
   return true;
 }
 
-bool SurfaceShading::shadeMaterial(Ray& ray, const Anisotropic& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Anisotropic& material, ModifierId behind) {
   if ((ray.kinds & kShadow) || passesBack(ray)) return true;
   applyModifiers(ray, behind);
   turnRound(ray);
@@ -60,7 +61,7 @@ bool SurfaceShading::shadeElliptic(Ray& ray, const AnisotropicScattering& s, con
   return true;
 }
 
-bool SurfaceShading::shadeMaterial(Ray& ray, const Ashikhmin& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Ashikhmin& material, ModifierId behind) {
   if ((ray.kinds & kShadow) || passesBack(ray)) return true;
   applyModifiers(ray, behind);
   turnRound(ray);
@@ -86,7 +87,7 @@ bool SurfaceShading::shadeMaterial(Ray& ray, const Ashikhmin& material, int32_t 
   return true;
 }
 
-bool SurfaceShading::shadeMaterial(Ray& ray, const FunctionScatterer& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const FunctionScatterer& material, ModifierId behind) {
   if ((ray.kinds & kShadow) || passesBack(ray)) return true;
   applyModifiers(ray, behind);
   turnRound(ray);
@@ -94,7 +95,7 @@ bool SurfaceShading::shadeMaterial(Ray& ray, const FunctionScatterer& material, 
   return shadeByFunction(ray, scatter(material, at), at, material.functions);
 }
 
-bool SurfaceShading::shadeMaterial(Ray& ray, const BrtdFunction& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const BrtdFunction& material, ModifierId behind) {
   applyModifiers(ray, behind);
   const Interaction at = interaction(ray);
   FunctionScattering s = scatter(material, at);
@@ -115,7 +116,7 @@ FunctionPoint SurfaceShading::functionPoint(const Ray& ray, const FunctionScatte
 }
 
 bool SurfaceShading::shadeByFunction(Ray& ray, const FunctionScattering& s, const Interaction& at,
-                                     int32_t functions) {
+                                     ModifierId functions) {
   specular_.follow(ray, s.sharp);
   if (ray.kinds & kShadow) return true;
   indirect_.add(ray, s.normal, at, kReflectedAmbient, s.ambientReflection);
@@ -136,7 +137,7 @@ bool SurfaceShading::shadeByFunction(Ray& ray, const FunctionScattering& s, cons
 
 // The interaction of one component of the material, after the modifiers that it names. named: empty if it has
 // the modifiers of the material, whose interaction is `inherited`.
-Interaction SurfaceShading::component(const Ray& ray, const std::optional<int32_t>& named,
+Interaction SurfaceShading::component(const Ray& ray, const std::optional<ModifierId>& named,
                                       const Interaction& inherited) {
   if (!named) return inherited;
   Ray own = ray;
@@ -153,11 +154,11 @@ FunctionPoint SurfaceShading::functionPoint(const Ray& ray, const Interaction& a
   return point;
 }
 
-bool SurfaceShading::shadeMaterial(Ray& ray, const WgmdFunction& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const WgmdFunction& material, ModifierId behind) {
   if ((ray.kinds & kShadow) && !material.transmits) return true;
   if (passesBack(ray)) return true;
   const SurfaceFunctions& functions = t_.functions();
-  const int32_t f = material.functions;
+  const ModifierId f = material.functions;
   const Interaction own = component(ray, behind, {});
 
   WgmdComponent transmitted;

@@ -56,7 +56,7 @@ bool SurfaceShading::shadeBoundary(Ray& ray, const Scattering& scattering) {
 }
 
 template <class M>
-bool SurfaceShading::shadeTwoSided(Ray& ray, const M& material, int32_t behind) {
+bool SurfaceShading::shadeTwoSided(Ray& ray, const M& material, ModifierId behind) {
   if (ray.cosine < 0 && !t_.options().backFacesVisible) {
     follower_.pass(ray);
     return true;
@@ -67,26 +67,26 @@ bool SurfaceShading::shadeTwoSided(Ray& ray, const M& material, int32_t behind) 
   return shadeDiffusing(ray, scatter(material, at, t_.options().specularThreshold), at);
 }
 
-bool SurfaceShading::shadeMaterial(Ray& ray, const Opaque& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Opaque& material, ModifierId behind) {
   return (ray.kinds & kShadow) || shadeTwoSided(ray, material, behind);
 }
 
-bool SurfaceShading::shadeMaterial(Ray& ray, const Trans& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Trans& material, ModifierId behind) {
   return shadeTwoSided(ray, material, behind);
 }
 
-bool SurfaceShading::shadeMaterial(Ray& ray, const Dielectric& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Dielectric& material, ModifierId behind) {
   applyModifiers(ray, behind);
   const Interaction at = interaction(ray);
   return shadeBoundary(ray, scatter(material, at, at.front ? ray.medium : t_.medium(), t_.basicRadiance()));
 }
 
-bool SurfaceShading::shadeMaterial(Ray& ray, const Interface& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Interface& material, ModifierId behind) {
   applyModifiers(ray, behind);
   return shadeBoundary(ray, scatter(material, interaction(ray), t_.basicRadiance()));
 }
 
-bool SurfaceShading::shadeMaterial(Ray& ray, const Glass& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Glass& material, ModifierId behind) {
   if (ray.cosine <= 0 && !t_.options().backFacesVisible) {
     follower_.pass(ray);
     return true;
@@ -97,7 +97,7 @@ bool SurfaceShading::shadeMaterial(Ray& ray, const Glass& material, int32_t behi
   return true;
 }
 
-bool SurfaceShading::shadeMaterial(Ray& ray, const Mirror& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Mirror& material, ModifierId behind) {
   const LightSource* target = targetOf(ray);
   const bool aimedHere = target && target->surface == ray.surface;
   if (material.alternate.kind != Alternate::Kind::none && !aimedHere) {
@@ -105,7 +105,7 @@ bool SurfaceShading::shadeMaterial(Ray& ray, const Mirror& material, int32_t beh
     // material, because the light along this path is mirrored too. Transparent alternates are an exception.
     const bool free = ray.cosine < 0 || !(ray.kinds & (kAmbient | kSpecular));
     const auto transparent = [&] {
-      const int32_t m = material.alternate.modifier;
+      const ModifierId m = material.alternate.modifier;
       const Material* other = t_.scene().materialAt(t_.scene().firstMaterial(m));
       return other && isTransparent(*other);
     };
@@ -143,7 +143,7 @@ void SurfaceShading::relay(Ray& ray, RayKind kind, const V3d& direction, Rgb coe
   ray.value += child.value * coefficient;
 }
 
-bool SurfaceShading::shadeMaterial(Ray& ray, const Prism& material, int32_t) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Prism& material, ModifierId) {
   const LightSource* target = targetOf(ray);
   if (target && target->surface != ray.surface) return true;
   FunctionPoint at = functionPoint(ray);
@@ -175,24 +175,24 @@ bool SurfaceShading::useAlternate(Ray& ray, const Alternate& alternate) {
   return true;
 }
 
-bool SurfaceShading::shadeMaterial(Ray& ray, const Light& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Light& material, ModifierId behind) {
   if (!t_.scene().importance && !countedByDirect(ray, nullptr)) emit(ray, material.radiance, nullptr, behind);
   return true;
 }
 
-bool SurfaceShading::shadeMaterial(Ray& ray, const Glow& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Glow& material, ModifierId behind) {
   if (!t_.scene().importance && !countedByDirect(ray, &material))
     emit(ray, material.radiance, &material, behind);
   return true;
 }
 
-bool SurfaceShading::shadeMaterial(Ray& ray, const Spotlight& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Spotlight& material, ModifierId behind) {
   if (t_.scene().importance || countedByDirect(ray, nullptr)) return true;
   if (ray.cosine < 0 || !outsideSpot(material, ray.direction)) emit(ray, material.radiance, nullptr, behind);
   return true;
 }
 
-bool SurfaceShading::shadeMaterial(Ray& ray, const Illum& material, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Illum& material, ModifierId behind) {
   if (!t_.scene().importance && countedByDirect(ray, nullptr)) return true;
   const LightSource* aimed = targetOf(ray);
   if (!aimed || aimed->surface != ray.surface || aimed->isVirtual()) {
@@ -216,7 +216,7 @@ bool SurfaceShading::countedByDirect(const Ray& ray, const Glow* glow) const {
          !beyondReach(glow, ray.length);
 }
 
-void SurfaceShading::emit(Ray& ray, const Rgb& radiance, const Glow* glow, int32_t behind) {
+void SurfaceShading::emit(Ray& ray, const Rgb& radiance, const Glow* glow, ModifierId behind) {
   if (const LightSource* target = targetOf(ray);
       target && (target->surface != ray.surface || target->isVirtual()))
     return;

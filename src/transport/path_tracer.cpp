@@ -76,7 +76,7 @@ class PathTracer::Path final : public RayFollower, public SiteGatherer {
   void follow(Ray& ray) override;
   void pass(Ray& ray) override;
   void passOn(Ray& child, Ray& ray) override;
-  bool shade(Ray& ray, int32_t modifier) override { return shading_.shade(ray, modifier); }
+  bool shade(Ray& ray, ModifierId modifier) override { return shading_.shade(ray, modifier); }
 
   GatheredLight gather(const GatherSite& site, uint64_t seed, int depth) override;
   void link(const GatherSite& site, int rays, uint64_t seed, int depth,

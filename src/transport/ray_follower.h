@@ -19,7 +19,7 @@ class RayFollower {
 
   // Shades a ray that hit a surface with a chain of modifiers (index in Scene::modifiers). False, with
   // nothing done, if the chain has no material.
-  virtual bool shade(Ray& ray, int32_t modifier) = 0;
+  virtual bool shade(Ray& ray, ModifierId modifier) = 0;
 
  protected:
   ~RayFollower() = default;

@@ -28,7 +28,7 @@ bool SurfaceShading::shadeSurface(Ray& ray) {
 }
 
 // Shades the ray with a chain of modifiers; false if the chain has no material.
-bool SurfaceShading::shade(Ray& ray, int32_t modifier) {
+bool SurfaceShading::shade(Ray& ray, ModifierId modifier) {
   const bool meters = t_.irradiance() == Irradiance::surface && !(ray.kinds & ~(kPrimary | kTransmitted));
   for (; modifier != kNone; modifier = t_.scene().modifiers[modifier].next) {
     const Modifier& m = t_.scene().modifiers[modifier];
@@ -56,7 +56,7 @@ bool SurfaceShading::shade(Ray& ray, int32_t modifier) {
 }
 
 // Applies a pattern, texture or mixture to the ray. Returns whether a mixture has shaded it with a material.
-bool SurfaceShading::applyModifier(Ray& ray, int32_t modifier) {
+bool SurfaceShading::applyModifier(Ray& ray, ModifierId modifier) {
   const Content& content = t_.scene().modifiers[modifier].content;
   if (const auto* mixture = std::get_if<Mixture>(&content)) return shadeMixture(ray, modifier, *mixture);
   const FunctionPoint at = functionPoint(ray);
@@ -68,7 +68,7 @@ bool SurfaceShading::applyModifier(Ray& ray, int32_t modifier) {
 }
 
 // Applies the modifiers of a material: patterns, textures, and mixtures of them.
-void SurfaceShading::applyModifiers(Ray& ray, int32_t modifier) {
+void SurfaceShading::applyModifiers(Ray& ray, ModifierId modifier) {
   for (; modifier != kNone; modifier = t_.scene().modifiers[modifier].next) {
     const Modifier& m = t_.scene().modifiers[modifier];
     if (std::holds_alternative<Material>(m.content) || applyModifier(ray, modifier))
@@ -76,7 +76,7 @@ void SurfaceShading::applyModifiers(Ray& ray, int32_t modifier) {
   }
 }
 
-bool SurfaceShading::shadeMixture(Ray& ray, int32_t modifier, const Mixture& mixture) {
+bool SurfaceShading::shadeMixture(Ray& ray, ModifierId modifier, const Mixture& mixture) {
   const double share = t_.functions().mixture(modifier, functionPoint(ray), scratch_);
   if (share < 0) return false;
   struct Side {
@@ -85,7 +85,7 @@ bool SurfaceShading::shadeMixture(Ray& ray, int32_t modifier, const Mixture& mix
     bool counts, shaded = false;
   };
   Side sides[2] = {{ray, share, share > kNegligible}, {ray, 1 - share, share < 1 - kNegligible}};
-  const int32_t chains[2] = {mixture.foreground, mixture.background};
+  const ModifierId chains[2] = {mixture.foreground, mixture.background};
   for (int i = 0; i < 2; ++i) {
     Side& side = sides[i];
     if (!side.counts) continue;

@@ -34,45 +34,45 @@ class SurfaceShading {
   bool shadeSurface(Ray& ray);
 
   // RayFollower::shade().
-  bool shade(Ray& ray, int32_t modifier);
+  bool shade(Ray& ray, ModifierId modifier);
 
   // Shades the ray's hit as a white diffuse surface whose radiance is the irradiance there (-i, -I).
   void meter(Ray& ray);
 
  private:
-  bool applyModifier(Ray& ray, int32_t modifier);
-  bool shadeMixture(Ray& ray, int32_t modifier, const Mixture& mixture);
-  void applyModifiers(Ray& ray, int32_t modifier);
+  bool applyModifier(Ray& ray, ModifierId modifier);
+  bool shadeMixture(Ray& ray, ModifierId modifier, const Mixture& mixture);
+  void applyModifiers(Ray& ray, ModifierId modifier);
   FunctionPoint functionPoint(const Ray& ray) const;
   FunctionPoint functionPoint(const Ray& ray, const FunctionScattering& scattering) const;
   FunctionPoint functionPoint(const Ray& ray, const Interaction& at) const;
 
   // behind: the chain of modifiers that the material has itself.
   template <class M>
-  bool shadeTwoSided(Ray& ray, const M& material, int32_t behind);
-  bool shadeMaterial(Ray& ray, const Opaque& material, int32_t behind);
-  bool shadeMaterial(Ray& ray, const Trans& material, int32_t behind);
-  bool shadeMaterial(Ray& ray, const Anisotropic& material, int32_t behind);
-  bool shadeMaterial(Ray& ray, const Ashikhmin& material, int32_t behind);
-  bool shadeMaterial(Ray& ray, const FunctionScatterer& material, int32_t behind);
-  bool shadeMaterial(Ray& ray, const BrtdFunction& material, int32_t behind);
-  bool shadeMaterial(Ray& ray, const WgmdFunction& material, int32_t behind);
-  bool shadeMaterial(Ray& ray, const BsdfMaterial& material, int32_t behind);
-  bool shadeMaterial(Ray& ray, const Dielectric& material, int32_t behind);
-  bool shadeMaterial(Ray& ray, const Interface& material, int32_t behind);
-  bool shadeMaterial(Ray& ray, const Glass& material, int32_t behind);
-  bool shadeMaterial(Ray& ray, const Mirror& material, int32_t behind);
-  bool shadeMaterial(Ray& ray, const Prism& material, int32_t behind);
-  bool shadeMaterial(Ray& ray, const Antimatter& material, int32_t behind);
-  bool shadeMaterial(Ray& ray, const Mist& material, int32_t behind);
-  bool shadeMaterial(Ray& ray, const Light& material, int32_t behind);
-  bool shadeMaterial(Ray& ray, const Illum& material, int32_t behind);
-  bool shadeMaterial(Ray& ray, const Glow& material, int32_t behind);
-  bool shadeMaterial(Ray& ray, const Spotlight& material, int32_t behind);
+  bool shadeTwoSided(Ray& ray, const M& material, ModifierId behind);
+  bool shadeMaterial(Ray& ray, const Opaque& material, ModifierId behind);
+  bool shadeMaterial(Ray& ray, const Trans& material, ModifierId behind);
+  bool shadeMaterial(Ray& ray, const Anisotropic& material, ModifierId behind);
+  bool shadeMaterial(Ray& ray, const Ashikhmin& material, ModifierId behind);
+  bool shadeMaterial(Ray& ray, const FunctionScatterer& material, ModifierId behind);
+  bool shadeMaterial(Ray& ray, const BrtdFunction& material, ModifierId behind);
+  bool shadeMaterial(Ray& ray, const WgmdFunction& material, ModifierId behind);
+  bool shadeMaterial(Ray& ray, const BsdfMaterial& material, ModifierId behind);
+  bool shadeMaterial(Ray& ray, const Dielectric& material, ModifierId behind);
+  bool shadeMaterial(Ray& ray, const Interface& material, ModifierId behind);
+  bool shadeMaterial(Ray& ray, const Glass& material, ModifierId behind);
+  bool shadeMaterial(Ray& ray, const Mirror& material, ModifierId behind);
+  bool shadeMaterial(Ray& ray, const Prism& material, ModifierId behind);
+  bool shadeMaterial(Ray& ray, const Antimatter& material, ModifierId behind);
+  bool shadeMaterial(Ray& ray, const Mist& material, ModifierId behind);
+  bool shadeMaterial(Ray& ray, const Light& material, ModifierId behind);
+  bool shadeMaterial(Ray& ray, const Illum& material, ModifierId behind);
+  bool shadeMaterial(Ray& ray, const Glow& material, ModifierId behind);
+  bool shadeMaterial(Ray& ray, const Spotlight& material, ModifierId behind);
 
   bool countedByDirect(const Ray& ray, const Glow* glow) const;
   bool isStraight(const Ray& ray) const;
-  void emit(Ray& ray, const Rgb& radiance, const Glow* glow, int32_t behind = kNone);
+  void emit(Ray& ray, const Rgb& radiance, const Glow* glow, ModifierId behind = kNone);
   bool shadeDiffusing(Ray& ray, const Scattering& scattering, const Interaction& at);
   bool shadeBoundary(Ray& ray, const Scattering& scattering);
   bool useAlternate(Ray& ray, const Alternate& alternate);
@@ -82,8 +82,8 @@ class SurfaceShading {
   bool passesBack(Ray& ray);
   bool shadeElliptic(Ray& ray, const AnisotropicScattering& scattering, const Interaction& at);
   bool shadeByFunction(Ray& ray, const FunctionScattering& scattering, const Interaction& at,
-                       int32_t functions);
-  Interaction component(const Ray& ray, const std::optional<int32_t>& named, const Interaction& inherited);
+                       ModifierId functions);
+  Interaction component(const Ray& ray, const std::optional<ModifierId>& named, const Interaction& inherited);
   const LightSource* targetOf(const Ray& ray) const;
   void relay(Ray& ray, RayKind kind, const V3d& direction, Rgb coefficient);
   Interaction interaction(const Ray& ray) const;

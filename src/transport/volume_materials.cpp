@@ -16,7 +16,7 @@ double without(double extinction, double mist, double around) {
 }  // namespace
 
 // A ray that enters or leaves a volume of mist.
-bool SurfaceShading::shadeMaterial(Ray& ray, const Mist& mist, int32_t behind) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Mist& mist, ModifierId behind) {
   Rgb extinction = mist.extinction;
   if (!isBlack(extinction)) {
     applyModifiers(ray, behind);
@@ -54,7 +54,7 @@ bool SurfaceShading::shadeMaterial(Ray& ray, const Mist& mist, int32_t behind) {
   return true;
 }
 
-bool SurfaceShading::shadeMaterial(Ray& ray, const Antimatter& antimatter, int32_t) {
+bool SurfaceShading::shadeMaterial(Ray& ray, const Antimatter& antimatter, ModifierId) {
   if (ray.cosine > 0)
     ray.clipsBeyond = ray.clips | antimatter.clips;
   else

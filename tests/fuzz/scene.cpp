@@ -10,8 +10,8 @@
 
 namespace {
 
-bool within(int32_t index, size_t size) {
-  return index >= rsphere::kNone && index < static_cast<int64_t>(size);
+bool within(rsphere::ModifierId modifier, size_t size) {
+  return modifier.number() >= -1 && modifier.number() < static_cast<int64_t>(size);
 }
 
 void check(const rsphere::Scene& scene) {
@@ -24,9 +24,8 @@ void check(const rsphere::Scene& scene) {
     static_cast<void>(scene.modifierName(surface));
     static_cast<void>(scene.materialName(surface));
   }
-  for (size_t i = 0; i < scene.modifiers.size(); ++i)
-    if (!within(scene.modifiers[i].next, scene.modifiers.size()) ||
-        scene.modifiers[i].next == static_cast<int32_t>(i))
+  for (const rsphere::ModifierId i : scene.modifiers.ids())
+    if (!within(scene.modifiers[i].next, scene.modifiers.size()) || scene.modifiers[i].next == i)
       std::abort();
 }
 

@@ -187,8 +187,8 @@ IndirectPixels plane(uint64_t seed) {
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x) {
       const float light = random.uniform() < .1 ? 10.f : 0.f;
-      picture.pixels.push_back(
-          {Imath::V3f(light), Imath::V3f(.01f * (x - 32), 1, .01f * (y - 32)), Imath::V3f(0, -1, 0), 1, 0});
+      picture.pixels.push_back({Imath::V3f(light), Imath::V3f(.01f * (x - 32), 1, .01f * (y - 32)),
+                                Imath::V3f(0, -1, 0), 1, ModifierId(0)});
     }
   return picture;
 }
@@ -217,7 +217,7 @@ TEST(SmoothIndirect, EdgesAreNotCrossed) {
     return blurred / 64;
   };
   EXPECT_GT(step([](auto&) {}), 2) << "the same surface";
-  EXPECT_LT(step([](auto& pixel) { pixel.material = 1; }), 1e-5);
+  EXPECT_LT(step([](auto& pixel) { pixel.material = ModifierId(1); }), 1e-5);
   EXPECT_LT(step([](auto& pixel) { pixel.material = kNone; }), 1e-5);
   EXPECT_LT(step([](auto& pixel) { pixel.normal = Imath::V3f(1, 0, 0); }), 1e-5);
   EXPECT_LT(step([](auto& pixel) { pixel.point *= 2; }), 1e-5) << "a parallel plane farther away";

@@ -24,7 +24,7 @@ std::string errorOf(const std::string& text) {
 }
 
 template <class M>
-const M& materialAt(const Scene& scene, int32_t modifier) {
+const M& materialAt(const Scene& scene, ModifierId modifier) {
   return std::get<M>(std::get<Material>(scene.modifiers[modifier].content));
 }
 
@@ -135,12 +135,12 @@ TEST(Scene, LooksAtUsedModifiersOnly) {
       "a sphere s\n0\n0\n4 0 0 0 1\n"
       "a sphere t\n0\n0\n4 5 0 0 1\n");
   ASSERT_EQ(scene.modifiers.size(), 1u) << "the same modifier is converted once";
-  const auto& plastic = materialAt<Opaque>(scene, 0);
+  const auto& plastic = materialAt<Opaque>(scene, ModifierId(0));
   EXPECT_EQ(plastic.color, Rgb(.1, .2, .3));
   EXPECT_EQ(plastic.specularity, .04);
   EXPECT_EQ(plastic.roughness, .05);
   EXPECT_FALSE(plastic.metal);
-  EXPECT_EQ(scene.surfaces.at(1).modifier, 0);
+  EXPECT_EQ(scene.surfaces.at(1).modifier, ModifierId(0));
 }
 
 TEST(Scene, FollowsAliasesAndRedefinitions) {
