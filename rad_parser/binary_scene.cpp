@@ -32,14 +32,14 @@ TypeTable readTypes(BinaryReader& input, const Warn& warn) {
   }
 }
 
-void readAlias(BinaryReader& input, Primitive& p, int64_t modifier, DescriptionBuilder& builder) {
+void readAlias(BinaryReader& input, Primitive& p, PrimitiveId modifier, DescriptionBuilder& builder) {
   const Description& d = builder.description();
   if (p.strings == 0) {
     if (modifier == kVoid) throw input.fault("an alias of nothing");
     builder.addString(p, d.name(d.primitives[modifier]));
-    return builder.resolveAlias(p, static_cast<int32_t>(modifier), true);
+    return builder.resolveAlias(p, modifier, true);
   }
-  const int32_t reference = builder.modifier(d.string(p, 0));
+  const PrimitiveId reference = builder.modifier(d.string(p, 0));
   if (reference == kVoid)
     throw input.fault(fmt::format("undefined modifier \"{}\"", printable(d.string(p, 0))));
   builder.resolveAlias(p, reference, false);
@@ -82,15 +82,15 @@ int64_t readPrimitives(BinaryReader& input, int width, uint32_t file, Descriptio
     if (typeNumber >= static_cast<int>(types.size())) throw damaged(fmt::format("type {}", typeNumber));
     if (!types[typeNumber]) throw damaged("of a type that is not known here");
     const Type type = *types[typeNumber];
-    const int64_t modifier = input.integer(width);
-    if (modifier < kVoid || modifier >= n)
-      throw damaged(fmt::format("modifier {} is not before it", modifier + 1));
+    const int64_t number = input.integer(width);  // -1: void
+    if (number < -1 || number >= n) throw damaged(fmt::format("modifier {} is not before it", number + 1));
+    const PrimitiveId modifier(number);
     if (modifier != kVoid && isSurface(d.primitives[modifier].type))
-      throw damaged(fmt::format("object {} is no modifier", modifier + 1));
+      throw damaged(fmt::format("object {} is no modifier", number + 1));
     const std::string_view name = input.string();
     if (!isSurface(type) && (name == "void" || name == "inherit"))
       throw damaged(fmt::format("no modifier can be named \"{}\"", name));
-    Primitive p = builder.begin(type, place, builder.internName(type, name), static_cast<int32_t>(modifier));
+    Primitive p = builder.begin(type, place, builder.internName(type, name), modifier);
     for (uint32_t strings = input.count16(); strings > 0; --strings) builder.addString(p, input.string());
     p.reals = input.count16();
     for (uint32_t i = 0; i < p.reals; ++i) d.realArgs.push_back(input.real());

@@ -97,7 +97,7 @@ void append(Description& to, Description&& more, Place from) {
   check(to.stringArgs.size(), more.stringArgs.size(), kMost32);
   const auto files = static_cast<uint32_t>(to.files.size()), words = static_cast<uint32_t>(to.words.size());
   const auto strings = static_cast<uint32_t>(to.stringArgs.size());
-  const auto primitives = static_cast<int32_t>(to.primitives.size());
+  const size_t primitives = to.primitives.size();
   const uint64_t reals = to.realArgs.size();
 
   for (SourceFile& file : more.files) {
@@ -112,8 +112,8 @@ void append(Description& to, Description&& more, Place from) {
   for (uint32_t word : more.stringArgs) to.stringArgs.push_back(word + words);
   to.realArgs.insert(to.realArgs.end(), more.realArgs.begin(), more.realArgs.end());
   for (Primitive p : more.primitives) {
-    if (p.modifier != kVoid) p.modifier += primitives;
-    if (p.aliased != kVoid) p.aliased += primitives;
+    if (p.modifier != kVoid) p.modifier = PrimitiveId(p.modifier.index() + primitives);
+    if (p.aliased != kVoid) p.aliased = PrimitiveId(p.aliased.index() + primitives);
     p.place.file += files;
     p.name += words;
     p.firstString += strings;
@@ -124,18 +124,18 @@ void append(Description& to, Description&& more, Place from) {
 }
 
 ModifierIndex::ModifierIndex(const Description& description, size_t first) {
-  for (size_t i = first; i < description.primitives.size(); ++i) {
+  for (const PrimitiveId i : IdRange<PrimitiveId>(first, description.primitives.size() - first)) {
     const Primitive& p = description.primitives[i];
-    if (!isSurface(p.type)) definitions_[description.name(p)].push_back(static_cast<int32_t>(i));
+    if (!isSurface(p.type)) definitions_[description.name(p)].push_back(i);
   }
 }
 
-int32_t ModifierIndex::before(std::string_view name, int32_t index) const {
+PrimitiveId ModifierIndex::before(std::string_view name, PrimitiveId index) const {
   const auto found = definitions_.find(name);
   if (found == definitions_.end()) return kVoid;
-  const std::vector<int32_t>& at = found->second;
+  const std::vector<PrimitiveId>& at = found->second;
   const auto after = std::lower_bound(at.begin(), at.end(), index);
-  return after == at.begin() ? kVoid : *std::prev(after);
+  return after == at.begin() ? PrimitiveId() : *std::prev(after);
 }
 
 }  // namespace rad

@@ -9,6 +9,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "rad_parser/id.h"
+
 namespace rad {
 
 // A place in the scene files: an index of Description::files and a line, from 1; line 0 means the file as a
@@ -55,7 +57,9 @@ bool isTexture(Type type);
 bool isPattern(Type type);
 bool isMixture(Type type);
 
-inline constexpr int32_t kVoid = -1;  // in place of the index of a modifier: none
+using PrimitiveId = Id<struct PrimitiveTag>;  // index in Description::primitives
+
+inline constexpr None kVoid;  // in place of a modifier: none
 
 // One primitive as the file describes it. Arguments are kept as written. Whoever uses the primitive checks
 // their number and meaning; a primitive that no surface uses is never checked.
@@ -69,9 +73,8 @@ inline constexpr int32_t kVoid = -1;  // in place of the index of a modifier: no
 // string argument: the name b as written.
 struct Primitive {
   Type type = Type::alias;
-  // Index in Description::primitives, always less than that of this primitive; kVoid for void.
-  int32_t modifier = kVoid;
-  int32_t aliased = kVoid;                // of type alias only: index in Description::primitives
+  PrimitiveId modifier;                   // always before this primitive; kVoid for void
+  PrimitiveId aliased;                    // of type alias only
   Place place;                            // of the primitive's first word
   uint32_t name = 0;                      // index in Description::words
   uint32_t firstString = 0, strings = 0;  // range in Description::stringArgs
@@ -99,7 +102,7 @@ struct Cube {
 // this process have been applied to the arguments.
 struct Description {
   std::vector<SourceFile> files;
-  std::vector<Primitive> primitives;
+  ById<PrimitiveId, Primitive> primitives;
   // Names and string arguments. Each distinct word occurs once, except names of
   // surfaces, which may occur again.
   std::vector<std::string> words;
@@ -137,10 +140,10 @@ class ModifierIndex {
   // The last modifier of this name that is defined before primitives[index], which is the one that the name
   // refers to there. kVoid if there is none, and for "void". Takes logarithmic time in the number of
   // definitions of the name.
-  int32_t before(std::string_view name, int32_t index) const;
+  PrimitiveId before(std::string_view name, PrimitiveId index) const;
 
  private:
-  std::unordered_map<std::string_view, std::vector<int32_t>> definitions_;
+  std::unordered_map<std::string_view, std::vector<PrimitiveId>> definitions_;
 };
 
 // The text on one line, for messages: control characters are replaced, and text beyond `longest`

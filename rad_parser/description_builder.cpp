@@ -9,12 +9,12 @@ uint32_t DescriptionBuilder::addFile(std::string_view name, Place from) {
   return static_cast<uint32_t>(description_.files.size() - 1);
 }
 
-int32_t DescriptionBuilder::modifier(std::string_view name) const {
+PrimitiveId DescriptionBuilder::modifier(std::string_view name) const {
   const uint32_t word = words_.find(name);
-  return word < inForce_.size() ? inForce_[word] : kVoid;
+  return word < inForce_.size() ? inForce_[word] : PrimitiveId();
 }
 
-Primitive DescriptionBuilder::begin(Type type, Place place, uint32_t name, int32_t modifier) const {
+Primitive DescriptionBuilder::begin(Type type, Place place, uint32_t name, PrimitiveId modifier) const {
   Primitive p;
   p.type = type;
   p.modifier = modifier;
@@ -32,7 +32,7 @@ void DescriptionBuilder::addString(Primitive& p, std::string_view word) {
   ++p.strings;
 }
 
-void DescriptionBuilder::resolveAlias(Primitive& p, int32_t reference, bool inherit) const {
+void DescriptionBuilder::resolveAlias(Primitive& p, PrimitiveId reference, bool inherit) const {
   const Primitive& r = description_.primitives[reference];
   p.aliased = r.type == Type::alias ? r.aliased : reference;
   if (inherit) p.modifier = r.modifier;
@@ -41,11 +41,10 @@ void DescriptionBuilder::resolveAlias(Primitive& p, int32_t reference, bool inhe
 void DescriptionBuilder::add(const Primitive& p) {
   if (description_.primitives.size() == std::numeric_limits<int32_t>::max())
     throw error(p.place, "more primitives than can be numbered");
-  const auto index = static_cast<int32_t>(description_.primitives.size());
   description_.primitives.push_back(p);
   if (isSurface(p.type)) return;
-  if (p.name >= inForce_.size()) inForce_.resize(std::max<size_t>(p.name + 1, 2 * inForce_.size()), kVoid);
-  inForce_[p.name] = index;
+  if (p.name >= inForce_.size()) inForce_.resize(std::max<size_t>(p.name + 1, 2 * inForce_.size()));
+  inForce_[p.name] = description_.primitives.last();
 }
 
 Error DescriptionBuilder::error(Place place, std::string_view text, Status status) const {

@@ -30,11 +30,11 @@ class DescriptionBuilder {
     return isSurface(type) ? words_.append(word) : words_.intern(word);
   }
 
-  // The index of the definition of this modifier that is in force now, or kVoid if there is none.
-  int32_t modifier(std::string_view name) const;
+  // The definition of this modifier that is in force now, or kVoid if there is none.
+  PrimitiveId modifier(std::string_view name) const;
 
   // A primitive without arguments. Its arguments will be the next ones of description().
-  Primitive begin(Type type, Place place, uint32_t name, int32_t modifier) const;
+  Primitive begin(Type type, Place place, uint32_t name, PrimitiveId modifier) const;
 
   // Append an argument of the primitive that was begun last.
   void addString(Primitive& p, std::string_view word);
@@ -43,9 +43,9 @@ class DescriptionBuilder {
     ++p.reals;
   }
 
-  // Makes p an alias of the primitive at index `reference`, or of the primitive that this one is an alias of.
+  // Makes p an alias of the primitive `reference`, or of the primitive that this one is an alias of.
   // inherit: p also gets the modifier of `reference`; otherwise p keeps its own.
-  void resolveAlias(Primitive& p, int32_t reference, bool inherit) const;
+  void resolveAlias(Primitive& p, PrimitiveId reference, bool inherit) const;
 
   // Appends the primitive that was begun last. If it is a modifier, it is in force from here on.
   void add(const Primitive& p);
@@ -58,7 +58,7 @@ class DescriptionBuilder {
  private:
   Description description_;
   WordTable words_;
-  std::vector<int32_t> inForce_;  // by word: the index of the last modifier of that name, or kVoid
+  std::vector<PrimitiveId> inForce_;  // by word: the last modifier of that name, or kVoid
 };
 
 }  // namespace rad

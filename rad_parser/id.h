@@ -9,9 +9,7 @@
 namespace rad {
 
 // The absence of an element. It converts to every type of Id.
-struct None {
-  constexpr operator int32_t() const { return -1; }  // for indices that are still plain numbers
-};
+struct None {};
 
 // The index of an element in one sequence, or none. Each sequence has its own Tag, so that an index in one
 // sequence converts neither to an index in another nor to a number. Takes 4 bytes.

@@ -99,7 +99,7 @@ void readOctree(BinaryReader& input, uint32_t file, DescriptionBuilder& builder,
   passOverCells(input, width, [&](int64_t object) {
     if (object < 0 || object >= objects)
       throw input.fault(fmt::format("damaged octree: object {} of {}", object + 1, objects));
-    if (object < present && !isSurface(d.primitives[object].type)) modifierInTree = true;
+    if (object < present && !isSurface(d.primitives[PrimitiveId(object)].type)) modifierInTree = true;
   });
 
   const auto stale = [&](std::string_view text) {

@@ -234,7 +234,7 @@ class Reader {
     text.word(word);
     const Place place = text.place();
     modifier_ = word;
-    int32_t modifier = builder_.modifier(modifier_);
+    PrimitiveId modifier = builder_.modifier(modifier_);
     const bool isVoid = modifier_ == "void", inherits = modifier_ == "inherit";
     const auto undefined = [&] {
       return builder_.error(place, fmt::format("undefined modifier \"{}\"", printable(modifier_)));
@@ -280,7 +280,7 @@ class Reader {
   void alias(TextSource& text, Primitive& p, bool inherits) {
     std::string_view word;
     if (!text.word(word)) throw ends(p);
-    const int32_t reference = builder_.modifier(word);
+    const PrimitiveId reference = builder_.modifier(word);
     if (reference == kVoid)
       throw builder_.error(text.place(),
                            fmt::format("alias \"{}\": undefined modifier \"{}\"",

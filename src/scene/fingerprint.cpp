@@ -84,7 +84,8 @@ uint64_t fingerprint(const Scene& scene) {
   std::unordered_set<uint32_t> seen;
   for (const rad::Primitive& p : d.primitives) {
     print.add(static_cast<uint64_t>(p.type));
-    print.add(uint64_t{static_cast<uint32_t>(p.modifier)} << 32 | static_cast<uint32_t>(p.aliased));
+    print.add(uint64_t{static_cast<uint32_t>(p.modifier.number())} << 32 |
+              static_cast<uint32_t>(p.aliased.number()));
     print.add(d.name(p));
     for (const double x : d.reals(p)) print.add(x);
     for (size_t i = 0; i < p.strings; ++i) {

@@ -1,10 +1,11 @@
 #pragma once
-#include "rad_parser/id.h"
+#include "rad_parser/description.h"
 
 namespace rsphere {
 
 using rad::ById;
 using rad::IdRange;
+using rad::PrimitiveId;
 
 inline constexpr rad::None kNone;
 

@@ -61,32 +61,32 @@ class Builder {
   // A file that primitives name, and the first primitive that names it.
   struct NamedFile {
     std::string file;
-    uint32_t namedBy = 0;
+    PrimitiveId namedBy;
   };
 
-  const Primitive& primitive(uint32_t i) const { return scene_.description.primitives[i]; }
-  std::span<const double> reals(uint32_t i) const { return scene_.description.reals(primitive(i)); }
+  const Primitive& primitive(PrimitiveId i) const { return scene_.description.primitives[i]; }
+  std::span<const double> reals(PrimitiveId i) const { return scene_.description.reals(primitive(i)); }
 
-  [[noreturn]] void fail(uint32_t i, std::string_view what) const {
+  [[noreturn]] void fail(PrimitiveId i, std::string_view what) const {
     throw rad::Error(fmt::format("{}: {}", scene_.place(i), what));
   }
-  void warn(uint32_t i, std::string_view what) const {
+  void warn(PrimitiveId i, std::string_view what) const {
     if (warn_) warn_(fmt::format("{}: {}", scene_.place(i), what));
   }
 
-  void needReals(uint32_t i, size_t count) const {
+  void needReals(PrimitiveId i, size_t count) const {
     if (reals(i).size() != count)
       fail(i, fmt::format("expected {} real arguments, got {}", count, reals(i).size()));
   }
-  void needStrings(uint32_t i, size_t most) const {
+  void needStrings(PrimitiveId i, size_t most) const {
     if (primitive(i).strings > most)
       fail(i, fmt::format("expected at most {} string arguments, got {}", most, primitive(i).strings));
   }
-  V3d vector(uint32_t i, size_t at) const {
+  V3d vector(PrimitiveId i, size_t at) const {
     const auto r = reals(i);
     return V3d(r[at], r[at + 1], r[at + 2]);
   }
-  Rgb color(uint32_t i, size_t at) const {
+  Rgb color(PrimitiveId i, size_t at) const {
     const auto r = reals(i);
     return Rgb(r[at], r[at + 1], r[at + 2]);
   }
@@ -95,16 +95,16 @@ class Builder {
 
   // Index in the description of the latest definition of a modifier before primitive i; rad::kVoid
   // if there is none.
-  int32_t definedBefore(uint32_t i, std::string_view name) {
+  PrimitiveId definedBefore(PrimitiveId i, std::string_view name) {
     if (!index_) index_.emplace(scene_.description, firstPrimitive_);
-    return index_->before(name, static_cast<int32_t>(i));
+    return index_->before(name, i);
   }
 
   // The modifier that a string argument of primitive i names: its latest definition before i; kNone for void.
-  ModifierId named(uint32_t i, size_t argument) {
+  ModifierId named(PrimitiveId i, size_t argument) {
     const std::string_view name = scene_.description.string(primitive(i), argument);
     if (name == "void") return kNone;
-    const int32_t described = definedBefore(i, name);
+    const PrimitiveId described = definedBefore(i, name);
     if (described == rad::kVoid) fail(i, fmt::format("undefined modifier \"{}\"", printable(name)));
     // A ray that hits nested modifiers recurses as deeply, and splits into up to 2^depth evaluations.
     if (depth_ == kDeepest) fail(i, fmt::format("modifiers name each other more than {} deep", kDeepest));
@@ -114,13 +114,13 @@ class Builder {
     return converted;
   }
 
-  Antimatter antimatter(uint32_t i) {
+  Antimatter antimatter(PrimitiveId i) {
     needAtLeast(i, 1);
     Antimatter made;
     for (uint32_t k = 0; k < primitive(i).strings; ++k) {
       const std::string_view name = scene_.description.string(primitive(i), k);
       if (name == "void") continue;
-      const int32_t described = definedBefore(i, name);
+      const PrimitiveId described = definedBefore(i, name);
       if (described == rad::kVoid) {
         warn(i, fmt::format("unknown modifier \"{}\"", printable(name)));
         continue;
@@ -133,7 +133,7 @@ class Builder {
     return made;
   }
 
-  Mist mist(uint32_t i) {
+  Mist mist(PrimitiveId i) {
     const auto r = reals(i);
     if (r.size() > 7) fail(i, fmt::format("expected at most 7 real arguments, got {}", r.size()));
     if (primitive(i).strings > 32)
@@ -151,13 +151,13 @@ class Builder {
   }
 
   // The alternate material that mirror and illum name.
-  Alternate alternate(uint32_t i) {
+  Alternate alternate(PrimitiveId i) {
     if (primitive(i).strings == 0) return {};
     if (scene_.description.string(primitive(i), 0) == "void") return {Alternate::Kind::pass, kNone};
     return {Alternate::Kind::modifier, named(i, 0)};
   }
 
-  void needAtLeast(uint32_t i, size_t strings, size_t realArguments = 0) const {
+  void needAtLeast(PrimitiveId i, size_t strings, size_t realArguments = 0) const {
     if (primitive(i).strings < strings)
       fail(i, fmt::format("expected at least {} string arguments, got {}", strings, primitive(i).strings));
     if (reals(i).size() < realArguments)
@@ -165,7 +165,7 @@ class Builder {
   }
 
   // A string argument's value if it is a number, otherwise this bound.
-  double numberOr(uint32_t i, size_t argument, double otherwise) const {
+  double numberOr(PrimitiveId i, size_t argument, double otherwise) const {
     const std::string_view word = scene_.description.string(primitive(i), argument);
     double value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -174,22 +174,22 @@ class Builder {
 
   // The modifier that WGMDfunc names for a component. A component that reflects or transmits
   // nothing needs none.
-  std::optional<ModifierId> componentModifier(uint32_t i, size_t argument, bool used) {
+  std::optional<ModifierId> componentModifier(PrimitiveId i, size_t argument, bool used) {
     if (!used || scene_.description.string(primitive(i), argument) == "inherit") return std::nullopt;
     return named(i, argument);
   }
-  WgmdFunction::Lobe lobe(uint32_t i, size_t argument) {
+  WgmdFunction::Lobe lobe(PrimitiveId i, size_t argument) {
     const double share = numberOr(i, argument + 1, 1);
     return {share, numberOr(i, argument + 2, 0), numberOr(i, argument + 3, 0),
             componentModifier(i, argument, share > kNegligible)};
   }
 
-  Content mixture(uint32_t i) {
+  Content mixture(PrimitiveId i) {
     const ModifierId foreground = named(i, 0);
     return Mixture{foreground, named(i, 1)};
   }
 
-  Content content(uint32_t i) {
+  Content content(PrimitiveId i) {
     switch (primitive(i).type) {
       case Type::brightfunc:
         needAtLeast(i, 2);
@@ -233,7 +233,7 @@ class Builder {
     }
   }
 
-  Material material(uint32_t i) {
+  Material material(PrimitiveId i) {
     switch (primitive(i).type) {
       case Type::plastic:
       case Type::metal:
@@ -347,7 +347,7 @@ class Builder {
     }
   }
 
-  Material bsdf(uint32_t i) const {
+  Material bsdf(PrimitiveId i) const {
     const size_t count = reals(i).size();
     if (count > 9 || count % 3) fail(i, fmt::format("expected 0, 3, 6 or 9 real arguments, got {}", count));
     BsdfMaterial m;
@@ -359,7 +359,7 @@ class Builder {
     return m;
   }
 
-  Material anisotropic(uint32_t i) const {
+  Material anisotropic(PrimitiveId i) const {
     needAtLeast(i, 4);
     const auto r = reals(i);
     if (!(r[4] > kNegligible && r[5] > kNegligible)) fail(i, "roughness too small");
@@ -374,29 +374,29 @@ class Builder {
 
   // Converts the modifier at this index of the description and the chain of those that modify
   // it, each only once.
-  ModifierId modifier(int32_t described) {
+  ModifierId modifier(PrimitiveId described) {
     if (described == rad::kVoid) return kNone;
     // Follows the chain from described to void without recursion, because a file may nest as
     // deeply as it likes.
-    std::vector<int32_t> chain;
-    int32_t next = described;
+    std::vector<PrimitiveId> chain;
+    PrimitiveId next = described;
     while (next != rad::kVoid && modifierOf_[next] == kUnknown) {
       chain.push_back(next);
       next = primitive(next).modifier;
     }
     ModifierId converted = next == rad::kVoid ? kNone : modifierOf_[next];
     while (!chain.empty()) {
-      const int32_t i = chain.back();
+      const PrimitiveId i = chain.back();
       chain.pop_back();
-      int32_t target = i;
+      PrimitiveId target = i;
       while (target != rad::kVoid && primitive(target).type == Type::alias)
         target = primitive(target).aliased != rad::kVoid ? primitive(target).aliased
                  : target == i                           ? rad::kVoid
                                                          : primitive(target).modifier;
       if (target != rad::kVoid) {  // an alias without a target is its modifier
-        Content made = content(static_cast<uint32_t>(target));
+        Content made = content(target);
         tellIndex(made, ModifierId(scene_.modifiers.size()));
-        scene_.modifiers.push_back({std::move(made), converted, static_cast<uint32_t>(target)});
+        scene_.modifiers.push_back({std::move(made), converted, target});
         converted = scene_.modifiers.last();
       }
       modifierOf_[i] = converted;
@@ -416,7 +416,7 @@ class Builder {
 
   // Calls a reader of primitive i's file. Its errors get the primitive that named the file appended.
   template <class Read>
-  std::invoke_result_t<Read> read(uint32_t i, const Read& reader) const {
+  std::invoke_result_t<Read> read(PrimitiveId i, const Read& reader) const {
     try {
       return reader();
     } catch (const rad::Error& error) {
@@ -469,13 +469,13 @@ class Builder {
     modifierOf_.resize(primitives.size(), kUnknown);
     const size_t firstSurface = scene_.surfaces.size();
     reserve(firstPrimitive);
-    for (uint32_t i = firstPrimitive; i < primitives.size(); ++i)
+    for (const PrimitiveId i : IdRange<PrimitiveId>(firstPrimitive, primitives.size() - firstPrimitive))
       if (rad::isSurface(primitives[i].type)) addSurface(i);
     scene_.groups.push_back({{firstSurface, scene_.surfaces.size() - firstSurface}});
   }
 
   // The index of a file among those of its kind, in the order in which they are first named.
-  static uint32_t numberOf(const std::string& file, uint32_t i, std::vector<NamedFile>& files,
+  static uint32_t numberOf(const std::string& file, PrimitiveId i, std::vector<NamedFile>& files,
                            std::unordered_map<std::string, uint32_t>& numbers) {
     const auto [at, isNew] = numbers.try_emplace(file, static_cast<uint32_t>(files.size()));
     if (isNew) files.push_back({file, i});
@@ -483,11 +483,11 @@ class Builder {
   }
 
   // The arguments of instance and mesh: a file name and a transform.
-  std::string fileArgument(uint32_t i) const {
+  std::string fileArgument(PrimitiveId i) const {
     if (primitive(i).strings == 0) fail(i, "expected a file name");
     return std::string(scene_.description.string(primitive(i), 0));
   }
-  uint32_t placement(uint32_t i) {
+  uint32_t placement(PrimitiveId i) {
     std::vector<std::string_view> words;
     for (uint32_t k = 1; k < primitive(i).strings; ++k)
       words.push_back(scene_.description.string(primitive(i), k));
@@ -507,12 +507,12 @@ class Builder {
     return static_cast<uint32_t>(scene_.placements.size()) - 1;
   }
 
-  Instance makeInstance(uint32_t i) {
+  Instance makeInstance(PrimitiveId i) {
     const std::string file = fileArgument(i);
     return {placement(i), 1 + numberOf(file, i, octrees_, octreeNumbers_)};
   }
 
-  MeshInstance makeMeshInstance(uint32_t i) {
+  MeshInstance makeMeshInstance(PrimitiveId i) {
     const std::string file = fileArgument(i);
     return {placement(i), numberOf(file, i, meshes_, meshNumbers_)};
   }
@@ -529,11 +529,11 @@ class Builder {
     modifierOf_.resize(scene_.description.primitives.size(), kUnknown);
     std::vector<SurfaceId> facesOf(used.size());
     for (size_t m = 0; m < used.size(); ++m)
-      if (used[m]) facesOf[m] = addFaces(static_cast<int32_t>(firstPrimitive_ + m));
+      if (used[m]) facesOf[m] = addFaces(PrimitiveId(firstPrimitive_ + m));
     scene_.meshes.push_back({std::move(data), std::move(facesOf)});
   }
 
-  SurfaceId addFaces(int32_t described) {
+  SurfaceId addFaces(PrimitiveId described) {
     rad::Description& d = scene_.description;
     if (facesName_ == kNoWord) {
       facesName_ = static_cast<uint32_t>(d.words.size());
@@ -542,11 +542,11 @@ class Builder {
     rad::Primitive p;
     p.type = Type::mesh;
     p.modifier = described;
-    p.place = primitive(static_cast<uint32_t>(described)).place;
+    p.place = primitive(described).place;
     p.name = facesName_;
     d.primitives.push_back(p);
     modifierOf_.push_back(kUnknown);
-    addSurface(static_cast<uint32_t>(d.primitives.size()) - 1, MeshFaces{});
+    addSurface(d.primitives.last(), MeshFaces{});
     return scene_.surfaces.last();
   }
 
@@ -582,14 +582,14 @@ class Builder {
 
   // ---- surfaces
 
-  void addSurface(uint32_t i) {
+  void addSurface(PrimitiveId i) {
     // An octree cannot contain distant light sources.
     if (firstPrimitive_ > 0 && primitive(i).type == Type::source) return;
     std::optional<Shape> shape = makeShape(i);
     if (shape) addSurface(i, std::move(*shape));
   }
 
-  void addSurface(uint32_t i, Shape shape) {
+  void addSurface(PrimitiveId i, Shape shape) {
     Surface surface{std::move(shape), i, modifier(primitive(i).modifier), kNone};
     surface.material = scene_.firstMaterial(surface.modifier);
     surface.smoothed = scene_.modifierName(surface) == "Phong";
@@ -599,7 +599,7 @@ class Builder {
   }
 
   // Rejects shapes that cannot be sampled as light sources, because rays cannot be aimed at their centre.
-  void checkLight(uint32_t i, const Surface& surface) const {
+  void checkLight(PrimitiveId i, const Surface& surface) const {
     const Material* material = scene_.materialOf(surface);
     if (!material) return;
     const std::optional<Rgb> radiance = sourceRadiance(*material);
@@ -624,7 +624,7 @@ class Builder {
     }
   }
 
-  std::optional<Shape> makeShape(uint32_t i) {
+  std::optional<Shape> makeShape(PrimitiveId i) {
     switch (primitive(i).type) {
       case Type::polygon:
         return makePolygonShape(i);
@@ -650,7 +650,7 @@ class Builder {
     }
   }
 
-  std::optional<Shape> makePolygonShape(uint32_t i) {
+  std::optional<Shape> makePolygonShape(PrimitiveId i) {
     const auto r = reals(i);
     if (r.size() < 9 || r.size() % 3)
       fail(i, fmt::format("expected 9 or more coordinates by threes, got {}", r.size()));
@@ -670,7 +670,7 @@ class Builder {
     return polygon;
   }
 
-  std::optional<Shape> makeSphere(uint32_t i) {
+  std::optional<Shape> makeSphere(PrimitiveId i) {
     needReals(i, 4);
     Sphere sphere{vector(i, 0), reals(i)[3], primitive(i).type == Type::bubble};
     if (sphere.radius < 0) {
@@ -682,7 +682,7 @@ class Builder {
     return sphere;
   }
 
-  std::optional<Shape> makeCylinder(uint32_t i) {
+  std::optional<Shape> makeCylinder(PrimitiveId i) {
     needReals(i, 7);
     Cone cone{vector(i, 0), vector(i, 3) - vector(i, 0),    0, reals(i)[6],
               reals(i)[6],  primitive(i).type == Type::tube};
@@ -694,7 +694,7 @@ class Builder {
     return finishCone(i, cone);
   }
 
-  std::optional<Shape> makeCone(uint32_t i) {
+  std::optional<Shape> makeCone(PrimitiveId i) {
     needReals(i, 8);
     Cone cone{vector(i, 0), vector(i, 3) - vector(i, 0),   0, reals(i)[6],
               reals(i)[7],  primitive(i).type == Type::cup};
@@ -708,12 +708,12 @@ class Builder {
     return finishCone(i, cone);
   }
 
-  std::optional<Shape> illegalRadii(uint32_t i) const {
+  std::optional<Shape> illegalRadii(PrimitiveId i) const {
     warn(i, "illegal radii");
     return std::nullopt;
   }
 
-  std::optional<Shape> finishCone(uint32_t i, Cone cone) const {
+  std::optional<Shape> finishCone(PrimitiveId i, Cone cone) const {
     if (!(cone.radius0 > 0 || cone.radius1 > 0)) return illegalRadii(i);
     cone.length = cone.axis.length();
     if (!(cone.length > 0)) {
@@ -724,7 +724,7 @@ class Builder {
     return cone;
   }
 
-  std::optional<Shape> makeRing(uint32_t i) {
+  std::optional<Shape> makeRing(PrimitiveId i) {
     needReals(i, 8);
     const auto r = reals(i);
     const double length = vector(i, 3).length();
@@ -736,7 +736,7 @@ class Builder {
     return Ring{vector(i, 0), vector(i, 3) / length, std::min(r[6], r[7]), std::max(r[6], r[7])};
   }
 
-  std::optional<Shape> makeDistant(uint32_t i) {
+  std::optional<Shape> makeDistant(PrimitiveId i) {
     needReals(i, 4);
     const V3d direction = vector(i, 0);
     const double length = direction.length();
@@ -757,11 +757,11 @@ class Builder {
   std::unordered_map<std::string, uint32_t> octreeNumbers_, meshNumbers_;
   std::vector<int> heights_;  // by group
   uint32_t facesName_ = kNoWord;
-  std::optional<rad::ModifierIndex> index_;       // made when a string argument first names a modifier
-  int depth_ = 0;                                 // of nested conversions by such names
-  std::unordered_map<int32_t, uint64_t> clipOf_;  // Surface::clip of a modifier, by index in the description
+  std::optional<rad::ModifierIndex> index_;           // made when a string argument first names a modifier
+  int depth_ = 0;                                     // of nested conversions by such names
+  std::unordered_map<PrimitiveId, uint64_t> clipOf_;  // Surface::clip of a modifier
   uint32_t mists_ = 0;
-  std::vector<ModifierId> modifierOf_;  // by index in the description; kUnknown: not converted yet
+  ById<PrimitiveId, ModifierId> modifierOf_;  // kUnknown: not converted yet
 };
 
 }  // namespace
@@ -783,7 +783,7 @@ Placement Scene::placementOf(const PlacementPath& path) const {
 }
 
 std::string_view Scene::modifierName(const Surface& s) const {
-  const int32_t m = description.primitives[s.primitive].modifier;
+  const PrimitiveId m = description.primitives[s.primitive].modifier;
   return m == rad::kVoid ? "void" : description.name(description.primitives[m]);
 }
 
@@ -792,7 +792,7 @@ std::string_view Scene::materialName(const Surface& s) const {
                              : description.name(description.primitives[modifiers[s.material].primitive]);
 }
 
-std::string Scene::place(uint32_t i) const {
+std::string Scene::place(PrimitiveId i) const {
   const Primitive& p = description.primitives[i];
   return fmt::format("{}: {} \"{}\"", description.at(p.place), rad::typeName(p.type), description.name(p));
 }

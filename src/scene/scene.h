@@ -34,17 +34,17 @@ using Content = std::variant<Material, Pattern, Texture, Mixture>;
 struct Modifier {
   Content content;
   ModifierId next;
-  uint32_t primitive = 0;  // index in Scene::description; of the target if it was an alias
+  PrimitiveId primitive;  // in Scene::description; of the target if it was an alias
 };
 
 struct Surface {
   Shape shape;
-  uint32_t primitive = 0;  // index in Scene::description, which has its name and place
-  ModifierId modifier;     // kNone: void
-  ModifierId material;     // the first material of the chain that modifier begins, or else the mixture that
-                           // ends it. Decides ties between surfaces, and which are light sources
-  uint64_t clip = 0;       // the bit of its modifier in Antimatter::clips; 0: not clipped by any
-  bool goal = false;       // emits importance 1 from its front, in addition to its material
+  PrimitiveId primitive;  // in Scene::description, which has its name and place
+  ModifierId modifier;    // kNone: void
+  ModifierId material;    // the first material of the chain that modifier begins, or else the mixture that
+                          // ends it. Decides ties between surfaces, and which are light sources
+  uint64_t clip = 0;      // the bit of its modifier in Antimatter::clips; 0: not clipped by any
+  bool goal = false;      // emits importance 1 from its front, in addition to its material
   // Whether its modifier is called "Phong", the customary name of textures that smooth a surface by
   // interpolated normals. As in rtrace, such a texture does not deflect rays that pass straight through a
   // thin surface (trans, glass and the like). Refraction by dielectric and interface follows the perturbed
@@ -104,7 +104,7 @@ struct Scene {
   std::string_view modifierName(const Surface& s) const;
   std::string_view materialName(const Surface& s) const;
   // 'room.rad:12: plastic "wall"', for messages.
-  std::string place(uint32_t primitive) const;
+  std::string place(PrimitiveId primitive) const;
 };
 
 // Whether a ray can pass the material. Used to choose between coincident surfaces, and to decide which

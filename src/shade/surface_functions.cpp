@@ -62,7 +62,7 @@ std::vector<std::string> linesOf(std::string_view text) {
 // Reads and compiles one modifier.
 class SurfaceFunctions::Maker {
  public:
-  Maker(const SurfaceFunctions& functions, uint32_t primitive)
+  Maker(const SurfaceFunctions& functions, PrimitiveId primitive)
       : functions_(functions),
         scene_(functions.scene_),
         index_(primitive),
@@ -395,7 +395,7 @@ class SurfaceFunctions::Maker {
 
   const SurfaceFunctions& functions_;
   const Scene& scene_;
-  uint32_t index_;
+  PrimitiveId index_;
   const Primitive& primitive_;
   std::span<const double> reals_;
   std::vector<std::string_view> words_;

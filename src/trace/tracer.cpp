@@ -15,7 +15,7 @@ namespace {
 // The properties of a surface that shadow rays and ties depend on, looked up once.
 struct Occluder {
   SurfaceId surface;
-  int32_t modifier = kNone;  // index in the description: the later definition wins ties
+  PrimitiveId modifier;  // the later definition wins ties
   bool hasMaterial = false;
   bool transparent = false;
   bool opaqueFront = false, opaqueBack = false;  // certainly stops every shadow ray that hits this side

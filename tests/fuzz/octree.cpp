@@ -18,9 +18,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     return 0;
   }
   const rad::Description d = builder.take();
-  for (size_t i = 0; i < d.primitives.size(); ++i) {
+  for (const rad::PrimitiveId i : d.primitives.ids()) {
     const rad::Primitive& p = d.primitives[i];
-    const bool whole = p.modifier < static_cast<int32_t>(i) && p.firstReal + p.reals <= d.realArgs.size() &&
+    const bool whole = p.modifier < i && p.firstReal + p.reals <= d.realArgs.size() &&
                        p.firstString + p.strings <= d.stringArgs.size() &&
                        (p.type == rad::Type::alias) == (p.aliased != rad::kVoid);
     if (!whole) std::abort();

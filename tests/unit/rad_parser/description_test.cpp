@@ -8,6 +8,7 @@ namespace {
 
 using rad::Description;
 using rad::kVoid;
+using rad::PrimitiveId;
 
 constexpr const char* kFirst = "void plastic m\n0\n0\n5 1 1 1 0 0\nm sphere s\n0\n0\n4 0 0 0 1\n";
 constexpr const char* kSecond =
@@ -15,7 +16,7 @@ constexpr const char* kSecond =
 
 Description both() {
   Description d = readText(kFirst);
-  const rad::Place from = d.primitives[1].place;
+  const rad::Place from = d.primitives.at(1).place;
   append(d, rad::readSceneText(kSecond, "other.rad"), from);
   return d;
 }
@@ -23,16 +24,16 @@ Description both() {
 TEST(Append, NumbersOnFromWhatThereIs) {
   const Description d = both();
   ASSERT_EQ(d.primitives.size(), 5u);
-  EXPECT_EQ(d.name(d.primitives[1]), "s");
-  EXPECT_EQ(d.name(d.primitives[2]), "m");
-  EXPECT_EQ(d.string(d.primitives[2], 3), "y.cal");
-  EXPECT_EQ(d.primitives[2].modifier, kVoid);
-  EXPECT_EQ(d.primitives[3].aliased, 2);
-  EXPECT_EQ(d.primitives[4].modifier, 3);
-  EXPECT_EQ(d.reals(d.primitives[1])[3], 1);
-  EXPECT_EQ(d.reals(d.primitives[4])[0], 7);
-  EXPECT_EQ(d.at(d.primitives[1].place), "room.rad:5");
-  EXPECT_EQ(d.at(d.primitives[4].place), "other.rad:6 (from room.rad:5)");
+  EXPECT_EQ(d.name(d.primitives.at(1)), "s");
+  EXPECT_EQ(d.name(d.primitives.at(2)), "m");
+  EXPECT_EQ(d.string(d.primitives.at(2), 3), "y.cal");
+  EXPECT_EQ(d.primitives.at(2).modifier, kVoid);
+  EXPECT_EQ(d.primitives.at(3).aliased, PrimitiveId(2));
+  EXPECT_EQ(d.primitives.at(4).modifier, PrimitiveId(3));
+  EXPECT_EQ(d.reals(d.primitives.at(1))[3], 1);
+  EXPECT_EQ(d.reals(d.primitives.at(4))[0], 7);
+  EXPECT_EQ(d.at(d.primitives.at(1).place), "room.rad:5");
+  EXPECT_EQ(d.at(d.primitives.at(4).place), "other.rad:6 (from room.rad:5)");
 }
 
 TEST(Append, KeepsHeaderAndCube) {
@@ -48,10 +49,10 @@ TEST(Append, KeepsHeaderAndCube) {
 
 TEST(ModifierIndex, OfThePrimitivesFromOneOn) {
   const Description d = both();
-  EXPECT_EQ(rad::ModifierIndex(d).before("m", 2), 0);
-  EXPECT_EQ(rad::ModifierIndex(d).before("m", 5), 2);
-  EXPECT_EQ(rad::ModifierIndex(d, 2).before("m", 2), kVoid);
-  EXPECT_EQ(rad::ModifierIndex(d, 2).before("n", 5), 3);
+  EXPECT_EQ(rad::ModifierIndex(d).before("m", PrimitiveId(2)), PrimitiveId(0));
+  EXPECT_EQ(rad::ModifierIndex(d).before("m", PrimitiveId(5)), PrimitiveId(2));
+  EXPECT_EQ(rad::ModifierIndex(d, 2).before("m", PrimitiveId(2)), kVoid);
+  EXPECT_EQ(rad::ModifierIndex(d, 2).before("n", PrimitiveId(5)), PrimitiveId(3));
 }
 
 // Names of surfaces are never looked up. Modifiers of the same name are.
@@ -59,10 +60,10 @@ TEST(Description, SurfacesAndModifiersMayHaveOneName) {
   const Description d = readText(
       "void plastic a\n0\n0\n5 1 1 1 0 0\na sphere b\n0\n0\n4 0 0 0 1\na sphere b\n0\n0\n4 0 0 0 1\n"
       "void plastic b\n0\n0\n5 1 1 1 0 0\nb sphere a\n0\n0\n4 0 0 0 1\na sphere a\n0\n0\n4 0 0 0 1\n");
-  EXPECT_EQ(d.name(d.primitives[2]), "b");
-  EXPECT_EQ(d.primitives[4].modifier, 3);
-  EXPECT_EQ(d.primitives[5].modifier, 0);
-  EXPECT_EQ(d.primitives[1].name, d.primitives[2].name);
+  EXPECT_EQ(d.name(d.primitives.at(2)), "b");
+  EXPECT_EQ(d.primitives.at(4).modifier, PrimitiveId(3));
+  EXPECT_EQ(d.primitives.at(5).modifier, PrimitiveId(0));
+  EXPECT_EQ(d.primitives.at(1).name, d.primitives.at(2).name);
   EXPECT_TRUE(
       errorOfText(
           "void plastic a\n0\n0\n5 1 1 1 0 0\na sphere c\n0\n0\n4 0 0 0 1\nc sphere d\n0\n0\n4 0 0 0 1\n")

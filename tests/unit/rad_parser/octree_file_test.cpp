@@ -15,6 +15,7 @@ namespace {
 using rad::Description;
 using rad::kVoid;
 using rad::Primitive;
+using rad::PrimitiveId;
 using rad::Status;
 using rad::Type;
 
@@ -36,7 +37,7 @@ class InFolder {
 void expectSame(const Description& a, const Description& b, double within) {
   ASSERT_EQ(a.primitives.size(), b.primitives.size());
   for (size_t i = 0; i < a.primitives.size(); ++i) {
-    const Primitive &p = a.primitives[i], &q = b.primitives[i];
+    const Primitive &p = a.primitives.at(i), &q = b.primitives.at(i);
     SCOPED_TRACE(fmt::format("{} {}", i, b.name(q)));
     EXPECT_EQ(p.type, q.type);
     EXPECT_EQ(p.modifier, q.modifier);
@@ -109,8 +110,8 @@ TEST(OctreeFile, FrozenIsItsText) {
   EXPECT_EQ(octree.cube->origin, (std::array{-1.56251, -2.50001, -2.00001}));
   EXPECT_TRUE(text.header.empty());
   EXPECT_FALSE(text.cube);
-  EXPECT_EQ(octree.at(octree.primitives[0].place), fixture("frozen.oct") + ": object 1");
-  EXPECT_EQ(octree.at(octree.primitives[16].place), fixture("frozen.oct") + ": object 17");
+  EXPECT_EQ(octree.at(octree.primitives.at(0).place), fixture("frozen.oct") + ": object 1");
+  EXPECT_EQ(octree.at(octree.primitives.at(16).place), fixture("frozen.oct") + ": object 17");
 }
 
 TEST(OctreeFile, NamedFilesAreReadFromWhereItWasMade) {
@@ -121,10 +122,10 @@ TEST(OctreeFile, NamedFilesAreReadFromWhereItWasMade) {
   }
   Description text = readFile(fixture("every.rad"));
   ASSERT_EQ(octree.primitives.size(), text.primitives.size() + 2);
-  EXPECT_EQ(octree.at(octree.primitives[17].place), "ball.rad:1 (from named.oct)");
-  EXPECT_EQ(octree.at(octree.primitives[18].place),
+  EXPECT_EQ(octree.at(octree.primitives.at(17).place), "ball.rad:1 (from named.oct)");
+  EXPECT_EQ(octree.at(octree.primitives.at(18).place),
             "!echo glass sphere third 0 0 4 0 2 0 .25:1 (from named.oct)");
-  EXPECT_EQ(octree.name(octree.primitives[octree.primitives[18].modifier]), "glass");
+  EXPECT_EQ(octree.name(octree.primitives[octree.primitives.at(18).modifier]), "glass");
   EXPECT_EQ(octree.header[1], "oconv every.rad ball.rad \"!echo glass sphere third 0 0 4 0 2 0 .25\"");
   octree.primitives.resize(17);
   expectSame(octree, text, 0);
@@ -162,7 +163,7 @@ TEST(OctreeFile, FromACommand) {
   const Description d = readFile(command, &warnings);
   expectSame(d, readFile(fixture("frozen.oct")), 0);
   EXPECT_TRUE(warnings.empty());
-  EXPECT_EQ(d.at(d.primitives[1].place), rad::printable(command, 100) + ": object 2");
+  EXPECT_EQ(d.at(d.primitives.at(1).place), rad::printable(command, 100) + ": object 2");
   readFile(command + "; exit 4", &warnings);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_TRUE(warnings[0].ends_with("\": exit status 4")) << warnings[0];
@@ -181,9 +182,9 @@ TEST(OctreeFile, EveryWidthOfObjectNumbers) {
     data.width = width;
     const Description d = readBytes(data.bytes());
     ASSERT_EQ(d.primitives.size(), 3u) << width;
-    EXPECT_EQ(d.primitives[0].modifier, kVoid);
-    EXPECT_EQ(d.primitives[2].modifier, 0);
-    EXPECT_EQ(d.reals(d.primitives[1])[0], 1);
+    EXPECT_EQ(d.primitives.at(0).modifier, kVoid);
+    EXPECT_EQ(d.primitives.at(2).modifier, PrimitiveId(0));
+    EXPECT_EQ(d.reals(d.primitives.at(1))[0], 1);
     EXPECT_EQ(d.cube->origin, (std::array{-1., -2.5, 3.}));
   }
   OctreeData data;
@@ -300,9 +301,9 @@ TEST(OctreeFile, AliasesByNumber) {
     return data.beforeScene() + scene + d.bytes + '\xff';
   };
   const Description d = readBytes(alias(0));
-  EXPECT_EQ(d.primitives[3].aliased, 0);
-  EXPECT_EQ(d.primitives[3].modifier, kVoid);
-  EXPECT_EQ(d.string(d.primitives[3], 0), "mat");
+  EXPECT_EQ(d.primitives.at(3).aliased, PrimitiveId(0));
+  EXPECT_EQ(d.primitives.at(3).modifier, kVoid);
+  EXPECT_EQ(d.string(d.primitives.at(3), 0), "mat");
   EXPECT_NE(errorOfBytes(alias(-1)).find("an alias of nothing at byte"), std::string::npos);
   EXPECT_NE(errorOfBytes(alias(1)).find("t.oct: object 4: object 2 is no modifier"), std::string::npos);
   EXPECT_NE(errorOfBytes(alias(3)).find("t.oct: object 4: modifier 4 is not before it"), std::string::npos);
@@ -409,8 +410,8 @@ TEST(OctreeFile, FlippedBytesAreReadOrRefused) {
         options.commands = false;
         const Description d = rad::readOctree(path, options);
         for (size_t i = 0; i < d.primitives.size(); ++i) {
-          const Primitive& p = d.primitives[i];
-          ASSERT_LT(p.modifier, static_cast<int32_t>(i));
+          const Primitive& p = d.primitives.at(i);
+          ASSERT_LT(p.modifier, PrimitiveId(i));
           ASSERT_LE(p.firstReal + p.reals, d.realArgs.size());
           ASSERT_LE(p.firstString + p.strings, d.stringArgs.size());
           ASSERT_EQ(p.type == Type::alias, p.aliased != kVoid);

@@ -16,6 +16,7 @@ namespace {
 using rad::Description;
 using rad::kVoid;
 using rad::Primitive;
+using rad::PrimitiveId;
 using rad::Status;
 using rad::Type;
 
@@ -28,10 +29,10 @@ TEST(SceneFile, EveryTypeIsKept) {
   const Description d = readText(text);
   ASSERT_EQ(d.primitives.size(), static_cast<size_t>(rad::kTypes));
   for (int i = 0; i + 1 < rad::kTypes; ++i) {
-    const Primitive& p = d.primitives[i + 1];
+    const Primitive& p = d.primitives.at(i + 1);
     EXPECT_EQ(p.type, static_cast<Type>(i));
     EXPECT_EQ(d.name(p), fmt::format("n{}", i));
-    EXPECT_EQ(p.modifier, 0);
+    EXPECT_EQ(p.modifier, PrimitiveId(0));
     EXPECT_EQ(p.place.line, static_cast<uint32_t>(i + 2));
     ASSERT_EQ(p.strings, 2u);
     EXPECT_EQ(d.string(p, 1), "b c");
@@ -53,13 +54,13 @@ TEST(SceneFile, CommentsBlanksAndLineEnds) {
       "sphere\r\n\r\nball 0 0 4 0 0 0 "
       "+1.\r\n#last");
   EXPECT_EQ(printScene(d), "void plastic red\n0\n0\n5 0.5 0.1 0.1 0 0\nred sphere ball\n0\n0\n4 0 0 0 1\n");
-  EXPECT_EQ(d.at(d.primitives[1].place), "room.rad:6");
+  EXPECT_EQ(d.at(d.primitives.at(1).place), "room.rad:6");
 }
 
 TEST(SceneFile, QuotedWords) {
   const Description d =
       readText("void brighttext \"my sign\" 4 a\"b c\"d 'say \"x\"' \"\" 'two\nlines' 0 0\n");
-  const Primitive& p = d.primitives[0];
+  const Primitive& p = d.primitives.at(0);
   EXPECT_EQ(d.name(p), "my sign");
   EXPECT_EQ(d.string(p, 0), "ab cd");
   EXPECT_EQ(d.string(p, 1), "say \"x\"");
@@ -77,19 +78,19 @@ a glow a 0 0 4 1 1 1 0
 a sphere a 0 0 4 0 0 0 1
 a sphere three 0 0 4 0 0 0 1
 )");
-  EXPECT_EQ(d.primitives[1].modifier, 0);
-  EXPECT_EQ(d.primitives[3].modifier, 2);
-  EXPECT_EQ(d.primitives[4].modifier, 2);
-  EXPECT_EQ(d.primitives[6].modifier, 4) << "a surface is no modifier, whatever its name";
+  EXPECT_EQ(d.primitives.at(1).modifier, PrimitiveId(0));
+  EXPECT_EQ(d.primitives.at(3).modifier, PrimitiveId(2));
+  EXPECT_EQ(d.primitives.at(4).modifier, PrimitiveId(2));
+  EXPECT_EQ(d.primitives.at(6).modifier, PrimitiveId(4)) << "a surface is no modifier, whatever its name";
 
   const rad::ModifierIndex index(d);
-  EXPECT_EQ(index.before("a", 0), kVoid);
-  EXPECT_EQ(index.before("a", 1), 0);
-  EXPECT_EQ(index.before("a", 2), 0);
-  EXPECT_EQ(index.before("a", 4), 2);
-  EXPECT_EQ(index.before("a", 7), 4);
-  EXPECT_EQ(index.before("one", 7), kVoid);
-  EXPECT_EQ(index.before("void", 7), kVoid);
+  EXPECT_EQ(index.before("a", PrimitiveId(0)), kVoid);
+  EXPECT_EQ(index.before("a", PrimitiveId(1)), PrimitiveId(0));
+  EXPECT_EQ(index.before("a", PrimitiveId(2)), PrimitiveId(0));
+  EXPECT_EQ(index.before("a", PrimitiveId(4)), PrimitiveId(2));
+  EXPECT_EQ(index.before("a", PrimitiveId(7)), PrimitiveId(4));
+  EXPECT_EQ(index.before("one", PrimitiveId(7)), kVoid);
+  EXPECT_EQ(index.before("void", PrimitiveId(7)), kVoid);
 }
 
 TEST(SceneFile, AliasesStandForACopyWithAModifier) {
@@ -105,14 +106,17 @@ dirt alias wall6 wall3
 void metal wall 0 0 5 1 1 1 0 0
 wall6 sphere s 0 0 4 0 0 0 1
 )");
-  const auto alias = [&](int i) { return std::pair(d.primitives[i].modifier, d.primitives[i].aliased); };
-  EXPECT_EQ(alias(3), std::pair(1, 2));
-  EXPECT_EQ(alias(4), std::pair(0, 2));
-  EXPECT_EQ(alias(5), std::pair(1, 2)) << "with the modifier of the alias that it names";
-  EXPECT_EQ(alias(6), std::pair(kVoid, 2));
-  EXPECT_EQ(alias(7), std::pair(0, 2));
-  EXPECT_EQ(d.primitives[9].modifier, 7);
-  EXPECT_EQ(d.string(d.primitives[6], 0), "wall4");
+  const auto alias = [&](int i) {
+    return std::pair(d.primitives.at(i).modifier, d.primitives.at(i).aliased);
+  };
+  EXPECT_EQ(alias(3), std::pair(PrimitiveId(1), PrimitiveId(2)));
+  EXPECT_EQ(alias(4), std::pair(PrimitiveId(0), PrimitiveId(2)));
+  EXPECT_EQ(alias(5), std::pair(PrimitiveId(1), PrimitiveId(2)))
+      << "with the modifier of the alias that it names";
+  EXPECT_EQ(alias(6), std::pair(PrimitiveId(kVoid), PrimitiveId(2)));
+  EXPECT_EQ(alias(7), std::pair(PrimitiveId(0), PrimitiveId(2)));
+  EXPECT_EQ(d.primitives.at(9).modifier, PrimitiveId(7));
+  EXPECT_EQ(d.string(d.primitives.at(6), 0), "wall4");
 }
 
 TEST(SceneFile, FaultsAndTheirPlaces) {
@@ -232,8 +236,8 @@ TEST(SceneFile, WordsAcrossBlocks) {
   EXPECT_EQ(printScene(file), printScene(memory));
   ASSERT_EQ(file.primitives.size(), names.size());
   for (size_t i = 0; i < names.size(); ++i) {
-    ASSERT_EQ(file.name(file.primitives[i]), names[i]);
-    ASSERT_EQ(file.primitives[i].place.line, 2 * i + 2);
+    ASSERT_EQ(file.name(file.primitives.at(i)), names[i]);
+    ASSERT_EQ(file.primitives.at(i).place.line, 2 * i + 2);
   }
 }
 
@@ -274,7 +278,7 @@ TEST(SceneFile, PrintedScenesReadBackTheSame) {
     EXPECT_EQ(once.realArgs, twice.realArgs);
     ASSERT_EQ(once.primitives.size(), twice.primitives.size());
     for (size_t i = 0; i < once.primitives.size(); ++i) {
-      const Primitive &a = once.primitives[i], &b = twice.primitives[i];
+      const Primitive &a = once.primitives.at(i), &b = twice.primitives.at(i);
       EXPECT_EQ(a.type, b.type);
       EXPECT_EQ(a.modifier, b.modifier);
       EXPECT_EQ(a.aliased, b.aliased);
@@ -292,8 +296,8 @@ TEST(SceneFile, SeveralFilesShareTheirModifiers) {
   const std::vector<std::string> names = {folder.write("a.rad", "void plastic m 0 0 0\n"),
                                           folder.write("b.rad", "\nm sphere s 0 0 0\n")};
   const Description d = rad::readScene(names);
-  EXPECT_EQ(d.primitives[1].modifier, 0);
-  EXPECT_EQ(d.at(d.primitives[1].place), names[1] + ":2");
+  EXPECT_EQ(d.primitives.at(1).modifier, PrimitiveId(0));
+  EXPECT_EQ(d.at(d.primitives.at(1).place), names[1] + ":2");
 }
 
 TEST(SceneFile, FilesThatCannotBeRead) {
@@ -336,9 +340,9 @@ TEST(SceneFile, Commands) {
       "void plastic m 0 0 0\n!printf '\\nm sphere a 0 0 0\\n' | \\\n  cat; echo void sphere b 0 0 0\r\nm "
       "sphere c 0 0 0\n");
   EXPECT_EQ(d.primitives.size(), 4u);
-  EXPECT_EQ(d.at(d.primitives[1].place),
+  EXPECT_EQ(d.at(d.primitives.at(1).place),
             "!printf '\\nm sphere a 0 0 0\\n' |    cat; echo void sphere b 0 0 0:2 (from room.rad:2)");
-  EXPECT_EQ(d.at(d.primitives[3].place), "room.rad:4");
+  EXPECT_EQ(d.at(d.primitives.at(3).place), "room.rad:4");
   EXPECT_TRUE(warnings.empty());
 
   EXPECT_EQ(errorOf([&] { read("\n!echo; echo wall sphere s 0 0 0"); }),

@@ -42,7 +42,7 @@ constexpr std::string_view kTriangle = "void polygon p 0 0 3 1 0 0\n";
 void expectSame(const Description& ours, const Description& theirs) {
   ASSERT_EQ(ours.primitives.size(), theirs.primitives.size());
   for (size_t i = 0; i < ours.primitives.size(); ++i) {
-    const Primitive &a = ours.primitives[i], &b = theirs.primitives[i];
+    const Primitive &a = ours.primitives.at(i), &b = theirs.primitives.at(i);
     SCOPED_TRACE(fmt::format("{} {}", typeName(b.type), theirs.name(b)));
     EXPECT_EQ(typeName(a.type), typeName(b.type));
     EXPECT_EQ(ours.name(a), theirs.name(b));
@@ -232,9 +232,9 @@ TEST(Xform, FilesAreFoundAlongThePathAndCommandsRunInTheirFolder) {
   const Description d = readText("!xform desk/desk.rad\n");
   before ? setenv("RAYPATH", kept.c_str(), 1) : unsetenv("RAYPATH");
   EXPECT_EQ(d.primitives.size(), 2u);
-  EXPECT_EQ(d.at(d.primitives[0].place),
+  EXPECT_EQ(d.at(d.primitives.at(0).place),
             fmt::format("!cat leg.txt:1 (from {}:1, room.rad:1)", folder.path("lib/desk/desk.rad")));
-  EXPECT_EQ(d.at(d.primitives[1].place),
+  EXPECT_EQ(d.at(d.primitives.at(1).place),
             fmt::format("{0}/./leg.txt:1 (from {0}/desk.rad:2, room.rad:1)", folder.path("lib/desk")));
 }
 
