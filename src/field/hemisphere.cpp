@@ -28,6 +28,65 @@ int HemisphereCells::cellOf(const V3d& direction, const V3d& x, const V3d& y, co
   return ring * sectors_ + sector;
 }
 
+namespace {
+
+// Means over a ring of cells. s and c are sine and cosine of the angle to the normal.
+struct RingMeans {
+  double c, s, inverseC, tangent;
+  double edgeWeight;  // of the difference across the edge to the ring inside
+  double width;       // difference of the sines of its edges
+};
+
+std::vector<RingMeans> meansOfRings(int rings, int sectors) {
+  const auto primitive = [](double s) { return std::asin(s) - s * std::sqrt(std::max(0., 1 - s * s)); };
+  const auto sine = [&](int j) { return std::sqrt(static_cast<double>(j) / rings); };
+  std::vector<RingMeans> means(rings);
+  for (int j = 0; j < rings; ++j) {
+    const double s0 = sine(j), s1 = sine(j + 1), c0 = std::sqrt(1 - s0 * s0),
+                 c1 = std::sqrt(std::max(0., 1 - s1 * s1));
+    means[j] = {2. / 3 * rings * (c0 * c0 * c0 - c1 * c1 * c1),
+                2. / 3 * rings * (s1 * s1 * s1 - s0 * s0 * s0),
+                2 * rings * (c0 - c1),
+                rings * (primitive(s1) - primitive(s0)),
+                2. / sectors * s0 * (1 - s0 * s0),
+                s1 - s0};
+  }
+  return means;
+}
+
+// Sums of radiance over a sector, weighted with the means of its rings.
+struct SectorSums {
+  Rgb one{0, 0, 0}, s{0, 0, 0}, c{0, 0, 0}, inverseC{0, 0, 0}, tangent{0, 0, 0};
+
+  void add(const Rgb& radiance, const RingMeans& ring) {
+    one += radiance;
+    inverseC += radiance * ring.inverseC;
+    tangent += radiance * ring.tangent;
+    s += radiance * ring.s;
+    c += radiance * ring.c;
+  }
+};
+
+// out: the middle direction of the sector in the plane of the surface. acrossSector: the mean over the sector
+// of the cosine of the angle to it. count: the number of all cells.
+void addSector(LightMoments& moments, const SectorSums& sums, const V3d& out, double acrossSector,
+               const V3d& z, int count) {
+  for (int b = 0; b < 3; ++b) {
+    moments.all[b] += static_cast<float>(sums.inverseC[b] / count);
+    moments.first[b] += V3f((sums.tangent[b] * acrossSector * out + sums.one[b] * z) / count);
+    const double flat = sums.inverseC[b] - sums.c[b], aslant = sums.s[b] * acrossSector;
+    const auto product = [&](int i, int j) {
+      return static_cast<float>(
+          (flat * out[i] * out[j] + aslant * (out[i] * z[j] + z[i] * out[j]) + sums.c[b] * z[i] * z[j]) /
+          count);
+    };
+    moments.squares[b] += V3f(product(0, 0), product(1, 1), product(2, 2));
+    moments.products[b] += V3f(product(1, 2), product(2, 0), product(0, 1));
+  }
+}
+
+}  // namespace
+
 GatheredLight HemisphereCells::sum(std::span<const Rgb> radiance, std::span<const double> distance,
                                    double nearest, const V3d& x, const V3d& y, const V3d& z) const {
   Rgb mean(0, 0, 0);
@@ -36,66 +95,37 @@ GatheredLight HemisphereCells::sum(std::span<const Rgb> radiance, std::span<cons
   const auto at = [&](int j, int k) { return j * sectors_ + k; };
   const auto apart = [&](int a, int b) { return std::max(nearest, std::min(distance[a], distance[b])); };
   const double sector = 2 * kPi / sectors_;
-  // Means over a ring, s and c being sine and cosine of the angle to the normal, and that of a direction over
-  // a sector.
   const double acrossSector = std::sin(sector / 2) / (sector / 2);
-  struct Ring {
-    double c, s, inverseC, tangent, edgeWeight;
+  const std::vector<RingMeans> rings = meansOfRings(rings_, sectors_);
+  const auto addChance = [&](int a, int b, double weight) {
+    const double difference = brightness(radiance[a] - radiance[b]);
+    variance += difference * difference / 4;
+    slopeVariance += difference * difference * weight * weight / 2;
   };
-  std::vector<Ring> rings(rings_);
-  std::vector<double> sine(rings_ + 1);
-  const auto primitive = [](double s) { return std::asin(s) - s * std::sqrt(std::max(0., 1 - s * s)); };
-  for (int j = 0; j <= rings_; ++j) sine[j] = std::sqrt(static_cast<double>(j) / rings_);
-  for (int j = 0; j < rings_; ++j) {
-    const double s0 = sine[j], s1 = sine[j + 1], c0 = std::sqrt(1 - s0 * s0),
-                 c1 = std::sqrt(std::max(0., 1 - s1 * s1));
-    rings[j] = {2. / 3 * rings_ * (c0 * c0 * c0 - c1 * c1 * c1),
-                2. / 3 * rings_ * (s1 * s1 * s1 - s0 * s0 * s0), 2 * rings_ * (c0 - c1),
-                rings_ * (primitive(s1) - primitive(s0)), 2. / sectors_ * s0 * (1 - s0 * s0)};
-  }
   GatheredLight light;
   for (int k = 0; k < sectors_; ++k) {
     const int before = (k + sectors_ - 1) % sectors_;
     const double middle = (k + .5) * sector, edge = k * sector;
-    const V3d out = std::cos(middle) * x + std::sin(middle) * y;
     Rgb outwards(0, 0, 0), around(0, 0, 0);
-    const auto addChance = [&](int a, int b, double weight) {
-      const double difference = brightness(radiance[a] - radiance[b]);
-      variance += difference * difference / 4;
-      slopeVariance += difference * difference * weight * weight / 2;
-    };
-    Rgb inverseC(0, 0, 0), tangent(0, 0, 0), one(0, 0, 0), s(0, 0, 0), c(0, 0, 0);
+    SectorSums sums;
     for (int j = 0; j < rings_; ++j) {
       const int here = at(j, k);
       mean += radiance[here];
-      one += radiance[here];
-      inverseC += radiance[here] * rings[j].inverseC;
-      tangent += radiance[here] * rings[j].tangent;
-      s += radiance[here] * rings[j].s;
-      c += radiance[here] * rings[j].c;
+      sums.add(radiance[here], rings[j]);
       if (j > 0) {
         const double weight = rings[j].edgeWeight / apart(here, at(j - 1, k));
         outwards += (radiance[here] - radiance[at(j - 1, k)]) * weight;
         addChance(here, at(j - 1, k), weight);
       }
-      const double weight = (sine[j + 1] - sine[j]) / (kPi * apart(here, at(j, before)));
+      const double weight = rings[j].width / (kPi * apart(here, at(j, before)));
       around += (radiance[here] - radiance[at(j, before)]) * weight;
       addChance(here, at(j, before), weight);
     }
     for (int b = 0; b < 3; ++b) {
       move[b][0] += outwards[b] * std::cos(middle) - around[b] * std::sin(edge);
       move[b][1] += outwards[b] * std::sin(middle) + around[b] * std::cos(edge);
-      light.tilted.all[b] += static_cast<float>(inverseC[b] / count());
-      light.tilted.first[b] += V3f((tangent[b] * acrossSector * out + one[b] * z) / count());
-      const double flat = inverseC[b] - c[b], aslant = s[b] * acrossSector;
-      const auto product = [&](int i, int j) {
-        return static_cast<float>(
-            (flat * out[i] * out[j] + aslant * (out[i] * z[j] + z[i] * out[j]) + c[b] * z[i] * z[j]) /
-            count());
-      };
-      light.tilted.squares[b] += V3f(product(0, 0), product(1, 1), product(2, 2));
-      light.tilted.products[b] += V3f(product(1, 2), product(2, 0), product(0, 1));
     }
+    addSector(light.tilted, sums, std::cos(middle) * x + std::sin(middle) * y, acrossSector, z, count());
   }
   double inverse = 0;
   for (const double d : distance) inverse += 1 / std::max(d, nearest);

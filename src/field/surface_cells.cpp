@@ -62,81 +62,95 @@ std::optional<SurfaceChart> SurfaceChart::of(const Scene& scene, const CellGrid&
   chart.scene_ = &scene;
   chart.surface_ = place.surface;
   const bool placed = place.path && place.path->count > 0;
-  if (const auto* ball = std::get_if<Sphere>(&shape)) {
-    const V3d out = place.point - ball->center;
-    if (placed || out.dot(place.normal) < 0) return {};
-    chart.ball_ = ball;
-    for (int c = 0; c < 3; ++c)
-      if (std::abs(out[c]) > std::abs(out[chart.axis_])) chart.axis_ = c;
-    chart.sign_ = out[chart.axis_] < 0 ? -1 : 1;
-    chart.id_ = static_cast<uint64_t>(chart.axis_ * 2 + (chart.sign_ < 0));
-    const double scale = ball->radius / std::abs(out[chart.axis_]);
-    chart.u_ = out[(chart.axis_ + 1) % 3] * scale;
-    chart.v_ = out[(chart.axis_ + 2) % 3] * scale;
-    return chart;
-  }
-  if (const auto* cone = std::get_if<Cone>(&shape)) {
-    const V3d out = place.point - cone->base;
-    frame(cone->axis, chart.x_, chart.y_);
-    if (placed ||
-        out.dot(chart.x_) * place.normal.dot(chart.x_) + out.dot(chart.y_) * place.normal.dot(chart.y_) < 0)
-      return {};
-    chart.cone_ = cone;
-    chart.u_ = std::atan2(out.dot(chart.y_), out.dot(chart.x_)) * chart.extent();
-    chart.v_ = out.dot(cone->axis);
-    return chart;
-  }
-  const V3d* plane = planeNormal(shape);
-  if (!plane) return {};
-  V3d normal = *plane;
-  if (placed) {
-    chart.placement_ = scene.placementOf(*place.path);
-    normal = chart.placement_->directionToOuter(normal).normalized();
-    for (uint8_t i = 0; i < place.path->count; ++i)
-      chart.id_ = mixBits(chart.id_ ^ place.path->placements[i]);
-  }
-  const bool front = normal.dot(place.normal) > 0;
-  chart.id_ = mixBits(chart.id_ * 2 + front);
-  chart.normal_ = front ? normal : -normal;
-  const auto toWorld = [&](const V3d& p) { return placed ? chart.placement_->toOuter.point(p) : p; };
-  if (const auto* polygon = std::get_if<Polygon>(&shape)) {
-    const V3d* const corner = scene.vertices.data() + polygon->firstVertex;
-    const uint32_t count = polygon->vertices;
-    double longest = 0;
-    for (uint32_t i = 0; i < std::min(count, kEdges); ++i) {
-      const V3d edge = toWorld(corner[(i + 1) % count]) - toWorld(corner[i]);
-      // Among edges of equal length within rounding, the first is chosen.
-      if (edge.length2() <= longest * (1 + 1e-9)) continue;
-      longest = edge.length2();
-      chart.x_ = edge;
-    }
-    chart.x_ = (chart.x_ - chart.x_.dot(chart.normal_) * chart.normal_).normalized();
-    chart.y_ = chart.normal_.cross(chart.x_);
-    double low[2] = {0, 0}, high[2] = {0, 0};
-    const V3d first = toWorld(corner[0]);
-    for (uint32_t i = 1; i < count; ++i) {
-      const V3d way = toWorld(corner[i]) - first;
-      const double at[2] = {way.dot(chart.x_), way.dot(chart.y_)};
-      for (int c = 0; c < 2; ++c) {
-        low[c] = std::min(low[c], at[c]);
-        high[c] = std::max(high[c], at[c]);
-      }
-    }
-    chart.origin_ = first + low[0] * chart.x_ + low[1] * chart.y_;
-    chart.width_ = high[0] - low[0];
-    chart.height_ = high[1] - low[1];
-  } else {
-    const auto& ring = std::get<Ring>(shape);
-    frame(chart.normal_, chart.x_, chart.y_);
-    const double outer = ring.outer * (placed ? chart.placement_->toOuter.scale : 1);
-    chart.origin_ = toWorld(ring.center) - outer * (chart.x_ + chart.y_);
-    chart.width_ = chart.height_ = 2 * outer;
-  }
-  if (!(chart.width_ > 0) || !(chart.height_ > 0)) return {};
-  const V3d way = place.point - chart.origin_;
-  chart.u_ = std::clamp(way.dot(chart.x_), 0., chart.width_);
-  chart.v_ = std::clamp(way.dot(chart.y_), 0., chart.height_);
+  bool charted = false;
+  if (const auto* ball = std::get_if<Sphere>(&shape))
+    charted = !placed && chart.chartBall(*ball, place);
+  else if (const auto* cone = std::get_if<Cone>(&shape))
+    charted = !placed && chart.chartCone(*cone, place);
+  else if (const V3d* normal = planeNormal(shape))
+    charted = chart.chartPlane(shape, *normal, place);
+  if (!charted) return {};
   return chart;
+}
+
+bool SurfaceChart::chartBall(const Sphere& ball, const SurfacePlace& place) {
+  const V3d out = place.point - ball.center;
+  if (out.dot(place.normal) < 0) return false;
+  ball_ = &ball;
+  for (int c = 0; c < 3; ++c)
+    if (std::abs(out[c]) > std::abs(out[axis_])) axis_ = c;
+  sign_ = out[axis_] < 0 ? -1 : 1;
+  id_ = static_cast<uint64_t>(axis_ * 2 + (sign_ < 0));
+  const double scale = ball.radius / std::abs(out[axis_]);
+  u_ = out[(axis_ + 1) % 3] * scale;
+  v_ = out[(axis_ + 2) % 3] * scale;
+  return true;
+}
+
+bool SurfaceChart::chartCone(const Cone& cone, const SurfacePlace& place) {
+  const V3d out = place.point - cone.base;
+  frame(cone.axis, x_, y_);
+  if (out.dot(x_) * place.normal.dot(x_) + out.dot(y_) * place.normal.dot(y_) < 0) return false;
+  cone_ = &cone;
+  u_ = std::atan2(out.dot(y_), out.dot(x_)) * extent();
+  v_ = out.dot(cone.axis);
+  return true;
+}
+
+bool SurfaceChart::chartPlane(const Shape& shape, const V3d& normal, const SurfacePlace& place) {
+  normal_ = normal;
+  if (place.path && place.path->count > 0) {
+    placement_ = scene_->placementOf(*place.path);
+    normal_ = placement_->directionToOuter(normal).normalized();
+    for (uint8_t i = 0; i < place.path->count; ++i) id_ = mixBits(id_ ^ place.path->placements[i]);
+  }
+  const bool front = normal_.dot(place.normal) > 0;
+  id_ = mixBits(id_ * 2 + front);
+  if (!front) normal_ = -normal_;
+  if (const auto* polygon = std::get_if<Polygon>(&shape))
+    alignWith(*polygon);
+  else
+    alignWith(std::get<Ring>(shape));
+  if (!(width_ > 0) || !(height_ > 0)) return false;
+  const V3d way = place.point - origin_;
+  u_ = std::clamp(way.dot(x_), 0., width_);
+  v_ = std::clamp(way.dot(y_), 0., height_);
+  return true;
+}
+
+void SurfaceChart::alignWith(const Polygon& polygon) {
+  const V3d* const corner = scene_->vertices.data() + polygon.firstVertex;
+  const uint32_t count = polygon.vertices;
+  double longest = 0;
+  for (uint32_t i = 0; i < std::min(count, kEdges); ++i) {
+    const V3d edge = toWorld(corner[(i + 1) % count]) - toWorld(corner[i]);
+    // Among edges of equal length within rounding, the first is chosen.
+    if (edge.length2() <= longest * (1 + 1e-9)) continue;
+    longest = edge.length2();
+    x_ = edge;
+  }
+  x_ = (x_ - x_.dot(normal_) * normal_).normalized();
+  y_ = normal_.cross(x_);
+  double low[2] = {0, 0}, high[2] = {0, 0};
+  const V3d first = toWorld(corner[0]);
+  for (uint32_t i = 1; i < count; ++i) {
+    const V3d way = toWorld(corner[i]) - first;
+    const double at[2] = {way.dot(x_), way.dot(y_)};
+    for (int c = 0; c < 2; ++c) {
+      low[c] = std::min(low[c], at[c]);
+      high[c] = std::max(high[c], at[c]);
+    }
+  }
+  origin_ = first + low[0] * x_ + low[1] * y_;
+  width_ = high[0] - low[0];
+  height_ = high[1] - low[1];
+}
+
+void SurfaceChart::alignWith(const Ring& ring) {
+  frame(normal_, x_, y_);
+  const double outer = ring.outer * (placement_ ? placement_->toOuter.scale : 1);
+  origin_ = toWorld(ring.center) - outer * (x_ + y_);
+  width_ = height_ = 2 * outer;
 }
 
 SurfaceChart SurfaceChart::ofPlane(const CellGrid& grid, const SurfacePlace& place) {
