@@ -167,21 +167,10 @@ void Delaunay::lengthenScratch(std::size_t length) {
   rim_.resize(length);
 }
 
-void Delaunay::insert(const Site& added) {
-  const V3d p = added.at;
-  const auto site = static_cast<std::uint32_t>(sites.size());
-  std::uint32_t equal = kNone;
-  const std::uint32_t first = locate(p, equal);
-  sites.push_back(added);
-  someTriangle.push_back(kNone);
-  if (first == kNone) {
-    standsFor.push_back(equal);
-    return;
-  }
-  standsFor.push_back(site);
-
-  // Grows the hole edge by edge counterclockwise, so that its rim comes out in order. Local pointers let the
-  // compiler assume that writes to the arrays do not change them.
+// Grows the hole edge by edge counterclockwise, so that its rim comes out in order. Inlined into insert(), its
+// only caller, as the next two are, so that p stays in registers.
+[[gnu::always_inline]] inline Delaunay::Hole Delaunay::growHole(const V3d& p, std::uint32_t first) {
+  // Local pointers let the compiler assume that writes to the arrays do not change them.
   const std::uint32_t insertion = ++insertions;
   std::size_t holes = 1, rims = 0, pending = 3;
   makeRoom(holes, rims, pending);
@@ -215,10 +204,10 @@ void Delaunay::insert(const Site& added) {
     }
   }
   counts.filter += asked - (counts.lifted + counts.exact + counts.symbolic - slow);
-  const std::span<const RimEdge> rim(rim_.data(), rims);
-  // If no site lies inside the hole, it has two triangles fewer than its rim has edges.
-  if (rims != holes + 2) mergeHidden(site, {hole_.data(), holes}, rim);
+  return {holes, rims};
+}
 
+[[gnu::always_inline]] inline void Delaunay::takeTriangles(std::size_t holes, std::size_t rims) {
   if (hole_.size() < rims) hole_.resize(rims);
   while (holes < rims) {
     if (unused.empty()) {
@@ -234,6 +223,10 @@ void Delaunay::insert(const Site& added) {
     triangles[left].corner[0] = kNone;
     unused.push_back(left);
   }
+}
+
+[[gnu::always_inline]] inline void Delaunay::fillHole(const V3d& p, std::uint32_t site, std::size_t rims) {
+  const RimEdge* const rim = rim_.data();
   Triangle* const now = triangles.data();
   const Site* const site_ = sites.data();
   std::uint32_t* const triangleOf = someTriangle.data();
@@ -260,6 +253,26 @@ void Delaunay::insert(const Site& added) {
   }
   triangleOf[site] = place[0];
   lastRim_ = rims;
+}
+
+void Delaunay::insert(const Site& added) {
+  const V3d p = added.at;
+  const auto site = static_cast<std::uint32_t>(sites.size());
+  std::uint32_t equal = kNone;
+  const std::uint32_t first = locate(p, equal);
+  sites.push_back(added);
+  someTriangle.push_back(kNone);
+  if (first == kNone) {
+    standsFor.push_back(equal);
+    return;
+  }
+  standsFor.push_back(site);
+  const Hole hole = growHole(p, first);
+  // If no site lies inside the hole, it has two triangles fewer than its rim has edges.
+  if (hole.edges != hole.triangles + 2)
+    mergeHidden(site, {hole_.data(), hole.triangles}, {rim_.data(), hole.edges});
+  takeTriangles(hole.triangles, hole.edges);
+  fillHole(p, site, hole.edges);
 }
 
 void Delaunay::mergeHidden(std::uint32_t p, std::span<const std::uint32_t> hole,

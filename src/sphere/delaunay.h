@@ -111,6 +111,15 @@ struct Delaunay {
     return true;
   }
   void lengthenScratch(std::size_t length);
+  // The steps of insert(). growHole() leaves the triangles whose circumcircles contain p in hole_, and the
+  // edges around them in rim_, in order; it returns their numbers. takeTriangles() gives the hole as many
+  // triangles as its rim has edges. fillHole() joins the new site to each of these edges.
+  struct Hole {
+    std::size_t triangles, edges;
+  };
+  Hole growHole(const V3d& p, std::uint32_t first);
+  void takeTriangles(std::size_t holes, std::size_t rims);
+  void fillHole(const V3d& p, std::uint32_t site, std::size_t rims);
   void mergeHidden(std::uint32_t p, std::span<const std::uint32_t> hole, std::span<const RimEdge> rim);
 
   // Scratch of insert(), which keeps track of the lengths in use. After an insertion, the first lastRim_
