@@ -253,16 +253,16 @@ void addRecordOptions(const Add& add) {
        .group = Group::program,
        .value = +[](O& o) -> bool& { return o.messages.warnings; },
        .remark = "warning messages on|warning messages off",
-       .paragraph = "Switch for warnings. They tell of what is odd but can be answered."});
+       .paragraph = "Switch for warnings, about what is odd but does not prevent an answer."});
   add({.name = "-I",
        .group = Group::records,
        .value = +[](O& o) -> bool& { return o.irradianceAtPoint; },
        .remark = "immediate irradiance on|immediate irradiance off",
        .paragraph =
-           "Switch for irradiance (W/m2) on a sensor: the origin of each ray is a point, its direction the "
-           "way in which the sensor looks. As in rtrace, the ray is traced from 1.1e-4 units above the "
-           "point, and -oo "
-           "and -od show this. Ray mode only: in sphere mode -oH, -oC and -oE give irradiances.",
+           "Switch for irradiance (W/m2) on a sensor: the origin of each ray is a point, and its direction "
+           "is that in which the sensor looks. As in rtrace, the ray is traced from 1.1e-4 units above the "
+           "point, and -oo and -od show this. Ray mode only; in sphere mode -oH, -oC and -oE give "
+           "irradiances.",
        .line = immediateLine});
   add({.name = "-n",
        .arguments = "N",
@@ -272,8 +272,8 @@ void addRecordOptions(const Add& add) {
        .unit = "threads",
        .remark = "number of rendering processes",
        .paragraph =
-           "Answer records on N threads, 0 for one on each core; with a warning, on as many as can be had. "
-           "The answers do not depend on N.",
+           "Answer records on N threads; 0 stands for one on each core. If the system does not start that "
+           "many, there is a warning and fewer are used. The answers do not depend on N.",
        .line = +[](const O& o) { return fmt::format("-n {:<2}\t\t\t\t", o.threads); }});
   add({.name = "-x",
        .arguments = "res",
@@ -283,8 +283,9 @@ void addRecordOptions(const Add& add) {
        .unit = "records",
        .remark = "flush interval",
        .paragraph =
-           "Records in a scanline. Where -y is 0, answers are written out after every res records, and only "
-           "then; with 1, after every record whatever -y is. With 0, whenever input has to be waited for."});
+           "Number of records in a scanline. If -y is 0, answers are written after every res records, and "
+           "only then. With 1, they are written after every record, whatever -y is. With 0, they are "
+           "written whenever the program has to wait for input."});
   add({.name = "-y",
        .arguments = "res",
        .group = Group::records,
@@ -293,14 +294,15 @@ void addRecordOptions(const Add& add) {
        .unit = "scanlines",
        .remark = "y resolution",
        .paragraph =
-           "Stop after res scanlines of -x records (of one where -x is 0); 0 goes on to the end of input. "
-           "With both -x and -y a resolution line precedes the records, header or not."});
+           "Stop after res scanlines of -x records each (of one record if -x is 0). 0 goes on to the end of "
+           "the input. If both -x and -y are given, a resolution line precedes the records, even without a "
+           "header."});
   add({.name = "-ld",
        .group = Group::records,
        .value = +[](O& o) -> bool& { return o.limitDistance; },
        .remark = "limit distance on|limit distance off",
        .paragraph =
-           "Switch for limited rays: the length of each direction vector is how far its ray goes. Ray mode "
+           "Switch for limited rays: a ray goes only as far as its direction vector is long. Ray mode "
            "only."});
   add({.name = "-h",
        .group = Group::records,
@@ -316,10 +318,9 @@ void addFormatOptions(const Add& add) {
        .value = Custom{setFormat},
        .remark = "format input/output",
        .paragraph =
-           "Format of input i and of output o: a for text, f for floats, d for doubles of this machine, and, "
-           "for output only, c for RADIANCE's 4-byte pixels, with a single color letter in -o. One letter "
-           "stands for "
-           "both. No blank precedes io.",
+           "Format of the input (i) and of the output (o): a for text, f for floats and d for doubles of "
+           "this machine. c, for output only, stands for RADIANCE's 4-byte pixels and requires a single "
+           "color letter in -o. If only one letter is given, it holds for both. No blank precedes io.",
        .glued = true,
        .line = formatLine});
   add({.name = "-o",
@@ -328,11 +329,11 @@ void addFormatOptions(const Add& add) {
        .value = Custom{setOutputs},
        .remark = "output",
        .paragraph =
-           "What a record of output has, in the order of the letters in spec; see Output under "
-           "DESCRIPTION. In ray mode, the letters behind a t are for all rays on the way: reflected, "
-           "transmitted and indirect ones, and shadow rays where they go through something; behind a T, "
-           "all shadow rays. Each comes before its parent, indented by a TAB for each of its ancestors. No "
-           "blank precedes spec.",
+           "Contents of an output record, in the order of the letters in spec; see Output under "
+           "DESCRIPTION. In ray mode, the letters behind a t are written for all rays on the way: "
+           "reflected, transmitted and indirect rays, and shadow rays that pass through something. A T "
+           "instead of the t includes all shadow rays. Each ray comes before its parent, indented by a TAB "
+           "for each of its ancestors. No blank precedes spec.",
        .glued = true,
        .line = outputsLine});
 }
@@ -359,9 +360,10 @@ void addColorOptions(const Add& add) {
        .value = Custom{setSpectralOutput},
        .remark = "output spectral values",
        .paragraph =
-           "Switch for spectra: a color is as many numbers as -cs has bands, from the longest wavelength to "
-           "the shortest. Scenes have three channels; each band has the value of the one it is in (see "
-           "-pS). Three bands are no spectrum, and red, green and blue are written.",
+           "Switch for spectra. Each color is written as one number for each band of -cs, from the longest "
+           "wavelength to the shortest. Scenes have three channels, and each band has the value of the "
+           "channel that it belongs to (see -pS). With three bands, red, green and blue are written instead "
+           "of a spectrum.",
        .glued = true,
        .line = spectralLine});
 }
@@ -373,25 +375,24 @@ void addRayOptions(const Add& add) {
        .remark = "irradiance calculation on|irradiance calculation off",
        .paragraph =
            "Switch for irradiance (W/m2) of the surface that a ray hits, instead of the radiance (W/sr/m2) "
-           "that it sends back. Glass and its like are passed as if they were not there; light sources keep "
-           "their "
-           "radiance (see -dv). Ray mode only."});
+           "that it sends back. Rays pass glass and similar surfaces as if they were not there. Light "
+           "sources keep their radiance (see -dv). Ray mode only."});
   add({.name = "-u",
        .group = Group::program,
        .value = +[](O& o) -> bool& { return o.ray.uncorrelated; },
        .remark = "uncorrelated Monte Carlo sampling|correlated quasi-Monte Carlo sampling",
        .paragraph =
-           "Given as -u+, the random numbers of a ray follow from its number in the input as well as from "
-           "the ray, so that a ray that is repeated is a new sample each time and the mean of its answers "
-           "is better than one of them. Otherwise they follow from the ray alone, and a repeated ray "
-           "repeats its noise; in rtrace it never does. Answers do not depend on -n either way. Indirect "
-           "light that is interpolated (-aa above 0) is the same for repeated rays in any case. Ray mode "
+           "With -u+, the random numbers of a ray depend on its number in the input as well as on the ray "
+           "itself. A repeated ray is then a new sample each time, so that the mean of its answers has less "
+           "noise than one of them. Otherwise random numbers depend on the ray alone, so that a repeated "
+           "ray repeats its noise, which it never does in rtrace. Answers do not depend on -n either way. "
+           "Interpolated indirect light (-aa above 0) is the same for repeated rays in any case. Ray mode "
            "only. Samples are random, not quasi-random, whatever -u is."});
   add({.name = "-bv",
        .group = Group::program,
        .value = +[](O& o) -> bool& { return o.ray.backFacesVisible; },
        .remark = "back face visibility on|back face visibility off",
-       .paragraph = "Switch for whether rays see the backs of surfaces."});
+       .paragraph = "Switch for the visibility of the backs of surfaces."});
 }
 
 void addShadowOptions(const Add& add) {
@@ -402,10 +403,10 @@ void addShadowOptions(const Add& add) {
        .range = kNotNegative,
        .remark = "direct threshold",
        .paragraph =
-           "Shadows of the light sources are tested until those left could add less than this fraction of "
-           "what was found; the rest is estimated from how often sources were visible. Behind an indirect "
-           "bounce one source, chosen at random, stands for the rest, so that means are unbiased. 0 tests "
-           "all."});
+           "Light sources are tested for shadows until those that are left could add less than this "
+           "fraction of the light found so far. The light of the rest is estimated from how often sources "
+           "were visible. Behind an indirect bounce, one source drawn at random represents the rest, so "
+           "that means are unbiased. 0 tests all sources."});
   add({.name = "-dc",
        .arguments = "frac",
        .group = Group::direct,
@@ -413,7 +414,8 @@ void addShadowOptions(const Add& add) {
        .range = kFraction,
        .remark = "direct certainty",
        .paragraph =
-           "How sure -dt is: 1 holds the error of the sum below it, 0 only that of any one shadow edge."});
+           "Certainty of -dt. 1 keeps the error of the sum of all light sources below -dt; 0 keeps only the "
+           "error at any single shadow edge below it."});
 }
 
 void addSourceOptions(const Add& add) {
@@ -424,8 +426,8 @@ void addSourceOptions(const Add& add) {
        .range = kNotNegative,
        .remark = "direct jitter",
        .paragraph =
-           "How much of a source's part the point aimed at is moved about in: 0 its middle, 1 all of it. "
-           "More than 1 is of no use."});
+           "Extent of a light source's part over which the point to aim at is varied at random: 0 aims at "
+           "the middle of the part, 1 at the whole of it. Values above 1 are of no use."});
   add({.name = "-ds",
        .arguments = "frac",
        .group = Group::direct,
@@ -433,8 +435,8 @@ void addSourceOptions(const Add& add) {
        .range = kNotNegative,
        .remark = "direct sampling",
        .paragraph =
-           "Divide light sources into parts whose size over their distance is below this. 0 leaves them "
-           "whole."});
+           "Light sources are divided into parts whose size is below this fraction of their distance. 0 "
+           "leaves them whole."});
   add({.name = "-dr",
        .arguments = "N",
        .group = Group::direct,
@@ -443,8 +445,9 @@ void addSourceOptions(const Add& add) {
        .unit = "reflections",
        .remark = "direct relays",
        .paragraph =
-           "How often the light of a source may be passed on by plane surfaces of mirror, prism1 and prism2 "
-           "on its way: each makes a virtual source of every source that it sees. 0: never."});
+           "Largest number of times that plane surfaces of mirror, prism1 or prism2 pass on the light of a "
+           "source: each such surface makes a virtual source of every source that it sees. 0: there are no "
+           "virtual sources."});
   add({.name = "-dp",
        .arguments = "D",
        .group = Group::direct,
@@ -452,19 +455,18 @@ void addSourceOptions(const Add& add) {
        .range = kCount,
        .unit = "samples/sr",
        .remark = "direct pretest density",
-       .paragraph = "Density of the rays that rtrace sends beforehand to learn whether a virtual source can "
-                    "be reached "
-                    "at all, or is reached from everywhere. Here each one that geometry does not rule out is "
-                    "tested, as "
-                    "with 0.",
+       .paragraph =
+           "Accepted and not used. It is the density of the rays that rtrace sends beforehand to learn "
+           "whether a virtual source can be reached at all, or from everywhere. Here every virtual source "
+           "that geometry does not rule out is tested, as with 0.",
        .support = Support::unused});
   add({.name = "-dv",
        .group = Group::direct,
        .value = +[](O& o) -> bool& { return o.ray.sourcesVisible; },
        .remark = "direct visibility on|direct visibility off",
        .paragraph =
-           "Switch for light sources seen directly; off, they are black there, and light the scene all the "
-           "same."});
+           "Switch for the direct visibility of light sources. If it is off, rays see them as black, but "
+           "they light the scene all the same."});
 }
 
 void addSpecularOptions(const Add& add) {
@@ -475,8 +477,8 @@ void addSpecularOptions(const Add& add) {
        .range = kNotNegative,
        .remark = "specular sampling",
        .paragraph =
-           "Samples of a rough highlight: below 1, how much of its width they spread over; above, how many "
-           "rays. 0 makes every highlight sharp."});
+           "Number of samples of a rough highlight. A value below 1 sends one ray and is the fraction of "
+           "the highlight's width over which it is spread. 0 makes every highlight sharp."});
   add({.name = "-st",
        .arguments = "frac",
        .group = Group::specular,
@@ -484,8 +486,8 @@ void addSpecularOptions(const Add& add) {
        .range = kNotNegative,
        .remark = "specular threshold",
        .paragraph =
-           "Specular reflection or transmission below this fraction sends no rays and takes the indirect "
-           "light instead. 0 always sends them, 1 never."});
+           "If the share of specular reflection or transmission is below this, it sends no rays of its own "
+           "and is treated as a part of the indirect light instead. 0 always sends rays, 1 never does."});
 }
 
 void addAmbientOptions(const Add& add) {
@@ -496,7 +498,7 @@ void addAmbientOptions(const Add& add) {
        .range = kNotNegative,
        .unit = "W/sr/m2",
        .remark = "ambient value",
-       .paragraph = "Radiance that stands for the indirect light not computed."});
+       .paragraph = "Radiance that replaces indirect light that is not computed."});
   add({.name = "-aw",
        .arguments = "N",
        .group = Group::indirect,
@@ -514,7 +516,8 @@ void addAmbientOptions(const Add& add) {
        .range = kCount,
        .unit = "bounces",
        .remark = "ambient bounces",
-       .paragraph = "Most diffuse reflections of an indirect path. 0: no indirect light."});
+       .paragraph =
+           "Largest number of diffuse reflections of an indirect path. 0: there is no indirect light."});
 }
 
 void addGatheringOptions(const Add& add) {
@@ -525,10 +528,10 @@ void addGatheringOptions(const Add& add) {
        .range = kNotNegative,
        .remark = "ambient accuracy",
        .paragraph =
-           "Relative error that interpolation of indirect light may add; see Interpolation under "
-           "DESCRIPTION. 0: no interpolation, each path gathers indirect light anew. That is faster for a "
-           "few rays in a detailed scene, and usually the better choice in sphere mode, where directions "
-           "meet surfaces all over the scene."});
+           "Relative error that the interpolation of indirect light may add; see Interpolation under "
+           "DESCRIPTION. 0: there is no interpolation, and each path gathers indirect light anew. This is "
+           "faster for a few rays in a detailed scene. It is usually the better choice in sphere mode, "
+           "where directions hit surfaces all over the scene."});
   add({.name = "-ar",
        .arguments = "res",
        .group = Group::indirect,
@@ -536,9 +539,9 @@ void addGatheringOptions(const Add& add) {
        .range = kCount,
        .remark = "ambient resolution",
        .paragraph =
-           "Finest resolution of interpolation: sites are about the scene's size times -aa (.5 at most) "
-           "over res apart where they are closest, and somewhat closer only where something hides them from "
-           "the place. Smaller detail of the indirect light is blurred. 0 sets no limit."});
+           "Finest resolution of interpolation. The smallest distance between sites is about the size of "
+           "the scene times -aa (at most .5), divided by res. They are somewhat closer only if an obstacle "
+           "hides them from the place. Smaller detail of the indirect light is blurred. 0 sets no limit."});
   add({.name = "-ad",
        .arguments = "N",
        .group = Group::indirect,
@@ -547,10 +550,10 @@ void addGatheringOptions(const Add& add) {
        .unit = "rays",
        .remark = "ambient divisions",
        .paragraph =
-           "Rays over the hemisphere where indirect light is gathered: at the first diffuse surface of a "
-           "path, or, where it is interpolated, at each site. A ray of less weight gathers with fewer, a "
-           "site always with all. The noise falls about with the square root of their number. 0: no "
-           "indirect light."});
+           "Number of rays over the hemisphere where indirect light is gathered: at the first diffuse "
+           "surface of a path, or, if it is interpolated, at each site. A ray of less weight gathers with "
+           "fewer rays, a site always with all of them. The noise falls approximately with the square root "
+           "of their number. 0: there is no indirect light."});
   add({.name = "-as",
        .arguments = "N",
        .group = Group::indirect,
@@ -559,8 +562,8 @@ void addGatheringOptions(const Add& add) {
        .unit = "rays",
        .remark = "ambient super-samples",
        .paragraph =
-           "Rays added to those of -ad. All of them are spread over the hemisphere together; unlike those "
-           "of rtrace, none are placed by what others have found."});
+           "Number of rays that are added to those of -ad. All of them are spread over the hemisphere "
+           "together. Unlike in rtrace, none are placed according to what the others have found."});
 }
 
 void addMediumOptions(const Add& add) {
@@ -572,8 +575,8 @@ void addMediumOptions(const Add& add) {
        .unit = "1/length",
        .remark = "mist extinction coefficient",
        .paragraph =
-           "Extinction of a medium that fills the scene. Light from sources is scattered in it where mist "
-           "names them.",
+           "Extinction coefficient of a medium that fills the scene. It scatters the light of those sources "
+           "that a mist material names.",
        .line =
            +[](const O& o) {
              const Rgb& c = o.ray.mediumExtinction;
@@ -585,16 +588,18 @@ void addMediumOptions(const Add& add) {
        .value = +[](O& o) -> Rgb& { return o.ray.mediumAlbedo; },
        .range = kFraction,
        .remark = "mist scattering albedo",
-       .paragraph = "Share of the extinction that is scattered, the rest is absorbed. Of indirect light the "
-                    "medium scatters what -av says."});
+       .paragraph =
+           "Scattering albedo: the share of the extinction that is scattered; the rest is absorbed. The "
+           "indirect light that the medium scatters is that of -av."});
   add({.name = "-mg",
        .arguments = "gecc",
        .group = Group::medium,
        .value = +[](O& o) -> double& { return o.ray.mediumEccentricity; },
        .range = {-1, 1},
        .remark = "mist scattering eccentricity",
-       .paragraph = "Eccentricity g of Henyey and Greenstein's phase function: 0 scatters evenly, near 1 "
-                    "straight on. Below 0 counts as 0."});
+       .paragraph =
+           "Eccentricity g of the phase function of Henyey and Greenstein. 0 scatters evenly, and values "
+           "near 1 scatter forward. Values below 0 are replaced by 0."});
   add({.name = "-ms",
        .arguments = "sampdist",
        .group = Group::medium,
@@ -602,8 +607,9 @@ void addMediumOptions(const Add& add) {
        .range = kNotNegative,
        .unit = "length",
        .remark = "mist sampling distance",
-       .paragraph = "Length of a ray through mist for each sample of a source that it scatters, at most 16 "
-                    "samples. 0: one sample in all."});
+       .paragraph =
+           "Length of the part of a ray through mist for which one sample of each light source is taken, "
+           "with at most 16 samples. 0: one sample for the whole ray."});
 }
 
 void addSpectrumOptions(const Add& add) {
@@ -614,9 +620,10 @@ void addSpectrumOptions(const Add& add) {
        .range = {3, kMostBands},
        .unit = "bands",
        .remark = "number of spectral bins",
-       .paragraph = "Bands of spectral output, at most 24; see -co. Other output stays as it is with three: "
-                    "what rtrace "
-                    "changes by turning red, green and blue into a spectrum and back is not imitated.",
+       .paragraph =
+           "Number of bands of spectral output, at most 24; see -co. Other output is the same as with three "
+           "bands. rtrace changes it slightly, because it converts red, green and blue to a spectrum and "
+           "back; this is not imitated.",
        .line = bandsLine});
   add({.name = "-cw",
        .arguments = "nmA nmB",
@@ -625,7 +632,7 @@ void addSpectrumOptions(const Add& add) {
        .range = kNotNegative,
        .unit = "nm",
        .remark = "wavelength limits (nm)",
-       .paragraph = "Limits of the spectrum, at least 50 nm apart: 380 and 780 unless told otherwise.",
+       .paragraph = "Limits of the spectrum, at least 50 nm apart. Default: 380 and 780.",
        .line = wavelengthsLine});
 }
 
@@ -637,10 +644,10 @@ void addLimitOptions(const Add& add) {
        .range = {-kLargestInt, kLargestInt},
        .unit = "reflections",
        .remark = "limit reflection",
-       .paragraph = "Most reflections of a ray. If N is positive, rays of less weight than -lw end; if it is "
-                    "negative, "
-                    "they live on by Russian roulette, for -N reflections; if 0, for any number. -lw must be "
-                    "positive then."});
+       .paragraph =
+           "Largest number of reflections of a ray. If N is positive, rays whose weight is below -lw end. "
+           "If N is negative, they are continued at random by Russian roulette, for at most -N reflections; "
+           "if N is 0, for any number. Russian roulette requires -lw above 0."});
   add({.name = "-lw",
        .arguments = "frac",
        .group = Group::limits,
@@ -648,9 +655,9 @@ void addLimitOptions(const Add& add) {
        .range = kNotNegative,
        .remark = "limit weight",
        .paragraph =
-           "Least weight of a ray; see -lr. Where indirect light is interpolated (-aa above 0), each "
-           "diffuse reflection halves the weight, whatever the surface reflects, as in rtrace. The coarse "
-           "solution of later bounces keeps the limits of -lr and -lw as if each bounce were such a ray.",
+           "Smallest weight of a ray; see -lr. If indirect light is interpolated (-aa above 0), each "
+           "diffuse reflection halves the weight, whatever the reflectance is, as in rtrace. The coarse "
+           "solution of later bounces applies the limits of -lr and -lw as if each bounce were such a ray.",
        .line = +[](const O& o) { return fmt::format("-lw {:.2e}\t\t\t", o.ray.weightLimit); }});
 }
 
@@ -699,14 +706,14 @@ void addModifierOptions(const Add& add) {
        .value = +[](O& o) -> std::string& { return o.ray.ambientFile; },
        .remark = "ambient file",
        .paragraph =
-           "Keeps the sites of interpolation, with the light gathered there, for later runs, and for others "
-           "that run at the same time, in a file beside this one: file.rsphere. It is read first, and added "
-           "to now and then and at the end; a process that is killed does no harm. No answer changes by it. "
-           "The coarse solution of later bounces is not kept, and there is nothing to keep in sphere mode "
-           "or with -I. A file that was made for another scene, with other options or by another version is "
-           "not used and left as it is, with a warning. The file named here, which may hold what RADIANCE's "
-           "programs keep, is neither read nor written, so that one name may serve both. Only with -aa and "
-           "-ab above 0."});
+           "Keeps the sites of interpolation and the light gathered there in a file beside this one, "
+           "file.rsphere, for later runs and for others that run at the same time. The file is read first. "
+           "Sites are added to it now and then, and at the end; a process that is killed does not damage "
+           "it. No answer changes by this. The coarse solution of later bounces is not kept. In sphere mode "
+           "and with -I there is nothing to keep. A file that was made for another scene, with other "
+           "options or by another version is neither used nor changed, and there is a warning. The file "
+           "named here may be an ambient file of RADIANCE's own programs, so that one name can serve both: "
+           "it is neither read nor written. Requires -aa and -ab above 0."});
   add({.name = "-ae",
        .arguments = "mod",
        .group = Group::indirect,
@@ -720,23 +727,23 @@ void addModifierOptions(const Add& add) {
        .group = Group::indirect,
        .value = Custom{setModifiers},
        .remark = "modifiers without indirect light",
-       .paragraph =
-           "As -ae, for all modifiers that the file names, between blanks. It is looked for along RAYPATH."});
+       .paragraph = "The same as -ae for all modifiers in a file, which are separated by blanks. The file is "
+                    "searched for along RAYPATH."});
   add({.name = "-ai",
        .arguments = "mod",
        .group = Group::indirect,
        .value = Custom{setModifiers},
        .remark = "modifier with indirect light",
        .paragraph =
-           "Only surfaces with modifier mod, and those of other -ai, get computed indirect light; -ae or -aE "
-           "after it starts anew."});
+           "Only surfaces with modifier mod, or with that of another -ai, get computed indirect light. -ae "
+           "or -aE after it starts anew."});
   add({.name = "-aI",
        .arguments = "file",
        .group = Group::indirect,
        .value = Custom{setModifiers},
        .remark = "modifiers with indirect light",
-       .paragraph =
-           "As -ai, for all modifiers that the file names, between blanks. It is looked for along RAYPATH."});
+       .paragraph = "The same as -ai for all modifiers in a file, which are separated by blanks. The file is "
+                    "searched for along RAYPATH."});
 }
 
 void addTreeOptions(const Add& add) {
@@ -759,11 +766,10 @@ void addTreeOptions(const Add& add) {
          .group = Group::trees,
          .value = Custom{setModifiers},
          .remark = name == "-tE" ? "modifiers left out of ray trees" : "modifiers in ray trees",
-         .paragraph = name == "-tE"
-                          ? "As -te, for all modifiers that the file names, between blanks. It is looked for "
-                            "along RAYPATH."
-                          : "As -ti, for all modifiers that the file names, between blanks. It is looked "
-                            "for along RAYPATH."});
+         .paragraph = name == "-tE" ? "The same as -te for all modifiers in a file, which are separated by "
+                                      "blanks. The file is searched for along RAYPATH."
+                                    : "The same as -ti for all modifiers in a file, which are separated by "
+                                      "blanks. The file is searched for along RAYPATH."});
 }
 
 void addProgramOptions(const Add& add) {
@@ -773,19 +779,18 @@ void addProgramOptions(const Add& add) {
        .group = Group::program,
        .value = Custom{setFunctionFile},
        .remark = "function file",
-       .paragraph = "Take the definitions of the function file source, looked for along RAYPATH, for all "
-                    "function files; "
-                    "they replace those of rayinit.cal."});
+       .paragraph =
+           "Adds the definitions of the function file source, which is searched for along RAYPATH, to those "
+           "that all function files share. They replace those of rayinit.cal."});
   add({.name = "-e",
        .arguments = "file",
        .group = Group::program,
        .value = Custom{setErrorFile},
        .remark = "error file",
        .paragraph =
-           "Append messages to the file instead of writing them to standard error, beginning with the "
-           "process id and the command line. A word with = or : in it is no file but definitions, as those "
-           "of -f: "
-           "-e 'height=2;x(a):a*height'.",
+           "Append messages to the file, after the process id and the command line, instead of writing them "
+           "to standard error. A word that contains = or : is not a file name but definitions like those of "
+           "-f: -e 'height=2;x(a):a*height'.",
        .line = +[](const O& o) {
          const std::string& file = o.messages.errorFile;
          return file.empty() ? "" : fmt::format("-e {}\t\t", file);
@@ -796,7 +801,7 @@ void addProgramOptions(const Add& add) {
          .group = Group::program,
          .value = Custom{ignore},
          .remark = "persistent mode",
-         .paragraph = "A process that outlives its input.",
+         .paragraph = "Persistent mode: a process that continues after the end of its input.",
          .support = Support::refused,
          .reason = kPersist});
   add({.name = "-t",
@@ -807,9 +812,9 @@ void addProgramOptions(const Add& add) {
        .unit = "s",
        .remark = "progress report interval",
        .paragraph =
-           "Report about every so many seconds how many records were answered, how many a second and, where "
-           "the end is known (-y, or input from a file), how long the rest will take, on standard error. "
-           "0: never."});
+           "Report progress on standard error about every so many seconds: the number of answered records, "
+           "their number per second, and, if the end is known (-y, or input from a file), the time left. 0: "
+           "never."});
 }
 
 void addDirectionOptions(const Add& add) {
@@ -818,8 +823,8 @@ void addDirectionOptions(const Add& add) {
        .value = +[](O& o) -> bool& { return o.sphereMode; },
        .remark = "sphere mode on|sphere mode off (rays)",
        .paragraph =
-           "Switch for sphere mode. Off by itself if the program is called by the name rtrace. Wherever it "
-           "stands, the mode decides on the defaults of all other options."});
+           "Switch for sphere mode. It is off by default if the program is called by the name rtrace. The "
+           "mode determines the defaults of all other options, wherever -S stands on the command line."});
   add({.name = "-Sn",
        .arguments = "N",
        .group = Group::sphere,
@@ -827,7 +832,7 @@ void addDirectionOptions(const Add& add) {
        .range = {1, 1000000},
        .unit = "directions",
        .remark = "base directions",
-       .paragraph = "Directions spread evenly over the sphere, the same for every point."});
+       .paragraph = "Number of directions that cover the sphere evenly. They are the same for every point."});
   add({.name = "-Sx",
        .arguments = "N",
        .group = Group::sphere,
@@ -836,10 +841,11 @@ void addDirectionOptions(const Add& add) {
        .unit = "directions",
        .remark = "most directions",
        .paragraph =
-           "Most directions of one point, those for special objects with them. Directions to light "
-           "sources, a quarter of -Sn at most unless there are more sources, count as well; where there is "
-           "no room for them, they come on top. Rays that only guess, and shadow rays, do not count. Not "
-           "given, it grows with -Sn to twice that; see -Sa."});
+           "Largest number of directions of one point, including those for special objects. It includes "
+           "directions to light sources, too; these are at most a quarter of -Sn unless there are more "
+           "sources, and they are sent even if there is no room for them. Shadow rays, and rays that are "
+           "only intersected to guess radiance, are not included. If it is not given, it grows with -Sn to "
+           "twice that; see -Sa."});
 }
 
 void addWeightOptions(const Add& add) {
@@ -850,10 +856,10 @@ void addWeightOptions(const Add& add) {
        .range = kNotNegative,
        .remark = "density factor",
        .paragraph =
-           "Multiplies the density of directions (1/sr) that the materials of special objects ask for: "
-           "mirrors, glass and others whose radiance has peaks. 0, with -Sw c: equal weights but for the "
-           "light sources that are seen directly; nothing is guessed of diffuse surfaces, and no indirect "
-           "ray is aimed at where much light falls on little."});
+           "Factor on the density of directions (1/sr) that the materials of special objects ask for: "
+           "mirrors, glass and others whose radiance has peaks. With 0 and -Sw c, directions have equal "
+           "weights, except for light sources that are seen directly; the radiance of diffuse surfaces is "
+           "not guessed, and no indirect rays are aimed at small bright patches."});
   add({.name = "-Sa",
        .arguments = "acc",
        .group = Group::sphere,
@@ -862,23 +868,21 @@ void addWeightOptions(const Add& add) {
        .remark = "accuracy",
        .paragraph =
            "Average sets of directions, each of -Sn and those for special objects, until the estimated "
-           "standard error of the mean's brightness is below acc times the mean: at least two sets, and no "
-           "more directions in all than -Sx says where it is given, else a million, or with -Sd 100,000. "
-           "How many of one half of the sets are averaged follows from the other half, so that stopping "
-           "makes hardly any bias. A warning at the end says at how many points it was not reached, and "
-           "what the worst is. 0: one set."});
+           "standard error of the mean's brightness is below acc times the mean. There are at least two "
+           "sets. The number of all directions is at most -Sx if that is given, otherwise a million, or "
+           "100,000 with -Sd. Each half of the sets decides on the number of sets in the other half, so "
+           "that stopping causes hardly any bias. A warning at the end gives the number of points where the "
+           "accuracy was not reached, and the largest error. 0: one set."});
   add({.name = "-Sw",
        .arguments = "letter",
        .group = Group::sphere,
        .value = Custom{setWeights},
        .remark = "weights: h equal, v Voronoi, c Voronoi within silhouettes",
-       .paragraph = "What a direction's radiance is weighted with: h the same for all base directions, and "
-                    "no others; v "
-                    "the solid angle of its spherical Voronoi cell; c the same with cells that keep to the "
-                    "silhouettes of "
-                    "special objects, and light sources integrated by themselves. With h and v a light "
-                    "source is a surface "
-                    "like any other.",
+       .paragraph =
+           "Weights of the directions' radiances. h: equal weights for all base directions, and no other "
+           "directions. v: the solid angle of the direction's spherical Voronoi cell. c: the same with "
+           "cells that keep to the silhouettes of special objects, while light sources are integrated "
+           "separately. With h and v a light source is a surface like any other.",
        .line = weightsLine});
 }
 
@@ -890,15 +894,14 @@ void addAnswerOptions(const Add& add) {
        .value = +[](O& o) -> std::vector<std::string>& { return o.goals; },
        .remark = "goals",
        .paragraph =
-           "Importance instead of radiance: surfaces with modifier mod emit 1 W/sr/m2 from their front and "
-           "go on reflecting; every other source is dark. May be repeated."});
+           "Compute importance instead of radiance: surfaces with modifier mod emit 1 W/sr/m2 from their "
+           "front, in addition to reflecting light, and every other source is dark. May be repeated."});
   add({.name = "-Sb",
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.sphere.basicRadiance; },
        .remark = "basic radiance on|basic radiance off",
-       .paragraph =
-           "Switch for basic radiance L/n2, which refraction leaves as it is: what importance needs to pass "
-           "through refracting materials."});
+       .paragraph = "Switch for basic radiance L/n2, which refraction does not change. Importance must be "
+                    "transported in this form through refracting materials."});
   add({.name = "-Sd",
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.sphere.everyDirection; },
@@ -915,11 +918,11 @@ void addBothModesOptions(const Add& add) {
        .value = +[](O& o) -> int& { return o.ray.chosenSources; },
        .range = {0, 1e6},
        .remark = "light sources tested at a surface",
-       .paragraph = "Of all light sources test N (fewer for rays of less weight) at a surface whose radiance "
-                    "is even, drawn "
-                    "at random in proportion to what each would bring if nothing were in its way; -dt, -dc, "
-                    "-dj and -ds then "
-                    "do not count there. 0: all of them. Holds in ray mode as well."});
+       .paragraph =
+           "Instead of all light sources, test N of them at a surface of even radiance, or fewer for rays "
+           "of less weight. They are drawn at random in proportion to their contribution without shadows; "
+           "-dt, -dc, -dj and -ds do not apply there. 0: all sources are tested. Holds in ray mode as "
+           "well."});
   add({.name = "-Sm",
        .arguments = "MB",
        .group = Group::sphere,
@@ -928,12 +931,12 @@ void addBothModesOptions(const Add& add) {
        .unit = "MB",
        .remark = "memory of interpolation",
        .paragraph =
-           "Bound on the memory of the sites between which indirect light is interpolated in ray mode (-aa "
-           "above 0), in millions of bytes. When it is full, sites are discarded, and computed again when "
-           "they are needed again: answers stay the same, only the time grows. The coarse solution of later "
-           "bounces is not included and has no bound; it grows with the number of surfaces that paths "
-           "reach. 0: no bound. Not together with -af. In sphere mode nothing is interpolated between "
-           "sites, and the bound has no effect."});
+           "Limit of the memory for the sites between which indirect light is interpolated in ray mode (-aa "
+           "above 0), in millions of bytes. When it is reached, sites are discarded, and computed again "
+           "when they are needed: answers stay the same, and only the time grows. The coarse solution of "
+           "later bounces is not included; its memory has no limit and grows with the number of surfaces "
+           "that paths reach. 0: no limit. Not together with -af. In sphere mode nothing is interpolated "
+           "between sites, and the limit has no effect."});
   add({.name = "-Sr",
        .arguments = "N",
        .group = Group::sphere,
@@ -949,12 +952,11 @@ void addBothModesOptions(const Add& add) {
        .value = +[](O& o) -> bool& { return o.commands; },
        .remark = "scene commands on|scene commands off",
        .paragraph =
-           "Switch for whether commands in scene files (lines with !) may run. xform always works: it needs "
-           "no other program. Off, for scenes of strangers, it also keeps the files that scene files name "
-           "(xform, octrees, meshes, data, pictures, fonts, functions, BSDFs) to regular files in the "
-           "folders "
-           "of what the command line names and of RAYPATH, or below them, wherever symbolic links may point. "
-           "Holds in ray mode as well."});
+           "Switch for commands in scene files (lines with !). xform always works, because it needs no "
+           "other program. Off is meant for untrusted scenes: it also restricts the files that scene files "
+           "name (xform, octrees, meshes, data, pictures, fonts, functions, BSDFs) to regular files in or "
+           "below the folders of the files on the command line and of RAYPATH, even if symbolic links point "
+           "elsewhere. Holds in ray mode as well."});
 }
 
 // What shows how an answer came about.
@@ -964,32 +966,33 @@ void addInspectionOptions(const Add& add) {
        .value = +[](O& o) -> bool& { return o.sphere.verify; },
        .remark = "verify weights|weights not verified",
        .paragraph =
-           "Switch for verifying the weights of each point: that they sum to 4 pi and that no circle through "
-           "three neighbours holds a fourth. Stops with an error where they fail."});
+           "Switch for verifying the weights of each point: that they sum to 4 pi, and that no circle "
+           "through three neighbours contains a fourth. The program stops with an error if they do not."});
   add({.name = "-Si",
        .arguments = "pic",
        .group = Group::sphere,
        .value = +[](O& o) -> std::string& { return o.picture; },
        .remark = "picture of each point",
        .paragraph =
-           "Draw a picture of what arrives at each point from all directions, in the format that its name "
-           "asks for, with a ray through each pixel besides the directions of the answer: half a million, "
-           "whatever -Sn is, which takes seconds a point. Light sources have their own radiance and size. "
-           "Indirect light is averaged over pixels nearby; a larger -ad makes it smoother. RADIANCE "
-           "pictures (.hdr, .pic) are an angular fisheye of 360 degrees, +y in the middle and +z above it, "
-           "with the command, SOFTWARE= and VIEW= in the header: pinterp makes other views of them, as the "
-           "half that evalglare asks for. In all other formats the columns are the azimuth from the x "
-           "axis, counterclockwise about z, and the rows go from the zenith to the nadir: radiance in EXR "
-           "and TIFF, else colours exposed so that the median is mid-bright. %d in the name (or %04d and "
-           "the like) becomes the number of the record, from 0."});
+           "Draw a picture of the light that arrives at each point from all directions. The extension of "
+           "the name gives the format. The picture has a ray through each of its half a million pixels, "
+           "besides the directions of the answer and whatever -Sn is, which takes seconds for each point. "
+           "Light sources have their own radiance and size. Indirect light is averaged over nearby pixels; "
+           "a larger -ad makes it smoother. RADIANCE pictures (.hdr, .pic) are angular fisheyes of 360 "
+           "degrees, with +y in the middle and +z above it, and with the command, SOFTWARE= and VIEW= in "
+           "the header; pinterp converts them to other views, such as the hemisphere that evalglare "
+           "expects. In all other formats, the columns are azimuths from the x axis, counterclockwise about "
+           "z, and the rows go from the zenith to the nadir. EXR and TIFF files contain radiance, others "
+           "contain colors, exposed so that the median is mid-bright. %d in the name (or %04d and the like) "
+           "is replaced by the number of the record, from 0."});
   add({.name = "-Sl",
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.listSpecial; },
        .remark = "list special objects|answers",
        .paragraph =
-           "Switch for a list of the scene's special objects instead of answers: a line for each with its "
-           "place, material, density of directions (1/sr) and why it is special, separated by tabs. Nothing "
-           "is read from standard input."});
+           "Switch for a list of the special objects of the scene instead of answers. Each line has the "
+           "place, the material, the density of directions (1/sr) and the reason why the object is special, "
+           "separated by tabs. Nothing is read from standard input."});
 }
 
 // The order is that of rtrace's -defaults. From -ap to -t follow options of rtrace that its
