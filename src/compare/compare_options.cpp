@@ -19,16 +19,15 @@ std::vector<OptionEntry> makeTable() {
        .range = {0, 1},
        .remark = "tolerance of relative differences",
        .paragraph = "Tolerance: relative differences up to this do not matter, neither of the mean over all "
-                    "records nor of "
-                    "a single record."});
+                    "records nor of a single record."});
   add({.name = "-Cs",
        .arguments = "frac",
        .value = +[](Options& o) -> double& { return own(o).shareBeyond; },
        .range = {0, 1},
        .remark = "share of records that may be beyond it",
        .paragraph =
-           "Share of the records that may differ by more than the tolerance and noise explain. If more do, "
-           "the programs differ. A few records may, because a ray that grazes an edge can pass on "
+           "Share of the records that may differ by more than the tolerance and noise explain. If more "
+           "do, the programs differ. A few records may, because a ray that grazes an edge can pass on "
            "either side of it."});
   add({.name = "-Cr",
        .arguments = "N",
@@ -37,8 +36,8 @@ std::vector<OptionEntry> makeTable() {
        .unit = "repeats",
        .remark = "repeats with other random numbers",
        .paragraph =
-           "Number of times that both programs answer each record, with other random numbers each time. The "
-           "means of these answers are compared; their variance distinguishes bias from noise."});
+           "Number of times that both programs answer each record, with other random numbers each time. "
+           "The means of these answers are compared; their variance distinguishes bias from noise."});
   add({.name = "-Cn",
        .arguments = "N",
        .value = +[](Options& o) -> int& { return own(o).orientations; },
@@ -60,11 +59,11 @@ std::vector<OptionEntry> makeTable() {
        .value = +[](Options& o) -> std::string& { return own(o).differences; },
        .remark = "picture of the differences",
        .paragraph =
-           "Write a picture of the differences, if the records form a picture (-x and -y). The extension of "
-           "the "
-           "name gives the format. HDR, EXR and TIFF files hold the relative differences themselves, without "
-           "their sign. Other files are red where rsphere is brighter, blue where the original is brighter, "
-           "and white where both are equal; colors are full at ten times the tolerance."});
+           "Write a picture of the differences, if the records form a picture (-x and -y). The extension "
+           "of the name gives the format. HDR, EXR and TIFF files hold the relative differences "
+           "themselves, without their sign. Other files are red where rsphere is brighter, blue where the "
+           "original is brighter, and white where both are equal; colors are full at ten times the "
+           "tolerance."});
   return table;
 }
 

@@ -17,28 +17,28 @@ std::vector<OptionEntry> makeTable() {
        .range = {2, 10000},
        .unit = "repeats",
        .remark = "repeats of a setting",
-       .paragraph = "Number of times that each setting answers each point, with other rotations and random "
-                    "numbers each "
-                    "time. The relative uncertainty of a measured error is about one over the square root of "
-                    "twice the number of answers."});
+       .paragraph =
+           "Number of times that each setting answers each point, with other rotations and random numbers "
+           "each time. The relative uncertainty of a measured error is about one over the square root of "
+           "twice the number of answers."});
   add({.name = "-Tm",
        .arguments = "N",
        .value = +[](Options& o) -> int& { return own(o).mostPoints; },
        .range = {1, 1e6},
        .unit = "points",
        .remark = "most points measured",
-       .paragraph = "Largest number of points that are measured. If the file has more, points spread evenly "
-                    "over it are "
-                    "used."});
+       .paragraph =
+           "Largest number of points that are measured. If the file has more, points spread evenly over "
+           "it are used."});
   add({.name = "-Te",
        .arguments = "frac",
        .value = +[](Options& o) -> double& { return own(o).referenceError; },
        .range = {0, 1},
        .remark = "error of the reference",
        .paragraph =
-           "Relative standard error of the reference (root mean square over the points). Answers with other "
-           "rotations are added to the reference until its error is below this. 0 stands for a tenth of the "
-           "accuracy asked for."});
+           "Relative standard error of the reference (root mean square over the points). Answers with "
+           "other rotations are added to the reference until its error is below this. 0 stands for a "
+           "tenth of the accuracy asked for."});
   add({.name = "-Tb",
        .value = +[](Options& o) -> bool& { return own(o).bounces; },
        .remark = "fewer bounces on|fewer bounces off",
@@ -49,9 +49,8 @@ std::vector<OptionEntry> makeTable() {
        .arguments = "file",
        .value = +[](Options& o) -> std::string& { return own(o).ladder; },
        .remark = "settings of one's own",
-       .paragraph =
-           "File of settings to measure instead of the usual ones. Each line has the options of one setting; "
-           "the text after # is a comment."});
+       .paragraph = "File of settings to measure instead of the usual ones. Each line has the options of one "
+                    "setting; the text after # is a comment."});
   add({.name = "-Tc",
        .arguments = "file",
        .value = +[](Options& o) -> std::string& { return own(o).table; },
@@ -62,8 +61,9 @@ std::vector<OptionEntry> makeTable() {
        .arguments = "file",
        .value = +[](Options& o) -> std::string& { return own(o).plot; },
        .remark = "plot as an SVG file",
-       .paragraph = "Write a plot of error against time, as an SVG file. Names with another picture "
-                    "extension are refused."});
+       .paragraph =
+           "Write a plot of error against time, as an SVG file. Names with another picture extension are "
+           "refused."});
   return table;
 }
 
