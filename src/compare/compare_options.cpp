@@ -9,10 +9,7 @@ CompareOptions& own(Options& options) { return static_cast<CompareOptions&>(opti
 
 std::vector<OptionEntry> makeTable() {
   std::vector<OptionEntry> table;
-  const auto add = [&table](OptionEntry entry) {
-    entry.group = Group::companion;
-    table.push_back(entry);
-  };
+  const auto add = [&table](const OptionEntry& entry) { table.push_back(entry); };
   add({.name = "-Ct",
        .arguments = "frac",
        .value = +[](Options& o) -> double& { return own(o).tolerance; },
@@ -64,6 +61,7 @@ std::vector<OptionEntry> makeTable() {
            "themselves, without their sign. Other files are red where rsphere is brighter, blue where the "
            "original is brighter, and white where both are equal; colors are full at ten times the "
            "tolerance."});
+  for (OptionEntry& entry : table) entry.group = Group::companion;
   return table;
 }
 

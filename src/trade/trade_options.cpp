@@ -7,10 +7,7 @@ TradeOptions& own(Options& options) { return static_cast<TradeOptions&>(options)
 
 std::vector<OptionEntry> makeTable() {
   std::vector<OptionEntry> table;
-  const auto add = [&table](OptionEntry entry) {
-    entry.group = Group::companion;
-    table.push_back(entry);
-  };
+  const auto add = [&table](const OptionEntry& entry) { table.push_back(entry); };
   add({.name = "-Tr",
        .arguments = "N",
        .value = +[](Options& o) -> int& { return own(o).repeats; },
@@ -64,6 +61,7 @@ std::vector<OptionEntry> makeTable() {
        .paragraph =
            "Write a plot of error against time, as an SVG file. Names with another picture extension are "
            "refused."});
+  for (OptionEntry& entry : table) entry.group = Group::companion;
   return table;
 }
 
