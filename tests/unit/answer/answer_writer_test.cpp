@@ -160,6 +160,40 @@ TEST(AnswerWriter, ComponentsAreCountedAsInRtrace) {
 
 // printf '0 0 0 0 0 0 0 0 5 0 0 -2 0 0 0 0 0 0' | rtrace -h -I -oodpv (6.1a): the answer to a bogus record
 // shows the ray before it as it was traced, or zeros if there is none.
+// A letter that the command line accepts but the writer does not know would leave out its columns without a
+// message.
+TEST(AnswerWriter, EveryLetterThatIsAcceptedIsWrittenAndInTheManual) {
+  const std::string manual = contents(std::string(RSPHERE_TESTS) + "/../man/rsphere.1.in");
+  const std::vector<std::string> modes[] = {{"rtrace"}, {"rsphere"}, {"rsphere", "-Sd"}};
+  for (const std::vector<std::string>& mode : modes) {
+    int accepted = 0;
+    for (char letter = '!'; letter <= '~'; ++letter) {
+      std::vector<std::string> words = mode;
+      words.insert(words.end(), {std::string("-o") + letter, "s.oct"});
+      Options options;
+      try {
+        options = parseOptions(words);
+      } catch (const rad::Error&) {
+        continue;
+      }
+      if (options.outputs.empty()) continue;  // t and T begin the letters of a tree
+      ++accepted;
+      std::string record;
+      if (options.sphereMode && !options.sphere.everyDirection)
+        AnswerWriter(options).write(record, PointAnswer{});
+      else
+        AnswerWriter(options).write(record, someRay());
+      const int columns = componentCount(options);
+      EXPECT_EQ(std::count(record.begin(), record.end(), '\t'), letter == '~' ? 1 : columns) << letter;
+      if (options.sphere.everyDirection) continue;  // the manual describes these in sentences
+      const std::string row = letter + std::string(options.sphereMode && columns < 10 ? "  " : " ") +
+                              std::to_string(columns) + "  ";
+      EXPECT_NE(manual.find(row), std::string::npos) << letter;
+    }
+    EXPECT_GT(accepted, 7);
+  }
+}
+
 TEST(InputRay, SensorsAreTracedFromAboveThem) {
   const double sensor[] = {0, 0, 5, 0, 0, -2}, nothing[] = {0, 0, 0, 0, 0, 0};
   const InputRay ray = inputRay(sensor, Irradiance::point);
