@@ -16,5 +16,6 @@ inline double brightness(const Rgb& c) { return kRedWeight * c.x + kGreenWeight 
 inline double maxChannel(const Rgb& c) {
   return c.x > c.y ? (c.x > c.z ? c.x : c.z) : (c.y > c.z ? c.y : c.z);
 }
+inline bool isBlack(const Rgb& c) { return !(maxChannel(c) > 0); }
 
 }  // namespace rsphere

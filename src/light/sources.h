@@ -8,6 +8,7 @@
 
 #include "scene/random.h"
 #include "scene/scene.h"
+#include "shade/spot_cone.h"
 #include "shade/surface_functions.h"
 
 namespace rsphere {
@@ -118,11 +119,5 @@ class LightSources {
   const Scene& scene_;
   ById<LightId, LightSource> sources_;
 };
-
-// Whether a point lies outside a spotlight's cone. towards: from the point to the light (unit).
-inline bool outsideSpot(const Spotlight& spot, const V3d& towards) {
-  constexpr double kTwoPi = 6.283185307179586;
-  return spot.solidAngle < kTwoPi * (1 + spot.aim.dot(towards));
-}
 
 }  // namespace rsphere

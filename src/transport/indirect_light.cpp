@@ -65,15 +65,6 @@ void IndirectLight::add(Ray& ray, const V3d& normal, const V3d& trueNormal, RayK
     gatherStratified(ray, at, guesses);
 }
 
-void IndirectLight::add(Ray& ray, const V3d& normal, const Interaction& at, RayKind kind,
-                        const Rgb& coefficient) {
-  if (!(maxChannel(coefficient) > kNegligible)) return;
-  if (kind == kReflectedAmbient)
-    add(ray, normal, at.normal, kind, coefficient);
-  else
-    add(ray, -normal, -at.normal, kind, coefficient);
-}
-
 // The number of guessed rays for each ray that is followed. It is 0 if -lr ends the descendants of the ray
 // for certain instead of by Russian roulette: the guess would then include light that followed rays lack.
 int IndirectLight::raysToGuess(const Ray& ray) const {

@@ -24,10 +24,6 @@ class IndirectLight {
   // of the surface, on the same side; no light comes from behind it.
   void add(Ray& ray, const V3d& normal, const V3d& trueNormal, RayKind kind, const Rgb& coefficient);
 
-  // The same for the side that the kind says: reflected light from the side of the normal, transmitted light
-  // from behind.
-  void add(Ray& ray, const V3d& normal, const Interaction& at, RayKind kind, const Rgb& coefficient);
-
  private:
   struct Surroundings {
     V3d normal, trueNormal;

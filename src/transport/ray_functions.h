@@ -12,8 +12,6 @@ namespace rsphere {
 // irradiance (-i, -I).
 inline const Opaque kIrradianceMeter{Rgb(kPi, kPi, kPi), 0, 0, false};
 
-inline bool isBlack(const Rgb& c) { return !(maxChannel(c) > 0); }
-
 // The apparent distance of the object seen along the ray: that of the mirrored image if it gives more than
 // half of the light.
 inline double apparentLength(const Ray& ray) {

@@ -50,29 +50,43 @@ void SpecularLight::follow(Ray& ray, const SharpPaths& sharp) {
   }
 }
 
-void SpecularLight::sampleLobes(Ray& ray, const Scattering& scattering, const Interaction& at) {
-  const double spread = t_.options().specularSampling;
-  if (scattering.sampleReflection)
-    sampleLobe(ray, kReflectedSpecular, scattering.specularReflection, [&](double u1, double u2, V3d& d) {
-      return sampleReflection(scattering, at, spread, u1, u2, d);
-    });
-  if (scattering.sampleTransmission)
-    sampleLobe(ray, kTransmittedSpecular, scattering.specularTransmission, [&](double u1, double u2, V3d& d) {
-      return sampleTransmission(scattering, at, spread, u1, u2, d);
-    });
+void SpecularLight::redirect(Ray& ray, const SharpPaths& redirected) {
+  for (const SharpPath& path : redirected) {
+    Ray child;
+    Rgb coefficient = path.coefficient;
+    if (isBlack(coefficient) || !continueRay(t_, state_.random, child, path.kind, ray, coefficient)) continue;
+    child.direction = path.direction;
+    follower_.follow(child);
+    ray.value += child.value * coefficient;
+    if (path.lengthCounts) ray.unmirroredLength = ray.length + apparentLength(child);
+  }
 }
 
-void SpecularLight::sampleLobe(Ray& ray, RayKind kind, const Rgb& share, LobeSampler draw, int least) {
-  const double spread = t_.options().specularSampling;
-  const double wanted = std::max<double>(spread > 1.5 ? spread : 1, least);
-  const int samples = samplesOf(t_, ray, wanted);
+void SpecularLight::relay(Ray& ray, const SharpPath& path) {
+  Ray child;
+  Rgb coefficient = path.coefficient;
+  if (!continueRay(t_, state_.random, child, path.kind, ray, coefficient)) return;
+  child.aimedAt = t_.lights().all()[ray.aimedAt].relayed;
+  child.unobstructed = ray.unobstructed;
+  child.direction = path.direction.normalized();
+  follower_.follow(child);
+  ray.value += child.value * coefficient;
+}
+
+void SpecularLight::sampleLobe(Ray& ray, RayKind kind, const Lobe& lobe, LobeSampler draw) {
+  const RayOptions& o = t_.options();
+  const double spread = o.specularSampling;
+  int samples = samplesOf(t_, ray, std::max<double>(spread > 1.5 ? spread : 1, lobe.leastSamples));
+  if (lobe.share > 0 && o.weightLimit > 0)
+    samples =
+        std::max(1, static_cast<int>(std::min<double>(samples, lobe.share * ray.weight / o.weightLimit)));
   for (int i = 0; i < samples; ++i) {
+    const LobeSample sample = draw(i, samples);
+    Rgb coefficient = sample.coefficient;
     Ray child;
-    const double u1 = (i + state_.random.uniform()) / samples, u2 = state_.random.uniform();
-    const double weight = draw(u1, u2, child.direction);
-    if (!(weight > 0)) continue;
-    Rgb coefficient = share * (weight / samples);
-    if (!continueRay(t_, state_.random, child, kind, ray, coefficient)) continue;
+    if (isBlack(coefficient) || !continueRay(t_, state_.random, child, kind, ray, coefficient)) continue;
+    child.direction = sample.direction;
+    child.origin += lobe.offset;
     follower_.follow(child);
     ray.value += child.value * coefficient;
   }

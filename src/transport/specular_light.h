@@ -1,6 +1,6 @@
 #pragma once
 // Light from sharp reflection and refraction, and from glossy lobes by sampling.
-#include "shade/scattering.h"
+#include "shade/surface_scattering.h"
 #include "transport/function_ref.h"
 #include "transport/path_state.h"
 #include "transport/ray_follower.h"
@@ -8,9 +8,8 @@
 
 namespace rsphere {
 
-// Draws a direction (unit) of a lobe for two uniform numbers in [0, 1). Returns its weight, which is 0 if the
-// draw gives no valid direction. The mean of the weights is 1.
-using LobeSampler = FunctionRef<double(double u1, double u2, V3d& direction)>;
+// Draws sample i of n of a lobe.
+using LobeSampler = FunctionRef<LobeSample(int i, int n)>;
 
 class SpecularLight {
  public:
@@ -21,12 +20,15 @@ class SpecularLight {
   // Follows a ray along sharp paths, and adds their light to its value (W/sr/m2).
   void follow(Ray& ray, const SharpPaths& sharp);
 
-  // Adds the light of the lobes of a surface that are to be sampled.
-  void sampleLobes(Ray& ray, const Scattering& scattering, const Interaction& at);
+  // The same for a prism's redirected rays.
+  void redirect(Ray& ray, const SharpPaths& redirected);
 
-  // The same for one lobe. share: of the light of the lobe in the ray's radiance. least: minimal number of
-  // samples of a ray of weight 1, whatever -ss is.
-  void sampleLobe(Ray& ray, RayKind kind, const Rgb& share, LobeSampler draw, int least = 1);
+  // Continues a shadow ray that has reached the virtual source that it was aimed at towards the source that
+  // is relayed there.
+  void relay(Ray& ray, const SharpPath& path);
+
+  // Adds the light of one lobe, estimated by samples. kind: of their rays.
+  void sampleLobe(Ray& ray, RayKind kind, const Lobe& lobe, LobeSampler draw);
 
  private:
   const Transport& t_;

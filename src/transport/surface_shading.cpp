@@ -1,10 +1,75 @@
-// Shading of the surface that a ray hit: its chain of modifiers down to a material, and mixtures.
+// Shading of the surface that a ray hit.
 #include "transport/surface_shading.h"
 
 #include "transport/ray_functions.h"
+#include "transport/ray_interaction.h"
 #include "transport/ray_limits.h"
+#include "transport/volume_boundaries.h"
 
 namespace rsphere {
+namespace {
+
+MaterialOptions materialOptions(const Transport& transport) {
+  const RayOptions& o = transport.options();
+  return {.backFacesVisible = o.backFacesVisible,
+          .sourcesVisible = o.sourcesVisible,
+          .specularThreshold = o.specularThreshold,
+          .specularSampling = o.specularSampling,
+          .directJitter = o.directJitter,
+          .basicRadiance = transport.basicRadiance(),
+          .medium = transport.medium()};
+}
+
+}  // namespace
+
+SurfaceShading::SurfaceShading(const Transport& transport, PathState& state, RayFollower& follower,
+                               DirectLight& direct, SpecularLight& specular, IndirectLight& indirect)
+    : t_(transport),
+      state_(state),
+      follower_(follower),
+      direct_(direct),
+      specular_(specular),
+      indirect_(indirect),
+      options_(materialOptions(transport)) {}
+
+// The hit of a ray as its material sees it.
+class SurfaceShading::Hit final : public MaterialHit {
+ public:
+  Hit(SurfaceShading& shading, Ray& ray, ModifierId behind)
+      : MaterialHit(arrivalOf(shading.t_, ray), shading.t_.scene(), shading.options_, shading.t_.functions(),
+                    shading.scratch_),
+        shading_(shading),
+        ray_(ray),
+        behind_(behind) {}
+
+  Rgb modify() override {
+    shading_.applyModifiers(ray_, behind_);
+    return ray_.pattern;
+  }
+  void turnRound() override { rsphere::turnRound(ray_); }
+  Interaction interaction() const override { return interactionOf(scene(), ray_); }
+  Interaction interactionAfter(ModifierId modifiers) const override {
+    Ray own = ray_;
+    shading_.applyModifiers(own, modifiers);
+    return interactionOf(scene(), own);
+  }
+  ModifierId modifiers() const override { return behind_; }
+  FunctionPoint point() const override { return pointOf(ray_); }
+  const Medium& medium() const override { return ray_.medium; }
+  V3d towardsSource() const override {
+    const auto& lights = shading_.t_.lights().all();
+    const LightSource& source = lights[lights[ray_.aimedAt].relayed];
+    return (source.distant ? source.center : source.center - ray_.point).normalized();
+  }
+  int samplesOf(double wanted) const override { return rsphere::samplesOf(shading_.t_, ray_, wanted); }
+
+ private:
+  SurfaceShading& shading_;
+  Ray& ray_;
+  ModifierId behind_;
+};
+
+// ---- surfaces and their modifiers
 
 void SurfaceShading::shadeHit(Ray& ray) {
   ray.unmirroredLength = ray.length;
@@ -14,15 +79,15 @@ void SurfaceShading::shadeHit(Ray& ray) {
   follower_.pass(ray);
 }
 
-// Sets the radiance that the surface emits and scatters; false if it has no material.
 bool SurfaceShading::shadeSurface(Ray& ray) {
   const Surface& surface = t_.scene().surfaces[ray.surface];
   if (!surface.goal || ray.cosine < 0) return shade(ray, surface.modifier);
   Ray emitted = ray;
-  const bool sampled = t_.lightOf(ray.surface) != kNone;
-  if (!(sampled && countedByDirect(ray, nullptr))) emit(emitted, Rgb(1, 1, 1), nullptr);
-  const bool shaded =
-      (ray.kinds & kShadow) && ray.aimedAt == t_.lightOf(ray.surface) ? true : shade(ray, surface.modifier);
+  Hit hit(*this, emitted, kNone);
+  const LightId light = t_.lightOf(ray.surface);
+  SourceResponse emission = goalResponse(light != kNone, hit);
+  follow(emitted, emission);
+  const bool shaded = (ray.kinds & kShadow) && ray.aimedAt == light ? true : shade(ray, surface.modifier);
   ray.value += emitted.value;
   return shaded;
 }
@@ -41,13 +106,11 @@ bool SurfaceShading::shade(Ray& ray, ModifierId modifier) {
       }
       continue;
     }
-    if (meters && isTransparent(*material)) {
-      follower_.pass(ray);
-      return true;
-    }
+    if (meters && isTransparent(*material)) return follow(ray, Passes{});
     if (meters && !isLightSource(*material) && !std::holds_alternative<Antimatter>(*material)) {
       ray.pattern = Rgb(1, 1, 1);
-      return shadeMaterial(ray, kIrradianceMeter, kNone);
+      meter(ray);
+      return true;
     }
     if (std::visit([&](const auto& kind) { return shadeMaterial(ray, kind, m.next); }, *material))
       return true;
@@ -59,7 +122,7 @@ bool SurfaceShading::shade(Ray& ray, ModifierId modifier) {
 bool SurfaceShading::applyModifier(Ray& ray, ModifierId modifier) {
   const Content& content = t_.scene().modifiers[modifier].content;
   if (const auto* mixture = std::get_if<Mixture>(&content)) return shadeMixture(ray, modifier, *mixture);
-  const FunctionPoint at = functionPoint(ray);
+  const FunctionPoint at = pointOf(ray);
   if (std::holds_alternative<Pattern>(content))
     ray.pattern *= t_.functions().pattern(modifier, at, scratch_);
   else
@@ -77,7 +140,7 @@ void SurfaceShading::applyModifiers(Ray& ray, ModifierId modifier) {
 }
 
 bool SurfaceShading::shadeMixture(Ray& ray, ModifierId modifier, const Mixture& mixture) {
-  const double share = t_.functions().mixture(modifier, functionPoint(ray), scratch_);
+  const double share = t_.functions().mixture(modifier, pointOf(ray), scratch_);
   if (share < 0) return false;
   struct Side {
     Ray ray;
@@ -112,39 +175,102 @@ bool SurfaceShading::shadeMixture(Ray& ray, ModifierId modifier, const Mixture& 
   return true;
 }
 
-FunctionPoint SurfaceShading::functionPoint(const Ray& ray) const {
-  FunctionPoint at;
-  at.direction = ray.direction;
-  at.normal = ray.normal;
-  at.cosine = ray.cosine;
-  at.point = ray.point;
-  at.distance = ray.pathLength + ray.length;
-  at.shadowDistance = ray.shadowLength + ray.length;
-  at.u = ray.u;
-  at.v = ray.v;
-  at.path = ray.path;
-  return at;
-}
+// ---- materials
 
 void SurfaceShading::meter(Ray& ray) { shadeMaterial(ray, kIrradianceMeter, kNone); }
 
-Interaction SurfaceShading::interaction(const Ray& ray) const {
-  Interaction at;
-  at.direction = ray.direction;
-  const bool behind = ray.cosine < 0;
-  at.normal = behind ? -ray.normal : ray.normal;
-  at.cosine = std::abs(ray.cosine);
-  at.front = behind == ray.fromBehind;
-  at.perturbation = behind ? -ray.perturbation : ray.perturbation;
-  at.pattern = ray.pattern;
-  at.kinds = ray.kinds;
-  if (ray.surface != kNone) {
-    const Surface& surface = t_.scene().surfaces[ray.surface];
-    at.flat = std::holds_alternative<Polygon>(surface.shape) || std::holds_alternative<Ring>(surface.shape) ||
-              std::holds_alternative<MeshFaces>(surface.shape);
-    at.smoothed = surface.smoothed;
+template <class M>
+bool SurfaceShading::shadeMaterial(Ray& ray, const M& material, ModifierId behind) {
+  Hit hit(*this, ray, behind);
+  auto answer = response(material, hit);
+  return follow(ray, answer);
+}
+
+template <class... Outcomes>
+bool SurfaceShading::follow(Ray& ray, std::variant<Outcomes...>& response) {
+  return std::visit([&](auto& outcome) { return follow(ray, outcome); }, response);
+}
+
+// The light that a surface scatters towards the ray's origin: sharp paths, lobes, and on each side indirect
+// and direct light.
+template <ScattersLight S>
+bool SurfaceShading::follow(Ray& ray, S& scattering) {
+  Random& random = state_.random;
+  specular_.follow(ray, scattering.sharp());
+  if (ray.kinds & kShadow) return true;
+  for (const Component c : {Component::reflected, Component::transmitted})
+    if (const std::optional<Lobe> lobe = scattering.lobe(c, random))
+      specular_.sampleLobe(ray, c == Component::reflected ? kReflectedSpecular : kTransmittedSpecular, *lobe,
+                           [&](int i, int n) { return scattering.draw(c, i, n, random); });
+  const V3d hit = ray.point;
+  for (const Component c : {Component::reflected, Component::transmitted}) {
+    const LitSide side = scattering.side(c);
+    ray.point = hit + side.offset;
+    if (maxChannel(side.indirect) > kNegligible)
+      indirect_.add(ray, side.normal, side.trueNormal,
+                    c == Component::reflected ? kReflectedAmbient : kTransmittedAmbient, side.indirect);
+    if (!side.direct) continue;
+    const auto coefficient = [&](const V3d& toSource, double solidAngle) {
+      return scattering.coefficient(c, toSource, solidAngle, random);
+    };
+    if (side.even && t_.options().chosenSources > 0)
+      direct_.addOfChosen(ray, coefficient, side.front);
+    else
+      direct_.add(ray, coefficient, side.front);
   }
-  return at;
+  ray.point = hit;
+  return true;
+}
+
+bool SurfaceShading::follow(Ray& ray, Passes) {
+  follower_.pass(ray);
+  return true;
+}
+
+bool SurfaceShading::follow(Ray& ray, const Alternate& alternate) {
+  if (alternate.kind == Alternate::Kind::modifier) return shade(ray, alternate.modifier);
+  return follow(ray, Passes{});
+}
+
+bool SurfaceShading::follow(Ray& ray, const Emits& emits) {
+  ray.value = emits.radiance;
+  noteShown(t_, ray, state_);
+  return true;
+}
+
+bool SurfaceShading::follow(Ray& ray, const SharpPaths& paths) {
+  specular_.follow(ray, paths);
+  return true;
+}
+
+bool SurfaceShading::follow(Ray& ray, const Boundary& boundary) {
+  ray.medium = boundary.medium;
+  return follow(ray, boundary.paths);
+}
+
+bool SurfaceShading::follow(Ray& ray, const Redirects& redirects) {
+  specular_.redirect(ray, redirects.paths);
+  return true;
+}
+
+bool SurfaceShading::follow(Ray& ray, const Relays& relays) {
+  specular_.relay(ray, relays.path);
+  return true;
+}
+
+bool SurfaceShading::follow(Ray& ray, const CrossesMist& boundary) {
+  Ray child = beyondMist(t_, boundary, ray);
+  follower_.passOn(child, ray);
+  return true;
+}
+
+bool SurfaceShading::follow(Ray& ray, const CrossesAntimatter& boundary) {
+  if (!entersCut(t_.scene(), boundary, ray)) return follow(ray, Passes{});
+  // The material lies on the other side of the antimatter's surface: a ray that leaves the antimatter enters
+  // a dielectric, and the reverse.
+  flip(ray);
+  ray.insideOut = !ray.insideOut;
+  return shade(ray, boundary.cut.modifier);
 }
 
 }  // namespace rsphere

@@ -1,8 +1,7 @@
 #pragma once
-// Shading of the surface that a ray hit: its chain of modifiers down to a material, mixtures, and how each
-// material emits, reflects and transmits light.
-#include "shade/anisotropic.h"
-#include "shade/function_reflection.h"
+// Shading of the surface that a ray hit: its chain of modifiers down to a material, mixtures, and the light
+// that the material says (shade/material_response.h) is to be followed.
+#include "shade/material_response.h"
 #include "transport/direct_light.h"
 #include "transport/indirect_light.h"
 #include "transport/path_state.h"
@@ -12,19 +11,11 @@
 
 namespace rsphere {
 
-struct BsdfHit;
-
 class SurfaceShading {
  public:
   // Keeps references.
   SurfaceShading(const Transport& transport, PathState& state, RayFollower& follower, DirectLight& direct,
-                 SpecularLight& specular, IndirectLight& indirect)
-      : t_(transport),
-        state_(state),
-        follower_(follower),
-        direct_(direct),
-        specular_(specular),
-        indirect_(indirect) {}
+                 SpecularLight& specular, IndirectLight& indirect);
 
   // Sets the radiance of a ray that hit a surface (W/sr/m2). The ray passes a surface that is cut away by
   // antimatter or has no material.
@@ -40,53 +31,32 @@ class SurfaceShading {
   void meter(Ray& ray);
 
  private:
+  class Hit;
+
   bool applyModifier(Ray& ray, ModifierId modifier);
-  bool shadeMixture(Ray& ray, ModifierId modifier, const Mixture& mixture);
   void applyModifiers(Ray& ray, ModifierId modifier);
-  FunctionPoint functionPoint(const Ray& ray) const;
-  FunctionPoint functionPoint(const Ray& ray, const FunctionScattering& scattering) const;
-  FunctionPoint functionPoint(const Ray& ray, const Interaction& at) const;
+  bool shadeMixture(Ray& ray, ModifierId modifier, const Mixture& mixture);
 
   // behind: the chain of modifiers that the material has itself.
   template <class M>
-  bool shadeTwoSided(Ray& ray, const M& material, ModifierId behind);
-  bool shadeMaterial(Ray& ray, const Opaque& material, ModifierId behind);
-  bool shadeMaterial(Ray& ray, const Trans& material, ModifierId behind);
-  bool shadeMaterial(Ray& ray, const Anisotropic& material, ModifierId behind);
-  bool shadeMaterial(Ray& ray, const Ashikhmin& material, ModifierId behind);
-  bool shadeMaterial(Ray& ray, const FunctionScatterer& material, ModifierId behind);
-  bool shadeMaterial(Ray& ray, const BrtdFunction& material, ModifierId behind);
-  bool shadeMaterial(Ray& ray, const WgmdFunction& material, ModifierId behind);
-  bool shadeMaterial(Ray& ray, const BsdfMaterial& material, ModifierId behind);
-  bool shadeMaterial(Ray& ray, const Dielectric& material, ModifierId behind);
-  bool shadeMaterial(Ray& ray, const Interface& material, ModifierId behind);
-  bool shadeMaterial(Ray& ray, const Glass& material, ModifierId behind);
-  bool shadeMaterial(Ray& ray, const Mirror& material, ModifierId behind);
-  bool shadeMaterial(Ray& ray, const Prism& material, ModifierId behind);
-  bool shadeMaterial(Ray& ray, const Antimatter& material, ModifierId behind);
-  bool shadeMaterial(Ray& ray, const Mist& material, ModifierId behind);
-  bool shadeMaterial(Ray& ray, const Light& material, ModifierId behind);
-  bool shadeMaterial(Ray& ray, const Illum& material, ModifierId behind);
-  bool shadeMaterial(Ray& ray, const Glow& material, ModifierId behind);
-  bool shadeMaterial(Ray& ray, const Spotlight& material, ModifierId behind);
+  bool shadeMaterial(Ray& ray, const M& material, ModifierId behind);
 
-  bool countedByDirect(const Ray& ray, const Glow* glow) const;
-  bool isStraight(const Ray& ray) const;
-  void emit(Ray& ray, const Rgb& radiance, const Glow* glow, ModifierId behind = kNone);
-  bool shadeDiffusing(Ray& ray, const Scattering& scattering, const Interaction& at);
-  bool shadeBoundary(Ray& ray, const Scattering& scattering);
-  bool useAlternate(Ray& ray, const Alternate& alternate);
-  void sampleBsdf(Ray& ray, BsdfHit& hit, RayKind kind);
-  Rgb directedBsdf(const Ray& ray, const BsdfHit& hit, const V3d& toSource, double solidAngle);
-  V3d jittered(const V3d& view, double projectedSolidAngle);
-  bool passesBack(Ray& ray);
-  bool shadeElliptic(Ray& ray, const AnisotropicScattering& scattering, const Interaction& at);
-  bool shadeByFunction(Ray& ray, const FunctionScattering& scattering, const Interaction& at,
-                       ModifierId functions);
-  Interaction component(const Ray& ray, const std::optional<ModifierId>& named, const Interaction& inherited);
-  const LightSource* targetOf(const Ray& ray) const;
-  void relay(Ray& ray, RayKind kind, const V3d& direction, Rgb coefficient);
-  Interaction interaction(const Ray& ray) const;
+  // Sets the radiance of the ray according to the response of a material (W/sr/m2). False if the ray hit an
+  // alternate without a material instead.
+  template <class... Outcomes>
+  bool follow(Ray& ray, std::variant<Outcomes...>& response);
+  bool follow(Ray&, Absorbs) { return true; }
+  bool follow(Ray& ray, Passes);
+  bool follow(Ray& ray, const Alternate& alternate);
+  bool follow(Ray& ray, const Emits& emits);
+  bool follow(Ray& ray, const SharpPaths& paths);
+  bool follow(Ray& ray, const Boundary& boundary);
+  bool follow(Ray& ray, const Redirects& redirects);
+  bool follow(Ray& ray, const Relays& relays);
+  bool follow(Ray& ray, const CrossesMist& boundary);
+  bool follow(Ray& ray, const CrossesAntimatter& boundary);
+  template <ScattersLight S>
+  bool follow(Ray& ray, S& scattering);
 
   const Transport& t_;
   PathState& state_;
@@ -94,6 +64,7 @@ class SurfaceShading {
   DirectLight& direct_;
   SpecularLight& specular_;
   IndirectLight& indirect_;
+  MaterialOptions options_;
   FunctionScratch scratch_;
 };
 

@@ -1,0 +1,87 @@
+#pragma once
+// The hit of a ray as materials see it: plain values, and those that are computed only if a material needs
+// them, because most hits need few of them.
+#include "scene/scene.h"
+#include "shade/scattering.h"
+#include "shade/surface_functions.h"
+
+namespace rsphere {
+
+// The options that materials depend on; see rtrace(1).
+struct MaterialOptions {
+  bool backFacesVisible = true;    // -bv
+  bool sourcesVisible = true;      // -dv
+  double specularThreshold = .15;  // -st
+  double specularSampling = 1;     // -ss
+  double directJitter = 0;         // -dj
+  bool basicRadiance = false;      // radiance over n^2 is transported; see scatter(const Dielectric&, ...)
+  Medium medium{};                 // of the space outside of mist and dielectrics (-me -ma -mg)
+};
+
+// How a ray arrived at a surface.
+struct Arrival {
+  V3d direction{0, 0, -1};    // of the ray, unit
+  unsigned kinds = kPrimary;  // of the ray and its ancestors
+  double cosine = 1;          // -normal . direction; negative from behind
+  double length = 0;          // of the ray (world units)
+  double pathLength = 0;      // of its ancestors
+  SurfaceId surface = kNone;  // that it hit
+  // Of a shadow ray: the surface of the light source that it is aimed at, or kNone. atImage: that source is
+  // virtual, an image of another source in a mirror or a prism, whose surface this is. image: which of a
+  // prism's images.
+  SurfaceId target = kNone;
+  bool atImage = false;
+  int image = 0;
+
+  bool isShadow() const { return kinds & kShadow; }
+  bool isAimed() const { return target != kNone; }
+  bool isAimedHere() const { return isAimed() && target == surface; }
+};
+
+class MaterialHit {
+ public:
+  // Keeps references.
+  MaterialHit(const Arrival& arrival, const Scene& scene, const MaterialOptions& options,
+              const SurfaceFunctions& functions, FunctionScratch& scratch)
+      : arrival_(arrival), scene_(scene), options_(options), functions_(functions), scratch_(scratch) {}
+
+  const Arrival& arrival() const { return arrival_; }
+  const Scene& scene() const { return scene_; }
+  const MaterialOptions& options() const { return options_; }
+  const SurfaceFunctions& functions() const { return functions_; }
+  FunctionScratch& scratch() const { return scratch_; }
+
+  // Whether the ray passes because it hit a back face, and these are invisible (-bv-).
+  bool passesBack() const { return arrival_.cosine < 0 && !options_.backFacesVisible; }
+
+  // Applies the material's own modifiers, whose patterns and textures interaction() then contains. Returns
+  // the factor of the patterns. Throws rad::Error if one of them is a material.
+  virtual Rgb modify() = 0;
+  // Turns a hit from behind into a hit from the front, which point() and the tracer then see.
+  virtual void turnRound() = 0;
+  virtual Interaction interaction() const = 0;
+  // The hit with the patterns and textures of a chain of modifiers added (kNone: of none); without those of
+  // modify(), if it was not called. Does not change the hit itself.
+  virtual Interaction interactionAfter(ModifierId modifiers) const = 0;
+  // The material's own modifiers.
+  virtual ModifierId modifiers() const = 0;
+  virtual FunctionPoint point() const = 0;
+  // The medium that the ray travels through.
+  virtual const Medium& medium() const = 0;
+  // The direction (unit) to the light source whose image a shadow ray is aimed at. REQUIRES one that is.
+  virtual V3d towardsSource() const = 0;
+  // The number of samples that the ray takes where one of weight 1 takes `wanted`.
+  virtual int samplesOf(double wanted) const = 0;
+
+ protected:
+  ~MaterialHit() = default;
+
+ private:
+  Arrival arrival_;
+  const Scene& scene_;
+  const MaterialOptions& options_;
+  const SurfaceFunctions& functions_;
+  FunctionScratch& scratch_;
+};
+
+}  // namespace rsphere

@@ -1,0 +1,138 @@
+#include "shade/surface_scattering.h"
+
+#include "shade/bsdf_scattering.h"
+
+namespace rsphere {
+namespace {
+
+static_assert(ScattersLight<RoundScattering> && ScattersLight<EllipticScattering> &&
+              ScattersLight<AshikhminLobeScattering> && ScattersLight<ProgrammedScattering> &&
+              ScattersLight<BsdfScattering>);
+
+// Maximal number of draws for a sample of ashik2 that lies above the surface; as in RADIANCE.
+constexpr int kMostTries = 10;
+// -ss below 1 does not narrow the lobe of ashik2. The original draws one sample per ray and distributes those
+// of successive rays evenly. Here samples depend on their ray alone, and four of them give as little noise.
+constexpr int kAshikhminSamples = 4;
+
+// Whether the scattered light has no strong peak: the peak of a lobe, share / (4 pi alpha^2) at normal
+// incidence, is at most kMost times the diffuse part, share / pi.
+bool isEven(const Scattering& s) {
+  constexpr double kMost = 4;
+  return maxChannel(s.specularReflection + s.specularTransmission) <=
+         kMost * 4 * s.alpha2 * maxChannel(s.diffuseReflection + s.diffuseTransmission);
+}
+
+// The side that light comes from to be reflected or transmitted. normal: perturbed, on the ray's side.
+LitSide sideOf(Component component, const V3d& normal, const Interaction& at, const Rgb& indirect) {
+  if (component == Component::reflected)
+    return {.normal = normal, .trueNormal = at.normal, .indirect = indirect};
+  return {.normal = -normal, .trueNormal = -at.normal, .indirect = indirect};
+}
+
+// A sample of a lobe, stratified in its first number. sample: as sampleReflection().
+template <class Sample>
+LobeSample drawStratified(const Rgb& share, int i, int n, Random& random, const Sample& sample) {
+  LobeSample drawn;
+  const double u1 = (i + random.uniform()) / n, u2 = random.uniform();
+  const double weight = sample(u1, u2, drawn.direction);
+  if (weight > 0) drawn.coefficient = share * (weight / n);
+  return drawn;
+}
+
+}  // namespace
+
+// ---- round lobes
+
+std::optional<Lobe> RoundScattering::lobe(Component component, Random&) const {
+  const bool sampled =
+      component == Component::reflected ? scattering_.sampleReflection : scattering_.sampleTransmission;
+  return sampled ? std::optional(Lobe{}) : std::nullopt;
+}
+
+LobeSample RoundScattering::draw(Component component, int i, int n, Random& random) const {
+  const Scattering& s = scattering_;
+  if (component == Component::reflected)
+    return drawStratified(s.specularReflection, i, n, random, [&](double u1, double u2, V3d& d) {
+      return sampleReflection(s, at_, spread_, u1, u2, d);
+    });
+  return drawStratified(s.specularTransmission, i, n, random, [&](double u1, double u2, V3d& d) {
+    return sampleTransmission(s, at_, spread_, u1, u2, d);
+  });
+}
+
+LitSide RoundScattering::side(Component component) const {
+  const Scattering& s = scattering_;
+  if (component == Component::reflected) return sideOf(component, s.normal, at_, s.ambientReflection);
+  LitSide side = sideOf(component, s.normal, at_, s.ambientTransmission);
+  const bool reflects = !isBlack(s.diffuseReflection) || !isBlack(s.specularReflection);
+  const bool transmits = !isBlack(s.diffuseTransmission) || !isBlack(s.specularTransmission);
+  side.direct = reflects || transmits;
+  if (!transmits) side.front = s.normal;
+  side.even = isEven(s);
+  return side;
+}
+
+// ---- elliptic lobes
+
+std::optional<Lobe> EllipticScattering::lobe(Component component, Random&) const {
+  const EllipticLobe& lobe =
+      component == Component::reflected ? scattering_.reflected : scattering_.transmitted;
+  return lobe.sampled ? std::optional(Lobe{}) : std::nullopt;
+}
+
+LobeSample EllipticScattering::draw(Component component, int i, int n, Random& random) const {
+  if (component == Component::reflected)
+    return drawStratified(scattering_.reflected.share, i, n, random, [&](double u1, double u2, V3d& d) {
+      return sampleReflection(scattering_.reflected, at_, spread_, u1, u2, d);
+    });
+  return drawStratified(scattering_.transmitted.share, i, n, random, [&](double u1, double u2, V3d& d) {
+    return sampleTransmission(scattering_.transmitted, at_, spread_, u1, u2, d);
+  });
+}
+
+LitSide EllipticScattering::side(Component component) const {
+  const DiffuseComponent& diffuse =
+      component == Component::reflected ? scattering_.reflection : scattering_.transmission;
+  LitSide side = sideOf(component, diffuse.normal, at_, diffuse.ambient);
+  side.direct = component == Component::transmitted;
+  return side;
+}
+
+// ---- ashik2
+
+std::optional<Lobe> AshikhminLobeScattering::lobe(Component component, Random&) const {
+  if (component == Component::transmitted || !scattering_.sampled) return {};
+  return Lobe{.leastSamples = kAshikhminSamples};
+}
+
+LobeSample AshikhminLobeScattering::draw(Component, int i, int n, Random& random) const {
+  return drawStratified(scattering_.share, i, n, random, [&](double u1, double u2, V3d& d) {
+    for (int tries = 0; tries < kMostTries; ++tries) {
+      if (sampleReflection(scattering_, at_, u1, u2, d)) return 1;
+      u1 = random.uniform();
+      u2 = random.uniform();
+    }
+    return 0;
+  });
+}
+
+LitSide AshikhminLobeScattering::side(Component component) const {
+  if (component == Component::transmitted) return {};
+  LitSide side = sideOf(component, scattering_.reflection.normal, at_, scattering_.reflection.ambient);
+  side.direct = true;
+  return side;
+}
+
+// ---- functions
+
+LitSide ProgrammedScattering::side(Component component) const {
+  const FunctionScattering& s = scattering_;
+  if (component == Component::reflected) return sideOf(component, s.normal, at_, s.ambientReflection);
+  LitSide side = sideOf(component, s.normal, at_, s.ambientTransmission);
+  side.direct = !isBlack(s.diffuseReflection) || !isBlack(s.diffuseTransmission) ||
+                !isBlack(s.directionalReflection) || !isBlack(s.directionalTransmission);
+  return side;
+}
+
+}  // namespace rsphere
