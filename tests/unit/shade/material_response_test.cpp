@@ -1,0 +1,177 @@
+#include "shade/material_response.h"
+
+#include <gtest/gtest.h>
+
+#include <variant>
+
+namespace rsphere {
+namespace {
+
+// A hit from straight above or below on a surface in the plane z = 0.
+class FakeHit final : public MaterialHit {
+ public:
+  FakeHit(const Arrival& arrival, const Scene& scene, const MaterialOptions& options,
+          const SurfaceFunctions& functions, FunctionScratch& scratch)
+      : MaterialHit(arrival, scene, options, functions, scratch) {}
+
+  Rgb modify() override { return pattern; }
+  void turnRound() override { turned = true; }
+  Interaction interaction() const override {
+    Interaction at;
+    at.direction = arrival().direction;
+    at.cosine = std::abs(arrival().cosine);
+    at.front = arrival().cosine > 0;
+    at.normal = V3d(0, 0, at.front ? 1 : -1);
+    at.kinds = arrival().kinds;
+    at.pattern = pattern;
+    return at;
+  }
+  Interaction interactionAfter(int32_t) const override { return interaction(); }
+  int32_t modifiers() const override { return kNone; }
+  FunctionPoint point() const override { return {}; }
+  const Medium& medium() const override { return medium_; }
+  V3d towardsSource() const override { return V3d(0, 0, 1); }
+  int samplesOf(double) const override { return 1; }
+
+  Rgb pattern{.5, .5, .5};
+  bool turned = false;
+
+ private:
+  Medium medium_{Rgb(.1, .1, .1), {}, 0};
+};
+
+class Response : public testing::Test {
+ protected:
+  template <class M>
+  auto of(const M& material, const Arrival& arrival) {
+    FakeHit hit(arrival, scene, options, functions, scratch);
+    auto answer = response(material, hit);
+    turned = hit.turned;
+    return answer;
+  }
+
+  Scene scene;
+  MaterialOptions options;
+  SurfaceFunctions functions{scene};
+  FunctionScratch scratch;
+  bool turned = false;
+
+  const Arrival front{.surface = 3}, back{.direction = V3d(0, 0, 1), .cosine = -1, .surface = 3};
+  const Arrival shadow{.kinds = kPrimary | kReflectedShadow, .surface = 3, .target = 7};
+};
+
+template <class Outcome, class Variant>
+bool is(const Variant& answer) {
+  return std::holds_alternative<Outcome>(answer);
+}
+
+constexpr Rgb kGray{.5, .5, .5};
+
+TEST_F(Response, OpaqueBlocksShadowRaysAndTransFollowsThem) {
+  EXPECT_TRUE(is<Absorbs>(of(Opaque{kGray}, shadow)));
+  EXPECT_TRUE(is<RoundScattering>(of(Trans{kGray, 0, 0, .5, 1}, shadow)));
+  EXPECT_TRUE(is<RoundScattering>(of(Opaque{kGray}, front)));
+}
+
+TEST_F(Response, BacksAreTurnedRoundOrInvisible) {
+  EXPECT_TRUE(is<RoundScattering>(of(Opaque{kGray}, back)));
+  EXPECT_TRUE(turned);
+  EXPECT_TRUE(is<SharpPaths>(of(Glass{Rgb(.9, .9, .9)}, back)));
+  EXPECT_TRUE(turned);
+  EXPECT_TRUE(is<Absorbs>(of(Light{kGray}, back)));
+  of(Dielectric{kGray, 1.5}, back);
+  EXPECT_FALSE(turned) << "a boundary has two different sides";
+  options.backFacesVisible = false;
+  EXPECT_TRUE(is<Passes>(of(Opaque{kGray}, back)));
+  EXPECT_TRUE(is<Passes>(of(Glass{Rgb(.9, .9, .9)}, back)));
+  EXPECT_TRUE(is<Passes>(of(Light{kGray}, back)));
+  EXPECT_TRUE(is<RoundScattering>(of(Opaque{kGray}, front)));
+}
+
+TEST_F(Response, BoundariesKnowTheMediumThatTheRayCameThrough) {
+  const Dielectric water{Rgb(.5, .5, .5), 1.33};
+  EXPECT_EQ(of(water, front).medium.extinction, Rgb(.1, .1, .1)) << "the ray's";
+  EXPECT_NEAR(of(water, back).medium.extinction.x, -std::log(.25), 1e-12) << "the pattern absorbs too";
+}
+
+TEST_F(Response, EmissionIsCountedOnce) {
+  const auto emitted = of(Light{Rgb(4, 4, 4)}, front);
+  ASSERT_TRUE(is<Emits>(emitted));
+  EXPECT_EQ(std::get<Emits>(emitted).radiance, Rgb(2, 2, 2)) << "with its pattern";
+  Arrival indirect = front;
+  indirect.kinds |= kReflectedAmbient;
+  EXPECT_TRUE(is<Absorbs>(of(Light{kGray}, indirect))) << "next-event estimation includes it";
+  indirect.length = 5;
+  EXPECT_TRUE(is<Absorbs>(of(Glow{kGray, 6}, indirect)));
+  EXPECT_TRUE(is<Emits>(of(Glow{kGray, 4}, indirect))) << "beyond its reach it is not sampled";
+  EXPECT_TRUE(is<Absorbs>(of(Glow{kGray, -1}, indirect))) << "it does not light the scene";
+}
+
+TEST_F(Response, ShadowRaysSeeTheirOwnSourceOnly) {
+  EXPECT_TRUE(is<Absorbs>(of(Light{kGray}, shadow)));
+  Arrival aimed = shadow;
+  aimed.target = aimed.surface;
+  EXPECT_TRUE(is<Emits>(of(Light{kGray}, aimed)));
+  aimed.atImage = true;
+  EXPECT_TRUE(is<Absorbs>(of(Light{kGray}, aimed)));
+}
+
+TEST_F(Response, InvisibleSourcesStillLight) {
+  options.sourcesVisible = false;
+  EXPECT_TRUE(is<Absorbs>(of(Light{kGray}, front)));
+  Arrival aimed = shadow;
+  aimed.target = aimed.surface;
+  EXPECT_TRUE(is<Emits>(of(Light{kGray}, aimed)));
+}
+
+TEST_F(Response, SpotlightsShineInTheirCone) {
+  Spotlight spot{kGray, .1, V3d(0, 0, 1), 1};
+  EXPECT_TRUE(is<Emits>(of(spot, front)));
+  spot.aim = V3d(1, 0, 0);
+  EXPECT_TRUE(is<Absorbs>(of(spot, front)));
+}
+
+TEST_F(Response, MirrorsRelayRaysThatAreAimedAtTheirImages) {
+  const Mirror mirror{Rgb(.8, .8, .8), {}};
+  EXPECT_TRUE(is<SharpPaths>(of(mirror, front)));
+  EXPECT_TRUE(is<Absorbs>(of(mirror, shadow))) << "aimed at another source";
+  Arrival aimed = shadow;
+  aimed.target = aimed.surface;
+  aimed.atImage = true;
+  const auto answer = of(mirror, aimed);
+  ASSERT_TRUE(is<Relays>(answer));
+  EXPECT_EQ(std::get<Relays>(answer).path.direction, V3d(0, 0, 1));
+  EXPECT_NEAR(std::get<Relays>(answer).path.coefficient.x, .4, 1e-12) << "with the pattern";
+  EXPECT_TRUE(is<Absorbs>(of(mirror, back)));
+}
+
+TEST_F(Response, IllumsEmitAsSourcesAndAreOtherwiseTheirAlternate) {
+  const Illum illum{kGray, {}};
+  EXPECT_TRUE(is<Alternate>(of(illum, front)));
+  Arrival aimed = shadow;
+  aimed.target = aimed.surface;
+  EXPECT_TRUE(is<Emits>(of(illum, aimed)));
+}
+
+TEST_F(Response, VolumesSayWhetherTheyAreEntered) {
+  Mist mist;
+  mist.extinction = Rgb(.4, .4, .4);
+  const CrossesMist in = of(mist, front);
+  EXPECT_TRUE(in.enters);
+  EXPECT_NEAR(in.extinction.x, .2, 1e-12) << "with the pattern";
+  EXPECT_FALSE(of(mist, back).enters);
+  EXPECT_TRUE(of(Antimatter{5}, front).enters);
+  EXPECT_EQ(of(Antimatter{5}, back).clips, 5u);
+}
+
+TEST_F(Response, GoalsEmitImportanceOnce) {
+  Arrival indirect = front;
+  indirect.kinds |= kReflectedAmbient;
+  FakeHit seen(front, scene, options, functions, scratch), met(indirect, scene, options, functions, scratch);
+  EXPECT_TRUE(is<Emits>(goalResponse(true, seen)));
+  EXPECT_TRUE(is<Absorbs>(goalResponse(true, met)));
+  EXPECT_TRUE(is<Emits>(goalResponse(false, met)));
+}
+
+}  // namespace
+}  // namespace rsphere
