@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/overloaded.h"
 #include "scene/even_sequence.h"
 #include "scene/frame.h"
 #include "scene/random.h"
@@ -15,6 +16,8 @@ constexpr double kAside = .01371;     // fraction of a cell's side; irregular, t
 constexpr uint32_t kEdges = 16;       // number of a polygon's edges that its frame may be aligned with
 constexpr double kNormalStep = 1e-9;  // step to which components of plane normals are rounded
 constexpr SurfaceId kPlane(-2);       // in a key, instead of a surface
+
+bool isPlaced(const SurfacePlace& place) { return place.path && place.path->count > 0; }
 
 }  // namespace
 
@@ -56,26 +59,27 @@ double SurfaceChart::extent() const {
 }
 
 std::optional<SurfaceChart> SurfaceChart::of(const Scene& scene, const CellGrid&, const SurfacePlace& place) {
-  if (place.surface == kNone) return {};
-  const Shape& shape = scene.surfaces[place.surface].shape;
-  SurfaceChart chart;
-  chart.scene_ = &scene;
-  chart.surface_ = place.surface;
-  const bool placed = place.path && place.path->count > 0;
-  bool charted = false;
-  if (const auto* ball = std::get_if<Sphere>(&shape))
-    charted = !placed && chart.chartBall(*ball, place);
-  else if (const auto* cone = std::get_if<Cone>(&shape))
-    charted = !placed && chart.chartCone(*cone, place);
-  else if (const V3d* normal = planeNormal(shape))
-    charted = chart.chartPlane(shape, *normal, place);
-  if (!charted) return {};
+  std::optional<SurfaceChart> chart;
+  if (place.surface == kNone) return chart;
+  chart.emplace();
+  chart->scene_ = &scene;
+  chart->surface_ = place.surface;
+  const bool has = std::visit(Overloaded{
+                                  [&](const Sphere& ball) { return chart->setBall(ball, place); },
+                                  [&](const Cone& cone) { return chart->setCone(cone, place); },
+                                  [&](const Polygon& polygon) { return chart->setPolygon(polygon, place); },
+                                  [&](const Ring& ring) { return chart->setRing(ring, place); },
+                                  [](const Distant&) { return false; },
+                                  [](const NestedShape auto&) { return false; },
+                              },
+                              scene.surfaces[place.surface].shape);
+  if (!has) chart.reset();
   return chart;
 }
 
-bool SurfaceChart::chartBall(const Sphere& ball, const SurfacePlace& place) {
+bool SurfaceChart::setBall(const Sphere& ball, const SurfacePlace& place) {
   const V3d out = place.point - ball.center;
-  if (out.dot(place.normal) < 0) return false;
+  if (isPlaced(place) || out.dot(place.normal) < 0) return false;
   ball_ = &ball;
   for (int c = 0; c < 3; ++c)
     if (std::abs(out[c]) > std::abs(out[axis_])) axis_ = c;
@@ -87,38 +91,19 @@ bool SurfaceChart::chartBall(const Sphere& ball, const SurfacePlace& place) {
   return true;
 }
 
-bool SurfaceChart::chartCone(const Cone& cone, const SurfacePlace& place) {
+bool SurfaceChart::setCone(const Cone& cone, const SurfacePlace& place) {
   const V3d out = place.point - cone.base;
   frame(cone.axis, x_, y_);
-  if (out.dot(x_) * place.normal.dot(x_) + out.dot(y_) * place.normal.dot(y_) < 0) return false;
+  if (isPlaced(place) || out.dot(x_) * place.normal.dot(x_) + out.dot(y_) * place.normal.dot(y_) < 0)
+    return false;
   cone_ = &cone;
   u_ = std::atan2(out.dot(y_), out.dot(x_)) * extent();
   v_ = out.dot(cone.axis);
   return true;
 }
 
-bool SurfaceChart::chartPlane(const Shape& shape, const V3d& normal, const SurfacePlace& place) {
-  normal_ = normal;
-  if (place.path && place.path->count > 0) {
-    placement_ = scene_->placementOf(*place.path);
-    normal_ = placement_->directionToOuter(normal).normalized();
-    for (uint8_t i = 0; i < place.path->count; ++i) id_ = mixBits(id_ ^ place.path->placements[i]);
-  }
-  const bool front = normal_.dot(place.normal) > 0;
-  id_ = mixBits(id_ * 2 + front);
-  if (!front) normal_ = -normal_;
-  if (const auto* polygon = std::get_if<Polygon>(&shape))
-    alignWith(*polygon);
-  else
-    alignWith(std::get<Ring>(shape));
-  if (!(width_ > 0) || !(height_ > 0)) return false;
-  const V3d way = place.point - origin_;
-  u_ = std::clamp(way.dot(x_), 0., width_);
-  v_ = std::clamp(way.dot(y_), 0., height_);
-  return true;
-}
-
-void SurfaceChart::alignWith(const Polygon& polygon) {
+bool SurfaceChart::setPolygon(const Polygon& polygon, const SurfacePlace& place) {
+  setNormal(polygon.normal, place);
   const V3d* const corner = scene_->vertices.data() + polygon.firstVertex;
   const uint32_t count = polygon.vertices;
   double longest = 0;
@@ -142,15 +127,40 @@ void SurfaceChart::alignWith(const Polygon& polygon) {
     }
   }
   origin_ = first + low[0] * x_ + low[1] * y_;
-  width_ = high[0] - low[0];
-  height_ = high[1] - low[1];
+  return setPlace(high[0] - low[0], high[1] - low[1], place.point);
 }
 
-void SurfaceChart::alignWith(const Ring& ring) {
+bool SurfaceChart::setRing(const Ring& ring, const SurfacePlace& place) {
+  setNormal(ring.normal, place);
   frame(normal_, x_, y_);
   const double outer = ring.outer * (placement_ ? placement_->toOuter.scale : 1);
   origin_ = toWorld(ring.center) - outer * (x_ + y_);
-  width_ = height_ = 2 * outer;
+  return setPlace(2 * outer, 2 * outer, place.point);
+}
+
+// Sets the normal on the side of the place, and the placement if the surface has one.
+void SurfaceChart::setNormal(V3d normal, const SurfacePlace& place) {
+  if (isPlaced(place)) {
+    placement_ = scene_->placementOf(*place.path);
+    normal = placement_->directionToOuter(normal).normalized();
+    for (uint8_t i = 0; i < place.path->count; ++i) id_ = mixBits(id_ ^ place.path->placements[i]);
+  }
+  const bool front = normal.dot(place.normal) > 0;
+  id_ = mixBits(id_ * 2 + front);
+  normal_ = front ? normal : -normal;
+}
+
+V3d SurfaceChart::toWorld(const V3d& p) const { return placement_ ? placement_->toOuter.point(p) : p; }
+
+// Sets the extent, and the coordinates of the place; false if there is no extent.
+bool SurfaceChart::setPlace(double width, double height, const V3d& point) {
+  width_ = width;
+  height_ = height;
+  if (!(width_ > 0) || !(height_ > 0)) return false;
+  const V3d way = point - origin_;
+  u_ = std::clamp(way.dot(x_), 0., width_);
+  v_ = std::clamp(way.dot(y_), 0., height_);
+  return true;
 }
 
 SurfaceChart SurfaceChart::ofPlane(const CellGrid& grid, const SurfacePlace& place) {
@@ -201,11 +211,16 @@ CellKey SurfaceChart::cellAt(const CellGrid& grid, int level, double u, double v
 bool SurfaceChart::holds(const V3d& point) const {
   if (surface_ == kPlane) return true;
   const V3d local = placement_ ? placement_->toInner.point(point) : point;
-  const Shape& shape = scene_->surfaces[surface_].shape;
-  if (const auto* polygon = std::get_if<Polygon>(&shape)) return inside(*polygon, scene_->vertices, local);
-  const auto& ring = std::get<Ring>(shape);
-  const double radius = (local - ring.center).length();
-  return radius >= ring.inner && radius <= ring.outer;
+  return std::visit(Overloaded{
+                        [&](const Polygon& polygon) { return inside(polygon, scene_->vertices, local); },
+                        [&](const Ring& ring) {
+                          const double radius = (local - ring.center).length();
+                          return radius >= ring.inner && radius <= ring.outer;
+                        },
+                        [](const OneOf<Sphere, Cone, Distant> auto&) { return true; },  // not plane
+                        [](const NestedShape auto&) { return true; },
+                    },
+                    scene_->surfaces[surface_].shape);
 }
 
 std::optional<GatherSite> SurfaceChart::siteAt(const CellGrid& grid, double u, double v) const {

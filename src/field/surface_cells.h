@@ -73,16 +73,14 @@ class SurfaceChart {
   std::optional<GatherSite> site(const CellGrid& grid, const CellKey& key) const;
 
  private:
-  // Chart the shape of the place, and set the coordinates of the place. They return false if the place has no
-  // cells: inside a ball or a cone, or on a degenerate plane surface.
-  bool chartBall(const Sphere& ball, const SurfacePlace& place);
-  bool chartCone(const Cone& cone, const SurfacePlace& place);
-  bool chartPlane(const Shape& shape, const V3d& normal, const SurfacePlace& place);
-  // Set origin, axes and extent. REQUIRE normal_ and placement_.
-  void alignWith(const Polygon& polygon);
-  void alignWith(const Ring& ring);
-
-  V3d toWorld(const V3d& local) const { return placement_ ? placement_->toOuter.point(local) : local; }
+  // Each sets the chart of a shape around a place on it; false if it has none there.
+  bool setBall(const Sphere& ball, const SurfacePlace& place);
+  bool setCone(const Cone& cone, const SurfacePlace& place);
+  bool setPolygon(const Polygon& polygon, const SurfacePlace& place);
+  bool setRing(const Ring& ring, const SurfacePlace& place);
+  void setNormal(V3d normal, const SurfacePlace& place);
+  bool setPlace(double width, double height, const V3d& point);
+  V3d toWorld(const V3d& p) const;
   bool holds(const V3d& point) const;
   std::optional<GatherSite> siteAt(const CellGrid& grid, double u, double v) const;
 

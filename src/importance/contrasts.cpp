@@ -69,8 +69,8 @@ double measureDeviation(const Scene& scene, std::span<const SpecialObject> objec
   for (size_t k = 0; k < rays; ++k) {
     const SpecialObject& object = objects[k * objects.size() / rays];
     const SurfacePoint at = samplePoint(scene, object, random);
-    // Flat objects are seen from both sides.
-    const bool behind = !std::holds_alternative<Sphere>(shapeOf(scene, object)) && k % 2;
+    // Objects that are not closed are seen from both sides.
+    const bool behind = !isClosed(shapeOf(scene, object)) && k % 2;
     const V3d away = diffuseDirection(behind ? -at.normal : at.normal, random.uniform(), random.uniform());
     const Ray ray = tracer.trace(at.point + at.clearance * away, -away, 0, random.bits());
     if (shows(scene, object, ray.surface) && !sources.shown(tracer)) values.add(brightness(ray.value));

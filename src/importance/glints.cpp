@@ -17,14 +17,14 @@ using Tuning = tuning::Glints;
 constexpr int kSteps = 20;
 constexpr double kExact = 1e-4;
 
+// The fraction of the brightness that a ball mirrors at normal incidence, and only by its outer boundary.
+// Images in balls of trans are ignored.
 double reflectanceOf(const Material& material) {
-  if (const auto* m = std::get_if<Opaque>(&material))
-    return m->roughness <= Tuning::kSmooth ? m->specularity * (m->metal ? brightness(m->color) : 1) : 0;
-  if (const auto* m = std::get_if<Mirror>(&material)) return brightness(m->reflectance);
-  const bool dielectric = std::holds_alternative<Dielectric>(material) ||
-                          std::holds_alternative<Interface>(material) ||
-                          std::holds_alternative<Glass>(material);
-  return dielectric ? Tuning::kFresnel : 0;
+  const auto mirrored = mirrorReflection(material);
+  if (!mirrored) return 0;
+  if (mirrored->boundaries > 0) return Tuning::kFresnel;
+  if (isTransparent(material) || mirrored->roughness > Tuning::kSmooth) return 0;
+  return mirrored->brightness;
 }
 
 // The normal of the sphere at the point where it mirrors one place to another. It lies in the plane of

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/overloaded.h"
+
 namespace rsphere {
 namespace {
 
@@ -39,43 +41,68 @@ Sphere placed(const Sphere& ball, const Placement& placement) {
   return {placement.toOuter.point(ball.center), ball.radius * placement.toOuter.scale, ball.inward};
 }
 
-PlacedShape placed(const Shape& shape, std::span<const V3d> vertices, const Placement& placement) {
-  PlacedShape result;
+namespace {
+
+Ring placed(const Ring& ring, const Placement& placement) {
   const double scale = placement.toOuter.scale;
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-    result.shape = placed(*sphere, placement);
-  } else if (const auto* ring = std::get_if<Ring>(&shape)) {
-    result.shape = Ring{placement.toOuter.point(ring->center), placement.directionToOuter(ring->normal),
-                        ring->inner * scale, ring->outer * scale};
-  } else if (const auto* cone = std::get_if<Cone>(&shape)) {
-    result.shape = Cone{placement.toOuter.point(cone->base),
-                        placement.directionToOuter(cone->axis),
-                        cone->length * scale,
-                        cone->radius0 * scale,
-                        cone->radius1 * scale,
-                        cone->inward};
-  } else if (const auto* polygon = std::get_if<Polygon>(&shape)) {
-    for (const V3d& v : vertices.subspan(polygon->firstVertex, polygon->vertices))
-      result.vertices.push_back(placement.toOuter.point(v));
-    // A mirror image reverses the orientation.
-    if (placement.toOuter.matrix.determinant() < 0)
-      std::reverse(result.vertices.begin(), result.vertices.end());
-    result.shape = makePolygon(result.vertices, 0, polygon->vertices);
-  }
+  return {placement.toOuter.point(ring.center), placement.directionToOuter(ring.normal), ring.inner * scale,
+          ring.outer * scale};
+}
+
+Cone placed(const Cone& cone, const Placement& placement) {
+  const double scale = placement.toOuter.scale;
+  return {placement.toOuter.point(cone.base),
+          placement.directionToOuter(cone.axis),
+          cone.length * scale,
+          cone.radius0 * scale,
+          cone.radius1 * scale,
+          cone.inward};
+}
+
+PlacedShape placed(const Polygon& polygon, std::span<const V3d> vertices, const Placement& placement) {
+  PlacedShape result;
+  for (const V3d& v : vertices.subspan(polygon.firstVertex, polygon.vertices))
+    result.vertices.push_back(placement.toOuter.point(v));
+  // A mirror image reverses the orientation.
+  if (placement.toOuter.matrix.determinant() < 0)
+    std::reverse(result.vertices.begin(), result.vertices.end());
+  result.shape = makePolygon(result.vertices, 0, polygon.vertices);
   return result;
 }
 
+}  // namespace
+
+PlacedShape placed(const Shape& shape, std::span<const V3d> vertices, const Placement& placement) {
+  return std::visit(Overloaded{
+                        [&](const Polygon& polygon) { return placed(polygon, vertices, placement); },
+                        [&](const OneOf<Sphere, Cone, Ring> auto& form) {
+                          return PlacedShape{placed(form, placement), {}};
+                        },
+                        [](const Distant&) { return PlacedShape{}; },
+                        [](const NestedShape auto&) { return PlacedShape{}; },
+                    },
+                    shape);
+}
+
 SurfacePoint samplePoint(const Scene& scene, const Surface& surface, Random& random) {
-  if (const auto* mesh = std::get_if<MeshInstance>(&surface.shape))
-    return placed(pointOnTriangle(scene.meshes[mesh->mesh].data, random), scene.placements[mesh->placement]);
-  if (const auto* instance = std::get_if<Instance>(&surface.shape)) {
-    const SurfaceGroup& group = scene.groups[instance->group];
-    if (group.surfaces.size() == 0) return {};
-    const auto i = static_cast<size_t>(random.uniform() * static_cast<double>(group.surfaces.size()));
-    return placed(samplePoint(scene, scene.surfaces[group.surfaces[i]], random),
-                  scene.placements[instance->placement]);
-  }
-  return samplePoint(surface.shape, scene.vertices, random);
+  return std::visit(Overloaded{
+                        [&](const MeshInstance& mesh) {
+                          return placed(pointOnTriangle(scene.meshes[mesh.mesh].data, random),
+                                        scene.placements[mesh.placement]);
+                        },
+                        [&](const Instance& instance) {
+                          const SurfaceGroup& group = scene.groups[instance.group];
+                          const size_t count = group.surfaces.size();
+                          if (count == 0) return SurfacePoint{};
+                          const auto i = static_cast<size_t>(random.uniform() * static_cast<double>(count));
+                          return placed(samplePoint(scene, scene.surfaces[group.surfaces[i]], random),
+                                        scene.placements[instance.placement]);
+                        },
+                        [&](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) {
+                          return samplePoint(surface.shape, scene.vertices, random);
+                        },
+                    },
+                    surface.shape);
 }
 
 Sphere BoundingBalls::ofGroup(uint32_t index) {
@@ -88,11 +115,19 @@ Sphere BoundingBalls::ofGroup(uint32_t index) {
 }
 
 Box3d BoundingBalls::boxOf(const Surface& surface) {
-  if (const auto* instance = std::get_if<Instance>(&surface.shape))
-    return boxAround(placed(ofGroup(instance->group), scene_.placements[instance->placement]));
-  if (const auto* mesh = std::get_if<MeshInstance>(&surface.shape))
-    return boxAround(placed(ofMesh(mesh->mesh), scene_.placements[mesh->placement]));
-  return bounds(surface.shape, scene_.vertices);
+  return std::visit(
+      Overloaded{
+          [&](const Instance& instance) {
+            return boxAround(placed(ofGroup(instance.group), scene_.placements[instance.placement]));
+          },
+          [&](const MeshInstance& mesh) {
+            return boxAround(placed(ofMesh(mesh.mesh), scene_.placements[mesh.placement]));
+          },
+          [&](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) {
+            return bounds(surface.shape, scene_.vertices);
+          },
+      },
+      surface.shape);
 }
 
 const BoundingBalls::MeshBalls& BoundingBalls::meshBalls(uint32_t index) {

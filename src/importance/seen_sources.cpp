@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "base/overloaded.h"
 #include "importance/tuning.h"
 #include "scene/even_sequence.h"
 
@@ -14,29 +15,27 @@ namespace {
 using std::numbers::pi;
 using Tuning = tuning::SeenSources;
 
-// The usual fraction of light that a surface mirrors sharply; 0: it never does.
-struct SharpReflectance {
-  double cosine = 1;
-
-  double fresnel() const {
-    return Tuning::kFresnel + (1 - Tuning::kFresnel) * std::pow(1 - cosine, 5);
-  }  // Schlick's, of glass
-  double operator()(const Mirror& m) const { return maxChannel(m.reflectance); }
-  double operator()(const Glass&) const { return std::min(1., 2 * fresnel()); }
-  double operator()(const Dielectric&) const { return fresnel(); }
-  double operator()(const Interface&) const { return fresnel(); }
-  double operator()(const Opaque& m) const { return m.roughness > 0 ? 0 : m.specularity; }
-  double operator()(const Trans& m) const { return m.roughness > 0 ? 0 : m.specularity; }
-  template <class Source>
-  double operator()(const Source&) const {
-    return 0;
+// The fraction of light that a plane surface mirrors without any blur at this cosine of incidence: colors of
+// metals do not count, and panes mirror by both boundaries. 0: it never does.
+double sharpReflectance(const Material& material, double cosine = 1) {
+  const auto mirrored = mirrorReflection(material);
+  if (!mirrored) return 0;
+  if (mirrored->boundaries > 0) {
+    const double schlick = Tuning::kFresnel + (1 - Tuning::kFresnel) * std::pow(1 - cosine, 5);  // of glass
+    return std::min(1., mirrored->boundaries * schlick);
   }
-};
+  return mirrored->roughness > 0 ? 0 : mirrored->share;
+}
 
-double planeOffset(const Shape& shape) {
-  if (const auto* polygon = std::get_if<Polygon>(&shape)) return polygon->offset;
-  const Ring& ring = std::get<Ring>(shape);
-  return ring.normal.dot(ring.center);
+// The area within the outline of a plane shape, of a ring with its hole.
+double outlinedArea(const Shape& shape) {
+  return std::visit(Overloaded{
+                        [](const Polygon& polygon) { return polygon.area; },
+                        [](const Ring& ring) { return pi * std::pow(ring.outer, 2); },
+                        [](const OneOf<Sphere, Cone, Distant> auto&) { return 0.; },
+                        [](const NestedShape auto&) { return 0.; },
+                    },
+                    shape);
 }
 
 bool emitsBehind(const Shape& shape, const V3d& point) {
@@ -46,18 +45,20 @@ bool emitsBehind(const Shape& shape, const V3d& point) {
 
 // Whether the shape fills its region.
 bool fills(const Shape& shape, const Silhouette& s) {
-  if (std::holds_alternative<Sphere>(shape) || std::holds_alternative<Distant>(shape)) return true;
-  return std::holds_alternative<Polygon>(shape) &&
-         std::abs(s.regionSolidAngle() - s.solidAngle()) <= 1e-9 * s.solidAngle();
+  return std::visit(Overloaded{
+                        [](const OneOf<Sphere, Distant> auto&) { return true; },
+                        [&](const Polygon&) {
+                          return std::abs(s.regionSolidAngle() - s.solidAngle()) <= 1e-9 * s.solidAngle();
+                        },
+                        [](const OneOf<Cone, Ring> auto&) { return false; },
+                        [](const NestedShape auto&) { return false; },
+                    },
+                    shape);
 }
 
 bool hits(const Scene& scene, const Shape& shape, const V3d& point, const V3d& direction, ShapeHit& hit) {
-  if (const auto* polygon = std::get_if<Polygon>(&shape))
-    return intersect(*polygon, scene.vertices, point, direction, kFarAway, hit);
-  if (const auto* sphere = std::get_if<Sphere>(&shape))
-    return intersect(*sphere, point, direction, kFarAway, hit);
-  if (const auto* cone = std::get_if<Cone>(&shape)) return intersect(*cone, point, direction, kFarAway, hit);
-  if (const auto* ring = std::get_if<Ring>(&shape)) return intersect(*ring, point, direction, kFarAway, hit);
+  if (isPlain(shape)) return intersect(shape, scene.vertices, point, direction, kFarAway, hit);
+  // A distant source. All directions that are tested are within its cone.
   hit = {kFarAway, -direction, 1};
   return true;
 }
@@ -92,11 +93,8 @@ SeenSources::SeenSources(const Transport& transport) : transport_(transport) {
   for (const SurfaceId i : scene.outermostIds()) {
     const Surface& surface = scene.surfaces[i];
     const Material* material = scene.materialOf(surface);
-    if (!material || !planeNormal(surface.shape) || !(std::visit(SharpReflectance{}, *material) > 0))
-      continue;
-    const auto* polygon = std::get_if<Polygon>(&surface.shape);
-    const double area = polygon ? polygon->area : pi * std::pow(std::get<Ring>(surface.shape).outer, 2);
-    mirrors.push_back({-area, i});
+    if (!material || !planeNormal(surface.shape) || !(sharpReflectance(*material) > 0)) continue;
+    mirrors.push_back({-outlinedArea(surface.shape), i});
   }
   std::sort(mirrors.begin(), mirrors.end());
   for (const auto& [area, surface] : mirrors)
@@ -165,7 +163,7 @@ void SeenSources::addMirrored(const V3d& point, std::vector<Image>& images) cons
     const Material& material = *scene.materialOf(mirror);
     const Plane plane(mirror.shape);
     const double height = plane.height(point), side = height < 0 ? -1 : 1;
-    if (height < 0 && std::holds_alternative<Mirror>(material)) continue;
+    if (height < 0 && mirrorReflection(material)->frontOnly) continue;
     const V3d behind = plane.mirrored(point);
     std::optional<Silhouette> window;
     for (const LightId i : sources_) {
@@ -186,9 +184,9 @@ void SeenSources::addMirrored(const V3d& point, std::vector<Image>& images) cons
       image.solidAngle = image.region.regionSolidAngle();
       if (!(image.solidAngle > 0)) continue;
       const double cosine = std::abs(plane.normal.dot(image.region.sample(.5, .5)));
-      image.rays = std::pow(brightness(sourceRadiance(scene, surface)) * image.solidAngle *
-                                std::visit(SharpReflectance{cosine}, material),
-                            Tuning::kByLight);
+      image.rays = std::pow(
+          brightness(sourceRadiance(scene, surface)) * image.solidAngle * sharpReflectance(material, cosine),
+          Tuning::kByLight);
       images.push_back(std::move(image));
     }
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/overloaded.h"
 #include "importance/tuning.h"
 #include "light/spherical_triangle.h"
 #include "shade/scattering.h"
@@ -227,42 +228,46 @@ V3d Silhouette::sample(double u1, double u2) const {
 
 Silhouette silhouetteOf(const Shape& shape, std::span<const V3d> vertices, const V3d& point) {
   Silhouette s;
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-    s.setBall(sphere->center, sphere->radius, point);
-  } else if (const auto* distant = std::get_if<Distant>(&shape)) {
-    const double sine = std::sin(distant->halfAngle / 2);
-    s.setCap(distant->direction, 2 * sine * sine);
+  const auto ofSphere = [&](const Sphere& sphere) { s.setBall(sphere.center, sphere.radius, point); };
+  const auto ofDistant = [&](const Distant& distant) {
+    const double sine = std::sin(distant.halfAngle / 2);
+    s.setCap(distant.direction, 2 * sine * sine);
     s.solidAngle_ = s.regionSolidAngle_;
-  } else if (const auto* cone = std::get_if<Cone>(&shape)) {
+  };
+  const auto ofCone = [&](const Cone& cone) {
     std::vector<V3d> around;
-    addCircle(around, cone->base, cone->axis, cone->radius0);
-    addCircle(around, cone->base + cone->length * cone->axis, cone->axis, cone->radius1);
+    addCircle(around, cone.base, cone.axis, cone.radius0);
+    addCircle(around, cone.base + cone.length * cone.axis, cone.axis, cone.radius1);
     if (!s.setHull(around, point))
-      s.setBall(cone->base + cone->length / 2 * cone->axis,
-                std::hypot(cone->length / 2, std::max(cone->radius0, cone->radius1)), point);
+      s.setBall(cone.base + cone.length / 2 * cone.axis,
+                std::hypot(cone.length / 2, std::max(cone.radius0, cone.radius1)), point);
     s.solidAngle_ = s.regionSolidAngle_;
-  } else if (const auto* ring = std::get_if<Ring>(&shape)) {
-    const double height = ring->normal.dot(point - ring->center);
-    if (liesInPlane(height, std::max(largestCoordinate(point), largestCoordinate(ring->center)))) return s;
+  };
+  const auto ofRing = [&](const Ring& ring) {
+    const double height = ring.normal.dot(point - ring.center);
+    if (liesInPlane(height, std::max(largestCoordinate(point), largestCoordinate(ring.center)))) return;
     std::vector<V3d> around;
-    addCircle(around, ring->center, ring->normal, ring->outer);
+    addCircle(around, ring.center, ring.normal, ring.outer);
     if (!s.setHull(around, point)) {
-      s.setBall(ring->center, ring->outer, point);
-      if (s.versine_ > 1) s.setCap(height > 0 ? -ring->normal : ring->normal, 1);
+      s.setBall(ring.center, ring.outer, point);
+      if (s.versine_ > 1) s.setCap(height > 0 ? -ring.normal : ring.normal, 1);
     }
     s.solidAngle_ = s.regionSolidAngle_;
-  } else if (const auto* polygon = std::get_if<Polygon>(&shape)) {
-    const auto around = vertices.subspan(polygon->firstVertex, polygon->vertices);
-    if (polygon->thickness <= kSamePlace) {
-      s.setPolygon(*polygon, around, point);
+  };
+  const auto ofPolygon = [&](const Polygon& polygon) {
+    const auto around = vertices.subspan(polygon.firstVertex, polygon.vertices);
+    if (polygon.thickness <= kSamePlace) {
+      s.setPolygon(polygon, around, point);
     } else {
       // Rays hit the polygon in its mean plane, with the vertices moved there along the axis.
       std::vector<V3d> flat(around.begin(), around.end());
       for (V3d& v : flat)
-        v[polygon->axis] += (polygon->offset - polygon->normal.dot(v)) / polygon->normal[polygon->axis];
-      s.setPolygon(*polygon, flat, point);
+        v[polygon.axis] += (polygon.offset - polygon.normal.dot(v)) / polygon.normal[polygon.axis];
+      s.setPolygon(polygon, flat, point);
     }
-  }
+  };
+  const auto ofNested = [](const NestedShape auto&) {};  // represented by balls
+  std::visit(Overloaded{ofSphere, ofDistant, ofCone, ofRing, ofPolygon, ofNested}, shape);
   return s;
 }
 

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <map>
 
+#include "base/overloaded.h"
+
 namespace rsphere {
 namespace {
 
@@ -68,14 +70,19 @@ Shown mostIrregular(const Scene& scene, ModifierId modifier) {
   Shown most;
   for (; modifier != kNone; modifier = scene.modifiers[modifier].next) {
     const Modifier& m = scene.modifiers[modifier];
-    Shown here;
-    if (const auto* material = std::get_if<Material>(&m.content)) {
-      here = {&m, irregularity(*material)};
-    } else if (const auto* mixture = std::get_if<Mixture>(&m.content)) {
-      here = mostIrregular(scene, mixture->foreground);
-      const Shown background = mostIrregular(scene, mixture->background);
-      if (background.irregularity > here.irregularity) here = background;
-    }
+    const Shown here =
+        std::visit(Overloaded{
+                       [&](const Material& material) {
+                         return Shown{&m, irregularity(material)};
+                       },
+                       [&](const Mixture& mixture) {
+                         const Shown foreground = mostIrregular(scene, mixture.foreground);
+                         const Shown background = mostIrregular(scene, mixture.background);
+                         return background.irregularity > foreground.irregularity ? background : foreground;
+                       },
+                       [](const OneOf<Pattern, Texture> auto&) { return Shown{}; },
+                   },
+                   m.content);
     if (here.irregularity > most.irregularity) most = here;
     if (std::holds_alternative<Material>(m.content)) break;
   }
@@ -86,24 +93,33 @@ std::string why(const Material& material, double irregularity) {
   const auto reason = [&](const std::string& given) {
     return fmt::format("{}: irregularity {:.3g} of at least {:g}", given, irregularity, kSpecialIrregularity);
   };
-  if (const auto* m = std::get_if<Opaque>(&material))
-    return reason(fmt::format("specularity {:g}, roughness {:g}", m->specularity, m->roughness));
-  if (const auto* m = std::get_if<Trans>(&material))
-    return reason(fmt::format("specularity {:g}, transmitted {:g}, roughness {:g}", m->specularity,
-                              m->transmissivity * m->transmittedSpecular, m->roughness));
-  if (const auto* m = std::get_if<Anisotropic>(&material))
-    return reason(fmt::format("specularity {:g}, transmitted {:g}, roughness {:g} and {:g}", m->specularity,
-                              m->transmissivity * m->transmittedSpecular, m->roughnessAlong,
-                              m->roughnessAcross));
-  if (const auto* m = std::get_if<Ashikhmin>(&material))
-    return reason(fmt::format("specularity {:g}, powers {:g} and {:g}", maxChannel(m->specular),
-                              m->powerAlong, m->powerAcross));
-  if (const auto* m = std::get_if<FunctionScatterer>(&material))
-    return reason(fmt::format("specularity {:g}, transmitted {:g}, by functions", m->specularity,
-                              m->transmissivity * m->transmittedSpecular));
-  if (std::holds_alternative<BrtdFunction>(material) || std::holds_alternative<WgmdFunction>(material))
-    return reason("by functions");
-  return "irregular by type";
+  const auto transmitted = [](const auto& m) { return m.transmissivity * m.transmittedSpecular; };
+  return std::visit(
+      Overloaded{
+          [&](const Opaque& m) {
+            return reason(fmt::format("specularity {:g}, roughness {:g}", m.specularity, m.roughness));
+          },
+          [&](const Trans& m) {
+            return reason(fmt::format("specularity {:g}, transmitted {:g}, roughness {:g}", m.specularity,
+                                      transmitted(m), m.roughness));
+          },
+          [&](const Anisotropic& m) {
+            return reason(fmt::format("specularity {:g}, transmitted {:g}, roughness {:g} and {:g}",
+                                      m.specularity, transmitted(m), m.roughnessAlong, m.roughnessAcross));
+          },
+          [&](const Ashikhmin& m) {
+            return reason(fmt::format("specularity {:g}, powers {:g} and {:g}", maxChannel(m.specular),
+                                      m.powerAlong, m.powerAcross));
+          },
+          [&](const FunctionScatterer& m) {
+            return reason(fmt::format("specularity {:g}, transmitted {:g}, by functions", m.specularity,
+                                      transmitted(m)));
+          },
+          [&](const OneOf<BrtdFunction, WgmdFunction> auto&) { return reason("by functions"); },
+          [](const OneOf<BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist, Light,
+                         Illum, Glow, Spotlight> auto&) -> std::string { return "irregular by type"; },
+      },
+      material);
 }
 
 std::span<const V3d> verticesOf(const Scene& scene, const SpecialObject& object) {
@@ -150,13 +166,19 @@ class Finder {
 
   Contents contentsOf(const Surface& s) {
     if (scene_.hasOwnModifier(s)) return {};
+    return std::visit(
+        Overloaded{
+            [&](const Instance& instance) { return contentsOfGroup(instance.group); },
+            [&](const MeshInstance& mesh) { return contentsOfMesh(scene_.meshes[mesh.mesh]); },
+            [](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) { return Contents{}; },
+        },
+        s.shape);
+  }
+
+  Contents contentsOfMesh(const Mesh& mesh) const {
     Contents contents;
-    if (const auto* mesh = std::get_if<MeshInstance>(&s.shape)) {
-      for (const SurfaceId faces : scene_.meshes[mesh->mesh].facesOf)
-        if (faces != kNone) count(contents, faces, 1, irregularityOf(faces));
-    } else if (const auto* instance = std::get_if<Instance>(&s.shape)) {
-      return contentsOfGroup(instance->group);
-    }
+    for (const SurfaceId faces : mesh.facesOf)
+      if (faces != kNone) count(contents, faces, 1, irregularityOf(faces));
     return contents;
   }
 
@@ -186,53 +208,62 @@ class Finder {
     if (ball.radius > 0) addObject(surface, irregularity, PlacedShape{placed(ball, placement), {}}, several);
   }
 
-  Sphere ballOf(const Surface& s) {
-    if (const auto* instance = std::get_if<Instance>(&s.shape)) return balls_.ofGroup(instance->group);
-    return balls_.ofMesh(std::get<MeshInstance>(s.shape).mesh);
-  }
+  Sphere ballOf(const Instance& instance) { return balls_.ofGroup(instance.group); }
+  Sphere ballOf(const MeshInstance& mesh) { return balls_.ofMesh(mesh.mesh); }
 
   // Adds the special surfaces in a surface, each as an object. at: the placement of the group that the
   // surface belongs to; null: the world.
   void add(SurfaceId index, const Placement* at) {
     const Surface& s = scene_.surfaces[index];
-    const auto* instance = std::get_if<Instance>(&s.shape);
-    const auto* mesh = std::get_if<MeshInstance>(&s.shape);
-    if (instance || mesh) {
-      const Placement& own = scene_.placements[instance ? instance->placement : mesh->placement];
-      const Placement all = at ? within(*at, own) : own;
-      if (scene_.hasOwnModifier(s)) {
-        if (irregularityOf(index) >= kSpecialIrregularity)
-          addBall(index, irregularityOf(index), ballOf(s), all);
-      } else if (contentsOf(s).objects > 0) {
-        addContents(s, all);
-      }
-    } else if (!std::holds_alternative<Distant>(s.shape)) {
-      const double value = irregularityOf(index);
-      if (value < kSpecialIrregularity) return;
-      addObject(index, value, at ? std::optional(placed(s.shape, scene_.vertices, *at)) : std::nullopt);
+    std::visit(Overloaded{
+                   [&](const OneOf<Instance, MeshInstance> auto& nested) { addNested(index, nested, at); },
+                   [](const Distant&) {},
+                   [&](const OneOf<Polygon, Sphere, Cone, Ring, MeshFaces> auto&) {
+                     const double value = irregularityOf(index);
+                     if (value < kSpecialIrregularity) return;
+                     addObject(index, value,
+                               at ? std::optional(placed(s.shape, scene_.vertices, *at)) : std::nullopt);
+                   },
+               },
+               s.shape);
+  }
+
+  void addNested(SurfaceId index, const auto& nested, const Placement* at) {
+    const Surface& s = scene_.surfaces[index];
+    const Placement& own = scene_.placements[nested.placement];
+    const Placement all = at ? within(*at, own) : own;
+    if (scene_.hasOwnModifier(s)) {
+      if (irregularityOf(index) >= kSpecialIrregularity)
+        addBall(index, irregularityOf(index), ballOf(nested), all);
+    } else if (contentsOf(s).objects > 0) {
+      addContents(nested, all);
     }
   }
 
-  void addContents(const Surface& s, const Placement& placement) {
-    if (const auto* instance = std::get_if<Instance>(&s.shape)) {
-      const SurfaceGroup& group = scene_.groups[instance->group];
-      for (const SurfaceId i : group.surfaces) add(i, &placement);
-      return;
-    }
-    const uint32_t mesh = std::get<MeshInstance>(s.shape).mesh;
-    const std::vector<SurfaceId>& facesOf = scene_.meshes[mesh].facesOf;
+  void addContents(const Instance& instance, const Placement& placement) {
+    const SurfaceGroup& group = scene_.groups[instance.group];
+    for (const SurfaceId i : group.surfaces) add(i, &placement);
+  }
+
+  void addContents(const MeshInstance& mesh, const Placement& placement) {
+    const std::vector<SurfaceId>& facesOf = scene_.meshes[mesh.mesh].facesOf;
     for (size_t m = 0; m < facesOf.size(); ++m)
       if (facesOf[m] != kNone)
-        addBall(facesOf[m], irregularityOf(facesOf[m]), balls_.ofFaces(mesh, m), placement);
+        addBall(facesOf[m], irregularityOf(facesOf[m]), balls_.ofFaces(mesh.mesh, m), placement);
   }
 
   // Adds an outermost instance or mesh as one object.
   void addAround(SurfaceId index) {
     const Surface& s = scene_.surfaces[index];
     const Contents contents = contentsOf(s);
-    const auto* instance = std::get_if<Instance>(&s.shape);
-    const uint32_t placement = instance ? instance->placement : std::get<MeshInstance>(s.shape).placement;
-    addBall(contents.mostIrregular, contents.irregularity, ballOf(s), scene_.placements[placement], true);
+    std::visit(Overloaded{
+                   [&](const OneOf<Instance, MeshInstance> auto& nested) {
+                     addBall(contents.mostIrregular, contents.irregularity, ballOf(nested),
+                             scene_.placements[nested.placement], true);
+                   },
+                   [](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) {},  // no contents
+               },
+               s.shape);
   }
 
   const Scene& scene_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "base/overloaded.h"
 #include "shade/scattering.h"
 
 namespace rsphere {
@@ -31,6 +32,7 @@ struct Relay {
   double offset = 0;    // normal . p for the points p of the plane
   V3d center{0, 0, 0};  // of a sphere around it
   double radius = 0;
+  std::vector<V3d> corners;  // of the polygon, or of the square around the ring
 };
 
 // The modifier of the mirror or prism that makes the surface a relay, which may be the alternative material
@@ -43,9 +45,7 @@ ModifierId relayMaterial(const Scene& scene, const Surface& surface) {
     modifier = illum->alternate.modifier;
     material = scene.materialAt(modifier);
   }
-  const bool relays =
-      material && (std::holds_alternative<Mirror>(*material) || std::holds_alternative<Prism>(*material));
-  return relays ? modifier : kNone;
+  return material && imagesMadeBy(*material) > 0 ? modifier : kNone;
 }
 
 // The largest distance of the source's points from its center, measured along a unit vector.
@@ -103,48 +103,50 @@ class Images {
     relay.surface = index;
     relay.modifier = relayMaterial(scene_, surface);
     if (relay.modifier == kNone) return;
-    if (const auto* polygon = std::get_if<Polygon>(&surface.shape)) {
-      relay.normal = polygon->normal;
-      relay.offset = polygon->offset;
-      const auto vertices = std::span(scene_.vertices).subspan(polygon->firstVertex, polygon->vertices);
-      for (const V3d& v : vertices) relay.center += v / static_cast<double>(vertices.size());
-      for (const V3d& v : vertices) relay.radius = std::max(relay.radius, (v - relay.center).length());
-    } else if (const auto* ring = std::get_if<Ring>(&surface.shape)) {
-      relay.normal = ring->normal;
-      relay.offset = ring->normal.dot(ring->center);
-      relay.center = ring->center;
-      relay.radius = ring->outer;
-    } else {
+    const V3d* normal = planeNormal(surface.shape);
+    if (!normal) {
       if (warn)
         warn(scene_.place(surface.primitive) +
              ": only plane surfaces relay light, this one makes no virtual "
              "sources");
       return;
     }
+    relay.normal = *normal;
+    relay.offset = planeOffset(surface.shape);
+    std::visit(Overloaded{
+                   [&](const Polygon& polygon) {
+                     const auto vertices =
+                         std::span(scene_.vertices).subspan(polygon.firstVertex, polygon.vertices);
+                     relay.corners.assign(vertices.begin(), vertices.end());
+                     relay.center = centerOf(polygon, scene_.vertices);
+                     for (const V3d& v : vertices)
+                       relay.radius = std::max(relay.radius, (v - relay.center).length());
+                   },
+                   [&](const Ring& ring) {
+                     relay.center = ring.center;
+                     relay.radius = ring.outer;
+                     V3d x, y;
+                     frame(relay.normal, x, y);
+                     for (const double a : {-relay.radius, relay.radius})
+                       for (const double b : {-relay.radius, relay.radius})
+                         relay.corners.push_back(relay.center + a * x + b * y);
+                   },
+                   [](const OneOf<Sphere, Cone, Distant> auto&) {},  // not plane
+                   [](const NestedShape auto&) {},
+               },
+               surface.shape);
     relays_.push_back(relay);
   }
 
-  // The maximum of value(p) over the corners of a relay. For a ring, the corners of its bounding square.
+  // The maximum of value(p) over the corners of a relay.
   template <class Value>
   double mostOver(const Relay& relay, const Value& value) const {
     double most = -kFarAway;
-    if (const auto* polygon = std::get_if<Polygon>(&scene_.surfaces[relay.surface].shape)) {
-      for (const V3d& v : std::span(scene_.vertices).subspan(polygon->firstVertex, polygon->vertices))
-        most = std::max(most, value(v));
-      return most;
-    }
-    V3d x, y;
-    frame(relay.normal, x, y);
-    for (const double a : {-relay.radius, relay.radius})
-      for (const double b : {-relay.radius, relay.radius})
-        most = std::max(most, value(relay.center + a * x + b * y));
+    for (const V3d& v : relay.corners) most = std::max(most, value(v));
     return most;
   }
 
-  int imagesBy(const Relay& relay) const {
-    const auto* prism = std::get_if<Prism>(scene_.materialAt(relay.modifier));
-    return prism ? prism->images : 1;
-  }
+  int imagesBy(const Relay& relay) const { return imagesMadeBy(*scene_.materialAt(relay.modifier)); }
 
   std::optional<Projection> project(const LightSource& source, const Relay& relay, int image) {
     if (std::holds_alternative<Prism>(*scene_.materialAt(relay.modifier)))

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "base/overloaded.h"
 #include "light/relays.h"
 #include "light/spherical_triangle.h"
 #include "shade/scattering.h"
@@ -131,13 +132,19 @@ void setShape(LightSource& source, const Distant& distant, const Scene&) {
 // Whether every ray that is aimed at a part of the shape hits it. A goal may have any shape; one that cannot
 // be aimed at is only hit by chance.
 bool canBeAimedAt(const Shape& shape, const Scene& scene) {
-  if (const auto* polygon = std::get_if<Polygon>(&shape))
-    return isConvex(std::span(scene.vertices).subspan(polygon->firstVertex, polygon->vertices),
-                    polygon->normal);
-  if (const auto* ring = std::get_if<Ring>(&shape)) return ring->inner == 0;
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) return !sphere->inward;
-  if (const auto* cone = std::get_if<Cone>(&shape)) return !cone->inward && cone->radius0 == cone->radius1;
-  return false;
+  return std::visit(Overloaded{
+                        [&](const Polygon& polygon) {
+                          return isConvex(
+                              std::span(scene.vertices).subspan(polygon.firstVertex, polygon.vertices),
+                              polygon.normal);
+                        },
+                        [](const Ring& ring) { return ring.inner == 0; },
+                        [](const Sphere& sphere) { return !sphere.inward; },
+                        [](const Cone& cone) { return !cone.inward && cone.radius0 == cone.radius1; },
+                        [](const Distant&) { return false; },
+                        [](const NestedShape auto&) { return false; },
+                    },
+                    shape);
 }
 
 // A part of the unit square on a source.
@@ -248,12 +255,12 @@ void LightSources::findSources() {
   const auto add = [&](SurfaceId surface) -> LightSource& {
     LightSource& source = sources_.emplace_back();
     source.surface = surface;
-    std::visit(
-        [&](const auto& shape) {
-          using S = std::decay_t<decltype(shape)>;
-          if constexpr (kIsPlain<S> || std::is_same_v<S, Distant>) setShape(source, shape, scene_);
-        },
-        scene_.surfaces[surface].shape);
+    std::visit(Overloaded{
+                   [&](const PlainShape auto& shape) { setShape(source, shape, scene_); },
+                   [&](const Distant& distant) { setShape(source, distant, scene_); },
+                   [](const NestedShape auto&) {},
+               },
+               scene_.surfaces[surface].shape);
     return source;
   };
   // As in rtrace, luminous surfaces in octrees and meshes are visible but are not light sources.
@@ -265,13 +272,11 @@ void LightSources::findSources() {
       continue;
     }
     const Material* material = scene_.materialOf(surface);
-    if (!material) continue;
-    const std::optional<Rgb> radiance = sourceRadiance(*material);
-    if (!radiance || maxChannel(*radiance) <= 0) continue;
-    if (const auto* glow = std::get_if<Glow>(material))
-      if (glow->reach <= 0 || std::holds_alternative<Distant>(surface.shape)) continue;
+    if (!material || !isSampled(*material)) continue;
+    const double reach = reachOf(*material);
+    if (reach != 0 && std::holds_alternative<Distant>(surface.shape)) continue;
     LightSource& source = add(i);
-    if (const auto* glow = std::get_if<Glow>(material)) source.reach = glow->reach;
+    source.reach = reach;
     if (const auto* spot = std::get_if<Spotlight>(material)) source.spot = *spot;
   }
 }

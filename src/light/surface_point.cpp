@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/overloaded.h"
 #include "shade/scattering.h"
 
 namespace rsphere {
@@ -58,12 +59,12 @@ SurfacePoint pointOn(const Ring& ring, std::span<const V3d>, Random& random) {
 }  // namespace
 
 SurfacePoint samplePoint(const Shape& shape, std::span<const V3d> vertices, Random& random) {
-  return std::visit(
-      [&](const auto& form) -> SurfacePoint {
-        if constexpr (kIsPlain<std::decay_t<decltype(form)>>) return pointOn(form, vertices, random);
-        return {};
-      },
-      shape);
+  return std::visit(Overloaded{
+                        [&](const PlainShape auto& form) { return pointOn(form, vertices, random); },
+                        [](const Distant&) { return SurfacePoint{}; },
+                        [](const NestedShape auto&) { return SurfacePoint{}; },
+                    },
+                    shape);
 }
 
 }  // namespace rsphere

@@ -13,6 +13,7 @@
 #include "rad_parser/scene_file.h"
 #include "scene/ids.h"
 #include "scene/material.h"
+#include "scene/material_questions.h"
 #include "scene/placement.h"
 #include "scene/shape.h"
 
@@ -107,13 +108,6 @@ struct Scene {
   std::string place(PrimitiveId primitive) const;
 };
 
-// Whether a ray can pass the material. Used to choose between coincident surfaces, and to decide which
-// surfaces can cast full shadows.
-bool isTransparent(const Material& material);
-// Light, illum, glow and spotlight.
-bool isLightSource(const Material& material);
-// The radiance of a source material, as its arguments give it (W/sr/m2); empty for other materials.
-std::optional<Rgb> sourceRadiance(const Material& material);
 // The emitted radiance of a surface before patterns, W/sr/m2: 1 for a goal, black if it is not a source.
 Rgb sourceRadiance(const Scene& scene, const Surface& surface);
 

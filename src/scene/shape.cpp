@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "base/constants.h"
+
 namespace rsphere {
 namespace {
 
@@ -246,31 +248,65 @@ Box3d bounds(const Ring& ring) {
 
 bool intersect(const Shape& shape, std::span<const V3d> vertices, const V3d& origin, const V3d& direction,
                double farthest, ShapeHit& hit) {
-  return std::visit(
-      [&](const auto& form) {
-        using S = std::decay_t<decltype(form)>;
-        if constexpr (std::is_same_v<S, Polygon>)
-          return intersect(form, vertices, origin, direction, farthest, hit);
-        else if constexpr (kIsPlain<S>)
-          return intersect(form, origin, direction, farthest, hit);
-        else
-          return false;
-      },
-      shape);
+  return std::visit(Overloaded{
+                        [&](const Polygon& polygon) {
+                          return intersect(polygon, vertices, origin, direction, farthest, hit);
+                        },
+                        [&](const OneOf<Sphere, Cone, Ring> auto& form) {
+                          return intersect(form, origin, direction, farthest, hit);
+                        },
+                        [](const Distant&) { return false; },
+                        [](const NestedShape auto&) { return false; },
+                    },
+                    shape);
 }
 
 Box3d bounds(const Shape& shape, std::span<const V3d> vertices) {
-  return std::visit(
-      [&](const auto& form) {
-        using S = std::decay_t<decltype(form)>;
-        if constexpr (std::is_same_v<S, Polygon>)
-          return bounds(form, vertices);
-        else if constexpr (kIsPlain<S>)
-          return bounds(form);
-        else
-          return Box3d();
-      },
-      shape);
+  return std::visit(Overloaded{
+                        [&](const Polygon& polygon) { return bounds(polygon, vertices); },
+                        [](const OneOf<Sphere, Cone, Ring> auto& form) { return bounds(form); },
+                        [](const Distant&) { return Box3d(); },
+                        [](const NestedShape auto&) { return Box3d(); },
+                    },
+                    shape);
+}
+
+double planeOffset(const Shape& shape) {
+  return std::visit(Overloaded{
+                        [](const Polygon& polygon) { return polygon.offset; },
+                        [](const Ring& ring) { return ring.normal.dot(ring.center); },
+                        [](const OneOf<Sphere, Cone, Distant> auto&) { return 0.; },
+                        [](const NestedShape auto&) { return 0.; },
+                    },
+                    shape);
+}
+
+bool isClosed(const Shape& shape) {
+  return std::visit(Overloaded{
+                        [](const Sphere&) { return true; },
+                        [](const OneOf<Polygon, Cone, Ring, Distant> auto&) { return false; },
+                        [](const NestedShape auto&) { return false; },
+                    },
+                    shape);
+}
+
+double areaOf(const Shape& shape) {
+  return std::visit(Overloaded{
+                        [](const Polygon& p) { return p.area; },
+                        [](const Sphere& s) { return 4 * kPi * s.radius * s.radius; },
+                        [](const Cone& c) { return kPi * (c.radius0 + c.radius1) * c.length; },
+                        [](const Ring& r) { return kPi * (r.outer * r.outer - r.inner * r.inner); },
+                        [](const Distant&) { return 0.; },
+                        [](const NestedShape auto&) { return 0.; },
+                    },
+                    shape);
+}
+
+V3d centerOf(const Polygon& polygon, std::span<const V3d> all) {
+  const auto vertices = all.subspan(polygon.firstVertex, polygon.vertices);
+  V3d center(0, 0, 0);
+  for (const V3d& v : vertices) center += v / static_cast<double>(vertices.size());
+  return center;
 }
 
 }  // namespace rsphere

@@ -6,8 +6,9 @@
 #include <cstdint>
 #include <numbers>
 #include <span>
-#include <type_traits>
 #include <variant>
+
+#include "base/overloaded.h"
 
 namespace rsphere {
 
@@ -106,21 +107,42 @@ struct MeshFaces {};
 
 using Shape = std::variant<Polygon, Sphere, Cone, Ring, Distant, Instance, MeshInstance, MeshFaces>;
 
-// Whether rays intersect the shape itself, by one of the functions below.
+// A shape is either Distant or one of these two. They list their types, so that a visitor that uses them does
+// not compile for a new type of shape until it is listed here or has an answer of its own.
+// Rays intersect the shape itself, by one of the functions below.
 template <class S>
-inline constexpr bool kIsPlain = std::is_same_v<S, Polygon> || std::is_same_v<S, Sphere> ||
-                                 std::is_same_v<S, Cone> || std::is_same_v<S, Ring>;
+concept PlainShape = OneOf<S, Polygon, Sphere, Cone, Ring>;
+// Rays hit the contents, or a part of them.
+template <class S>
+concept NestedShape = OneOf<S, Instance, MeshInstance, MeshFaces>;
 
 inline bool isPlain(const Shape& shape) {
-  return std::visit([](const auto& form) { return kIsPlain<std::decay_t<decltype(form)>>; }, shape);
+  return std::visit(
+      Overloaded{[](const PlainShape auto&) { return true; }, [](const Distant&) { return false; },
+                 [](const NestedShape auto&) { return false; }},
+      shape);
 }
 
 // The normal of polygons and rings; null for shapes that are not plane.
 inline const V3d* planeNormal(const Shape& shape) {
-  if (const auto* polygon = std::get_if<Polygon>(&shape)) return &polygon->normal;
-  const auto* ring = std::get_if<Ring>(&shape);
-  return ring ? &ring->normal : nullptr;
+  using Answer = const V3d*;
+  return std::visit(Overloaded{[](const OneOf<Polygon, Ring> auto& flat) -> Answer { return &flat.normal; },
+                               [](const OneOf<Sphere, Cone, Distant> auto&) -> Answer { return nullptr; },
+                               [](const NestedShape auto&) -> Answer { return nullptr; }},
+                    shape);
 }
+// normal . p for the points p of the plane. REQUIRES planeNormal(); 0 for shapes that are not plane.
+double planeOffset(const Shape& shape);
+
+// Whether the shape surrounds a volume, so that it is seen from one side only. The ends of cones are open.
+bool isClosed(const Shape& shape);
+
+// The area of one side (world units). Of a cone: as if its sides had the length of its axis. 0 for shapes that
+// are not plain.
+double areaOf(const Shape& shape);
+
+// The mean of the vertices.
+V3d centerOf(const Polygon& polygon, std::span<const V3d> vertices);
 
 // Each returns whether the ray from origin along the unit vector direction meets the shape farther than
 // kSamePlace and not beyond farthest; hit is then the first such point, and otherwise unchanged. Rounding:

@@ -9,11 +9,11 @@
 
 #include "rad_parser/file_path.h"
 #include "rad_parser/open_file.h"
+#include "scene/modifier_arguments.h"
 
 namespace rsphere {
 namespace {
 
-using rad::Primitive;
 using rad::Type;
 namespace calc = rad::calc;
 
@@ -40,13 +40,6 @@ std::optional<calc::SourceText> loadFunctionFile(std::string_view name, const ra
   return calc::SourceText{*path, std::move(*text)};
 }
 
-// Whether a word begins a transform, which follows the other string arguments.
-bool beginsTransform(std::string_view word) {
-  if (word == "-t" || word == "-s" || word == "-i") return true;
-  return word.size() == 3 && word[0] == '-' && (word[1] == 'r' || word[1] == 'm') && word[2] >= 'x' &&
-         word[2] <= 'z';
-}
-
 std::vector<std::string> linesOf(std::string_view text) {
   std::vector<std::string> lines;
   while (!text.empty()) {
@@ -66,86 +59,62 @@ class SurfaceFunctions::Maker {
       : functions_(functions),
         scene_(functions.scene_),
         index_(primitive),
-        primitive_(scene_.description.primitives[primitive]),
-        reals_(scene_.description.reals(primitive_)) {
-    for (size_t i = 0; i < primitive_.strings; ++i)
-      words_.push_back(scene_.description.string(primitive_, i));
-  }
+        arguments_(scene_.description, primitive) {}
 
   std::unique_ptr<Function> make() {
-    switch (primitive_.type) {
+    switch (arguments_.type()) {
       case Type::brightfunc:
-        return values(0, 1);
-      case Type::mixfunc:
-        return values(2, 1);
       case Type::colorfunc:
       case Type::texfunc:
-        return values(0, 3);
+      case Type::mixfunc:
+        return values(readFunction(arguments_));
       case Type::brightdata:
-        return data({1}, 2, {{0, 1}});
-      case Type::mixdata:
-        return data({3}, 4, {{2, 1}});
       case Type::colordata:
-        return data({3, 4, 5}, 6, colorCorrections());
       case Type::texdata:
-        return data({3, 4, 5}, 6, {{0, 3}, {1, 3}, {2, 3}});
+      case Type::mixdata:
+        return data(readData(arguments_));
       case Type::colorpict:
-        return image(colorCorrections());
       case Type::mixpict:
-        return image({{2, 3}});
+        return image(readPicture(arguments_));
       case Type::brighttext:
-        return text(0, 1);
       case Type::colortext:
-        return text(0, 3);
       case Type::mixtext:
-        return text(2, 0);
+        return text(readText(arguments_));
       case Type::plastic2:
       case Type::metal2:
       case Type::trans2:
+        return oriented(readAnisotropic(arguments_).orientation);
       case Type::ashik2:
-        return oriented();
+        return oriented(readAshikhmin(arguments_).orientation);
       case Type::plasfunc:
       case Type::metfunc:
       case Type::transfunc:
-        return distributed();
+        return distributed(readFunctionScatterer(arguments_));
       case Type::plasdata:
       case Type::metdata:
       case Type::transdata:
-        return tabulated();
+        return tabulated(readDataScatterer(arguments_));
       case Type::brtdfunc:
-        return brtd();
+        return brtd(readBrtd(arguments_));
       case Type::wgmdfunc:
-        return wgmd();
+        return wgmd(readWgmd(arguments_));
       case Type::bsdf:
-        return bsdf(1);
       case Type::absdf:
-        return bsdf(0);
+        return bsdf(readBsdf(arguments_));
       case Type::prism1:
-        return redirector(1);
       case Type::prism2:
-        return redirector(2);
+        return redirector(readPrism(arguments_));
       default:
         fail("this type is not supported yet");
     }
   }
 
  private:
-  // A string argument that names a function, and the number of values that are passed to it.
-  struct Named {
-    size_t word;
-    int arguments;
-  };
-
   [[noreturn]] void fail(std::string_view what, rad::Status status = rad::Status::input) const {
-    throw rad::Error(fmt::format("{}: {}", scene_.place(index_), what), status);
+    arguments_.fail(what, status);
   }
 
-  std::string_view word(size_t i) const {
-    if (i >= words_.size()) fail("too few string arguments");
-    return words_[i];
-  }
-
-  // find: the path of a file, searched for along RAYPATH. read: the text of the file at a path.
+  // find: the path of a file, searched for along RAYPATH. contentsOf: the text of the file at a path.
   std::string find(std::string_view name, std::string_view kind) const {
     const auto path = rad::findFile(name, rad::libraryPath(), {}, scene_.files);
     if (!path)
@@ -153,7 +122,7 @@ class SurfaceFunctions::Maker {
            rad::Status::system);
     return *path;
   }
-  std::string read(const std::string& path, std::string_view kind) const {
+  std::string contentsOf(const std::string& path, std::string_view kind) const {
     auto text = readFile(path);
     if (!text) fail(fmt::format("cannot open {} file \"{}\"", kind, path), rad::Status::system);
     return std::move(*text);
@@ -171,24 +140,24 @@ class SurfaceFunctions::Maker {
   std::shared_ptr<const rad::DataFile> table(std::string_view name) const {
     return shared(functions_.data_, name, [&] {
       const std::string path = find(name, "data");
-      return rad::DataFile::parse(read(path, "data"), path);
+      return rad::DataFile::parse(contentsOf(path, "data"), path);
     });
   }
 
-  calc::Request request(size_t file) const {
+  calc::Request request(std::string_view file) const {
     calc::Request r;
     r.place = scene_.place(index_);
-    r.file = word(file);
+    r.file = file;
     r.available = available_;
-    r.reals = reals_;
+    r.reals = arguments_.reals();
     return r;
   }
 
   void use(Function& f, const ProgramPointer& program) const { f.needs |= program->inputs(); }
 
-  ProgramPointer expressions(Function& f, size_t file, size_t first, size_t count) const {
-    std::vector<std::string> texts;
-    for (size_t i = 0; i < count; ++i) texts.emplace_back(word(first + i));
+  ProgramPointer compiled(Function& f, std::string_view file,
+                          std::span<const std::string_view> expressions) const {
+    const std::vector<std::string> texts(expressions.begin(), expressions.end());
     calc::Request r = request(file);
     r.expressions = texts;
     auto program = functions_.library_.compile(r);
@@ -196,11 +165,13 @@ class SurfaceFunctions::Maker {
     return program;
   }
 
-  std::vector<Correction> corrections(Function& f, size_t file, const std::vector<Named>& named) const {
+  // The functions that correct the values of data or of a picture. passed: the number of values that each is
+  // called with.
+  std::vector<Correction> corrections(Function& f, std::string_view file, const Words& names,
+                                      const std::vector<int>& passed) const {
     std::vector<Correction> all;
-    for (const Named& n : named) {
-      all.push_back(
-          {functions_.library_.compileCall(request(file), word(n.word), n.arguments), n.arguments > 1});
+    for (size_t i = 0; i < names.size(); ++i) {
+      all.push_back({functions_.library_.compileCall(request(file), names[i], passed[i]), passed[i] > 1});
       use(f, all.back().program);
     }
     return all;
@@ -208,197 +179,188 @@ class SurfaceFunctions::Maker {
 
   // The second and third function of a colour are called with the value of their own channel if they take
   // fewer than three arguments, otherwise with all three values.
-  std::vector<Named> colorCorrections() const {
-    const std::string_view file = word(primitive_.type == Type::colorpict ? 4 : 6);
-    std::vector<Named> named{{0, 3}};
-    for (size_t i = 1; i < 3; ++i)
-      named.push_back({i, functions_.library_.functionArity(file, word(i)) < 3 ? 1 : 3});
-    return named;
+  std::vector<int> colorsPassed(std::string_view file, const Words& names) const {
+    std::vector<int> passed{3};
+    for (size_t i = 1; i < names.size(); ++i)
+      passed.push_back(functions_.library_.functionArity(file, names[i]) < 3 ? 1 : 3);
+    return passed;
   }
 
-  // Reads the transform among the string arguments after the first `from`, starting at the first word that
-  // can begin one.
-  void setTransform(Function& f, size_t from) const {
-    while (from < words_.size() && !beginsTransform(words_[from])) ++from;
-    if (from >= words_.size()) return;
-    size_t used = 0;
-    const rad::Similarity world = rad::readTransform(std::span(words_).subspan(from), used);
-    if (used != words_.size() - from) fail("bad transform");
-    const rad::Similarity own = world.inverse();
+  // The words of a transform, which may be none.
+  void setTransform(Function& f, const Words& transform) const {
+    if (transform.empty()) return;
     f.moved = true;
-    f.placement = {world, own};
-    f.placement.toOuter.scale = std::abs(world.scale);
-    f.placement.toInner.scale = std::abs(own.scale);
+    f.placement = readPlacement(arguments_, transform);
   }
 
-  std::unique_ptr<Function> values(size_t first, size_t count) const {
+  std::unique_ptr<Function> values(const FunctionArguments& read) const {
     auto f = std::make_unique<Function>();
-    f->results = count;
-    const size_t file = first + count;
-    f->what = Values{expressions(*f, file, first, count)};
-    setTransform(*f, file + 1);
+    f->results = read.expressions.size();
+    f->what = Values{compiled(*f, read.file.name, read.expressions)};
+    setTransform(*f, read.file.transform);
     return f;
   }
 
-  std::unique_ptr<Function> data(const std::vector<size_t>& files, size_t file,
-                                 const std::vector<Named>& named) const {
+  std::unique_ptr<Function> data(const DataArguments& read) const {
+    const std::vector<int> passed = arguments_.type() == Type::colordata
+                                        ? colorsPassed(read.file, read.corrections)
+                                    : arguments_.type() == Type::texdata ? std::vector{3, 3, 3}
+                                                                         : std::vector{1};
     auto f = std::make_unique<Function>();
-    f->results = named.size();
+    f->results = read.corrections.size();
     Data d;
-    for (size_t i : files) d.tables.push_back(table(word(i)));
+    for (const std::string_view name : read.tables) d.tables.push_back(table(name));
     const size_t dimensions = d.tables[0]->dimensions();
     for (const auto& t : d.tables)
       if (t->dimensions() != dimensions) fail("the data files differ in their number of dimensions");
-    d.coordinates = expressions(*f, file, file + 1, dimensions);
-    d.corrections = corrections(*f, file, named);
+    if (read.rest.size() < dimensions) fail("too few string arguments");
+    const auto rest = std::span(read.rest);
+    d.coordinates = compiled(*f, read.file, rest.first(dimensions));
+    d.corrections = corrections(*f, read.file, read.corrections, passed);
     f->what = std::move(d);
-    setTransform(*f, file + 1 + dimensions);
+    setTransform(*f, transformAmong(rest.subspan(dimensions)));
     return f;
   }
 
-  std::unique_ptr<Function> image(const std::vector<Named>& named) const {
+  std::unique_ptr<Function> image(const PictureArguments& read) const {
+    const std::vector<int> passed = arguments_.type() == Type::colorpict
+                                        ? colorsPassed(read.file.name, read.corrections)
+                                        : std::vector{3};
     auto f = std::make_unique<Function>();
-    f->results = named.size();
+    f->results = read.corrections.size();
     Image i;
-    i.coordinates = expressions(*f, 4, 5, 2);
-    i.corrections = corrections(*f, 4, named);
-    i.picture =
-        shared(functions_.pictures_, word(3), [&] { return Picture::read(find(word(3), "picture")); });
+    i.coordinates = compiled(*f, read.file.name, read.coordinates);
+    i.corrections = corrections(*f, read.file.name, read.corrections, passed);
+    i.picture = shared(functions_.pictures_, read.picture,
+                       [&] { return Picture::read(find(read.picture, "picture")); });
     f->what = std::move(i);
-    setTransform(*f, 7);
+    setTransform(*f, read.file.transform);
     return f;
   }
 
-  // channels: the number of channels of the foreground and background colours; 0 for a mixture.
-  std::unique_ptr<Function> text(size_t fontWord, size_t channels) const {
+  std::unique_ptr<Function> text(const TextArguments& read) const {
     auto f = std::make_unique<Function>();
+    const size_t channels = read.foreground.size();
     f->results = std::max<size_t>(channels, 1);
-    const auto vector = [&](size_t i) { return V3d(reals_[i], reals_[i + 1], reals_[i + 2]); };
-    const V3d r = vector(3), d = vector(6), n = d.cross(r);
+    const V3d &r = read.right, &d = read.down, n = d.cross(r);
     const double n2 = n.length2();
     // The motion vectors are parallel or too short. RADIANCE's test: the length of n x d, against 1e-12.
     if (!(n2 * d.length2() > 1e-24)) fail("illegal motion vector");
 
-    const auto font = shared(functions_.fonts_, word(fontWord), [&] {
-      const std::string path = find(word(fontWord), "font");
-      return rad::FontFile::parse(read(path, "font"), path);
+    const auto font = shared(functions_.fonts_, read.font, [&] {
+      const std::string path = find(read.font, "font");
+      return rad::FontFile::parse(contentsOf(path, "font"), path);
     });
     std::vector<std::string> lines;
-    if (words_.size() > fontWord + 2) {
-      std::string line(word(fontWord + 2));
-      for (size_t i = fontWord + 3; i < words_.size(); ++i) line.append(" ").append(words_[i]);
-      lines.push_back(std::move(line));
-    } else {
-      lines = linesOf(read(find(word(fontWord + 1), "text"), "text"));
-    }
-    const size_t end = 9 + 2 * channels;
-    std::optional<double> spacing;
-    if (reals_.size() > end) spacing = reals_[end];
+    if (!read.words.empty())
+      lines.push_back(fmt::format("{}", fmt::join(read.words, " ")));
+    else
+      lines = linesOf(contentsOf(find(read.file, "text"), "text"));
     std::array<double, 3> foreground{1, 0, 0}, background{0, 0, 0};
-    for (size_t i = 0; i < channels; ++i) {
-      foreground[i] = reals_[9 + i];
-      background[i] = reals_[9 + channels + i];
-    }
-    f->what.emplace<Text>(Text{font, rad::TextLayout(*font, lines, spacing), vector(0), n.cross(d) / n2,
-                               r.cross(n) / n2, foreground, background});
+    std::copy(read.foreground.begin(), read.foreground.end(), foreground.begin());
+    std::copy(read.background.begin(), read.background.end(), background.begin());
+    f->what.emplace<Text>(Text{font, rad::TextLayout(*font, lines, read.spacing), read.anchor,
+                               n.cross(d) / n2, r.cross(n) / n2, foreground, background});
     return f;
   }
 
   // ---- materials
 
-  std::unique_ptr<Function> oriented() const {
+  std::unique_ptr<Function> oriented(const OrientationArguments& read) const {
     auto f = std::make_unique<Function>();
     Scatterer s;
-    s.orientation = expressions(*f, 3, 0, 3);
-    return finish(std::move(f), std::move(s), 4);
+    s.orientation = compiled(*f, read.file.name, read.direction);
+    return finish(std::move(f), std::move(s), read.file);
   }
 
-  // The function that a word names, called with the direction to a source and its solid angle, after `before`
+  // The function of this name, called with the direction to a source and its solid angle, after `before`
   // other arguments.
-  ProgramPointer called(Function& f, size_t file, size_t function, int before) const {
-    auto program = functions_.library_.compileCall(request(file), word(function), before + 4);
+  ProgramPointer called(Function& f, std::string_view file, std::string_view function, int before) const {
+    auto program = functions_.library_.compileCall(request(file), function, before + 4);
     use(f, program);
     return program;
   }
 
-  std::unique_ptr<Function> distributed() {
+  std::unique_ptr<Function> distributed(const FunctionScattererArguments& read) {
     available_ = calc::kMaterialInputs;
     auto f = std::make_unique<Function>();
     Scatterer s;
-    s.distribution[0] = called(*f, 1, 0, 0);
-    return finish(std::move(f), std::move(s), 2);
+    s.distribution[0] = called(*f, read.file.name, read.distribution, 0);
+    return finish(std::move(f), std::move(s), read.file);
   }
 
-  std::unique_ptr<Function> tabulated() {
+  std::unique_ptr<Function> tabulated(const DataScattererArguments& read) {
     available_ = calc::kMaterialInputs;
     auto f = std::make_unique<Function>();
     Scatterer s;
-    s.table = table(word(1));
-    for (size_t i = 0; i < s.table->dimensions(); ++i) s.coordinates.push_back(called(*f, 2, 3 + i, 0));
-    s.distribution[0] = called(*f, 2, 0, 1);
-    return finish(std::move(f), std::move(s), 3);
+    s.table = table(read.table);
+    for (size_t i = 0; i < s.table->dimensions(); ++i) {
+      if (i >= read.rest.size()) fail("too few string arguments");
+      s.coordinates.push_back(called(*f, read.file.name, read.rest[i], 0));
+    }
+    s.distribution[0] = called(*f, read.file.name, read.correction, 1);
+    return finish(std::move(f), std::move(s), read.file);
   }
 
-  std::unique_ptr<Function> brtd() {
+  std::unique_ptr<Function> brtd(const BrtdArguments& read) {
     available_ = calc::kMaterialInputs;
     auto f = std::make_unique<Function>();
     Scatterer s;
-    s.reflection = expressions(*f, 9, 0, 3);
-    s.transmission = expressions(*f, 9, 3, 3);
-    s.gray = word(6) == word(7) && word(7) == word(8);
+    s.reflection = compiled(*f, read.file.name, read.reflection);
+    s.transmission = compiled(*f, read.file.name, read.transmission);
+    const Words& names = read.distribution;
+    s.gray = names[0] == names[1] && names[1] == names[2];
     for (size_t i = 0; i < (s.gray ? 1 : 3); ++i)
-      if (word(6 + i) != "0") s.distribution[i] = called(*f, 9, 6 + i, 0);
-    return finish(std::move(f), std::move(s), 10);
+      if (names[i] != "0") s.distribution[i] = called(*f, read.file.name, names[i], 0);
+    return finish(std::move(f), std::move(s), read.file);
   }
 
-  std::unique_ptr<Function> wgmd() {
+  std::unique_ptr<Function> wgmd(const WgmdArguments& read) {
     available_ = (uint64_t{1} << calc::CrP) - 1;
     auto f = std::make_unique<Function>();
+    const FunctionFile& file = read.orientation.file;
     Scatterer s;
-    s.reflection = expressions(*f, 12, 1, 3);
-    s.transmission = expressions(*f, 12, 5, 3);
-    s.orientation = expressions(*f, 12, 9, 3);
-    return finish(std::move(f), std::move(s), 13);
+    s.reflection = compiled(*f, file.name, read.reflected.shape);
+    s.transmission = compiled(*f, file.name, read.transmitted.shape);
+    s.orientation = compiled(*f, file.name, read.orientation.direction);
+    return finish(std::move(f), std::move(s), file);
   }
 
-  // file: the index of the string argument that names the XML file. A thickness may precede it.
-  std::unique_ptr<Function> bsdf(size_t file) const {
+  std::unique_ptr<Function> bsdf(const BsdfArguments& read) const {
     auto f = std::make_unique<Function>();
     Scatterer s;
-    s.bsdf = shared(functions_.bsdfs_, word(file), [&] {
-      const std::string path = find(word(file), "BSDF");
-      return BsdfData(rad::BsdfFile::parse(read(path, "BSDF"), path, functions_.warn_), path,
+    s.bsdf = shared(functions_.bsdfs_, read.data, [&] {
+      const std::string path = find(read.data, "BSDF");
+      return BsdfData(rad::BsdfFile::parse(contentsOf(path, "BSDF"), path, functions_.warn_), path,
                       functions_.warn_);
     });
-    s.orientation = expressions(*f, file + 4, file + 1, 3);
-    if (file > 0) s.thickness = expressions(*f, file + 4, 0, 1);
-    return finish(std::move(f), std::move(s), file + 5);
+    s.orientation = compiled(*f, read.up.file.name, read.up.direction);
+    if (read.thickness) s.thickness = compiled(*f, read.up.file.name, std::span(&*read.thickness, 1));
+    return finish(std::move(f), std::move(s), read.up.file);
   }
 
-  std::unique_ptr<Function> redirector(size_t images) {
+  std::unique_ptr<Function> redirector(const PrismArguments& read) {
     available_ = calc::kPrismInputs;
     auto f = std::make_unique<Function>();
-    const size_t file = 4 * images;
     Redirector r;
-    for (size_t i = 0; i < images; ++i) r.programs[i] = expressions(*f, file, 4 * i, 4);
+    for (size_t i = 0; i < read.images.size(); ++i)
+      r.programs[i] = compiled(*f, read.file.name, read.images[i]);
     f->what = std::move(r);
-    setTransform(*f, file + 1);
+    setTransform(*f, read.file.transform);
     return f;
   }
 
-  std::unique_ptr<Function> finish(std::unique_ptr<Function> f, Scatterer s, size_t transform) const {
+  std::unique_ptr<Function> finish(std::unique_ptr<Function> f, Scatterer s, const FunctionFile& file) const {
     f->results = 3;
     f->what = std::move(s);
-    setTransform(*f, transform);
+    setTransform(*f, file.transform);
     return f;
   }
 
   const SurfaceFunctions& functions_;
   const Scene& scene_;
   PrimitiveId index_;
-  const Primitive& primitive_;
-  std::span<const double> reals_;
-  std::vector<std::string_view> words_;
+  PrimitiveArguments arguments_;
   uint64_t available_ = calc::kPointInputs;
 };
 

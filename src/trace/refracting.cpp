@@ -2,6 +2,8 @@
 
 #include <optional>
 
+#include "base/overloaded.h"
+
 namespace rsphere {
 namespace {
 
@@ -11,15 +13,19 @@ class Refracting {
       : scene_(scene), modifiers_(scene.modifiers.size()), groups_(scene.groups.size()) {}
 
   bool surface(const Surface& s) {
-    const bool isOne = scene_.hasOwnModifier(s);
-    if (const auto* instance = std::get_if<Instance>(&s.shape); instance && !isOne)
-      return group(instance->group);
-    if (const auto* mesh = std::get_if<MeshInstance>(&s.shape); mesh && !isOne) {
-      for (const SurfaceId faces : scene_.meshes[mesh->mesh].facesOf)
-        if (faces != kNone && modifier(scene_.surfaces[faces].modifier)) return true;
-      return false;
-    }
-    return modifier(s.modifier);
+    if (scene_.hasOwnModifier(s)) return modifier(s.modifier);
+    return std::visit(Overloaded{
+                          [&](const Instance& instance) { return group(instance.group); },
+                          [&](const MeshInstance& mesh) {
+                            for (const SurfaceId faces : scene_.meshes[mesh.mesh].facesOf)
+                              if (faces != kNone && modifier(scene_.surfaces[faces].modifier)) return true;
+                            return false;
+                          },
+                          [&](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) {
+                            return modifier(s.modifier);
+                          },
+                      },
+                      s.shape);
   }
 
  private:
@@ -28,28 +34,23 @@ class Refracting {
     for (ModifierId m = first; m != kNone; m = scene_.modifiers[m].next) {
       std::optional<bool>& known = modifiers_[m];
       if (!known) {
-        const Content& content = scene_.modifiers[m].content;
-        bool refracts = false;
-        if (const auto* mixture = std::get_if<Mixture>(&content))
-          refracts = modifier(mixture->foreground) || modifier(mixture->background);
-        else if (const auto* material = std::get_if<Material>(&content))
-          refracts = std::visit([this](const auto& kind) { return refractsAs(kind); }, *material);
-        known = refracts;
+        known = std::visit(Overloaded{
+                               [&](const Mixture& mixture) {
+                                 return modifier(mixture.foreground) || modifier(mixture.background);
+                               },
+                               [&](const Material& material) {
+                                 return isBoundary(material) ||
+                                        alternate(alternateOf(material).value_or(Alternate{}));
+                               },
+                               [](const OneOf<Pattern, Texture> auto&) { return false; },
+                           },
+                           scene_.modifiers[m].content);
       }
       if (*known) return true;
     }
     return false;
   }
 
-  bool refractsAs(const Dielectric&) { return true; }
-  bool refractsAs(const Interface&) { return true; }
-  bool refractsAs(const Mirror& mirror) { return alternate(mirror.alternate); }
-  bool refractsAs(const Illum& illum) { return alternate(illum.alternate); }
-  bool refractsAs(const Antimatter& antimatter) { return alternate(antimatter.cut); }
-  template <class Other>
-  bool refractsAs(const Other&) {
-    return false;
-  }
   bool alternate(const Alternate& a) { return a.kind == Alternate::Kind::modifier && modifier(a.modifier); }
 
   bool group(uint32_t g) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <span>
 
+#include "base/overloaded.h"
 #include "trace/embree.h"
 #include "trace/refracting.h"
 #include "trace/triangle.h"
@@ -23,23 +24,6 @@ struct Occluder {
 
   bool stops(double cosine) const { return cosine > 0 ? opaqueFront : opaqueBack; }
 };
-
-bool stopsFromBehind(const Material& material) {
-  // A light source stops rays to other sources from both sides, regardless of -bv. So do prisms and
-  // materials with functions.
-  if (const auto* brtd = std::get_if<BrtdFunction>(&material)) return !brtd->transmits;
-  if (const auto* wgmd = std::get_if<WgmdFunction>(&material)) return !wgmd->transmits;
-  return std::holds_alternative<Anisotropic>(material) || std::holds_alternative<Ashikhmin>(material) ||
-         std::holds_alternative<FunctionScatterer>(material) || std::holds_alternative<Light>(material) ||
-         std::holds_alternative<Glow>(material) || std::holds_alternative<Spotlight>(material) ||
-         std::holds_alternative<Prism>(material);
-}
-
-bool stopsFromFront(const Material& material) {
-  if (const auto* mirror = std::get_if<Mirror>(&material))
-    return mirror->alternate.kind == Alternate::Kind::none;
-  return std::holds_alternative<Opaque>(material) || stopsFromBehind(material);
-}
 
 // Whether a mixture precedes the surface's material in the chain.
 bool meetsMixture(const Scene& scene, const Surface& surface) {
@@ -60,8 +44,9 @@ Occluder makeOccluder(const Scene& scene, SurfaceId i, bool backFacesVisible) {
   o.transparent = material && isTransparent(*material);
   // Whether an alternate, antimatter or a mixture stops a ray is only known at the hit.
   if (material && surface.clip == 0 && !meetsMixture(scene, surface)) {
-    o.opaqueFront = stopsFromFront(*material);
-    o.opaqueBack = stopsFromBehind(*material) || (o.opaqueFront && backFacesVisible);
+    const Sides stops = stopsShadows(*material);
+    o.opaqueFront = stops.front;
+    o.opaqueBack = stops.back || (stops.front && backFacesVisible);
   }
   return o;
 }
@@ -137,9 +122,7 @@ bool liesInPlane(const Shape& shape, const Tracer::Neighborhood& around) {
   constexpr double kParallel = 1e-9;  // planes are parallel if |cosine| of their normals is within this of 1
   const V3d* const normal = planeNormal(shape);
   if (!normal || std::abs(normal->dot(around.normal)) < 1 - kParallel) return false;
-  const auto* polygon = std::get_if<Polygon>(&shape);
-  const double offset = polygon ? polygon->offset : normal->dot(std::get<Ring>(shape).center);
-  return std::abs(offset - normal->dot(around.point)) <= around.thickness;
+  return std::abs(planeOffset(shape) - normal->dot(around.point)) <= around.thickness;
 }
 
 float roundDown(double x) {
@@ -249,13 +232,19 @@ class Tracer::Tree {
     uint32_t placement = 0;
   };
   Contents contentsOf(const Surface& surface) const {
-    if (const auto* instance = std::get_if<Instance>(&surface.shape)) {
-      const bool all = isWhole_ || scene_.hasOwnModifier(surface);
-      return {(all ? others_.groups : others_.refracting)[instance->group].get(), instance->placement};
-    }
-    if (const auto* mesh = std::get_if<MeshInstance>(&surface.shape))
-      return {others_.meshes[mesh->mesh].get(), mesh->placement};
-    return {};
+    return std::visit(
+        Overloaded{
+            [&](const Instance& instance) {
+              const bool all = isWhole_ || scene_.hasOwnModifier(surface);
+              return Contents{(all ? others_.groups : others_.refracting)[instance.group].get(),
+                              instance.placement};
+            },
+            [&](const MeshInstance& mesh) {
+              return Contents{others_.meshes[mesh.mesh].get(), mesh.placement};
+            },
+            [](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) { return Contents{}; },
+        },
+        surface.shape);
   }
 
   Box3d boundsOf(uint32_t primitive) const {

@@ -46,14 +46,6 @@ constexpr float kNearest = 1e-12f;
 // The share of a spot that is visible edge-on. It is not 0 because the normal of a spot is a mean.
 constexpr double kEdgeOn = .05;
 
-double areaOf(const Shape& shape) {
-  if (const auto* p = std::get_if<Polygon>(&shape)) return p->area;
-  if (const auto* s = std::get_if<Sphere>(&shape)) return 4 * kPi * s->radius * s->radius;
-  if (const auto* c = std::get_if<Cone>(&shape)) return kPi * (c->radius0 + c->radius1) * c->length;
-  if (const auto* r = std::get_if<Ring>(&shape)) return kPi * (r->outer * r->outer - r->inner * r->inner);
-  return 0;
-}
-
 // The surface area of a room, divided by the square of the mean distance across it. The mean chord of a
 // convex body is 4 V/S. In a room of 10 x 7 x 3 m this is 3.5 m, and the surface area is 20 times its square.
 constexpr double kRoomSurface = 20;
@@ -128,8 +120,8 @@ std::optional<BrightSpots::Particle> BrightSpots::arrived(const Scene& scene, co
     origin += hit.distance * direction;
     const Material* material = scene.materialOf(scene.surfaces[hit.surface]);
     if (!material) continue;
-    if (const auto* opaque = std::get_if<Opaque>(material)) {
-      power *= brightness(opaque->color) * (1 - opaque->specularity);
+    if (const auto diffuse = diffuseReflection(*material)) {
+      power *= brightness(diffuse->color) * diffuse->share;
       const V3d front = hit.cosine < 0 ? -hit.normal : hit.normal;
       const V3d back = sentFrom(front, random);
       return Particle{origin, front, power, tracer.nearest(origin, back, kFarAway, from).distance};

@@ -24,8 +24,7 @@ constexpr double kBrighter = 3;
 constexpr double kFilled = .7;
 
 bool lightPasses(const Material& material) {
-  return isTransparent(material) && !std::holds_alternative<Antimatter>(material) &&
-         !std::holds_alternative<Mist>(material) && !isLightSource(material);
+  return isTransparent(material) && !enclosesVolume(material) && !isLightSource(material);
 }
 
 }  // namespace

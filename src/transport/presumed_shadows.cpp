@@ -39,9 +39,9 @@ bool PresumedShadows::isOpaque(const Hit& hit) const {
   if (hit.path.count > 0 || hit.surface.index() >= scene_.outermost().size()) return false;
   const Surface& surface = scene_.surfaces[hit.surface];
   const Material* material = scene_.materialOf(surface);
-  // Mirrors block shadow rays, but rtrace does not assume so here.
-  return isPlain(surface.shape) && material && !std::holds_alternative<Mirror>(*material) &&
-         !std::holds_alternative<Prism>(*material) && tracer_.stopsShadows(hit.surface, hit.cosine > 0);
+  // Mirrors and prisms block shadow rays, but rtrace does not assume so here.
+  return isPlain(surface.shape) && material && imagesMadeBy(*material) == 0 &&
+         tracer_.stopsShadows(hit.surface, hit.cosine > 0);
 }
 
 // Sets the line from a source through the middle of a shadow ray's cell; false if the ray has no cell.

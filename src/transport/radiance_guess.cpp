@@ -67,7 +67,7 @@ RadianceGuess::RadianceGuess(const Transport& transport, const ById<SurfaceId, b
   for (const SurfaceId i : scene.surfaces.ids()) {
     const Material* material = scene.materialOf(scene.surfaces[i]);
     if (!material || unguessed[i]) continue;
-    if (const auto* m = std::get_if<Opaque>(material)) reflectance_[i] = m->color * (1 - m->specularity);
+    if (const auto diffuse = diffuseReflection(*material)) reflectance_[i] = diffuse->color * diffuse->share;
   }
   const auto& lights = transport.lights().all();
   for (const LightId i : lights.ids()) {

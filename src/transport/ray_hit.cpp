@@ -30,15 +30,16 @@ void findDistant(const Transport& transport, Ray& ray) {
   bool passedIllum = false;
   for (const SurfaceId s : transport.distant()) {
     if (!sees(s)) continue;
-    const Material& material = *scene.materialOf(scene.surfaces[s]);
-    if (std::holds_alternative<Glow>(material)) {
-      if (glow == kNone) glow = s;
-    } else if (const auto* illum = std::get_if<Illum>(&material);
-               illum && illum->alternate.kind != Alternate::Kind::modifier) {
-      passedIllum = true;
-    } else {
-      ray.surface = s;
-      return;
+    switch (coverOf(*scene.materialOf(scene.surfaces[s]))) {
+      case Cover::yields:
+        if (glow == kNone) glow = s;
+        break;
+      case Cover::passes:
+        passedIllum = true;
+        break;
+      case Cover::hides:
+        ray.surface = s;
+        return;
     }
   }
   // The illum already includes the light behind it. An indirect ray through it would add that light twice.

@@ -1,0 +1,66 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/rgb.h"
+#include "rad_parser/description.h"
+#include "rad_parser/error.h"
+#include "scene/placement.h"
+
+namespace rsphere {
+
+using Words = std::vector<std::string_view>;
+
+// The arguments of one primitive as its file gives them, and errors that name its place. Which argument means
+// what is in modifier_arguments.h and shape_arguments.h alone. Words refer to the description, which must
+// outlive them.
+class PrimitiveArguments {
+ public:
+  PrimitiveArguments(const rad::Description& description, rad::PrimitiveId primitive)
+      : description_(description), primitive_(primitive) {}
+
+  rad::Type type() const { return primitive().type; }
+  size_t strings() const { return primitive().strings; }
+  std::span<const double> reals() const { return description_.reals(primitive()); }
+
+  // The string argument at an index. Throws rad::Error if there is none.
+  std::string_view string(size_t i) const;
+  // `count` string arguments from the index `first` on. Throws rad::Error if there are fewer.
+  Words strings(size_t first, size_t count) const;
+  // The string arguments from the index `first` on, which may be none.
+  Words stringsFrom(size_t first) const;
+
+  // Real arguments from an index on. REQUIRES that they exist: one of the checks below has passed.
+  V3d vector(size_t at) const;
+  Rgb color(size_t at) const;
+
+  // Each throws rad::Error if the number of arguments differs.
+  void needReals(size_t count) const;
+  void needAtLeast(size_t strings, size_t reals = 0) const;
+  void needAtMostStrings(size_t most) const;
+
+  // Throws rad::Error with the primitive's place.
+  [[noreturn]] void fail(std::string_view what, rad::Status status = rad::Status::input) const;
+  // Calls a receiver of warnings, if there is one, with the primitive's place.
+  void warn(const rad::Warn& receiver, std::string_view what) const;
+
+ private:
+  const rad::Primitive& primitive() const { return description_.primitives[primitive_]; }
+
+  const rad::Description& description_;
+  rad::PrimitiveId primitive_;
+};
+
+// 'room.rad:12: plastic "wall"', for messages.
+std::string placeOf(const rad::Description& description, rad::PrimitiveId primitive);
+
+// The transform among words, from the first word on that can begin one; empty if there is none.
+Words transformAmong(std::span<const std::string_view> words);
+
+// The placement by a transform; the identity if it is empty. Throws rad::Error if it is not a transform.
+Placement readPlacement(const PrimitiveArguments& arguments, std::span<const std::string_view> transform);
+
+}  // namespace rsphere

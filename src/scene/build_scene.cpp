@@ -1,0 +1,281 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <type_traits>
+#include <unordered_map>
+
+#include "base/overloaded.h"
+#include "scene/modifier_builder.h"
+#include "scene/nesting.h"
+#include "scene/scene.h"
+#include "scene/shape_arguments.h"
+
+namespace rsphere {
+namespace {
+
+using rad::Place;
+using rad::Primitive;
+using rad::Type;
+
+// Reads the files that a scene names, and converts the surfaces of them all.
+class Builder {
+ public:
+  Builder(rad::Description description, const rad::ReadOptions& options)
+      : options_(options), warn_(options.warn), modifiers_(scene_, warn_) {
+    scene_.description = std::move(description);
+    scene_.files = options.files;
+  }
+
+  Scene build() {
+    addGroup(0);
+    // Octrees that instances name, including those named by other octrees; then the meshes of them all.
+    for (size_t i = 0; i < octrees_.size(); ++i) {
+      const Place from = primitive(octrees_[i].namedBy).place;
+      addGroup(adopt(read(octrees_[i].namedBy, [&] { return rad::readOctree(octrees_[i].file, options_); }),
+                     from));
+    }
+    checkNesting(scene_);
+    for (size_t i = 0; i < meshes_.size(); ++i) addMesh(meshes_[i]);
+    for (Surface& surface : scene_.surfaces)
+      surface.clip = modifiers_.clipOf(primitive(surface.primitive).modifier);
+    dropSurfaceNumbers();
+    return std::move(scene_);
+  }
+
+ private:
+  // A file that primitives name, and the first primitive that names it.
+  struct NamedFile {
+    std::string file;
+    PrimitiveId namedBy;
+  };
+
+  const Primitive& primitive(PrimitiveId i) const { return scene_.description.primitives[i]; }
+  PrimitiveArguments arguments(PrimitiveId i) const { return {scene_.description, i}; }
+
+  // ---- octrees and meshes
+
+  // Calls a reader of primitive i's file. Its errors get the primitive that named the file appended.
+  template <class Read>
+  std::invoke_result_t<Read> read(PrimitiveId i, const Read& reader) const {
+    try {
+      return reader();
+    } catch (const rad::Error& error) {
+      throw rad::Error(fmt::format("{} (from {})", error.what(), placeOf(scene_.description, i)),
+                       error.status());
+    }
+  }
+
+  void beginFile(uint32_t firstPrimitive) {
+    firstPrimitive_ = firstPrimitive;
+    modifiers_.beginFile(firstPrimitive);
+  }
+
+  // Appends another file's description and begins with it; returns the index of its first primitive.
+  uint32_t adopt(rad::Description&& description, Place from) {
+    const auto first = static_cast<uint32_t>(scene_.description.primitives.size());
+    rad::append(scene_.description, std::move(description), from);
+    beginFile(first);
+    return first;
+  }
+
+  // Reserves memory for all surfaces from this primitive on. Growing the lists by doubling would touch
+  // twice the memory.
+  void reserve(uint32_t firstPrimitive) {
+    size_t surfaces = 0, coordinates = 0;
+    for (const Primitive& p : std::span(scene_.description.primitives).subspan(firstPrimitive)) {
+      surfaces += rad::isSurface(p.type);
+      if (p.type == Type::polygon) coordinates += p.reals;
+    }
+    const auto makeRoom = [](auto& list, size_t more) {
+      if (list.size() + more > list.capacity())
+        list.reserve(std::max(list.size() + more, 2 * list.capacity()));
+    };
+    makeRoom(scene_.surfaces, surfaces);
+    makeRoom(scene_.vertices, coordinates / 3);
+  }
+
+  // Removes the numeric arguments of surfaces, which take a fifth of a large scene. Shapes have been made
+  // from them, and only those of modifiers are needed again.
+  void dropSurfaceNumbers() {
+    rad::Description& d = scene_.description;
+    std::vector<double> kept;
+    for (Primitive& p : d.primitives) {
+      if (rad::isSurface(p.type)) p.reals = 0;
+      const auto reals = d.reals(p);
+      p.firstReal = kept.size();
+      kept.insert(kept.end(), reals.begin(), reals.end());
+    }
+    d.realArgs = std::move(kept);
+  }
+
+  // Adds a group: the surfaces among the primitives from this one on.
+  void addGroup(uint32_t firstPrimitive) {
+    const auto& primitives = scene_.description.primitives;
+    const size_t firstSurface = scene_.surfaces.size();
+    reserve(firstPrimitive);
+    for (const PrimitiveId i : IdRange<PrimitiveId>(firstPrimitive, primitives.size() - firstPrimitive))
+      if (rad::isSurface(primitives[i].type)) addSurface(i);
+    scene_.groups.push_back({{firstSurface, scene_.surfaces.size() - firstSurface}});
+  }
+
+  // The index of a file among those of its kind, in the order in which they are first named.
+  static uint32_t numberOf(const std::string& file, PrimitiveId i, std::vector<NamedFile>& files,
+                           std::unordered_map<std::string, uint32_t>& numbers) {
+    const auto [at, isNew] = numbers.try_emplace(file, static_cast<uint32_t>(files.size()));
+    if (isNew) files.push_back({file, i});
+    return at->second;
+  }
+
+  uint32_t addPlacement(const Placement& placement) {
+    scene_.placements.push_back(placement);
+    return static_cast<uint32_t>(scene_.placements.size()) - 1;
+  }
+
+  Instance makeInstance(PrimitiveId i) {
+    const PlacedFile placed = readPlacedFile(arguments(i));
+    return {addPlacement(placed.placement), 1 + numberOf(placed.file, i, octrees_, octreeNumbers_)};
+  }
+
+  MeshInstance makeMeshInstance(PrimitiveId i) {
+    const PlacedFile placed = readPlacedFile(arguments(i));
+    return {addPlacement(placed.placement), numberOf(placed.file, i, meshes_, meshNumbers_)};
+  }
+
+  // Reads a mesh. Each material that it uses becomes the modifier of a MeshFaces surface.
+  void addMesh(const NamedFile& named) {
+    rad::Mesh data = read(named.namedBy, [&] { return rad::readMesh(named.file, warn_, options_.files); });
+    std::vector<bool> used(data.materials.primitives.size());
+    for (const rad::Mesh::Triangle& t : data.triangles)
+      if (t.material != rad::Mesh::kNoMaterial) used[static_cast<size_t>(t.material)] = true;
+    const std::optional<rad::Cube> cube = data.materials.cube;
+    const uint32_t first = adopt(std::move(data.materials), primitive(named.namedBy).place);
+    data.materials.cube = cube;
+    std::vector<SurfaceId> facesOf(used.size());
+    for (size_t m = 0; m < used.size(); ++m)
+      if (used[m]) facesOf[m] = addFaces(PrimitiveId(first + m));
+    scene_.meshes.push_back({std::move(data), std::move(facesOf)});
+  }
+
+  SurfaceId addFaces(PrimitiveId described) {
+    rad::Description& d = scene_.description;
+    if (facesName_ == kNoWord) {
+      facesName_ = static_cast<uint32_t>(d.words.size());
+      d.words.emplace_back("M-Tri");  // their name in the output of rtrace -os
+    }
+    rad::Primitive p;
+    p.type = Type::mesh;
+    p.modifier = described;
+    p.place = primitive(described).place;
+    p.name = facesName_;
+    d.primitives.push_back(p);
+    addSurface(d.primitives.last(), MeshFaces{});
+    return scene_.surfaces.last();
+  }
+
+  // ---- surfaces
+
+  void addSurface(PrimitiveId i) {
+    // An octree cannot contain distant light sources.
+    if (inOctree() && primitive(i).type == Type::source) return;
+    std::optional<Shape> shape = makeShape(i);
+    if (shape) addSurface(i, std::move(*shape));
+  }
+
+  void addSurface(PrimitiveId i, Shape shape) {
+    Surface surface{std::move(shape), i, modifiers_.modifier(primitive(i).modifier), kNone};
+    surface.material = scene_.firstMaterial(surface.modifier);
+    surface.smoothed = scene_.modifierName(surface) == "Phong";
+    // Light sources in octrees are visible, but are not sampled as light sources.
+    if (!inOctree()) checkLight(i, surface);
+    scene_.surfaces.push_back(std::move(surface));
+  }
+
+  // Rejects shapes that cannot be sampled as light sources, because rays cannot be aimed at their centre.
+  void checkLight(PrimitiveId i, const Surface& surface) const {
+    const Material* material = scene_.materialOf(surface);
+    if (!material || !isSampled(*material)) return;
+    const PrimitiveArguments own = arguments(i);
+    std::visit(Overloaded{
+                   [&](const Polygon& polygon) {
+                     if (polygon.area == 0) own.fail("zero source area");
+                     if (!inside(polygon, scene_.vertices, centerOf(polygon, scene_.vertices)))
+                       own.fail("cannot hit source center");
+                   },
+                   [&](const Ring& ring) {
+                     if (ring.inner > 0) own.fail("cannot hit source center");
+                   },
+                   [&](const Sphere& sphere) {
+                     if (sphere.inward) own.fail("a bubble cannot be a light source");
+                   },
+                   [&](const Cone& cone) {
+                     if (cone.inward || cone.radius0 != cone.radius1)
+                       own.fail("only a cylinder of this kind can be a light source");
+                     if (cone.radius0 > .2 * cone.length) own.warn(warn_, "source aspect too small");
+                   },
+                   [](const Distant&) {},
+                   [&](const NestedShape auto&) {
+                     own.fail("a light source's material on a surface that cannot be one");
+                   },
+               },
+               surface.shape);
+  }
+
+  std::optional<Shape> makeShape(PrimitiveId i) {
+    const PrimitiveArguments a = arguments(i);
+    switch (a.type()) {
+      case Type::polygon:
+        return readPolygon(a, warn_, scene_.vertices);
+      case Type::sphere:
+      case Type::bubble:
+        return readSphere(a, warn_);
+      case Type::cone:
+      case Type::cup:
+        return readCone(a, warn_);
+      case Type::cylinder:
+      case Type::tube:
+        return readCylinder(a, warn_);
+      case Type::ring:
+        return readRing(a, warn_);
+      case Type::source:
+        return readSource(a);
+      case Type::instance:
+        return makeInstance(i);
+      case Type::mesh:
+        return makeMeshInstance(i);
+      default:
+        a.fail("this type is not supported yet");
+    }
+  }
+
+  bool inOctree() const { return firstPrimitive_ > 0; }
+
+  static constexpr uint32_t kNoWord = std::numeric_limits<uint32_t>::max();
+
+  const rad::ReadOptions& options_;
+  const rad::Warn& warn_;
+  Scene scene_;
+  ModifierBuilder modifiers_;
+  uint32_t firstPrimitive_ = 0;  // of the file that is being converted
+  std::vector<NamedFile> octrees_, meshes_;
+  std::unordered_map<std::string, uint32_t> octreeNumbers_, meshNumbers_;
+  uint32_t facesName_ = kNoWord;
+};
+
+}  // namespace
+
+Scene buildScene(rad::Description description, const rad::ReadOptions& options,
+                 std::span<const std::string> goals) {
+  Scene scene = Builder(std::move(description), options).build();
+  for (const std::string& goal : goals) {
+    bool found = false;
+    for (Surface& surface : scene.surfaces)
+      if (scene.modifierName(surface) == goal && !std::holds_alternative<Distant>(surface.shape))
+        found = surface.goal = true;
+    if (!found) throw rad::Error(fmt::format("no surface has the goal's modifier \"{}\"", goal));
+  }
+  scene.importance = !goals.empty();
+  return scene;
+}
+
+}  // namespace rsphere

@@ -1,0 +1,194 @@
+#include "scene/material_questions.h"
+
+#include "base/overloaded.h"
+
+namespace rsphere {
+
+bool isTransparent(const Material& material) {
+  return std::visit(
+      Overloaded{
+          [](const OneOf<Trans, Dielectric, Interface, Glass, Mist> auto&) { return true; },
+          [](const Anisotropic& m) { return m.trans; },
+          [](const OneOf<BrtdFunction, WgmdFunction> auto& m) { return m.transmits; },
+          [](const BsdfMaterial& m) { return m.aperture || m.proxy; },
+          [](const OneOf<Opaque, Ashikhmin, FunctionScatterer, Mirror, Prism, Antimatter> auto&) {
+            return false;
+          },
+          [](const OneOf<Light, Illum, Glow, Spotlight> auto&) { return false; },
+      },
+      material);
+}
+
+Sides stopsShadows(const Material& material) {
+  return std::visit(
+      Overloaded{
+          [](const Opaque&) {
+            return Sides{true, false};
+          },
+          [](const Mirror& m) {
+            return Sides{m.alternate.kind == Alternate::Kind::none, false};
+          },
+          [](const OneOf<BrtdFunction, WgmdFunction> auto& m) {
+            return Sides{!m.transmits, !m.transmits};
+          },
+          [](const OneOf<Anisotropic, Ashikhmin, FunctionScatterer, Prism, Light, Glow, Spotlight> auto&) {
+            return Sides{true, true};
+          },
+          [](const OneOf<Trans, Dielectric, Interface, Glass, BsdfMaterial, Antimatter, Mist, Illum> auto&) {
+            return Sides{};
+          },
+      },
+      material);
+}
+
+bool isBoundary(const Material& material) {
+  return std::visit(
+      Overloaded{
+          [](const OneOf<Dielectric, Interface> auto&) { return true; },
+          [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
+                         BsdfMaterial, Glass, Mirror, Prism, Antimatter, Mist> auto&) { return false; },
+          [](const OneOf<Light, Illum, Glow, Spotlight> auto&) { return false; },
+      },
+      material);
+}
+
+bool enclosesVolume(const Material& material) {
+  return std::visit(
+      Overloaded{
+          [](const OneOf<Antimatter, Mist> auto&) { return true; },
+          [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
+                         BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism> auto&) { return false; },
+          [](const OneOf<Light, Illum, Glow, Spotlight> auto&) { return false; },
+      },
+      material);
+}
+
+std::optional<Alternate> alternateOf(const Material& material) {
+  using Answer = std::optional<Alternate>;
+  return std::visit(
+      Overloaded{
+          [](const OneOf<Mirror, Illum> auto& m) -> Answer { return m.alternate; },
+          [](const Antimatter& m) -> Answer { return m.cut; },
+          [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
+                         BsdfMaterial, Dielectric, Interface, Glass, Prism, Mist> auto&) -> Answer {
+            return {};
+          },
+          [](const OneOf<Light, Glow, Spotlight> auto&) -> Answer { return {}; },
+      },
+      material);
+}
+
+std::optional<Rgb> sourceRadiance(const Material& material) {
+  using Answer = std::optional<Rgb>;
+  return std::visit(
+      Overloaded{
+          [](const OneOf<Light, Illum, Glow, Spotlight> auto& m) -> Answer { return m.radiance; },
+          [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
+                         BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist> auto&)
+              -> Answer { return {}; },
+      },
+      material);
+}
+
+bool isLightSource(const Material& material) { return sourceRadiance(material).has_value(); }
+
+bool isSampled(const Material& material) {
+  const auto emits = [](const auto& source) { return !(maxChannel(source.radiance) <= 0); };
+  return std::visit(
+      Overloaded{
+          [&](const OneOf<Light, Illum, Spotlight> auto& m) { return emits(m); },
+          [&](const Glow& m) { return emits(m) && !(m.reach <= 0); },
+          [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
+                         BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist> auto&) {
+            return false;
+          },
+      },
+      material);
+}
+
+double reachOf(const Material& material) {
+  return std::visit(
+      Overloaded{
+          [](const Glow& m) { return m.reach; },
+          [](const OneOf<Light, Illum, Spotlight> auto&) { return 0.; },
+          [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
+                         BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist> auto&) {
+            return 0.;
+          },
+      },
+      material);
+}
+
+Cover coverOf(const Material& material) {
+  return std::visit(
+      Overloaded{
+          [](const Glow&) { return Cover::yields; },
+          [](const Illum& m) {
+            return m.alternate.kind == Alternate::Kind::modifier ? Cover::hides : Cover::passes;
+          },
+          [](const OneOf<Light, Spotlight> auto&) { return Cover::hides; },
+          [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
+                         BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist> auto&) {
+            return Cover::hides;
+          },
+      },
+      material);
+}
+
+int imagesMadeBy(const Material& material) {
+  return std::visit(
+      Overloaded{
+          [](const Mirror&) { return 1; },
+          [](const Prism& m) { return m.images; },
+          [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
+                         BsdfMaterial, Dielectric, Interface, Glass, Antimatter, Mist> auto&) { return 0; },
+          [](const OneOf<Light, Illum, Glow, Spotlight> auto&) { return 0; },
+      },
+      material);
+}
+
+std::optional<MirrorReflection> mirrorReflection(const Material& material) {
+  using Answer = std::optional<MirrorReflection>;
+  return std::visit(
+      Overloaded{
+          [](const Opaque& m) -> Answer {
+            return MirrorReflection{.share = m.specularity,
+                                    .brightness = m.specularity * (m.metal ? brightness(m.color) : 1),
+                                    .roughness = m.roughness};
+          },
+          [](const Trans& m) -> Answer {
+            return MirrorReflection{
+                .share = m.specularity, .brightness = m.specularity, .roughness = m.roughness};
+          },
+          [](const Mirror& m) -> Answer {
+            return MirrorReflection{.share = maxChannel(m.reflectance),
+                                    .brightness = brightness(m.reflectance),
+                                    .frontOnly = true};
+          },
+          [](const Glass&) -> Answer { return MirrorReflection{.boundaries = 2}; },
+          [](const OneOf<Dielectric, Interface> auto&) -> Answer {
+            return MirrorReflection{.boundaries = 1};
+          },
+          [](const OneOf<Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction, BsdfMaterial,
+                         Prism, Antimatter, Mist> auto&) -> Answer { return {}; },
+          [](const OneOf<Light, Illum, Glow, Spotlight> auto&) -> Answer { return {}; },
+      },
+      material);
+}
+
+std::optional<DiffuseReflection> diffuseReflection(const Material& material) {
+  using Answer = std::optional<DiffuseReflection>;
+  return std::visit(
+      Overloaded{
+          [](const Opaque& m) -> Answer {
+            return DiffuseReflection{m.color, 1 - m.specularity};
+          },
+          [](const OneOf<Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
+                         BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist> auto&)
+              -> Answer { return {}; },
+          [](const OneOf<Light, Illum, Glow, Spotlight> auto&) -> Answer { return {}; },
+      },
+      material);
+}
+
+}  // namespace rsphere

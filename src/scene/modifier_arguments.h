@@ -1,0 +1,173 @@
+#pragma once
+// The arguments of patterns, textures, mixtures and materials: for each kind of primitive one struct, and one
+// reader that checks the number and range of the arguments. Materials that need neither functions nor names
+// of other modifiers are their own structs.
+//
+// Each reader throws rad::Error with the primitive's place if an argument is missing or out of range. It does
+// not look up the files and modifiers that arguments name. Words refer to the description, which must outlive
+// them. REQUIRES that the primitive has one of the types that are given above the struct.
+#include <array>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "scene/arguments.h"
+#include "scene/material.h"
+
+namespace rsphere {
+
+// A function file, and the transform of its coordinates; empty: there is none.
+struct FunctionFile {
+  std::string_view name;  // "." if expressions need none
+  Words transform;
+};
+
+// ---- patterns, textures and mixtures
+
+// The modifiers that a mixture blends; both empty for patterns and textures.
+struct Mixed {
+  std::string_view foreground, background;
+};
+
+// brightfunc, mixfunc: one expression. colorfunc, texfunc: three.
+struct FunctionArguments {
+  Mixed mixed;
+  Words expressions;
+  FunctionFile file;
+};
+FunctionArguments readFunction(const PrimitiveArguments& arguments);
+
+// brightdata, mixdata: one table and one correction. colordata, texdata: three of each.
+struct DataArguments {
+  Mixed mixed;
+  Words corrections;      // functions of the values of the tables
+  Words tables;           // data files
+  std::string_view file;  // the function file of both corrections and coordinates
+  Words rest;             // the coordinates, as many as the tables have dimensions, then the transform
+};
+DataArguments readData(const PrimitiveArguments& arguments);
+
+// colorpict: three corrections. mixpict: one.
+struct PictureArguments {
+  Mixed mixed;
+  Words corrections;  // functions of the color of the picture
+  std::string_view picture;
+  Words coordinates;  // two
+  FunctionFile file;
+};
+PictureArguments readPicture(const PrimitiveArguments& arguments);
+
+// brighttext, colortext, mixtext. The text is either in a file or in the arguments.
+struct TextArguments {
+  Mixed mixed;
+  std::string_view font, file;
+  Words words;                                 // the text; empty if the file has it
+  V3d anchor, right, down;                     // world units
+  std::vector<double> foreground, background;  // by channel: 1, 3, or none for mixtext
+  std::optional<double> spacing;               // of characters, as in the font if empty
+};
+TextArguments readText(const PrimitiveArguments& arguments);
+
+// ---- materials without functions
+
+Opaque readOpaque(const PrimitiveArguments& arguments);  // plastic, metal
+Trans readTrans(const PrimitiveArguments& arguments);
+Dielectric readDielectric(const PrimitiveArguments& arguments);
+Interface readInterface(const PrimitiveArguments& arguments);
+Glass readGlass(const PrimitiveArguments& arguments);
+Mist readMist(const PrimitiveArguments& arguments);  // Mist::number remains 0
+Light readLight(const PrimitiveArguments& arguments);
+Glow readGlow(const PrimitiveArguments& arguments);
+Spotlight readSpotlight(const PrimitiveArguments& arguments);
+
+// mirror, illum: a color, and the name of the alternate material ("void" is one); empty if it is not given.
+struct AlternatingArguments {
+  Rgb color;  // reflectance of mirror, radiance of illum
+  std::optional<std::string_view> alternate;
+};
+AlternatingArguments readAlternating(const PrimitiveArguments& arguments);
+
+struct AntimatterArguments {
+  Words clipped;  // names of modifiers; the first is also that of the cut
+};
+AntimatterArguments readAntimatter(const PrimitiveArguments& arguments);
+
+// ---- materials with functions. In `values`, `functions` and the indexes of modifiers are not set.
+
+// The expressions of the direction that orients elliptical highlights.
+struct OrientationArguments {
+  Words direction;  // ux uy uz
+  FunctionFile file;
+};
+
+// plastic2, metal2, trans2
+struct AnisotropicArguments {
+  Anisotropic values;
+  OrientationArguments orientation;
+};
+AnisotropicArguments readAnisotropic(const PrimitiveArguments& arguments);
+
+// ashik2
+struct AshikhminArguments {
+  Ashikhmin values;
+  OrientationArguments orientation;
+};
+AshikhminArguments readAshikhmin(const PrimitiveArguments& arguments);
+
+// plasfunc, metfunc, transfunc
+struct FunctionScattererArguments {
+  FunctionScatterer values;
+  std::string_view distribution;  // a function
+  FunctionFile file;
+};
+FunctionScattererArguments readFunctionScatterer(const PrimitiveArguments& arguments);
+
+// plasdata, metdata, transdata
+struct DataScattererArguments {
+  FunctionScatterer values;
+  std::string_view correction;  // a function of the table's value
+  std::string_view table;       // a data file
+  FunctionFile file;
+  Words rest;  // the coordinates, as many as the table has dimensions, then the transform
+};
+DataScattererArguments readDataScatterer(const PrimitiveArguments& arguments);
+
+// BRTDfunc
+struct BrtdArguments {
+  BrtdFunction values;
+  Words reflection, transmission;  // expressions, three each
+  Words distribution;              // functions, three; "0": none
+  FunctionFile file;
+};
+BrtdArguments readBrtd(const PrimitiveArguments& arguments);
+
+// WGMDfunc
+struct WgmdArguments {
+  struct Lobe {
+    std::string_view modifier;  // "inherit": the material's
+    Words shape;                // expressions: share, roughness along and across
+  };
+  WgmdFunction values;
+  Lobe reflected, transmitted;
+  std::string_view diffuseTransmittedModifier;
+  OrientationArguments orientation;
+};
+WgmdArguments readWgmd(const PrimitiveArguments& arguments);
+
+// BSDF, aBSDF
+struct BsdfArguments {
+  BsdfMaterial values;
+  std::optional<std::string_view> thickness;  // an expression; empty for aBSDF
+  std::string_view data;                      // the XML file
+  OrientationArguments up;
+};
+BsdfArguments readBsdf(const PrimitiveArguments& arguments);
+
+// prism1, prism2
+struct PrismArguments {
+  std::vector<Words> images;  // four expressions for each: a coefficient and a direction
+  FunctionFile file;
+};
+PrismArguments readPrism(const PrimitiveArguments& arguments);
+
+}  // namespace rsphere

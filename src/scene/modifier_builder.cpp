@@ -1,0 +1,252 @@
+#include "scene/modifier_builder.h"
+
+#include <fmt/format.h>
+
+#include "base/constants.h"
+
+namespace rsphere {
+
+using rad::printable;
+using rad::Type;
+
+namespace {
+
+// Lets the materials that have functions know the index of their modifier.
+void setFunctions(Material& material, ModifierId index) {
+  std::visit(
+      [index](auto& kind) {
+        if constexpr (requires { kind.functions; }) kind.functions = index;
+      },
+      material);
+}
+
+}  // namespace
+
+void ModifierBuilder::beginFile(uint32_t firstPrimitive) {
+  firstPrimitive_ = firstPrimitive;
+  index_.reset();
+}
+
+ModifierId ModifierBuilder::modifier(PrimitiveId described) {
+  if (described == rad::kVoid) return kNone;
+  modifierOf_.resize(scene_.description.primitives.size(), kUnknown);
+  // Follows the chain from described to void without recursion, because a file may nest as
+  // deeply as it likes.
+  std::vector<PrimitiveId> chain;
+  PrimitiveId next = described;
+  while (next != rad::kVoid && modifierOf_[next] == kUnknown) {
+    chain.push_back(next);
+    next = primitive(next).modifier;
+  }
+  ModifierId converted = next == rad::kVoid ? kNone : modifierOf_[next];
+  while (!chain.empty()) {
+    const PrimitiveId i = chain.back();
+    chain.pop_back();
+    PrimitiveId target = i;
+    while (target != rad::kVoid && primitive(target).type == Type::alias)
+      target = primitive(target).aliased != rad::kVoid ? primitive(target).aliased
+               : target == i                           ? rad::kVoid
+                                                       : primitive(target).modifier;
+    if (target != rad::kVoid) {  // an alias without a target is its modifier
+      Content made = content(target);
+      const ModifierId index(scene_.modifiers.size());
+      if (auto* material = std::get_if<Material>(&made)) setFunctions(*material, index);
+      scene_.modifiers.push_back({std::move(made), converted, target});
+      converted = index;
+    }
+    modifierOf_[i] = converted;
+  }
+  return converted;
+}
+
+uint64_t ModifierBuilder::clipOf(PrimitiveId described) const {
+  const auto found = clipOf_.find(described);
+  return found != clipOf_.end() ? found->second : 0;
+}
+
+// Index in the description of the latest definition of a modifier before primitive i; rad::kVoid if there is
+// none.
+PrimitiveId ModifierBuilder::definedBefore(PrimitiveId i, std::string_view name) {
+  if (!index_) index_.emplace(scene_.description, firstPrimitive_);
+  return index_->before(name, i);
+}
+
+// The modifier that a string argument of primitive i names: its latest definition before i; kNone for void.
+ModifierId ModifierBuilder::named(PrimitiveId i, std::string_view name) {
+  if (name == "void") return kNone;
+  const PrimitiveArguments arguments(scene_.description, i);
+  const PrimitiveId described = definedBefore(i, name);
+  if (described == rad::kVoid) arguments.fail(fmt::format("undefined modifier \"{}\"", printable(name)));
+  // A ray that hits nested modifiers recurses as deeply, and splits into up to 2^depth evaluations.
+  if (depth_ == kDeepest)
+    arguments.fail(fmt::format("modifiers name each other more than {} deep", kDeepest));
+  ++depth_;
+  const ModifierId converted = modifier(described);
+  --depth_;
+  return converted;
+}
+
+Content ModifierBuilder::content(PrimitiveId i) {
+  const PrimitiveArguments arguments(scene_.description, i);
+  switch (arguments.type()) {
+    case Type::brightfunc:
+    case Type::colorfunc:
+      readFunction(arguments);
+      return Pattern{};
+    case Type::brightdata:
+    case Type::colordata:
+      readData(arguments);
+      return Pattern{};
+    case Type::colorpict:
+      readPicture(arguments);
+      return Pattern{};
+    case Type::brighttext:
+    case Type::colortext:
+      readText(arguments);
+      return Pattern{};
+    case Type::texfunc:
+      readFunction(arguments);
+      return Texture{};
+    case Type::texdata:
+      readData(arguments);
+      return Texture{};
+    case Type::mixfunc:
+      return mixture(i, readFunction(arguments).mixed);
+    case Type::mixdata:
+      return mixture(i, readData(arguments).mixed);
+    case Type::mixpict:
+      return mixture(i, readPicture(arguments).mixed);
+    case Type::mixtext:
+      return mixture(i, readText(arguments).mixed);
+    case Type::plastic:
+    case Type::metal:
+      return readOpaque(arguments);
+    case Type::trans:
+      return readTrans(arguments);
+    case Type::plastic2:
+    case Type::metal2:
+    case Type::trans2:
+      return readAnisotropic(arguments).values;
+    case Type::ashik2:
+      return readAshikhmin(arguments).values;
+    case Type::plasfunc:
+    case Type::metfunc:
+    case Type::transfunc:
+      return readFunctionScatterer(arguments).values;
+    case Type::plasdata:
+    case Type::metdata:
+    case Type::transdata:
+      return readDataScatterer(arguments).values;
+    case Type::brtdfunc:
+      return readBrtd(arguments).values;
+    case Type::wgmdfunc:
+      return wgmd(i, readWgmd(arguments));
+    case Type::bsdf:
+    case Type::absdf:
+      return readBsdf(arguments).values;
+    case Type::dielectric:
+      return readDielectric(arguments);
+    case Type::interface:
+      return readInterface(arguments);
+    case Type::glass:
+      return readGlass(arguments);
+    case Type::mirror: {
+      const AlternatingArguments read = readAlternating(arguments);
+      return Mirror{read.color, alternate(i, read)};
+    }
+    case Type::prism1:
+    case Type::prism2:
+      return Prism{static_cast<int>(readPrism(arguments).images.size())};
+    case Type::antimatter:
+      return antimatter(i, readAntimatter(arguments));
+    case Type::mist:
+      return mist(readMist(arguments));
+    case Type::light:
+      return readLight(arguments);
+    case Type::illum: {
+      const AlternatingArguments read = readAlternating(arguments);
+      return Illum{read.color, alternate(i, read)};
+    }
+    case Type::glow:
+      return readGlow(arguments);
+    case Type::spotlight:
+      return readSpotlight(arguments);
+    case Type::spectrum:
+    case Type::specfunc:
+    case Type::specdata:
+    case Type::specfile:
+    case Type::specpict:
+      break;
+    case Type::source:
+    case Type::sphere:
+    case Type::bubble:
+    case Type::polygon:
+    case Type::cone:
+    case Type::cup:
+    case Type::cylinder:
+    case Type::tube:
+    case Type::ring:
+    case Type::instance:
+    case Type::mesh:
+    case Type::alias:
+      break;  // not modifiers; modifier() resolves aliases
+  }
+  arguments.fail("this type is not supported yet");
+}
+
+Content ModifierBuilder::mixture(PrimitiveId i, const Mixed& names) {
+  const ModifierId foreground = named(i, names.foreground);
+  return Mixture{foreground, named(i, names.background)};
+}
+
+Alternate ModifierBuilder::alternate(PrimitiveId i, const AlternatingArguments& arguments) {
+  if (!arguments.alternate) return {};
+  if (*arguments.alternate == "void") return {Alternate::Kind::pass, kNone};
+  return {Alternate::Kind::modifier, named(i, *arguments.alternate)};
+}
+
+// The modifier that WGMDfunc names for a component. A component that reflects or transmits nothing needs
+// none.
+std::optional<ModifierId> ModifierBuilder::componentModifier(PrimitiveId i, std::string_view name, bool used) {
+  if (!used || name == "inherit") return std::nullopt;
+  return named(i, name);
+}
+
+Material ModifierBuilder::wgmd(PrimitiveId i, const WgmdArguments& arguments) {
+  WgmdFunction made = arguments.values;
+  const auto use = [&](WgmdFunction::Lobe& lobe, const WgmdArguments::Lobe& read) {
+    lobe.modifier = componentModifier(i, read.modifier, lobe.share > kNegligible);
+  };
+  use(made.reflected, arguments.reflected);
+  use(made.transmitted, arguments.transmitted);
+  const bool diffusesThrough = maxChannel(made.diffuseTransmitted) > kNegligible;
+  made.diffuseTransmittedModifier =
+      componentModifier(i, arguments.diffuseTransmittedModifier, diffusesThrough);
+  return made;
+}
+
+Material ModifierBuilder::antimatter(PrimitiveId i, const AntimatterArguments& arguments) {
+  const PrimitiveArguments own(scene_.description, i);
+  Antimatter made;
+  for (size_t k = 0; k < arguments.clipped.size(); ++k) {
+    const std::string_view name = arguments.clipped[k];
+    if (name == "void") continue;
+    const PrimitiveId described = definedBefore(i, name);
+    if (described == rad::kVoid) {
+      own.warn(warn_, fmt::format("unknown modifier \"{}\"", printable(name)));
+      continue;
+    }
+    const auto [clip, added] = clipOf_.try_emplace(described, uint64_t{1} << (clipOf_.size() % 64));
+    if (added && clipOf_.size() > 64) own.fail("more than 64 modifiers are clipped by antimatter");
+    made.clips |= clip->second;
+    if (k == 0) made.cut = {Alternate::Kind::modifier, named(i, name)};
+  }
+  return made;
+}
+
+Material ModifierBuilder::mist(Mist read) {
+  read.number = mists_++;
+  return read;
+}
+
+}  // namespace rsphere

@@ -1,0 +1,125 @@
+#include "scene/shape_arguments.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/angles.h"
+
+namespace rsphere {
+namespace {
+
+using rad::Type;
+using rad::Warn;
+
+std::optional<Shape> illegalRadii(const PrimitiveArguments& a, const Warn& warn) {
+  a.warn(warn, "illegal radii");
+  return std::nullopt;
+}
+
+std::optional<Shape> unknownOrientation(const PrimitiveArguments& a, const Warn& warn) {
+  a.warn(warn, "unknown orientation");
+  return std::nullopt;
+}
+
+std::optional<Shape> finishCone(const PrimitiveArguments& a, const Warn& warn, Cone cone) {
+  if (!(cone.radius0 > 0 || cone.radius1 > 0)) return illegalRadii(a, warn);
+  cone.length = cone.axis.length();
+  if (!(cone.length > 0)) return unknownOrientation(a, warn);
+  cone.axis /= cone.length;
+  return cone;
+}
+
+}  // namespace
+
+std::optional<Shape> readPolygon(const PrimitiveArguments& a, const Warn& warn, std::vector<V3d>& vertices) {
+  const size_t reals = a.reals().size();
+  if (reals < 9 || reals % 3) a.fail(fmt::format("expected 9 or more coordinates by threes, got {}", reals));
+  size_t count = reals / 3;
+  if (count > 3 && (a.vector(0) - a.vector(reals - 3)).length() <= kSamePlace) --count;
+  const auto first = static_cast<uint32_t>(vertices.size());
+  for (size_t k = 0; k < count; ++k) vertices.push_back(a.vector(3 * k));
+  const Polygon polygon = makePolygon(vertices, first, static_cast<uint32_t>(count));
+  if (polygon.area == 0) {
+    a.warn(warn, "zero area");
+    vertices.resize(first);
+    return std::nullopt;
+  }
+  const double size = std::sqrt(polygon.area);
+  // A thousandth of the size is visibly bent; the rounding of single-precision files stays far below.
+  if (polygon.thickness > 1e-3 * size) a.warn(warn, "non-planar vertex");
+  return polygon;
+}
+
+std::optional<Shape> readSphere(const PrimitiveArguments& a, const Warn& warn) {
+  a.needReals(4);
+  Sphere sphere{a.vector(0), a.reals()[3], a.type() == Type::bubble};
+  if (sphere.radius < 0) {
+    a.warn(warn, "negative radius");
+    sphere.radius = -sphere.radius;
+    sphere.inward = !sphere.inward;
+  }
+  if (!(sphere.radius > 0)) a.fail("zero radius");
+  return sphere;
+}
+
+std::optional<Shape> readCylinder(const PrimitiveArguments& a, const Warn& warn) {
+  a.needReals(7);
+  const double radius = a.reals()[6];
+  Cone cone{a.vector(0), a.vector(3) - a.vector(0), 0, radius, radius, a.type() == Type::tube};
+  if (cone.radius0 < 0) {
+    a.warn(warn, "negative radius");
+    cone.radius0 = cone.radius1 = -cone.radius0;
+    cone.inward = !cone.inward;
+  }
+  return finishCone(a, warn, cone);
+}
+
+std::optional<Shape> readCone(const PrimitiveArguments& a, const Warn& warn) {
+  a.needReals(8);
+  const auto r = a.reals();
+  Cone cone{a.vector(0), a.vector(3) - a.vector(0), 0, r[6], r[7], a.type() == Type::cup};
+  if (cone.radius0 < 0 || cone.radius1 < 0) {
+    if (cone.radius0 > 0 || cone.radius1 > 0) return illegalRadii(a, warn);
+    a.warn(warn, "negative radii");
+    cone.radius0 = -cone.radius0;
+    cone.radius1 = -cone.radius1;
+    cone.inward = !cone.inward;
+  }
+  return finishCone(a, warn, cone);
+}
+
+std::optional<Shape> readRing(const PrimitiveArguments& a, const Warn& warn) {
+  a.needReals(8);
+  const auto r = a.reals();
+  const double length = a.vector(3).length();
+  if (r[6] < 0 || r[7] < 0 || r[6] == r[7]) return illegalRadii(a, warn);
+  if (!(length > 0)) return unknownOrientation(a, warn);
+  return Ring{a.vector(0), a.vector(3) / length, std::min(r[6], r[7]), std::max(r[6], r[7])};
+}
+
+std::optional<Shape> readSource(const PrimitiveArguments& a) {
+  a.needReals(4);
+  const V3d direction = a.vector(0);
+  const double length = direction.length();
+  if (!(length > 0)) a.fail("zero direction");
+  if (!(a.reals()[3] > 0)) a.fail("zero size");
+  const double half = std::min(radians(a.reals()[3]) / 2, std::numbers::pi);
+  return Distant{direction / length, half, std::cos(half), coneSolidAngle(2 * half * 180 / std::numbers::pi)};
+}
+
+PlacedFile readPlacedFile(const PrimitiveArguments& a) {
+  if (a.strings() == 0) a.fail("expected a file name");
+  PlacedFile made{std::string(a.string(0)), readPlacement(a, a.stringsFrom(1))};
+  for (const rad::Similarity& s : {made.placement.toOuter, made.placement.toInner}) {
+    bool finite = std::isnormal(s.scale);
+    for (const auto& row : s.matrix.x)
+      for (const double x : row) finite = finite && std::isfinite(x);
+    if (!finite) a.fail("a transform beyond the range of numbers");
+  }
+  return made;
+}
+
+}  // namespace rsphere
