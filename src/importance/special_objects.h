@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/tuned.h"
 #include "importance/placed_shape.h"
 #include "importance/silhouette.h"
 #include "scene/scene.h"
@@ -33,15 +34,15 @@ double irregularity(const Material& material);
 // directions of -Sw v, and choose the special objects of both -Sw v and -Sw c.
 //
 // Directions per sr for an irregularity of 1, times -Sk. A hundred spheres of 0.1 m then get 1000.
-inline constexpr double kDirectionsPerSr = 32000;
+RSPHERE_TUNED(SpecialObjects, double, kDirectionsPerSr, 32000);
 // Roughness (rms slope) of a highlight that is half as irregular as a mirror: derived. It fills 4 pi a^2 sr,
 // so that it gets about 16 of these directions, four across.
-inline constexpr double kSharpRoughness = .0065;
+RSPHERE_TUNED(SpecialObjects, double, kSharpRoughness, .0065);
 // Irregularity of glass panes. Objects behind a pane look as large as without it, and its mirror image is
 // faint. A pane gets 64 directions per sr, a few hundred at most; as a mirror it took all directions.
-inline constexpr double kPane = .002;
+RSPHERE_TUNED(SpecialObjects, double, kPane, .002);
 // Less irregular objects are treated as diffuse: their 16 directions per sr are a tenth of the base's.
-inline constexpr double kSpecialIrregularity = .0005;
+RSPHERE_TUNED(SpecialObjects, double, kSpecialIrregularity, .0005);
 
 struct SpecialObject {
   SurfaceId surface;
@@ -53,7 +54,7 @@ struct SpecialObject {
 
 // With more special objects in octrees and meshes than this, each outermost instance is one object, to limit
 // the time, because silhouettes of all objects are computed at every point. Chosen by experiment.
-inline constexpr size_t kMostPlacedObjects = 4096;
+RSPHERE_TUNED(SpecialObjects, size_t, kMostPlacedObjects, 4096);
 
 // All surfaces, except distant sources, whose material or one of whose alternatives in mixtures has at least
 // kSpecialIrregularity; in the order of the scene. Surfaces in octrees are objects with shapes in world

@@ -1,16 +1,19 @@
 #pragma once
-// The constants of this folder that trade error for time, or that approximate unknown quantities, by
-// subsystem. Those of special objects, which the paper asks for but does not give, are in special_objects.h.
-// Tolerances for rounding are not among them; they are where they are used.
+// The tuning constants of this folder (base/tuned.h), by subsystem. Those of special objects, which the paper
+// asks for but does not give, are in special_objects.h.
 //
 // None of them changes the mean of an estimate over rotations (-Sr), except those of Stopping, slightly. They
 // change its variance and its time, its own estimate of the variance (ErrorEstimate), and pictures (-Si).
 //
 // Each comment gives the meaning and the unit, then after the colon where the value comes from. "Chosen by
 // experiment" means that it was the best of some values that were tried on scenes like those of
-// tests/bench/importance, and that the results for the others were not kept.
+// tests/bench/importance, and that the results for the others were not kept. The last sentence says what
+// less and more of the constant do to error and time in the case of tests/bench/sensitivity where it matters
+// most (runs/2026-11-22.txt there).
 #include <array>
 #include <cstddef>
+
+#include "base/tuned.h"
 
 namespace rsphere::tuning {
 
@@ -19,47 +22,48 @@ struct Contrasts {
   // The part of the standard deviation of radiance over all directions that is an error of one base
   // direction. The other part varies slowly, for example from one side of a room to the other, and an even
   // set integrates it: measured in furnished interiors, .5 to .7.
-  static constexpr double kUnevenShare = .6;
+  RSPHERE_TUNED(Contrasts, double, kUnevenShare, .6);
   // Rays to the special objects of one modifier: chosen by experiment. For normally distributed values the
   // deviation is then known within 9%, 1/sqrt(2 x 63).
-  static constexpr size_t kRaysPerModifier = 64;
+  RSPHERE_TUNED(Contrasts, size_t, kRaysPerModifier, 64);
   // Rays to all special objects, but at least 2 per modifier: chosen by experiment, to limit the time at
   // start. Rays for each object instead of each modifier took 1.1 s instead of .05 s.
-  static constexpr size_t kMostRays = 1024;
+  RSPHERE_TUNED(Contrasts, size_t, kMostRays, 1024);
   // Directions in which the surroundings are sampled, with two paths in each: chosen by experiment. For
   // normally distributed values the deviation is then known within 4.4%, 1/sqrt(2 x 255).
-  static constexpr size_t kDirectionsAround = 256;
+  RSPHERE_TUNED(Contrasts, size_t, kDirectionsAround, 256);
 };
 
 // The strategy -Sw c as a whole (silhouette_weights.cpp).
 struct SilhouetteWeights {
   // Rays at each point that measure the mean brightness around, and that the guess of radiance is fitted to:
   // chosen by experiment; 1.6% of the directions of the default.
-  static constexpr int kRaysAround = 32;
+  RSPHERE_TUNED(SilhouetteWeights, int, kRaysAround, 32);
   // Glances per base direction: by measurement. A glance takes .15 to .5 us, a direction 1 to 100. Twice as
   // many, with twice as many shadow rays to sources (SeenSources), reduced the error from .53% to .51% beside
   // a goal and from .41% to .40% in the open-plan office, in up to a fifth more time.
-  static constexpr size_t kGlancesPerDirection = 4;
+  RSPHERE_TUNED(SilhouetteWeights, size_t, kGlancesPerDirection, 4);
   // Cap on the glances, but never fewer than base directions: chosen by experiment. It applies from
   // 16384 base directions on.
-  static constexpr size_t kMostGlances = 65536;
+  RSPHERE_TUNED(SilhouetteWeights, size_t, kMostGlances, 65536);
   // Directions to images of light sources are one per so many base directions, and at least the second
   // number: both chosen by experiment.
-  static constexpr size_t kBaseDirectionsPerRayToImages = 4, kLeastRaysToImages = 16;
+  RSPHERE_TUNED(SilhouetteWeights, size_t, kBaseDirectionsPerRayToImages, 4);
+  RSPHERE_TUNED(SilhouetteWeights, size_t, kLeastRaysToImages, 16);
 };
 
 // Which regions get directions of their own (targets.cpp).
 struct Targets {
-  // Cap on the ratio of deviations, and with it on the density of a target's directions over that
-  // of the base: chosen by experiment. Without it all other targets would pay for the last factor
-  // of two in density of one.
-  static constexpr double kMostContrast = 200;
+  // Cap on the ratio of deviations, and with it on the density of a target's directions over that of
+  // the base: chosen by experiment. Without it all other targets would pay for the last factor of
+  // two in density of one.
+  RSPHERE_TUNED(Targets, double, kMostContrast, 200);
   // An image of a light source in a ball gets directions of its own if without them it would add more than
   // this share of the variance of all base directions: chosen by experiment.
-  static constexpr double kLeastGlint = 1e-3;
+  RSPHERE_TUNED(Targets, double, kLeastGlint, 1e-3);
   // Standard deviation of the brightness within the region of such an image, relative to the brightness of
   // the image: the most that values between 0 and 1 can have, if half of the region shows the image.
-  static constexpr double kGlintDeviation = .5;
+  RSPHERE_TUNED(Targets, double, kGlintDeviation, .5);
 };
 
 // Images of light sources in mirroring balls (glints.cpp).
@@ -68,46 +72,50 @@ struct Glints {
   static constexpr double kFresnel = .04;
   // Largest roughness (rms slope) of a ball that shows images; rougher ones spread an image wider than the
   // region that is computed for it: chosen by experiment.
-  static constexpr double kSmooth = .005;
+  RSPHERE_TUNED(Glints, double, kSmooth, .005);
   // A source is divided so that half the width of a part is at most this, relative to its distance from the
   // ball, because the image of a wider part is noticeably curved; and into this many parts along each side at
   // most: chosen by experiment.
-  static constexpr double kHalfPart = .12, kMostParts = 16;
-  // Polygons with more corners than this are replaced by squares around them, to limit the
-  // time: chosen by experiment.
-  static constexpr size_t kMostCorners = 16;
+  RSPHERE_TUNED(Glints, double, kHalfPart, .12);
+  RSPHERE_TUNED(Glints, double, kMostParts, 16);
+  // Polygons with more corners than this are replaced by squares around them, to limit the time:
+  // chosen by experiment.
+  RSPHERE_TUNED(Glints, size_t, kMostCorners, 16);
   // The region around an image is that of a source enlarged by this factor, so that no edge of the image is
   // left out: chosen by experiment.
-  static constexpr double kEnlarged = 1.1;
+  RSPHERE_TUNED(Glints, double, kEnlarged, 1.1);
   // Places of a part at which shadow rays look for the source, relative to the way from its middle to its
   // corners; the middle itself is another: chosen by experiment.
-  static constexpr double kToCorners = .6;
+  RSPHERE_TUNED(Glints, double, kToCorners, .6);
 };
 
 // Light sources that are integrated separately (seen_sources.cpp).
 struct SeenSources {
   // Cap on the rays to one image, the largest of: this number of rays; one ray for each square of this side
   // (rad) in the image; and this multiple of an even share of all rays to images. Chosen by experiment.
-  static constexpr double kUsualRays = 16, kSmallestPart = .02, kOfEvenShare = .125;
+  RSPHERE_TUNED(SeenSources, double, kUsualRays, 16);
+  RSPHERE_TUNED(SeenSources, double, kSmallestPart, .02);
+  RSPHERE_TUNED(SeenSources, double, kOfEvenShare, .125);
   // Images in mirrors that would get fewer rays than this, on average, are left to the base directions:
   // chosen by experiment. A tenth of a ray means a ray at one of ten points, with ten times the weight.
-  static constexpr double kFewestRays = .1;
+  RSPHERE_TUNED(SeenSources, double, kFewestRays, .1);
   // Exponent of the light of an image to which its number of rays is proportional: derived. Of n parts of a
   // half hidden image only those on the shadow's edge are uncertain, so that the error of light L is
   // proportional to L n^-3/4. The sum of L^2 n^-3/2 over all images, for a given sum of n, is smallest for n
   // proportional to L^(4/5).
-  static constexpr double kByLight = .8;
+  RSPHERE_TUNED(SeenSources, double, kByLight, .8);
   // Cap on the pairs of mirror and light source that are tested at each point: chosen by experiment, to limit
   // the time. The largest mirrors are kept.
-  static constexpr size_t kMostMirrored = 4096;
+  RSPHERE_TUNED(SeenSources, size_t, kMostMirrored, 4096);
   // Directions, without rays, that measure the fraction of a region that its source fills: chosen by
   // experiment. The solid angle of the source is then within .1%.
-  static constexpr size_t kShareTries = 1024;
+  RSPHERE_TUNED(SeenSources, size_t, kShareTries, 1024);
   // Shadow rays per direction to a source that is seen straight: by measurement, with kGlancesPerDirection.
-  static constexpr size_t kShadowsAlong = 2, kShadowsAcross = 2;
-  // Half angle (rad) up to which a distant source is integrated separately: 6 degrees, a sun and its
-  // halo. Chosen by experiment.
-  static constexpr double kWidestDistant = .1;
+  RSPHERE_TUNED(SeenSources, size_t, kShadowsAlong, 2);
+  RSPHERE_TUNED(SeenSources, size_t, kShadowsAcross, 2);
+  // Half angle (rad) up to which a distant source is integrated separately: 6 degrees, a sun and its halo.
+  // Chosen by experiment.
+  RSPHERE_TUNED(SeenSources, double, kWidestDistant, .1);
   // Reflectance of glass at normal incidence: Fresnel's for the index 1.5.
   static constexpr double kFresnel = .04;
 };
@@ -116,11 +124,12 @@ struct SeenSources {
 struct Silhouettes {
   // Half angle (rad) around the middle of an object up to which a hull is computed instead of a cap: chosen
   // by experiment. Hulls are computed on a plane, which cannot hold a hemisphere (1.57).
-  static constexpr double kWidestHull = 1.2;
+  RSPHERE_TUNED(Silhouettes, double, kWidestHull, 1.2);
   // Corners of the polygon around a circle: chosen by experiment. The area of the polygon is 1.3% larger.
-  static constexpr int kCorners = 16;
+  RSPHERE_TUNED(Silhouettes, int, kCorners, 16);
   // Cells along the edge of a face of the cube map that names the silhouettes near a direction: chosen by
-  // experiment. Without cells the search took 18% of the time among 180 special objects.
+  // experiment. Without cells the search took 18% of the time among 180 special objects. It changes the time
+  // only, and tests/bench/sensitivity does not vary it, because it is the size of a table.
   static constexpr int kSide = 6;
 };
 
@@ -129,13 +138,13 @@ struct ErrorEstimate {
   // Fraction of the variance of independent directions that remains because base directions are
   // even: a compromise. Measured in furnished rooms it is .4 if edges are all of the variance, and 1
   // if the noise of paths is.
-  static constexpr double kEvenSet = .8;
+  RSPHERE_TUNED(ErrorEstimate, double, kEvenSet, .8);
   // The same for directions to the parts of a light source: chosen by experiment. Differences of successive
   // parts count an edge too often, because it lies between two parts more often than it crosses one.
-  static constexpr double kEvenParts = .5;
+  RSPHERE_TUNED(ErrorEstimate, double, kEvenParts, .5);
   // The fraction for n dynamic directions to a target is 1 / (1 + n^1/2 / this): the root because an edge
   // crosses about n^1/2 of the n cells; the number chosen by experiment.
-  static constexpr double kEvenRun = 8;
+  RSPHERE_TUNED(ErrorEstimate, double, kEvenRun, 8);
 };
 
 // When -Sa has enough sets (two_halves.cpp).
@@ -143,35 +152,39 @@ struct Stopping {
   // Each half asks for this multiple of the standard error that is wanted: by measurement. One
   // answer in 50, rather than one in 25, then needs more sets because of its own estimate. Those
   // sets cause the remaining bias.
-  static constexpr double kMargin = .95;
+  RSPHERE_TUNED(Stopping, double, kMargin, .95);
   // Cap on the ratio of the sets of the halves: chosen by experiment. If one set finds something very
   // bright, the other half asks for many sets; the cap then gives some to the half of that set, which
   // outweigh it sooner. With 1, each half would depend on its own sets, and the bias would be that of
   // stopping without halves.
-  static constexpr size_t kMostRatio = 2;
+  RSPHERE_TUNED(Stopping, size_t, kMostRatio, 2);
 };
 
 // Pictures of the view from a point (point_picture.cpp, smooth_indirect.cpp).
 struct Pictures {
-  // Pixels along the height: about half a million pixels in all, one per .45 degrees and one per .35
-  // degrees. Chosen by experiment.
-  static constexpr int kFisheyeSide = 800, kLatitudeLongitudeHeight = 512;
+  // Pixels along the height: about half a million pixels in all, one per .45 degrees and one per .35 degrees.
+  // Chosen by experiment.
+  RSPHERE_TUNED(Pictures, int, kFisheyeSide, 800);
+  RSPHERE_TUNED(Pictures, int, kLatitudeLongitudeHeight, 512);
   // Light sources that cover fewer pixels than this are sampled separately: derived. A disc of 16 pixels
   // holds the middles of 14 to 21 of them, so that its light has a standard deviation of 6%.
-  static constexpr double kSmallest = 16;
+  RSPHERE_TUNED(Pictures, double, kSmallest, 16);
   // Samples of such a source per pixel, and at least: chosen by experiment.
-  static constexpr double kSamplesPerPixel = 16, kLeastSamples = 4;
-  // Places at which the background of a small source is looked for, in pixels from the middle of
-  // one: chosen by experiment.
+  RSPHERE_TUNED(Pictures, double, kSamplesPerPixel, 16);
+  RSPHERE_TUNED(Pictures, double, kLeastSamples, 4);
+  // Places at which the background of a small source is looked for, in pixels from the middle of one:
+  // chosen by experiment.
   static constexpr std::array<std::array<double, 2>, 4> kBeside = {
       {{-.4, -.4}, {.4, .4}, {-.4, .4}, {.4, -.4}}};
   // Indirect light is smoothed if every channel of the pattern it falls on is at least this; the light that a
   // darker pattern reflects is too uncertain to be divided by it: chosen by experiment.
-  static constexpr double kLeastPattern = .01;
+  RSPHERE_TUNED(Pictures, double, kLeastPattern, .01);
   // Two pixels share indirect light if the cosine between their normals is at least kSameNormal, the height
   // of one point over the plane of the other at most kSamePlane of their distance, and their distance at most
   // kNear of that from the eye: chosen by experiment.
-  static constexpr float kSameNormal = .9f, kSamePlane = .25f, kNear = .25f;
+  RSPHERE_TUNED(Pictures, float, kSameNormal, .9f);
+  RSPHERE_TUNED(Pictures, float, kSamePlane, .25f);
+  RSPHERE_TUNED(Pictures, float, kNear, .25f);
 };
 
 }  // namespace rsphere::tuning
