@@ -206,6 +206,7 @@ class Images {
   static bool meetsBeam(const LightSource& source, const Relay& last, const Relay& relay) {
     if (source.distant) {
       const V3d between = relay.center - last.center;
+      // A source as wide as 120 degrees is taken to light every relay. That costs tests, but no light.
       if (source.cosHalfAngle <= .5) return true;
       const double distance = between.length() + last.radius + relay.radius;
       const double spread = distance * source.sinHalfAngle / source.cosHalfAngle;

@@ -9,10 +9,13 @@
 #include "base/overloaded.h"
 #include "light/relays.h"
 #include "light/spherical_triangle.h"
+#include "light/tuning.h"
 #include "shade/scattering.h"
 
 namespace rsphere {
 namespace {
+
+using Tuning = tuning::SourceParts;
 
 constexpr int kMostParts = 64;  // of a source; RADIANCE's own limit, for which users choose their -ds
 // The factor on a length by the number of times that it was halved, up to kMostParts parts.
@@ -182,11 +185,10 @@ Part shrunk(const Part& p, double jitter) {
 // Whether a part is so near that cosine / distance^2 varies strongly over it. Sampling it by area would then
 // have unbounded variance.
 bool isNear(const LightSource& source, const Part& part, const V3d& point) {
-  constexpr double kNear = .5;
   const double width =
       2 * std::max(source.extentU * (part.s1 - part.s0), source.extentV * (part.t1 - part.t0));
   const V3d middle = onPlane(source, (part.s0 + part.s1) / 2, (part.t0 + part.t1) / 2);
-  return width * width > kNear * kNear * (middle - point).length2();
+  return width * width > Tuning::kNear * Tuning::kNear * (middle - point).length2();
 }
 
 // Splits a part until its half-extents u and v are at most `allowed` times its distance, or there are `most`
@@ -422,8 +424,7 @@ void LightSources::sampleParts(LightId index, const V3d& point, const V3d& towar
                 (length * length),
             length);
       };
-      // Nearer than this, the tube's width matters as much as its length, and splitting does not pay.
-      const bool divided = allowed > 0 && fromAxis > 2 * radius;
+      const bool divided = allowed > 0 && fromAxis > Tuning::kTubeNear * radius;
       split(Part{}, divided ? kMostParts : 1, halfLength, 0, allowed, point, at, use);
       return;
     }

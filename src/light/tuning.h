@@ -1,0 +1,22 @@
+#pragma once
+// The tuning constants of this folder (base/tuned.h). They change the variance of direct light and
+// its time, not its mean.
+//
+// Each comment gives the meaning and the unit, then after the colon where the value comes from. The last
+// sentence says what less and more of the constant do to error and time in the case of
+// tests/bench/sensitivity where it matters most (runs/2026-11-22.txt there).
+#include "base/tuned.h"
+
+namespace rsphere::tuning {
+
+// How light sources are divided into parts and sampled (sources.cpp).
+struct SourceParts {
+  // A part of a plane source is sampled by solid angle instead of by area if its width is larger than this,
+  // relative to its distance: chosen by experiment. Over a narrower part, cosine / distance^2 varies little.
+  RSPHERE_TUNED(SourceParts, double, kNear, .5);
+  // A tube is divided along its axis if the point is farther from the axis than this many of its radii:
+  // chosen by experiment. Nearer, its width matters as much as its length, and dividing it does not pay.
+  RSPHERE_TUNED(SourceParts, double, kTubeNear, 2);
+};
+
+}  // namespace rsphere::tuning
