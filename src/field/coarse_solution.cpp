@@ -4,46 +4,18 @@
 #include <array>
 #include <cmath>
 
+#include "field/tuning.h"
+
 namespace rsphere {
 namespace {
 
-// What follows was chosen in two daylit rooms (a classroom of 10 x 7 m, a cell with a small window), each
-// with sun and with an overcast sky, by the error of 40 sensors for the time:
-// tests/bench/rtrace/runs/2026-11-22-coarse-solution.txt.
+using Tuning = tuning::CoarseSolution;
 
-// The side of a patch in mean distances of what it sees, at -aa .1; it grows with the root of -aa, since the
-// error of an interpolation grows with the square of the spacing. At 1.2 the errors are twice those at .6, at
-// .4 the time.
-constexpr double kSpacing = .6, kSpacingAccuracy = .1, kCoarsestAccuracy = .4;
+// The -aa at which Tuning::kSpacing is the side of a patch.
+constexpr double kSpacingAccuracy = .1;
 
-// The side of a patch is at most this share of the distance that it is seen from, and need not be smaller
-// than the second share of it: ten rays of a gather of 1000 stand for a solid angle as wide. A third of it
-// changes no error by more than a tenth, and makes a tenth more patches.
-constexpr double kSeenFrom = .5, kFarPatch = .18;
-
-// A place that is seen from nearer than this many patch sides is not served: the path is followed.
-constexpr double kNear = .4;
-
-// No patch is smaller than this share of its surface's extent: patches in a corner, where everything is near,
-// would be without end.
-constexpr double kLeastPatch = .1;
-
-// Open surroundings count as this share of the scene's size.
-constexpr double kOpen = .1;
-
-// Where the ground is wide, rooms are small: the extent of a surface counts up to this share of the scene's
-// size.
-constexpr double kWidestExtent = .4;
-
-// A surface smaller than this share of a patch's side has no patch of its own.
-constexpr double kOwnPatch = .5;
-
-constexpr int kFiner = 2;  // divisions more where a patch is hidden
-
-// Rays of a patch for each that a gather is asked for (-ad and -as), and bounds: fewer than the first tell
-// nothing, more than the second are more than other errors need.
-constexpr double kRays = .08;
-constexpr double kLeastRays = 32, kMostRays = 4096;
+// The binary logarithm of the buckets of the table of patches: 2 MB.
+constexpr unsigned kLogBuckets = 18;
 
 }  // namespace
 
@@ -77,9 +49,10 @@ CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const Fi
       grid_(bounds),
       bounces_(std::max(options.bounces, 1)),
       ambient_(options.ambientValue),
-      patches_(std::make_unique<InsertOnce<CellKey, Patch>>(18)) {
-  spacing_ = kSpacing * std::sqrt(std::min(options.accuracy, kCoarsestAccuracy) / kSpacingAccuracy);
-  rays_ = static_cast<int>(std::clamp(kRays * options.rays, kLeastRays, kMostRays));
+      patches_(std::make_unique<InsertOnce<CellKey, Patch>>(kLogBuckets)) {
+  spacing_ =
+      Tuning::kSpacing * std::sqrt(std::min(options.accuracy, Tuning::kCoarsestAccuracy) / kSpacingAccuracy);
+  rays_ = static_cast<int>(std::clamp(Tuning::kRays * options.rays, Tuning::kLeastRays, Tuning::kMostRays));
 }
 
 CoarseSolution::~CoarseSolution() = default;
@@ -103,9 +76,9 @@ CoarseSolution::Patch& CoarseSolution::patchOf(const SurfaceChart& chart, const 
 CoarseSolution::Patch* CoarseSolution::find(const SurfacePlace& place, double u1, double u2, Looker& looker) {
   const auto chart = SurfaceChart::of(scene_, grid_, place);
   if (!chart) return nullptr;
-  const double extent = chart->extent(), open = kOpen * grid_.size;
-  const double least =
-      std::max(kFarPatch * place.distance, kLeastPatch * std::min(extent, kWidestExtent * grid_.size));
+  const double extent = chart->extent(), open = Tuning::kOpen * grid_.size;
+  const double least = std::max(Tuning::kFarPatch * place.distance,
+                                Tuning::kLeastPatch * std::min(extent, Tuning::kWidestExtent * grid_.size));
   int level = grid_.levelOf(std::min(std::max(extent, least), open));
   // As fine as what surrounds the place asks for.
   for (;; ++level) {
@@ -113,13 +86,13 @@ CoarseSolution::Patch* CoarseSolution::find(const SurfacePlace& place, double u1
     const Patch& patch = patchOf(*chart, chart->cellAt(grid_, level, chart->u(), chart->v()), looker);
     const double wanted = patch.usable ? spacing_ * std::min(patch.reach, open) : 0;
     if (side <= least || side <= wanted) {
-      if (extent < kOwnPatch * std::max(wanted, kFarPatch * place.distance)) return nullptr;
+      if (extent < Tuning::kOwnPatch * std::max(wanted, Tuning::kFarPatch * place.distance)) return nullptr;
       break;
     }
     if (level == CellGrid::kLevels) return nullptr;
   }
-  if (place.distance < kNear * grid_.side(level)) return nullptr;
-  level = std::max(level, std::min(grid_.levelOf(kSeenFrom * place.distance), grid_.levelOf(least)));
+  if (place.distance < Tuning::kNear * grid_.side(level)) return nullptr;
+  level = std::max(level, std::min(grid_.levelOf(Tuning::kSeenFrom * place.distance), grid_.levelOf(least)));
   const V3d above = place.point + grid_.lift * place.normal;
   const auto serves = [&](const Patch& patch) {
     return patch.usable && looker.sees(patch.site.point, above);
@@ -130,7 +103,7 @@ CoarseSolution::Patch* CoarseSolution::find(const SurfacePlace& place, double u1
     Patch& patch = patchOf(*chart, chart->cellAt(grid_, level, u, v), looker);
     if (serves(patch)) return &patch;
   }
-  for (int finer = 0; finer <= kFiner && level + finer <= CellGrid::kLevels; ++finer) {
+  for (int finer = 0; finer <= Tuning::kFiner && level + finer <= CellGrid::kLevels; ++finer) {
     Patch& patch = patchOf(*chart, chart->cellAt(grid_, level + finer, chart->u(), chart->v()), looker);
     if (serves(patch)) return &patch;
   }

@@ -7,45 +7,26 @@
 #include <mutex>
 #include <optional>
 
+#include "base/constants.h"
 #include "field/insert_once.h"
 #include "field/site_interpolation.h"
 #include "field/stored_sites.h"
+#include "field/tuning.h"
 
 namespace rsphere {
 namespace {
+
+using Tuning = tuning::IrradianceField;
 
 // Approximate overhead of an allocation and of an entry of the table (bytes).
 constexpr size_t kBlock = 16, kNode = 96;
 
 constexpr size_t kNoBound = SIZE_MAX;
 
-// -ar 0 sets no limit. Cells as fine as this resolution resolve crumbs on a table.
-constexpr int kUnlimited = 1 << 16;
-
-// The widest cells, for each unit of -aa: in harmonic mean distances of their surroundings; and in the size
-// of the scene.
-constexpr double kWidest = 3;
-constexpr double kOpen = .1;
-
-// Levels beyond the finest spacing that are tried where sites are hidden from the place.
-constexpr int kBeyondFinest = 2;
-
-// The factor on the allowed error from level to level: the smaller the cells, the smaller the part of a
-// picture that they cover.
-constexpr double kMoreError = 1.6;
-
-// The factor on the predicted error of an extrapolation.
-constexpr double kShiftError = 2;
-
-// Finer cells are tried where the sites that see the place have less than this share of the weights.
-constexpr double kLeastServed = .05;
-
-// The same on small surfaces that share the cells of their plane. Their sites may lie beside all of the
-// surfaces, and a room may be smaller than a cell, so that nearly all sites must see the place.
-constexpr double kLeastServedOfShared = .95;
-
-// The share of an answer that a level of cells gives: all below roughness 1, none above 1.5.
-double shareOf(double roughness) { return std::clamp(3 - 2 * roughness, 0., 1.); }
+// The share of an answer that a level of cells gives: all below roughness 1, none above Tuning::kNoneAbove.
+double shareOf(double roughness) {
+  return std::clamp((Tuning::kNoneAbove - roughness) / (Tuning::kNoneAbove - 1), 0., 1.);
+}
 
 // A cell's site, and its light once that is gathered.
 struct Site {
@@ -103,7 +84,7 @@ class IrradianceField::Cache {
         accuracy_(options.accuracy),
         // RADIANCE's own meaning of -ar.
         finest_(grid_.size * std::min(accuracy_, .5) /
-                (options.resolution > 0 ? options.resolution : kUnlimited)),
+                (options.resolution > 0 ? options.resolution : Tuning::kUnlimited)),
         bound_(options.memory > 0 ? static_cast<size_t>(options.memory * 1e6) : kNoBound) {}
 
   bool find(const SurfacePlace& place, FieldReader& reader, SiteLooker& looker, GatheredLight& light);
@@ -202,7 +183,7 @@ bool IrradianceField::Cache::look(const SurfaceChart& chart, const SurfacePlace&
   std::array<Site*, 4> sites;
   for (int c = 0; c < 4; ++c) {
     const double weight = ((c & 1) ? across : 1 - across) * ((c >> 1) ? along : 1 - along);
-    if (!(weight > 1e-6)) continue;
+    if (!(weight > kNegligible)) continue;
     Site* const site = &siteOf(chart, chart.cell(grid_, level, i + (c & 1), j + (c >> 1)), asked);
     // At the edge of the surface neighbours are the same.
     int k = 0;
@@ -213,7 +194,7 @@ bool IrradianceField::Cache::look(const SurfaceChart& chart, const SurfacePlace&
       // Above the bulge of a curved surface.
       const double height =
           grid_.lift +
-          (chart.isCurved() ? .15 * way.length() * (place.normal - site->at.normal).length() : 0);
+          (chart.isCurved() ? Tuning::kBulge * way.length() * (place.normal - site->at.normal).length() : 0);
       if (!asked.looker.sees(site->at.point + (height - grid_.lift) * site->at.normal,
                              place.point + height * place.normal))
         continue;
@@ -224,7 +205,7 @@ bool IrradianceField::Cache::look(const SurfaceChart& chart, const SurfacePlace&
     around.weight[k] += weight;
     around.served += weight;
   }
-  if (around.served < (chart.isShared() ? kLeastServedOfShared : kLeastServed)) return false;
+  if (around.served < (chart.isShared() ? Tuning::kLeastServedOfShared : Tuning::kLeastServed)) return false;
   // Sites that another thread gathers at the moment come last: that thread may have finished by then.
   for (int k = 0; k < around.count; ++k) {
     Site& site = *sites[k];
@@ -239,10 +220,11 @@ bool IrradianceField::Cache::look(const SurfaceChart& chart, const SurfacePlace&
 
 // The level of the widest cells that the surroundings of the place allow.
 int IrradianceField::Cache::firstLevel(const SurfaceChart& chart, int finest, const Asked& asked) {
-  int level = std::min(grid_.levelOf(std::min(chart.extent(), kOpen * grid_.size)), finest);
+  int level = std::min(grid_.levelOf(std::min(chart.extent(), Tuning::kOpen * grid_.size)), finest);
   for (; level < finest; ++level) {
     const Site& site = siteOf(chart, chart.cellAt(grid_, level, chart.u(), chart.v()), asked);
-    if (site.usable && !site.smallObjectNear && grid_.side(level) <= kWidest * accuracy_ * site.reach) break;
+    if (site.usable && !site.smallObjectNear && grid_.side(level) <= Tuning::kWidest * accuracy_ * site.reach)
+      break;
   }
   return level;
 }
@@ -257,17 +239,18 @@ bool IrradianceField::Cache::find(const SurfacePlace& place, FieldReader& reader
   }
   enter(reader);
   const Asked asked{*reader, looker};
-  const int finest = grid_.levelOf(finest_), last = std::min(finest + kBeyondFinest, CellGrid::kLevels);
-  const double tolerance = accuracy_ / 3;
+  const int finest = grid_.levelOf(finest_),
+            last = std::min(finest + Tuning::kBeyondFinest, CellGrid::kLevels);
+  const double tolerance = accuracy_ / Tuning::kAllowed;
   light = {};
   double missing = 1, allowed = 1;
-  for (int level = firstLevel(*chart, finest, asked); level <= last; ++level, allowed *= kMoreError) {
+  for (int level = firstLevel(*chart, finest, asked); level <= last; ++level, allowed *= Tuning::kMoreError) {
     SitesAround around;
     if (!look(*chart, place, level, asked, around)) continue;
     double extrapolationError = 0;
     const GatheredLight here = around.at(place.point, extrapolationError);
     const double roughness =
-        std::max(around.roughness(tolerance), extrapolationError * kShiftError / tolerance) / allowed;
+        std::max(around.roughness(tolerance), extrapolationError * Tuning::kShiftError / tolerance) / allowed;
     const double share = level >= finest ? 1 : shareOf(roughness);
     blend(light, here, static_cast<float>(missing * share));
     missing *= 1 - share;

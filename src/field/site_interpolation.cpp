@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "base/rgb.h"
+#include "field/tuning.h"
 
 namespace rsphere {
 namespace {
 
-// Differences between sites below this number of standard errors are taken for noise.
-constexpr double kChance = .7;
+using Tuning = tuning::SiteInterpolation;
 
 // The factor on the gradients of the sites: with half of each, interpolation is exact for quadratic
 // functions.
@@ -37,12 +37,13 @@ double SitesAround::roughness(double tolerance) const {
       const double before = luminanceOf(light[a]->perLength).dot(way);
       const double after = luminanceOf(light[b]->perLength).dot(way);
       const double step = luminance(light[b]->mean) - luminance(light[a]->mean);
-      const double chance = kChance * std::hypot(light[a]->noise, light[b]->noise);
+      const double chance = Tuning::kChance * std::hypot(light[a]->noise, light[b]->noise);
       const double slopeChance =
-          kChance * std::hypot(light[a]->noisePerLength, light[b]->noisePerLength) * way.length();
-      error = std::max({error, (std::abs(after - before) - slopeChance) / 8,
-                        (std::abs(step - (before + after) / 2) - chance - slopeChance / 2) / 4,
-                        (std::abs(step) - chance) / 6});
+          Tuning::kChance * std::hypot(light[a]->noisePerLength, light[b]->noisePerLength) * way.length();
+      error =
+          std::max({error, (std::abs(after - before) - slopeChance) / Tuning::kBySlopes,
+                    (std::abs(step - (before + after) / 2) - chance - slopeChance / 2) / Tuning::kByMismatch,
+                    (std::abs(step) - chance) / Tuning::kByStep});
     }
   return level > 0 ? error / (tolerance * level) : 0;
 }
@@ -71,12 +72,13 @@ GatheredLight SitesAround::at(const V3d& place, double& extrapolationError) cons
   extrapolationError = 0;
   if (level > 0) {
     const double linear = std::abs(luminanceOf(result.perLength).dot(aside)) / level;
-    extrapolationError =
-        std::max(linear, 1.5 * static_cast<double>(aside.length2()) * inverseReach * inverseReach);
+    extrapolationError = std::max(
+        linear, Tuning::kBeyond * static_cast<double>(aside.length2()) * inverseReach * inverseReach);
   }
   for (int k = 0; k < 3; ++k) {
     const float base = result.mean[k];
-    result.mean[k] = std::clamp(base + result.perLength[k].dot(aside), .05f * base, 4 * base);
+    result.mean[k] =
+        std::clamp(base + result.perLength[k].dot(aside), Tuning::kLeast * base, Tuning::kMost * base);
   }
   return result;
 }

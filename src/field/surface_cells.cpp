@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/overloaded.h"
+#include "field/tuning.h"
 #include "scene/even_sequence.h"
 #include "scene/frame.h"
 #include "scene/random.h"
@@ -11,9 +12,9 @@
 namespace rsphere {
 namespace {
 
-constexpr int kCandidates = 24;       // number of points of a cell that are tried as its site
+using Tuning = tuning::SurfaceCells;
+
 constexpr double kAside = .01371;     // fraction of a cell's side; irregular, to avoid round coordinates
-constexpr uint32_t kEdges = 16;       // number of a polygon's edges that its frame may be aligned with
 constexpr double kNormalStep = 1e-9;  // step to which components of plane normals are rounded
 constexpr SurfaceId kPlane(-2);       // in a key, instead of a surface
 
@@ -107,7 +108,7 @@ bool SurfaceChart::setPolygon(const Polygon& polygon, const SurfacePlace& place)
   const V3d* const corner = scene_->vertices.data() + polygon.firstVertex;
   const uint32_t count = polygon.vertices;
   double longest = 0;
-  for (uint32_t i = 0; i < std::min(count, kEdges); ++i) {
+  for (uint32_t i = 0; i < std::min(count, Tuning::kEdges); ++i) {
     const V3d edge = toWorld(corner[(i + 1) % count]) - toWorld(corner[i]);
     // Among edges of equal length within rounding, the first is chosen.
     if (edge.length2() <= longest * (1 + 1e-9)) continue;
@@ -247,7 +248,7 @@ std::optional<GatherSite> SurfaceChart::siteAt(const CellGrid& grid, double u, d
 
 std::optional<GatherSite> SurfaceChart::site(const CellGrid& grid, const CellKey& key) const {
   const double du = stepU(grid, key.level), dv = stepV(grid, key.level);
-  for (int c = 0; c < kCandidates; ++c) {
+  for (int c = 0; c < Tuning::kCandidates; ++c) {
     // The first candidate is slightly off the middle. A wall may stand in the exact middle of a floor, and it
     // would not occlude a site that lies in the wall's plane.
     const Imath::V2d in = evenly(static_cast<size_t>(c), .5 + kAside, .5 - kAside);
