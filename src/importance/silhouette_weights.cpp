@@ -7,6 +7,7 @@
 #include "importance/tuning.h"
 #include "scene/even_sequence.h"
 #include "sphere/directions.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
 namespace {
@@ -69,7 +70,7 @@ SilhouetteWeights::SilhouetteWeights(const Transport& transport, const SphereOpt
   if (!(options.densityFactor > 0)) return;
   guidance_.emplace(Guidance{TargetChoice(transport, special, sources, spots, options.densityFactor),
                              RadianceGuess(transport, unguessedSurfaces(sources)), glancesFor(options),
-                             baseDirections(RadianceGuess::kFitGlances)});
+                             baseDirections(tuning::RadianceGuess::kFitGlances)});
 }
 
 SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace&) const {

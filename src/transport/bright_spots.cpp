@@ -7,34 +7,12 @@
 #include "base/constants.h"
 #include "light/surface_point.h"
 #include "shade/scattering.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
 namespace {
 
-constexpr double kParticles = 8192;
-// The maximal number of panes that a particle passes through, and the transmittance of each.
-constexpr int kPanes = 8;
-constexpr double kPassed = .9;
-
-// The minimal number of particles of a spot.
-constexpr size_t kFewest = 12;
-
-// A spot reflects at least this many times more light per area than surfaces do on average.
-constexpr double kBrighter = 6;
-
-// Aiming pays for itself if the worth of all spots together (Node::worth) exceeds this multiple of the worth
-// that all surfaces would have if they were lit evenly. Aiming makes a path 25% more expensive. Measured:
-//   scene                                  worth   noise with aiming
-//   room with a lit lampshade                 31   one third
-//   open-plan office, around a goal            8   two thirds
-//   small room, around a goal                  2   slightly less
-constexpr double kLeastWorth = 4;
-
-// Ratio of the radius of a spot to half the diagonal of the box around its particles.
-constexpr double kWider = 1.15;
-
-// A smaller share of aimed directions is not worth the work.
-constexpr double kTooFew = .02;
+using Tuning = tuning::BrightSpots;
 
 // Lower bound of the squared sine of half the angle that a spot subtends. Single precision cannot distinguish
 // smaller spots from points.
@@ -42,13 +20,6 @@ constexpr float kNarrowest = 1e-6f;
 
 // Square of a negligible distance (world units).
 constexpr float kNearest = 1e-12f;
-
-// The share of a spot that is visible edge-on. It is not 0 because the normal of a spot is a mean.
-constexpr double kEdgeOn = .05;
-
-// The surface area of a room, divided by the square of the mean distance across it. The mean chord of a
-// convex body is 4 V/S. In a room of 10 x 7 x 3 m this is 3.5 m, and the surface area is 20 times its square.
-constexpr double kRoomSurface = 20;
 
 V3d onDisk(const V3d& normal, double radius, double angle) {
   V3d x, y;
@@ -87,7 +58,7 @@ struct BrightSpots::Node {
     std::sort(sides.begin(), sides.end());
     area = std::max(sides[1], kSamePlace) * std::max(sides[2], kSamePlace);
     spot.center = box.center();
-    spot.radius = std::max(.5 * kWider * box.size().length(), 4 * kSamePlace);
+    spot.radius = std::max(.5 * Tuning::kWider * box.size().length(), 4 * kSamePlace);
     for (const Particle& p : some) {
       if (p.free < spot.radius) continue;  // in a gap, whose light reaches no other surface
       spot.power += p.power;
@@ -113,7 +84,7 @@ std::optional<BrightSpots::Particle> BrightSpots::arrived(const Scene& scene, co
                                                           V3d origin, const V3d& direction, double power,
                                                           Random& random) {
   SurfaceId from;
-  for (int pane = 0; pane < kPanes; ++pane) {
+  for (int pane = 0; pane < Tuning::kPanes; ++pane) {
     const Hit hit = tracer.nearest(origin, direction, kFarAway, from);
     if (hit.surface == kNone) break;
     from = hit.surface;
@@ -127,7 +98,7 @@ std::optional<BrightSpots::Particle> BrightSpots::arrived(const Scene& scene, co
       return Particle{origin, front, power, tracer.nearest(origin, back, kFarAway, from).distance};
     }
     if (!std::holds_alternative<Glass>(*material)) break;
-    power *= kPassed;
+    power *= Tuning::kPassed;
   }
   return {};
 }
@@ -147,8 +118,8 @@ std::vector<BrightSpots::Particle> BrightSpots::particlesThrough(const Openings&
     const V3d direction = -distant->direction;
     const double all = openings.areaTowards(direction);
     if (!(all > 0)) continue;
-    const double each = radiance * distant->solidAngle * all / kParticles;
-    for (int i = 0; i < kParticles; ++i) {
+    const double each = radiance * distant->solidAngle * all / Tuning::kParticles;
+    for (int i = 0; i < Tuning::kParticles; ++i) {
       const double u1 = random.uniform(), u2 = random.uniform(), u3 = random.uniform();
       const V3d in = openings.pointTowards(direction, u1, u2, u3);
       if (tracer.nearest(in, -direction).surface != kNone) continue;
@@ -185,7 +156,7 @@ std::vector<BrightSpots::Particle> BrightSpots::particles(const Scene& scene, co
     if (const auto particle = arrived(scene, tracer, origin, direction, power, random))
       found.push_back(*particle);
   };
-  const double each = all / kParticles;
+  const double each = all / Tuning::kParticles;
   double due = random.uniform();
   for (const Sender& sender : senders)
     for (due += sender.power / each; due >= 1; --due) {
@@ -212,15 +183,15 @@ BrightSpots::BrightSpots(const Scene& scene, const Tracer& tracer, const LightSo
     std::vector<Particle> inside = particlesThrough(*openings, scene, tracer, lights);
     std::vector<double> free;
     for (const Particle& p : inside) free.push_back(p.free);
-    if (free.size() >= kFewest) {
+    if (free.size() >= Tuning::kFewest) {
       const auto middle = free.begin() + static_cast<ptrdiff_t>(free.size() / 2);
       std::nth_element(free.begin(), middle, free.end());
-      find(std::move(inside), kRoomSurface * *middle * *middle, kMost / 2);
+      find(std::move(inside), Tuning::kRoomSurface * *middle * *middle, Tuning::kMostInside);
     }
   }
   double area = 0;
   for (const Surface& s : scene.outermost()) area += areaOf(s.shape);
-  find(particles(scene, tracer, lights), area, kMost);
+  find(particles(scene, tracer, lights), area, Tuning::kMost);
 }
 
 void BrightSpots::find(std::vector<Particle> all, double area, size_t most) {
@@ -238,7 +209,7 @@ void BrightSpots::find(std::vector<Particle> all, double area, size_t most) {
   std::vector<Node> nodes{Node(all)};
   std::vector<Split> splits;
   const auto consider = [&](size_t i) {
-    if (nodes[i].particles.size() < 2 * kFewest) return;
+    if (nodes[i].particles.size() < 2 * Tuning::kFewest) return;
     auto into = nodes[i].halves();
     const double gain = into.first.worth() + into.second.worth() - nodes[i].worth();
     splits.push_back({i, gain, std::move(into)});
@@ -254,11 +225,13 @@ void BrightSpots::find(std::vector<Particle> all, double area, size_t most) {
     consider(i);
     consider(nodes.size() - 1);
   }
-  const auto isSpot = [&](const Node& node) { return node.spot.power > kBrighter * usual * node.area; };
+  const auto isSpot = [&](const Node& node) {
+    return node.spot.power > Tuning::kBrighter * usual * node.area;
+  };
   double worth = 0;
   for (const Node& node : nodes)
     if (isSpot(node)) worth += node.worth();
-  if (!(worth > kLeastWorth * usual * power)) return;
+  if (!(worth > Tuning::kLeastWorth * usual * power)) return;
   for (const Node& node : nodes)
     if (isSpot(node)) keep(node.spot, usual);
 }
@@ -273,7 +246,7 @@ void BrightSpots::keep(const Spot& spot, double usual) {
   normalY_[i] = static_cast<float>(spot.normal.y);
   normalZ_[i] = static_cast<float>(spot.normal.z);
   radius_[i] = static_cast<float>(spot.radius);
-  anyway_[i] = static_cast<float>(1 - spot.normal.length() + kEdgeOn);
+  anyway_[i] = static_cast<float>(1 - spot.normal.length() + Tuning::kEdgeOn);
   power_[i] = static_cast<float>(spot.power / usual);
 }
 
@@ -292,7 +265,7 @@ __attribute__((target_clones("avx2", "default"))) void BrightSpots::aim(const V3
     const float cosine = (x * frontX + y * frontY + z * frontZ + radius_[i]) * inverse;
     const float facing = anyway_[i] - (x * normalX_[i] + y * normalY_[i] + z * normalZ_[i]) * inverse;
     const float before = std::min(std::max(cosine, 0.f), 1.f), seen = std::min(std::max(facing, 0.f), 1.f);
-    const float apart = squared > 2 * radius_[i] * radius_[i] ? 1.f : 0.f;
+    const float apart = squared > Tuning::kApart * radius_[i] * radius_[i] ? 1.f : 0.f;
     comes[i] = apart * power_[i] * before * seen * inverse * inverse;
     aim.x[i] = x;
     aim.y[i] = y;
@@ -305,8 +278,8 @@ __attribute__((target_clones("avx2", "default"))) void BrightSpots::aim(const V3
   for (size_t i = 0; i < count_; ++i) aim.sum[i] = sum += comes[i];
   aim.count = count_;
   // Relative to the light of all other surfaces.
-  aim.share = kMostAimed * sum / (sum + static_cast<float>(kPi));
-  if (!(aim.share > kTooFew)) aim.share = 0;
+  aim.share = Tuning::kMostAimed * sum / (sum + static_cast<float>(kPi));
+  if (!(aim.share > Tuning::kTooFew)) aim.share = 0;
 }
 
 V3d BrightSpots::sample(const Aim& aim, double u1, double u2, double u3) const {
@@ -322,7 +295,7 @@ __attribute__((target_clones("avx2", "default"))) double BrightSpots::density(co
                                                                               const V3d& direction) const {
   const auto dx = static_cast<float>(direction.x), dy = static_cast<float>(direction.y),
              dz = static_cast<float>(direction.z);
-  std::array<bool, kMost> in;
+  std::array<bool, kRoom> in;
   for (size_t i = 0; i < aim.count; ++i) {
     const float x = aim.x[i], y = aim.y[i], z = aim.z[i];
     // The cross product is precise for small angles; the cosine is not.

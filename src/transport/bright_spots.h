@@ -15,30 +15,30 @@
 #include "scene/random.h"
 #include "trace/tracer.h"
 #include "transport/openings.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
 
 class BrightSpots {
  public:
-  // Traces 8192 particles from the sources. The same scene gives the same spots; a scene that is lit evenly
-  // has none. openings: if not null, as many particles again are sent from distant sources through them.
-  // Keeps no references.
+  // Traces tuning::BrightSpots::kParticles particles from the sources. The same scene gives the same spots; a
+  // scene that is lit evenly has none. openings: if not null, as many particles again are sent from distant
+  // sources through them. Keeps no references.
   BrightSpots(const Scene& scene, const Tracer& tracer, const LightSources& lights,
               const Openings* openings = nullptr);
 
   bool empty() const { return count_ == 0; }
-  static constexpr size_t kMost = 64;
+  static constexpr size_t kRoom = tuning::BrightSpots::kMostRoom;
 
   // The sampling distribution for a point of a diffuse surface.
   struct Aim {
-    double share = 0;  // of the directions that should be aimed, 0 to kMostAimed; 0: aiming does not pay
+    double share = 0;  // of the directions that should be aimed; 0: aiming does not pay
     size_t count = 0;
-    std::array<float, kMost> x, y, z;  // vectors to the centers of the spots (world units)
-    std::array<float, kMost> sine2;    // squared sine of half the angle that a spot subtends
-    std::array<float, kMost> squared;  // squared distances (square world units)
-    std::array<float, kMost> sum;      // cumulative contributions of the spots
+    std::array<float, kRoom> x, y, z;  // vectors to the centers of the spots (world units)
+    std::array<float, kRoom> sine2;    // squared sine of half the angle that a spot subtends
+    std::array<float, kRoom> squared;  // squared distances (square world units)
+    std::array<float, kRoom> sum;      // cumulative contributions of the spots
   };
-  static constexpr double kMostAimed = .5;
 
   // front: unit normal. If aim.share is 0, nothing else of aim is set.
   void aim(const V3d& point, const V3d& front, Aim& aim) const;
@@ -67,7 +67,7 @@ class BrightSpots {
   void keep(const Spot& spot, double usual);
 
   // The spots, as a structure of arrays.
-  using Numbers = std::array<float, kMost>;
+  using Numbers = std::array<float, kRoom>;
   size_t count_ = 0;
   V3d origin_{0, 0, 0};  // origin of the coordinates of the centers
   Numbers x_{}, y_{}, z_{}, normalX_{}, normalY_{}, normalZ_{}, radius_{}, anyway_{}, power_{};

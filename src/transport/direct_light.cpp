@@ -7,9 +7,12 @@
 
 #include "transport/ray_functions.h"
 #include "transport/ray_limits.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
 namespace {
+
+using Tuning = tuning::DirectLight;
 
 // Kinds of sources whose visibility is estimated separately, because they are occluded for different reasons.
 constexpr int kSourceKinds = 3;
@@ -116,15 +119,14 @@ size_t DirectLight::lookAheadOf(size_t count) {
 void DirectLight::rankByBrightness(uint32_t count) {
   // If there are few contributions, the rank of each is found by comparing all pairs without branches. Half
   // of the branches of std::sort would be mispredicted.
-  constexpr uint32_t kFew = 24;
-  if (count > kFew) {
+  if (count > Tuning::kFew) {
     std::iota(order_.begin(), order_.begin() + count, 0);
     std::sort(order_.begin(), order_.begin() + count, [&](uint32_t a, uint32_t b) {
       return brightness_[a] != brightness_[b] ? brightness_[a] > brightness_[b] : a < b;
     });
     return;
   }
-  std::array<int64_t, kFew> before;
+  std::array<int64_t, Tuning::kFewRoom> before;
   const double* const all = brightness_.data();
   for (uint32_t i = 0; i < count; ++i) {
     const double bright = all[i];
@@ -144,11 +146,8 @@ void DirectLight::rankByBrightness(uint32_t count) {
 uint32_t DirectLight::findContributions(const Ray& ray, DirectCoefficient coefficientOf, const V3d& front) {
   const RayOptions& o = t_.options();
   samples_.clear();
-  // With more jitter (-dj) than this, a sample can lie nearly anywhere on its source, which therefore need
-  // not be divided into parts.
-  constexpr double kWideJitter = .5;
   const bool divides =
-      o.sourceSubstructuring > kNegligible && !(isOfGather(t_, ray) && o.directJitter > kWideJitter);
+      o.sourceSubstructuring > kNegligible && !(isOfGather(t_, ray) && o.directJitter > Tuning::kWideJitter);
   const SourceSampling how{divides ? o.sourceSubstructuring / ray.weight : 0, o.directJitter, front};
   for (const LightId i : t_.lights().all().ids())
     t_.lights().sample(i, ray.point, how, state_.random, samples_);
@@ -200,7 +199,6 @@ void DirectLight::add(Ray& ray, DirectCoefficient coefficientOf, const V3d& fron
   } else {
     std::iota(order_.begin(), order_.begin() + count, 0);
   }
-  constexpr size_t kAlwaysTested = 2;
   Tests ofKind[kSourceKinds];
   const auto test = [&](const Contribution& c, Tests& tests) {
     Rgb value;
@@ -210,7 +208,7 @@ void DirectLight::add(Ray& ray, DirectCoefficient coefficientOf, const V3d& fron
   };
   size_t tested = 0;
   for (; tested < count; ++tested) {
-    if (threshold > 0 && tested >= kAlwaysTested) {
+    if (threshold > 0 && tested >= Tuning::kAlwaysTested) {
       const double ahead = remaining_[tested] - remaining_[std::min<size_t>(tested + lookAhead, count)];
       if (ahead < threshold * brightness(ray.value)) break;
     }

@@ -9,6 +9,7 @@
 #include "transport/path_state.h"
 #include "transport/ray_follower.h"
 #include "transport/transport.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
 
@@ -25,7 +26,7 @@ class DirectLight {
         settings_(settings),
         state_(state),
         follower_(follower),
-        blockers_(size_t{1} << kBlockerBits, Tracer::kNoBlocker) {}
+        blockers_(size_t{1} << tuning::DirectLight::kBlockerBits, Tracer::kNoBlocker) {}
 
   // Adds the direct light at the ray's hit to its value (W/sr/m2). front: for a surface that transmits no
   // light its normal, behind which all coefficients are 0; otherwise the null vector.
@@ -54,7 +55,8 @@ class DirectLight {
   uint32_t& blockerOf(SurfaceId surface, LightId source) {
     const uint64_t both =
         (uint64_t{static_cast<uint32_t>(surface.number())} << 32) | static_cast<uint32_t>(source.number());
-    return blockers_[(both * 0x9e3779b97f4a7c15u) >> (64 - kBlockerBits)];  // Fibonacci hashing
+    // Fibonacci hashing.
+    return blockers_[(both * 0x9e3779b97f4a7c15u) >> (64 - tuning::DirectLight::kBlockerBits)];
   }
 
   const Transport& t_;
@@ -70,7 +72,6 @@ class DirectLight {
   std::vector<double> remaining_;
   ById<LightId, double> sourceWeights_;
   // The surface that blocked the last shadow ray from a surface to a source, at a hash of the two.
-  static constexpr int kBlockerBits = 12;
   std::vector<uint32_t> blockers_;
   std::vector<size_t> lookAheads_;  // values of lookAheadOf(), by its argument; computed as far as needed
 };

@@ -7,6 +7,7 @@
 #include "transport/openings.h"
 #include "transport/ray_functions.h"
 #include "transport/ray_limits.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
 
@@ -21,10 +22,9 @@ void sendOverHemisphere(const Transport& transport, const BrightSpots* aims, Ran
   double shares[3] = {1, openings.share, spots.share};
   shares[2] *= 1 - shares[1];
   shares[0] = 1 - shares[1] - shares[2];
-  // The shares of few rays cannot be rounded to whole numbers of each kind. The kind of each ray is then
-  // drawn at random, and its density is that of the mixture.
+  // The kind of each of few rays is drawn at random; its density is that of the mixture.
   int counts[3] = {rays, 0, 0};
-  if (rays < 16 && shares[0] < 1) {
+  if (rays < tuning::HemisphereRays::kFew && shares[0] < 1) {
     counts[0] = 0;
     for (int i = 0; i < rays; ++i) {
       const double u = random.uniform();

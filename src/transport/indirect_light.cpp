@@ -95,7 +95,8 @@ int IndirectLight::strataOf(const Ray& ray, const Rgb& coefficient) const {
   if (ray.ambientLevel > 0) return 1;
   const RayOptions& o = t_.options();
   double divisions = (o.ambientDivisions + o.ambientSuperSamples) * std::min(ray.weight, 1.);
-  // More directions than this would each fall below the weight limit, and most of them would end.
+  // More directions than this would each fall below the weight limit, and most of them would end. The factor
+  // .8 is RADIANCE's own.
   if (!t_.field())
     divisions =
         std::min(divisions, (o.ambientDivisions + o.ambientSuperSamples) * .8 * maxChannel(coefficient) *

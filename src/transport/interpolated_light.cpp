@@ -1,26 +1,24 @@
 #include "transport/interpolated_light.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <vector>
 
 #include "transport/ray_functions.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
 namespace {
 
-// The cosine of the greatest tilt of a perturbed normal for which light is interpolated.
-constexpr double kLeastUpright = .7;
-
-constexpr int kReachRays = 16;
+using Tuning = tuning::Interpolation;
 
 // The harmonic mean distance of the surfaces that a few rays from a site hit.
 double reachOf(const Tracer& tracer, const GatherSite& site) {
   // By projected solid angle, in the frame of the site.
   static const auto directions = [] {
-    const HemisphereCells cells(kReachRays);
-    std::array<V3d, kReachRays> of;
-    for (int i = 0; i < kReachRays; ++i)
+    const HemisphereCells cells(Tuning::kReachRays);
+    std::vector<V3d> of(cells.count());
+    for (int i = 0; i < cells.count(); ++i)
       of[i] = cells.direction(i, .5, .5, V3d(1, 0, 0), V3d(0, 1, 0), V3d(0, 0, 1));
     return of;
   }();
@@ -31,7 +29,7 @@ double reachOf(const Tracer& tracer, const GatherSite& site) {
     const Hit hit = tracer.nearest(site.point, d.x * x + d.y * y + d.z * site.normal);
     if (hit.surface != kNone) inverse += 1 / hit.distance;
   }
-  return inverse > 0 ? kReachRays / inverse : kFarAway;
+  return inverse > 0 ? static_cast<double>(directions.size()) / inverse : kFarAway;
 }
 
 // Whether interpolated light is valid at the end of a ray. It was gathered in the whole scene, with nothing
@@ -89,7 +87,7 @@ class Looker final : public SiteLooker, public CoarseSolution::Looker {
 bool InterpolatedLight::add(Ray& ray, const V3d& normal, const V3d& trueNormal, const Rgb& coefficient) {
   // The light at an imagined point (-I) is not interpolated, because no other ray needs it.
   if (ray.surface == kNone || settings_.gathersFirstAnew) return false;
-  if (!isOrdinary(ray, t_.medium()) || normal.dot(trueNormal) < kLeastUpright) return false;
+  if (!isOrdinary(ray, t_.medium()) || normal.dot(trueNormal) < Tuning::kLeastUpright) return false;
   Looker looker(t_.tracer(), gatherer_, ray.depth);
   GatheredLight light;
   if (!t_.field()->find(placeOf(ray, trueNormal), reader_, looker, light)) return false;
@@ -107,7 +105,7 @@ bool InterpolatedLight::addFromPatch(Ray& ray, const V3d& normal, const V3d& tru
   CoarseSolution::Patch* patch = nullptr;
   if (!isLast) {
     const double u1 = state_.random.uniform(), u2 = state_.random.uniform();
-    if (isOrdinary(ray, t_.medium()) && normal.dot(trueNormal) >= kLeastUpright)
+    if (isOrdinary(ray, t_.medium()) && normal.dot(trueNormal) >= Tuning::kLeastUpright)
       patch = t_.coarse()->find(placeOf(ray, trueNormal), u1, u2, looker);
   }
   if (state_.links) {

@@ -7,21 +7,12 @@
 #include "scene/even_sequence.h"
 #include "scene/random.h"
 #include "shade/scattering.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
 namespace {
 
-// Panes smaller than this share of the largest face of the scene's box are ignored, because every opening
-// costs time in every gather.
-constexpr double kLeastArea = 1e-6;
-// Number of panes that are probed; the largest are chosen.
-constexpr size_t kMostAsked = 512;
-// Number of probe rays on each side of a pane.
-constexpr int kProbes = 32;
-// The bright side of an opening is at least this many times brighter than the dark one.
-constexpr double kBrighter = 3;
-// Coplanar panes are merged to one opening if they fill at least this share of the rectangle around them.
-constexpr double kFilled = .7;
+using Tuning = tuning::Openings;
 
 bool lightPasses(const Material& material) {
   return isTransparent(material) && !enclosesVolume(material) && !isLightSource(material);
@@ -72,6 +63,7 @@ void Openings::merge(std::vector<Opening>& panes) {
       Opening& a = panes[i];
       const Opening& b = panes[j];
       const V3d between = b.corner - a.corner;
+      // Panes are coplanar within 1e-4 of their size and an angle of .08 degrees.
       const double scale = 1e-4 * (a.width + a.height);
       double low[2] = {0, 0}, high[2] = {a.width, a.height};
       bool together = a.normal.dot(b.normal) > 1 - 1e-6 && std::abs(between.dot(a.normal)) < scale;
@@ -83,7 +75,7 @@ void Openings::merge(std::vector<Opening>& panes) {
           high[k] = std::max(high[k], at[k]);
         }
       }
-      together = together && (high[0] - low[0]) * (high[1] - low[1]) * kFilled < a.area + b.area;
+      together = together && (high[0] - low[0]) * (high[1] - low[1]) * Tuning::kFilled < a.area + b.area;
       if (!together) {
         ++j;
         continue;
@@ -103,25 +95,25 @@ Openings::Openings(const Scene& scene, const Box3d& bounds, const Probe& probe) 
   const V3d size = bounds.size();
   const double face = std::max({size.x * size.y, size.y * size.z, size.z * size.x});
   const double lift = std::max(1e-6 * std::max({size.x, size.y, size.z}), 2 * kSamePlace);
-  std::vector<Opening> panes = panesOf(scene, kLeastArea * face);
+  std::vector<Opening> panes = panesOf(scene, Tuning::kLeastArea * face);
   if (panes.empty()) return;
   std::stable_sort(panes.begin(), panes.end(), [](const Opening& a, const Opening& b) {
     return a.width * a.height > b.width * b.height;
   });
-  if (panes.size() > kMostAsked) panes.resize(kMostAsked);
+  if (panes.size() > Tuning::kMostAsked) panes.resize(Tuning::kMostAsked);
   for (Opening& pane : panes) {
     double seen[2] = {0, 0};
     for (int side = 0; side < 2; ++side) {
       const V3d out = side ? -pane.normal : pane.normal;
-      for (int i = 0; i < kProbes; ++i) {
+      for (int i = 0; i < Tuning::kProbes; ++i) {
         const Imath::V2d at = evenly(static_cast<size_t>(i), .5, .5),
                          to = evenly(static_cast<size_t>(i), .1, .3);
         const V3d point = pane.corner + at.x * pane.width * pane.x + at.y * pane.height * pane.y;
-        seen[side] +=
-            probe(point - lift * out, diffuseDirection(out, to.y, to.x), static_cast<uint64_t>(i)) / kProbes;
+        seen[side] += probe(point - lift * out, diffuseDirection(out, to.y, to.x), static_cast<uint64_t>(i)) /
+                      Tuning::kProbes;
       }
     }
-    if (!(std::max(seen[0], seen[1]) > kBrighter * std::min(seen[0], seen[1]))) continue;
+    if (!(std::max(seen[0], seen[1]) > Tuning::kBrighter * std::min(seen[0], seen[1]))) continue;
     if (seen[0] > seen[1]) pane.normal = -pane.normal;
     pane.power = std::max(seen[0], seen[1]) * pane.area;
     openings_.push_back(pane);
@@ -129,7 +121,7 @@ Openings::Openings(const Scene& scene, const Box3d& bounds, const Probe& probe) 
   merge(openings_);
   const auto byPower = [](const Opening& a, const Opening& b) { return a.power > b.power; };
   std::stable_sort(openings_.begin(), openings_.end(), byPower);
-  if (openings_.size() > kMost) openings_.resize(kMost);
+  if (openings_.size() > Tuning::kMost) openings_.resize(Tuning::kMost);
 }
 
 void Openings::aim(const V3d& point, const V3d& normal, Aim& aim) const {
@@ -140,22 +132,23 @@ void Openings::aim(const V3d& point, const V3d& normal, Aim& aim) const {
     const Opening& o = openings_[i];
     if ((point - o.corner).dot(o.normal) <= 0) continue;
     // The form factor to the opening, estimated from five of its points.
+    const double inset = Tuning::kInset, between = 1 - 2 * inset;
     double factor = 0;
     for (int c = 0; c < 5; ++c) {
-      const double a = c < 4 ? .1 + .8 * (c & 1) : .5, b = c < 4 ? .1 + .8 * (c >> 1) : .5;
+      const double a = c < 4 ? inset + between * (c & 1) : .5, b = c < 4 ? inset + between * (c >> 1) : .5;
       const V3d way = o.corner + a * o.width * o.x + b * o.height * o.y - point;
       const double squared = way.length2();
       const double here = way.dot(normal), there = -way.dot(o.normal);
       if (here > 0 && there > 0) factor += here * there / (squared * squared);
     }
-    factor = std::min(factor / 5 * o.area / kPi, .5);
+    factor = std::min(factor / 5 * o.area / kPi, Tuning::kMostFactor);
     if (!(factor > 0)) continue;
     seen += factor;
     aim.upTo.emplace_back(i, sum += factor * o.power / o.area);
   }
   // If openings fill much of the view, rays hit them without being aimed.
-  if (sum > 0) aim.share = kMostAimed * std::max(0., 1 - 2 * seen);
-  if (aim.share < .05) aim.share = 0;
+  if (sum > 0) aim.share = Tuning::kMostAimed * std::max(0., 1 - Tuning::kSeenAnyway * seen);
+  if (aim.share < Tuning::kTooFew) aim.share = 0;
 }
 
 double Openings::areaTowards(const V3d& direction) const {

@@ -23,14 +23,12 @@ class Openings {
   Openings(const Scene& scene, const Box3d& bounds, const Probe& probe);
 
   bool empty() const { return openings_.empty(); }
-  static constexpr size_t kMost = 64;
 
   // The sampling distribution for a point of a diffuse surface.
   struct Aim {
-    double share = 0;                               // of the rays that should be aimed, 0 to kMostAimed
+    double share = 0;                               // of the rays that should be aimed
     std::vector<std::pair<uint32_t, double>> upTo;  // openings, with their cumulative weights
   };
-  static constexpr double kMostAimed = .4;
 
   // normal: unit, on the side that the light arrives at. Clears and fills aim.
   void aim(const V3d& point, const V3d& normal, Aim& aim) const;

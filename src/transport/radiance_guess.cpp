@@ -5,26 +5,12 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
 namespace {
 
-// Only the sources that contribute most are guessed one by one; the others become ambient light.
-constexpr size_t kMostLights = 32;
-
-// Number of shadow rays that estimate the mean visibility of a source.
-constexpr double kShadowRays = 12;
-
-// If a source adds more than kBright times the mean guess at a place, shadow rays to kSeenSide^2 fixed points
-// on it replace its mean visibility. This concerns a few percent of the glances, which carry most of the
-// light. If only some of these points are visible, the place is in penumbra and kPenumbraSide^2 points are
-// used instead: beside a goal, penumbrae cause most of the error of the guess.
-constexpr double kBright = 16;
-constexpr int kSeenSide = 2, kPenumbraSide = 4;
-
-// The factor of a source with four corners is exact within this many times its radius. Beyond, it is that of
-// a small surface, with an error of up to a seventh at grazing angles, which is accurate enough for a guess.
-constexpr double kNear = 3;
+using Tuning = tuning::RadianceGuess;
 
 // Irradiance from a triangle or parallelogram of radiance 1, clipped at the horizon, by Lambert's sum over
 // its sides. corners: relative to the place. normal: unit, of the place.
@@ -46,10 +32,6 @@ double irradianceFrom(const std::array<V3d, N>& corners, const V3d& normal) {
   }
   return std::abs(sum) / 2;
 }
-
-// Following an indirect ray takes about as long as kBouncePrice guesses for each bounce that it may still
-// make. At most kMostGuesses are made for each followed ray.
-constexpr double kBouncePrice = 30, kMostGuesses = 6;
 
 double middleOf(std::vector<double>& values) {
   if (values.empty()) return 0;
@@ -116,7 +98,7 @@ double RadianceGuess::factor(LightId source, const Place& at) const {
       sum += irradianceFrom<3>({v[0] - at.point, v[i - 1] - at.point, v[i] - at.point}, at.normal);
     return sum;
   }
-  if (distance > kNear * light.radius) return light.area * cosine * front / squared;
+  if (distance > Tuning::kNear * light.radius) return light.area * cosine * front / squared;
   const V3d &u = light.u, &v = light.v;
   return irradianceFrom<4>({to - u - v, to + u - v, to + u + v, to - u + v}, at.normal);
 }
@@ -131,7 +113,8 @@ double RadianceGuess::seenFrom(const Place& at, LightId source) const {
   const bool ball = light.map == LightSource::Map::ball;
   V3d u = light.u, v = light.v;
   if (ball) {
-    // A square perpendicular to the view with the area of the ball's disk.
+    // A square perpendicular to the view with the area of the ball's disk: half its side is sqrt(pi) / 2
+    // radii.
     frame((light.center - at.point).normalized(), u, v);
     u *= .886 * light.radius;
     v *= .886 * light.radius;
@@ -154,8 +137,8 @@ double RadianceGuess::seenFrom(const Place& at, LightId source) const {
     return asked ? static_cast<double>(seen) / asked : 0;
   };
   if (!wide) return share(1);
-  const double roughly = share(kSeenSide);
-  return roughly > 0 && roughly < 1 ? share(kPenumbraSide) : roughly;
+  const double roughly = share(Tuning::kSeenSide);
+  return roughly > 0 && roughly < 1 ? share(Tuning::kPenumbraSide) : roughly;
 }
 
 // The mean visibility of a light from the places. sent: brightness that each place would reflect if the light
@@ -170,7 +153,7 @@ double RadianceGuess::shareThatArrives(const Light& light, std::span<const doubl
   double due = random.uniform();
   for (size_t i = 0; i < places.size(); ++i) {
     const Place& at = places[i];
-    due += sent[i] / sum * kShadowRays;
+    due += sent[i] / sum * Tuning::kShadowRays;
     if (due < 1) continue;
     due -= std::floor(due);
     samples.clear();
@@ -201,7 +184,7 @@ LocalGuess RadianceGuess::fit(const V3d& point, std::span<const V3d> glances, st
     if (sum > 0) order.push_back({-sum, i});
   }
   std::sort(order.begin(), order.end());
-  if (order.size() > kMostLights) order.resize(kMostLights);
+  if (order.size() > Tuning::kMostLights) order.resize(Tuning::kMostLights);
   double arriving = 0;
   for (const auto& [sum, i] : order) {
     Light light = lights_[i];
@@ -211,7 +194,7 @@ LocalGuess RadianceGuess::fit(const V3d& point, std::span<const V3d> glances, st
     local.lights_.push_back(light);
     arriving += light.share * -sum;
   }
-  local.bright_ = kBright * arriving / static_cast<double>(std::max<size_t>(1, glances.size()));
+  local.bright_ = Tuning::kBright * arriving / static_cast<double>(std::max<size_t>(1, glances.size()));
   // The median instead of the mean, because a few directions hit something very bright by chance.
   std::vector<double> around[3];
   for (const Traced& t : traced) {
@@ -224,7 +207,8 @@ LocalGuess RadianceGuess::fit(const V3d& point, std::span<const V3d> glances, st
   for (int c = 0; c < 3; ++c) local.ambient_[c] = std::max(0., middleOf(around[c]));
   // The variance that the guess leaves to the directions, and the part of it that the random choice of
   // indirect rays causes. That part is estimated from the mean absolute difference of two guesses: it is less
-  // sensitive than a mean square to single rays that hit something bright by chance.
+  // sensitive than a mean square to single rays that hit something bright by chance. For normally distributed
+  // values, the variance is pi / 4 times its square.
   double rests = 0, squares = 0, guessed = 0;
   for (const Traced& t : traced) {
     const double rest = brightness(t.radiance - local.from(t.place));
@@ -276,8 +260,8 @@ int LocalGuess::raysToGuess(int bounces) const {
   if (bounces > 1) return 0;
   const int left = guess_->transport_.options().ambientBounces - bounces;
   // Beyond the second surface, all contributions have about half the weight.
-  const double pay = std::sqrt(kBouncePrice * left * shareGuessed_);
-  const auto rays = static_cast<int>(std::lround(std::min(pay, kMostGuesses) / (1 + bounces)));
+  const double pay = std::sqrt(Tuning::kBouncePrice * left * shareGuessed_);
+  const auto rays = static_cast<int>(std::lround(std::min(pay, Tuning::kMostGuesses) / (1 + bounces)));
   // A single guess adds as much variance as it removes.
   return rays > 1 ? rays : 0;
 }

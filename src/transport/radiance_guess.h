@@ -89,12 +89,11 @@ class RadianceGuess {
   // The place of a hit that Tracer::nearest found from a point (world) in a direction.
   Place placeOf(const V3d& point, const V3d& direction, const Hit& hit) const;
 
-  // Fits the guess to the view from a point (world). glances: about kFitGlances evenly spread directions. The
-  // estimate stays unbiased as long as it contains neither the glances nor the traced directions.
+  // Fits the guess to the view from a point (world). glances: about tuning::RadianceGuess::kFitGlances evenly
+  // spread directions. The estimate stays unbiased as long as it contains neither the glances nor the traced
+  // directions.
   LocalGuess fit(const V3d& point, std::span<const V3d> glances, std::span<const Traced> traced,
                  uint64_t seed) const;
-
-  static constexpr size_t kFitGlances = 128;
 
  private:
   friend class LocalGuess;

@@ -27,6 +27,7 @@ bool continueRay(const Transport& transport, Random& random, Ray& child, RayKind
   child.weight = parent.weight * std::min(1., maxChannel(coefficient));
   const Rgb& extinction = parent.medium.extinction;
   const double depth = std::min({extinction.x, extinction.y, extinction.z}) * parent.length;
+  // RADIANCE's own limit: a thinner medium does not reduce the weight.
   if (depth > .1) child.weight *= std::exp(-depth);
   if (!(child.weight > 0)) return false;
   if (child.kinds & kShadow) return true;

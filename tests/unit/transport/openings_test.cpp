@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/unit/transport/transport_fixture.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
 namespace {
@@ -41,7 +42,7 @@ Openings openingsOf(const std::string& text) {
 double shareAt(const Openings& openings, const V3d& point, const V3d& normal) {
   Openings::Aim aim;
   openings.aim(point, normal, aim);
-  EXPECT_LE(aim.share, Openings::kMostAimed);
+  EXPECT_LE(aim.share, tuning::Openings::kMostAimed);
   return aim.share;
 }
 

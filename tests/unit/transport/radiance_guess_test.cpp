@@ -8,6 +8,7 @@
 
 #include "tests/unit/transport/transport_fixture.h"
 #include "transport/bright_spots.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
 namespace {
@@ -32,7 +33,7 @@ RadianceGuess guessOf(const Traced& t) {
 // A guess fitted to the view from the point, in the same way as for spherical means.
 LocalGuess fitted(const RadianceGuess& guess, Traced& t, const V3d& point, int rays = 0) {
   Random random(5);
-  std::vector<V3d> glances(RadianceGuess::kFitGlances);
+  std::vector<V3d> glances(tuning::RadianceGuess::kFitGlances);
   for (V3d& d : glances) d = randomDirection(random);
   std::vector<RadianceGuess::Traced> traced;
   for (int i = 0; i < rays; ++i) {
