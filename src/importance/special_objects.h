@@ -32,16 +32,21 @@ double irregularity(const Material& material);
 // to 3500 directions too, at each of its points (accuracy_test.cpp, SendsAsManyDirectionsAsThePaper; the
 // distribution is in tests/bench/importance/runs/2026-11-21-histogram.txt). They set the numbers of
 // directions of -Sw v, and choose the special objects of both -Sw v and -Sw c.
+// The last sentence of each comment is from tests/bench/sensitivity/runs/2026-11-22.txt.
 //
-// Directions per sr for an irregularity of 1, times -Sk. A hundred spheres of 0.1 m then get 1000.
+// Directions per sr for an irregularity of 1, times -Sk. A hundred spheres of 0.1 m then get 1000. 30% less:
+// time -17%; 30% more: time +15% (Voronoi cells; noise: error 8%, time 4%).
 RSPHERE_TUNED(SpecialObjects, double, kDirectionsPerSr, 32000);
 // Roughness (rms slope) of a highlight that is half as irregular as a mirror: derived. It fills 4 pi a^2 sr,
-// so that it gets about 16 of these directions, four across.
+// so that it gets about 16 of these directions, four across. 30% less: within noise; 30% more: time +23%
+// (Voronoi cells; noise: error 5%, time 4%).
 RSPHERE_TUNED(SpecialObjects, double, kSharpRoughness, .0065);
 // Irregularity of glass panes. Objects behind a pane look as large as without it, and its mirror image is
-// faint. A pane gets 64 directions per sr, a few hundred at most; as a mirror it took all directions.
+// faint. A pane gets 64 directions per sr, a few hundred at most; as a mirror it took all directions. 30%
+// less or more: within noise (Voronoi cells; error 1%, time 5%).
 RSPHERE_TUNED(SpecialObjects, double, kPane, .002);
-// Less irregular objects are treated as diffuse: their 16 directions per sr are a tenth of the base's.
+// Less irregular objects are treated as diffuse: their 16 directions per sr are a tenth of the base's. 30%
+// less or more: within noise (Voronoi cells; error 1%, time 5%).
 RSPHERE_TUNED(SpecialObjects, double, kSpecialIrregularity, .0005);
 
 struct SpecialObject {
@@ -53,7 +58,8 @@ struct SpecialObject {
 };
 
 // With more special objects in octrees and meshes than this, each outermost instance is one object, to limit
-// the time, because silhouettes of all objects are computed at every point. Chosen by experiment.
+// the time, because silhouettes of all objects are computed at every point. Chosen by experiment. 30% less or
+// more: the same answers in all cases.
 RSPHERE_TUNED(SpecialObjects, size_t, kMostPlacedObjects, 4096);
 
 // All surfaces, except distant sources, whose material or one of whose alternatives in mixtures has at least
