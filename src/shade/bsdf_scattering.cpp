@@ -92,21 +92,6 @@ LobeSample BsdfScattering::draw(Component component, int i, int n, Random& rando
   return {frame_.world(direction), coefficient};
 }
 
-// Light that is transmitted starts behind the thickness, and so do shadow rays to the sources behind. Without
-// a thickness, the direct light of both sides is estimated at the same point, and together.
-LitSide BsdfScattering::side(Component component) const {
-  if (component == Component::reflected)
-    return {.normal = frame_.normal,
-            .trueNormal = at_.normal,
-            .indirect = reflectance_ + unsampledReflection_,
-            .direct = true};
-  return {.normal = -frame_.normal,
-          .trueNormal = -at_.normal,
-          .indirect = transmittance_ + unsampledTransmission_,
-          .offset = across_,
-          .direct = thick_};
-}
-
 Rgb BsdfScattering::coefficient(Component component, const V3d& toSource, double solidAngle,
                                 Random& random) const {
   const bool reflects = component == Component::reflected, transmits = !thick_ || !reflects;

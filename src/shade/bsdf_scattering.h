@@ -32,10 +32,23 @@ class BsdfScattering {
                  const BsdfFrame& frame, double thickness, int views, const MaterialOptions& options);
 
   const SharpPaths& sharp() const { return sharp_; }
+  Components components() const { return kComponents; }
   std::optional<Lobe> lobe(Component component, Random& random);
   LobeSample draw(Component component, int i, int n, Random& random) const;
-  LitSide side(Component component) const;
+  Rgb indirect(Component component) const {
+    return component == Component::reflected ? reflectance_ + unsampledReflection_
+                                             : transmittance_ + unsampledTransmission_;
+  }
+  Hemisphere hemisphere(Component component) const { return hemisphereOf(component, frame_.normal, at_); }
+  // Transmitted light arrives behind the thickness, and so does that of sources behind. Without a thickness,
+  // the direct light of both sides is estimated at the same point, and together.
+  const V3d& offset(Component component) const {
+    return component == Component::reflected ? kNoOffset : across_;
+  }
+  bool takesDirect(Component component) const { return component == Component::reflected || thick_; }
+  V3d front() const { return V3d(0, 0, 0); }
   Rgb coefficient(Component component, const V3d& toSource, double solidAngle, Random& random) const;
+  bool isEven() const { return false; }
 
  private:
   const DirectedScattering* part(Component component) const {

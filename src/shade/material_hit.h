@@ -20,7 +20,6 @@ struct MaterialOptions {
 
 // How a ray arrived at a surface.
 struct Arrival {
-  V3d direction{0, 0, -1};    // of the ray, unit
   unsigned kinds = kPrimary;  // of the ray and its ancestors
   double cosine = 1;          // -normal . direction; negative from behind
   double length = 0;          // of the ray (world units)
@@ -38,33 +37,45 @@ struct Arrival {
   bool isAimedHere() const { return isAimed() && target == surface; }
 };
 
+// What the materials of a scene need, whichever ray hits them. scratch: of one thread.
+struct MaterialContext {
+  const Scene& scene;
+  const SurfaceFunctions& functions;
+  MaterialOptions options;
+  FunctionScratch scratch{};
+};
+
 class MaterialHit {
  public:
-  // Keeps references.
-  MaterialHit(const Arrival& arrival, const Scene& scene, const MaterialOptions& options,
-              const SurfaceFunctions& functions, FunctionScratch& scratch)
-      : arrival_(arrival), scene_(scene), options_(options), functions_(functions), scratch_(scratch) {}
+  // Keeps a reference to the context. modifiers: the material's own.
+  MaterialHit(const Arrival& arrival, ModifierId modifiers, MaterialContext& context)
+      : arrival_(arrival), context_(context), modifiers_(modifiers) {}
 
   const Arrival& arrival() const { return arrival_; }
-  const Scene& scene() const { return scene_; }
-  const MaterialOptions& options() const { return options_; }
-  const SurfaceFunctions& functions() const { return functions_; }
-  FunctionScratch& scratch() const { return scratch_; }
+  const Scene& scene() const { return context_.scene; }
+  const MaterialOptions& options() const { return context_.options; }
+  const SurfaceFunctions& functions() const { return context_.functions; }
+  FunctionScratch& scratch() const { return context_.scratch; }
 
+  ModifierId modifiers() const { return modifiers_; }
   // Whether the ray passes because it hit a back face, and these are invisible (-bv-).
-  bool passesBack() const { return arrival_.cosine < 0 && !options_.backFacesVisible; }
+  bool passesBack() const { return arrival_.cosine < 0 && !options().backFacesVisible; }
 
-  // Applies the material's own modifiers, whose patterns and textures interaction() then contains. Returns
-  // the factor of the patterns. Throws rad::Error if one of them is a material.
-  virtual Rgb modify() = 0;
+  // Applies the material's own modifiers, whose patterns and textures interaction() then contains. Throws
+  // rad::Error if one of them is a material.
+  void modify() {
+    if (modifiers_ != kNone) applyModifiers();
+  }
   // Turns a hit from behind into a hit from the front, which point() and the tracer then see.
-  virtual void turnRound() = 0;
+  void turnRound() {
+    if (arrival_.cosine < 0) turnToFront();
+  }
   virtual Interaction interaction() const = 0;
+  // The factor of the patterns that were applied.
+  virtual const Rgb& pattern() const = 0;
   // The hit with the patterns and textures of a chain of modifiers added (kNone: of none); without those of
   // modify(), if it was not called. Does not change the hit itself.
   virtual Interaction interactionAfter(ModifierId modifiers) const = 0;
-  // The material's own modifiers.
-  virtual ModifierId modifiers() const = 0;
   virtual FunctionPoint point() const = 0;
   // The medium that the ray travels through.
   virtual const Medium& medium() const = 0;
@@ -77,11 +88,12 @@ class MaterialHit {
   ~MaterialHit() = default;
 
  private:
+  virtual void applyModifiers() = 0;
+  virtual void turnToFront() = 0;
+
   Arrival arrival_;
-  const Scene& scene_;
-  const MaterialOptions& options_;
-  const SurfaceFunctions& functions_;
-  FunctionScratch& scratch_;
+  MaterialContext& context_;
+  ModifierId modifiers_;
 };
 
 }  // namespace rsphere

@@ -26,15 +26,20 @@ SourceResponse emission(const Rgb& radiance, MaterialHit& hit, const Glow* glow 
     return Absorbs{};
   if (hit.passesBack()) return Passes{};
   if (a.cosine < 0) return Absorbs{};
-  return Emits{radiance * hit.modify()};
+  hit.modify();
+  return Emits{radiance * hit.pattern()};
 }
 
 // ---- functions
 
 // Applies the modifiers and turns the hit to the front.
-Interaction modifiedFront(MaterialHit& hit) {
+void modifyFront(MaterialHit& hit) {
   hit.modify();
   hit.turnRound();
+}
+
+Interaction modifiedFront(MaterialHit& hit) {
+  modifyFront(hit);
   return hit.interaction();
 }
 
@@ -65,13 +70,6 @@ V3d orientation(ModifierId material, MaterialHit& hit, const FunctionPoint& poin
   return hit.functions().orientation(material, point, hit.scratch());
 }
 
-// Warns once per material if a highlight is anisotropic but its orientation vector gives no direction
-// within the surface.
-void warnOfOrientation(const MaterialHit& hit, ModifierId material, const AnisotropicScattering& s) {
-  if (s.reflected.disoriented || s.transmitted.disoriented)
-    hit.functions().warn(material, "illegal orientation vector");
-}
-
 // The interaction of one component of WGMDfunc. named: empty if it has the modifiers of the material, whose
 // interaction is `inherited`.
 Interaction componentAt(const MaterialHit& hit, const std::optional<ModifierId>& named,
@@ -90,22 +88,22 @@ WgmdComponent componentOf(const Interaction& at, const std::array<double, 3>& va
 DiffusingResponse response(const Opaque& material, MaterialHit& hit) {
   if (hit.arrival().isShadow()) return Absorbs{};
   if (hit.passesBack()) return Passes{};
-  return DiffusingResponse(std::in_place_type<RoundScattering>, material, modifiedFront(hit), hit.options());
+  modifyFront(hit);
+  return DiffusingResponse(std::in_place_type<RoundScattering>, material, hit);
 }
 
 DiffusingResponse response(const Trans& material, MaterialHit& hit) {
   if (hit.passesBack()) return Passes{};
-  return DiffusingResponse(std::in_place_type<RoundScattering>, material, modifiedFront(hit), hit.options());
+  modifyFront(hit);
+  return DiffusingResponse(std::in_place_type<RoundScattering>, material, hit);
 }
 
 EllipticResponse response(const Anisotropic& material, MaterialHit& hit) {
   if (hit.arrival().isShadow()) return Absorbs{};
   if (hit.passesBack()) return Passes{};
-  const Interaction at = modifiedFront(hit);
-  const AnisotropicScattering s = scatter(material, at, orientation(material.functions, hit, hit.point()),
-                                          hit.options().specularThreshold);
-  warnOfOrientation(hit, material.functions, s);
-  return EllipticScattering(s, at, hit.options());
+  modifyFront(hit);
+  const V3d along = orientation(material.functions, hit, hit.point());
+  return EllipticResponse(std::in_place_type<EllipticScattering>, material, along, hit);
 }
 
 std::variant<Absorbs, Passes, AshikhminLobeScattering> response(const Ashikhmin& material, MaterialHit& hit) {
@@ -195,22 +193,20 @@ std::variant<Absorbs, Passes, BsdfScattering> response(const BsdfMaterial& mater
 Boundary response(const Dielectric& material, MaterialHit& hit) {
   const Interaction at = modified(hit);
   const MaterialOptions& o = hit.options();
-  const Scattering s = scatter(material, at, at.front ? hit.medium() : o.medium, o.basicRadiance);
-  return {s.medium, s.sharp};
+  return {scatter(material, at, at.front ? hit.medium() : o.medium, o.basicRadiance)};
 }
 
 Boundary response(const Interface& material, MaterialHit& hit) {
-  const Scattering s = scatter(material, modified(hit), hit.options().basicRadiance);
-  return {s.medium, s.sharp};
+  return {scatter(material, modified(hit), hit.options().basicRadiance)};
 }
 
-std::variant<Passes, SharpPaths> response(const Glass& material, MaterialHit& hit) {
+PaneResponse response(const Glass& material, MaterialHit& hit) {
   if (hit.arrival().cosine <= 0 && !hit.options().backFacesVisible) return Passes{};
-  return scatter(material, modifiedFront(hit)).sharp;
+  return PaneResponse(std::in_place_type<ReflectsSharply>, material, modifiedFront(hit));
 }
 
-std::variant<Absorbs, Passes, Alternate, SharpPaths, Relays> response(const Mirror& material,
-                                                                      MaterialHit& hit) {
+std::variant<Absorbs, Passes, Alternate, ReflectsSharply, Relays> response(const Mirror& material,
+                                                                           MaterialHit& hit) {
   const Arrival& a = hit.arrival();
   if (material.alternate.kind != Alternate::Kind::none && !a.isAimedHere()) {
     // An indirect ray that hits the front is reflected by the mirror and not shaded with the alternate
@@ -227,7 +223,7 @@ std::variant<Absorbs, Passes, Alternate, SharpPaths, Relays> response(const Mirr
   if (hit.passesBack()) return Passes{};
   if (a.cosine < 0) return Absorbs{};
   const Interaction at = modified(hit);
-  if (!a.isAimed()) return scatter(material, at).sharp;
+  if (!a.isAimed()) return ReflectsSharply(material, at);
   // Textures are ignored: the virtual source is the image in the unperturbed plane.
   return Relays{{at.direction + 2 * at.cosine * at.normal, material.reflectance * at.pattern, kReflected}};
 }
@@ -260,7 +256,10 @@ std::variant<Absorbs, Redirects, Relays> response(const Prism& material, Materia
 
 CrossesMist response(const Mist& material, MaterialHit& hit) {
   Rgb extinction = material.extinction;
-  if (!isBlack(extinction)) extinction *= hit.modify();
+  if (!isBlack(extinction)) {
+    hit.modify();
+    extinction *= hit.pattern();
+  }
   return {material, extinction, hit.arrival().cosine > 0};
 }
 
@@ -283,7 +282,7 @@ SourceResponse response(const Glow& material, MaterialHit& hit) {
 SourceResponse response(const Spotlight& material, MaterialHit& hit) {
   const Arrival& a = hit.arrival();
   if (hit.scene().importance || countedByDirect(a)) return Absorbs{};
-  if (a.cosine >= 0 && outsideSpot(material, a.direction)) return Absorbs{};
+  if (a.cosine >= 0 && outsideSpot(material, hit.interaction().direction)) return Absorbs{};
   return emission(material.radiance, hit);
 }
 

@@ -15,21 +15,6 @@ constexpr int kMostTries = 10;
 // of successive rays evenly. Here samples depend on their ray alone, and four of them give as little noise.
 constexpr int kAshikhminSamples = 4;
 
-// Whether the scattered light has no strong peak: the peak of a lobe, share / (4 pi alpha^2) at normal
-// incidence, is at most kMost times the diffuse part, share / pi.
-bool isEven(const Scattering& s) {
-  constexpr double kMost = 4;
-  return maxChannel(s.specularReflection + s.specularTransmission) <=
-         kMost * 4 * s.alpha2 * maxChannel(s.diffuseReflection + s.diffuseTransmission);
-}
-
-// The side that light comes from to be reflected or transmitted. normal: perturbed, on the ray's side.
-LitSide sideOf(Component component, const V3d& normal, const Interaction& at, const Rgb& indirect) {
-  if (component == Component::reflected)
-    return {.normal = normal, .trueNormal = at.normal, .indirect = indirect};
-  return {.normal = -normal, .trueNormal = -at.normal, .indirect = indirect};
-}
-
 // A sample of a lobe, stratified in its first number. sample: as sampleReflection().
 template <class Sample>
 LobeSample drawStratified(const Rgb& share, int i, int n, Random& random, const Sample& sample) {
@@ -44,12 +29,6 @@ LobeSample drawStratified(const Rgb& share, int i, int n, Random& random, const 
 
 // ---- round lobes
 
-std::optional<Lobe> RoundScattering::lobe(Component component, Random&) const {
-  const bool sampled =
-      component == Component::reflected ? scattering_.sampleReflection : scattering_.sampleTransmission;
-  return sampled ? std::optional(Lobe{}) : std::nullopt;
-}
-
 LobeSample RoundScattering::draw(Component component, int i, int n, Random& random) const {
   const Scattering& s = scattering_;
   if (component == Component::reflected)
@@ -61,25 +40,16 @@ LobeSample RoundScattering::draw(Component component, int i, int n, Random& rand
   });
 }
 
-LitSide RoundScattering::side(Component component) const {
+// The peak of a lobe, share / (4 pi alpha^2) at normal incidence, is at most kMost times the diffuse part,
+// share / pi.
+bool RoundScattering::isEven() const {
+  constexpr double kMost = 4;
   const Scattering& s = scattering_;
-  if (component == Component::reflected) return sideOf(component, s.normal, at_, s.ambientReflection);
-  LitSide side = sideOf(component, s.normal, at_, s.ambientTransmission);
-  const bool reflects = !isBlack(s.diffuseReflection) || !isBlack(s.specularReflection);
-  const bool transmits = !isBlack(s.diffuseTransmission) || !isBlack(s.specularTransmission);
-  side.direct = reflects || transmits;
-  if (!transmits) side.front = s.normal;
-  side.even = isEven(s);
-  return side;
+  return maxChannel(s.specularReflection + s.specularTransmission) <=
+         kMost * 4 * s.alpha2 * maxChannel(s.diffuseReflection + s.diffuseTransmission);
 }
 
 // ---- elliptic lobes
-
-std::optional<Lobe> EllipticScattering::lobe(Component component, Random&) const {
-  const EllipticLobe& lobe =
-      component == Component::reflected ? scattering_.reflected : scattering_.transmitted;
-  return lobe.sampled ? std::optional(Lobe{}) : std::nullopt;
-}
 
 LobeSample EllipticScattering::draw(Component component, int i, int n, Random& random) const {
   if (component == Component::reflected)
@@ -89,14 +59,6 @@ LobeSample EllipticScattering::draw(Component component, int i, int n, Random& r
   return drawStratified(scattering_.transmitted.share, i, n, random, [&](double u1, double u2, V3d& d) {
     return sampleTransmission(scattering_.transmitted, at_, spread_, u1, u2, d);
   });
-}
-
-LitSide EllipticScattering::side(Component component) const {
-  const DiffuseComponent& diffuse =
-      component == Component::reflected ? scattering_.reflection : scattering_.transmission;
-  LitSide side = sideOf(component, diffuse.normal, at_, diffuse.ambient);
-  side.direct = component == Component::transmitted;
-  return side;
 }
 
 // ---- ashik2
@@ -117,22 +79,13 @@ LobeSample AshikhminLobeScattering::draw(Component, int i, int n, Random& random
   });
 }
 
-LitSide AshikhminLobeScattering::side(Component component) const {
-  if (component == Component::transmitted) return {};
-  LitSide side = sideOf(component, scattering_.reflection.normal, at_, scattering_.reflection.ambient);
-  side.direct = true;
-  return side;
-}
-
 // ---- functions
 
-LitSide ProgrammedScattering::side(Component component) const {
+bool ProgrammedScattering::takesDirect(Component component) const {
   const FunctionScattering& s = scattering_;
-  if (component == Component::reflected) return sideOf(component, s.normal, at_, s.ambientReflection);
-  LitSide side = sideOf(component, s.normal, at_, s.ambientTransmission);
-  side.direct = !isBlack(s.diffuseReflection) || !isBlack(s.diffuseTransmission) ||
-                !isBlack(s.directionalReflection) || !isBlack(s.directionalTransmission);
-  return side;
+  return component == Component::transmitted &&
+         (!isBlack(s.diffuseReflection) || !isBlack(s.diffuseTransmission) ||
+          !isBlack(s.directionalReflection) || !isBlack(s.directionalTransmission));
 }
 
 }  // namespace rsphere

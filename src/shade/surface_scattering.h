@@ -7,8 +7,10 @@
 // they trace nothing, and take the random numbers that they need from the caller. Their terms must be
 // estimated in the order above, the reflected before the transmitted, because a lobe that is too weak to be
 // sampled may add its share to the indirect light.
+#include <array>
 #include <concepts>
 #include <optional>
+#include <span>
 
 #include "scene/random.h"
 #include "shade/anisotropic.h"
@@ -18,6 +20,8 @@
 namespace rsphere {
 
 enum class Component : uint8_t { reflected, transmitted };
+inline constexpr std::array kComponents{Component::reflected, Component::transmitted};
+using Components = std::span<const Component>;
 
 // Adding it to a point changes no bit of the point: -0 + -0 is -0.
 inline const V3d kNoOffset{-0., -0., -0.};
@@ -36,59 +40,103 @@ struct LobeSample {
   Rgb coefficient{0, 0, 0};  // of its radiance in that of the ray; black: the draw gave no valid direction
 };
 
-// One side of the surface, from which light is scattered diffusely.
-struct LitSide {
-  V3d normal{0, 0, 1}, trueNormal{0, 0, 1};  // towards that side, unit: perturbed, and of the surface
-  Rgb indirect{0, 0, 0};                     // coefficient of the mean radiance over its hemisphere
-  V3d offset = kNoOffset;  // from the hit to the point that the light arrives at (world units)
-  // Whether direct light is estimated at this point, after the indirect light. It is that of this side, or of
-  // both sides where the same point serves both; coefficient() is 0 for the rest.
-  bool direct = false;
-  V3d front{0, 0, 0};  // the normal behind which coefficients of direct light are 0; 0: none
-  bool even = false;   // the scattered light has no strong peak
+// The hemisphere that light comes from to be reflected or transmitted diffusely.
+struct Hemisphere {
+  V3d normal{0, 0, 1}, trueNormal{0, 0, 1};  // towards its middle, unit: perturbed, and of the surface
 };
+// normal: perturbed, on the ray's side.
+inline Hemisphere hemisphereOf(Component component, const V3d& normal, const Interaction& at) {
+  if (component == Component::reflected) return {normal, at.normal};
+  return {-normal, -at.normal};
+}
 
 // What all models of scattering answer.
 template <class S>
 concept ScattersLight = requires(S s, const S& c, Component component, Random& random, V3d v) {
   { c.sharp() } -> std::same_as<const SharpPaths&>;
+  // Those that the surface has, in the order in which they are estimated; the others are black.
+  { c.components() } -> std::same_as<Components>;
   // Empty if the component has no lobe that is sampled.
   { s.lobe(component, random) } -> std::same_as<std::optional<Lobe>>;
   // Sample i of n of a lobe, for i from 0 on. The coefficients of all n add up to the lobe's share of light.
   { c.draw(component, 0, 1, random) } -> std::same_as<LobeSample>;
-  { c.side(component) } -> std::same_as<LitSide>;
+  // The coefficient of the mean radiance over the hemisphere of indirect light.
+  { c.indirect(component) } -> std::convertible_to<Rgb>;
+  { c.hemisphere(component) } -> std::same_as<Hemisphere>;
+  // From the hit to the point that light of this component arrives at (world units).
+  { c.offset(component) } -> std::convertible_to<V3d>;
+  // Whether direct light is estimated at that point, after the indirect light of the component. It is that of
+  // this component, or of both where the same point serves both.
+  { c.takesDirect(component) } -> std::same_as<bool>;
+  // The normal behind which coefficients of direct light are 0; 0: none.
+  { c.front() } -> std::convertible_to<V3d>;
   // The share of a source's radiance that is scattered towards the ray's origin, for a source that fills a
-  // solid angle (sr) in a direction (unit). component: that of a side whose LitSide::direct is set.
+  // solid angle (sr) in a direction (unit). component: one that takes direct light.
   { c.coefficient(component, v, 1., random) } -> std::same_as<Rgb>;
+  // Whether the scattered light has no strong peak.
+  { c.isEven() } -> std::same_as<bool>;
 };
 
 // plastic, metal, trans: lobes that are the same all round (scattering.h).
 class RoundScattering {
  public:
   template <class M>
-  RoundScattering(const M& material, const Interaction& at, const MaterialOptions& options)
-      : at_(at),
-        scattering_(scatter(material, at, options.specularThreshold)),
-        spread_(options.specularSampling),
-        sourceJitter_(options.directJitter) {}
+  RoundScattering(const M& material, const MaterialHit& hit)
+      : at_(hit.interaction()),
+        scattering_(scatter(material, at_, hit.options().specularThreshold)),
+        transmits_(!isBlack(scattering_.diffuseTransmission) || !isBlack(scattering_.specularTransmission)),
+        components_(transmits_ || scattering_.sampleTransmission ? 2 : 1),
+        spread_(hit.options().specularSampling),
+        sourceJitter_(hit.options().directJitter) {}
 
   const SharpPaths& sharp() const { return scattering_.sharp; }
-  std::optional<Lobe> lobe(Component component, Random& random) const;
+  Components components() const { return Components(kComponents).first(components_); }
+  std::optional<Lobe> lobe(Component component, Random&) const {
+    const bool sampled =
+        component == Component::reflected ? scattering_.sampleReflection : scattering_.sampleTransmission;
+    return sampled ? std::optional(Lobe{}) : std::nullopt;
+  }
   LobeSample draw(Component component, int i, int n, Random& random) const;
-  LitSide side(Component component) const;
+  const Rgb& indirect(Component component) const {
+    return component == Component::reflected ? scattering_.ambientReflection
+                                             : scattering_.ambientTransmission;
+  }
+  Hemisphere hemisphere(Component component) const {
+    return hemisphereOf(component, scattering_.normal, at_);
+  }
+  const V3d& offset(Component) const { return kNoOffset; }
+  bool takesDirect(Component component) const {
+    return component == components().back() && (transmits_ || !isBlack(scattering_.diffuseReflection) ||
+                                                !isBlack(scattering_.specularReflection));
+  }
+  // What transmits no light is lit from its front alone.
+  V3d front() const { return transmits_ ? V3d(0, 0, 0) : scattering_.normal; }
   Rgb coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
     return directCoefficient(scattering_, at_, toSource, solidAngle, sourceJitter_);
   }
+  bool isEven() const;
 
  private:
   Interaction at_;
   Scattering scattering_;
+  bool transmits_;
+  uint8_t components_;
   double spread_, sourceJitter_;
 };
 
 // plastic2, metal2, trans2, WGMDfunc: elliptic lobes (anisotropic.h).
 class EllipticScattering {
  public:
+  // along: as in Anisotropic's scatter(). Warns once per material if a highlight is anisotropic but its
+  // orientation vector gives no direction within the surface.
+  EllipticScattering(const Anisotropic& material, const V3d& along, const MaterialHit& hit)
+      : at_(hit.interaction()),
+        scattering_(scatter(material, at_, along, hit.options().specularThreshold)),
+        spread_(hit.options().specularSampling),
+        sourceJitter_(hit.options().directJitter) {
+    if (scattering_.reflected.disoriented || scattering_.transmitted.disoriented)
+      hit.functions().warn(material.functions, "illegal orientation vector");
+  }
   EllipticScattering(const AnisotropicScattering& scattering, const Interaction& at,
                      const MaterialOptions& options)
       : at_(at),
@@ -97,14 +145,31 @@ class EllipticScattering {
         sourceJitter_(options.directJitter) {}
 
   const SharpPaths& sharp() const { return scattering_.sharp; }
-  std::optional<Lobe> lobe(Component component, Random& random) const;
+  Components components() const { return kComponents; }
+  std::optional<Lobe> lobe(Component component, Random&) const {
+    return lobeOf(component).sampled ? std::optional(Lobe{}) : std::nullopt;
+  }
   LobeSample draw(Component component, int i, int n, Random& random) const;
-  LitSide side(Component component) const;
+  const Rgb& indirect(Component component) const { return diffuse(component).ambient; }
+  Hemisphere hemisphere(Component component) const {
+    return hemisphereOf(component, diffuse(component).normal, at_);
+  }
+  const V3d& offset(Component) const { return kNoOffset; }
+  bool takesDirect(Component component) const { return component == Component::transmitted; }
+  V3d front() const { return V3d(0, 0, 0); }
   Rgb coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
     return directCoefficient(scattering_, at_.direction, toSource, solidAngle, sourceJitter_);
   }
+  bool isEven() const { return false; }
 
  private:
+  const EllipticLobe& lobeOf(Component component) const {
+    return component == Component::reflected ? scattering_.reflected : scattering_.transmitted;
+  }
+  const DiffuseComponent& diffuse(Component component) const {
+    return component == Component::reflected ? scattering_.reflection : scattering_.transmission;
+  }
+
   Interaction at_;
   AnisotropicScattering scattering_;
   double spread_, sourceJitter_;
@@ -117,12 +182,20 @@ class AshikhminLobeScattering {
       : at_(at), scattering_(scattering) {}
 
   const SharpPaths& sharp() const { return sharp_; }
+  Components components() const { return Components(kComponents).first(1); }
   std::optional<Lobe> lobe(Component component, Random& random) const;
   LobeSample draw(Component component, int i, int n, Random& random) const;
-  LitSide side(Component component) const;
+  const Rgb& indirect(Component) const { return scattering_.reflection.ambient; }
+  Hemisphere hemisphere(Component component) const {
+    return hemisphereOf(component, scattering_.reflection.normal, at_);
+  }
+  const V3d& offset(Component) const { return kNoOffset; }
+  bool takesDirect(Component) const { return true; }
+  V3d front() const { return V3d(0, 0, 0); }
   Rgb coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
     return directCoefficient(scattering_, at_.direction, toSource, solidAngle);
   }
+  bool isEven() const { return false; }
 
  private:
   Interaction at_;
@@ -145,14 +218,25 @@ class ProgrammedScattering {
         material_(material) {}
 
   const SharpPaths& sharp() const { return scattering_.sharp; }
+  Components components() const { return kComponents; }
   std::optional<Lobe> lobe(Component, Random&) const { return {}; }
   LobeSample draw(Component, int, int, Random&) const { return {}; }
-  LitSide side(Component component) const;
+  const Rgb& indirect(Component component) const {
+    return component == Component::reflected ? scattering_.ambientReflection
+                                             : scattering_.ambientTransmission;
+  }
+  Hemisphere hemisphere(Component component) const {
+    return hemisphereOf(component, scattering_.normal, at_);
+  }
+  const V3d& offset(Component) const { return kNoOffset; }
+  bool takesDirect(Component component) const;
+  V3d front() const { return V3d(0, 0, 0); }
   Rgb coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
     return directCoefficient(scattering_, toSource, solidAngle, [&] {
       return functions_->distribution(material_, point_, toSource, solidAngle, *scratch_);
     });
   }
+  bool isEven() const { return false; }
 
  private:
   Interaction at_;

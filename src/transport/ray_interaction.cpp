@@ -25,23 +25,6 @@ bool isStraight(const Transport& t, const Ray& ray, const V3d& primaryDirection)
 
 }  // namespace
 
-Arrival arrivalOf(const Transport& t, const Ray& ray) {
-  Arrival a;
-  a.direction = ray.direction;
-  a.kinds = ray.kinds;
-  a.cosine = ray.cosine;
-  a.length = ray.length;
-  a.pathLength = ray.pathLength;
-  a.surface = ray.surface;
-  if (ray.aimedAt != kNone) {
-    const LightSource& target = t.lights().all()[ray.aimedAt];
-    a.target = target.surface;
-    a.atImage = target.isVirtual();
-    a.image = target.image;
-  }
-  return a;
-}
-
 Interaction interactionOf(const Scene& scene, const Ray& ray) {
   Interaction at;
   at.direction = ray.direction;

@@ -8,7 +8,22 @@
 namespace rsphere {
 
 // REQUIRES that the ray hit a surface, except for interactionOf() and pointOf().
-Arrival arrivalOf(const Transport& transport, const Ray& ray);
+inline Arrival arrivalOf(const Transport& t, const Ray& ray) {
+  Arrival a;
+  a.kinds = ray.kinds;
+  a.cosine = ray.cosine;
+  a.length = ray.length;
+  a.pathLength = ray.pathLength;
+  a.surface = ray.surface;
+  if (ray.aimedAt != kNone) {
+    const LightSource& target = t.lights().all()[ray.aimedAt];
+    a.target = target.surface;
+    a.atImage = target.isVirtual();
+    a.image = target.image;
+  }
+  return a;
+}
+
 // With the patterns and textures that were applied to the ray so far.
 Interaction interactionOf(const Scene& scene, const Ray& ray);
 FunctionPoint pointOf(const Ray& ray);

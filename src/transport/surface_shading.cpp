@@ -30,30 +30,21 @@ SurfaceShading::SurfaceShading(const Transport& transport, PathState& state, Ray
       direct_(direct),
       specular_(specular),
       indirect_(indirect),
-      options_(materialOptions(transport)) {}
+      context_{transport.scene(), transport.functions(), materialOptions(transport)} {}
 
 // The hit of a ray as its material sees it.
 class SurfaceShading::Hit final : public MaterialHit {
  public:
   Hit(SurfaceShading& shading, Ray& ray, ModifierId behind)
-      : MaterialHit(arrivalOf(shading.t_, ray), shading.t_.scene(), shading.options_, shading.t_.functions(),
-                    shading.scratch_),
-        shading_(shading),
-        ray_(ray),
-        behind_(behind) {}
+      : MaterialHit(arrivalOf(shading.t_, ray), behind, shading.context_), shading_(shading), ray_(ray) {}
 
-  Rgb modify() override {
-    shading_.applyModifiers(ray_, behind_);
-    return ray_.pattern;
-  }
-  void turnRound() override { rsphere::turnRound(ray_); }
   Interaction interaction() const override { return interactionOf(scene(), ray_); }
+  const Rgb& pattern() const override { return ray_.pattern; }
   Interaction interactionAfter(ModifierId modifiers) const override {
     Ray own = ray_;
     shading_.applyModifiers(own, modifiers);
     return interactionOf(scene(), own);
   }
-  ModifierId modifiers() const override { return behind_; }
   FunctionPoint point() const override { return pointOf(ray_); }
   const Medium& medium() const override { return ray_.medium; }
   V3d towardsSource() const override {
@@ -64,9 +55,11 @@ class SurfaceShading::Hit final : public MaterialHit {
   int samplesOf(double wanted) const override { return rsphere::samplesOf(shading_.t_, ray_, wanted); }
 
  private:
+  void applyModifiers() override { shading_.applyModifiers(ray_, modifiers()); }
+  void turnToFront() override { rsphere::turnRound(ray_); }
+
   SurfaceShading& shading_;
   Ray& ray_;
-  ModifierId behind_;
 };
 
 // ---- surfaces and their modifiers
@@ -124,9 +117,9 @@ bool SurfaceShading::applyModifier(Ray& ray, ModifierId modifier) {
   if (const auto* mixture = std::get_if<Mixture>(&content)) return shadeMixture(ray, modifier, *mixture);
   const FunctionPoint at = pointOf(ray);
   if (std::holds_alternative<Pattern>(content))
-    ray.pattern *= t_.functions().pattern(modifier, at, scratch_);
+    ray.pattern *= t_.functions().pattern(modifier, at, context_.scratch);
   else
-    ray.perturbation += t_.functions().texture(modifier, at, scratch_);
+    ray.perturbation += t_.functions().texture(modifier, at, context_.scratch);
   return false;
 }
 
@@ -140,7 +133,7 @@ void SurfaceShading::applyModifiers(Ray& ray, ModifierId modifier) {
 }
 
 bool SurfaceShading::shadeMixture(Ray& ray, ModifierId modifier, const Mixture& mixture) {
-  const double share = t_.functions().mixture(modifier, pointOf(ray), scratch_);
+  const double share = t_.functions().mixture(modifier, pointOf(ray), context_.scratch);
   if (share < 0) return false;
   struct Side {
     Ray ray;
@@ -198,25 +191,27 @@ bool SurfaceShading::follow(Ray& ray, S& scattering) {
   Random& random = state_.random;
   specular_.follow(ray, scattering.sharp());
   if (ray.kinds & kShadow) return true;
-  for (const Component c : {Component::reflected, Component::transmitted})
+  const auto components = scattering.components();
+  for (const Component c : components)
     if (const std::optional<Lobe> lobe = scattering.lobe(c, random))
       specular_.sampleLobe(ray, c == Component::reflected ? kReflectedSpecular : kTransmittedSpecular, *lobe,
                            [&](int i, int n) { return scattering.draw(c, i, n, random); });
   const V3d hit = ray.point;
-  for (const Component c : {Component::reflected, Component::transmitted}) {
-    const LitSide side = scattering.side(c);
-    ray.point = hit + side.offset;
-    if (maxChannel(side.indirect) > kNegligible)
-      indirect_.add(ray, side.normal, side.trueNormal,
-                    c == Component::reflected ? kReflectedAmbient : kTransmittedAmbient, side.indirect);
-    if (!side.direct) continue;
+  for (const Component c : components) {
+    ray.point = hit + scattering.offset(c);
+    if (const Rgb& indirect = scattering.indirect(c); maxChannel(indirect) > kNegligible) {
+      const Hemisphere hemisphere = scattering.hemisphere(c);
+      indirect_.add(ray, hemisphere.normal, hemisphere.trueNormal,
+                    c == Component::reflected ? kReflectedAmbient : kTransmittedAmbient, indirect);
+    }
+    if (!scattering.takesDirect(c)) continue;
     const auto coefficient = [&](const V3d& toSource, double solidAngle) {
       return scattering.coefficient(c, toSource, solidAngle, random);
     };
-    if (side.even && t_.options().chosenSources > 0)
-      direct_.addOfChosen(ray, coefficient, side.front);
+    if (t_.options().chosenSources > 0 && scattering.isEven())
+      direct_.addOfChosen(ray, coefficient, scattering.front());
     else
-      direct_.add(ray, coefficient, side.front);
+      direct_.add(ray, coefficient, scattering.front());
   }
   ray.point = hit;
   return true;
@@ -238,14 +233,15 @@ bool SurfaceShading::follow(Ray& ray, const Emits& emits) {
   return true;
 }
 
-bool SurfaceShading::follow(Ray& ray, const SharpPaths& paths) {
-  specular_.follow(ray, paths);
+bool SurfaceShading::follow(Ray& ray, const ReflectsSharply& response) {
+  specular_.follow(ray, response.scattering.sharp);
   return true;
 }
 
 bool SurfaceShading::follow(Ray& ray, const Boundary& boundary) {
-  ray.medium = boundary.medium;
-  return follow(ray, boundary.paths);
+  ray.medium = boundary.scattering.medium;
+  specular_.follow(ray, boundary.scattering.sharp);
+  return true;
 }
 
 bool SurfaceShading::follow(Ray& ray, const Redirects& redirects) {

@@ -49,7 +49,7 @@ class SurfaceShading {
   bool follow(Ray& ray, Passes);
   bool follow(Ray& ray, const Alternate& alternate);
   bool follow(Ray& ray, const Emits& emits);
-  bool follow(Ray& ray, const SharpPaths& paths);
+  bool follow(Ray& ray, const ReflectsSharply& response);
   bool follow(Ray& ray, const Boundary& boundary);
   bool follow(Ray& ray, const Redirects& redirects);
   bool follow(Ray& ray, const Relays& relays);
@@ -64,8 +64,7 @@ class SurfaceShading {
   DirectLight& direct_;
   SpecularLight& specular_;
   IndirectLight& indirect_;
-  MaterialOptions options_;
-  FunctionScratch scratch_;
+  MaterialContext context_;
 };
 
 }  // namespace rsphere

@@ -169,9 +169,13 @@ TEST(MaterialQuestions, HaveTheseAnswers) {
     EXPECT_EQ(enclosesVolume(material), row.encloses);
     const auto alternate = alternateOf(material);
     EXPECT_EQ(alternate.has_value(), row.alternate.has_value());
-    if (alternate && row.alternate) EXPECT_EQ(alternate->kind, *row.alternate);
+    if (alternate && row.alternate) {
+      EXPECT_EQ(alternate->kind, *row.alternate);
+    }
     EXPECT_EQ(isLightSource(material), row.source);
-    if (row.sampled) EXPECT_EQ(sourceRadiance(material), Rgb(5, 6, 7));
+    if (row.sampled) {
+      EXPECT_EQ(sourceRadiance(material), Rgb(5, 6, 7));
+    }
     EXPECT_EQ(isSampled(material), row.sampled);
     EXPECT_EQ(reachOf(material), row.reach);
     EXPECT_EQ(coverOf(material), row.cover);
@@ -203,7 +207,9 @@ TEST(MaterialQuestions, AreTestedForEveryMaterialOfTheLanguage) {
   }
   for (int i = 0; i < rad::kTypes; ++i) {
     const auto type = static_cast<rad::Type>(i);
-    if (rad::isMaterial(type)) EXPECT_TRUE(tested.contains(rad::typeName(type))) << rad::typeName(type);
+    if (rad::isMaterial(type)) {
+      EXPECT_TRUE(tested.contains(rad::typeName(type))) << rad::typeName(type);
+    }
   }
   EXPECT_EQ(alternatives.size(), std::variant_size_v<Material>);
 }

@@ -43,11 +43,15 @@ TEST(ShapeQuestions, HaveTheseAnswers) {
     EXPECT_DOUBLE_EQ(areaOf(row.shape), row.area);
     const V3d* normal = planeNormal(row.shape);
     ASSERT_EQ(normal != nullptr, row.plane != nullptr);
-    if (normal) EXPECT_EQ(*normal, *row.plane);
+    if (normal) {
+      EXPECT_EQ(*normal, *row.plane);
+    }
     EXPECT_EQ(planeOffset(row.shape), row.offset);
     EXPECT_EQ(bounds(row.shape, vertices).isEmpty(), !row.plain);
     ShapeHit hit;
-    if (!row.plain) EXPECT_FALSE(intersect(row.shape, vertices, V3d(.5, .1, 9), -up, kFarAway, hit));
+    if (!row.plain) {
+      EXPECT_FALSE(intersect(row.shape, vertices, V3d(.5, .1, 9), -up, kFarAway, hit));
+    }
   }
   EXPECT_EQ(alternatives.size(), std::variant_size_v<Shape>);
   EXPECT_EQ(centerOf(std::get<Polygon>(rows[0].shape), std::vector<V3d>{{0, 0, 0}, {3, 0, 3}, {0, 3, 0}}),

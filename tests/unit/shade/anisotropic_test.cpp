@@ -86,7 +86,8 @@ TEST(Anisotropic, OfEqualRoughnessIsItsRoundKin) {
     at.pattern = Rgb(.9, .8, .7);
     at.flat = i % 5 == 0;
     if (i % 7 == 0) at.perturbation = .1 * randomDirection(random);
-    Anisotropic m{color, specular, rough, rough, metal, trans, trans ? passes : 0, trans ? straight : 0, -1};
+    Anisotropic m{color, specular, rough, rough, metal, trans, trans ? passes : 0, trans ? straight : 0,
+                  kNone};
     if (trans) m.metal = false;
     const double threshold = random.uniform();
     const AnisotropicScattering s = scatter(m, at, kAlong, threshold);
@@ -211,7 +212,7 @@ TEST(Energy, Ashik2ExceedsItsSumByFresnelsRiseAtMost) {
     const double cosine = between(random, .02, 1), specular = random.uniform();
     const Interaction at = arriving(cosine);
     const Ashikhmin m{gray(1 - specular), gray(specular), between(random, 0, 300), between(random, 0, 300),
-                      -1};
+                      kNone};
     const AshikhminScattering s = scatter(m, at, randomDirection(random), kSampleAll);
     const double rise = (1 - specular) * std::pow(1 - cosine, 5);
     EXPECT_NEAR(s.reflection.ambient.x + s.share.x, 1 + rise, 1e-12);
@@ -256,7 +257,7 @@ TEST(EllipticLobe, IsReciprocal) {
 
 TEST(Ashik2, IsReciprocalButForItsFresnelTerm) {
   Random random(38);
-  const Ashikhmin white{gray(0), gray(1), 20, 150, -1}, gold{gray(0), gray(.5), 20, 150, -1};
+  const Ashikhmin white{gray(0), gray(1), 20, 150, kNone}, gold{gray(0), gray(.5), 20, 150, kNone};
   int differ = 0;
   for (int i = 0; i < 1000; ++i) {
     const V3d a = upwards(random), b = upwards(random);
@@ -348,13 +349,13 @@ TEST(Ashik2, SamplesFollowTheLobeOfDirectLight) {
           return d.z > 1e-6 ? factor * scattered(e, at, d) / std::min(1., d.z / at.cosine) : 0;
         });
   };
-  const Ashikhmin m{gray(0), gray(1), 12, 60, -1};
+  const Ashikhmin m{gray(0), gray(1), 12, 60, kNone};
   for (const double cosine : {1., .7, .3}) {
     const Interaction at = arriving(cosine);
     SCOPED_TRACE(testing::Message() << "cosine " << cosine);
     EXPECT_LT(sigmas(at, m, m, 1), kMostSigmas);
     EXPECT_GT(sigmas(at, m, m, 1.05), kMostSigmas);
-    EXPECT_GT(sigmas(at, m, Ashikhmin{gray(0), gray(1), 60, 12, -1}, 1), kMostSigmas);
+    EXPECT_GT(sigmas(at, m, Ashikhmin{gray(0), gray(1), 60, 12, kNone}, 1), kMostSigmas);
   }
 }
 
@@ -369,7 +370,7 @@ TEST(EllipticLobe, SpreadBelowOneKeepsToTheMiddle) {
 // ---- shares
 
 TEST(Ashik2, IsDarkerTowardsGrazingSources) {
-  const Ashikhmin m{gray(.5), gray(0), 10, 10, -1};
+  const Ashikhmin m{gray(.5), gray(0), 10, 10, kNone};
   const Interaction at = arriving(.8);
   const AshikhminScattering s = scatter(m, at, kAlong, kSampleAll);
   for (const double cosine : {.1, .5, 1.})
@@ -390,7 +391,7 @@ TEST(SpecularThreshold, GivesUnsampledLobesToADiffuseSurfaceOnly) {
   m.color = gray(0);
   EXPECT_EQ(scatter(m, at, kAlong, .1).reflection.ambient.x, 0) << "as in the original";
   // ashik2 and WGMDfunc go by luminance.
-  const Ashikhmin blue{gray(.2), Rgb(0, 0, 1), 5, 5, -1};
+  const Ashikhmin blue{gray(.2), Rgb(0, 0, 1), 5, 5, kNone};
   EXPECT_TRUE(scatter(blue, at, kAlong, .06).sampled);
   EXPECT_FALSE(scatter(blue, at, kAlong, .07).sampled);
 }

@@ -2,62 +2,32 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <variant>
+
+#include "tests/unit/shade/fake_hit.h"
 
 namespace rsphere {
 namespace {
-
-// A hit from straight above or below on a surface in the plane z = 0.
-class FakeHit final : public MaterialHit {
- public:
-  FakeHit(const Arrival& arrival, const Scene& scene, const MaterialOptions& options,
-          const SurfaceFunctions& functions, FunctionScratch& scratch)
-      : MaterialHit(arrival, scene, options, functions, scratch) {}
-
-  Rgb modify() override { return pattern; }
-  void turnRound() override { turned = true; }
-  Interaction interaction() const override {
-    Interaction at;
-    at.direction = arrival().direction;
-    at.cosine = std::abs(arrival().cosine);
-    at.front = arrival().cosine > 0;
-    at.normal = V3d(0, 0, at.front ? 1 : -1);
-    at.kinds = arrival().kinds;
-    at.pattern = pattern;
-    return at;
-  }
-  Interaction interactionAfter(int32_t) const override { return interaction(); }
-  int32_t modifiers() const override { return kNone; }
-  FunctionPoint point() const override { return {}; }
-  const Medium& medium() const override { return medium_; }
-  V3d towardsSource() const override { return V3d(0, 0, 1); }
-  int samplesOf(double) const override { return 1; }
-
-  Rgb pattern{.5, .5, .5};
-  bool turned = false;
-
- private:
-  Medium medium_{Rgb(.1, .1, .1), {}, 0};
-};
 
 class Response : public testing::Test {
  protected:
   template <class M>
   auto of(const M& material, const Arrival& arrival) {
-    FakeHit hit(arrival, scene, options, functions, scratch);
+    FakeHit hit(arrival, context);
     auto answer = response(material, hit);
     turned = hit.turned;
     return answer;
   }
 
   Scene scene;
-  MaterialOptions options;
   SurfaceFunctions functions{scene};
-  FunctionScratch scratch;
+  MaterialContext context{scene, functions, {}};
+  MaterialOptions& options = context.options;
   bool turned = false;
 
-  const Arrival front{.surface = 3}, back{.direction = V3d(0, 0, 1), .cosine = -1, .surface = 3};
-  const Arrival shadow{.kinds = kPrimary | kReflectedShadow, .surface = 3, .target = 7};
+  const Arrival front{.surface = SurfaceId(3)}, back{.cosine = -1, .surface = SurfaceId(3)};
+  const Arrival shadow{.kinds = kPrimary | kReflectedShadow, .surface = SurfaceId(3), .target = SurfaceId(7)};
 };
 
 template <class Outcome, class Variant>
@@ -76,7 +46,7 @@ TEST_F(Response, OpaqueBlocksShadowRaysAndTransFollowsThem) {
 TEST_F(Response, BacksAreTurnedRoundOrInvisible) {
   EXPECT_TRUE(is<RoundScattering>(of(Opaque{kGray}, back)));
   EXPECT_TRUE(turned);
-  EXPECT_TRUE(is<SharpPaths>(of(Glass{Rgb(.9, .9, .9)}, back)));
+  EXPECT_TRUE(is<ReflectsSharply>(of(Glass{Rgb(.9, .9, .9)}, back)));
   EXPECT_TRUE(turned);
   EXPECT_TRUE(is<Absorbs>(of(Light{kGray}, back)));
   of(Dielectric{kGray, 1.5}, back);
@@ -90,8 +60,9 @@ TEST_F(Response, BacksAreTurnedRoundOrInvisible) {
 
 TEST_F(Response, BoundariesKnowTheMediumThatTheRayCameThrough) {
   const Dielectric water{Rgb(.5, .5, .5), 1.33};
-  EXPECT_EQ(of(water, front).medium.extinction, Rgb(.1, .1, .1)) << "the ray's";
-  EXPECT_NEAR(of(water, back).medium.extinction.x, -std::log(.25), 1e-12) << "the pattern absorbs too";
+  EXPECT_EQ(of(water, front).scattering.medium.extinction, Rgb(.1, .1, .1)) << "the ray's";
+  EXPECT_NEAR(of(water, back).scattering.medium.extinction.x, -std::log(.25), 1e-12)
+      << "the pattern absorbs too";
 }
 
 TEST_F(Response, EmissionIsCountedOnce) {
@@ -133,7 +104,7 @@ TEST_F(Response, SpotlightsShineInTheirCone) {
 
 TEST_F(Response, MirrorsRelayRaysThatAreAimedAtTheirImages) {
   const Mirror mirror{Rgb(.8, .8, .8), {}};
-  EXPECT_TRUE(is<SharpPaths>(of(mirror, front)));
+  EXPECT_TRUE(is<ReflectsSharply>(of(mirror, front)));
   EXPECT_TRUE(is<Absorbs>(of(mirror, shadow))) << "aimed at another source";
   Arrival aimed = shadow;
   aimed.target = aimed.surface;
@@ -167,7 +138,7 @@ TEST_F(Response, VolumesSayWhetherTheyAreEntered) {
 TEST_F(Response, GoalsEmitImportanceOnce) {
   Arrival indirect = front;
   indirect.kinds |= kReflectedAmbient;
-  FakeHit seen(front, scene, options, functions, scratch), met(indirect, scene, options, functions, scratch);
+  FakeHit seen(front, context), met(indirect, context);
   EXPECT_TRUE(is<Emits>(goalResponse(true, seen)));
   EXPECT_TRUE(is<Absorbs>(goalResponse(true, met)));
   EXPECT_TRUE(is<Emits>(goalResponse(false, met)));

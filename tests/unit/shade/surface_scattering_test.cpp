@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "shade/bsdf_scattering.h"
+#include "tests/unit/shade/fake_hit.h"
 #include "tests/unit/shade/lobe_sampling.h"
 #include "tests/unit/support/bsdf_xml.h"
 
@@ -19,6 +20,14 @@ constexpr double kTiny = 1e-9;    // sr, of a source for which a lobe is a numbe
 constexpr double kThreshold = 0;  // -st: all lobes are sampled
 const MaterialOptions kOptions{.specularThreshold = kThreshold, .directJitter = 1};
 const V3d kAlong(.9, .4, .2);
+
+template <class M>
+RoundScattering roundScattering(const M& material, const Interaction& at) {
+  const Scene scene;
+  const SurfaceFunctions functions(scene);
+  MaterialContext context{scene, functions, kOptions};
+  return RoundScattering(material, FakeHit(at, context));
+}
 
 Rgb gray(double x) { return Rgb(x, x, x); }
 
@@ -89,19 +98,20 @@ TEST(SurfaceScattering, SamplesSeeWhatDirectLightSees) {
   const Interaction at = arriving(.8), vertical = arriving(1);
   const V3d up(0, 0, 1), down(0, 0, -1);
   const auto shiny = [&](double specularity, double roughness) {
-    return RoundScattering(Opaque{gray(0), specularity, roughness, false}, at, kOptions);
+    return roundScattering(Opaque{gray(0), specularity, roughness, false}, at);
   };
   expectAgreement("plastic", shiny(.5, .2), shiny(.53, .2), Component::reflected, up, kHemisphere);
 
   // The transmitted lobes of samples and of direct light agree for light that comes at right angles, but for
   // the order of the squared roughness.
   const auto clear = [&](double transmissivity) {
-    return RoundScattering(Trans{gray(1), 0, .02, transmissivity, 1}, vertical, kOptions);
+    return roundScattering(Trans{gray(1), 0, .02, transmissivity, 1}, vertical);
   };
   expectAgreement("trans", clear(.5), clear(.53), Component::transmitted, down, .1, .0004);
 
   const auto brushed = [&](double specularity) {
     Anisotropic m;
+    m.color = gray(0);
     m.specularity = specularity;
     m.roughnessAlong = .3;
     m.roughnessAcross = .12;
@@ -112,7 +122,7 @@ TEST(SurfaceScattering, SamplesSeeWhatDirectLightSees) {
   // Its samples all have weight 1, which is right only in the limit of a smooth surface.
   const auto ashik = [&](double specular) {
     return AshikhminLobeScattering(
-        scatter(Ashikhmin{gray(0), gray(specular), 20000, 60000, -1}, vertical, kAlong, kThreshold),
+        scatter(Ashikhmin{gray(0), gray(specular), 20000, 60000, kNone}, vertical, kAlong, kThreshold),
         vertical);
   };
   expectAgreement("ashik2", ashik(.5), ashik(.53), Component::reflected, up, .05);
@@ -134,12 +144,12 @@ TEST(BsdfScattering, SamplesSeeWhatDirectLightSees) {
     BsdfScattering s = bsdf(data, at, kOptions);
     const V3d middle = c == Component::reflected ? at.normal : -at.normal;
     // Direct light has the diffuse part too.
-    const LitSide side = s.side(c);
+    const Rgb indirect = s.indirect(c);
     double diffuse = 0;
     constexpr int kCells = 400;
     for (int i = 0; i < kCells; ++i) {  // the cosine-weighted mean of the sky over the hemisphere
       const double cosine = std::sqrt((i + .5) / kCells);
-      diffuse += side.indirect.x * sky(cosine * middle) / kCells;
+      diffuse += indirect.x * sky(cosine * middle) / kCells;
     }
     const double direct = byDirectLight(s, Component::reflected, middle, kHemisphere) - diffuse;
     ASSERT_GT(direct, 0);
@@ -156,16 +166,16 @@ TEST(BsdfScattering, WeakLobesAreIndirectLight) {
   MaterialOptions options = kOptions;
   options.specularThreshold = 1;
   BsdfScattering s = bsdf(data, arriving(.8), options);
-  const double before = s.side(Component::transmitted).indirect.x;
+  const double before = s.indirect(Component::transmitted).x;
   Random random(1);
   EXPECT_FALSE(s.lobe(Component::transmitted, random));
-  const double after = s.side(Component::transmitted).indirect.x;
+  const double after = s.indirect(Component::transmitted).x;
   BsdfScattering sampled = bsdf(data, arriving(.8), kOptions);
   Random same(1);
   const std::optional<Lobe> lobe = sampled.lobe(Component::transmitted, same);
   ASSERT_TRUE(lobe);
   EXPECT_DOUBLE_EQ(after, before + lobe->share);
-  EXPECT_EQ(sampled.side(Component::transmitted).indirect.x, before);
+  EXPECT_EQ(sampled.indirect(Component::transmitted).x, before);
 }
 
 // Light is transmitted behind the thickness; without one, all direct light arrives at the same point.
@@ -174,11 +184,11 @@ TEST(BsdfScattering, ThicknessPartsTheTwoSides) {
   const V3d above(0, .6, .8), below(0, .6, -.8);
   Random random(2);
   BsdfScattering thin = bsdf(data, arriving(.8), kOptions), thick = bsdf(data, arriving(.8), kOptions, .25);
-  EXPECT_TRUE(thin.side(Component::reflected).direct);
-  EXPECT_FALSE(thin.side(Component::transmitted).direct);
+  EXPECT_TRUE(thin.takesDirect(Component::reflected));
+  EXPECT_FALSE(thin.takesDirect(Component::transmitted));
   EXPECT_GT(thin.coefficient(Component::reflected, below, .1, random).x, 0);
-  EXPECT_TRUE(thick.side(Component::transmitted).direct);
-  EXPECT_EQ(thick.side(Component::transmitted).offset, V3d(0, 0, -.25));
+  EXPECT_TRUE(thick.takesDirect(Component::transmitted));
+  EXPECT_EQ(thick.offset(Component::transmitted), V3d(0, 0, -.25));
   EXPECT_EQ(thick.coefficient(Component::reflected, below, .1, random).x, 0);
   EXPECT_EQ(thick.coefficient(Component::transmitted, above, .1, random).x, 0);
   EXPECT_GT(thick.coefficient(Component::reflected, above, .1, random).x, 0);
@@ -187,7 +197,7 @@ TEST(BsdfScattering, ThicknessPartsTheTwoSides) {
 
 // The first numbers of a lobe's samples are stratified: their mean is nearer to the truth.
 TEST(SurfaceScattering, SamplesOfALobeAreStratified) {
-  const RoundScattering s(Opaque{gray(0), .5, .2, false}, arriving(.8), kOptions);
+  const RoundScattering s = roundScattering(Opaque{gray(0), .5, .2, false}, arriving(.8));
   const Sample single = bySamples(s, Component::reflected, 41),
                four = bySamples(s, Component::reflected, 42, 4);
   EXPECT_LT(four.standardError(), .95 * single.standardError());  // of as many samples
@@ -203,18 +213,21 @@ TEST(SurfaceScattering, NoOffsetKeepsSigns) {
 
 TEST(SurfaceScattering, TellsWhereDirectLightMatters) {
   const Interaction at = arriving(.8);
-  const RoundScattering black(Opaque{gray(0), 0, 0, false}, at, kOptions);
-  EXPECT_FALSE(black.side(Component::transmitted).direct);
-  const RoundScattering matt(Opaque{gray(.5), 0, 0, false}, at, kOptions);
-  EXPECT_TRUE(matt.side(Component::transmitted).direct);
-  EXPECT_TRUE(matt.side(Component::transmitted).even);
-  EXPECT_EQ(matt.side(Component::transmitted).front, at.normal);
-  EXPECT_EQ(matt.side(Component::reflected).indirect, gray(.5));
-  const RoundScattering glossy(Opaque{gray(.5), .1, .05, false}, at, kOptions);
-  EXPECT_FALSE(glossy.side(Component::transmitted).even);
-  const RoundScattering paper(Trans{gray(.5), 0, 0, .5, 0}, at, kOptions);
-  EXPECT_EQ(paper.side(Component::transmitted).front, V3d(0, 0, 0));
-  EXPECT_EQ(paper.side(Component::transmitted).normal, -at.normal);
+  const RoundScattering black = roundScattering(Opaque{gray(0), 0, 0, false}, at);
+  EXPECT_FALSE(black.takesDirect(Component::reflected));
+  const RoundScattering matt = roundScattering(Opaque{gray(.5), 0, 0, false}, at);
+  EXPECT_EQ(matt.components().size(), 1u);
+  EXPECT_TRUE(matt.takesDirect(Component::reflected));
+  EXPECT_TRUE(matt.isEven());
+  EXPECT_EQ(matt.front(), at.normal);
+  EXPECT_EQ(matt.indirect(Component::reflected), gray(.5));
+  const RoundScattering glossy = roundScattering(Opaque{gray(.5), .1, .05, false}, at);
+  EXPECT_FALSE(glossy.isEven());
+  const RoundScattering paper = roundScattering(Trans{gray(.5), 0, 0, .5, 0}, at);
+  EXPECT_FALSE(paper.takesDirect(Component::reflected)) << "that of both sides comes last";
+  EXPECT_TRUE(paper.takesDirect(Component::transmitted));
+  EXPECT_EQ(paper.front(), V3d(0, 0, 0));
+  EXPECT_EQ(paper.hemisphere(Component::transmitted).normal, -at.normal);
 }
 
 }  // namespace
