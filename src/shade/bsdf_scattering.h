@@ -39,14 +39,15 @@ class BsdfScattering {
     return component == Component::reflected ? reflectance_ + unsampledReflection_
                                              : transmittance_ + unsampledTransmission_;
   }
-  Hemisphere hemisphere(Component component) const { return hemisphereOf(component, frame_.normal, at_); }
+  const V3d& normal(Component) const { return frame_.normal; }
+  const V3d& trueNormal() const { return at_.normal; }
   // Transmitted light arrives behind the thickness, and so does that of sources behind. Without a thickness,
   // the direct light of both sides is estimated at the same point, and together.
   const V3d& offset(Component component) const {
     return component == Component::reflected ? kNoOffset : across_;
   }
   bool takesDirect(Component component) const { return component == Component::reflected || thick_; }
-  V3d front() const { return V3d(0, 0, 0); }
+  const V3d& front() const { return kNoFront; }
   Rgb coefficient(Component component, const V3d& toSource, double solidAngle, Random& random) const;
   bool isEven() const { return false; }
 

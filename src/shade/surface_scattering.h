@@ -25,6 +25,8 @@ using Components = std::span<const Component>;
 
 // Adding it to a point changes no bit of the point: -0 + -0 is -0.
 inline const V3d kNoOffset{-0., -0., -0.};
+// Of a surface that light reaches from both sides.
+inline const V3d kNoFront{0, 0, 0};
 
 // A lobe that is estimated by samples.
 struct Lobe {
@@ -40,16 +42,6 @@ struct LobeSample {
   Rgb coefficient{0, 0, 0};  // of its radiance in that of the ray; black: the draw gave no valid direction
 };
 
-// The hemisphere that light comes from to be reflected or transmitted diffusely.
-struct Hemisphere {
-  V3d normal{0, 0, 1}, trueNormal{0, 0, 1};  // towards its middle, unit: perturbed, and of the surface
-};
-// normal: perturbed, on the ray's side.
-inline Hemisphere hemisphereOf(Component component, const V3d& normal, const Interaction& at) {
-  if (component == Component::reflected) return {normal, at.normal};
-  return {-normal, -at.normal};
-}
-
 // What all models of scattering answer.
 template <class S>
 concept ScattersLight = requires(S s, const S& c, Component component, Random& random, V3d v) {
@@ -60,16 +52,19 @@ concept ScattersLight = requires(S s, const S& c, Component component, Random& r
   { s.lobe(component, random) } -> std::same_as<std::optional<Lobe>>;
   // Sample i of n of a lobe, for i from 0 on. The coefficients of all n add up to the lobe's share of light.
   { c.draw(component, 0, 1, random) } -> std::same_as<LobeSample>;
-  // The coefficient of the mean radiance over the hemisphere of indirect light.
+  // The coefficient of the mean radiance over the hemisphere that the component's light comes from: that
+  // around the normal, or, if it is transmitted, around the opposite direction.
   { c.indirect(component) } -> std::convertible_to<Rgb>;
-  { c.hemisphere(component) } -> std::same_as<Hemisphere>;
+  // The perturbed normal, and the surface's own (unit). Both are on the ray's side, whatever the component.
+  { c.normal(component) } -> std::same_as<const V3d&>;
+  { c.trueNormal() } -> std::same_as<const V3d&>;
   // From the hit to the point that light of this component arrives at (world units).
   { c.offset(component) } -> std::convertible_to<V3d>;
   // Whether direct light is estimated at that point, after the indirect light of the component. It is that of
   // this component, or of both where the same point serves both.
   { c.takesDirect(component) } -> std::same_as<bool>;
   // The normal behind which coefficients of direct light are 0; 0: none.
-  { c.front() } -> std::convertible_to<V3d>;
+  { c.front() } -> std::same_as<const V3d&>;
   // The share of a source's radiance that is scattered towards the ray's origin, for a source that fills a
   // solid angle (sr) in a direction (unit). component: one that takes direct light.
   { c.coefficient(component, v, 1., random) } -> std::same_as<Rgb>;
@@ -80,17 +75,13 @@ concept ScattersLight = requires(S s, const S& c, Component component, Random& r
 // plastic, metal, trans: lobes that are the same all round (scattering.h).
 class RoundScattering {
  public:
-  template <class M>
-  RoundScattering(const M& material, const MaterialHit& hit)
-      : at_(hit.interaction()),
-        scattering_(scatter(material, at_, hit.options().specularThreshold)),
-        transmits_(!isBlack(scattering_.diffuseTransmission) || !isBlack(scattering_.specularTransmission)),
-        components_(transmits_ || scattering_.sampleTransmission ? 2 : 1),
-        spread_(hit.options().specularSampling),
-        sourceJitter_(hit.options().directJitter) {}
+  RoundScattering(const Opaque& material, const MaterialHit& hit) : RoundScattering(material, hit, false) {}
+  RoundScattering(const Trans& material, const MaterialHit& hit) : RoundScattering(material, hit, true) {
+    transmits_ = !isBlack(scattering_.diffuseTransmission) || !isBlack(scattering_.specularTransmission);
+  }
 
   const SharpPaths& sharp() const { return scattering_.sharp; }
-  Components components() const { return Components(kComponents).first(components_); }
+  Components components() const { return Components(kComponents).first(mayTransmit_ ? 2 : 1); }
   std::optional<Lobe> lobe(Component component, Random&) const {
     const bool sampled =
         component == Component::reflected ? scattering_.sampleReflection : scattering_.sampleTransmission;
@@ -101,26 +92,33 @@ class RoundScattering {
     return component == Component::reflected ? scattering_.ambientReflection
                                              : scattering_.ambientTransmission;
   }
-  Hemisphere hemisphere(Component component) const {
-    return hemisphereOf(component, scattering_.normal, at_);
-  }
+  const V3d& normal(Component) const { return scattering_.normal; }
+  const V3d& trueNormal() const { return at_.normal; }
   const V3d& offset(Component) const { return kNoOffset; }
   bool takesDirect(Component component) const {
     return component == components().back() && (transmits_ || !isBlack(scattering_.diffuseReflection) ||
                                                 !isBlack(scattering_.specularReflection));
   }
   // What transmits no light is lit from its front alone.
-  V3d front() const { return transmits_ ? V3d(0, 0, 0) : scattering_.normal; }
+  const V3d& front() const { return transmits_ ? kNoFront : scattering_.normal; }
   Rgb coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
     return directCoefficient(scattering_, at_, toSource, solidAngle, sourceJitter_);
   }
   bool isEven() const;
 
  private:
+  template <class M>
+  RoundScattering(const M& material, const MaterialHit& hit, bool mayTransmit)
+      : at_(hit.interaction()),
+        scattering_(scatter(material, at_, hit.options().specularThreshold)),
+        mayTransmit_(mayTransmit),
+        transmits_(mayTransmit),
+        spread_(hit.options().specularSampling),
+        sourceJitter_(hit.options().directJitter) {}
+
   Interaction at_;
   Scattering scattering_;
-  bool transmits_;
-  uint8_t components_;
+  bool mayTransmit_, transmits_;
   double spread_, sourceJitter_;
 };
 
@@ -151,12 +149,11 @@ class EllipticScattering {
   }
   LobeSample draw(Component component, int i, int n, Random& random) const;
   const Rgb& indirect(Component component) const { return diffuse(component).ambient; }
-  Hemisphere hemisphere(Component component) const {
-    return hemisphereOf(component, diffuse(component).normal, at_);
-  }
+  const V3d& normal(Component component) const { return diffuse(component).normal; }
+  const V3d& trueNormal() const { return at_.normal; }
   const V3d& offset(Component) const { return kNoOffset; }
   bool takesDirect(Component component) const { return component == Component::transmitted; }
-  V3d front() const { return V3d(0, 0, 0); }
+  const V3d& front() const { return kNoFront; }
   Rgb coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
     return directCoefficient(scattering_, at_.direction, toSource, solidAngle, sourceJitter_);
   }
@@ -186,12 +183,11 @@ class AshikhminLobeScattering {
   std::optional<Lobe> lobe(Component component, Random& random) const;
   LobeSample draw(Component component, int i, int n, Random& random) const;
   const Rgb& indirect(Component) const { return scattering_.reflection.ambient; }
-  Hemisphere hemisphere(Component component) const {
-    return hemisphereOf(component, scattering_.reflection.normal, at_);
-  }
+  const V3d& normal(Component) const { return scattering_.reflection.normal; }
+  const V3d& trueNormal() const { return at_.normal; }
   const V3d& offset(Component) const { return kNoOffset; }
   bool takesDirect(Component) const { return true; }
-  V3d front() const { return V3d(0, 0, 0); }
+  const V3d& front() const { return kNoFront; }
   Rgb coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
     return directCoefficient(scattering_, at_.direction, toSource, solidAngle);
   }
@@ -225,12 +221,11 @@ class ProgrammedScattering {
     return component == Component::reflected ? scattering_.ambientReflection
                                              : scattering_.ambientTransmission;
   }
-  Hemisphere hemisphere(Component component) const {
-    return hemisphereOf(component, scattering_.normal, at_);
-  }
+  const V3d& normal(Component) const { return scattering_.normal; }
+  const V3d& trueNormal() const { return at_.normal; }
   const V3d& offset(Component) const { return kNoOffset; }
   bool takesDirect(Component component) const;
-  V3d front() const { return V3d(0, 0, 0); }
+  const V3d& front() const { return kNoFront; }
   Rgb coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
     return directCoefficient(scattering_, toSource, solidAngle, [&] {
       return functions_->distribution(material_, point_, toSource, solidAngle, *scratch_);

@@ -200,9 +200,11 @@ bool SurfaceShading::follow(Ray& ray, S& scattering) {
   for (const Component c : components) {
     ray.point = hit + scattering.offset(c);
     if (const Rgb& indirect = scattering.indirect(c); maxChannel(indirect) > kNegligible) {
-      const Hemisphere hemisphere = scattering.hemisphere(c);
-      indirect_.add(ray, hemisphere.normal, hemisphere.trueNormal,
-                    c == Component::reflected ? kReflectedAmbient : kTransmittedAmbient, indirect);
+      const V3d &normal = scattering.normal(c), &trueNormal = scattering.trueNormal();
+      if (c == Component::reflected)
+        indirect_.add(ray, normal, trueNormal, kReflectedAmbient, indirect);
+      else
+        indirect_.add(ray, -normal, -trueNormal, kTransmittedAmbient, indirect);
     }
     if (!scattering.takesDirect(c)) continue;
     const auto coefficient = [&](const V3d& toSource, double solidAngle) {

@@ -227,7 +227,7 @@ TEST(SurfaceScattering, TellsWhereDirectLightMatters) {
   EXPECT_FALSE(paper.takesDirect(Component::reflected)) << "that of both sides comes last";
   EXPECT_TRUE(paper.takesDirect(Component::transmitted));
   EXPECT_EQ(paper.front(), V3d(0, 0, 0));
-  EXPECT_EQ(paper.hemisphere(Component::transmitted).normal, -at.normal);
+  EXPECT_EQ(paper.normal(Component::transmitted), at.normal);
 }
 
 }  // namespace
