@@ -1,0 +1,314 @@
+#include "light/part_sampler.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "base/constants.h"
+#include "light/spherical_triangle.h"
+#include "light/tuning.h"
+#include "scene/frame.h"
+#include "shade/spot_cone.h"
+
+namespace rsphere {
+namespace {
+
+using Tuning = tuning::SourceParts;
+
+constexpr int kMostParts = 64;  // of a source; RADIANCE's own limit, for which users choose their -ds
+// The factor on a length by the number of times that it was halved, up to kMostParts parts.
+constexpr std::array<double, 7> kHalved = {1, 1. / 2, 1. / 4, 1. / 8, 1. / 16, 1. / 32, 1. / 64};
+constexpr int kMostHalvings = std::bit_width(static_cast<unsigned>(kMostParts)) - 1;
+static_assert(kHalved.size() == kMostHalvings + 1);
+
+// Below this cosine a plane source is seen edge-on and left out, as RADIANCE does.
+constexpr double kEdgeOn = 1e-4;
+
+// Concentric map of the square [-1, 1]^2 to the unit disk, area-preserving (Shirley and Chiu 1997, JGT 2/3).
+void toDisk(double& a, double& b) {
+  if (a == 0 && b == 0) return;
+  double r, phi;
+  if (std::abs(a) > std::abs(b)) {
+    r = a;
+    phi = kPi / 4 * (b / a);
+  } else {
+    r = b;
+    phi = kPi / 2 - kPi / 4 * (a / b);
+  }
+  a = r * std::cos(phi);
+  b = r * std::sin(phi);
+}
+
+V3d onFan(const LightSource& source, double s, double t) {
+  const auto triangle = std::upper_bound(source.fanArea.begin(), source.fanArea.end() - 1, s);
+  const size_t i = static_cast<size_t>(triangle - source.fanArea.begin());
+  const double before = i ? source.fanArea[i - 1] : 0;
+  const double root = std::sqrt(std::clamp((s - before) / (source.fanArea[i] - before), 0., 1.));
+  return (1 - root) * source.fanVertices[0] + root * (1 - t) * source.fanVertices[i + 1] +
+         root * t * source.fanVertices[i + 2];
+}
+
+V3d onPlane(const LightSource& source, double s, double t) {
+  double a = 2 * s - 1, b = 2 * t - 1;
+  if (source.map == LightSource::Map::fan) return a == 0 && b == 0 ? source.center : onFan(source, s, t);
+  if (source.map == LightSource::Map::disk) toDisk(a, b);
+  return source.center + a * source.u + b * source.v;
+}
+
+std::array<V3d, 4> cornersOf(const LightSource& source, const SourcePart& p) {
+  const auto at = [&](double s, double t) { return onPlane(source, s, t); };
+  return {at(p.s0, p.t0), at(p.s1, p.t0), at(p.s1, p.t1), at(p.s0, p.t1)};
+}
+
+// The region around a part's middle that its ray is jittered over.
+SourcePart shrunk(const SourcePart& p, double jitter) {
+  const double s = (1 - jitter) / 2 * (p.s1 - p.s0), t = (1 - jitter) / 2 * (p.t1 - p.t0);
+  return {p.s0 + s, p.s1 - s, p.t0 + t, p.t1 - t};
+}
+
+// Whether a part is so near that cosine / distance^2 varies strongly over it. Sampling it by area would then
+// have unbounded variance.
+bool isNear(const LightSource& source, const SourcePart& part, const V3d& point) {
+  const double width =
+      2 * std::max(source.extentU * (part.s1 - part.s0), source.extentV * (part.t1 - part.t0));
+  const V3d middle = onPlane(source, (part.s0 + part.s1) / 2, (part.t0 + part.t1) / 2);
+  return width * width > Tuning::kNear * Tuning::kNear * (middle - point).length2();
+}
+
+// Splits a part until its half-extents u and v are at most `allowed` times its distance, or there are `most`
+// parts. Calls use() with each of them and with the vector from the point to its middle.
+template <class Position, class Use>
+void split(const SourcePart& part, int most, double u, double v, double allowed, const V3d& from,
+           const Position& position, const Use& use) {
+  const V3d towards = position((part.s0 + part.s1) / 2, (part.t0 + part.t1) / 2) - from;
+  if (most >= 2) {
+    const double larger = std::max(u, v);
+    if (towards.length2() * allowed * allowed < larger * larger) {
+      SourcePart a = part, b = part;
+      if (u > v) {
+        a.s1 = b.s0 = (part.s0 + part.s1) / 2;
+        u /= 2;
+      } else {
+        a.t1 = b.t0 = (part.t0 + part.t1) / 2;
+        v /= 2;
+      }
+      split(a, most / 2, u, v, allowed, from, position, use);
+      split(b, most / 2, u, v, allowed, from, position, use);
+      return;
+    }
+  }
+  use(part, towards);
+}
+
+double jittered(double from, double to, double jitter, Random& random) {
+  const double middle = (from + to) / 2;
+  return middle + jitter * (random.uniform() - .5) * (to - from);
+}
+
+// One coordinate of a uniformly distributed point in the unit ball. Its density, 3/4 (1 - z^2), is that of
+// the median of three uniform numbers.
+double depthInBall(Random& random) {
+  const double a = random.uniform(), b = random.uniform(), c = random.uniform();
+  return 2 * std::max(std::min(a, b), std::min(std::max(a, b), c)) - 1;
+}
+
+}  // namespace
+
+// Sets the hit of a ray that is aimed at the source; false if it misses.
+bool PartSampler::hit(const V3d& direction, double length, SourceSample& sample) const {
+  if (source_.hitsWhereAimed && source_.map == LightSource::Map::ball && jitter_ <= 0) {
+    sample.distance = length - source_.radius;
+  } else if (source_.hitsWhereAimed && source_.map != LightSource::Map::ball) {
+    sample.distance = length;
+    sample.cosine = -direction.dot(source_.normal);
+    sample.normal = source_.normal;
+  } else if (!source_.distant || source_.isVirtual()) {
+    ShapeHit hit;
+    // The relay of a virtual source lies in front of the image.
+    const double farthest = source_.isVirtual() && !source_.distant ? length + source_.radius : 1e10;
+    if (!intersect(scene_.surfaces[source_.surface].shape, scene_.vertices, point_, direction, farthest, hit))
+      return false;
+    sample.distance = hit.distance;
+    sample.cosine = hit.cosine;
+    sample.normal = hit.normal;
+  }
+  return true;
+}
+
+void PartSampler::add(const V3d& direction, double solidAngle, double length) {
+  SourceSample sample{direction, solidAngle, 1e10, 1, -direction, index_};
+  if (!hit(direction, length, sample)) return;
+  if (source_.reach > 0 && length > source_.reach) return;
+  if (source_.spot && !source_.distant) {
+    if (outsideSpot(*source_.spot, direction)) return;
+    // The light diverges from a focus behind the surface.
+    const double nearer = length / (length + source_.spot->focalLength);
+    sample.solidAngle *= nearer * nearer;
+  }
+  samples_.push_back(sample);
+}
+
+// A round source: directions are uniform by solid angle projected along the middle direction. One ray to
+// the middle is then exact for a surface that faces the source, and jittered rays are for every surface.
+void PartSampler::addRound(const V3d& middle, double sine, double distance) {
+  if (jitter_ <= 0) return add(middle, kPi * sine * sine, distance);
+  const double s = sine * jitter_ * std::sqrt(random_.uniform());
+  const double angle = 2 * kPi * random_.uniform();
+  const double c = std::sqrt(std::max(0., 1 - s * s));
+  V3d x, y;
+  frame(middle, x, y);
+  // The reach of a glow is measured to a random point in the ball, so that its light has no sharp edge.
+  double length = distance;
+  if (source_.reach > 0) length += jitter_ * source_.radius * depthInBall(random_);
+  if (c > kEdgeOn)
+    add(s * (std::cos(angle) * x + std::sin(angle) * y) + c * middle, kPi * sine * sine / c, length);
+}
+
+void PartSampler::addDistant(double distance) {
+  if (source_.cosHalfAngle >= kEdgeOn) return addRound(source_.center, source_.sinHalfAngle, distance);
+  // The source fills almost half the sky or more: directions are uniform by solid angle over the cone.
+  const double c = 1 - (1 - source_.cosHalfAngle) * (jitter_ > 0 ? random_.uniform() * jitter_ : 0);
+  const double angle = 2 * kPi * (jitter_ > 0 ? random_.uniform() : 0);
+  const double s = std::sqrt(std::max(0., 1 - c * c));
+  V3d x, y;
+  frame(source_.center, x, y);
+  const double omega = 2 * kPi * (1 - source_.cosHalfAngle);
+  add(s * (std::cos(angle) * x + std::sin(angle) * y) + c * source_.center, jitter_ > 0 ? omega : kPi,
+      distance);
+}
+
+// A sample of a plane part. aim: the vector from the point to the place to hit.
+void PartSampler::addMiddle(const V3d& aim, double length, double area) {
+  if (!(length > 0)) return;
+  const double inverse = 1 / length;
+  const V3d direction = aim * inverse;
+  const double cosine = -direction.dot(source_.normal);
+  if (cosine <= kEdgeOn) return;
+  const double omega = area * cosine * (inverse * inverse);
+  if (!source_.hitsWhereAimed || source_.reach > 0 || source_.spot) return add(direction, omega, length);
+  samples_.push_back({direction, omega, length, cosine, source_.normal, index_});
+}
+
+// The same as split() for a plane source that is spanned by u and v, without recursion: a part is given by
+// its middle and by the number of times that u and v were halved.
+void PartSampler::addMiddles(const V3d& towards) {
+  struct Place {
+    V3d middle;  // the vector from the point to it
+    int halvedU, halvedV;
+  };
+  std::array<Place, kMostHalvings> later;
+  Place part{towards, 0, 0};
+  for (int count = 0;;) {
+    const double extentU = kHalved[part.halvedU] * source_.extentU,
+                 extentV = kHalved[part.halvedV] * source_.extentV;
+    const double larger = std::max(extentU, extentV), length2 = part.middle.length2();
+    if (allowed_ > 0 && part.halvedU + part.halvedV < kMostHalvings &&
+        length2 * allowed_ * allowed_ < larger * larger) {
+      const bool acrossU = extentU > extentV;
+      const V3d half =
+          acrossU ? kHalved[part.halvedU + 1] * source_.u : kHalved[part.halvedV + 1] * source_.v;
+      part.halvedU += acrossU;
+      part.halvedV += !acrossU;
+      later[count++] = {part.middle + half, part.halvedU, part.halvedV};
+      part.middle -= half;
+      continue;
+    }
+    addMiddle(part.middle, std::sqrt(length2), kHalved[part.halvedU + part.halvedV] * source_.area);
+    if (count == 0) return;
+    part = later[--count];
+  }
+}
+
+void PartSampler::addTube(const V3d& towards) {
+  const V3d axis = source_.u.normalized();
+  const double halfLength = source_.extentU;
+  const double radius = source_.area / (4 * halfLength);
+  const double along = towards.dot(axis);
+  const double fromAxis = (towards - along * axis).length();
+  if (fromAxis <= radius) return;  // inside, or looking at an open end
+  const auto at = [&](double s, double) { return source_.center + (2 * s - 1) * source_.u; };
+  const auto use = [&](const SourcePart& part, const V3d& unjittered) {
+    const V3d middle =
+        jitter_ > 0 ? at(jittered(part.s0, part.s1, jitter_, random_), 0) - point_ : unjittered;
+    const V3d across = axis.cross(middle).normalized();
+    const double side = jitter_ > 0 ? jitter_ * (2 * random_.uniform() - 1) * radius : 0;
+    const V3d aim = middle + side * across;
+    const double length = aim.length();
+    const double cosine = aim.dot(axis) / length;
+    add(aim / length,
+        source_.area * (part.s1 - part.s0) * std::sqrt(std::max(0., 1 - cosine * cosine)) / (length * length),
+        length);
+  };
+  // Nearer than this, the tube's width matters as much as its length, and splitting does not pay.
+  const bool divided = allowed_ > 0 && fromAxis > 2 * radius;
+  split(SourcePart{}, divided ? kMostParts : 1, halfLength, 0, allowed_, point_, at, use);
+}
+
+// Samples a part of a parallelogram uniformly by solid angle.
+void PartSampler::addNear(const SourcePart& part) {
+  const double height = source_.normal.dot(point_ - source_.center);
+  // For a point in the plane of the source, rounding would decide which side is seen, and the source
+  // would then fill half the sky.
+  if (height <= kSamePlace) return;
+  const std::array<V3d, 4> whole = cornersOf(source_, part);
+  const double below = triangleSolidAngle(whole[0], whole[1], whole[2], point_);
+  const double above = triangleSolidAngle(whole[0], whole[2], whole[3], point_);
+  const double omega = std::abs(below + above);
+  std::array<V3d, 4> aims = cornersOf(source_, shrunk(part, jitter_));
+  for (V3d& corner : aims) corner = (corner - point_).normalized();
+  const double u = random_.uniform() * omega, v = random_.uniform();
+  const bool first = u < std::abs(below);
+  const double half = std::abs(first ? below : above);
+  if (!(half > 0)) return;
+  const V3d direction = sampleTriangle(
+      aims[0], aims[first ? 1 : 2], aims[first ? 2 : 3],
+      std::abs(triangleSolidAngle(aims[0], aims[first ? 1 : 2], aims[first ? 2 : 3], V3d(0, 0, 0))),
+      (first ? u : u - std::abs(below)) / half, v);
+  const double cosine = -direction.dot(source_.normal);
+  if (cosine > kEdgeOn) add(direction, omega, height / cosine);
+}
+
+// at: maps the unit square to points on the source.
+template <class Position>
+void PartSampler::addPlane(const Position& at) {
+  const auto use = [&](const SourcePart& part, const V3d& middle) {
+    if (jitter_ > 0 && source_.map == LightSource::Map::parallelogram && isNear(source_, part, point_))
+      return addNear(part);
+    const V3d aim = jitter_ > 0 ? at(jittered(part.s0, part.s1, jitter_, random_),
+                                     jittered(part.t0, part.t1, jitter_, random_)) -
+                                      point_
+                                : middle;
+    addMiddle(aim, aim.length(), source_.area * (part.s1 - part.s0) * (part.t1 - part.t0));
+  };
+  split(SourcePart{}, allowed_ > 0 ? kMostParts : 1, source_.extentU, source_.extentV, allowed_, point_, at,
+        use);
+}
+
+void PartSampler::sample(const V3d& towards) {
+  const double distance = source_.distant ? 1e10 : towards.length();
+  if (source_.reach > 0 && distance > source_.reach + source_.radius) return;
+  if (source_.isVirtual() && -towards.dot(source_.beam) < source_.cosBeam * distance) return;
+  if (jitter_ <= 0 && source_.map <= LightSource::Map::square) return addMiddles(towards);
+  switch (source_.map) {
+    case LightSource::Map::cone:
+      return addDistant(distance);
+    case LightSource::Map::ball:
+      if (distance > source_.radius) addRound(towards / distance, source_.radius / distance, distance);
+      return;
+    case LightSource::Map::tube:
+      return addTube(towards);
+    // Most sources are of these two kinds. The map is inlined for them, because a call for every point would
+    // cost as much as the rest.
+    case LightSource::Map::parallelogram:
+    case LightSource::Map::square:
+      return addPlane([&](double s, double t) {
+        return source_.center + (2 * s - 1) * source_.u + (2 * t - 1) * source_.v;
+      });
+    case LightSource::Map::disk:
+    case LightSource::Map::fan:
+      return addPlane([&](double s, double t) { return onPlane(source_, s, t); });
+  }
+}
+
+}  // namespace rsphere
