@@ -4,25 +4,22 @@
 
 #include "transport/ray_functions.h"
 #include "transport/ray_limits.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
 namespace {
 
-// The weight below which sharp paths of a gather's rays are followed by Russian roulette, with a probability
-// in proportion to their weight. Gathers begin with a weight of 1/2, so that one of their rays has at most 32
-// descendants at a time on average. Without a limit their number doubles at each surface of nested transparent
-// objects, up to -lr. The reflections of a pane of glass, 1/12 of the light, remain above it.
-constexpr double kWeakPath = 1. / 64;
+using Tuning = tuning::SpecularLight;
 
 // Whether the path of a child goes on. If so, its weight is at least kWeakPath, and its coefficient makes up
 // for the paths that do not go on.
 bool survives(Random& random, Ray& child, Rgb& coefficient) {
-  const double probability = child.weight / kWeakPath;
+  const double probability = child.weight / Tuning::kWeakPath;
   if (probability >= 1) return true;
   if (random.uniform() >= probability) return false;
   coefficient /= probability;
   child.contribution /= probability;
-  child.weight = kWeakPath;
+  child.weight = Tuning::kWeakPath;
   return true;
 }
 
