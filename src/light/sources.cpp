@@ -5,7 +5,6 @@
 
 #include "base/constants.h"
 #include "base/overloaded.h"
-#include "light/part_sampler.h"
 #include "light/relays.h"
 #include "scene/frame.h"
 
@@ -174,12 +173,6 @@ void LightSources::findSources() {
     source.reach = reach;
     if (const auto* spot = std::get_if<Spotlight>(material)) source.spot = *spot;
   }
-}
-
-void LightSources::sampleParts(LightId index, const V3d& point, const V3d& towards, const SourceSampling& how,
-                               Random& random, std::vector<SourceSample>& samples) const {
-  const LightSource& source = sources_[index];
-  PartSampler(source, index, scene_, point, how, random, samples).sample(towards);
 }
 
 }  // namespace rsphere

@@ -1,7 +1,5 @@
 #include "transport/ray_interaction.h"
 
-#include <cmath>
-
 namespace rsphere {
 namespace {
 
@@ -25,43 +23,10 @@ bool isStraight(const Transport& t, const Ray& ray, const V3d& primaryDirection)
 
 }  // namespace
 
-Interaction interactionOf(const Scene& scene, const Ray& ray) {
-  Interaction at;
-  at.direction = ray.direction;
-  const bool behind = ray.cosine < 0;
-  at.normal = behind ? -ray.normal : ray.normal;
-  at.cosine = std::abs(ray.cosine);
-  at.front = behind == ray.fromBehind;
-  at.perturbation = behind ? -ray.perturbation : ray.perturbation;
-  at.pattern = ray.pattern;
-  at.kinds = ray.kinds;
-  if (ray.surface != kNone) {
-    const Surface& surface = scene.surfaces[ray.surface];
-    at.flat = std::holds_alternative<Polygon>(surface.shape) || std::holds_alternative<Ring>(surface.shape) ||
-              std::holds_alternative<MeshFaces>(surface.shape);
-    at.smoothed = surface.smoothed;
-  }
-  return at;
-}
-
-FunctionPoint pointOf(const Ray& ray) {
-  FunctionPoint at;
-  at.direction = ray.direction;
-  at.normal = ray.normal;
-  at.cosine = ray.cosine;
-  at.point = ray.point;
-  at.distance = ray.pathLength + ray.length;
-  at.shadowDistance = ray.shadowLength + ray.length;
-  at.u = ray.u;
-  at.v = ray.v;
-  at.path = ray.path;
-  return at;
-}
-
 void noteShown(const Transport& t, const Ray& ray, PathState& state) {
   // The ray shows this source only if it came straight or was mirrored once.
   const unsigned others = ray.kinds & ~(kPrimary | kTransmitted);
-  if (t.lightOf(ray.surface) == kNone || others != (ray.mirror == kNone ? 0u : kReflected)) return;
+  if (others != (ray.mirror == kNone ? 0u : kReflected) || t.lightOf(ray.surface) == kNone) return;
   if (state.shown.source != kNone && (state.shown.mirror == kNone || ray.mirror != kNone)) return;
   if (isStraight(t, ray, state.primaryDirection)) state.shown = {ray.surface, ray.mirror};
 }

@@ -1,5 +1,7 @@
 #pragma once
 // The hit of a ray as materials and function files see it.
+#include <cmath>
+
 #include "shade/material_hit.h"
 #include "transport/path_state.h"
 #include "transport/ray.h"
@@ -25,8 +27,38 @@ inline Arrival arrivalOf(const Transport& t, const Ray& ray) {
 }
 
 // With the patterns and textures that were applied to the ray so far.
-Interaction interactionOf(const Scene& scene, const Ray& ray);
-FunctionPoint pointOf(const Ray& ray);
+inline Interaction interactionOf(const Scene& scene, const Ray& ray) {
+  Interaction at;
+  at.direction = ray.direction;
+  const bool behind = ray.cosine < 0;
+  at.normal = behind ? -ray.normal : ray.normal;
+  at.cosine = std::abs(ray.cosine);
+  at.front = behind == ray.fromBehind;
+  at.perturbation = behind ? -ray.perturbation : ray.perturbation;
+  at.pattern = ray.pattern;
+  at.kinds = ray.kinds;
+  if (ray.surface != kNone) {
+    const Surface& surface = scene.surfaces[ray.surface];
+    at.flat = std::holds_alternative<Polygon>(surface.shape) || std::holds_alternative<Ring>(surface.shape) ||
+              std::holds_alternative<MeshFaces>(surface.shape);
+    at.smoothed = surface.smoothed;
+  }
+  return at;
+}
+
+inline FunctionPoint pointOf(const Ray& ray) {
+  FunctionPoint at;
+  at.direction = ray.direction;
+  at.normal = ray.normal;
+  at.cosine = ray.cosine;
+  at.point = ray.point;
+  at.distance = ray.pathLength + ray.length;
+  at.shadowDistance = ray.shadowLength + ray.length;
+  at.u = ray.u;
+  at.v = ray.v;
+  at.path = ray.path;
+  return at;
+}
 
 // Adds a light source that the ray shows to the state of its path, if the ray is one that shows sources
 // (PathTracer::shown()). The ray hit a surface that emits light towards it.

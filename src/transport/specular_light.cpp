@@ -26,13 +26,13 @@ bool survives(Random& random, Ray& child, Rgb& coefficient) {
 }  // namespace
 
 void SpecularLight::follow(Ray& ray, const SharpPaths& sharp) {
-  const bool roulette = !(ray.kinds & kShadow) && isOfGather(t_, ray);
   for (const SharpPath& path : sharp) {
     if ((ray.kinds & kShadow) && path.kind == kReflected) continue;
     Ray child;
     Rgb coefficient = path.coefficient;
     if (isBlack(coefficient) || !continueRay(t_, state_.random, child, path.kind, ray, coefficient)) continue;
-    if (roulette && !survives(state_.random, child, coefficient)) continue;
+    if (!(ray.kinds & kShadow) && isOfGather(t_, ray) && !survives(state_.random, child, coefficient))
+      continue;
     child.direction = path.direction;
     if (path.entersMedium) child.medium = path.medium;
     follower_.follow(child);

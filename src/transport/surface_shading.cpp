@@ -112,7 +112,7 @@ bool SurfaceShading::shade(Ray& ray, ModifierId modifier) {
 }
 
 // Applies a pattern, texture or mixture to the ray. Returns whether a mixture has shaded it with a material.
-bool SurfaceShading::applyModifier(Ray& ray, ModifierId modifier) {
+inline bool SurfaceShading::applyModifier(Ray& ray, ModifierId modifier) {
   const Content& content = t_.scene().modifiers[modifier].content;
   if (const auto* mixture = std::get_if<Mixture>(&content)) return shadeMixture(ray, modifier, *mixture);
   const FunctionPoint at = pointOf(ray);
@@ -124,7 +124,7 @@ bool SurfaceShading::applyModifier(Ray& ray, ModifierId modifier) {
 }
 
 // Applies the modifiers of a material: patterns, textures, and mixtures of them.
-void SurfaceShading::applyModifiers(Ray& ray, ModifierId modifier) {
+inline void SurfaceShading::applyModifiers(Ray& ray, ModifierId modifier) {
   for (; modifier != kNone; modifier = t_.scene().modifiers[modifier].next) {
     const Modifier& m = t_.scene().modifiers[modifier];
     if (std::holds_alternative<Material>(m.content) || applyModifier(ray, modifier))
