@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
     rays.ambientBounces = 2;
     rays.ambientAccuracy = 0;
     rays.ambientDivisions = 1;  // of thousands of directions, each needs one indirect path
-    const Transport transport(scene, rays, Irradiance::none);
+    const Transport transport(scene, rays, IrradianceAt::none);
 
     const SphereEstimator estimator(transport, SphereOptions{});
     SphereEstimator::Workspace workspace(estimator);

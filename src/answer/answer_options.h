@@ -20,9 +20,9 @@ struct AnswerOptions {
   bool commands = true;            // -Sc  whether commands in the scene may run
   std::vector<std::string> goals;  // -Sg
   // input
-  NumberFormat in = NumberFormat::ascii;     // -f
-  Irradiance irradiance = Irradiance::none;  // -i -I
-  bool limitDistance = false;                // -ld
+  NumberFormat in = NumberFormat::ascii;         // -f
+  IrradianceAt irradiance = IrradianceAt::none;  // -i -I
+  bool limitDistance = false;                    // -ld
   bool numberedRays = false;  // -u+ was given: random numbers also depend on the number of a ray
   // output
   NumberFormat out = NumberFormat::ascii;  // -f

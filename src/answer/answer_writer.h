@@ -42,7 +42,7 @@ struct InputRay {
   V3d origin{0, 0, 0}, direction{0, 0, 0};
   double length = 0;
 };
-InputRay inputRay(const double* numbers, Irradiance irradiance);
+InputRay inputRay(const double* numbers, IrradianceAt irradiance);
 
 // The answer of rtrace to a record whose direction is zero: the ray before it (zeros if there is
 // none), as if it hit nothing.

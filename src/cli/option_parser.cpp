@@ -245,13 +245,13 @@ void checkColorOutput(Options& options) {
 
 // Sets options.irradiance; the errors and warnings of rtrace about irradiance and the letters of a ray.
 void checkIrradiance(Options& options) {
-  options.irradiance = options.irradianceAtPoint ? Irradiance::point
-                       : options.irradianceAtHit ? Irradiance::surface
-                                                 : Irradiance::none;
+  options.irradiance = options.irradianceAtPoint ? IrradianceAt::point
+                       : options.irradianceAtHit ? IrradianceAt::surface
+                                                 : IrradianceAt::none;
   const auto uses = [&](std::string_view letters) {
     return options.outputs.find_first_of(letters) != std::string::npos;
   };
-  if (options.irradiance != Irradiance::none) {
+  if (options.irradiance != IrradianceAt::none) {
     if (options.sphereMode)
       throw rad::Error(
           fmt::format("{} needs ray mode (-S-); in sphere mode -oE, -oC and -oH give irradiances",
@@ -262,7 +262,7 @@ void checkIrradiance(Options& options) {
   for (const char letter : options.outputs) {
     if (options.sphereMode) break;
     if (letter == 'V' || letter == 'W') options.messages.remarks.push_back("-oVW options require trace mode");
-    if (options.irradiance != Irradiance::none &&
+    if (options.irradiance != IrradianceAt::none &&
         std::string_view("rRxX").find(letter) != std::string_view::npos)
       options.messages.remarks.push_back("-orRxX options incompatible with -I+ and -i+");
   }

@@ -123,7 +123,7 @@ std::string worstText(const CompareOptions& options, const Comparison& compariso
   const auto per = static_cast<size_t>(options.numbersPerRecord());
   const auto count = std::min(static_cast<size_t>(options.worst), comparison.worst.size());
   if (count == 0) return "";
-  const bool hits = !options.sphereMode && options.irradiance != Irradiance::point;
+  const bool hits = !options.sphereMode && options.irradiance != IrradianceAt::point;
   std::vector<double> rays;
   for (size_t k = 0; k < count; ++k) {
     const auto record = numbers.subspan(per * comparison.worst[k], per);

@@ -10,7 +10,7 @@ namespace rsphere {
 const Transport& Trials::transportOf(const Setting& setting) {
   auto& transport = transports_[setting.rays];
   if (!transport)
-    transport = std::make_unique<Transport>(scene_, setting.options.ray, Irradiance::none,
+    transport = std::make_unique<Transport>(scene_, setting.options.ray, IrradianceAt::none,
                                             setting.options.sphere.basicRadiance);
   return *transport;
 }

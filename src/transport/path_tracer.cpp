@@ -110,7 +110,7 @@ Ray PathTracer::Path::trace(const V3d& origin, const V3d& direction, double fart
   ray.medium = t_.medium();
   ray.origin = origin;
   ray.direction = direction;
-  if (t_.irradiance() == Irradiance::point) {
+  if (t_.irradiance() == IrradianceAt::point) {
     ray.length = ray.unmirroredLength = kMeterLength;
     ray.point = origin + kMeterLength * direction;
     ray.normal = -direction;

@@ -51,7 +51,7 @@ struct RayOptions {
 };
 
 // Whether the answer for a ray is radiance or irradiance, and of which surface.
-enum class Irradiance : uint8_t {
+enum class IrradianceAt : uint8_t {
   none,     // radiance
   surface,  // -i  irradiance of the surface that it hits
   point     // -I  irradiance of a sensor at its origin

@@ -87,7 +87,7 @@ bool SurfaceShading::shadeSurface(Ray& ray) {
 
 // Shades the ray with a chain of modifiers; false if the chain has no material.
 bool SurfaceShading::shade(Ray& ray, ModifierId modifier) {
-  const bool meters = t_.irradiance() == Irradiance::surface && !(ray.kinds & ~(kPrimary | kTransmitted));
+  const bool meters = t_.irradiance() == IrradianceAt::surface && !(ray.kinds & ~(kPrimary | kTransmitted));
   for (; modifier != kNone; modifier = t_.scene().modifiers[modifier].next) {
     const Modifier& m = t_.scene().modifiers[modifier];
     const auto* material = std::get_if<Material>(&m.content);

@@ -52,8 +52,8 @@ FieldOptions fieldOptions(const RayOptions& o) {
           o.ambientValue,      o.fieldMemory};
 }
 
-Transport::Transport(const Scene& scene, const RayOptions& options, Irradiance irradiance, bool basicRadiance,
-                     const rad::Warn& warn)
+Transport::Transport(const Scene& scene, const RayOptions& options, IrradianceAt irradiance,
+                     bool basicRadiance, const rad::Warn& warn)
     : scene_(scene),
       options_(options),
       irradiance_(irradiance),

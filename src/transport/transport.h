@@ -40,8 +40,8 @@ class Transport {
   // basicRadiance: refraction does not scale radiance by the square of the refractive index (-Sb). warn: gets
   // the warnings of SurfaceFunctions and LightSources. If light is interpolated (-aa), the constructor traces
   // some paths to find the openings that daylight enters through.
-  Transport(const Scene& scene, const RayOptions& options, Irradiance irradiance, bool basicRadiance = false,
-            const rad::Warn& warn = {});
+  Transport(const Scene& scene, const RayOptions& options, IrradianceAt irradiance,
+            bool basicRadiance = false, const rad::Warn& warn = {});
   ~Transport();
 
   const Scene& scene() const { return scene_; }
@@ -51,7 +51,7 @@ class Transport {
   const SourceChoice& choice() const { return choice_; }
   const SurfaceFunctions& functions() const { return functions_; }
   const RayOptions& options() const { return options_; }
-  Irradiance irradiance() const { return irradiance_; }
+  IrradianceAt irradiance() const { return irradiance_; }
   bool basicRadiance() const { return basicRadiance_; }
   // A surface's own light, or kNone.
   LightId lightOf(SurfaceId surface) const { return lightOf_[surface]; }
@@ -98,7 +98,7 @@ class Transport {
 
   const Scene& scene_;
   RayOptions options_;
-  Irradiance irradiance_;
+  IrradianceAt irradiance_;
   bool basicRadiance_;
   Tracer tracer_;
   SurfaceFunctions functions_;

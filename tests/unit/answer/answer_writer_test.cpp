@@ -75,7 +75,7 @@ TEST(AnswerWriter, WeightIsThatOfARayAndTheSolidAngleOfADirection) {
 TEST(AnswerWriter, ARayThatHitsNothing) {
   const double numbers[] = {1, 2, 30, 0, 0, 5};
   EXPECT_EQ(
-      written({"rtrace", "-oodlLpnNsmMcwWRX~", "s.oct"}, bogusAnswer(inputRay(numbers, Irradiance::none))),
+      written({"rtrace", "-oodlLpnNsmMcwWRX~", "s.oct"}, bogusAnswer(inputRay(numbers, IrradianceAt::none))),
       "1.000000e+00\t2.000000e+00\t3.000000e+01\t0.000000e+00\t0.000000e+00\t1.000000e+00\t1.000000e+10\t"
       "1.000000e+10\t1.000000e+00\t2.000000e+00\t3.000000e+01\t0.000000e+00\t0.000000e+00\t0.000000e+00\t"
       "0.000000e+00\t0.000000e+00\t0.000000e+00\t*\t*\t*\t0.000000e+00\t0.000000e+00\t1.000000e+00\t1."
@@ -196,7 +196,7 @@ TEST(AnswerWriter, EveryLetterThatIsAcceptedIsWrittenAndInTheManual) {
 
 TEST(InputRay, SensorsAreTracedFromAboveThem) {
   const double sensor[] = {0, 0, 5, 0, 0, -2}, nothing[] = {0, 0, 0, 0, 0, 0};
-  const InputRay ray = inputRay(sensor, Irradiance::point);
+  const InputRay ray = inputRay(sensor, IrradianceAt::point);
   EXPECT_EQ(ray.origin, V3d(0, 0, 5 - 1.1e-4));
   EXPECT_EQ(ray.direction, V3d(0, 0, 1));
   EXPECT_EQ(ray.length, 2);
@@ -205,10 +205,10 @@ TEST(InputRay, SensorsAreTracedFromAboveThem) {
       "0.000000e+00\t0.000000e+00\t4.999890e+00\t-0.000000e+00\t-0.000000e+00\t1.000000e+00\t0.000000e+00\t"
       "0.000000e+00\t4.999890e+00\t0.000000e+00\t0.000000e+00\t0.000000e+00\t\n");
   EXPECT_EQ(
-      written({"rtrace", "-I", "-oodv", "s.oct"}, bogusAnswer(inputRay(nothing, Irradiance::point))),
+      written({"rtrace", "-I", "-oodv", "s.oct"}, bogusAnswer(inputRay(nothing, IrradianceAt::point))),
       "0.000000e+00\t0.000000e+00\t0.000000e+00\t0.000000e+00\t0.000000e+00\t0.000000e+00\t0.000000e+00\t"
       "0.000000e+00\t0.000000e+00\t\n");
-  EXPECT_EQ(inputRay(sensor, Irradiance::none).direction, V3d(0, 0, -1));
+  EXPECT_EQ(inputRay(sensor, IrradianceAt::none).direction, V3d(0, 0, -1));
 }
 
 }  // namespace

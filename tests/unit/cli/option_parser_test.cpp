@@ -197,10 +197,10 @@ TEST(ParseOptions, PixelsHoldOneColor) {
 }
 
 TEST(ParseOptions, IrradianceCountsAsInRtrace) {
-  EXPECT_EQ(parse({"rtrace", "-i", "s.oct"}).irradiance, Irradiance::surface);
-  EXPECT_EQ(parse({"rtrace", "-i", "-I+", "s.oct"}).irradiance, Irradiance::point);
-  EXPECT_EQ(parse({"rtrace", "-i", "-I", "-I", "s.oct"}).irradiance, Irradiance::surface);
-  EXPECT_EQ(parse({"rtrace", "-i-", "-I-", "s.oct"}).irradiance, Irradiance::none);
+  EXPECT_EQ(parse({"rtrace", "-i", "s.oct"}).irradiance, IrradianceAt::surface);
+  EXPECT_EQ(parse({"rtrace", "-i", "-I+", "s.oct"}).irradiance, IrradianceAt::point);
+  EXPECT_EQ(parse({"rtrace", "-i", "-I", "-I", "s.oct"}).irradiance, IrradianceAt::surface);
+  EXPECT_EQ(parse({"rtrace", "-i-", "-I-", "s.oct"}).irradiance, IrradianceAt::none);
   EXPECT_EQ(faultOfOptions({"rtrace", "-I", "-oodL", "s.oct"}),
             "-I+ and -i+ options require some value output");
   EXPECT_EQ(parse({"rtrace", "-I", "-ovr", "s.oct"}).messages.remarks,

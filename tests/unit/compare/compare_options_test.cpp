@@ -35,7 +35,7 @@ TEST(CompareOptions, AreThoseOfRsphereAndItsOwn) {
   EXPECT_EQ(options.repeats, 3);
   EXPECT_EQ(options.differences, "d.png");
   EXPECT_EQ(options.ray.ambientBounces, 2);
-  EXPECT_EQ(options.irradiance, Irradiance::point);
+  EXPECT_EQ(options.irradiance, IrradianceAt::point);
   EXPECT_FALSE(options.sphereMode);
   EXPECT_EQ(options.scene, (std::vector<std::string>{"a.oct", "rays"}));
   EXPECT_TRUE(parse({"-S", "a.oct", "points"}).sphereMode);

@@ -160,7 +160,8 @@ wall polygon floor 0 0 12 -5 -5 0 5 -5 0 5 5 0 -5 5 0
 // may differ between runs.
 TEST_F(AmbientFiles, AreOfTheirOptions) {
   constexpr const char* kRoom = "void plastic wall 0 0 5 .5 .5 .5 0 0 wall sphere ball 0 0 4 0 0 0 1";
-  const auto made = [&](const RayOptions& o, Irradiance irradiance = Irradiance::none, bool basic = false) {
+  const auto made = [&](const RayOptions& o, IrradianceAt irradiance = IrradianceAt::none,
+                        bool basic = false) {
     const Scene scene = sceneOf(kRoom);
     warning_.clear();
     Transport(scene, o, irradiance, basic, [this](std::string_view text) { warning_ = text; });
@@ -171,8 +172,8 @@ TEST_F(AmbientFiles, AreOfTheirOptions) {
   o.ambientFile = file("a");
   EXPECT_TRUE(made(o));
   EXPECT_TRUE(made(o));
-  EXPECT_TRUE(made(o, Irradiance::point));
-  EXPECT_FALSE(made(o, Irradiance::none, true));
+  EXPECT_TRUE(made(o, IrradianceAt::point));
+  EXPECT_FALSE(made(o, IrradianceAt::none, true));
   EXPECT_NE(warning_.find("other options"), std::string::npos) << warning_;
   const auto other = [&](auto change) {
     RayOptions changed = o;

@@ -23,7 +23,7 @@ struct Field {
 PointAnswer under(const Field& field, Weights weights) {
   const Scene scene = sceneOf(std::string("void brightfunc field 2 ") + field.radiance +
                               " . 0 0\nfield glow sky 0 0 4 1 1 1 0\nsky source dome 0 0 4 0 0 1 360\n");
-  const Transport transport(scene, RayOptions{}, Irradiance::none);
+  const Transport transport(scene, RayOptions{}, IrradianceAt::none);
   SphereOptions options;
   options.weights = weights;
   const SphereEstimator estimator(transport, options);

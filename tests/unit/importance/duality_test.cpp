@@ -62,7 +62,7 @@ Sample irradianceOnGoal(int bounces, int relays = 2) {
   const Scene scene = sceneOf(room(true));
   RayOptions options = finely(bounces + 1);
   options.directRelays = relays;
-  const Transport transport(scene, options, Irradiance::point);
+  const Transport transport(scene, options, IrradianceAt::point);
   PathTracer tracer(transport);
   Random random(7);
   Sample sample;
@@ -80,7 +80,7 @@ Sample irradianceByImportance(int bounces, bool basic) {
     const std::string goals[] = {"goal"};
     return buildScene(rad::readSceneText(room(false), "room.rad"), {}, goals);
   }();
-  const Transport transport(scene, finely(bounces), Irradiance::none, basic);
+  const Transport transport(scene, finely(bounces), IrradianceAt::none, basic);
   Sample sample;
   for (uint64_t rotation = 1; rotation <= 24; ++rotation) {
     SphereOptions options;
@@ -120,7 +120,7 @@ TEST(Duality, BasicRadianceLeavesOutTheSquareOfTheIndex) {
       "void dielectric clear 0 0 5 1 1 1 1.5 0\nclear sphere ball 0 0 4 0 0 0 1\n"
       "void glow sky 0 0 4 1 1 1 0\nsky source dome 0 0 4 0 0 1 360\n");
   const auto straightUp = [&](bool basic) {
-    const Transport transport(scene, finely(0), Irradiance::none, basic);
+    const Transport transport(scene, finely(0), IrradianceAt::none, basic);
     PathTracer tracer(transport);
     Sample sample;
     for (uint64_t seed = 0; seed < 200; ++seed)

@@ -168,7 +168,7 @@ TEST(PlacedSpecialObjects, TheMeanIsThatOfTheSceneWrittenOut) {
       "sky source everywhere\n0\n0\n4 0 0 1 360\n";
   const auto mean = [&](const std::string& ball) {
     const Scene scene = sceneOf(sky + ball);
-    const Transport transport(scene, RayOptions(), Irradiance::none);
+    const Transport transport(scene, RayOptions(), IrradianceAt::none);
     SphereOptions options;
     options.baseDirections = 1024;
     const SphereEstimator estimator(transport, options);

@@ -72,7 +72,7 @@ TEST(SeenSources, SphereBehindAPrismThatTurnsNothing) {
 TEST(SeenSources, SphereBehindABackThatIsNotSeen) {
   Setting setting("lamp polygon back 0 0 12 -2 -2 1 2 -2 1 2 2 1 -2 2 1\nlamp sphere l 0 0 4 0 0 3 .5\n");
   setting.options.ray.backFacesVisible = false;
-  setting.transport = std::make_unique<Transport>(setting.scene, setting.options.ray, Irradiance::none);
+  setting.transport = std::make_unique<Transport>(setting.scene, setting.options.ray, IrradianceAt::none);
   Sample found;
   for (uint64_t rotation = 0; rotation < 8; ++rotation)
     found.add(setting.apart(V3d(0, 0, 0), 4096, rotation));

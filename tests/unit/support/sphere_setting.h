@@ -17,7 +17,7 @@ struct SphereSetting {
   explicit SphereSetting(Scene it, const std::function<void(RayOptions&)>& change = {})
       : scene(std::move(it)) {
     if (change) change(options.ray);
-    transport = std::make_unique<Transport>(scene, options.ray, Irradiance::none);
+    transport = std::make_unique<Transport>(scene, options.ray, IrradianceAt::none);
   }
 };
 

@@ -373,13 +373,13 @@ TEST_F(BsdfMaterials, IrradianceMetersPassProxies) {
       "void light lamp 0 0 3 9 9 9\nlamp sphere s 0 0 4 0 0 -2 .1\n" + std::string(kPane) +
       "void plastic f 0 0 5 .5 .5 .5 0 0\nf polygon fl 0 0 12 -3 -3 -1 3 -3 -1 3 3 -1 -3 3 -1\n";
   const auto seen = [&](const char* material) {
-    Traced traced(located(material) + rest, unbiased(), Irradiance::surface);
+    Traced traced(located(material) + rest, unbiased(), IrradianceAt::surface);
     return traced.seen(V3d(.1, .1, 1), V3d(0, 0, -1));
   };
   // The answer names the first hit of the ray; a meter that was passed has no light of the lamp above.
   const auto lit = [&](const char* material, double z) {
     Traced traced(located(material) + "void light l2 0 0 3 9 9 9\nl2 sphere s2 0 0 4 0 0 .5 .1\n" + rest,
-                  unbiased(), Irradiance::surface);
+                  unbiased(), IrradianceAt::surface);
     return traced.value(V3d(.5, .1, z), V3d(0, 0, -1));
   };
   EXPECT_EQ(seen("void BSDF m 6 .2 half.xml 0 1 0 . 0 0"), "p");

@@ -401,7 +401,7 @@ TEST_F(FunctionMaterials, AreMeteredUnlessTransparent) {
     Traced scene(material +
                      "void light L 0 0 3 9 9 9\nM polygon pane 0 0 12 -1 -1 1 1 -1 1 1 1 1 -1 1 1\n"
                      "L source sun 0 0 4 1 0 1 2\n",
-                 plain(), Irradiance::surface);
+                 plain(), IrradianceAt::surface);
     return scene.value(V3d(0, 0, 2), V3d(0, 0, -1));
   };
   // The sun's solid angle, radiance and cosine, and pi times the ambient value.

@@ -45,7 +45,7 @@ TEST(Instances, LookAsToTheOriginal) {
   o.directThreshold = 0;
   const std::string text = "!xform " + std::string(kFolder) + "/scene.rad\n";
   const Scene scene = buildScene(rad::readSceneText(text, "room.rad"));
-  const Transport transport(scene, o, Irradiance::none);
+  const Transport transport(scene, o, IrradianceAt::none);
   PathTracer tracer(transport);
   const std::vector<RayText> rays = raysOf(std::string(kFolder) + "/rays.txt");
   std::ifstream file(std::string(kFolder) + "/rtrace.txt");

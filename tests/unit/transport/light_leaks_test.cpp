@@ -85,7 +85,7 @@ RayOptions optionsOf(const Settings& s) {
 
 // The sum of radiance in random directions from random places in a room, and of the irradiance there.
 double lightIn(const Room& room, const std::string& scene, const Settings& settings, int rays) {
-  Traced radiance(scene, optionsOf(settings)), irradiance(scene, optionsOf(settings), Irradiance::point);
+  Traced radiance(scene, optionsOf(settings)), irradiance(scene, optionsOf(settings), IrradianceAt::point);
   Random random(11);
   double sum = 0;
   for (int i = 0; i < rays; ++i) {

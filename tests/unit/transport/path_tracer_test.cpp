@@ -168,29 +168,29 @@ TEST(Ambient, ExcludedSurfacesTakeTheAmbientValue) {
 
 TEST(Irradiance, OfSunSphereAndSky) {
   const double w = .533 * kPi / 180;
-  Traced sun(light(1e6) + "lamp source s\n0\n0\n4 0 0 1 .533\n", {}, Irradiance::point);
+  Traced sun(light(1e6) + "lamp source s\n0\n0\n4 0 0 1 .533\n", {}, IrradianceAt::point);
   EXPECT_NEAR(irradianceAt(sun, kOrigin, kUp) / (1e6 * kPi * std::pow(std::sin(w / 2), 2)), 1, 1e-9);
-  Traced ball(light(3) + "lamp sphere s\n0\n0\n4 0 0 2 .5\n", {}, Irradiance::point);
+  Traced ball(light(3) + "lamp sphere s\n0\n0\n4 0 0 2 .5\n", {}, IrradianceAt::point);
   EXPECT_NEAR(irradianceAt(ball, kOrigin, kUp), 3 * kPi / 16, 1e-3) << "the point lies 1e-4 higher";
-  Traced sky(glow(1, 0) + "sky source s\n0\n0\n4 0 0 1 180\n", unbiased(1), Irradiance::point);
+  Traced sky(glow(1, 0) + "sky source s\n0\n0\n4 0 0 1 180\n", unbiased(1), IrradianceAt::point);
   EXPECT_NEAR(irradianceAt(sky, kOrigin, kUp), kPi, 1e-9);
-  Traced noBounce(glow(1, 0) + "sky source s\n0\n0\n4 0 0 1 180\n", unbiased(0), Irradiance::point);
+  Traced noBounce(glow(1, 0) + "sky source s\n0\n0\n4 0 0 1 180\n", unbiased(0), IrradianceAt::point);
   EXPECT_EQ(irradianceAt(noBounce, kOrigin, kUp), 0) << "-I needs a bounce to see the sky";
   Sample upright;
   for (int i = 0; i < 4000; ++i) upright.add(irradianceAt(sky, kOrigin, V3d(1, 0, 0), mixBits(i)));
   expectMean(upright, kPi / 2, 1.1);
-  Traced half(light(1) + "lamp source s\n0\n0\n4 0 0 1 180\n", {}, Irradiance::point);
+  Traced half(light(1) + "lamp source s\n0\n0\n4 0 0 1 180\n", {}, IrradianceAt::point);
   EXPECT_NEAR(irradianceAt(half, kOrigin, kUp), kPi, 1e-9);
 }
 
 // -i replaces the surface that is hit by a white meter. Glass is passed, and sources are not replaced.
 TEST(Irradiance, AtTheSurfaceIsPiTimesRadianceOverReflectance) {
   const std::string scene = plastic("m", .25) + floor("m") + light(5) + "lamp sphere l\n0\n0\n4 3 0 4 .5\n";
-  Traced radiance(scene), meters(scene, {}, Irradiance::surface);
+  Traced radiance(scene), meters(scene, {}, IrradianceAt::surface);
   const V3d eye(0, 0, 2), aim(.1, .2, -1);
   EXPECT_NEAR(meters.value(eye, aim), radiance.value(eye, aim) * kPi / .25, 1e-12);
-  Traced pane(scene + "void glass g\n0\n0\n3 .5 .5 .5\n" + floor("g", 1), {}, Irradiance::surface);
-  Traced noPane(scene + "void glass g\n0\n0\n3 .5 .5 .5\n" + floor("g", 3), {}, Irradiance::surface);
+  Traced pane(scene + "void glass g\n0\n0\n3 .5 .5 .5\n" + floor("g", 1), {}, IrradianceAt::surface);
+  Traced noPane(scene + "void glass g\n0\n0\n3 .5 .5 .5\n" + floor("g", 3), {}, IrradianceAt::surface);
   const double through = pane.value(eye, aim), below = noPane.value(eye, aim);
   EXPECT_NEAR(through / below, 1, 1e-9) << "the eye passes the pane; only the light is filtered by it";
   EXPECT_EQ(meters.value(eye, V3d(3, 0, 2)), 5) << "a lamp is seen as it is";
@@ -198,7 +198,7 @@ TEST(Irradiance, AtTheSurfaceIsPiTimesRadianceOverReflectance) {
 
 TEST(Irradiance, AtThePointEqualsThatAtTheSurface) {
   const std::string scene = plastic("m", .25) + floor("m") + light(5) + "lamp sphere l\n0\n0\n4 3 0 4 .5\n";
-  Traced surface(scene, {}, Irradiance::surface), point(scene, {}, Irradiance::point);
+  Traced surface(scene, {}, IrradianceAt::surface), point(scene, {}, IrradianceAt::point);
   EXPECT_NEAR(surface.value(V3d(.5, .5, 1), kDown), irradianceAt(point, V3d(.5, .5, 0), kUp), 1e-3);
 }
 
@@ -369,7 +369,7 @@ TEST(Direct, ThresholdLeavesTheMeanBehindABounceAsItIs) {
   const auto meanWith = [&](double threshold, int count) {
     o.directThreshold = threshold;
     o.directCertainty = 0;
-    return Traced(scene, o, Irradiance::point).mean(V3d(0, 0, 2), -kDown, count);
+    return Traced(scene, o, IrradianceAt::point).mean(V3d(0, 0, 2), -kDown, count);
   };
   const Sample all = meanWith(0, 20000);
   expectMean(meanWith(.5, 20000), all.mean(), 1.1);

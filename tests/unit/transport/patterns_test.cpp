@@ -623,7 +623,7 @@ TEST_F(Patterns, WarnsOnceOfWhatHasNoValue) {
   const Scene scene =
       sceneOf(std::string("void brightfunc P\n2 1/(Px*0) .\n0\n0\nP glow M\n0\n0\n4 1 1 1 0\n") + kFloor);
   std::vector<std::string> warnings;
-  const Transport transport(scene, {}, Irradiance::none, false,
+  const Transport transport(scene, {}, IrradianceAt::none, false,
                             [&](std::string_view text) { warnings.emplace_back(text); });
   PathTracer tracer(transport);
   for (int i = 0; i < 3; ++i)
@@ -637,10 +637,10 @@ TEST_F(Patterns, IrradianceIgnoresPatterns) {
   const std::string sky = "void glow g\n0\n0\n4 1 1 1 0\ng source sky\n0\n0\n4 0 0 1 360\n";
   const std::string chain = "void brightfunc P\n2 .3 .\n0\n0\nP plastic Q\n0\n0\n5 .5 .5 .5 0 0\n";
   Traced behind(chain + "Q mixfunc M\n4 void void 1 .\n0\n0\n" + kFloor + sky, unbiased(1),
-                Irradiance::surface);
+                IrradianceAt::surface);
   Traced before(
       "void plastic Q\n0\n0\n5 .5 .5 .5 0 0\nQ brightfunc M\n2 .3 .\n0\n0\n" + std::string(kFloor) + sky,
-      unbiased(1), Irradiance::surface);
+      unbiased(1), IrradianceAt::surface);
   EXPECT_NEAR(behind.value(V3d(3, 3, 1), V3d(0, 0, -1)), 3.14159265, .2);
   EXPECT_NEAR(before.value(V3d(3, 3, 1), V3d(0, 0, -1)), 3.14159265, .2);
 }
@@ -651,7 +651,7 @@ TEST_F(Patterns, ThreadsMeetAModifierForTheFirstTimeTogether) {
         sceneOf(std::string("void colorpict P\n7 red green blue small.hdr . Px/4+.5 Py/4+.5\n0\n0\n"
                             "P mixfunc N\n4 void void wave shading.cal\n0\n0\nN glow M\n0\n0\n4 1 1 1 0\n") +
                 kFloor);
-    const Transport transport(scene, {}, Irradiance::none);
+    const Transport transport(scene, {}, IrradianceAt::none);
     PathTracer alone(transport);
     std::array<double, 4> values{};
     std::vector<std::thread> threads;
@@ -687,7 +687,7 @@ TEST_F(Patterns, GoalMayBeAMixture) {
       "G polygon goal\n0\n0\n12 -1 -1 2 -1 1 2 1 1 2 1 -1 2\n";
   const std::vector<std::string> goals = {"G"};
   const Scene scene = buildScene(rad::readSceneText(text, "room.rad"), {}, goals);
-  const Transport transport(scene, unbiased(), Irradiance::none);
+  const Transport transport(scene, unbiased(), IrradianceAt::none);
   PathTracer tracer(transport);
   EXPECT_EQ(tracer.trace(V3d(.2, .3, 1), V3d(0, 0, 1), 0, 1).value.x, 1);
   Sample floor;
@@ -708,7 +708,7 @@ TEST_F(Patterns, RaysToAGoalTakeTheRandomNumbersOfTheirSeed) {
       "G polygon other\n0\n0\n12 -1 -1 0 1 -1 0 1 1 0 -1 1 0\n";
   const std::vector<std::string> goals = {"G"};
   const Scene scene = buildScene(rad::readSceneText(text, "room.rad"), {}, goals);
-  const Transport transport(scene, unbiased(), Irradiance::none);
+  const Transport transport(scene, unbiased(), IrradianceAt::none);
   const SourceSample sample{
       .direction = V3d(0, 0, 1), .distance = 1, .normal = V3d(0, 0, -1), .source = LightId(0)};
   const auto toGoal = [&](PathTracer& tracer, uint64_t seed) {

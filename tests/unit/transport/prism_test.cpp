@@ -29,7 +29,7 @@ double irradianceAt(Traced& traced, const V3d& point) {
 Traced meters(const std::string& scene) {
   RayOptions o;
   o.directThreshold = 0;
-  return Traced(scene, o, Irradiance::point);
+  return Traced(scene, o, IrradianceAt::point);
 }
 
 TEST(Prism, ThatReflectsIsAMirror) {

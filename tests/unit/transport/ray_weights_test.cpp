@@ -33,10 +33,10 @@ std::string limitsIn(const Limits& l) { return fmt::format("-lr {} -lw {}", l.re
 TEST(RayWeights, LeaveTheWholeSky) {
   const std::string sky = "void glow g 0 0 4 1 1 1 0\ng source sky 0 0 4 0 0 1 360\n";
   for (const Limits& l : {Limits{6, .01}, Limits{6, .4}, Limits{8, 1e-4}, Limits{0, .01}, Limits{-8, .01}}) {
-    Traced open(sky, interpolated(1, 512, l), Irradiance::point);
+    Traced open(sky, interpolated(1, 512, l), IrradianceAt::point);
     EXPECT_NEAR(open.value(V3d(0, 0, 0), V3d(0, 0, 1)), std::numbers::pi, 1e-3) << limitsIn(l);
   }
-  Traced ended(sky, interpolated(1, 512, {6, .6}), Irradiance::point);
+  Traced ended(sky, interpolated(1, 512, {6, .6}), IrradianceAt::point);
   EXPECT_EQ(ended.value(V3d(0, 0, 0), V3d(0, 0, 1)), 0) << "half is less than the least weight";
 }
 
@@ -109,7 +109,7 @@ GlazedGather gatherThroughBalls(int reflections) {
   for (uint64_t rotation = 1; rotation <= 16; ++rotation) {
     RayOptions o = interpolated(1, 1024, {reflections, 1e-6});
     o.rotation = rotation;
-    Traced glazed(scene, o, Irradiance::point);
+    Traced glazed(scene, o, IrradianceAt::point);
     sample.add(glazed.value(V3d(0, 0, 0), V3d(0, 0, 1), rotation) / std::numbers::pi);
   }
   return {sample.mean(), sample.standardError()};

@@ -14,7 +14,7 @@ namespace rsphere {
 class Traced {
  public:
   explicit Traced(const std::string& text, const RayOptions& options = {},
-                  Irradiance irradiance = Irradiance::none)
+                  IrradianceAt irradiance = IrradianceAt::none)
       : scene_(sceneOf(text)), transport_(scene_, options, irradiance), tracer_(transport_) {}
 
   Rgb color(const V3d& origin, const V3d& direction, uint64_t seed = 1, double farthest = 0) {

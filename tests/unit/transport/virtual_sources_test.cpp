@@ -44,7 +44,7 @@ RayOptions relaying(int relays) {
   return o;
 }
 Traced meters(const std::string& scene, int relays) {
-  return Traced(scene, relaying(relays), Irradiance::point);
+  return Traced(scene, relaying(relays), IrradianceAt::point);
 }
 
 const V3d kLamp(1, .3, 2), kPoint(2, -.5, 0);
@@ -125,7 +125,7 @@ TEST(VirtualSource, OfASourcePartlyBehindTheMirrorIsThatOfTheRest) {
   };
   RayOptions o = unbiased();
   o.directRelays = 1;
-  Traced lit(scene, o, Irradiance::point);
+  Traced lit(scene, o, IrradianceAt::point);
   const double expected = rectangle(kWall, kWall + 2) + .9 * rectangle(kWall - 2, kWall);
   expectMean(lit.mean(point + V3d(0, 0, 1.1e-4), V3d(0, 0, -1), 2000), expected, 1.01);
 }
@@ -151,7 +151,7 @@ TEST(VirtualSource, IsNotCountedTwice) {
     const V3d to = ball - kPoint;
     return 20 * kPi * .16 * to.z / std::pow(to.length(), 3);
   };
-  Traced lit(scene, gathering, Irradiance::point);
+  Traced lit(scene, gathering, IrradianceAt::point);
   const double expected = by(kLamp) + .9 * by(V3d(-1, .3, 2));
   EXPECT_NEAR(irradianceAt(lit, kPoint), expected, 1e-4 * expected);
 }
@@ -181,9 +181,9 @@ TEST(VirtualSource, MirrorsThatAreNotPlaneAreWarnedOf) {
       sceneOf(lamp(kLamp) + "void mirror silver 0 0 3 1 1 1\nsilver sphere ball 0 0 4 0 0 0 .1\n");
   std::vector<std::string> warnings;
   const rad::Warn warn = [&](std::string_view text) { warnings.emplace_back(text); };
-  const Transport none(scene, relaying(0), Irradiance::none, false, warn);
+  const Transport none(scene, relaying(0), IrradianceAt::none, false, warn);
   EXPECT_TRUE(warnings.empty());
-  const Transport relays(scene, relaying(1), Irradiance::none, false, warn);
+  const Transport relays(scene, relaying(1), IrradianceAt::none, false, warn);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("sphere \"ball\": only plane surfaces relay light"), std::string::npos)
       << warnings[0];
@@ -193,7 +193,7 @@ TEST(VirtualSource, MirrorsThatAreNotPlaneAreWarnedOf) {
 TEST(VirtualSource, IsLeftOutWhereGeometryShowsItNeverLights) {
   const auto count = [](const std::string& text, int relays) {
     const Scene scene = sceneOf(text);
-    const Transport transport(scene, relaying(relays), Irradiance::none);
+    const Transport transport(scene, relaying(relays), IrradianceAt::none);
     return transport.lights().all().size();
   };
   EXPECT_EQ(count(lamp(kLamp) + mirror(0, 1), 1), 2u);

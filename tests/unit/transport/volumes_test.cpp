@@ -88,7 +88,7 @@ TEST(Medium, ScattersIndirectLight) {
 TEST(Medium, DimsDirectLightByAbsorptionAlone) {
   const std::string lamp = "void light bright 0 0 3 1000 1000 1000\nbright sphere lamp 0 0 4 0 0 2 .01\n";
   const auto irradiance = [&](const std::string& more, const RayOptions& o) {
-    return Traced(lamp + more, o, Irradiance::point).value(V3d(0, 0, -1.9999), V3d(0, 0, -1));
+    return Traced(lamp + more, o, IrradianceAt::point).value(V3d(0, 0, -1.9999), V3d(0, 0, -1));
   };
   const double clear = irradiance("", {});
   EXPECT_NEAR(irradiance("", inMedium(Rgb(.1, .1, .1), Rgb(.75, .75, .75))) / clear, std::exp(-.025 * 3.99),
@@ -194,7 +194,7 @@ TEST(Mist, UnknownSourcesAreWarnedOf) {
   const Scene scene = sceneOf(Scattered{.1, 1, 0}.scene("sun") + kWall);
   std::vector<std::string> warnings;
   const rad::Warn warn = [&](std::string_view text) { warnings.emplace_back(text); };
-  const Transport transport(scene, {}, Irradiance::none, false, warn);
+  const Transport transport(scene, {}, IrradianceAt::none, false, warn);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("mist \"fog\": unknown source \"sun\""), std::string::npos) << warnings[0];
 }
@@ -316,7 +316,7 @@ TEST(Antimatter, LetsLightThrough) {
       "void plastic black 0 0 5 0 0 0 0 0\nblack ring lid 0 0 8 0 0 1 0 0 1 0 9\n";
   const std::string hole = "void antimatter hole 2 void black 0 0\nhole sphere ball 0 0 4 0 0 1 .2\n";
   const auto irradiance = [](const std::string& scene, double x) {
-    return Traced(scene, {}, Irradiance::point).value(V3d(x, 0, 1.1e-4), V3d(0, 0, -1));
+    return Traced(scene, {}, IrradianceAt::point).value(V3d(x, 0, 1.1e-4), V3d(0, 0, -1));
   };
   const double clear =
       irradiance("void light bright 0 0 3 1000 1000 1000\nbright sphere lamp 0 0 4 0 0 2 .01\n", 0);
