@@ -1,0 +1,88 @@
+#pragma once
+// The quantities of light transport as types, so that an irradiance or a coefficient handed to code that
+// expects a radiance does not compile.
+//
+// Importance is transported as Radiance: goals emit importance 1 as light sources emit radiance, and the same
+// paths carry both with the same coefficients. Only those of refraction may differ: see scatter() in
+// shade/scattering.h. The two never meet, because light sources emit nothing in a scene with goals.
+#include <type_traits>
+
+#include "base/rgb.h"
+
+namespace rsphere {
+
+// One value in each channel of Rgb. Kinds do not convert into each other, and Rgb converts only where its
+// kind is named. Quantities of the same kind can be added, and any can be scaled by a number or by a
+// Coefficient. Other arithmetic within a function uses `rgb`.
+template <class Kind>
+struct Quantity {
+  Rgb rgb{0, 0, 0};
+
+  constexpr Quantity() = default;
+  explicit constexpr Quantity(const Rgb& channels) : rgb(channels) {}
+  explicit constexpr Quantity(double everyChannel) : rgb(everyChannel) {}
+
+  Quantity& operator+=(const Quantity& other) {
+    rgb += other.rgb;
+    return *this;
+  }
+  Quantity& operator-=(const Quantity& other) {
+    rgb -= other.rgb;
+    return *this;
+  }
+  Quantity& operator*=(double factor) {
+    rgb *= factor;
+    return *this;
+  }
+  Quantity& operator/=(double divisor) {
+    rgb /= divisor;
+    return *this;
+  }
+  friend Quantity operator+(const Quantity& a, const Quantity& b) { return Quantity(a.rgb + b.rgb); }
+  friend Quantity operator-(const Quantity& a, const Quantity& b) { return Quantity(a.rgb - b.rgb); }
+  friend Quantity operator*(const Quantity& a, double factor) { return Quantity(a.rgb * factor); }
+  friend Quantity operator*(double factor, const Quantity& a) { return Quantity(a.rgb * factor); }
+  friend Quantity operator/(const Quantity& a, double divisor) { return Quantity(a.rgb / divisor); }
+};
+
+using Radiance = Quantity<struct RadianceKind>;      // W/sr/m2
+using Irradiance = Quantity<struct IrradianceKind>;  // W/m2; any integral of radiance over directions
+// A share of a quantity that reflection, transmission or sampling leaves, without a unit.
+using Coefficient = Quantity<struct CoefficientKind>;
+
+template <class Kind>
+Quantity<Kind> operator*(const Quantity<Kind>& a, const Coefficient& share) {
+  return Quantity<Kind>(a.rgb * share.rgb);
+}
+template <class Kind>
+requires(!std::is_same_v<Quantity<Kind>, Coefficient>) Quantity<Kind>
+operator*(const Coefficient& share, const Quantity<Kind>& a) { return Quantity<Kind>(share.rgb * a.rgb); }
+template <class Kind>
+Quantity<Kind>& operator*=(Quantity<Kind>& a, const Coefficient& share) {
+  a.rgb *= share.rgb;
+  return a;
+}
+
+// The irradiance by a radiance from a solid angle (sr) on a surface perpendicular to it.
+inline Irradiance irradianceFrom(const Radiance& radiance, double solidAngle) {
+  return Irradiance(radiance.rgb * solidAngle);
+}
+// The mean radiance over a solid angle (sr) from which an irradiance comes.
+inline Radiance meanRadiance(const Irradiance& irradiance, double solidAngle) {
+  return Radiance(irradiance.rgb / solidAngle);
+}
+
+template <class Kind>
+double brightness(const Quantity<Kind>& a) {
+  return brightness(a.rgb);
+}
+template <class Kind>
+double maxChannel(const Quantity<Kind>& a) {
+  return maxChannel(a.rgb);
+}
+template <class Kind>
+bool isBlack(const Quantity<Kind>& a) {
+  return isBlack(a.rgb);
+}
+
+}  // namespace rsphere
