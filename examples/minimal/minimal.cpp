@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
 
     const SphereEstimator estimator(transport, SphereOptions{});
     SphereEstimator::Workspace workspace(estimator);
-    const Rgb mean = estimator.estimate(point, workspace).mean;
+    const Rgb mean = estimator.estimate(point, workspace).mean.rgb;
     fmt::print("{:.4f} {:.4f} {:.4f}\n", mean.x, mean.y, mean.z);
   } catch (const rad::Error& error) {
     fmt::print(stderr, "{}\n", error.what());

@@ -53,7 +53,7 @@ void writeLetter(RecordText& text, char letter, const RayAnswer& answer, const O
     case 'w':
       return text.number(answer.rayWeight);
     case 'W':
-      return colors.writeCoefficient(text, answer.contribution);
+      return colors.write(text, answer.contribution);
     case '~':
       return text.name("~");
   }
@@ -144,7 +144,7 @@ void AnswerWriter::write(std::string& bytes, const PointAnswer& answer) const {
         colors_.write(text, answer.cylindricalIrradiance);
         break;
       case 'H':
-        for (const Rgb& face : answer.facing) colors_.write(text, face);
+        for (const Irradiance& face : answer.facing) colors_.write(text, face);
         break;
       case 'u':
         text.vector(answer.lightVector);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "answer/record_text.h"
-#include "base/rgb.h"
+#include "base/radiometry.h"
 
 namespace rsphere {
 
@@ -47,15 +47,16 @@ class OutputColors {
   // The number of numbers in a color: 1, 3 or the number of bands.
   int count() const { return count_; }
 
-  void write(RecordText& text, const Rgb& radiance) const { write(text, radiance, scale_); }
-  // Writes a coefficient: as a color, but without the conversion to lumens.
-  void writeCoefficient(RecordText& text, const Rgb& coefficient) const { write(text, coefficient, 1); }
+  void write(RecordText& text, const Radiance& radiance) const { write(text, radiance.rgb, scale_); }
+  void write(RecordText& text, const Irradiance& irradiance) const { write(text, irradiance.rgb, scale_); }
+  // Without the conversion to lumens.
+  void write(RecordText& text, const Coefficient& coefficient) const { write(text, coefficient.rgb, 1); }
 
   // Writes a standard error: that of red, green and blue, or under -pY that of brightness, in lumens.
   // REQUIRES: colors are RGB or -pY. The errors of other sums of the channels cannot be computed from these.
-  void writeError(RecordText& text, const Rgb& channels, double brightness) const {
+  void writeError(RecordText& text, const Radiance& channels, double brightness) const {
     if (options_.space == ColorSpace::photopic) return text.number(scale_ * brightness);
-    text.color(channels);
+    text.color(channels.rgb);
   }
 
   // The lines of the header that describe the colors, with line ends, and the FORMAT of their pixels (-fc).

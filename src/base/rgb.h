@@ -4,8 +4,9 @@
 
 namespace rsphere {
 
-// Three channels: radiance (W/sr/m2), irradiance (W/m2), importance or a coefficient. The name of the
-// variable says which.
+// Three channels. Radiance, irradiance and coefficients have types of their own where they are handed on
+// (radiometry.h). Elsewhere, for the colors of materials and within functions, the name of the variable says
+// what it is.
 using Rgb = Imath::Color3<double>;
 using Imath::V3d;
 

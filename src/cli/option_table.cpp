@@ -494,7 +494,7 @@ void addAmbientOptions(const Add& add) {
   add({.name = "-av",
        .arguments = "red grn blu",
        .group = Group::indirect,
-       .value = +[](O& o) -> Rgb& { return o.ray.ambientValue; },
+       .value = +[](O& o) -> Rgb& { return o.ray.ambientValue.rgb; },
        .range = kNotNegative,
        .unit = "W/sr/m2",
        .remark = "ambient value",

@@ -47,7 +47,7 @@ Answers answerRays(const Transport& transport, const CompareOptions& options, st
       answers.values[r * answers.records + i] =
           tracers[worker]
               .trace(in.origin, in.direction, farthest, seedOfRepeat(seedOfRay(numbers, i, options), r))
-              .value;
+              .value.rgb;
   });
   return answers;
 }
@@ -62,7 +62,7 @@ Answers answerPoints(const Transport& transport, const CompareOptions& options,
     PointWorkers workers(transport, rotated, false);
     forEachIndex(answers.records, options.threads, nullptr, [&](size_t i, unsigned worker) {
       const V3d point(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
-      answers.values[r * answers.records + i] = workers.answer(point, worker).mean;
+      answers.values[r * answers.records + i] = workers.answer(point, worker).mean.rgb;
     });
   }
   return answers;

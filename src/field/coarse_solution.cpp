@@ -19,14 +19,14 @@ constexpr unsigned kLogBuckets = 18;
 
 }  // namespace
 
-void CoarseSolution::Links::addLight(int bounces, const Rgb& radiance) {
+void CoarseSolution::Links::addLight(int bounces, const Radiance& radiance) {
   if (light.size() <= static_cast<size_t>(bounces)) light.resize(bounces + 1, V3f(0, 0, 0));
-  light[bounces] += V3f(radiance);
+  light[bounces] += V3f(radiance.rgb);
 }
 
-void CoarseSolution::Links::addEnd(int bounces, const Rgb& coefficient) {
+void CoarseSolution::Links::addEnd(int bounces, const Coefficient& coefficient) {
   if (ends.size() <= static_cast<size_t>(bounces)) ends.resize(bounces + 1, V3f(0, 0, 0));
-  ends[bounces] += V3f(coefficient);
+  ends[bounces] += V3f(coefficient.rgb);
 }
 
 struct CoarseSolution::Patch {
@@ -48,7 +48,7 @@ CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const Fi
     : scene_(scene),
       grid_(bounds),
       bounces_(std::max(options.bounces, 1)),
-      ambient_(options.ambientValue),
+      ambient_(options.ambientValue.rgb),
       patches_(std::make_unique<InsertOnce<CellKey, Patch>>(kLogBuckets)) {
   spacing_ =
       Tuning::kSpacing * std::sqrt(std::min(options.accuracy, Tuning::kCoarsestAccuracy) / kSpacingAccuracy);

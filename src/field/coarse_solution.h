@@ -48,8 +48,8 @@ class CoarseSolution {
     std::vector<V3f> light;  // by bounces: radiance that depends on no patch (W/sr/m2)
     std::vector<V3f> ends;   // by bounces: factor on -av, used if the path ends there for lack of bounces
 
-    void addLight(int bounces, const Rgb& radiance);
-    void addEnd(int bounces, const Rgb& coefficient);
+    void addLight(int bounces, const Radiance& radiance);
+    void addEnd(int bounces, const Coefficient& coefficient);
   };
 
   // The rays that the solution needs. Answers depend on nothing but the arguments.

@@ -1,16 +1,16 @@
 #pragma once
-#include "base/rgb.h"
+#include "base/radiometry.h"
 
 namespace rsphere {
 
 // How the fields of interpolated light are made, after rtrace's options.
 struct FieldOptions {
-  int bounces = 0;            // -ab
-  double accuracy = .1;       // -aa
-  int resolution = 256;       // -ar  0: no limit
-  double rays = 1536;         // -ad + -as: of a site
-  Rgb ambientValue{0, 0, 0};  // -av  W/sr/m2
-  double memory = 0;          // -Sm  MB of the irradiance cache; 0: no bound
+  int bounces = 0;        // -ab
+  double accuracy = .1;   // -aa
+  int resolution = 256;   // -ar  0: no limit
+  double rays = 1536;     // -ad + -as: of a site
+  Radiance ambientValue;  // -av
+  double memory = 0;      // -Sm  MB of the irradiance cache; 0: no bound
 };
 
 }  // namespace rsphere

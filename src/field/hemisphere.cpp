@@ -87,9 +87,9 @@ void addSector(LightMoments& moments, const SectorSums& sums, const V3d& out, do
 
 }  // namespace
 
-GatheredLight HemisphereCells::sum(std::span<const Rgb> radiance, std::span<const double> distance,
+GatheredLight HemisphereCells::sum(std::span<const Radiance> radiance, std::span<const double> distance,
                                    double nearest, const V3d& x, const V3d& y, const V3d& z) const {
-  Rgb mean(0, 0, 0);
+  Radiance mean;
   // By channel, along x and y.
   double move[3][2] = {}, variance = 0, slopeVariance = 0;
   const auto at = [&](int j, int k) { return j * sectors_ + k; };
@@ -111,14 +111,14 @@ GatheredLight HemisphereCells::sum(std::span<const Rgb> radiance, std::span<cons
     for (int j = 0; j < rings_; ++j) {
       const int here = at(j, k);
       mean += radiance[here];
-      sums.add(radiance[here], rings[j]);
+      sums.add(radiance[here].rgb, rings[j]);
       if (j > 0) {
         const double weight = rings[j].edgeWeight / apart(here, at(j - 1, k));
-        outwards += (radiance[here] - radiance[at(j - 1, k)]) * weight;
+        outwards += (radiance[here] - radiance[at(j - 1, k)]).rgb * weight;
         addChance(here, at(j - 1, k), weight);
       }
       const double weight = rings[j].width / (kPi * apart(here, at(j, before)));
-      around += (radiance[here] - radiance[at(j, before)]) * weight;
+      around += (radiance[here] - radiance[at(j, before)]).rgb * weight;
       addChance(here, at(j, before), weight);
     }
     for (int b = 0; b < 3; ++b) {
@@ -132,7 +132,7 @@ GatheredLight HemisphereCells::sum(std::span<const Rgb> radiance, std::span<cons
   light.reach = static_cast<float>(count() / inverse);
   light.noise = static_cast<float>(std::sqrt(variance) / count());
   light.noisePerLength = static_cast<float>(std::sqrt(slopeVariance));
-  light.mean = V3f(mean / count());
+  light.mean = V3f(mean.rgb / count());
   for (int b = 0; b < 3; ++b) light.perLength[b] = V3f(move[b][0] * x + move[b][1] * y);
   return light;
 }
@@ -153,9 +153,9 @@ float LightMoments::towards(const V3f& n, int c) const {
   return all[c] / 4 + first[c].dot(n) / 2 + 5.F / 32 * (3 * second - all[c]);
 }
 
-V3f GatheredLight::meanOfTilted(const V3d& normal, const V3d& perturbed) const {
+Radiance GatheredLight::meanOfTilted(const V3d& normal, const V3d& perturbed) const {
   const V3f before(normal), after(perturbed);
-  if ((after - before).length2() < 1e-12F) return mean;
+  if ((after - before).length2() < 1e-12F) return Radiance(mean);
   V3f result;
   for (int c = 0; c < 3; ++c) {
     // The mean itself is known better than its moments tell it.
@@ -165,7 +165,7 @@ V3f GatheredLight::meanOfTilted(const V3d& normal, const V3d& perturbed) const {
     const float most = tilted.all[c] > 0 ? tilted.all[c] : mean[c];
     result[c] = std::clamp(mean[c] * ratio, 0.F, std::max(most, mean[c]));
   }
-  return result;
+  return Radiance(result);
 }
 
 }  // namespace rsphere

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "base/rgb.h"
+#include "base/radiometry.h"
 
 namespace rsphere {
 
@@ -51,7 +51,7 @@ struct GatheredLight {
 
   // The mean if a texture perturbs the normal of the surface from `normal` to `perturbed` (both unit). Light
   // from behind either of the two is excluded.
-  V3f meanOfTilted(const V3d& normal, const V3d& perturbed) const;
+  Radiance meanOfTilted(const V3d& normal, const V3d& perturbed) const;
 };
 
 // The cells of a hemisphere: `rings` rings from the normal outwards, each of `sectors` sectors.
@@ -74,7 +74,7 @@ class HemisphereCells {
   // Irradiance, gradient and moments from the values of all cells. radiance: mean of each cell (W/sr/m2);
   // distance: of the nearest hit in each cell (world units). Distances below `nearest` are raised to it,
   // which bounds the gradient. x, y, z: as for direction().
-  GatheredLight sum(std::span<const Rgb> radiance, std::span<const double> distance, double nearest,
+  GatheredLight sum(std::span<const Radiance> radiance, std::span<const double> distance, double nearest,
                     const V3d& x, const V3d& y, const V3d& z) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-#include "base/rgb.h"
+#include "base/radiometry.h"
 
 namespace rsphere {
 
@@ -7,7 +7,7 @@ namespace rsphere {
 struct DirectionSample {
   V3d direction{0, 0, 1};  // unit, world
   double solidAngle = 0;   // that it represents, sr
-  Rgb value{0, 0, 0};      // radiance from there, W/sr/m2
+  Radiance value;          // from there
   bool toSource = false;   // whether it was sent to a light source that is integrated separately
 };
 

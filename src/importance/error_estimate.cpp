@@ -17,7 +17,7 @@ Variance baseVariance(std::span<const DirectionSample> base, const Neighbours& n
   Variance sum;
   for (size_t i = 0; i < base.size(); ++i) {
     if (!enters[i]) continue;
-    Rgb around(0, 0, 0);
+    Radiance around;
     int count = 0;
     for (uint32_t k = n.first[i]; k < n.first[i + 1]; ++k) {
       if (!enters[n.neighbour[k]]) continue;
@@ -28,17 +28,17 @@ Variance baseVariance(std::span<const DirectionSample> base, const Neighbours& n
     // If m neighbours have the same variance, the variance of the difference to their mean is (m+1)/m
     // times that of the direction.
     const double own = static_cast<double>(count) / (count + 1);
-    sum += Variance::of((base[i].value - around / count) * base[i].solidAngle) * own;
+    sum += Variance::of(irradianceFrom(base[i].value - around / count, base[i].solidAngle)) * own;
   }
   return sum * Tuning::kEvenSet;
 }
 
 Variance spreadVariance(std::span<const DirectionSample> samples) {
   const double n = static_cast<double>(samples.size());
-  Rgb sum(0, 0, 0);
+  Irradiance sum;
   Variance squares;
   for (const DirectionSample& s : samples) {
-    const Rgb part = s.value * s.solidAngle;
+    const Irradiance part = irradianceFrom(s.value, s.solidAngle);
     sum += part;
     squares += Variance::of(part);
   }
@@ -56,7 +56,8 @@ Variance partsVariance(std::span<const SeenSources::Sample> samples) {
   size_t pairs = 0;
   for (const auto& s : samples) {
     const double clear = static_cast<double>(s.clear) / s.aimed;
-    edges += Variance::of(s.direction.value * s.part) * (Tuning::kEvenParts * clear * (1 - clear) / s.aimed);
+    edges += Variance::of(irradianceFrom(s.direction.value, s.part)) *
+             (Tuning::kEvenParts * clear * (1 - clear) / s.aimed);
   }
   const size_t columns = static_cast<size_t>(std::count_if(
       samples.begin(), samples.end(), [&](const auto& s) { return s.row == samples.front().row; }));
@@ -65,8 +66,8 @@ Variance partsVariance(std::span<const SeenSources::Sample> samples) {
     // The part of a difference that shadow rays measured is no variance of the directions.
     const double clear = static_cast<double>(samples[i].clear * samples[k].clear) /
                          static_cast<double>(samples[i].aimed * samples[k].aimed);
-    sum += Variance::of(samples[i].direction.value * samples[i].part -
-                        samples[k].direction.value * samples[k].part) *
+    sum += Variance::of(irradianceFrom(samples[i].direction.value, samples[i].part) -
+                        irradianceFrom(samples[k].direction.value, samples[k].part)) *
            clear;
   };
   for (size_t i = 1; i < samples.size(); ++i)

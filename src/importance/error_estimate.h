@@ -15,10 +15,10 @@ struct Variance {
   Rgb channels{0, 0, 0};
   double brightness = 0;
 
-  // The square of one error, W/m2.
-  static Variance of(const Rgb& error) {
+  // The square of one error.
+  static Variance of(const Irradiance& error) {
     const double b = rsphere::brightness(error);
-    return {error * error, b * b};
+    return {error.rgb * error.rgb, b * b};
   }
   Variance& operator+=(const Variance& v) {
     channels += v.channels;

@@ -16,19 +16,21 @@
 namespace rsphere {
 namespace {
 
-// Adds `excess` (W/m2) to the integral over the samples: in proportion to their guesses, or
+// Adds `excess` to the integral over the samples: in proportion to their guesses, or
 // evenly if all guesses are 0.
-void shareOut(const Rgb& excess, std::span<const Rgb> guesses, std::vector<DirectionSample>& samples) {
-  Rgb guessed(0, 0, 0);
+void shareOut(const Irradiance& excess, std::span<const Radiance> guesses,
+              std::vector<DirectionSample>& samples) {
+  Irradiance guessed;
   double solidAngle = 0;
   for (size_t i = 0; i < samples.size(); ++i) {
-    guessed += guesses[i] * samples[i].solidAngle;
+    guessed += irradianceFrom(guesses[i], samples[i].solidAngle);
     solidAngle += samples[i].solidAngle;
   }
   for (int c = 0; c < 3; ++c) {
-    const double scale = guessed[c] > 0 ? excess[c] / guessed[c] : 0,
-                 shift = guessed[c] > 0 || !(solidAngle > 0) ? 0 : excess[c] / solidAngle;
-    for (size_t i = 0; i < samples.size(); ++i) samples[i].value[c] += scale * guesses[i][c] + shift;
+    const double all = guessed.rgb[c], more = excess.rgb[c];
+    const double scale = all > 0 ? more / all : 0,
+                 shift = all > 0 || !(solidAngle > 0) ? 0 : more / solidAngle;
+    for (size_t i = 0; i < samples.size(); ++i) samples[i].value.rgb[c] += scale * guesses[i].rgb[c] + shift;
   }
 }
 
@@ -38,18 +40,18 @@ void keepPositive(std::vector<DirectionSample>& samples) {
   for (int c = 0; c < 3; ++c) {
     double sum = 0, positive = 0;
     for (const DirectionSample& s : samples) {
-      sum += s.value[c] * s.solidAngle;
-      positive += std::max(0., s.value[c]) * s.solidAngle;
+      sum += s.value.rgb[c] * s.solidAngle;
+      positive += std::max(0., s.value.rgb[c]) * s.solidAngle;
     }
     if (!(sum > 0) || sum == positive) continue;
-    for (DirectionSample& s : samples) s.value[c] = std::max(0., s.value[c]) * (sum / positive);
+    for (DirectionSample& s : samples) s.value.rgb[c] = std::max(0., s.value.rgb[c]) * (sum / positive);
   }
 }
 
 // Sums over the sets of one half (two_halves.h).
 struct Half {
   Moments moments;
-  Rgb excess{0, 0, 0};
+  Irradiance excess;
   Variance variance;
 };
 
@@ -66,8 +68,8 @@ void append(std::vector<T>& all, std::vector<T>&& more) {
     all.insert(all.end(), more.begin(), more.end());
 }
 
-// All sets as one, each weighted by its share of the average. excess: average over the sets, W/m2.
-SampledSet joined(std::vector<KeptSet> sets, const TwoHalves& halves, const Rgb& excess) {
+// All sets as one, each weighted by its share of the average. excess: average over the sets.
+SampledSet joined(std::vector<KeptSet> sets, const TwoHalves& halves, const Irradiance& excess) {
   SampledSet all;
   for (KeptSet& kept : sets) {
     for (DirectionSample& s : kept.set.samples) s.solidAngle *= halves.share(kept.half);
@@ -144,7 +146,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
     if (keep) kept.push_back({*next, std::move(set)});
   }
   Moments moments;
-  Rgb excess(0, 0, 0);
+  Irradiance excess;
   Variance variance;
   for (size_t k = 0; k < halves.size(); ++k) {
     const double share = decision.share(k);
@@ -159,7 +161,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
   PointAnswer answer = moments.answer(point, directions);
   // Rounding may leave a variance a little below 0.
   const auto standardError = [](double v) { return std::sqrt(std::max(0., v)) / (4 * std::numbers::pi); };
-  for (int i = 0; i < 3; ++i) answer.standardError[i] = standardError(variance.channels[i]);
+  for (int i = 0; i < 3; ++i) answer.standardError.rgb[i] = standardError(variance.channels[i]);
   answer.brightnessError = standardError(variance.brightness);
   answer.reached = options_.accuracy <= 0 || decision.isReached();
   return answer;

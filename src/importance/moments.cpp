@@ -1,11 +1,13 @@
 #include "importance/moments.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace rsphere {
 
-void Moments::add(const V3d& d, const Rgb& part) {
+void Moments::add(const V3d& d, const Irradiance& part) {
   total += part;
   cylindrical += part * std::sqrt(std::max(0., 1 - d.z * d.z));
   for (int axis = 0; axis < 3; ++axis) facing[2 * axis + (d[axis] < 0)] += part * std::abs(d[axis]);
@@ -24,7 +26,7 @@ PointAnswer Moments::answer(const V3d& point, size_t directions) const {
   PointAnswer a;
   a.point = point;
   a.directions = directions;
-  a.mean = total / (4 * pi);
+  a.mean = meanRadiance(total, 4 * pi);
   a.scalarIrradiance = total / 4.;
   a.cylindricalIrradiance = cylindrical / pi;
   std::copy(std::begin(facing), std::end(facing), std::begin(a.facing));

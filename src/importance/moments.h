@@ -1,7 +1,4 @@
 #pragma once
-#include <algorithm>
-#include <iterator>
-
 #include "importance/point_answer.h"
 
 namespace rsphere {
@@ -9,15 +6,13 @@ namespace rsphere {
 // The integrals over all directions from which the quantities of PointAnswer follow. L is radiance, d a
 // unit direction; world axes.
 struct Moments {
-  Rgb total{0, 0, 0};        // of L, W/m2
-  Rgb cylindrical{0, 0, 0};  // of L sin(angle to z), W/m2
-  Rgb facing[6];       // of L |cos(angle to the axis)| over the hemispheres around +x -x +y -y +z -z, W/m2
-  V3d light{0, 0, 0};  // of brightness(L) d, W/m2
+  Irradiance total;        // of L
+  Irradiance cylindrical;  // of L sin(angle to z)
+  Irradiance facing[6];    // of L |cos(angle to the axis)| over the hemispheres around +x -x +y -y +z -z
+  V3d light{0, 0, 0};      // of brightness(L) d, W/m2
 
-  Moments() { std::fill(std::begin(facing), std::end(facing), Rgb(0, 0, 0)); }
-
-  // Adds one direction. part: its radiance times its solid angle, W/m2.
-  void add(const V3d& direction, const Rgb& part);
+  // Adds one direction. part: its radiance times its solid angle.
+  void add(const V3d& direction, const Irradiance& part);
   void add(const Moments& other, double share);
 
   // The quantities at a point (world), without their standard errors. Definitions: point_answer.h.

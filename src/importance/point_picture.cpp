@@ -51,7 +51,7 @@ class PictureStreams {
 // The light of small sources in one pixel.
 struct Spot {
   double solidAngle = 0;
-  Rgb light{0, 0, 0};  // radiance times solid angle
+  Irradiance light;
 };
 
 }  // namespace
@@ -120,7 +120,7 @@ SmallSources smallSources(const V3d& point, const PixelMap& map, const SeenSourc
     if (!(s.direction.solidAngle > 0)) continue;
     Spot& spot = small.spots[map.pixelOf(s.direction.direction)];
     spot.solidAngle += s.direction.solidAngle;
-    spot.light += s.direction.value * s.direction.solidAngle;
+    spot.light += irradianceFrom(s.direction.value, s.direction.solidAngle);
   }
   return small;
 }
@@ -141,8 +141,8 @@ class PixelTracer {
 
   // Returns the radiance without the indirect light that it stores in pixel.light, which is to be
   // multiplied by `pattern` and added.
-  Rgb trace(const V3d& direction, uint64_t seed, IndirectPixels::Pixel& pixel, Rgb& pattern) {
-    indirect_ = Rgb(0, 0, 0);
+  Radiance trace(const V3d& direction, uint64_t seed, IndirectPixels::Pixel& pixel, Rgb& pattern) {
+    indirect_ = {};
     pixel = {};
     const Ray ray = tracer_.trace(point_, direction, 0, seed);
     const Hit& hit = tracer_.firstHit();
@@ -157,7 +157,7 @@ class PixelTracer {
     const ModifierId material = scene.surfaces[hit.surface].material;
     if (!scene.materialAt(material)) return ray.value;
     pixel.material = material;
-    pixel.light = Imath::V3f(indirect_ / pattern);
+    pixel.light = Imath::V3f(indirect_.rgb / pattern);
     pixel.point = Imath::V3f(hit.distance * direction);
     pixel.normal = Imath::V3f(hit.normal);
     pixel.distance = static_cast<float>(hit.distance);
@@ -168,7 +168,7 @@ class PixelTracer {
   const V3d& point_;
   const Transport& transport_;
   PathTracer& tracer_;
-  Rgb indirect_{0, 0, 0};
+  Radiance indirect_;
 };
 
 }  // namespace
@@ -178,7 +178,8 @@ Raster drawPoint(const V3d& point, const PixelMap& map, const Transport& transpo
                  const std::function<void()>& checkStop) {
   const PictureStreams streams(seed);
   const SmallSources small = smallSources(point, map, sources, tracer, streams.smallSources());
-  std::vector<Rgb> direct(map.count(), Rgb(0, 0, 0)), patterns(map.count(), Rgb(1, 1, 1));
+  std::vector<Radiance> direct(map.count());
+  std::vector<Rgb> patterns(map.count(), Rgb(1, 1, 1));
   IndirectPixels indirect{map.width(), map.height(), map.wraps(), {}};
   indirect.pixels.resize(map.count());
   PixelTracer pixels(point, transport, tracer);
@@ -189,7 +190,7 @@ Raster drawPoint(const V3d& point, const PixelMap& map, const Transport& transpo
           static_cast<size_t>(row) * static_cast<size_t>(map.width()) + static_cast<size_t>(column);
       const auto trace = [&](double x, double y, uint64_t raySeed) {
         const auto direction = map.direction(column + x, row + y);
-        direct[pixel] = Rgb(0, 0, 0);
+        direct[pixel] = {};
         indirect.pixels[pixel] = {};
         if (!direction) return true;
         direct[pixel] = pixels.trace(*direction, raySeed, indirect.pixels[pixel], patterns[pixel]);
@@ -198,18 +199,19 @@ Raster drawPoint(const V3d& point, const PixelMap& map, const Transport& transpo
       bool shown = !trace(.5, .5, streams.middle(pixel));
       for (size_t i = 0; shown && i < Tuning::kBeside.size(); ++i)
         shown = !trace(.5 + Tuning::kBeside[i][0], .5 + Tuning::kBeside[i][1], streams.aside(pixel, i));
-      if (shown) direct[pixel] = Rgb(0, 0, 0);
+      if (shown) direct[pixel] = {};
     }
   }
   smoothIndirect(indirect);
   Raster raster{map.width(), map.height(), std::vector<float>(3 * map.count())};
   for (size_t pixel = 0; pixel < map.count(); ++pixel) {
     const Imath::V3f& light = indirect.pixels[pixel].light;
-    setValue(raster, pixel, direct[pixel] + patterns[pixel] * Rgb(light.x, light.y, light.z));
+    setValue(raster, pixel, direct[pixel].rgb + patterns[pixel] * Rgb(light.x, light.y, light.z));
   }
   for (const auto& [pixel, spot] : small.spots) {
     const double whole = std::max(map.solidAngle(pixel), spot.solidAngle);
-    setValue(raster, pixel, valueAt(raster, pixel) * (1 - spot.solidAngle / whole) + spot.light / whole);
+    setValue(raster, pixel,
+             valueAt(raster, pixel) * (1 - spot.solidAngle / whole) + meanRadiance(spot.light, whole).rgb);
   }
   return raster;
 }

@@ -17,7 +17,7 @@ std::vector<V3d> SetAtPoint::turned(std::span<const V3d> directions) const {
 
 Moments SampledSet::moments() const {
   Moments moments;
-  for (const DirectionSample& s : samples) moments.add(s.direction, s.value * s.solidAngle);
+  for (const DirectionSample& s : samples) moments.add(s.direction, irradianceFrom(s.value, s.solidAngle));
   moments.add(excess, 1);
   return moments;
 }

@@ -38,10 +38,10 @@ class SetAtPoint {
 // The directions of one set, traced and weighted.
 struct SampledSet {
   std::vector<DirectionSample> samples;
-  std::vector<Ray> rays;     // of the samples, in the same order; kept with -Sd only
-  std::vector<Rgb> guesses;  // of the samples' radiances (radiance_guess.h), W/sr/m2; empty: none
-  Moments excess;            // of the guesses along glances over those along the samples; 0 without guesses
-  Variance variance;         // of moments().total; 0 unless standard errors are wanted
+  std::vector<Ray> rays;          // of the samples, in the same order; kept with -Sd only
+  std::vector<Radiance> guesses;  // of the samples' radiances (radiance_guess.h); empty: none
+  Moments excess;     // of the guesses along glances over those along the samples; 0 without guesses
+  Variance variance;  // of moments().total; 0 unless standard errors are wanted
 
   // The set's estimate of the integrals over all directions.
   Moments moments() const;

@@ -255,7 +255,7 @@ void SeenSources::sampleImage(const V3d& point, const Image& image, size_t rays,
       direction = Plane(*mirror).mirroredDirection(direction);
       s.ray = tracer.trace(point, direction, 0, raySeed);
       s.direction.toSource = true;
-      s.direction.value = Rgb(0, 0, 0);
+      s.direction.value = {};
       if (tracer.shown() == PathTracer::Shown{light.surface, image.mirror}) {
         s.direction.value = s.ray.value;
         s.direction.solidAngle = 1;
@@ -304,7 +304,7 @@ void SeenSources::sampleCell(const V3d& point, const Image& image, const Cell& c
       point, {s.direction.direction, 0, chosen.distance, chosen.cosine, chosen.normal, image.source},
       random.bits());
   s.direction.toSource = true;
-  s.direction.value = Rgb(0, 0, 0);
+  s.direction.value = {};
   s.direction.solidAngle = 0;
   if (tracer.shown() == PathTracer::Shown{light.surface, kNone}) {
     s.direction.value = s.ray.value;

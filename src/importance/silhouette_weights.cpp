@@ -96,7 +96,7 @@ SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, 
   for (const SeenSources::Sample& s : toImages) {
     sampled.samples.push_back(s.direction);
     if (options_.everyDirection) sampled.rays.push_back(s.ray);
-    if (guess) sampled.guesses.push_back(Rgb(0, 0, 0));
+    if (guess) sampled.guesses.emplace_back();
   }
   sampled.samples.insert(sampled.samples.end(), others.samples.begin(), others.samples.end());
   sampled.rays.insert(sampled.rays.end(), others.rays.begin(), others.rays.end());
@@ -140,11 +140,11 @@ SilhouetteWeights::Others SilhouetteWeights::sampleOthers(const SetAtPoint& set,
     const bool enters = !sources_.shown(tracer, images);
     others.enters.push_back(enters);
     if (enters) sum += cell;
-    others.samples.push_back({d, enters ? cell : 0, enters ? ray.value : Rgb(0, 0, 0)});
+    others.samples.push_back({d, enters ? cell : 0, enters ? ray.value : Radiance()});
     if (options_.everyDirection) others.rays.push_back(ray);
     if (guess)
       others.guesses.push_back(
-          enters ? guess->from(guidance_->guess.placeOf(set.point(), d, tracer.firstHit())) : Rgb(0, 0, 0));
+          enters ? guess->from(guidance_->guess.placeOf(set.point(), d, tracer.firstHit())) : Radiance());
   };
   const std::vector<V3d> base = set.turned(base_.directions);
   others.samples.reserve(base.size());
@@ -174,11 +174,12 @@ Moments SilhouetteWeights::excessOfGlances(const SetAtPoint& set, const Others& 
   Moments excess;
   for (size_t i = 0; i < others.samples.size(); ++i)
     if (others.enters[i])
-      excess.add(others.samples[i].direction, others.guesses[i] * -others.samples[i].solidAngle);
+      excess.add(others.samples[i].direction,
+                 irradianceFrom(others.guesses[i], -others.samples[i].solidAngle));
   const std::vector<V3d> glances = set.turned(guidance_->glances);
   const double solidAngle = 4 * pi / static_cast<double>(glances.size());
   for (const V3d& direction : glances)
-    excess.add(direction, guess.along(set.point(), direction) * solidAngle);
+    excess.add(direction, irradianceFrom(guess.along(set.point(), direction), solidAngle));
   return excess;
 }
 

@@ -54,7 +54,7 @@ class SilhouetteWeights : public SamplingStrategy {
   struct Others {
     std::vector<DirectionSample> samples;  // the base directions, then those to targets
     std::vector<Ray> rays;                 // of the samples, with -Sd only
-    std::vector<Rgb> guesses;              // of the samples; empty: nothing is guessed
+    std::vector<Radiance> guesses;         // of the samples; empty: nothing is guessed
     // Whether the sample enters the mean. It does not if it shows an image of a light source, because the
     // image has its own samples; then its solid angle, radiance and guess are 0.
     std::vector<bool> enters;

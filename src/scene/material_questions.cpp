@@ -78,11 +78,11 @@ std::optional<Alternate> alternateOf(const Material& material) {
       material);
 }
 
-std::optional<Rgb> sourceRadiance(const Material& material) {
-  using Answer = std::optional<Rgb>;
+std::optional<Radiance> sourceRadiance(const Material& material) {
+  using Answer = std::optional<Radiance>;
   return std::visit(
       Overloaded{
-          [](const OneOf<Light, Illum, Glow, Spotlight> auto& m) -> Answer { return m.radiance; },
+          [](const OneOf<Light, Illum, Glow, Spotlight> auto& m) -> Answer { return Radiance(m.radiance); },
           [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
                          BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist> auto&)
               -> Answer { return {}; },

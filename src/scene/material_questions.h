@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/radiometry.h"
 #include "scene/material.h"
 
 namespace rsphere {
@@ -35,7 +36,7 @@ std::optional<Alternate> alternateOf(const Material& material);
 // Light, illum, glow and spotlight.
 bool isLightSource(const Material& material);
 // The radiance of a source material, as its arguments give it (W/sr/m2); empty for other materials.
-std::optional<Rgb> sourceRadiance(const Material& material);
+std::optional<Radiance> sourceRadiance(const Material& material);
 // Whether surfaces of the material are sampled as light sources (next-event estimation): it emits light, and
 // is not glow whose reach is zero or negative.
 bool isSampled(const Material& material);

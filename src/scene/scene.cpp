@@ -32,10 +32,10 @@ std::string_view Scene::materialName(const Surface& s) const {
 
 std::string Scene::place(PrimitiveId i) const { return placeOf(description, i); }
 
-Rgb sourceRadiance(const Scene& scene, const Surface& surface) {
-  if (surface.goal) return Rgb(1, 1, 1);
+Radiance sourceRadiance(const Scene& scene, const Surface& surface) {
+  if (surface.goal) return Radiance(1);
   const Material* material = scene.materialOf(surface);
-  return material ? sourceRadiance(*material).value_or(Rgb(0, 0, 0)) : Rgb(0, 0, 0);
+  return material ? sourceRadiance(*material).value_or(Radiance()) : Radiance();
 }
 
 }  // namespace rsphere

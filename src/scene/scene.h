@@ -109,7 +109,7 @@ struct Scene {
 };
 
 // The emitted radiance of a surface before patterns, W/sr/m2: 1 for a goal, black if it is not a source.
-Rgb sourceRadiance(const Scene& scene, const Surface& surface);
+Radiance sourceRadiance(const Scene& scene, const Surface& surface);
 
 // Validates and converts the parts of the description that surfaces use, and reads the octrees and meshes
 // that it names, each once (with these options). The description is kept for names and places. Vertices keep

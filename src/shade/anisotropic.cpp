@@ -186,7 +186,7 @@ AnisotropicScattering scatter(const WgmdFunction& m, const WgmdComponent& reflec
     if (passes) {
       const double bright = brightness(s.transmitted.share);
       const bool image = bright > brightness(s.reflection.share) + brightness(s.transmission.share);
-      s.sharp.add({through, s.transmitted.share, kTransmitted, image});
+      s.sharp.add({through, Coefficient(s.transmitted.share), kTransmitted, image});
       s.transmitted.share = Rgb(0, 0, 0);
     } else {
       sampleOrAdd(s.transmitted, brightness(s.transmitted.share), specularThreshold, s.transmission);
@@ -196,7 +196,7 @@ AnisotropicScattering scatter(const WgmdFunction& m, const WgmdComponent& reflec
     const Interaction& at = reflected.at;
     V3d mirrored = at.direction - 2 * at.direction.dot(s.reflected.normal) * s.reflected.normal;
     if (isPerturbed(at) && mirrored.dot(at.normal) <= 0) mirrored = at.direction + 2 * at.cosine * at.normal;
-    s.sharp.add({mirrored.normalized(), s.reflected.share, kReflected,
+    s.sharp.add({mirrored.normalized(), Coefficient(s.reflected.share), kReflected,
                  s.widenReflection && (at.kinds & kAmbient) != 0});
     s.reflected.share = Rgb(0, 0, 0);
   } else if (maxChannel(s.reflected.share) > 0) {

@@ -36,7 +36,8 @@ BsdfScattering::BsdfScattering(const BsdfMaterial& material, const BsdfData& dat
     through_ = data.through(view_);
     through_.peak *= at.pattern;
     const bool straight = !(at.kinds & (kSpecular | kAmbient));
-    if (straight || (at.kinds & kShadow)) sharp_.add({at.direction, through_.peak, kTransmitted, true});
+    if (straight || (at.kinds & kShadow))
+      sharp_.add({at.direction, Coefficient(through_.peak), kTransmitted, true});
     showsThrough_ = straight && maxChannel(through_.peak) > kNegligible;
   }
   if (at.kinds & kShadow) return;
@@ -89,17 +90,17 @@ LobeSample BsdfScattering::draw(Component component, int i, int n, Random& rando
   const Tristimulus value = directed.cell(view, direction).value;
   Rgb coefficient = (transmits ? at_.pattern : Rgb(1, 1, 1)) * (albedo / n);
   if (value.y > 0) coefficient *= rgbOf(value) / value.y;
-  return {frame_.world(direction), coefficient};
+  return {frame_.world(direction), Coefficient(coefficient)};
 }
 
-Rgb BsdfScattering::coefficient(Component component, const V3d& toSource, double solidAngle,
-                                Random& random) const {
+Coefficient BsdfScattering::coefficient(Component component, const V3d& toSource, double solidAngle,
+                                        Random& random) const {
   const bool reflects = component == Component::reflected, transmits = !thick_ || !reflects;
   const double c = frame_.normal.dot(toSource);
-  if (!(c > 0 ? reflects && c > kNegligible : transmits && c < -kNegligible)) return Rgb(0, 0, 0);
+  if (!(c > 0 ? reflects && c > kNegligible : transmits && c < -kNegligible)) return {};
   const Rgb even = (c > 0 ? reflectance_ : transmittance_) / kPi;
   const Rgb uneven = directed(toSource, solidAngle, random) * (c > 0 ? Rgb(1, 1, 1) : at_.pattern);
-  return (even + uneven) * (std::abs(c) * solidAngle);
+  return Coefficient((even + uneven) * (std::abs(c) * solidAngle));
 }
 
 // The BSDF (1/sr) without its diffuse part for light from a source, averaged over views within a cell.

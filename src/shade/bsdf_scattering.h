@@ -35,9 +35,9 @@ class BsdfScattering {
   Components components() const { return kComponents; }
   std::optional<Lobe> lobe(Component component, Random& random);
   LobeSample draw(Component component, int i, int n, Random& random) const;
-  Rgb indirect(Component component) const {
-    return component == Component::reflected ? reflectance_ + unsampledReflection_
-                                             : transmittance_ + unsampledTransmission_;
+  Coefficient indirect(Component component) const {
+    return Coefficient(component == Component::reflected ? reflectance_ + unsampledReflection_
+                                                         : transmittance_ + unsampledTransmission_);
   }
   const V3d& normal(Component) const { return frame_.normal; }
   const V3d& trueNormal() const { return at_.normal; }
@@ -48,7 +48,7 @@ class BsdfScattering {
   }
   bool takesDirect(Component component) const { return component == Component::reflected || thick_; }
   const V3d& front() const { return kNoFront; }
-  Rgb coefficient(Component component, const V3d& toSource, double solidAngle, Random& random) const;
+  Coefficient coefficient(Component component, const V3d& toSource, double solidAngle, Random& random) const;
   bool isEven() const { return false; }
 
  private:

@@ -13,7 +13,7 @@ FunctionScattering begin(const Interaction& at) {
   return s;
 }
 
-Rgb colorOf(const std::array<double, 3>& v) { return Rgb(v[0], v[1], v[2]); }
+Coefficient coefficientOf(const std::array<double, 3>& v) { return Coefficient(Rgb(v[0], v[1], v[2])); }
 
 }  // namespace
 
@@ -44,7 +44,7 @@ FunctionScattering scatter(const BrtdFunction& m, const Interaction& at) {
 SharpPath sharpTransmission(const FunctionScattering& s, const Interaction& at,
                             const std::array<double, 3>& coefficient) {
   const bool straight = !isPerturbed(at) || (at.kinds & (kShadow | kAmbient));
-  SharpPath path{at.direction, colorOf(coefficient), kTransmitted, false};
+  SharpPath path{at.direction, coefficientOf(coefficient), kTransmitted, false};
   path.lengthCounts = straight && brightness(s.diffuseReflection) + brightness(s.diffuseTransmission) < 1;
   if (!straight && !at.smoothed) {
     const V3d bent = at.direction - at.perturbation;
@@ -56,7 +56,7 @@ SharpPath sharpTransmission(const FunctionScattering& s, const Interaction& at,
 
 SharpPath sharpReflection(const FunctionScattering& s, const Interaction& at,
                           const std::array<double, 3>& coefficient) {
-  return {(at.direction + 2 * s.cosine * s.normal).normalized(), colorOf(coefficient), kReflected,
+  return {(at.direction + 2 * s.cosine * s.normal).normalized(), coefficientOf(coefficient), kReflected,
           at.flat && (!isPerturbed(at) || (at.kinds & kAmbient))};
 }
 

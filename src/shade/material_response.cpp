@@ -27,7 +27,7 @@ SourceResponse emission(const Rgb& radiance, MaterialHit& hit, const Glow* glow 
   if (hit.passesBack()) return Passes{};
   if (a.cosine < 0) return Absorbs{};
   hit.modify();
-  return Emits{radiance * hit.pattern()};
+  return Emits{Radiance(radiance * hit.pattern())};
 }
 
 // ---- functions
@@ -225,7 +225,8 @@ std::variant<Absorbs, Passes, Alternate, ReflectsSharply, Relays> response(const
   const Interaction at = modified(hit);
   if (!a.isAimed()) return ReflectsSharply(material, at);
   // Textures are ignored: the virtual source is the image in the unperturbed plane.
-  return Relays{{at.direction + 2 * at.cosine * at.normal, material.reflectance * at.pattern, kReflected}};
+  return Relays{
+      {at.direction + 2 * at.cosine * at.normal, Coefficient(material.reflectance * at.pattern), kReflected}};
 }
 
 std::variant<Absorbs, Redirects, Relays> response(const Prism& material, MaterialHit& hit) {
@@ -236,7 +237,7 @@ std::variant<Absorbs, Redirects, Relays> response(const Prism& material, Materia
   const auto path = [&](int image) {
     const auto [share, direction] =
         hit.functions().redirection(material.functions, image, point, hit.scratch());
-    return SharpPath{direction, Rgb(share, share, share), kTransmitted};
+    return SharpPath{direction, Coefficient(share), kTransmitted};
   };
   if (a.isAimed()) {
     if (a.image >= material.images) return Absorbs{};

@@ -16,7 +16,7 @@ struct Absorbs {};
 struct Passes {};
 // The surface emits radiance (W/sr/m2) towards the ray; patterns are included.
 struct Emits {
-  Rgb radiance;
+  Radiance radiance;
 };
 // Sharp paths of a pane or a mirror.
 struct ReflectsSharply {

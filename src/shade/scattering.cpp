@@ -56,7 +56,7 @@ void addReflection(Scattering& s, const Interaction& at, const Gloss& g, const R
                    double specularThreshold) {
   if (g.specular <= kNegligible) return;
   if (g.polished) {
-    s.sharp.add({safelyMirrored(at, s.normal, s.cosine), color, kReflected,
+    s.sharp.add({safelyMirrored(at, s.normal, s.cosine), Coefficient(color), kReflected,
                  s.widenReflection && (at.kinds & kAmbient) != 0});
   } else {
     s.specularReflection = color;
@@ -105,12 +105,12 @@ Scattering scatterAtBoundary(const Interaction& at, double inner, const Medium& 
     const double bend = ratio * s.cosine - cosineBeyond;
     V3d d = ratio * at.direction + bend * s.normal;
     if (isPerturbed(at) && d.dot(at.normal) >= -kNegligible) d = ratio * at.direction + bend * at.normal;
-    s.sharp.add({d.normalized(), Rgb(transmittance, transmittance, transmittance), kRefracted,
+    s.sharp.add({d.normalized(), Coefficient(transmittance), kRefracted,
                  image || std::abs(ratio - 1) <= kNegligible, true, at.front ? innerMedium : outerMedium});
   }
   if (!(at.kinds & kShadow))
-    s.sharp.add({safelyMirrored(at, s.normal, s.cosine), Rgb(reflectance, reflectance, reflectance),
-                 kReflected, image, true, s.medium});
+    s.sharp.add({safelyMirrored(at, s.normal, s.cosine), Coefficient(reflectance), kReflected, image, true,
+                 s.medium});
   return s;
 }
 
@@ -173,7 +173,7 @@ Scattering scatter(const Trans& material, const Interaction& at, double specular
     }
     if (g.polished) {
       const bool image = straight >= 1 - kNegligible || 2 * straight > 1 - g.specular;
-      s.sharp.add({s.transmitted, color * straight, kTransmitted, image});
+      s.sharp.add({s.transmitted, Coefficient(color * straight), kTransmitted, image});
     } else {
       s.specularTransmission = color * straight;
       s.sampleTransmission = specularThreshold < straight - kNegligible;
@@ -227,11 +227,12 @@ Scattering scatter(const Glass& material, const Interaction& at) {
       const double length = d.length();
       d = length > 0 ? d / length : at.direction;
     }
-    s.sharp.add({d, transmittance, kTransmitted, !isPerturbed(at) || (at.kinds & (kShadow | kAmbient)) != 0});
+    s.sharp.add({d, Coefficient(transmittance), kTransmitted,
+                 !isPerturbed(at) || (at.kinds & (kShadow | kAmbient)) != 0});
   }
   if (!(at.kinds & kShadow))
-    s.sharp.add({mirrored(at.direction, s.normal, s.cosine).normalized(), reflectance, kReflected,
-                 at.flat && (!isPerturbed(at) || (at.kinds & kAmbient))});
+    s.sharp.add({mirrored(at.direction, s.normal, s.cosine).normalized(), Coefficient(reflectance),
+                 kReflected, at.flat && (!isPerturbed(at) || (at.kinds & kAmbient))});
   return s;
 }
 
@@ -241,8 +242,8 @@ Scattering scatter(const Mirror& material, const Interaction& at) {
   s.cosine = at.cosine;
   const bool bends = isPerturbed(at) && !(at.kinds & kAmbient);
   if (bends) s.normal = perturbedNormal(at, s.cosine);
-  s.sharp.add({safelyMirrored(at, s.normal, s.cosine), material.reflectance * at.pattern, kReflected,
-               at.flat && !bends});
+  s.sharp.add({safelyMirrored(at, s.normal, s.cosine), Coefficient(material.reflectance * at.pattern),
+               kReflected, at.flat && !bends});
   return s;
 }
 

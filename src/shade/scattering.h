@@ -9,6 +9,7 @@
 #include <cstddef>
 
 #include "base/constants.h"
+#include "base/radiometry.h"
 #include "scene/frame.h"
 #include "scene/material.h"
 #include "shade/ray_kind.h"
@@ -40,7 +41,7 @@ struct Medium {
 // one (rtrace -ol, -oR, -oX).
 struct SharpPath {
   V3d direction{0, 0, 0};
-  Rgb coefficient{0, 0, 0};
+  Coefficient coefficient;
   RayKind kind = kReflected;
   bool lengthCounts = false;
   bool entersMedium = false;

@@ -21,7 +21,7 @@ LobeSample drawStratified(const Rgb& share, int i, int n, Random& random, const 
   LobeSample drawn;
   const double u1 = (i + random.uniform()) / n, u2 = random.uniform();
   const double weight = sample(u1, u2, drawn.direction);
-  if (weight > 0) drawn.coefficient = share * (weight / n);
+  if (weight > 0) drawn.coefficient = Coefficient(share * (weight / n));
   return drawn;
 }
 

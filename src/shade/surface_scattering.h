@@ -38,8 +38,8 @@ struct Lobe {
 };
 
 struct LobeSample {
-  V3d direction{0, 0, 0};    // unit
-  Rgb coefficient{0, 0, 0};  // of its radiance in that of the ray; black: the draw gave no valid direction
+  V3d direction{0, 0, 0};   // unit
+  Coefficient coefficient;  // of its radiance in that of the ray; black: the draw gave no valid direction
 };
 
 // What all models of scattering answer.
@@ -54,7 +54,7 @@ concept ScattersLight = requires(S s, const S& c, Component component, Random& r
   { c.draw(component, 0, 1, random) } -> std::same_as<LobeSample>;
   // The coefficient of the mean radiance over the hemisphere that the component's light comes from: that
   // around the normal, or, if it is transmitted, around the opposite direction.
-  { c.indirect(component) } -> std::convertible_to<Rgb>;
+  { c.indirect(component) } -> std::same_as<Coefficient>;
   // The perturbed normal, and the surface's own (unit). Both are on the ray's side, whatever the component.
   { c.normal(component) } -> std::same_as<const V3d&>;
   { c.trueNormal() } -> std::same_as<const V3d&>;
@@ -67,7 +67,7 @@ concept ScattersLight = requires(S s, const S& c, Component component, Random& r
   { c.front() } -> std::same_as<const V3d&>;
   // The share of a source's radiance that is scattered towards the ray's origin, for a source that fills a
   // solid angle (sr) in a direction (unit). component: one that takes direct light.
-  { c.coefficient(component, v, 1., random) } -> std::same_as<Rgb>;
+  { c.coefficient(component, v, 1., random) } -> std::same_as<Coefficient>;
   // Whether the scattered light has no strong peak.
   { c.isEven() } -> std::same_as<bool>;
 };
@@ -88,9 +88,9 @@ class RoundScattering {
     return sampled ? std::optional(Lobe{}) : std::nullopt;
   }
   LobeSample draw(Component component, int i, int n, Random& random) const;
-  const Rgb& indirect(Component component) const {
-    return component == Component::reflected ? scattering_.ambientReflection
-                                             : scattering_.ambientTransmission;
+  Coefficient indirect(Component component) const {
+    return Coefficient(component == Component::reflected ? scattering_.ambientReflection
+                                                         : scattering_.ambientTransmission);
   }
   const V3d& normal(Component) const { return scattering_.normal; }
   const V3d& trueNormal() const { return at_.normal; }
@@ -101,8 +101,8 @@ class RoundScattering {
   }
   // What transmits no light is lit from its front alone.
   const V3d& front() const { return transmits_ ? kNoFront : scattering_.normal; }
-  Rgb coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
-    return directCoefficient(scattering_, at_, toSource, solidAngle, sourceJitter_);
+  Coefficient coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
+    return Coefficient(directCoefficient(scattering_, at_, toSource, solidAngle, sourceJitter_));
   }
   bool isEven() const;
 
@@ -148,14 +148,14 @@ class EllipticScattering {
     return lobeOf(component).sampled ? std::optional(Lobe{}) : std::nullopt;
   }
   LobeSample draw(Component component, int i, int n, Random& random) const;
-  const Rgb& indirect(Component component) const { return diffuse(component).ambient; }
+  Coefficient indirect(Component component) const { return Coefficient(diffuse(component).ambient); }
   const V3d& normal(Component component) const { return diffuse(component).normal; }
   const V3d& trueNormal() const { return at_.normal; }
   const V3d& offset(Component) const { return kNoOffset; }
   bool takesDirect(Component component) const { return component == Component::transmitted; }
   const V3d& front() const { return kNoFront; }
-  Rgb coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
-    return directCoefficient(scattering_, at_.direction, toSource, solidAngle, sourceJitter_);
+  Coefficient coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
+    return Coefficient(directCoefficient(scattering_, at_.direction, toSource, solidAngle, sourceJitter_));
   }
   bool isEven() const { return false; }
 
@@ -182,14 +182,14 @@ class AshikhminLobeScattering {
   Components components() const { return Components(kComponents).first(1); }
   std::optional<Lobe> lobe(Component component, Random& random) const;
   LobeSample draw(Component component, int i, int n, Random& random) const;
-  const Rgb& indirect(Component) const { return scattering_.reflection.ambient; }
+  Coefficient indirect(Component) const { return Coefficient(scattering_.reflection.ambient); }
   const V3d& normal(Component) const { return scattering_.reflection.normal; }
   const V3d& trueNormal() const { return at_.normal; }
   const V3d& offset(Component) const { return kNoOffset; }
   bool takesDirect(Component) const { return true; }
   const V3d& front() const { return kNoFront; }
-  Rgb coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
-    return directCoefficient(scattering_, at_.direction, toSource, solidAngle);
+  Coefficient coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
+    return Coefficient(directCoefficient(scattering_, at_.direction, toSource, solidAngle));
   }
   bool isEven() const { return false; }
 
@@ -217,19 +217,19 @@ class ProgrammedScattering {
   Components components() const { return kComponents; }
   std::optional<Lobe> lobe(Component, Random&) const { return {}; }
   LobeSample draw(Component, int, int, Random&) const { return {}; }
-  const Rgb& indirect(Component component) const {
-    return component == Component::reflected ? scattering_.ambientReflection
-                                             : scattering_.ambientTransmission;
+  Coefficient indirect(Component component) const {
+    return Coefficient(component == Component::reflected ? scattering_.ambientReflection
+                                                         : scattering_.ambientTransmission);
   }
   const V3d& normal(Component) const { return scattering_.normal; }
   const V3d& trueNormal() const { return at_.normal; }
   const V3d& offset(Component) const { return kNoOffset; }
   bool takesDirect(Component component) const;
   const V3d& front() const { return kNoFront; }
-  Rgb coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
-    return directCoefficient(scattering_, toSource, solidAngle, [&] {
+  Coefficient coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
+    return Coefficient(directCoefficient(scattering_, toSource, solidAngle, [&] {
       return functions_->distribution(material_, point_, toSource, solidAngle, *scratch_);
-    });
+    }));
   }
   bool isEven() const { return false; }
 

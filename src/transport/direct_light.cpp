@@ -32,21 +32,22 @@ struct Tests {
 }  // namespace
 
 // The radiance of a source along an unoccluded shadow ray.
-Rgb DirectLight::sourceValue(const Ray& ray, const SourceSample& sample) {
+Radiance DirectLight::sourceValue(const Ray& ray, const SourceSample& sample) {
   const LightSource& light = t_.lights().all()[sample.source];
   if (light.isVirtual()) {
     Ray child;
-    Rgb whole(1, 1, 1);
-    if (!continueRay(t_, state_.random, child, kReflectedShadow, ray, whole)) return Rgb(0, 0, 0);
+    Coefficient whole(1);
+    if (!continueRay(t_, state_.random, child, kReflectedShadow, ray, whole)) return {};
     child.aimedAt = sample.source;
     child.direction = sample.direction;
     child.unobstructed = true;
     follower_.follow(child);
     return child.value;
   }
-  if (sample.cosine < 0) return Rgb(0, 0, 0);
-  const Rgb passed = passing(ray.medium.extinction * (Rgb(1, 1, 1) - ray.medium.albedo), sample.distance);
-  if (const Rgb* radiance = t_.constantRadiance(sample.source)) return *radiance * passed;
+  if (sample.cosine < 0) return {};
+  const Coefficient passed =
+      passing(ray.medium.extinction * (Rgb(1, 1, 1) - ray.medium.albedo), sample.distance);
+  if (const Radiance* radiance = t_.constantRadiance(sample.source)) return *radiance * passed;
   Ray child;
   child.origin = ray.point;
   child.direction = sample.direction;
@@ -72,7 +73,7 @@ bool DirectLight::isWhole(const SourceSample& sample) const {
 
 // Sets value to the radiance of a sample that arrives at the ray's end; false if none arrives. to.value: its
 // radiance without occlusion.
-bool DirectLight::arrives(const Ray& ray, const Contribution& to, Rgb& value) {
+bool DirectLight::arrives(const Ray& ray, const Contribution& to, Radiance& value) {
   const SourceSample& sample = *to.sample;
   const LightSource& light = t_.lights().all()[sample.source];
   const bool toSurface = !light.distant || light.isVirtual();
@@ -93,13 +94,13 @@ bool DirectLight::arrives(const Ray& ray, const Contribution& to, Rgb& value) {
 }
 
 // The radiance that arrives along a shadow ray through surfaces that may transmit light.
-Rgb DirectLight::valueFromSource(const Ray& ray, const Contribution& to) {
+Radiance DirectLight::valueFromSource(const Ray& ray, const Contribution& to) {
   const V3d& direction = to.sample->direction;
   const bool through = (ray.cosine > 0) != (ray.normal.dot(direction) > 0);
   Ray child;
-  Rgb whole(1, 1, 1);
+  Coefficient whole(1);
   if (!continueRay(t_, state_.random, child, through ? kTransmittedShadow : kReflectedShadow, ray, whole))
-    return Rgb(0, 0, 0);
+    return {};
   child.contribution *= to.coefficient;
   child.aimedAt = to.sample->source;
   child.direction = direction;
@@ -160,10 +161,10 @@ uint32_t DirectLight::findContributions(const Ray& ray, DirectCoefficient coeffi
   const bool clear = !isMedium(ray.medium.extinction);
   uint32_t count = 0;
   for (const SourceSample& sample : samples_) {
-    const Rgb coefficient = coefficientOf(sample.direction, sample.solidAngle);
+    const Coefficient coefficient = coefficientOf(sample.direction, sample.solidAngle);
     if (isBlack(coefficient)) continue;
-    const Rgb* constant = clear && sample.cosine >= 0 ? t_.constantRadiance(sample.source) : nullptr;
-    const Rgb value = constant ? *constant : sourceValue(ray, sample);
+    const Radiance* constant = clear && sample.cosine >= 0 ? t_.constantRadiance(sample.source) : nullptr;
+    const Radiance value = constant ? *constant : sourceValue(ray, sample);
     const double bright = brightness(value * coefficient);
     if (!(bright > 0)) continue;
     contributions_[count] = {&sample, coefficient, value};
@@ -179,7 +180,7 @@ void DirectLight::addOneOf(Ray& ray, size_t first, uint32_t count) {
   size_t chosen = first;
   while (chosen + 1 < count && (rest -= brightness_[order_[chosen]]) >= 0) ++chosen;
   const Contribution& c = contributions_[order_[chosen]];
-  Rgb value;
+  Radiance value;
   if (arrives(ray, c, value))
     ray.value += value * c.coefficient * (remaining_[first] / brightness_[order_[chosen]]);
 }
@@ -201,7 +202,7 @@ void DirectLight::add(Ray& ray, DirectCoefficient coefficientOf, const V3d& fron
   }
   Tests ofKind[kSourceKinds];
   const auto test = [&](const Contribution& c, Tests& tests) {
-    Rgb value;
+    Radiance value;
     const bool visible = arrives(ray, c, value);
     tests.add(visible);
     if (visible) ray.value += value * c.coefficient;
@@ -242,10 +243,10 @@ void DirectLight::addOfChosen(Ray& ray, DirectCoefficient coefficientOf, const V
       samples_.clear();
       t_.lights().sample(i, ray.point, {0, 1, front}, state_.random, samples_);
       for (const SourceSample& sample : samples_) {
-        const Rgb coefficient = coefficientOf(sample.direction, sample.solidAngle);
+        const Coefficient coefficient = coefficientOf(sample.direction, sample.solidAngle);
         if (isBlack(coefficient)) continue;
         const Contribution c{&sample, coefficient, sourceValue(ray, sample)};
-        Rgb value;
+        Radiance value;
         if (maxChannel(c.value) > 0 && arrives(ray, c, value))
           ray.value += value * coefficient * (step / sourceWeights_[i]);
       }
@@ -253,13 +254,14 @@ void DirectLight::addOfChosen(Ray& ray, DirectCoefficient coefficientOf, const V
   }
 }
 
-void DirectLight::addFromSource(const Ray& at, LightId source, DirectCoefficient coefficientOf, Rgb& sum) {
+void DirectLight::addFromSource(const Ray& at, LightId source, DirectCoefficient coefficientOf,
+                                Radiance& sum) {
   samples_.clear();
   t_.lights().sample(source, at.point, {0, t_.options().directJitter}, state_.random, samples_);
   for (const SourceSample& sample : samples_) {
     const Contribution c{&sample, coefficientOf(sample.direction, sample.solidAngle),
                          sourceValue(at, sample)};
-    Rgb value;
+    Radiance value;
     if (!isBlack(c.value) && arrives(at, c, value)) sum += value * c.coefficient;
   }
 }

@@ -15,7 +15,7 @@ namespace rsphere {
 
 // The share of a source's radiance that a surface scatters back along a ray, given the direction to the
 // source (unit) and the solid angle (sr) of a sample of it.
-using DirectCoefficient = FunctionRef<Rgb(const V3d& toSource, double solidAngle)>;
+using DirectCoefficient = FunctionRef<Coefficient(const V3d& toSource, double solidAngle)>;
 
 class DirectLight {
  public:
@@ -36,21 +36,22 @@ class DirectLight {
   void addOfChosen(Ray& ray, DirectCoefficient coefficientOf, const V3d& front);
 
   // Adds the light of one source that is scattered at the end of a ray (W/sr/m2).
-  void addFromSource(const Ray& at, LightId source, DirectCoefficient coefficientOf, Rgb& sum);
+  void addFromSource(const Ray& at, LightId source, DirectCoefficient coefficientOf, Radiance& sum);
 
  private:
   struct Contribution {
     const SourceSample* sample;
-    Rgb coefficient, value;
+    Coefficient coefficient;
+    Radiance value;
   };
 
   size_t lookAheadOf(size_t count);
   void rankByBrightness(uint32_t count);
-  Rgb sourceValue(const Ray& ray, const SourceSample& sample);
-  Rgb valueFromSource(const Ray& ray, const Contribution& to);
+  Radiance sourceValue(const Ray& ray, const SourceSample& sample);
+  Radiance valueFromSource(const Ray& ray, const Contribution& to);
   uint32_t findContributions(const Ray& ray, DirectCoefficient coefficientOf, const V3d& front);
   void addOneOf(Ray& ray, size_t first, uint32_t count);
-  bool arrives(const Ray& ray, const Contribution& to, Rgb& value);
+  bool arrives(const Ray& ray, const Contribution& to, Radiance& value);
   bool isWhole(const SourceSample& sample) const;
   uint32_t& blockerOf(SurfaceId surface, LightId source) {
     const uint64_t both =

@@ -31,7 +31,7 @@ GatheredLight gatherLight(const Transport& transport, PathState& state, const Br
   frame(site.normal, x, y);
   const int count = o.ambientDivisions + o.ambientSuperSamples;
   const HemisphereCells cells(count);
-  std::vector<Rgb> radiance(cells.count(), Rgb(0, 0, 0));
+  std::vector<Radiance> radiance(cells.count());
   std::vector<double> distance(cells.count(), kFarAway);
   sendOverHemisphere(transport, aims, state.random, root, site.normal, site.normal, kReflectedAmbient, count,
                      [&](Ray& child, double part) {
@@ -46,10 +46,10 @@ GatheredLight gatherLight(const Transport& transport, PathState& state, const Br
 void linkPatch(const Transport& transport, PathState& state, const BrightSpots* aims, RayFollower& follower,
                const GatherSite& site, int rays, int depth) {
   const Ray root = rootOf(transport, site, depth);
-  Rgb sum(0, 0, 0);
+  Radiance sum;
   sendOverHemisphere(transport, aims, state.random, root, site.normal, site.normal, kReflectedAmbient, rays,
                      [&](Ray& child, double part) {
-                       child.contribution = Rgb(part, part, part);
+                       child.contribution = Coefficient(part);
                        follower.follow(child);
                        sum += child.value * part;
                      });

@@ -44,10 +44,10 @@ void sendOverHemisphere(const Transport& transport, const BrightSpots* aims, Ran
     if (shares[2] > 0) density += shares[2] * kPi / cosine * aims->density(spots, direction);
     Ray child;
     child.direction = direction;
-    Rgb weight(kMeanReflectance, kMeanReflectance, kMeanReflectance);
+    Coefficient weight(kMeanReflectance);
     if (!continueRay(transport, random, child, kind, root, weight)) return;
     ++child.ambientLevel;
-    each(child, weight.x / (kMeanReflectance * density * rays));
+    each(child, weight.rgb.x / (kMeanReflectance * density * rays));
   };
   const double shift1 = random.uniform(), shift2 = random.uniform(), shift3 = random.uniform();
   // A Fibonacci lattice over the projected hemisphere, shifted at random. It is as evenly distributed as a

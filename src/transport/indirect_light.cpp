@@ -48,7 +48,7 @@ struct Strata {
 }  // namespace
 
 void IndirectLight::add(Ray& ray, const V3d& normal, const V3d& trueNormal, RayKind kind,
-                        const Rgb& coefficient) {
+                        const Coefficient& coefficient) {
   const RayOptions& o = t_.options();
   if (o.ambientDivisions <= 0 || ray.ambientLevel >= o.ambientBounces || !t_.isAmbient(ray.surface)) {
     ray.value += coefficient * o.ambientValue;
@@ -80,7 +80,7 @@ void IndirectLight::gather(Ray& ray, const Surroundings& at) {
       ray.ambientLevel > 0 ? 1 : (o.ambientDivisions + o.ambientSuperSamples) * std::min(ray.weight, 1.);
   sendOverHemisphere(t_, settings_.spots, state_.random, ray, at.normal, at.trueNormal, at.kind,
                      std::max(1, static_cast<int>(rays + .5)), [&](Ray& child, double part) {
-                       const Rgb c = at.coefficient * part;
+                       const Coefficient c = at.coefficient * part;
                        child.contribution = ray.contribution * passedBy(ray) * c;
                        follower_.follow(child);
                        if (state_.links)
@@ -91,7 +91,7 @@ void IndirectLight::gather(Ray& ray, const Surroundings& at) {
 }
 
 // The side of the square of strata at the first diffuse surface of a path; 1 at later ones.
-int IndirectLight::strataOf(const Ray& ray, const Rgb& coefficient) const {
+int IndirectLight::strataOf(const Ray& ray, const Coefficient& coefficient) const {
   if (ray.ambientLevel > 0) return 1;
   const RayOptions& o = t_.options();
   double divisions = (o.ambientDivisions + o.ambientSuperSamples) * std::min(ray.weight, 1.);
@@ -110,12 +110,12 @@ void IndirectLight::gatherStratified(Ray& ray, const Surroundings& at, int guess
   Random& random = state_.random;
   const bool interpolating = t_.field() != nullptr;
   const Strata strata(ray.point, at.normal, at.trueNormal, strataOf(ray, at.coefficient), settings_.spots);
-  const Rgb share = at.coefficient / (static_cast<double>(strata.side) * strata.side);
+  const Coefficient share = at.coefficient / (static_cast<double>(strata.side) * strata.side);
   for (int i = 0; i < strata.side; ++i)
     for (int j = 0; j < strata.side; ++j) {
       if (guesses > 0) {
         const double shift3 = random.uniform(), shift1 = random.uniform(), shift2 = random.uniform();
-        Rgb sum(0, 0, 0);
+        Radiance sum;
         for (int k = 0; k < guesses; ++k) {
           V3d direction;
           const Imath::V2d u = evenly(static_cast<size_t>(k), shift1, shift2);
@@ -129,7 +129,7 @@ void IndirectLight::gatherStratified(Ray& ray, const Surroundings& at, int guess
       const double u1 = random.uniform(), u2 = random.uniform();
       const double part = strata.draw(i, j, u1, u2, u3, child.direction);
       if (!(part > 0)) continue;
-      Rgb c = interpolating ? Rgb(kMeanReflectance, kMeanReflectance, kMeanReflectance) : share;
+      Coefficient c = interpolating ? Coefficient(kMeanReflectance) : share;
       if (!continueRay(t_, random, child, at.kind, ray, c)) continue;
       if (interpolating) c *= share / kMeanReflectance;
       // Only after roulette: an aimed direction has a small weight because it was chosen for being bright,

@@ -22,17 +22,17 @@ class IndirectLight {
   // Adds coefficient times the mean radiance over the hemisphere around the normal (unit, perturbed by
   // textures) to the ray's value (W/sr/m2), or times the ambient value (-av) beyond -ab bounces. trueNormal:
   // of the surface, on the same side; no light comes from behind it.
-  void add(Ray& ray, const V3d& normal, const V3d& trueNormal, RayKind kind, const Rgb& coefficient);
+  void add(Ray& ray, const V3d& normal, const V3d& trueNormal, RayKind kind, const Coefficient& coefficient);
 
  private:
   struct Surroundings {
     V3d normal, trueNormal;
     RayKind kind;
-    Rgb coefficient;
+    Coefficient coefficient;
   };
 
   int raysToGuess(const Ray& ray) const;
-  int strataOf(const Ray& ray, const Rgb& coefficient) const;
+  int strataOf(const Ray& ray, const Coefficient& coefficient) const;
   void gather(Ray& ray, const Surroundings& at);
   void gatherStratified(Ray& ray, const Surroundings& at, int guesses);
 

@@ -84,20 +84,20 @@ class Looker final : public SiteLooker, public CoarseSolution::Looker {
 
 }  // namespace
 
-bool InterpolatedLight::add(Ray& ray, const V3d& normal, const V3d& trueNormal, const Rgb& coefficient) {
+bool InterpolatedLight::add(Ray& ray, const V3d& normal, const V3d& trueNormal,
+                            const Coefficient& coefficient) {
   // The light at an imagined point (-I) is not interpolated, because no other ray needs it.
   if (ray.surface == kNone || settings_.gathersFirstAnew) return false;
   if (!isOrdinary(ray, t_.medium()) || normal.dot(trueNormal) < Tuning::kLeastUpright) return false;
   Looker looker(t_.tracer(), gatherer_, ray.depth);
   GatheredLight light;
   if (!t_.field()->find(placeOf(ray, trueNormal), reader_, looker, light)) return false;
-  const V3f mean = light.meanOfTilted(trueNormal, normal);
-  for (int c = 0; c < 3; ++c) ray.value[c] += coefficient[c] * mean[c];
+  ray.value += coefficient * light.meanOfTilted(trueNormal, normal);
   return true;
 }
 
 bool InterpolatedLight::addFromPatch(Ray& ray, const V3d& normal, const V3d& trueNormal,
-                                     const Rgb& coefficient) {
+                                     const Coefficient& coefficient) {
   Looker looker(t_.tracer(), gatherer_, ray.depth);
   const int beyond = ray.ambientLevel - 1;
   // Patches never need light of more bounces than these, so that the path ends here.
@@ -109,14 +109,14 @@ bool InterpolatedLight::addFromPatch(Ray& ray, const V3d& normal, const V3d& tru
       patch = t_.coarse()->find(placeOf(ray, trueNormal), u1, u2, looker);
   }
   if (state_.links) {
-    const Rgb whole = coefficient * ray.contribution * passedBy(ray);
+    const Coefficient whole = coefficient * ray.contribution * passedBy(ray);
     if (patch)
-      state_.links->links.push_back({patch, V3f(whole), beyond});
+      state_.links->links.push_back({patch, V3f(whole.rgb), beyond});
     else
       state_.links->addEnd(beyond, whole);
     if (isLast) return true;
   } else if (patch) {
-    ray.value += coefficient * Rgb(t_.coarse()->light(*patch, bouncesLeft(t_.options(), ray), looker));
+    ray.value += coefficient * Radiance(t_.coarse()->light(*patch, bouncesLeft(t_.options(), ray), looker));
   }
   return patch;
 }

@@ -18,11 +18,11 @@ class InterpolatedLight {
   // Adds coefficient times the interpolated mean radiance over the hemisphere around the normal (unit,
   // perturbed by textures) to the ray's value (W/sr/m2). trueNormal: of the surface. False, with nothing
   // added, if the cache cannot be used here: the light has to be gathered. REQUIRES Transport::field().
-  bool add(Ray& ray, const V3d& normal, const V3d& trueNormal, const Rgb& coefficient);
+  bool add(Ray& ray, const V3d& normal, const V3d& trueNormal, const Coefficient& coefficient);
 
   // The same from the coarse solution. In a path from a patch (PathState::links) nothing is added to the ray;
   // a link to the patch that gives its light is recorded instead. REQUIRES Transport::coarse().
-  bool addFromPatch(Ray& ray, const V3d& normal, const V3d& trueNormal, const Rgb& coefficient);
+  bool addFromPatch(Ray& ray, const V3d& normal, const V3d& trueNormal, const Coefficient& coefficient);
 
   // Lets go of the cache's memory; to be called at the end of each primary ray.
   void endPath();

@@ -22,10 +22,10 @@ double phase(double g, double cosine) {
 void ParticipatingMedia::participate(Ray& ray) {
   const Medium& medium = ray.medium;
   if (!isMedium(medium.extinction)) return;
-  const Rgb passed = passedBy(ray);
+  const Coefficient passed = passedBy(ray);
   ray.value *= passed;
   if ((ray.kinds & kShadow) || !(maxChannel(medium.albedo) > kNegligible)) return;
-  ray.value += medium.albedo * t_.options().ambientValue * (Rgb(1, 1, 1) - passed);
+  ray.value += Coefficient(medium.albedo) * t_.options().ambientValue * (Coefficient(1) - passed);
   addScattered(ray);
 }
 
@@ -49,14 +49,14 @@ void ParticipatingMedia::addScattered(Ray& ray) {
   at.pathLength = ray.pathLength;
   at.contribution = ray.contribution;
   at.cosine = 0;  // there is no surface, hence neither front nor back
-  const Rgb scattered = ray.medium.extinction * ray.medium.albedo * (ray.length / steps / (4 * kPi));
+  const Coefficient scattered(ray.medium.extinction * ray.medium.albedo * (ray.length / steps / (4 * kPi)));
   for (const uint16_t scatterer : ray.scatterers)
     for (int i = 0; i < steps; ++i) {
       at.length = ray.length * (i + state_.random.uniform()) / steps;
-      const Rgb passed = passing(ray.medium.extinction, at.length);
+      const Coefficient passed = passing(ray.medium.extinction, at.length);
       if (maxChannel(passed) <= kNegligible * kNegligible) break;
       at.point = ray.origin + at.length * ray.direction;
-      const auto coefficientOf = [&](const V3d& toSource, double solidAngle) -> Rgb {
+      const auto coefficientOf = [&](const V3d& toSource, double solidAngle) {
         return scattered * passed *
                (solidAngle * phase(ray.medium.eccentricity, ray.direction.dot(toSource)));
       };

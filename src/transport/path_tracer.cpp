@@ -67,7 +67,7 @@ class PathTracer::Path final : public RayFollower, public SiteGatherer {
 
   Ray trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed);
   Ray traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed);
-  Rgb glimpse(const V3d& origin, const V3d& direction, uint64_t seed);
+  Radiance glimpse(const V3d& origin, const V3d& direction, uint64_t seed);
   Ray cast(const V3d& origin, const V3d& direction, double farthest);
 
   PathSettings& settings() { return settings_; }
@@ -151,7 +151,7 @@ Ray PathTracer::Path::traceToSource(const V3d& point, const SourceSample& sample
   return Ray{};
 }
 
-Rgb PathTracer::Path::glimpse(const V3d& origin, const V3d& direction, uint64_t seed) {
+Radiance PathTracer::Path::glimpse(const V3d& origin, const V3d& direction, uint64_t seed) {
   begin(seed, direction);
   Ray ray;
   ray.medium = t_.medium();
@@ -263,7 +263,7 @@ Ray PathTracer::trace(const V3d& origin, const V3d& direction, double farthest, 
 Ray PathTracer::traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed) {
   return path_->traceToSource(point, sample, seed);
 }
-Rgb PathTracer::glimpse(const V3d& origin, const V3d& direction, uint64_t seed) {
+Radiance PathTracer::glimpse(const V3d& origin, const V3d& direction, uint64_t seed) {
   return path_->glimpse(origin, direction, seed);
 }
 Ray PathTracer::cast(const V3d& origin, const V3d& direction, double farthest) {

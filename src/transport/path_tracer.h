@@ -38,7 +38,7 @@ class PathTracer {
   Ray traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed);
 
   // The radiance (W/sr/m2) along a ray after which at most one diffuse bounce is followed.
-  Rgb glimpse(const V3d& origin, const V3d& direction, uint64_t seed);
+  Radiance glimpse(const V3d& origin, const V3d& direction, uint64_t seed);
 
   // Finds the surface that a ray hits; its value stays 0.
   Ray cast(const V3d& origin, const V3d& direction, double farthest);

@@ -45,16 +45,17 @@ double middleOf(std::vector<double>& values) {
 RadianceGuess::RadianceGuess(const Transport& transport, const ById<SurfaceId, bool>& unguessed)
     : transport_(transport) {
   const Scene& scene = transport.scene();
-  reflectance_.assign(scene.surfaces.size(), Rgb(0, 0, 0));
+  reflectance_.resize(scene.surfaces.size());
   for (const SurfaceId i : scene.surfaces.ids()) {
     const Material* material = scene.materialOf(scene.surfaces[i]);
     if (!material || unguessed[i]) continue;
-    if (const auto diffuse = diffuseReflection(*material)) reflectance_[i] = diffuse->color * diffuse->share;
+    if (const auto diffuse = diffuseReflection(*material))
+      reflectance_[i] = Coefficient(diffuse->color * diffuse->share);
   }
   const auto& lights = transport.lights().all();
   for (const LightId i : lights.ids()) {
     if (lights[i].isVirtual()) continue;
-    const Rgb radiance = sourceRadiance(scene, scene.surfaces[lights[i].surface]);
+    const Radiance radiance = sourceRadiance(scene, scene.surfaces[lights[i].surface]);
     if (brightness(radiance) > 0) lights_.push_back({i, radiance, 0});
   }
 }
@@ -200,11 +201,11 @@ LocalGuess RadianceGuess::fit(const V3d& point, std::span<const V3d> glances, st
   for (const Traced& t : traced) {
     const Place& at = t.place;
     if (!(brightness(at.reflectance) > 0)) continue;
-    const Rgb rest = t.radiance - local.direct(at, true);
+    const Rgb rest = (t.radiance - local.direct(at, true)).rgb, reflectance = at.reflectance.rgb;
     for (int c = 0; c < 3; ++c)
-      if (at.reflectance[c] > 0) around[c].push_back(rest[c] / at.reflectance[c]);
+      if (reflectance[c] > 0) around[c].push_back(rest[c] / reflectance[c]);
   }
-  for (int c = 0; c < 3; ++c) local.ambient_[c] = std::max(0., middleOf(around[c]));
+  for (int c = 0; c < 3; ++c) local.ambient_.rgb[c] = std::max(0., middleOf(around[c]));
   // The variance that the guess leaves to the directions, and the part of it that the random choice of
   // indirect rays causes. That part is estimated from the mean absolute difference of two guesses: it is less
   // sensitive than a mean square to single rays that hit something bright by chance. For normally distributed
@@ -227,32 +228,32 @@ LocalGuess RadianceGuess::fit(const V3d& point, std::span<const V3d> glances, st
   return local;
 }
 
-Rgb LocalGuess::direct(const Place& at, bool looking) const {
-  Rgb sum(0, 0, 0);
+Radiance LocalGuess::direct(const Place& at, bool looking) const {
+  Radiance sum;
   for (const Light& light : lights_) {
     const double irradiance = guess_->factor(light.source, at);
     if (!(irradiance > 0)) continue;
-    const Rgb radiance = light.radiance * at.reflectance * (irradiance / kPi);
+    const Radiance radiance = light.radiance * at.reflectance * (irradiance / kPi);
     sum += radiance *
            (looking && brightness(radiance) > bright_ ? guess_->seenFrom(at, light.source) : light.share);
   }
   return sum;
 }
 
-Rgb LocalGuess::from(const Place& at, bool looking) const {
-  if (!(brightness(at.reflectance) > 0)) return Rgb(0, 0, 0);
+Radiance LocalGuess::from(const Place& at, bool looking) const {
+  if (!(brightness(at.reflectance) > 0)) return {};
   return direct(at, looking) + ambient_ * at.reflectance;
 }
 
-Rgb LocalGuess::along(const V3d& point, const V3d& direction) const {
+Radiance LocalGuess::along(const V3d& point, const V3d& direction) const {
   return from(guess_->placeAlong(point, direction, kNone), true);
 }
 
-Rgb LocalGuess::indirect(const V3d& point, const V3d& direction, SurfaceId start) const {
+Radiance LocalGuess::indirect(const V3d& point, const V3d& direction, SurfaceId start) const {
   return from(guess_->placeAlong(point, direction, start), false);
 }
 
-Rgb LocalGuess::indirect(const Ray& traced) const {
+Radiance LocalGuess::indirect(const Ray& traced) const {
   return from(guess_->placeOf(traced.surface, traced.point, traced.normal, traced.direction), false);
 }
 

@@ -31,19 +31,19 @@ class LocalGuess {
   // The hit of a ray. If the reflectance is 0, the guess is 0.
   struct Place {
     V3d point{0, 0, 0}, normal{0, 0, 1};  // world; unit, towards where the ray came from
-    Rgb reflectance{0, 0, 0};
+    Coefficient reflectance;
   };
 
   // The guessed radiance from a place, W/sr/m2.
-  Rgb from(const Place& place) const { return from(place, true); }
+  Radiance from(const Place& place) const { return from(place, true); }
   // The guessed radiance along a ray from a point (world), W/sr/m2.
-  Rgb along(const V3d& point, const V3d& direction) const;
+  Radiance along(const V3d& point, const V3d& direction) const;
 
   // The guessed radiance along an indirect ray, W/sr/m2. No shadow rays are traced, because there are many
   // indirect rays and each has a small weight. start: the surface that the ray leaves, as an index in
   // Scene::surfaces, or kNone.
-  Rgb indirect(const V3d& point, const V3d& direction, SurfaceId start) const;
-  Rgb indirect(const Ray& traced) const;
+  Radiance indirect(const V3d& point, const V3d& direction, SurfaceId start) const;
+  Radiance indirect(const Ray& traced) const;
 
   // The number of guessed rays per followed indirect ray, after `bounces` indirect bounces, that minimizes
   // the variance for a given time. It follows from the share of the noise of indirect rays in the variance; 0
@@ -56,17 +56,17 @@ class LocalGuess {
   friend class RadianceGuess;
   explicit LocalGuess(const RadianceGuess& guess) : guess_(&guess) {}
   // looking: shadow rays decide the visibility of sources that light the place brightly.
-  Rgb direct(const Place& at, bool looking) const;
-  Rgb from(const Place& place, bool looking) const;
+  Radiance direct(const Place& at, bool looking) const;
+  Radiance from(const Place& place, bool looking) const;
 
   struct Light {
     LightId source;
-    Rgb radiance{0, 0, 0};  // W/sr/m2
-    double share = 0;       // mean visibility from the places that face it
+    Radiance radiance;
+    double share = 0;  // mean visibility from the places that face it
   };
   const RadianceGuess* guess_;
   std::vector<Light> lights_;
-  Rgb ambient_{0, 0, 0};     // other light, as the radiance of a white surface
+  Radiance ambient_;         // other light, as the radiance of a white surface
   double bright_ = 0;        // shadow rays are traced if a source adds more brightness than this, W/sr/m2
   double shareGuessed_ = 0;  // variance of guessed indirect rays, relative to the variance that remains
 };
@@ -83,7 +83,7 @@ class RadianceGuess {
   struct Traced {
     Place place;
     SurfaceId surface;
-    Rgb radiance{0, 0, 0};
+    Radiance radiance;
   };
 
   // The place of a hit that Tracer::nearest found from a point (world) in a direction.
@@ -107,8 +107,8 @@ class RadianceGuess {
                           Random& random) const;
 
   const Transport& transport_;
-  ById<SurfaceId, Rgb> reflectance_;  // diffuse, by surface
-  std::vector<Light> lights_;         // share not set
+  ById<SurfaceId, Coefficient> reflectance_;  // diffuse, by surface
+  std::vector<Light> lights_;                 // share not set
 };
 
 }  // namespace rsphere

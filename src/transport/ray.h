@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+#include "base/radiometry.h"
 #include "scene/scene.h"
 #include "shade/ray_kind.h"
 #include "shade/scattering.h"
@@ -63,10 +64,10 @@ struct Ray {
   const Ray* parent = nullptr;  // null: a primary ray, or one that does not depend on earlier rays
   Medium medium{};              // that it travels through
   ScatteringSources scatterers;
-  const Ray* mist = nullptr;  // the ancestor that entered the innermost mist around this ray
-  uint64_t clips = 0;         // Surface::clip of the surfaces that are cut away for this ray
-  uint64_t clipsBeyond = 0;   // the same for a ray that continues beyond the surface that it hits
-  Rgb contribution{1, 1, 1};  // share of its radiance, at its origin, in that of the primary ray
+  const Ray* mist = nullptr;    // the ancestor that entered the innermost mist around this ray
+  uint64_t clips = 0;           // Surface::clip of the surfaces that are cut away for this ray
+  uint64_t clipsBeyond = 0;     // the same for a ray that continues beyond the surface that it hits
+  Coefficient contribution{1};  // share of its radiance, at its origin, in that of the primary ray
 
   SurfaceId surface;  // hit
   double length = kFarAway;
@@ -80,8 +81,8 @@ struct Ray {
   double u = 0, v = 0;
   PlacementPath path;  // the placements of the surface's modifiers in the world
 
-  Rgb value{0, 0, 0};     // radiance, W/sr/m2
-  Rgb mirrored{0, 0, 0};  // the part of it that was mirrored
+  Radiance value;     // that returns along it
+  Radiance mirrored;  // the part of it that was mirrored
   double mirroredLength = kFarAway, unmirroredLength = kFarAway;
 };
 

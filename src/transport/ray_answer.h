@@ -1,7 +1,7 @@
 #pragma once
 #include <string_view>
 
-#include "base/rgb.h"
+#include "base/radiometry.h"
 
 namespace rsphere {
 
@@ -9,12 +9,14 @@ namespace rsphere {
 inline constexpr double kInfiniteLength = 1e10;
 
 // The quantities of one ray that the -o letters of ray mode and of -Sd report. A field may keep its default
-// if its letter was not chosen. Names are "*" if nothing was hit; they must live as long as the scene.
+// if its letter was not chosen. Names are "*" if nothing was hit; they must live as long as the scene. Under
+// -i and -I the radiances are those of a diffuse surface of reflectance pi, whose values are those of its
+// irradiance (W/m2).
 struct RayAnswer {
   V3d origin{0, 0, 0}, direction{0, 0, 0};    // o d
-  Rgb value{0, 0, 0};                         // v  radiance W/sr/m2, or irradiance W/m2 under -i -I
-  Rgb mirroredContribution{0, 0, 0};          // r
-  Rgb unmirroredContribution{0, 0, 0};        // x
+  Radiance value;                             // v  under -i -I the value of the irradiance
+  Radiance mirroredContribution;              // r
+  Radiance unmirroredContribution;            // x
   double mirroredLength = kInfiniteLength;    // R
   double unmirroredLength = kInfiniteLength;  // X
   double effectiveLength = kInfiniteLength;   // l
@@ -25,8 +27,8 @@ struct RayAnswer {
   V3d unperturbedNormal{0, 0, 0};             // N  as the surface has it
   std::string_view surface = "*", modifier = "*", material = "*";  // s m M
   double rayWeight = 1;                                            // w
-  Rgb contribution{1, 1, 1};  // W  share of its value in that of the primary ray; times value: V
-  double solidAngle = 0;      // w under -Sd, sr
+  Coefficient contribution{1};  // W  share of its value in that of the primary ray; times value: V
+  double solidAngle = 0;        // w under -Sd, sr
 };
 
 }  // namespace rsphere

@@ -22,17 +22,17 @@ inline double apparentLength(const Ray& ray) {
 inline bool isMedium(const Rgb& extinction) { return maxChannel(extinction) > 1 / kFarAway; }
 
 // The transmittance of a medium. extinction: per unit length.
-inline Rgb passing(const Rgb& extinction, double length) {
-  if (!isMedium(extinction)) return Rgb(1, 1, 1);
-  return Rgb(std::exp(-extinction.x * length), std::exp(-extinction.y * length),
-             std::exp(-extinction.z * length));
+inline Coefficient passing(const Rgb& extinction, double length) {
+  if (!isMedium(extinction)) return Coefficient(1);
+  return Coefficient(Rgb(std::exp(-extinction.x * length), std::exp(-extinction.y * length),
+                         std::exp(-extinction.z * length)));
 }
 
 // The transmittance of the medium along a ray. Shadow rays are attenuated by absorption alone: it is assumed
 // that in-scattering replaces the light that is scattered out of them.
-inline Rgb passedBy(const Ray& ray) {
+inline Coefficient passedBy(const Ray& ray) {
   const Medium& medium = ray.medium;
-  if (!isMedium(medium.extinction)) return Rgb(1, 1, 1);
+  if (!isMedium(medium.extinction)) return Coefficient(1);
   const bool scatteredIn = (ray.kinds & kShadow) != 0;
   return passing(scatteredIn ? medium.extinction * (Rgb(1, 1, 1) - medium.albedo) : medium.extinction,
                  ray.length);

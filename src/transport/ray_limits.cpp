@@ -8,7 +8,7 @@
 namespace rsphere {
 
 bool continueRay(const Transport& transport, Random& random, Ray& child, RayKind kind, const Ray& parent,
-                 Rgb& coefficient) {
+                 Coefficient& coefficient) {
   const RayOptions& o = transport.options();
   inherit(child, parent, kind);
   if (kind & kReflections) {

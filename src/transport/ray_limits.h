@@ -15,7 +15,7 @@ inline constexpr double kMeanReflectance = .5;
 // child's radiance in the parent's. It is increased if the path survived roulette, so that the mean stays
 // unbiased. Throws rad::Error if roulette has no weight limit to compare with (-lw 0).
 bool continueRay(const Transport& transport, Random& random, Ray& child, RayKind kind, const Ray& parent,
-                 Rgb& coefficient);
+                 Coefficient& coefficient);
 
 // Whether the ray is one of the many rays of a gather for interpolation, or descends from one. Noise averages
 // out over these rays, so that each takes one sample where a primary ray takes several.

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "base/rgb.h"
+#include "base/radiometry.h"
 #include "shade/shared_definitions.h"
 
 namespace rsphere {
@@ -29,7 +29,7 @@ struct RayOptions {
   int ambientResolution = 256;                                // -ar
   int ambientDivisions = 1024;                                // -ad
   int ambientSuperSamples = 512;                              // -as
-  Rgb ambientValue{0, 0, 0};                                  // -av  W/sr/m2
+  Radiance ambientValue;                                      // -av
   int ambientWeight = 0;                                      // -aw
   std::string ambientFile;                                    // -af
   double fieldMemory = 0;                                     // -Sm  MB; 0: no bound

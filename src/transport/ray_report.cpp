@@ -44,9 +44,9 @@ RayAnswer branchAnswer(const Transport& transport, const Ray& ray) {
   RayAnswer a = answerOf(transport.scene(), ray);
   a.rayWeight = ray.weight;
   a.contribution = ray.contribution * passedBy(ray);
-  const bool dark = ray.value.x + ray.value.y + ray.value.z <= 3 * kNegligible;
+  const bool dark = ray.value.rgb.x + ray.value.rgb.y + ray.value.rgb.z <= 3 * kNegligible;
   if (ray.aimedAt != kNone && dark && transport.lights().all()[ray.aimedAt].surface != ray.surface)
-    a.contribution = Rgb(0, 0, 0);
+    a.contribution = {};
   return a;
 }
 

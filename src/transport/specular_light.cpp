@@ -13,7 +13,7 @@ using Tuning = tuning::SpecularLight;
 
 // Whether the path of a child goes on. If so, its weight is at least kWeakPath, and its coefficient makes up
 // for the paths that do not go on.
-bool survives(Random& random, Ray& child, Rgb& coefficient) {
+bool survives(Random& random, Ray& child, Coefficient& coefficient) {
   const double probability = child.weight / Tuning::kWeakPath;
   if (probability >= 1) return true;
   if (random.uniform() >= probability) return false;
@@ -29,7 +29,7 @@ void SpecularLight::follow(Ray& ray, const SharpPaths& sharp) {
   for (const SharpPath& path : sharp) {
     if ((ray.kinds & kShadow) && path.kind == kReflected) continue;
     Ray child;
-    Rgb coefficient = path.coefficient;
+    Coefficient coefficient = path.coefficient;
     if (isBlack(coefficient) || !continueRay(t_, state_.random, child, path.kind, ray, coefficient)) continue;
     if (!(ray.kinds & kShadow) && isOfGather(t_, ray) && !survives(state_.random, child, coefficient))
       continue;
@@ -50,7 +50,7 @@ void SpecularLight::follow(Ray& ray, const SharpPaths& sharp) {
 void SpecularLight::redirect(Ray& ray, const SharpPaths& redirected) {
   for (const SharpPath& path : redirected) {
     Ray child;
-    Rgb coefficient = path.coefficient;
+    Coefficient coefficient = path.coefficient;
     if (isBlack(coefficient) || !continueRay(t_, state_.random, child, path.kind, ray, coefficient)) continue;
     child.direction = path.direction;
     follower_.follow(child);
@@ -61,7 +61,7 @@ void SpecularLight::redirect(Ray& ray, const SharpPaths& redirected) {
 
 void SpecularLight::relay(Ray& ray, const SharpPath& path) {
   Ray child;
-  Rgb coefficient = path.coefficient;
+  Coefficient coefficient = path.coefficient;
   if (!continueRay(t_, state_.random, child, path.kind, ray, coefficient)) return;
   child.aimedAt = t_.lights().all()[ray.aimedAt].relayed;
   child.unobstructed = ray.unobstructed;
@@ -79,7 +79,7 @@ void SpecularLight::sampleLobe(Ray& ray, RayKind kind, const Lobe& lobe, LobeSam
         std::max(1, static_cast<int>(std::min<double>(samples, lobe.share * ray.weight / o.weightLimit)));
   for (int i = 0; i < samples; ++i) {
     const LobeSample sample = draw(i, samples);
-    Rgb coefficient = sample.coefficient;
+    Coefficient coefficient = sample.coefficient;
     Ray child;
     if (isBlack(coefficient) || !continueRay(t_, state_.random, child, kind, ray, coefficient)) continue;
     child.direction = sample.direction;

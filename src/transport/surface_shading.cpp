@@ -199,7 +199,7 @@ bool SurfaceShading::follow(Ray& ray, S& scattering) {
   const V3d hit = ray.point;
   for (const Component c : components) {
     ray.point = hit + scattering.offset(c);
-    if (const Rgb& indirect = scattering.indirect(c); maxChannel(indirect) > kNegligible) {
+    if (const Coefficient indirect = scattering.indirect(c); maxChannel(indirect) > kNegligible) {
       const V3d &normal = scattering.normal(c), &trueNormal = scattering.trueNormal();
       if (c == Component::reflected)
         indirect_.add(ray, normal, trueNormal, kReflectedAmbient, indirect);

@@ -25,7 +25,7 @@ uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAcc
        {o.directThreshold, o.directCertainty, o.directJitter, o.sourceSubstructuring, o.specularSampling,
         o.specularThreshold, o.ambientAccuracy, o.weightLimit, o.mediumEccentricity, o.mediumSampling})
     print.add(x);
-  for (const Rgb& color : {o.ambientValue, o.mediumExtinction, o.mediumAlbedo})
+  for (const Rgb& color : {o.ambientValue.rgb, o.mediumExtinction, o.mediumAlbedo})
     for (int c = 0; c < 3; ++c) print.add(static_cast<double>(color[c]));
   for (const int n : {o.directRelays, o.chosenSources, o.directPretest, o.ambientBounces, o.ambientResolution,
                       o.ambientDivisions, o.ambientSuperSamples, o.reflectionLimit})

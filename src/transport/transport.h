@@ -57,7 +57,7 @@ class Transport {
   LightId lightOf(SurfaceId surface) const { return lightOf_[surface]; }
   // The radiance of a light source if it is the same from all points and directions;
   // null if it has to be computed for each ray.
-  const Rgb* constantRadiance(LightId source) const {
+  const Radiance* constantRadiance(LightId source) const {
     return constantRadiance_[source] ? &*constantRadiance_[source] : nullptr;
   }
   // Whether indirect light is computed on the surface (-ae, -ai).
@@ -106,7 +106,7 @@ class Transport {
   PresumedShadows presumedShadows_;
   SourceChoice choice_;
   ById<SurfaceId, LightId> lightOf_;
-  ById<LightId, std::optional<Rgb>> constantRadiance_;
+  ById<LightId, std::optional<Radiance>> constantRadiance_;
   std::vector<SurfaceId> distant_;
   std::vector<LightId> scatterers_;
   std::vector<std::vector<uint16_t>> scatterersOf_;  // by Mist::number

@@ -15,7 +15,7 @@ std::vector<double> written(std::vector<const char*> words, const Rgb& color, co
   all.insert(all.end(), {letters, "s.oct"});
   const Options options = parseOptions(all);
   RayAnswer answer;
-  answer.value = color;
+  answer.value = Radiance(color);
   std::string bytes;
   AnswerWriter(options).write(bytes, answer);
   std::istringstream in(bytes);
@@ -82,7 +82,7 @@ TEST(OutputColors, CoefficientsAreNotScaled) {
 TEST(OutputColors, PixelsOfBandsShareAnExponent) {
   const Options options = parse({"rtrace", "-cs", "6", "-co", "-fac", "s.oct"});
   RayAnswer answer;
-  answer.value = Rgb(0, 0, 1);
+  answer.value = Radiance(Rgb(0, 0, 1));
   std::string bytes;
   AnswerWriter(options).write(bytes, answer);
   EXPECT_EQ(bytes, std::string("\0\0\0\0\0\x80\x81", 7));  // as rtrace writes it

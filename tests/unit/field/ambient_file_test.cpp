@@ -196,7 +196,7 @@ TEST_F(AmbientFiles, AreOfTheirOptions) {
   EXPECT_TRUE(other([](RayOptions& c) { c.ambientResolution = 0; }));
   EXPECT_TRUE(other([](RayOptions& c) { c.ambientDivisions = 2; }));
   EXPECT_TRUE(other([](RayOptions& c) { c.ambientSuperSamples = 0; }));
-  EXPECT_TRUE(other([](RayOptions& c) { c.ambientValue = Rgb(0, 1, 0); }));
+  EXPECT_TRUE(other([](RayOptions& c) { c.ambientValue = Radiance(Rgb(0, 1, 0)); }));
   EXPECT_TRUE(other([](RayOptions& c) { c.ambientExcluded = {"wall"}; }));
   EXPECT_TRUE(other([](RayOptions& c) { c.ambientIncluded = {"wall"}; }));
   EXPECT_TRUE(other([](RayOptions& c) { c.reflectionLimit = 3; }));

@@ -43,7 +43,7 @@ class FurnaceLooker final : public CoarseSolution::Looker {
       for (int beyond = 0; beyond < bounces_; ++beyond) {
         const double u1 = random.uniform(), u2 = random.uniform();
         const SurfacePlace place = placeAlong(from, diffuseDirection(normal, u1, u2));
-        links.addLight(beyond, Rgb(1, 1, 1) * coefficient * shine_(place));
+        links.addLight(beyond, Radiance(coefficient * shine_(place)));
         coefficient *= kReflectance;
         const double v1 = random.uniform(), v2 = random.uniform();
         // Some paths are continued, as if there were no patch.
@@ -55,7 +55,7 @@ class FurnaceLooker final : public CoarseSolution::Looker {
           break;
         }
         ++followed;
-        links.addEnd(beyond, Rgb(1, 1, 1) * coefficient);
+        links.addEnd(beyond, Coefficient(coefficient));
         from = place.point + 1e-5 * place.normal;
         normal = place.normal;
       }
@@ -80,7 +80,7 @@ RayOptions optionsOf(int bounces) {
   RayOptions o = unbiased(bounces);
   o.ambientAccuracy = .2;
   o.ambientDivisions = 256;
-  o.ambientValue = Rgb(1, 1, 1) * kAmbient;
+  o.ambientValue = Radiance(kAmbient);
   return o;
 }
 
@@ -124,7 +124,7 @@ TEST(CoarseSolution, PatchesServeWhatTheySee) {
   FurnaceLooker looker(box.transport().tracer(), kBounces,
                        [](const SurfacePlace& p) { return (p.point + 1e-4 * p.normal).x < 1.03 ? 1 : 0; });
   RayOptions options = optionsOf(kBounces);
-  options.ambientValue = Rgb(0, 0, 0);
+  options.ambientValue = Radiance(0);
   options.ambientDivisions = 64;
   CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(options));
   looker.solve(solution);

@@ -44,10 +44,10 @@ RayOptions interpolated(double accuracy, int bounces = 2) {
 struct LinearLight {
   HemisphereCells cells{512};
   GatheredLight gather(const V3d& a, double distance) const {
-    std::vector<Rgb> radiance(cells.count());
+    std::vector<Radiance> radiance(cells.count());
     const V3d x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
     for (int i = 0; i < cells.count(); ++i)
-      radiance[i] = Rgb(1, 1, 1) * (1 + a.dot(cells.direction(i, .5, .5, x, y, z)));
+      radiance[i] = Radiance(1 + a.dot(cells.direction(i, .5, .5, x, y, z)));
     return cells.sum(radiance, std::vector<double>(cells.count(), distance), 0, x, y, z);
   }
 };
@@ -59,7 +59,7 @@ TEST(Hemisphere, SumsWhatIntegralsGive) {
   // Of a uniform sky, a share of (1 + cos) / 2 lies above a tilted surface.
   for (const double angle : {0., .3, .8, 1.5}) {
     const V3d tilted(std::sin(angle), 0, std::cos(angle));
-    EXPECT_NEAR(flat.meanOfTilted(V3d(0, 0, 1), tilted).x, (1 + std::cos(angle)) / 2, 1e-5) << angle;
+    EXPECT_NEAR(flat.meanOfTilted(V3d(0, 0, 1), tilted).rgb.x, (1 + std::cos(angle)) / 2, 1e-5) << angle;
   }
   EXPECT_NEAR(flat.noise, 0, 1e-6);
   EXPECT_NEAR(flat.reach, 2, 1e-6);
@@ -76,7 +76,7 @@ TEST(Hemisphere, SumsWhatIntegralsGive) {
       const V3d d(radius * std::cos(angle), radius * std::sin(angle), z);
       sum += (1 + V3d(.3, -.2, .5).dot(d)) * std::max(0., d.dot(tilted)) * 2 / kSteps / kSteps;
     }
-  EXPECT_NEAR(linear.meanOfTilted(V3d(0, 0, 1), tilted).x, sum, .01);
+  EXPECT_NEAR(linear.meanOfTilted(V3d(0, 0, 1), tilted).rgb.x, sum, .01);
   // A large wall in +x is brighter, so that the light increases towards it.
   EXPECT_GT(linear.perLength[0].x, 0);
   EXPECT_LT(linear.perLength[0].y, 0);
@@ -86,13 +86,13 @@ TEST(Hemisphere, SumsWhatIntegralsGive) {
 // and its slope at 0 is a half.
 TEST(Hemisphere, SlopeUnderHalfACeilingIsAHalf) {
   const HemisphereCells cells(4096);
-  std::vector<Rgb> radiance(cells.count());
+  std::vector<Radiance> radiance(cells.count());
   std::vector<double> distance(cells.count());
   const V3d x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
   for (int i = 0; i < cells.count(); ++i) {
     const V3d d = cells.direction(i, .5, .5, x, y, z);
     distance[i] = 1 / d.z;
-    radiance[i] = d.x > 0 ? Rgb(1, 1, 1) : Rgb(0, 0, 0);
+    radiance[i] = Radiance(d.x > 0 ? 1 : 0);
   }
   const GatheredLight light = cells.sum(radiance, distance, 0, x, y, z);
   EXPECT_NEAR(light.mean.x, .5, .01);
@@ -150,7 +150,7 @@ TEST(IrradianceField, AnswersTheSameInAnyOrderAndForAnyThread) {
     PathTracer tracer(shared.transport());
     for (size_t i = 0; i < places.size(); ++i) {
       const size_t k = backwards ? places.size() - 1 - i : i;
-      EXPECT_EQ(tracer.trace(places[k], down, 0, 7).value, expected[k]);
+      EXPECT_EQ(tracer.trace(places[k], down, 0, 7).value.rgb, expected[k]);
     }
   };
   std::thread other(work, true);
@@ -170,7 +170,7 @@ TEST(IrradianceField, ForgetsBeyondItsBoundAndAnswersTheSame) {
   constexpr size_t kTable = sizeof(void*) << 16;  // of a memory without a bound, before anything is in it
   Traced whole(kRoom, o);
   std::vector<Rgb> expected;
-  for (const V3d& p : places) expected.push_back(whole.tracer().trace(p, down, 0, 7).value);
+  for (const V3d& p : places) expected.push_back(whole.tracer().trace(p, down, 0, 7).value.rgb);
   const size_t needed = whole.transport().field()->bytes() - kTable;
 
   constexpr size_t kThreads = 3, kQuestion = 6'000;  // bytes
@@ -181,7 +181,7 @@ TEST(IrradianceField, ForgetsBeyondItsBoundAndAnswersTheSame) {
     PathTracer tracer(bounded.transport());
     for (size_t i = 0; i < places.size(); ++i) {
       const size_t k = (first + i) % places.size();
-      EXPECT_EQ(tracer.trace(places[k], down, 0, 7).value, expected[k]);
+      EXPECT_EQ(tracer.trace(places[k], down, 0, 7).value.rgb, expected[k]);
       EXPECT_LT(field.bytes(), needed / 20 + kThreads * kQuestion);
     }
   };
@@ -340,7 +340,7 @@ TEST(IrradianceField, AmbientValueAndExcludedSurfaces) {
   const double without = Traced(kRoom, o).value(origin, down);
   o.ambientWeight = 64;
   EXPECT_EQ(Traced(kRoom, o).value(origin, down), without);
-  o.ambientValue = Rgb(1, 1, 1);
+  o.ambientValue = Radiance(1);
   EXPECT_GT(Traced(kRoom, o).value(origin, down), without);
   o.ambientBounces = 0;
   const double direct = Traced(kRoom, o).value(origin, down);
@@ -363,7 +363,7 @@ TEST(IrradianceField, ExcludedSurfacesGiveTheAmbientValueToOthers) {
   const auto with = [&](double accuracy, const std::vector<std::string>& excluded,
                         const std::vector<std::string>& included) {
     RayOptions o = interpolated(accuracy, 3);
-    o.ambientValue = Rgb(1, 1, 1) * .3;
+    o.ambientValue = Radiance(.3);
     o.ambientExcluded = excluded;
     o.ambientIncluded = included;
     return o;

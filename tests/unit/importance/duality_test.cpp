@@ -70,7 +70,7 @@ Sample irradianceOnGoal(int bounces, int relays = 2) {
     for (int j = 0; j < 100; ++j) {
       const V3d at(kGoalX + kGoalWidth * (i + random.uniform()) / 100,
                    kGoalY + kGoalDepth * (j + random.uniform()) / 100, kGoalHeight + 1e-4);
-      sample.add(tracer.trace(at, V3d(0, 0, -1), 0, random.bits()).value.y);
+      sample.add(tracer.trace(at, V3d(0, 0, -1), 0, random.bits()).value.rgb.y);
     }
   return sample;
 }
@@ -89,7 +89,8 @@ Sample irradianceByImportance(int bounces, bool basic) {
     const SphereEstimator estimator(transport, options);
     SphereEstimator::Workspace workspace(estimator);
     const double intensity = kLampRadiance * kPi * kLampRadius * kLampRadius;
-    sample.add(4 * kPi * intensity * estimator.estimate(kLamp, workspace).mean.y / (kGoalWidth * kGoalDepth));
+    sample.add(4 * kPi * intensity * estimator.estimate(kLamp, workspace).mean.rgb.y /
+               (kGoalWidth * kGoalDepth));
   }
   return sample;
 }
@@ -124,7 +125,7 @@ TEST(Duality, BasicRadianceLeavesOutTheSquareOfTheIndex) {
     PathTracer tracer(transport);
     Sample sample;
     for (uint64_t seed = 0; seed < 200; ++seed)
-      sample.add(tracer.trace(V3d(0, 0, 0), V3d(0, 0, 1), 0, seed).value.x);
+      sample.add(tracer.trace(V3d(0, 0, 0), V3d(0, 0, 1), 0, seed).value.rgb.x);
     return sample.mean();
   };
   EXPECT_NEAR(straightUp(false), 1.5 * 1.5, .02);

@@ -151,7 +151,7 @@ void expectNoGain(const AnisotropicScattering& s, const Interaction& at, Random&
   });
   for (int channel = 0; channel < 3; ++channel) {
     double sum = s.reflection.share[channel] + s.transmission.share[channel];
-    for (const SharpPath& p : s.sharp) sum += p.coefficient[channel];
+    for (const SharpPath& p : s.sharp) sum += p.coefficient.rgb[channel];
     const double r = s.reflected.share[channel], t = s.transmitted.share[channel];
     EXPECT_GE(r, 0);
     EXPECT_GE(t, 0);
@@ -409,9 +409,9 @@ TEST(Wgmdfunc, MirrorsTakeFromTheRestWhatTheirFresnelRiseAdds) {
   EXPECT_NEAR(s.transmission.share.x, .2 * (1 - rise), 1e-12);
   ASSERT_EQ(s.sharp.count, 2u);
   EXPECT_EQ(s.sharp.path[0].kind, kTransmitted);
-  EXPECT_NEAR(s.sharp.path[0].coefficient.x, .3 * (1 - rise), 1e-12);
+  EXPECT_NEAR(s.sharp.path[0].coefficient.rgb.x, .3 * (1 - rise), 1e-12);
   EXPECT_EQ(s.sharp.path[1].kind, kReflected);
-  EXPECT_NEAR(s.sharp.path[1].coefficient.x, .1 + .9 * rise, 1e-12);
+  EXPECT_NEAR(s.sharp.path[1].coefficient.rgb.x, .1 + .9 * rise, 1e-12);
   EXPECT_EQ(s.reflected.share, Rgb(0, 0, 0));
   // Too weak a mirror is no polished surface.
   const AnisotropicScattering weak =

@@ -73,8 +73,8 @@ TEST(Energy, BrtdfuncGivesBackWhatItIsTold) {
     const CosinePower function{between(random, 0, 5)};
     // Directional scattering goes to both hemispheres, so half of it to each.
     const Rgb total = albedo(s, [&](const V3d& d) { return function(d) * (shares[2] / 2); });
-    const double sharp = sharpReflection(s, at, {shares[3], 0, 0}).coefficient.x +
-                         sharpTransmission(s, at, {shares[4], 0, 0}).coefficient.x;
+    const double sharp = sharpReflection(s, at, {shares[3], 0, 0}).coefficient.rgb.x +
+                         sharpTransmission(s, at, {shares[4], 0, 0}).coefficient.rgb.x;
     EXPECT_NEAR(total.x + sharp, 1, 2e-3);
   }
 }

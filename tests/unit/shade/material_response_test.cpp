@@ -68,7 +68,7 @@ TEST_F(Response, BoundariesKnowTheMediumThatTheRayCameThrough) {
 TEST_F(Response, EmissionIsCountedOnce) {
   const auto emitted = of(Light{Rgb(4, 4, 4)}, front);
   ASSERT_TRUE(is<Emits>(emitted));
-  EXPECT_EQ(std::get<Emits>(emitted).radiance, Rgb(2, 2, 2)) << "with its pattern";
+  EXPECT_EQ(std::get<Emits>(emitted).radiance.rgb, Rgb(2, 2, 2)) << "with its pattern";
   Arrival indirect = front;
   indirect.kinds |= kReflectedAmbient;
   EXPECT_TRUE(is<Absorbs>(of(Light{kGray}, indirect))) << "next-event estimation includes it";
@@ -112,7 +112,7 @@ TEST_F(Response, MirrorsRelayRaysThatAreAimedAtTheirImages) {
   const auto answer = of(mirror, aimed);
   ASSERT_TRUE(is<Relays>(answer));
   EXPECT_EQ(std::get<Relays>(answer).path.direction, V3d(0, 0, 1));
-  EXPECT_NEAR(std::get<Relays>(answer).path.coefficient.x, .4, 1e-12) << "with the pattern";
+  EXPECT_NEAR(std::get<Relays>(answer).path.coefficient.rgb.x, .4, 1e-12) << "with the pattern";
   EXPECT_TRUE(is<Absorbs>(of(mirror, back)));
 }
 

@@ -23,7 +23,7 @@ const SharpPath* find(const Scattering& s, RayKind kind) {
 
 double coefficient(const Scattering& s, RayKind kind) {
   const SharpPath* p = find(s, kind);
-  return p ? p->coefficient.x : 0;
+  return p ? p->coefficient.rgb.x : 0;
 }
 
 // ---- energy
@@ -43,7 +43,7 @@ Sample meanWeight(const Scattering& s, const Interaction& at, Random& random, Sa
 void expectNoGain(const Scattering& s, const Interaction& at, Random& random) {
   for (int channel = 0; channel < 3; ++channel) {
     double sum = s.diffuseReflection[channel] + s.diffuseTransmission[channel], variance = 0;
-    for (const SharpPath& p : s.sharp) sum += p.coefficient[channel];
+    for (const SharpPath& p : s.sharp) sum += p.coefficient.rgb[channel];
     const auto addLobe = [&](const Rgb& share, auto sampleLobe) {
       EXPECT_GE(share[channel], 0);
       if (share[channel] == 0) return;
@@ -195,7 +195,7 @@ TEST(Mirror, ReflectsItsColorAtEqualAngles) {
   const Scattering s = scatter(Mirror{Rgb(.8, .7, .6), {}}, at);
   ASSERT_EQ(s.sharp.count, 1u);
   EXPECT_NEAR((find(s, kReflected)->direction - V3d(.8, 0, .6)).length(), 0, 1e-15);
-  EXPECT_EQ(find(s, kReflected)->coefficient, Rgb(.4, .7, .6));
+  EXPECT_EQ(find(s, kReflected)->coefficient.rgb, Rgb(.4, .7, .6));
 }
 
 // ---- plastic, metal, trans
@@ -231,7 +231,7 @@ TEST(Metal, ColorsItsHighlightsAndPlasticDoesNot) {
   for (const double roughness : {0., .1}) {
     const auto highlight = [&](bool metal) {
       const Scattering s = scatter(Opaque{red, .9, roughness, metal}, arriving(1), kSampleAll);
-      return roughness > 0 ? s.specularReflection : find(s, kReflected)->coefficient;
+      return roughness > 0 ? s.specularReflection : find(s, kReflected)->coefficient.rgb;
     };
     EXPECT_NEAR(highlight(true).x, .72, 1e-12);
     EXPECT_NEAR(highlight(true).z, .09, 1e-12);

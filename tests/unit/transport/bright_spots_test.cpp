@@ -91,7 +91,8 @@ TEST(BrightSpots, LeaveTheMeanAsItIs) {
   constexpr double kMean = 7.0979e-4;
   constexpr int kPaths = 80000;
   Sample sample;
-  for (int i = 0; i < kPaths; ++i) sample.add(aimed.trace(origin, down.normalized(), 0, mixBits(i)).value.x);
+  for (int i = 0; i < kPaths; ++i)
+    sample.add(aimed.trace(origin, down.normalized(), 0, mixBits(i)).value.rgb.x);
   expectMean(sample, kMean, 1.08);
   EXPECT_LT(sample.standardError(), .5 * pot.mean(origin, down, kPaths).standardError());
 }
@@ -116,7 +117,7 @@ Openings openingsOf(const std::string& text) {
   Traced t(text, unbiased(1));
   return Openings(t.scene(), t.transport().tracer().bounds(),
                   [&](const V3d& origin, const V3d& direction, uint64_t seed) {
-                    return t.tracer().glimpse(origin, direction, seed).x;
+                    return t.tracer().glimpse(origin, direction, seed).rgb.x;
                   });
 }
 
@@ -156,7 +157,7 @@ TEST(BrightSpots, ThroughOpeningsLeaveTheMeanAsItIs) {
   const V3d origin(2, 2, .9), north = V3d(.1, 1, 0).normalized();
   Sample with, without;
   for (uint64_t i = 0; i < 30000; ++i) {
-    with.add(aimed.trace(origin, north, 0, mixBits(i)).value.x);
+    with.add(aimed.trace(origin, north, 0, mixBits(i)).value.rgb.x);
     without.add(room.value(origin, north, mixBits(i + 1000000)));
   }
   const double error = std::hypot(with.standardError(), without.standardError());

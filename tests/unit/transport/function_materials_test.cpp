@@ -79,7 +79,7 @@ RayOptions plain() {
   o.directThreshold = o.sourceSubstructuring = o.weightLimit = o.specularSampling = 0;
   o.specularThreshold = 1;
   o.reflectionLimit = 6;
-  o.ambientValue = Rgb(.1, .1, .1);
+  o.ambientValue = Radiance(.1);
   return o;
 }
 

@@ -35,7 +35,7 @@ Openings openingsOf(const std::string& text) {
   Traced t(text, unbiased(1));
   return Openings(t.scene(), t.transport().tracer().bounds(),
                   [&](const V3d& origin, const V3d& direction, uint64_t seed) {
-                    return t.tracer().glimpse(origin, direction, seed).x;
+                    return t.tracer().glimpse(origin, direction, seed).rgb.x;
                   });
 }
 

@@ -43,7 +43,7 @@ double irradianceAt(Traced& traced, const V3d& point, const V3d& normal, uint64_
 TEST(Light, IsMissedOnlyWhereNothingCanGiveIt) {
   const std::string walls = plastic("paint", .5) + floor("paint");
   RayOptions ambient;
-  ambient.ambientValue = Rgb(0, .1, 0);
+  ambient.ambientValue = Radiance(Rgb(0, .1, 0));
   EXPECT_TRUE(Traced(walls).transport().isDark());
   EXPECT_FALSE(Traced(walls, ambient).transport().isDark());
   EXPECT_FALSE(Traced(walls + light(1) + "lamp sphere bulb\n0\n0\n4 0 0 5 .5\n").transport().isDark());
@@ -121,7 +121,7 @@ TEST(Ambient, FirstBounceMeetsGlow) {
 
 TEST(Ambient, ValueStandsForTheBouncesNotFollowed) {
   RayOptions o = unbiased(0);
-  o.ambientValue = Rgb(.5, .25, 1);
+  o.ambientValue = Radiance(Rgb(.5, .25, 1));
   const std::string wall = plastic("wall", .4) + "wall bubble s\n0\n0\n4 0 0 0 1\n";
   const Rgb seen = Traced(wall, o).color(kOrigin, V3d(1, .2, .1));
   EXPECT_NEAR(seen.x, .2, 1e-12);
@@ -153,7 +153,7 @@ TEST(Ambient, ExcludedSurfacesTakeTheAmbientValue) {
   const std::string scene =
       plastic("m", .5) + floor("m") + glow(1, 0) + "sky source all\n0\n0\n4 0 0 1 180\n";
   RayOptions o = unbiased(1);
-  o.ambientValue = Rgb(.125, .125, .125);
+  o.ambientValue = Radiance(.125);
   EXPECT_NEAR(Traced(scene, o).value(V3d(0, 0, 1), kDown), .5, 1e-12);
   o.ambientExcluded = {"m"};
   EXPECT_NEAR(Traced(scene, o).value(V3d(0, 0, 1), kDown), .0625, 1e-12);

@@ -31,8 +31,8 @@ std::vector<Shown> treeOf(Traced& room, const V3d& origin, const V3d& direction,
   room.tracer().observe(
       [&](const Ray& ray) {
         const RayAnswer a = branchAnswer(transport, ray);
-        tree.push_back(
-            {std::string(a.surface), ray.depth, ray.value, a.contribution, (ray.kinds & kShadow) != 0});
+        tree.push_back({std::string(a.surface), ray.depth, ray.value.rgb, a.contribution.rgb,
+                        (ray.kinds & kShadow) != 0});
       },
       shadows);
   room.value(origin, direction);

@@ -68,13 +68,13 @@ TEST(Medium, VolumesWithinEachOtherAdd) {
 
 TEST(Medium, ScattersIndirectLight) {
   RayOptions o = inMedium(Rgb(.1, .2, .3), Rgb(.5, .6, .7));
-  o.ambientValue = Rgb(2, 2, 2);
+  o.ambientValue = Radiance(2);
   Traced everywhere(kWall, o);
   const Rgb passed = exponential(Rgb(-1.5, -3, -4.5));
   expectColor(everywhere.color(kEye, kAhead), passed + Rgb(.5, .6, .7) * 2. * (Rgb(1, 1, 1) - passed));
   // The albedo of a mist applies inside of it. Beyond, in the mist around it, that of the outer mist applies.
   RayOptions clear;
-  clear.ambientValue = Rgb(1, 1, 1);
+  clear.ambientValue = Radiance(1);
   Traced nested(
       kWall + mist("outer", "0 0 6 .1 .1 .1 .5 .5 .5", 0, 2) + mist("inner", "0 0 6 .3 .3 .3 .9 .9 .9"),
       clear);
@@ -220,7 +220,7 @@ TEST(Mist, AgreesWithTheOriginal) {
   o.mediumAlbedo = Rgb(.5, .6, .7);
   o.mediumEccentricity = .2;
   o.mediumSampling = .1;
-  o.ambientValue = Rgb(.1, .1, .1);
+  o.ambientValue = Radiance(.1);
   Traced room(kRoom + kRoomMirrors + kRoomBall +
                   "void mist fog 1 lamp 0 7 .1 .2 .3 .9 .8 .7 .3\n"
                   "fog polygon fa 0 0 12 .5 .5 .1 .5 4.5 .1 3.5 4.5 .1 3.5 .5 .1\n"
