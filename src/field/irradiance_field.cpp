@@ -171,8 +171,8 @@ const GatheredLight& IrradianceField::Cache::lightOf(Site& site, const Asked& as
   return light;
 }
 
-// Fills in the sites of a level that see the place, and their light. False if these have too small a share of
-// the weights.
+// Fills in the sites of a level that see the place, and their light. False if there are none, or on a shared
+// chart too few.
 bool IrradianceField::Cache::look(const SurfaceChart& chart, const SurfacePlace& place, int level,
                                   const Asked& asked, SitesAround& around) {
   // In steps from the middles of the cells.
@@ -205,7 +205,7 @@ bool IrradianceField::Cache::look(const SurfaceChart& chart, const SurfacePlace&
     around.weight[k] += weight;
     around.served += weight;
   }
-  if (around.served < (chart.isShared() ? Tuning::kLeastServedOfShared : Tuning::kLeastServed)) return false;
+  if (around.count == 0 || (chart.isShared() && around.served < Tuning::kLeastServedOfShared)) return false;
   // Sites that another thread gathers at the moment come last: that thread may have finished by then.
   for (int k = 0; k < around.count; ++k) {
     Site& site = *sites[k];

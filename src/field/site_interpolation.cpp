@@ -77,8 +77,7 @@ GatheredLight SitesAround::at(const V3d& place, double& extrapolationError) cons
   }
   for (int k = 0; k < 3; ++k) {
     const float base = result.mean[k];
-    result.mean[k] =
-        std::clamp(base + result.perLength[k].dot(aside), Tuning::kLeast * base, Tuning::kMost * base);
+    result.mean[k] = std::max(base + result.perLength[k].dot(aside), Tuning::kLeast * base);
   }
   return result;
 }

@@ -157,7 +157,8 @@ Glints::Glints(const Transport& transport, std::span<const SpecialObject> object
   }
 }
 
-// Whether `at` sees the source at one or more of five places of a part.
+// Whether `at` sees the source at one or more places of a part: its middle, and halfway to each corner, which
+// for a rectangle are the middles of its quarters.
 bool Glints::shines(const LightSource& source, std::span<const V3d> corners, const V3d& middle,
                     const V3d& at) const {
   const auto seen = [&](const V3d& place) {
@@ -165,9 +166,8 @@ bool Glints::shines(const LightSource& source, std::span<const V3d> corners, con
     const double far = source.distant ? kFarAway : direction.length();
     return transport_.tracer().shadow(at, direction.normalized(), far, source.surface) != Shadow::blocked;
   };
-  return seen(middle) || std::any_of(corners.begin(), corners.end(), [&](const V3d& corner) {
-           return seen(middle + Tuning::kToCorners * (corner - middle));
-         });
+  return seen(middle) || std::any_of(corners.begin(), corners.end(),
+                                     [&](const V3d& corner) { return seen((middle + corner) / 2); });
 }
 
 std::vector<Glint> Glints::find(const V3d& point, double least) const {

@@ -148,10 +148,9 @@ class PixelTracer {
     const Hit& hit = tracer_.firstHit();
     pattern = ray.pattern;
     // The indirect light is not separated if a medium attenuates it on its way, or if the pattern is
-    // too dark to be divided by.
+    // black in a channel and it cannot be divided by the pattern.
     if (hit.surface == kNone || !isBlack(transport_.medium().extinction) ||
-        !transport_.scatterers().empty() ||
-        std::min({pattern.x, pattern.y, pattern.z}) < Tuning::kLeastPattern)
+        !transport_.scatterers().empty() || !(std::min({pattern.x, pattern.y, pattern.z}) > 0))
       return ray.value;
     const Scene& scene = transport_.scene();
     const ModifierId material = scene.surfaces[hit.surface].material;

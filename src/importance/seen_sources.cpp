@@ -84,7 +84,6 @@ SeenSources::SeenSources(const Transport& transport) : transport_(transport) {
     const Material* material = scene.materialOf(surface);
     // Instead of virtual sources, addMirrored() finds the images in mirrors that they represent.
     if (lights[i].isVirtual() || (material && std::holds_alternative<Illum>(*material))) continue;
-    if (lights[i].distant && !(lights[i].cosHalfAngle > std::cos(Tuning::kWidestDistant))) continue;
     apart_[lights[i].surface] = true;
     sources_.push_back(i);
   }

@@ -14,8 +14,7 @@ namespace rsphere {
 class SeenSources {
  public:
   // Chooses the sources that are integrated separately, and the flat surfaces that may mirror them. The
-  // sources are all that look like sources (not illum), except distant ones that are wider than
-  // tuning::SeenSources::kWidestDistant. Keeps a reference to transport.
+  // sources are all that look like sources (not illum). Keeps a reference to transport.
   explicit SeenSources(const Transport& transport);
 
   // An image of a source as seen from a point.

@@ -94,10 +94,6 @@ struct Glints {
   // The region around an image is that of a source enlarged by this factor, so that no edge of the image is
   // left out: chosen by experiment. 30% less or more: within noise (points beside chrome; error 9%, time 1%).
   RSPHERE_TUNED(Glints, double, kEnlarged, 1.1);
-  // Places of a part at which shadow rays look for the source, relative to the way from its middle to
-  // its corners; the middle itself is another: chosen by experiment. 30% less or more: the same
-  // answers in all cases.
-  RSPHERE_TUNED(Glints, double, kToCorners, .6);
 };
 
 // Light sources that are integrated separately (seen_sources.cpp).
@@ -131,9 +127,6 @@ struct SeenSources {
   RSPHERE_TUNED(SeenSources, size_t, kShadowsAlong, 2);
   // 1 or 3: within noise (points in office; error 38%, time 4%).
   RSPHERE_TUNED(SeenSources, size_t, kShadowsAcross, 2);
-  // Half angle (rad) up to which a distant source is integrated separately: 6 degrees, a sun and its halo.
-  // Chosen by experiment. 30% less or more: the same answers in all cases.
-  RSPHERE_TUNED(SeenSources, double, kWidestDistant, .1);
   // Reflectance of glass at normal incidence: Fresnel's for the index 1.5.
   static constexpr double kFresnel = .04;
 };
@@ -201,10 +194,6 @@ struct Pictures {
   // chosen by experiment.
   static constexpr std::array<std::array<double, 2>, 4> kBeside = {
       {{-.4, -.4}, {.4, .4}, {-.4, .4}, {.4, -.4}}};
-  // Indirect light is smoothed if every channel of the pattern it falls on is at least this; the light that a
-  // darker pattern reflects is too uncertain to be divided by it: chosen by experiment. 30% less or more: the
-  // same answers in all cases.
-  RSPHERE_TUNED(Pictures, double, kLeastPattern, .01);
   // Two pixels share indirect light if the cosine between their normals is at least kSameNormal, the height
   // of one point over the plane of the other at most kSamePlane of their distance, and their distance at
   // most kNear of that from the eye: chosen by experiment. .87 or .93: within noise (picture from point;

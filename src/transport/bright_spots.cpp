@@ -18,6 +18,14 @@ using Tuning = tuning::BrightSpots;
 // smaller spots from points.
 constexpr float kNarrowest = 1e-6f;
 
+// The transmittance of a pane: that of clear single glazing, whatever the material, because only the relative
+// power of spots matters.
+constexpr double kTransmittance = .9;
+
+// Panes that a particle passes through at most, so that tracing ends even where rounding keeps a particle from
+// advancing.
+constexpr int kMostPanes = 1000;
+
 // Square of a negligible distance (world units).
 constexpr float kNearest = 1e-12f;
 
@@ -84,7 +92,7 @@ std::optional<BrightSpots::Particle> BrightSpots::arrived(const Scene& scene, co
                                                           V3d origin, const V3d& direction, double power,
                                                           Random& random) {
   SurfaceId from;
-  for (int pane = 0; pane < Tuning::kPanes; ++pane) {
+  for (int pane = 0; pane < kMostPanes; ++pane) {
     const Hit hit = tracer.nearest(origin, direction, kFarAway, from);
     if (hit.surface == kNone) break;
     from = hit.surface;
@@ -98,7 +106,7 @@ std::optional<BrightSpots::Particle> BrightSpots::arrived(const Scene& scene, co
       return Particle{origin, front, power, tracer.nearest(origin, back, kFarAway, from).distance};
     }
     if (!std::holds_alternative<Glass>(*material)) break;
-    power *= Tuning::kPassed;
+    power *= kTransmittance;
   }
   return {};
 }

@@ -141,7 +141,7 @@ void Openings::aim(const V3d& point, const V3d& normal, Aim& aim) const {
       const double here = way.dot(normal), there = -way.dot(o.normal);
       if (here > 0 && there > 0) factor += here * there / (squared * squared);
     }
-    factor = std::min(factor / 5 * o.area / kPi, Tuning::kMostFactor);
+    factor = factor / 5 * o.area / kPi;
     if (!(factor > 0)) continue;
     seen += factor;
     aim.upTo.emplace_back(i, sum += factor * o.power / o.area);

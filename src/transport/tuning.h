@@ -18,12 +18,6 @@ struct BrightSpots {
   // experiment. A spot that reflects a hundredth of the light is found by 80 of them. 30% less or more:
   // within noise (sensors by sun; error 9%, time 5%).
   RSPHERE_TUNED(BrightSpots, double, kParticles, 8192);
-  // Panes that a particle passes through at most: chosen by experiment. 30% less or more: the same
-  // answers in all cases.
-  RSPHERE_TUNED(BrightSpots, int, kPanes, 8);
-  // The transmittance of each pane, whatever its material, because only the relative power of spots matters:
-  // that of clear single glazing. .87 or .93: the same answers in all cases.
-  RSPHERE_TUNED(BrightSpots, double, kPassed, .9);
   // The minimal number of particles of a spot: chosen by experiment. Its power is then known within 29%,
   // 1/sqrt(12). 30% less or more: within noise (sensors by sun; error 3%, time 5%).
   RSPHERE_TUNED(BrightSpots, size_t, kFewest, 12);
@@ -93,9 +87,6 @@ struct Openings {
   // its sides away from its edges: chosen by experiment. 30% less: error +2%; 30% more: within noise (sensors
   // by sun; noise: error 5%, time 5%).
   RSPHERE_TUNED(Openings, double, kInset, .1);
-  // Cap on that estimate, which is too large near the opening: chosen by experiment. 30% less or more: the
-  // same answers in all cases.
-  RSPHERE_TUNED(Openings, double, kMostFactor, .5);
   // Cap on the share of rays that are aimed at openings: chosen by experiment. 30% less or more: within noise
   // (sensors by sun; error 10%, time 4%).
   RSPHERE_TUNED(Openings, double, kMostAimed, .4);

@@ -152,6 +152,36 @@ TEST(SeenSources, EveryShapeOfSource) {
   }
 }
 
+// The number of rays to the first image at the origin if `most` are to be divided.
+double raysTo(const char* sources, size_t most) {
+  const Setting setting(sources);
+  const std::vector<SeenSources::Image> images =
+      SeenSources(*setting.transport).findImages(V3d(0, 0, 0), most, 0);
+  return images.empty() ? 0 : images[0].rays;
+}
+
+TEST(SeenSources, MoreDirectionsMeanMoreRaysToASmallLamp) {
+  const char* lamp = "lamp sphere l 0 0 4 0 0 3 .1\n";
+  EXPECT_NEAR(raysTo(lamp, 64), 16, 1);
+  EXPECT_GT(raysTo(lamp, 4096), 400) << "with 16 the error of a half hidden lamp would not fall";
+  EXPECT_LT(raysTo(lamp, 4096), 700) << "it needs fewer than all";
+}
+
+TEST(SeenSources, WideSourcesGetAllRays) {
+  const char* ceiling = "lamp polygon l 0 0 12 -3 -3 2.5 -3 3 2.5 3 3 2.5 3 -3 2.5\n";
+  EXPECT_NEAR(raysTo(ceiling, 512), 512, 1) << "64 would leave six times the error behind objects";
+  const double solidAngle = capOf(.4, 3);
+  EXPECT_NEAR(raysTo("lamp sphere l 0 0 4 0 0 3 .4\n", 512), solidAngle / (.02 * .02), 1);
+}
+
+TEST(SeenSources, DistantSourcesOfAnyWidthAreIntegratedSeparately) {
+  for (const double width : {4., 30., 120., 180., 250.}) {
+    const Setting setting(fmt::format("lamp source sky 0 0 4 0 0 1 {}\n", width));
+    const double exact = 100 * (1 - std::cos(width * kPi / 360)) / 2;
+    EXPECT_NEAR(setting.apart(V3d(0, 0, 0)) / exact, 1, 1e-9) << width;
+  }
+}
+
 // A lamp, a sun: one ray would see all of it or nothing, and scatter as much as the mean.
 TEST(SeenSources, HalfHidden) {
   const char* cover = "black polygon b 0 0 12 1 0 -9 1 9 -9 1 9 9 1 0 9\n";
