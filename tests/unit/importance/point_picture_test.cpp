@@ -151,6 +151,34 @@ TEST(PointPicture, SmallSourcesAreNeitherLostNorPaintedTooLarge) {
   }
 }
 
+// The total light of a lamp of six pixels, and that of a minute one, half of which is hidden.
+TEST(PointPicture, SmallSourcesHaveTheirLightWithLittleNoise) {
+  const double radius = .15;
+  const std::string lamp =
+      fmt::format("void light lamp 0 0 3 1e4 1e4 1e4\nlamp sphere l 0 0 4 1 2 .5 {}\n", radius);
+  Sample whole, half;
+  for (int k = 0; k < 12; ++k) {
+    const V3d point(.01 * k, .007 * k, -.009 * k);
+    const double sine = radius / (V3d(1, 2, .5) - point).length();
+    const double exact = 1e4 * 2 * kPi * (1 - std::sqrt(1 - sine * sine));
+    whole.add(Drawn(lamp, point, 0, Projection::angularFisheye, 128).integral() / exact);
+  }
+  EXPECT_NEAR(whole.mean(), 1, .03) << "a quarter of the samples: .95";
+  EXPECT_LT(std::sqrt(whole.variance()), .03);
+  const std::string hidden =
+      "void plastic black 0 0 5 0 0 0 0 0\nvoid light lamp 0 0 3 1e6 1e6 1e6\n"
+      "lamp sphere l 0 0 4 0 2 0 .002\nblack polygon o 0 0 12 0 1 -9 9 1 -9 9 1 9 0 1 9\n";
+  Drawn drawn(hidden, V3d(0, 0, 0), 0, Projection::angularFisheye, 32);
+  const SphereEstimator estimator(*drawn.transport, drawn.options.sphere);
+  SphereEstimator::Workspace workspace(estimator);
+  for (uint64_t seed = 1; seed <= 100; ++seed) {
+    drawn.raster =
+        drawPoint(V3d(0, 0, 0), drawn.map, *drawn.transport, estimator.sources(), workspace.tracer, seed);
+    half.add(drawn.integral());
+  }
+  EXPECT_LT(std::sqrt(half.variance()) / half.mean(), .2) << "one sample: over .3";
+}
+
 TEST(PointPicture, DoesNotDependOnThePicturesBefore) {
   const std::string text = room("lamp ring l 0 0 8 0 0 2 0 0 -1 0 .1\n");
   const Drawn drawn(text, V3d(.2, -.3, .1), 2, Projection::latitudeLongitude, 64);

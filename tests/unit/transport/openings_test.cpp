@@ -129,6 +129,24 @@ TEST(Openings, AreAimedAtAsDensitySays) {
   }
 }
 
+// Close to a window that fills nearly half of the view, so few rays would be aimed that none are.
+TEST(Openings, AreNotAimedAtWhereTheyFillTheView) {
+  const Openings window = openingsOf(kSky + kRoom + kWindow);
+  ASSERT_FALSE(window.empty());
+  double least = 1;
+  bool none = false;
+  for (double y = .2; y < 3; y += .001) {
+    const double share = shareAt(window, V3d(2, y, 1.5), V3d(0, -1, 0));
+    if (share > 0)
+      least = std::min(least, share);
+    else
+      none = true;
+  }
+  EXPECT_TRUE(none);
+  EXPECT_GT(least, .04);
+  EXPECT_LT(least, .06);
+}
+
 TEST(Openings, ShowTheirAreaToLightOnItsWayIn) {
   const Openings window = openingsOf(kSky + kRoom + kWindow);
   const V3d in = V3d(.3, 1, -.5).normalized();
