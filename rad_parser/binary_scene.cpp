@@ -21,7 +21,7 @@ TypeTable readTypes(BinaryReader& input, const Warn& warn) {
   for (;;) {
     const std::string_view name = input.string();
     if (name.empty()) return types;
-    if (types.size() == kEnd) throw input.fault("more types than can be numbered");
+    if (types.size() == kEnd) throw input.fault("too many types");
     Type type;
     if (findType(name, type)) {
       types.emplace_back(type);
@@ -79,14 +79,15 @@ int64_t readPrimitives(BinaryReader& input, int width, uint32_t file, Descriptio
     const auto damaged = [&](std::string_view what) {
       return Error(fmt::format("{}: {} (byte {})", d.at(place), what, input.offset()));
     };
-    if (typeNumber >= static_cast<int>(types.size())) throw damaged(fmt::format("type {}", typeNumber));
-    if (!types[typeNumber]) throw damaged("of a type that is not known here");
+    if (typeNumber >= static_cast<int>(types.size()))
+      throw damaged(fmt::format("unknown type number {}", typeNumber));
+    if (!types[typeNumber]) throw damaged("unknown type");
     const Type type = *types[typeNumber];
     const int64_t number = input.integer(width);  // -1: void
-    if (number < -1 || number >= n) throw damaged(fmt::format("modifier {} is not before it", number + 1));
+    if (number < -1 || number >= n) throw damaged(fmt::format("modifier {} does not precede it", number + 1));
     const PrimitiveId modifier(number);
     if (modifier != kVoid && isSurface(d.primitives[modifier].type))
-      throw damaged(fmt::format("object {} is no modifier", number + 1));
+      throw damaged(fmt::format("object {} is not a modifier", number + 1));
     const std::string_view name = input.string();
     if (!isSurface(type) && (name == "void" || name == "inherit"))
       throw damaged(fmt::format("no modifier can be named \"{}\"", name));

@@ -63,8 +63,8 @@ class Data {
     const std::string_view word = text_.substr(position_, end - position_);
     const std::optional<double> number = parseReal(word);
     if (!number || !std::isfinite(static_cast<float>(*number)))
-      fail(word.empty() ? std::string("expected a number of the scattering data, got its end")
-                        : fmt::format("expected a number of the scattering data, got \"{}\"",
+      fail(word.empty() ? std::string("expected a number in the scattering data, got its end")
+                        : fmt::format("expected a number in the scattering data, got \"{}\"",
                                       printable(word.substr(0, 40))));
     position_ = end;
     take(',');
@@ -92,7 +92,7 @@ class TreeReader {
  private:
   size_t addChildren(size_t node) {
     const size_t first = tree_.nodes.size();
-    if (first + branching_ > UINT32_MAX) data_.fail("too large a tensor tree");
+    if (first + branching_ > UINT32_MAX) data_.fail("the tensor tree is too large");
     tree_.nodes.resize(first + branching_);
     tree_.nodes[node].children = static_cast<uint32_t>(first);
     return first;
@@ -101,7 +101,7 @@ class TreeReader {
   void readNode(size_t node, int depth) {
     if (!data_.take('{')) data_.fail("expected '{' in the tensor tree");
     if (data_.next() == '{') {
-      if (depth == BsdfFile::kDeepest) data_.fail("too deep a tensor tree");
+      if (depth == BsdfFile::kDeepest) data_.fail("the tensor tree is too deep");
       const size_t first = addChildren(node);
       for (size_t i = 0; i < branching_; ++i) readNode(first + i, depth + 1);
     } else {
@@ -119,8 +119,8 @@ class TreeReader {
     int halvings = 0;
     while (halvings * rank_ < 63 && size_t{1} << (halvings * rank_) < values_.size()) ++halvings;
     if (values_.size() != size_t{1} << (halvings * rank_))
-      data_.fail(fmt::format("{} values are no grid of {} dimensions", values_.size(), rank_));
-    if (depth + halvings > BsdfFile::kDeepest) data_.fail("too deep a tensor tree");
+      data_.fail(fmt::format("{} values do not form a grid of {} dimensions", values_.size(), rank_));
+    if (depth + halvings > BsdfFile::kDeepest) data_.fail("the tensor tree is too deep");
     spread(node, 0, halvings, halvings);
   }
 
@@ -193,7 +193,7 @@ class Reader {
     buffer_.assign(text_.begin(), text_.end());
     const pugi::xml_parse_result parsed = document_.load_buffer_inplace(
         buffer_.data(), buffer_.size(), pugi::parse_cdata | pugi::parse_escapes, pugi::encoding_utf8);
-    if (!parsed) throw Error(fmt::format("{}: no XML: {}", at(parsed.offset), parsed.description()));
+    if (!parsed) throw Error(fmt::format("{}: not XML: {}", at(parsed.offset), parsed.description()));
     const pugi::xml_node root = document_.document_element();
     if (std::string_view(root.name()) != "WindowElement")
       fail(root, fmt::format("expected a WindowElement, got \"{}\"", printable(root.name())));
@@ -244,11 +244,11 @@ class Reader {
       if (!bounds) fail(block, "no ThetaBounds");
       const double upper = angle(bounds, "UpperTheta");
       if (!basis.rings.empty() && std::abs(angle(bounds, "LowerTheta") - begin) > kSameAngle)
-        fail(bounds, "a ring begins where the one before does not end");
+        fail(bounds, "a ring does not begin where the one before it ends");
       if (!(upper > begin)) fail(bounds, "a ring ends before it begins");
       const std::optional<int64_t> cells = parseInteger(word(block.child("nPhis")));
       if (!cells || *cells < (begin > 0 ? 2 : 1) || *cells > INT32_MAX)
-        fail(block, "expected a number of azimuths as nPhis, 2 at least but about the normal");
+        fail(block, "expected the number of azimuths as nPhis, at least 2 except around the normal");
       basis.rings.push_back({upper, static_cast<size_t>(*cells)});
       basis.cells += static_cast<size_t>(*cells);
       begin = upper;
@@ -256,7 +256,7 @@ class Reader {
     if (basis.rings.empty()) fail(node, "an angle basis without blocks");
     if (const AngleBasis* known = klemsBasis(basis.name)) {
       if (known->rings != basis.rings)
-        warn(node, fmt::format("other angles than those of {}, which count", known->name));
+        warn(node, fmt::format("the angles differ from those of {}, which are used instead", known->name));
       return;
     }
     for (const AngleBasis& earlier : defined_)

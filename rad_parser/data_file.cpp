@@ -37,7 +37,7 @@ DataFile DataFile::parse(std::string_view text, std::string_view name) {
     const auto& p = axis.points;
     if (std::adjacent_find(p.begin(), p.end(), notRising) != p.end() &&
         std::adjacent_find(p.begin(), p.end(), notFalling) != p.end()) {
-      numbers.fail("expected divisions that rise or that fall throughout");
+      numbers.fail("expected divisions in ascending or descending order");
     }
   }
   if (size > numbers.left()) numbers.fail("fewer values in the file than its grid has points");

@@ -89,7 +89,7 @@ std::string Description::at(Place place) const {
 
 void append(Description& to, Description&& more, Place from) {
   const auto check = [](size_t have, size_t added, size_t most) {
-    if (added > most - have) throw Error("more than can be numbered in files that are read together");
+    if (added > most - have) throw Error("too many primitives or arguments in all files");
   };
   constexpr size_t kMost32 = std::numeric_limits<uint32_t>::max();
   check(to.primitives.size(), more.primitives.size(), std::numeric_limits<int32_t>::max());

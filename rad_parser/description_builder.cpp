@@ -27,7 +27,7 @@ Primitive DescriptionBuilder::begin(Type type, Place place, uint32_t name, Primi
 
 void DescriptionBuilder::addString(Primitive& p, std::string_view word) {
   if (description_.stringArgs.size() == std::numeric_limits<uint32_t>::max())
-    throw error(p.place, "more string arguments than can be numbered");
+    throw error(p.place, "too many string arguments");
   description_.stringArgs.push_back(words_.intern(word));
   ++p.strings;
 }
@@ -40,7 +40,7 @@ void DescriptionBuilder::resolveAlias(Primitive& p, PrimitiveId reference, bool 
 
 void DescriptionBuilder::add(const Primitive& p) {
   if (description_.primitives.size() == std::numeric_limits<int32_t>::max())
-    throw error(p.place, "more primitives than can be numbered");
+    throw error(p.place, "too many primitives");
   description_.primitives.push_back(p);
   if (isSurface(p.type)) return;
   if (p.name >= inForce_.size()) inForce_.resize(std::max<size_t>(p.name + 1, 2 * inForce_.size()));

@@ -73,7 +73,7 @@ class Reader {
     patchVertices_ = count(kPatchVertices, "vertices");
     if (patchVertices_ == 0) throw input_.fault("damaged mesh: a patch without vertices");
     if (mesh_.positions.size() + patchVertices_ > std::numeric_limits<uint32_t>::max())
-      throw input_.fault("more vertices than can be numbered");
+      throw input_.fault("too many vertices");
     vertices(has);
     localTriangles();
     for (uint32_t n = count(kPatchJoiners, "joining triangles"); n > 0; --n) joiner(1);
@@ -82,7 +82,7 @@ class Reader {
 
   uint32_t count(uint32_t most, std::string_view what) {
     const uint32_t n = input_.count16();
-    if (n > most) throw input_.fault(fmt::format("damaged mesh: a patch of {} {}", n, what));
+    if (n > most) throw input_.fault(fmt::format("damaged mesh: a patch with {} {}", n, what));
     return n;
   }
 

@@ -109,7 +109,7 @@ void readOctree(BinaryReader& input, uint32_t file, DescriptionBuilder& builder,
     reserve(d, objects, width, input.remaining());
     const int64_t found = readPrimitives(input, width, file, builder, warn);
     if (found != objects)
-      throw input.fault(fmt::format("damaged octree: {} objects in place of {}", found, objects));
+      throw input.fault(fmt::format("damaged octree: {} objects instead of {}", found, objects));
   } else if (present != objects) {
     throw stale(
         fmt::format("bad object count: {} in its scene files, {} when it was made", present, objects));

@@ -94,7 +94,8 @@ class Reader {
     const std::string name = builder_.description().files[file].name;
     if (!ahead.empty() && !isOctree(ahead, name)) return false;
     if (!alone_)
-      throw Error(printable(name, 4096) + ": an octree is a whole scene: it cannot be one among several");
+      throw Error(printable(name, 4096) +
+                  ": an octree is a whole scene: it cannot be combined with other files");
     ofOctree_ = true;
     BinaryReader input(descriptor, name, "octree", ahead);
     readOctree(input, file, builder_, options_.warn, [&](const std::string& scene) {
@@ -107,7 +108,7 @@ class Reader {
       if (opened.descriptor() < 0)
         throw builder_.error({sceneFile, 0},
                              fmt::format("cannot open scene file: {} (an octree that is not frozen is used "
-                                         "where it was made)",
+                                         "in the folder that it was made in)",
                                          std::strerror(errno)),
                              Status::system);
       TextSource text(opened.descriptor(), sceneFile, builder_);
@@ -140,8 +141,7 @@ class Reader {
     const Place place = from.file == SourceFile::kNoFile ? Place{builder_.addFile(shown), 1} : from;
     if (context.depth == kDeepestNesting)
       throw builder_.error(
-          place,
-          fmt::format("{} files and commands within each other: does one read itself?", kDeepestNesting));
+          place, fmt::format("{} nested files and commands: does one include itself?", kDeepestNesting));
     const auto words = plainWords(line);
     if (words && !words->empty() && words->front() == "xform") return xform(*words, place, context);
     if (!options_.commands)
@@ -173,12 +173,12 @@ class Reader {
     if (named && alone_ && ahead.empty())
       throw builder_.error({file, 0},
                            fmt::format("not an octree: 0 bytes{}{}; a command that is given as the "
-                                       "scene writes an octree or scene text on standard output",
+                                       "scene must write an octree or scene text to standard output",
                                        fault.empty() ? "" : ", ", fault));
     if (builder_.description().files[file].numbered) place.line = 0;
     if (!fault.empty()) badStatus(place, shown, fault, named || ofOctree_);
     if (builder_.description().primitives.size() == before)
-      warn(place, fmt::format("\"{}\" gives nothing", printable(shown)));
+      warn(place, fmt::format("\"{}\" writes nothing", printable(shown)));
   }
 
   // Surfaces may be missing after a command has failed, which would not be visible in the results. It is
@@ -244,7 +244,7 @@ class Reader {
     const bool hasType = text.word(word);
     if (!hasType || !findType(word, type)) {
       if (modifier == kVoid && !isVoid && !inherits) throw undefined();
-      if (!hasType) throw builder_.error(place, fmt::format("text ends behind \"{}\"", printable(modifier_)));
+      if (!hasType) throw builder_.error(place, fmt::format("text ends after \"{}\"", printable(modifier_)));
       throw builder_.error(text.place(), fmt::format("unknown type \"{}\"", printable(word)));
     }
     if (transform && transform->modifier && isSurface(type)) {
@@ -317,7 +317,7 @@ class Reader {
       if (text.lastWord().empty() && text.peek() < 0) throw ends(p);
       throw fault(
           text, p,
-          fmt::format("expected the number of {} arguments, not \"{}\"", what, printable(text.lastWord())));
+          fmt::format("expected the number of {} arguments, got \"{}\"", what, printable(text.lastWord())));
     }
     if (n < 0 || n > kMostArguments) throw fault(text, p, fmt::format("{} {} arguments", n, what));
     return n;

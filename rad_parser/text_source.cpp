@@ -112,7 +112,7 @@ std::string TextSource::line() {
     }
     text += c;
     if (text.size() > kLongestLine)
-      throw builder_.error(place(), fmt::format("command of more than {} bytes", kLongestLine));
+      throw builder_.error(place(), fmt::format("command longer than {} bytes", kLongestLine));
   }
 }
 
@@ -123,7 +123,7 @@ bool TextSource::word(std::string_view& word) {
     while (next_ != end_ && kindOf(*next_) == plain) ++next_;
     const auto length = static_cast<size_t>(next_ - start);
     if (length > kLongestWord)
-      throw builder_.error(place(), fmt::format("word of more than {} bytes: \"{}\"", kLongestWord,
+      throw builder_.error(place(), fmt::format("word longer than {} bytes: \"{}\"", kLongestWord,
                                                 printable({start, length}, 20)));
     if (next_ != end_) {
       if (*next_ == '\0') nulByte();
@@ -144,7 +144,7 @@ bool TextSource::quotedWord(std::string_view& word, const char* start) {
     if (next_ == end_) {
       const char* keep = next_;
       if (!refill(keep)) {
-        if (open != '\0') throw builder_.error(place(), fmt::format("quote that is not closed: {}", open));
+        if (open != '\0') throw builder_.error(place(), fmt::format("unclosed quote: {}", open));
         break;
       }
     }
@@ -160,7 +160,7 @@ bool TextSource::quotedWord(std::string_view& word, const char* start) {
     } else {
       unquoted_ += c;
       if (unquoted_.size() > kLongestWord)
-        throw builder_.error(place(), fmt::format("word of more than {} bytes: \"{}\"", kLongestWord,
+        throw builder_.error(place(), fmt::format("word longer than {} bytes: \"{}\"", kLongestWord,
                                                   printable(unquoted_, 20)));
     }
   }

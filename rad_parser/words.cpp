@@ -45,7 +45,7 @@ uint32_t WordTable::append(std::string_view word) {
 }
 
 uint32_t WordTable::add(std::string_view word) {
-  if (words_.size() >= kNone) throw Error("more different words than can be numbered");
+  if (words_.size() >= kNone) throw Error("too many different words");
   words_.emplace_back(word);
   return static_cast<uint32_t>(words_.size() - 1);
 }

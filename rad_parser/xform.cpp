@@ -133,7 +133,7 @@ class ArgumentTransform {
     const bool changed = isSurface(p_.type) ? surface() : modifier();
     if (!changed) return;
     for (const double value : reals_)
-      if (!std::isfinite(value)) throw error("transformed arguments are no finite numbers");
+      if (!std::isfinite(value)) throw error("transformed arguments are not finite numbers");
   }
 
  private:
@@ -218,7 +218,8 @@ class ArgumentTransform {
 
   void polygon() {
     if (p_.strings != 0 || reals_.size() % 3 != 0)
-      throw error(fmt::format("{} string and {} real arguments are no vertices", p_.strings, reals_.size()));
+      throw error(
+          fmt::format("{} string and {} real arguments do not form vertices", p_.strings, reals_.size()));
     for (size_t i = 0; i < reals_.size(); i += 3) movePoint(i);
     if (!transform_.reversed) return;
     for (size_t i = 0, j = reals_.size(); i + 3 < j; i += 3) {

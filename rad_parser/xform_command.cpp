@@ -73,7 +73,7 @@ class Passes {
       : directory_(directory), access_(access), pass_(pass) {}
 
   void run(const std::vector<std::string>& words, int nested) {
-    if (nested > kDeepest) throw fault("argument files within each other without end");
+    if (nested > kDeepest) throw fault("argument files include each other without end");
     for (size_t i = 1; i < words.size(); ++i)
       if (words[i] == "-f") return fromFile(words, i, nested);
     for (size_t i = 1; i < words.size(); ++i)

@@ -179,7 +179,7 @@ class Expander {
       const Id id = compile(s.definition->body, *inner);
       variables_[s.definition] = id;
     } else if (it->second == kNone) {
-      return fail(tree, scope, fmt::format("variable \"{}\" is defined by itself", s.name));
+      return fail(tree, scope, fmt::format("variable \"{}\" is defined in terms of itself", s.name));
     }
     const Id id = variables_[s.definition];
     if (scope.frame == &first()) return id;

@@ -130,7 +130,7 @@ double* Program::enter(const Frame& frame, State& state, uint32_t base, uint32_t
 // can hold it in a register.
 void Program::push(const Frame& frame, State& state, size_t depth, size_t registers, State::Return back) {
   if (depth >= kMaxDepth || registers > kMaxRegisters) {
-    throw Error(fmt::format("{}: recursion that is too deep or endless", frame.name));
+    throw Error(fmt::format("{}: recursion is too deep or endless", frame.name));
   }
   if (depth == state.returns_.size()) state.returns_.resize(2 * depth + 64);
   state.returns_[depth] = back;
@@ -241,7 +241,7 @@ void Program::evaluate(const Point& point, State& state, std::span<double> out) 
         const uint32_t cell = i->a + (own ? cellBase : 0);
         State::Cell& c = state.cells_[cell];
         if (c.pc == kDone) break;
-        if (c.pc == kBusy) throw Error(fmt::format("{}: a value that depends on itself", frames_[0].name));
+        if (c.pc == kBusy) throw Error(fmt::format("{}: value depends on itself", frames_[0].name));
         const auto next = static_cast<uint32_t>(i - code) + 1;
         push(frames_[0], state, depth++, top, {next, base, cellBase, cell, i->to + (own ? base : 0)});
         base = c.base;

@@ -147,7 +147,7 @@ std::optional<double> SymbolTable::constantValue(const Syntax& tree, const std::
   State state;
   if (program->isConstant()) return program->evaluate({}, state);
   if (needsRay(tree, place)) {
-    throw Error(fmt::format("{}: constant expression uses what depends on the ray or the primitive", place));
+    throw Error(fmt::format("{}: constant expression depends on the ray or the primitive", place));
   }
   return std::nullopt;
 }

@@ -120,7 +120,7 @@ PrismPanel panelOf(const Point& point, const char* function) {
                        panel.index >= 1 && panel.threshold >= 0 && panel.threshold < 1 &&
                        (coated == 1 || coated == 2 || coated == 4) && panel.coating >= 0 &&
                        panel.coating <= 1 && panel.tolerance > 0 && aim >= 0;
-  if (!isPanel) throw Error(fmt::format("{}(): the real arguments are no prism panel", function));
+  if (!isPanel) throw Error(fmt::format("{}(): the real arguments do not describe a prism panel", function));
   return panel;
 }
 

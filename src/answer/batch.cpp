@@ -129,7 +129,7 @@ class Batch {
 
 void Batch::run() {
   wakeFd_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-  if (wakeFd_ < 0) throw rad::Error("cannot make an event descriptor", rad::Status::system);
+  if (wakeFd_ < 0) throw rad::Error("cannot create an event descriptor", rad::Status::system);
   std::vector<int> wakes{wakeFd_};
   if (signals_ != nullptr) wakes.push_back(signals_->descriptor());
   reader_.interruptBy(wakes);
@@ -155,8 +155,8 @@ void Batch::runWorkers() {
   const unsigned wanted = wantedThreads(options_.threads);
   if (threads_ < wanted)
     messages_.warning(
-        fmt::format("reducing number of threads from {} to {}: the stacks of more would take over "
-                    "half of the memory that this process may have",
+        fmt::format("reducing number of threads from {} to {}: the stacks of more threads would take "
+                    "over half of the memory that this process may have",
                     wanted, threads_));
   try {
     runOnThreads(
@@ -255,7 +255,7 @@ void Batch::remarkRepeats(const double* record, uint64_t index) {
   if (repeats_ < kRepeatsToRemark) return;
   repeatsRemarked_ = true;
   messages_.warning(fmt::format(
-      "record {}: the same ray repeatedly has the same random numbers each time; -u+ makes them differ",
+      "record {}: a repeated ray has the same random numbers each time; use -u+ for different ones",
       index + 1));
 }
 
@@ -263,8 +263,8 @@ void Batch::remarkLayout() {
   if (!textRemarked_ && reader_.firstRecordIsText()) {
     textRemarked_ = true;
     messages_.warning(
-        fmt::format("stdin: the first record of -f{} input is printable characters alone: is it "
-                    "text? -fa reads text",
+        fmt::format("stdin: the first record of -f{} input consists of printable characters: use "
+                    "-fa to read text",
                     static_cast<char>(options_.in)));
   }
   const auto& first = reader_.firstLine();

@@ -240,7 +240,7 @@ void RecordReader::readLine(std::string_view line, bool whole) {
   const std::string got = whole ? std::to_string(count) : fmt::format("more than {} bytes", line.size());
   constexpr int kRay = 6;
   throw rad::Error(fmt::format("{}:{}: expected {} {} on a line, got {}{}", name_, line_, perRecord_,
-                               counted(perRecord_), got, count == kRay && whole ? "; -S- reads rays" : ""));
+                               counted(perRecord_), got, count == kRay && whole ? "; use -S- for rays" : ""));
 }
 
 size_t RecordReader::readLines(std::vector<double>& numbers, size_t most) {
@@ -289,7 +289,7 @@ size_t RecordReader::readBinary(std::vector<double>& numbers, size_t most) {
     const bool looksLikeText = records_ == 0 && isText({block_.data() + begin_, end_ - begin_});
     throw rad::Error(fmt::format("{}: record {}: expected {} bytes, got {}{}", name_, records_ + 1,
                                  recordSize, end_ - begin_,
-                                 looksLikeText ? ", which are printable: text is read with -fa" : ""));
+                                 looksLikeText ? ", all of them printable: use -fa to read text" : ""));
   }
   if (records_ == 0) firstIsText_ = isText({block_.data() + begin_, recordSize});
   size_t count = 0;

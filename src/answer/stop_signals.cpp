@@ -89,7 +89,7 @@ void onSignal(int number) {
 StopSignals::StopSignals(const std::string& program) {
   occupyStandardDescriptors();
   if (pipe2(state.pipe, O_CLOEXEC | O_NONBLOCK) != 0)
-    throw rad::Error("cannot make a pipe for signals", rad::Status::system);
+    throw rad::Error("cannot create a pipe for signals", rad::Status::system);
   state.raised = 0;
   state.deferred = false;
   state.told = false;

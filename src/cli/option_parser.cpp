@@ -67,7 +67,7 @@ class Words {
       // An endless device exceeds the limits on the number and length of words.
       for (std::string word; words.size() <= kMostExpanded && file >> std::setw(kLongestWord + 1) >> word;) {
         if (word.size() > static_cast<size_t>(kLongestWord))
-          throw rad::Error(fmt::format("cannot expand '{}': too long a word", name));
+          throw rad::Error(fmt::format("cannot expand '{}': a word is too long", name));
         words.push_back(word);
       }
       if (!file.bad()) return words;
@@ -275,7 +275,7 @@ constexpr int kMostForAccuracy = 1000000, kMostToList = 100000;
 
 void checkTogether(Options& options, bool mostGiven) {
   if (options.ray.fieldMemory > 0 && !options.ray.ambientFile.empty())
-    throw rad::Error("-Sm and -af: what a file has in it is kept in memory as a whole");
+    throw rad::Error("-Sm and -af exclude each other: an ambient file is kept in memory as a whole");
   if (!options.sphereMode) return;
   if (options.limitDistance) throw rad::Error("-ld needs ray mode (-S-): points have no direction vector");
   SphereOptions& sphere = options.sphere;
@@ -299,7 +299,7 @@ void notReal(std::string_view option, std::string_view word, std::string_view ra
   if (word.ends_with('%'))
     if (const auto x = rad::parseReal(word.substr(0, word.size() - 1)))
       hint = fmt::format(": {} is written {}", word, *x / 100);
-  if (word.find(',') != word.npos) hint = ": decimals have a point";
+  if (word.find(',') != word.npos) hint = ": use a decimal point";
   commandLineError(option, fmt::format("\"{}\" is not a number{}{}", word, range, hint));
 }
 
@@ -374,7 +374,7 @@ std::vector<std::string> takeScene(Words& words) {
   if (scene.empty())
     throw rad::Error(
         "missing octree argument: an octree, scene files or a '!command' that makes them come "
-        "behind the options; see -help");
+        "after the options; see -help");
   return scene;
 }
 

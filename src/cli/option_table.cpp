@@ -44,7 +44,8 @@ std::vector<std::string> modifierFile(const OptionEntry& entry, const std::strin
     // An endless device exceeds these limits.
     if (words.size() > kMostModifiers || word.size() > size_t{kLongestModifier})
       throw rad::Error(
-          fmt::format("{} has too {} words", what(), word.size() > kLongestModifier ? "long" : "many"));
+          fmt::format("{} has {}", what(),
+                      word.size() > kLongestModifier ? "a word that is too long" : "too many words"));
   }
   if (errno != 0 && (!path || !file.is_open() || file.bad()))
     throw rad::Error(fmt::format("cannot open {}: {}", what(), std::strerror(errno)), rad::Status::system);

@@ -36,7 +36,7 @@ void becomeProgram(char* const* words, int in, int out, int errors) {
 }  // namespace
 
 MemoryFile::MemoryFile(std::string_view bytes) : fd_(memfd_create("rsphere", MFD_CLOEXEC)) {
-  if (fd_ < 0) systemError("cannot make a file in memory");
+  if (fd_ < 0) systemError("cannot create a file in memory");
   while (!bytes.empty()) {
     const ssize_t n = write(fd_, bytes.data(), bytes.size());
     if (n < 0 && errno == EINTR) continue;

@@ -112,9 +112,9 @@ std::vector<std::string> pointOptions(const Options& options, std::span<const Us
 
 void refuseWhatPointsHave(const CompareOptions& options) {
   if (!options.goals.empty() || options.sphere.basicRadiance)
-    throw rad::Error("-Sg and -Sb: the original knows no importance to compare with");
+    throw rad::Error("-Sg and -Sb: the original does not compute importance");
   if (!options.ray.sourcesVisible)
-    throw rad::Error("-dv-: the original's irradiance has the light of sources; compare rays");
+    throw rad::Error("-dv-: the original's irradiance includes the light of sources; compare rays");
 }
 
 std::string worstText(const CompareOptions& options, const Comparison& comparison, const Answers& ours,
@@ -164,7 +164,7 @@ std::vector<double> recordsToCompare(const CompareOptions& options, const std::s
   if (records == 0) throw rad::Error(fmt::format("{}: no record has a direction", name));
   if (!options.differences.empty() && (options.width < 1 || options.height < 1 ||
                                        static_cast<size_t>(options.width * options.height) != records))
-    throw rad::Error(fmt::format("-Cp: {} records are no picture of -x {} times -y {}", records,
+    throw rad::Error(fmt::format("-Cp: {} records do not fill a picture of -x {} times -y {}", records,
                                  options.width, options.height));
   return numbers;
 }
@@ -196,7 +196,7 @@ CompareStatus runCompare(CompareOptions options, std::span<const UsedOption> use
   if (options.ray.ambientBounces > 0 && options.ray.ambientAccuracy > 0)
     messages.warning(
         "the original keeps indirect light in a cache, whose error shows as bias, and repeats use it again: "
-        "-aa 0 compares without");
+        "use -aa 0 to compare without it");
 
   const double start = processSeconds();
   const rad::Warn warn = [&](std::string_view text) { messages.warning(text); };

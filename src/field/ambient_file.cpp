@@ -128,7 +128,7 @@ bool AmbientFile::begin(uint64_t scene, uint64_t options) {
                                  std::strerror(errno)),
                      rad::Status::system);
   if (begun || found == ours) return true;
-  std::string why = "is no ambient file";
+  std::string why = "is not an ambient file";
   if (found.starts_with(kMagic))
     why = found.substr(0, kSceneEnd) == ours.substr(0, kSceneEnd)
               ? "was made with other options or by another version"

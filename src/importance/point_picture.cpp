@@ -264,7 +264,8 @@ std::string pictureName(const std::string& pattern, uint64_t record) {
     i = end;
   }
   if (!numbered && record > 0)
-    throw rad::Error(fmt::format("picture \"{}\": no %d in it for record {}", pattern, record));
+    throw rad::Error(
+        fmt::format("picture \"{}\": its name needs a %d for the number of record {}", pattern, record));
   return name;
 }
 

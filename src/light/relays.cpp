@@ -107,8 +107,7 @@ class Images {
     if (!normal) {
       if (warn)
         warn(scene_.place(surface.primitive) +
-             ": only plane surfaces relay light, this one makes no virtual "
-             "sources");
+             ": only plane surfaces make virtual sources; this one makes none");
       return;
     }
     relay.normal = *normal;

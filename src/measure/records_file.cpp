@@ -29,8 +29,8 @@ std::vector<double> readRecords(const std::string& name, const AnswerOptions& op
   }
   if (reader.firstRecordIsText())
     throw rad::Error(
-        fmt::format("{}: the first record of -f{} is printable characters alone: text is read with -fa", name,
-                    static_cast<char>(options.in)));
+        fmt::format("{}: the first record of -f{} consists of printable characters: use -fa to read text",
+                    name, static_cast<char>(options.in)));
   if (numbers.empty()) throw rad::Error(fmt::format("{}: no records", name));
   return numbers;
 }

@@ -196,29 +196,28 @@ class Builder {
     const Material* material = scene_.materialOf(surface);
     if (!material || !isSampled(*material)) return;
     const PrimitiveArguments own = arguments(i);
-    std::visit(Overloaded{
-                   [&](const Polygon& polygon) {
-                     if (polygon.area == 0) own.fail("zero source area");
-                     if (!inside(polygon, scene_.vertices, centerOf(polygon, scene_.vertices)))
-                       own.fail("cannot hit source center");
-                   },
-                   [&](const Ring& ring) {
-                     if (ring.inner > 0) own.fail("cannot hit source center");
-                   },
-                   [&](const Sphere& sphere) {
-                     if (sphere.inward) own.fail("a bubble cannot be a light source");
-                   },
-                   [&](const Cone& cone) {
-                     if (cone.inward || cone.radius0 != cone.radius1)
-                       own.fail("only a cylinder of this kind can be a light source");
-                     if (cone.radius0 > .2 * cone.length) own.warn(warn_, "source aspect too small");
-                   },
-                   [](const Distant&) {},
-                   [&](const NestedShape auto&) {
-                     own.fail("a light source's material on a surface that cannot be one");
-                   },
-               },
-               surface.shape);
+    std::visit(
+        Overloaded{
+            [&](const Polygon& polygon) {
+              if (polygon.area == 0) own.fail("zero source area");
+              if (!inside(polygon, scene_.vertices, centerOf(polygon, scene_.vertices)))
+                own.fail("cannot hit source center");
+            },
+            [&](const Ring& ring) {
+              if (ring.inner > 0) own.fail("cannot hit source center");
+            },
+            [&](const Sphere& sphere) {
+              if (sphere.inward) own.fail("a bubble cannot be a light source");
+            },
+            [&](const Cone& cone) {
+              if (cone.inward || cone.radius0 != cone.radius1)
+                own.fail("a cone, cup or tube cannot be a light source");
+              if (cone.radius0 > .2 * cone.length) own.warn(warn_, "source aspect too small");
+            },
+            [](const Distant&) {},
+            [&](const NestedShape auto&) { own.fail("a surface of this type cannot be a light source"); },
+        },
+        surface.shape);
   }
 
   std::optional<Shape> makeShape(PrimitiveId i) {

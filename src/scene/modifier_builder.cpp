@@ -78,8 +78,7 @@ ModifierId ModifierBuilder::named(PrimitiveId i, std::string_view name) {
   const PrimitiveId described = definedBefore(i, name);
   if (described == rad::kVoid) arguments.fail(fmt::format("undefined modifier \"{}\"", printable(name)));
   // A ray that hits nested modifiers recurses as deeply, and splits into up to 2^depth evaluations.
-  if (depth_ == kDeepest)
-    arguments.fail(fmt::format("modifiers name each other more than {} deep", kDeepest));
+  if (depth_ == kDeepest) arguments.fail(fmt::format("modifiers are nested more than {} deep", kDeepest));
   ++depth_;
   const ModifierId converted = modifier(described);
   --depth_;
@@ -207,7 +206,8 @@ Alternate ModifierBuilder::alternate(PrimitiveId i, const AlternatingArguments& 
 
 // The modifier that WGMDfunc names for a component. A component that reflects or transmits nothing needs
 // none.
-std::optional<ModifierId> ModifierBuilder::componentModifier(PrimitiveId i, std::string_view name, bool used) {
+std::optional<ModifierId> ModifierBuilder::componentModifier(PrimitiveId i, std::string_view name,
+                                                             bool used) {
   if (!used || name == "inherit") return std::nullopt;
   return named(i, name);
 }

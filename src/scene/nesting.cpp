@@ -28,7 +28,7 @@ class Nesting {
       const int under = std::visit(
           Overloaded{
               [&](const Instance& instance) {
-                if (heights_[instance.group] == kOpen) fail(surface, "an octree within itself");
+                if (heights_[instance.group] == kOpen) fail(surface, "an octree contains itself");
                 return depth < kMostLevels ? 1 + height(instance.group, depth + 1) : kMostLevels + 1;
               },
               [](const MeshInstance&) { return 1; },
@@ -36,7 +36,7 @@ class Nesting {
           },
           surface.shape);
       if (depth + under > kMostLevels)
-        fail(surface, fmt::format("octrees within each other more than {} deep", kMostLevels));
+        fail(surface, fmt::format("octrees are nested more than {} deep", kMostLevels));
       highest = std::max(highest, under);
     }
     return heights_[group] = highest;

@@ -36,7 +36,7 @@ std::optional<Shape> finishCone(const PrimitiveArguments& a, const Warn& warn, C
 
 std::optional<Shape> readPolygon(const PrimitiveArguments& a, const Warn& warn, std::vector<V3d>& vertices) {
   const size_t reals = a.reals().size();
-  if (reals < 9 || reals % 3) a.fail(fmt::format("expected 9 or more coordinates by threes, got {}", reals));
+  if (reals < 9 || reals % 3) a.fail(fmt::format("expected at least 9 coordinates in threes, got {}", reals));
   size_t count = reals / 3;
   if (count > 3 && (a.vector(0) - a.vector(reals - 3)).length() <= kSamePlace) --count;
   const auto first = static_cast<uint32_t>(vertices.size());
@@ -117,7 +117,7 @@ PlacedFile readPlacedFile(const PrimitiveArguments& a) {
     bool finite = std::isnormal(s.scale);
     for (const auto& row : s.matrix.x)
       for (const double x : row) finite = finite && std::isfinite(x);
-    if (!finite) a.fail("a transform beyond the range of numbers");
+    if (!finite) a.fail("the transform exceeds the range of numbers");
   }
   return made;
 }

@@ -642,7 +642,7 @@ BsdfData::BsdfData(const BsdfFile& file, std::string_view name, const rad::Warn&
     diffuseLuminance_[i] = diffuse.y;
     if (!made[i]) continue;
     if (const double most = kPi * diffuse.y + made[i]->largestAlbedo(); most > kMostAlbedo && warn)
-      warn(fmt::format("{}: {:.1f}% {}", name, 100 * most, kNames[i]));
+      warn(fmt::format("{}: {} of {:.1f}% of the light", name, kNames[i], 100 * most));
     if (made[i]->largestAlbedo() <= kLeastAlbedo) made[i].reset();
   }
   for (const auto& [i, other] : {std::pair<size_t, size_t>{2, 3}, {3, 2}}) {
@@ -651,8 +651,8 @@ BsdfData::BsdfData(const BsdfFile& file, std::string_view name, const rad::Warn&
       diffuseLuminance_[i] = diffuseLuminance_[other];
     }
     if (made[other] && !made[i] && !made[other]->prepareTurned() && warn)
-      warn(fmt::format("{}: no {}, and isotropic data of the other side do not tell how it is scattered",
-                       name, kNames[i]));
+      warn(fmt::format("{}: no {}, and isotropic data of the other side do not determine it", name,
+                       kNames[i]));
   }
   std::move(made.begin(), made.end(), directed_.begin());
 }

@@ -70,7 +70,7 @@ Header readHeader(std::string_view bytes, const std::string& path) {
   };
   while (true) {
     const auto text = line();
-    if (!text) bad(path, "no end of its header");
+    if (!text) bad(path, "its header does not end");
     if (text->empty()) break;
     if (text->starts_with("FORMAT=")) {
       std::string_view format = text->substr(7);
@@ -104,7 +104,7 @@ class PixelReader {
   void read(std::vector<Rgbe>& row) {
     const size_t count = row.size();
     if (count >= 8 && count < 32768 && left_.size() >= 4 && left_.starts_with("\2\2") && byteAt(2) < 128) {
-      if ((static_cast<size_t>(byteAt(2)) << 8 | byteAt(3)) != count) bad(path_, "a row of another length");
+      if ((static_cast<size_t>(byteAt(2)) << 8 | byteAt(3)) != count) bad(path_, "a row has another length");
       left_.remove_prefix(4);
       for (size_t channel = 0; channel < 4; ++channel) readChannel(row, channel);
     } else {

@@ -87,8 +87,9 @@ Setting Trade::settingOf(std::span<const std::string> words) const {
   }
   // The scene is read once for all settings.
   if (options.scene != options_.scene)
-    throw rad::Error(fmt::format("\"{}\" is no option", options.scene.front()));
-  if (options.goals != options_.goals) throw rad::Error("-Sg holds for all settings: give it once");
+    throw rad::Error(fmt::format("\"{}\" is not an option", options.scene.front()));
+  if (options.goals != options_.goals)
+    throw rad::Error("-Sg applies to all settings: give it on the command line");
   setting.options = options;
   setting.options.sphere.everyDirection = false;  // the directions are not used
   return setting;
@@ -151,7 +152,7 @@ std::optional<Reference> Trade::makeReference(Trials& trials, double target) con
   for (uint64_t r = 0; r < kMostRotations; ++r) {
     setting.options.sphere.rotation = kReferenceRotation + r;
     if (!trials.run(setting, false, false, trial, r == 0 ? firstPoints : std::function<void()>())) {
-      messages_.warning(fmt::format("no setting was measured yet: the reference had {} rotations", r));
+      messages_.warning(fmt::format("no setting has been measured yet: the reference had {} rotations", r));
       return std::nullopt;
     }
     reference.emplace(trial.answers);
@@ -197,7 +198,8 @@ void checkPlotName(const std::string& name) {
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (std::find(kOthers.begin(), kOthers.end(), ending) != kOthers.end())
-    throw rad::Error(fmt::format("-Tp \"{}\": the plot is an SVG file: {}.svg", name, name.substr(0, dot)));
+    throw rad::Error(
+        fmt::format("-Tp \"{}\": the plot is an SVG file; use the name {}.svg", name, name.substr(0, dot)));
 }
 
 void writeFile(const std::string& name, const std::string& text) {
@@ -279,7 +281,7 @@ void Trade::run() {
   const double target = options_.referenceError > 0 ? options_.referenceError : accuracy / 10;
   const std::optional<Reference> reference = makeReference(trials, target);
   if (reference && reference->isDark())
-    messages_.warning("no light arrives at the points: no errors to tell");
+    messages_.warning("no light arrives at the points: relative errors are undefined");
   std::vector<Figures> all;
   std::vector<double> costs;
   for (const Setting& setting : parsed) costs.push_back(costOf(setting.options));
@@ -311,7 +313,7 @@ void runTrade(const TradeOptions& options, std::span<const UsedOption> used, con
               StopSignals& signals) {
   if (options.scene.size() < 2)
     throw rad::Error("missing argument: a scene and a file of points are needed; see -help");
-  if (!options.sphereMode) throw rad::Error("-S-: rays have no settings of sphere mode to choose among");
+  if (!options.sphereMode) throw rad::Error("-S-: only settings of sphere mode can be measured");
   checkPlotName(options.plot);
   Trade(options, used, messages, signals).run();
 }

@@ -170,7 +170,7 @@ void Transport::findScatterers(const rad::Warn& warn) {
       if (std::find(own.begin(), own.end(), position) == own.end()) own.push_back(position);
     }
     if (scatterers_.size() > UINT16_MAX)
-      throw rad::Error(scene_.place(m.primitive) + ": more than 65535 light sources are scattered");
+      throw rad::Error(scene_.place(m.primitive) + ": mists name more than 65535 light sources");
   }
 }
 

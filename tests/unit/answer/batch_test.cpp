@@ -172,7 +172,7 @@ TEST(RunRecords, FourOrFiveNumbersOnALineOfPointsAreAFault) {
   EXPECT_EQ(four.fault, "stdin:5: expected 3 numbers on a line, got 4");
   EXPECT_EQ(run({"rsphere", "s.oct"}, "1 2 3 4 5\n").fault, "stdin:1: expected 3 numbers on a line, got 5");
   EXPECT_EQ(run({"rsphere", "s.oct"}, "1 2 3 0 0 1\n").fault,
-            "stdin:1: expected 3 numbers on a line, got 6; -S- reads rays");
+            "stdin:1: expected 3 numbers on a line, got 6; use -S- for rays");
   EXPECT_EQ(run({"rsphere", "s.oct"}, "1 2\n3\n").fault, "stdin:1: expected 3 numbers on a line, got 2");
   EXPECT_EQ(run({"rsphere", "s.oct"}, "1 2 3").fault, "");
 }

@@ -224,7 +224,7 @@ TEST(RecordReader, TextIsToldFromFloatsAndDoubles) {
   EXPECT_FALSE(isText(bytesOf<double>({1.1, 2.2, 3.3, 4.4, 5.5, 6.6}), NumberFormat::float64).first);
   EXPECT_FALSE(isText("", NumberFormat::float32).first);
   EXPECT_EQ(isText("0 0 1 0 0 -1\n", NumberFormat::float32).second,
-            "stdin: record 1: expected 24 bytes, got 13, which are printable: text is read with -fa");
+            "stdin: record 1: expected 24 bytes, got 13, all of them printable: use -fa to read text");
   EXPECT_EQ(isText(std::string(5, '\0'), NumberFormat::float32).second,
             "stdin: record 1: expected 24 bytes, got 5");
 }

@@ -78,7 +78,7 @@ TEST(ParseOptions, ErrorsOfTheCommandLineSayWhy) {
     return fault.substr(0, fault.rfind("; see -help"));
   };
   EXPECT_EQ(why({"rtrace", "-h"}),
-            "missing octree argument: an octree, scene files or a '!command' that makes them come behind the "
+            "missing octree argument: an octree, scene files or a '!command' that makes them come after the "
             "options");
   EXPECT_EQ(why({"rtrace", "-ab", "2.5", "s.oct"}),
             "command line error at '-ab': \"2.5\" is not a whole number of at least 0");
@@ -89,7 +89,7 @@ TEST(ParseOptions, ErrorsOfTheCommandLineSayWhy) {
   EXPECT_EQ(why({"rsphere", "-Sn", "1000000000", "s.oct"}),
             "command line error at '-Sn': 1000000000 is not from 1 to 1000000");
   EXPECT_EQ(why({"rtrace", "-lw", "0,1", "s.oct"}),
-            "command line error at '-lw': \"0,1\" is not a number of at least 0: decimals have a point");
+            "command line error at '-lw': \"0,1\" is not a number of at least 0: use a decimal point");
   EXPECT_EQ(why({"rtrace", "-lw", "-1", "s.oct"}), "command line error at '-lw': -1 is less than 0");
   EXPECT_EQ(why({"rtrace", "-I", "-ab"}),
             "command line error at '-ab': its value is missing (-ab N): the command line ends");
@@ -221,7 +221,7 @@ TEST(ParseOptions, WhatNeedsRaysIsRefusedInSphereMode) {
 TEST(ParseOptions, ABoundOfMemoryIsRefusedWithAnAmbientFile) {
   EXPECT_EQ(parse({"rsphere", "-Sm", "1.5", "s.oct"}).ray.fieldMemory, 1.5);
   EXPECT_EQ(faultOfOptions({"rsphere", "-Sm", "1.5", "-af", "a.af", "s.oct"}),
-            "-Sm and -af: what a file has in it is kept in memory as a whole");
+            "-Sm and -af exclude each other: an ambient file is kept in memory as a whole");
 }
 
 TEST(ParseOptions, MostDirectionsFollowTheBase) {
@@ -263,7 +263,7 @@ TEST(ParseOptions, AmbientModifiersAreOneKindOnly) {
   EXPECT_EQ(faultOfOptions({"rtrace", "-aI", "/tmp", "s.oct"}, rad::Status::system),
             "cannot open ambient include file \"/tmp\": Is a directory");
   EXPECT_EQ(faultOfOptions({"rtrace", "-tE", "/dev/zero", "s.oct"}),
-            "trace exclude file \"/dev/zero\" has too long words");
+            "trace exclude file \"/dev/zero\" has a word that is too long");
 }
 
 TEST(ParseOptions, SceneTakesTheRest) {

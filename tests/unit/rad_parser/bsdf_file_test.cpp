@@ -184,8 +184,8 @@ TEST(BsdfFile, GridsAndBranchesAreTheSame) {
 TEST(BsdfFile, ErrorsHaveTheirPlace) {
   const std::string good = oneMatrix("1 2 3\n4 5 6\n7 8 9");
   ASSERT_EQ(errorOf(good), "no error");
-  EXPECT_EQ(errorOf(""), "a.xml:1: no XML: No document element found");
-  EXPECT_EQ(errorOf("<a>\n</b>"), "a.xml:2: no XML: Start-end tags mismatch");
+  EXPECT_EQ(errorOf(""), "a.xml:1: not XML: No document element found");
+  EXPECT_EQ(errorOf("<a>\n</b>"), "a.xml:2: not XML: Start-end tags mismatch");
   EXPECT_EQ(errorOf("\n<Window/>"), "a.xml:2: expected a WindowElement, got \"Window\"");
   EXPECT_EQ(errorOf("<WindowElement>\n<FileType>MGF</FileType></WindowElement>"),
             "a.xml:2: expected the FileType BSDF, got \"MGF\"");
@@ -197,13 +197,13 @@ TEST(BsdfFile, ErrorsHaveTheirPlace) {
   EXPECT_EQ(errorOf(oneMatrix("1", "<ColumnAngleBasis>round</ColumnAngleBasis>")),
             "a.xml:21: undefined ColumnAngleBasis \"round\"");
   EXPECT_EQ(errorOf(oneMatrix("1 2 3\n4 5 6\n7 8      ")),
-            "a.xml:25: expected a number of the scattering data, got its end");
+            "a.xml:25: expected a number in the scattering data, got its end");
   EXPECT_EQ(errorOf(oneMatrix("1 2 3\n4 x5 6\n7 8 9")),
-            "a.xml:24: expected a number of the scattering data, got \"x5\"");
+            "a.xml:24: expected a number in the scattering data, got \"x5\"");
   EXPECT_EQ(errorOf(oneMatrix("1 2 3\n4 1e39 6\n7 8 9")),
-            "a.xml:24: expected a number of the scattering data, got \"1e39\"");
+            "a.xml:24: expected a number in the scattering data, got \"1e39\"");
   EXPECT_EQ(errorOf(oneMatrix("1 nan 3\n4 5 6\n7 8 9")),
-            "a.xml:23: expected a number of the scattering data, got \"nan\"");
+            "a.xml:23: expected a number in the scattering data, got \"nan\"");
   EXPECT_EQ(errorOf(oneMatrix("1 2 3")), "a.xml:22: fewer numbers than the 3 by 3 of the angle bases");
   EXPECT_EQ(errorOf(oneMatrix("")), "a.xml:22: no scattering data");
 }
@@ -216,13 +216,13 @@ TEST(BsdfFile, AngleBasesMustCoverWhatTheySay) {
   };
   EXPECT_EQ(basis(block(0, 0, 30, 1) + block(60, 30, 90, 4)), "no error");
   EXPECT_EQ(basis(block(0, 0, 30, 1) + block(60, 40, 90, 4)),
-            "a.xml:11: a ring begins where the one before does not end");
+            "a.xml:11: a ring does not begin where the one before it ends");
   EXPECT_EQ(basis(block(0, 0, 30, 1) + block(60, 30, 30, 4)), "a.xml:11: a ring ends before it begins");
   EXPECT_EQ(basis(block(0, 0, 91, 1)), "a.xml:10: expected an angle from 0 to 90 as UpperTheta");
   EXPECT_EQ(basis(block(0, 0, 30, 0)),
-            "a.xml:10: expected a number of azimuths as nPhis, 2 at least but about the normal");
+            "a.xml:10: expected the number of azimuths as nPhis, at least 2 except around the normal");
   EXPECT_EQ(basis(block(0, 0, 30, 1) + block(60, 30, 90, 1)),
-            "a.xml:11: expected a number of azimuths as nPhis, 2 at least but about the normal");
+            "a.xml:11: expected the number of azimuths as nPhis, at least 2 except around the normal");
   EXPECT_EQ(basis(""), "a.xml:9: an angle basis without blocks");
   // Sizes that a file of this length cannot contain.
   EXPECT_EQ(
@@ -241,20 +241,21 @@ TEST(BsdfFile, DoubtsAreWarnedOf) {
                                  "<AngleBasis><AngleBasisName>LBNL/Klems Half</AngleBasisName>\n" +
                                  block(0, 0, 90, 1) + "</AngleBasis>\n";
   EXPECT_EQ(warningsOf(xml(definition, "")),
-            std::vector<std::string>{"a.xml:9: other angles than those of LBNL/Klems Half, which count"});
+            std::vector<std::string>{
+                "a.xml:9: the angles differ from those of LBNL/Klems Half, which are used instead"});
 }
 
 TEST(BsdfFile, TreesThatAreWrong) {
   EXPECT_EQ(errorOf(oneTree("{1}\n{2}")), "a.xml:17: expected the end of the tensor tree");
   EXPECT_EQ(errorOf(oneTree("1")), "a.xml:16: expected '{' in the tensor tree");
-  EXPECT_EQ(errorOf(oneTree("{1 2}")), "a.xml:16: 2 values are no grid of 4 dimensions");
-  EXPECT_EQ(errorOf(oneTree("{}")), "a.xml:16: 0 values are no grid of 4 dimensions");
+  EXPECT_EQ(errorOf(oneTree("{1 2}")), "a.xml:16: 2 values do not form a grid of 4 dimensions");
+  EXPECT_EQ(errorOf(oneTree("{}")), "a.xml:16: 0 values do not form a grid of 4 dimensions");
   EXPECT_EQ(errorOf(oneTree("{{1}{2}}", kTree3)), "a.xml:16: expected '{' in the tensor tree");
   EXPECT_EQ(errorOf(oneTree("{1")), "a.xml:16: expected '}' in the tensor tree");
   EXPECT_EQ(errorOf(xml(kTree3, band("Visible", "Transmission Front", "", "{1}"))),
             "a.xml:12: expected the AngleBasis LBNL/Shirley-Chiu, got \"\"");
   // Neither depth nor breadth may take unlimited stack or memory.
-  EXPECT_EQ(errorOf(oneTree(std::string(1 << 20, '{'))), "a.xml:16: too deep a tensor tree");
+  EXPECT_EQ(errorOf(oneTree(std::string(1 << 20, '{'))), "a.xml:16: the tensor tree is too deep");
 }
 
 // A file that is cut off anywhere causes an error with a place, or none if the missing part is not needed.

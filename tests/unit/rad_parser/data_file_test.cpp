@@ -76,7 +76,7 @@ TEST(DataFile, ErrorsHaveTheirPlace) {
   EXPECT_EQ(errorOf("1\n0 1 2000000000\n1 2"),
             "grid.dat:2: fewer values in the file than its grid has points");
   EXPECT_EQ(errorOf("1\n0 0 3\n1 2 2\n1 2 3"),
-            "grid.dat:3: expected divisions that rise or that fall throughout");
+            "grid.dat:3: expected divisions in ascending or descending order");
   EXPECT_EQ(errorOf("1\n0 1 2\n1e300 2"), "grid.dat:3: a value is too large");
   EXPECT_EQ(errorOf("1\n0 1 2\n1 2 and more"), "no error");
 }

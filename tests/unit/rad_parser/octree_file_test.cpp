@@ -135,7 +135,7 @@ TEST(OctreeFile, NamedFilesAreReadFromWhereItWasMade) {
   EXPECT_EQ(errorOf([] { readFile(fixture("named.oct")); }, Status::system),
             "every.rad (from " + fixture("named.oct") +
                 "): cannot open scene file: No such file or directory (an octree that is not frozen is used "
-                "where it was made)");
+                "in the folder that it was made in)");
 }
 
 TEST(OctreeFile, NamedFilesThatChangedAreStale) {
@@ -168,7 +168,7 @@ TEST(OctreeFile, FromACommand) {
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_TRUE(warnings[0].ends_with("\": exit status 4")) << warnings[0];
   constexpr std::string_view kWhatToDo =
-      "; a command that is given as the scene writes an octree or scene text on standard output";
+      "; a command that is given as the scene must write an octree or scene text to standard output";
   EXPECT_EQ(errorOf([] { readFile("!false"); }),
             fmt::format("!false: not an octree: 0 bytes, exit status 1{}", kWhatToDo));
   EXPECT_EQ(errorOf([] { readFile("!:"); }), fmt::format("!:: not an octree: 0 bytes{}", kWhatToDo));
@@ -286,7 +286,7 @@ TEST(OctreeFile, WhatIsNoOctree) {
   EXPECT_EQ(errorOf([&] {
               rad::readScene(std::vector{text, fixture("frozen.oct")});
             }),
-            fixture("frozen.oct") + ": an octree is a whole scene: it cannot be one among several");
+            fixture("frozen.oct") + ": an octree is a whole scene: it cannot be combined with other files");
   EXPECT_EQ(readFile(folder.write("note.rad", "#? no header\nvoid plastic m 0 0 0")).primitives.size(), 1u);
 }
 
@@ -305,8 +305,8 @@ TEST(OctreeFile, AliasesByNumber) {
   EXPECT_EQ(d.primitives.at(3).modifier, kVoid);
   EXPECT_EQ(d.string(d.primitives.at(3), 0), "mat");
   EXPECT_NE(errorOfBytes(alias(-1)).find("an alias of nothing at byte"), std::string::npos);
-  EXPECT_NE(errorOfBytes(alias(1)).find("t.oct: object 4: object 2 is no modifier"), std::string::npos);
-  EXPECT_NE(errorOfBytes(alias(3)).find("t.oct: object 4: modifier 4 is not before it"), std::string::npos);
+  EXPECT_NE(errorOfBytes(alias(1)).find("t.oct: object 4: object 2 is not a modifier"), std::string::npos);
+  EXPECT_NE(errorOfBytes(alias(3)).find("t.oct: object 4: modifier 4 does not precede it"), std::string::npos);
   EXPECT_NE(errorOfBytes(alias(-2)), "");
 }
 
@@ -318,9 +318,9 @@ TEST(OctreeFile, UnknownTypesAreAWarningUntilUsed) {
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_TRUE(warnings[0].ends_with("t.oct: unknown type \"tesseract\"")) << warnings[0];
   data.types = std::string("tesseract\0plastic\0alias\0\0", 25);
-  EXPECT_TRUE(errorOfBytes(data.bytes()).starts_with("t.oct: object 2: of a type that is not known here"));
+  EXPECT_TRUE(errorOfBytes(data.bytes()).starts_with("t.oct: object 2: unknown type"));
   data.types = std::string("sphere\0\0", 8);
-  EXPECT_TRUE(errorOfBytes(data.bytes()).starts_with("t.oct: object 1: type 1 (byte"));
+  EXPECT_TRUE(errorOfBytes(data.bytes()).starts_with("t.oct: object 1: unknown type number 1 (byte"));
 }
 
 TEST(OctreeFile, DamagedCells) {
@@ -344,7 +344,7 @@ TEST(OctreeFile, DamagedCells) {
   EXPECT_NE(with(leaf({-1})).find("damaged octree: a leaf of negative size"), std::string::npos);
   EXPECT_NE(with("\3").find("damaged octree at byte"), std::string::npos);
   data.objects = 4;
-  EXPECT_NE(with(leaf({0})).find("damaged octree: 3 objects in place of 4"), std::string::npos);
+  EXPECT_NE(with(leaf({0})).find("damaged octree: 3 objects instead of 4"), std::string::npos);
 }
 
 // Data that are announced but missing are an error as soon as the data end, whatever was announced.
@@ -352,7 +352,7 @@ TEST(OctreeFile, HostileCounts) {
   OctreeData data;
   data.width = 8;
   data.objects = std::numeric_limits<int32_t>::max();
-  EXPECT_NE(errorOfBytes(data.bytes()).find("damaged octree: 3 objects in place of 2147483647"),
+  EXPECT_NE(errorOfBytes(data.bytes()).find("damaged octree: 3 objects instead of 2147483647"),
             std::string::npos);
   data.objects = int64_t{1} << 40;
   EXPECT_NE(errorOfBytes(data.bytes()).find("damaged octree: 1099511627776 objects"), std::string::npos);

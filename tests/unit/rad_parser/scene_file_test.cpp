@@ -132,9 +132,9 @@ TEST(SceneFile, FaultsAndTheirPlaces) {
   EXPECT_EQ(errorOfText("void alias a a"), "room.rad:1: alias \"a\": undefined modifier \"a\"");
   EXPECT_EQ(errorOfText("void sphere 'a\tb' 0 0 0"), "room.rad:1: tab in name \"a?b\"");
   EXPECT_EQ(errorOfText("void sphere s x 0 0"),
-            "room.rad:1: sphere \"s\": expected the number of string arguments, not \"x\"");
+            "room.rad:1: sphere \"s\": expected the number of string arguments, got \"x\"");
   EXPECT_EQ(errorOfText("void sphere s 0 0\n4.0 1 2 3 4"),
-            "room.rad:2: sphere \"s\": expected the number of real arguments, not \"4.0\"");
+            "room.rad:2: sphere \"s\": expected the number of real arguments, got \"4.0\"");
   EXPECT_EQ(errorOfText("void sphere s 0 1 7 0"),
             "room.rad:1: sphere \"s\": 1 integer arguments, but no type has any");
   EXPECT_EQ(errorOfText("void sphere s 0 0 4 1 2\n3,5 1"),
@@ -151,7 +151,7 @@ TEST(SceneFile, TruncatedTextsAreErrorsAtThePrimitive) {
     EXPECT_EQ(error.substr(0, 12), "room.rad:2: ") << length << " " << error;
   }
   EXPECT_EQ(errorOfText("void sphere s 0 0 4 1 2"), "room.rad:1: text ends within sphere \"s\"");
-  EXPECT_EQ(errorOfText("void"), "room.rad:1: text ends behind \"void\"");
+  EXPECT_EQ(errorOfText("void"), "room.rad:1: text ends after \"void\"");
 }
 
 TEST(SceneFile, HostileCounts) {
@@ -162,7 +162,7 @@ TEST(SceneFile, HostileCounts) {
   EXPECT_EQ(errorOfText("void polygon p 0 0 2147483647 1 2 3"), "room.rad:1: text ends within polygon \"p\"");
   EXPECT_EQ(
       errorOfText("void polygon p 0 0 99999999999999999999999 1"),
-      "room.rad:1: polygon \"p\": expected the number of real arguments, not \"99999999999999999999999\"");
+      "room.rad:1: polygon \"p\": expected the number of real arguments, got \"99999999999999999999999\"");
 }
 
 TEST(SceneFile, HostileBytes) {
@@ -170,14 +170,14 @@ TEST(SceneFile, HostileBytes) {
   EXPECT_EQ(errorOfText("void sphere\n s\0 0 0 0"sv), "room.rad:2: NUL byte: this is not scene text");
   EXPECT_EQ(errorOfText("void sphere 's\0' 0 0 0"sv), "room.rad:1: NUL byte: this is not scene text");
   EXPECT_EQ(errorOfText("# \0 in a comment is harmless\n"sv), "");
-  EXPECT_EQ(errorOfText("void sphere 'abc"), "room.rad:1: quote that is not closed: '");
+  EXPECT_EQ(errorOfText("void sphere 'abc"), "room.rad:1: unclosed quote: '");
   const std::string longWord(70000, 'x');
-  EXPECT_EQ(errorOfText(longWord), "room.rad:1: word of more than 65536 bytes: \"xxxxxxxxxxxxxxxxxxxx...\"");
+  EXPECT_EQ(errorOfText(longWord), "room.rad:1: word longer than 65536 bytes: \"xxxxxxxxxxxxxxxxxxxx...\"");
   EXPECT_EQ(errorOfText("'" + longWord),
-            "room.rad:1: word of more than 65536 bytes: \"xxxxxxxxxxxxxxxxxxxx...\"");
+            "room.rad:1: word longer than 65536 bytes: \"xxxxxxxxxxxxxxxxxxxx...\"");
   EXPECT_EQ(errorOfText("\x01\x02\x1b[31m\xff x y"), "room.rad:1: undefined modifier \"???[31m\xff\"");
   EXPECT_LT(errorOfText("void sphere " + std::string(60000, 'y') + " 0 0 x").size(), 200u);
-  EXPECT_EQ(errorOfText("!" + std::string(2 << 20, 'x')), "room.rad:1: command of more than 1048576 bytes");
+  EXPECT_EQ(errorOfText("!" + std::string(2 << 20, 'x')), "room.rad:1: command longer than 1048576 bytes");
 }
 
 // Any bytes are read, or refused with one line that contains a place. Sanitizers detect other faults.
@@ -430,7 +430,7 @@ TEST(SceneFile, ACommandThatReadsItsOwnFileEndsInAnError) {
   const std::string file = folder.write("self.rad", "");
   folder.write("self.rad", fmt::format("!cat {}\n", file));
   const std::string error = errorOf([&] { readFile(file); });
-  EXPECT_NE(error.find("100 files and commands within each other"), error.npos) << error;
+  EXPECT_NE(error.find("100 nested files and commands"), error.npos) << error;
 }
 
 TEST(SceneFile, PlacesShowTheirChainCut) {

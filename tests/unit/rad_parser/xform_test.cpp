@@ -260,7 +260,7 @@ TEST(Xform, FaultsHaveThePlaceOfTheCommand) {
   EXPECT_EQ(errorOf([] { readText("!xform -mx no/such.rad\n"); }, rad::Status::system),
             "room.rad:1: xform: cannot find file \"no/such.rad\"" + rad::FileAccess().remark("no/such.rad"));
   EXPECT_EQ(fault("-s 1e308 -s 10 {0}").substr(folder.path("p.rad").size()),
-            ":1 (from room.rad:2): polygon \"p\": transformed arguments are no finite numbers");
+            ":1 (from room.rad:2): polygon \"p\": transformed arguments are not finite numbers");
 }
 
 TEST(Xform, PrimitivesThatCannotBeTransformed) {
@@ -278,7 +278,7 @@ TEST(Xform, AFileThatReadsItselfEndsInAnError) {
   const std::string file = folder.write("self.rad", "");
   folder.write("self.rad", fmt::format("void sphere s 0 0 4 0 0 0 1\n!xform -t 1 0 0 {}\n", file));
   const std::string error = errorOf([&] { readFile(file); });
-  EXPECT_NE(error.find("100 files and commands within each other"), error.npos) << error;
+  EXPECT_NE(error.find("100 nested files and commands"), error.npos) << error;
   EXPECT_LT(error.size(), 1000u);
   EXPECT_EQ(error.substr(0, file.size() + 3), file + ":2 ");
 
@@ -286,7 +286,7 @@ TEST(Xform, AFileThatReadsItselfEndsInAnError) {
   folder.write("self.txt", fmt::format("-f {}\n", list));
   EXPECT_NE(errorOf([&] {
               readFile(fmt::format("!xform -f {} {}", list, file));
-            }).find(":1: xform: argument files within each other without end"),
+            }).find(":1: xform: argument files include each other without end"),
             std::string::npos);
 }
 

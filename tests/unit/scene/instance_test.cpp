@@ -86,7 +86,7 @@ TEST(Instances, WithinThemselvesAreRefused) {
   const std::string a = folder.path("a.oct");
   folder.octree("b.oct", instance(a));
   folder.octree("a.oct", instance(folder.path("b.oct")));
-  EXPECT_TRUE(fault(instance(a)).ends_with("instance \"placed\": an octree within itself"))
+  EXPECT_TRUE(fault(instance(a)).ends_with("instance \"placed\": an octree contains itself"))
       << fault(instance(a));
 }
 
@@ -96,7 +96,7 @@ TEST(Instances, GoSixteenDeep) {
   for (int i = 1; i < 16; ++i) oct = folder.octree(std::to_string(i) + ".oct", instance(oct, "-t 1 0 0"));
   EXPECT_EQ(fault(instance(oct)), "");
   oct = folder.octree("16.oct", instance(oct));
-  EXPECT_TRUE(fault(instance(oct)).ends_with("octrees within each other more than 16 deep"));
+  EXPECT_TRUE(fault(instance(oct)).ends_with("octrees are nested more than 16 deep"));
 }
 
 TEST(Instances, DistantSourcesInOctreesAreLeftOut) {
@@ -114,7 +114,7 @@ TEST(Instances, WhatIsWrongWithThem) {
   EXPECT_EQ(fault("void instance a\n0\n0\n0\n"), "room.rad:1: instance \"a\": expected a file name");
   EXPECT_EQ(fault(instance(oct, "-t 1 2")), "room.rad:1: instance \"placed\": bad transform");
   EXPECT_EQ(fault(instance(oct, "-s 1e-200")),
-            "room.rad:1: instance \"placed\": a transform beyond the range of numbers");
+            "room.rad:1: instance \"placed\": the transform exceeds the range of numbers");
   EXPECT_EQ(fault(instance("none.oct"), rad::Status::system), "none.oct: cannot find octree file" +
                                                                   rad::FileAccess().remark("none.oct") +
                                                                   " (from room.rad:1: instance \"placed\")");
@@ -123,7 +123,7 @@ TEST(Instances, WhatIsWrongWithThem) {
                 " (from room.rad:1: mesh \"placed\")");
   const std::string light = "void light lamp\n0\n0\n3 1 1 1\n";
   EXPECT_EQ(fault(light + instance(oct, "0", "lamp")),
-            "room.rad:5: instance \"placed\": a light source's material on a surface that cannot be one");
+            "room.rad:5: instance \"placed\": a surface of this type cannot be a light source");
 }
 
 TEST(Meshes, TrianglesOfEachMaterialAreASurface) {

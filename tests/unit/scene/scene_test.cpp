@@ -94,9 +94,9 @@ TEST(Scene, RefusesWhatItCannotAnswerRightly) {
   const std::vector<Fault> faults = {
       {"gray sphere s\n0\n0\n4 0 0 0 0\n", "room.rad:5: sphere \"s\": zero radius"},
       {"gray polygon s\n0\n0\n6 0 0 0 1 0 0\n",
-       "room.rad:5: polygon \"s\": expected 9 or more coordinates by threes, got 6"},
+       "room.rad:5: polygon \"s\": expected at least 9 coordinates in threes, got 6"},
       {"gray polygon s\n0\n0\n10 0 0 0 1 0 0 1 1 0 1\n",
-       "room.rad:5: polygon \"s\": expected 9 or more coordinates by threes, got 10"},
+       "room.rad:5: polygon \"s\": expected at least 9 coordinates in threes, got 10"},
       {"gray sphere s\n0\n0\n3 0 0 0\n", "room.rad:5: sphere \"s\": expected 4 real arguments, got 3"},
       {"gray ring s\n0\n0\n7 0 0 0 0 0 1 1\n", "room.rad:5: ring \"s\": expected 8 real arguments, got 7"},
       {"gray source s\n0\n0\n4 0 0 0 1\n", "room.rad:5: source \"s\": zero direction"},
@@ -120,7 +120,7 @@ TEST(Scene, RefusesWhatItCannotAnswerRightly) {
       {"void light l\n0\n0\n3 1 1 1\nl bubble s\n0\n0\n4 0 0 0 1\n",
        "room.rad:9: bubble \"s\": a bubble cannot be a light source"},
       {"void light l\n0\n0\n3 1 1 1\nl cone s\n0\n0\n8 0 0 0 0 0 1 1 2\n",
-       "room.rad:9: cone \"s\": only a cylinder of this kind can be a light source"},
+       "room.rad:9: cone \"s\": a cone, cup or tube cannot be a light source"},
       {"void light l\n0\n0\n3 1 1 1\nl polygon s\n0\n0\n"
        "24 0 0 0 3 0 0 3 3 0 2 3 0 2 1 0 1 1 0 1 3 0 0 3 0\n",
        "room.rad:9: polygon \"s\": cannot hit source center"},

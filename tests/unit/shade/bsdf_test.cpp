@@ -285,8 +285,7 @@ TEST(Bsdf, IsotropicDataGoOneWay) {
   EXPECT_EQ(value(data, front, back), value(data, back, front));
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings[0],
-            "a.xml: no back transmission, and isotropic data of the other side do not tell how it is "
-            "scattered");
+            "a.xml: no back transmission, and isotropic data of the other side do not determine it");
 }
 
 TEST(Bsdf, WarnsOfMoreThanAllLight) {
@@ -294,7 +293,7 @@ TEST(Bsdf, WarnsOfMoreThanAllLight) {
   dataOf(bsdfXml("TensorTree4", treeBlock("Visible", "Reflection Back", 4, 1, .5, lobe(.3, 1, .5))),
          &warnings);
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_TRUE(warnings[0].ends_with("% front reflection")) << warnings[0];
+  EXPECT_TRUE(warnings[0].ends_with("% of the light")) << warnings[0];
 }
 
 // A narrow peak is what goes straight on; a wide lobe is none.

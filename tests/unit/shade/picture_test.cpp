@@ -164,7 +164,7 @@ std::string errorOf(const std::string& bytes) {
 }
 
 TEST(Picture, BadFilesAreSaidToBe) {
-  EXPECT_EQ(errorOf("GIF89a"), ": bad picture file: no end of its header");
+  EXPECT_EQ(errorOf("GIF89a"), ": bad picture file: its header does not end");
   EXPECT_EQ(errorOf("#?RADIANCE\nFORMAT=Radiance_spectra\n\n-Y 1 +X 1\n1234"),
             ": bad picture file: neither RGBE nor XYZE");
   EXPECT_EQ(errorOf("#?RADIANCE\n\n-Y 1 +Y 1\n1234"), ": bad picture file: no resolution");

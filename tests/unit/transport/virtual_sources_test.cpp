@@ -185,7 +185,7 @@ TEST(VirtualSource, MirrorsThatAreNotPlaneAreWarnedOf) {
   EXPECT_TRUE(warnings.empty());
   const Transport relays(scene, relaying(1), IrradianceAt::none, false, warn);
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("sphere \"ball\": only plane surfaces relay light"), std::string::npos)
+  EXPECT_NE(warnings[0].find("sphere \"ball\": only plane surfaces make virtual sources"), std::string::npos)
       << warnings[0];
 }
 

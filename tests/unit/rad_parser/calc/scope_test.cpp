@@ -84,7 +84,7 @@ TEST(CalcScope, ConstantsKeepTheValueOfTheirPlace) {
 TEST(CalcScope, ConstantsOfARayAreRefusedWhereTheyAreUsed) {
   Files files;
   files.hosts = {{"ray", 1, 1, [](const Point& at, std::span<const double>) { return at.inputs[0]; }}};
-  const std::string why = ": constant expression uses what depends on the ray or the primitive";
+  const std::string why = ": constant expression depends on the ray or the primitive";
   files.files["a.cal"] =
       "k : x; f(t) : x*t; chosen(t) : if(t, 2, x); m = y; km : m; late : further; further = 4; a : arg(1); h "
       ": ray(1); c : $1; v = 1;";

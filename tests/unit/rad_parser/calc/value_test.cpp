@@ -207,12 +207,12 @@ TEST(CalcValue, EndlessRecursionIsAnError) {
   files.files["c.cal"] =
       "f(n) = f(n+1);\ng(n) = h(n)+1; h(n) = g(n);\na = b; b = a;\nt(n) = t(n)+t(n+1);\n"
       "c : k(1); k(n) : k(n);\nboth(n) = if(n-1, both(n-1)+both(n-2), 1);\ndown(n) = if(n, 1+down(n-1), 0);";
-  const std::string end = "recursion that is too deep or endless";
+  const std::string end = "recursion is too deep or endless";
   EXPECT_EQ(files.error("c.cal", "f(x)"), "c.cal:1: f(): " + end);
   EXPECT_EQ(files.error("c.cal", "f(1)"), "c.cal:1: f(): " + end);
   EXPECT_NE(files.error("c.cal", "g(x)").find(end), std::string::npos);
   EXPECT_EQ(files.error("c.cal", "t(x)"), "c.cal:4: t(): " + end);
-  EXPECT_NE(files.error("c.cal", "a").find("is defined by itself"), std::string::npos);
+  EXPECT_NE(files.error("c.cal", "a").find("is defined in terms of itself"), std::string::npos);
   EXPECT_EQ(files.value("c.cal", "down(y*180000)"), 90000);
   // The recursion is not deep, but has about 1e12 calls.
   EXPECT_EQ(files.error("c.cal", "both(y*120)"), "c.cal:6: both(): more than 20000000 calls");
