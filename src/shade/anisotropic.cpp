@@ -205,26 +205,26 @@ AnisotropicScattering scatter(const WgmdFunction& m, const WgmdComponent& reflec
   return s;
 }
 
-Rgb directCoefficient(const AnisotropicScattering& s, const V3d& direction, const V3d& toSource,
-                      double solidAngle, double sourceJitter) {
-  Rgb sum(0, 0, 0);
+Coefficient directCoefficient(const AnisotropicScattering& s, const V3d& direction, const V3d& toSource,
+                              double solidAngle, double sourceJitter) {
+  Coefficient sum;
   const double enters = s.polished ? 1 - fresnelRise(std::abs(s.polishedNormal.dot(toSource))) : 1;
   const double before = s.reflection.normal.dot(toSource), beyond = -s.transmission.normal.dot(toSource);
-  if (before > kNegligible) sum += s.reflection.share * (enters * before * solidAngle / kPi);
-  if (beyond > kNegligible) sum += s.transmission.share * (enters * beyond * solidAngle / kPi);
+  if (before > kNegligible) sum.rgb += s.reflection.share * (enters * before * solidAngle / kPi);
+  if (beyond > kNegligible) sum.rgb += s.transmission.share * (enters * beyond * solidAngle / kPi);
   if (maxChannel(s.reflected.share) > 0) {
     const double cosine = s.reflected.normal.dot(toSource);
     if (cosine > kNegligible) {
       const double widening = s.widenReflection ? (1 - sourceJitter) * solidAngle * .25 / kPi : 0;
       const double lobe = reflectedLobe(s.reflected, direction, toSource, widening);
-      if (lobe > kNegligible) sum += s.reflected.share * (lobe * cosine * solidAngle);
+      if (lobe > kNegligible) sum.rgb += s.reflected.share * (lobe * cosine * solidAngle);
     }
   }
   if (maxChannel(s.transmitted.share) > 0) {
     const double cosine = -s.transmitted.normal.dot(toSource);
     if (cosine > kNegligible) {
       const double lobe = transmittedLobe(s.transmitted, toSource, cosine, solidAngle);
-      if (lobe > kNegligible) sum += s.transmitted.share * (lobe * solidAngle);
+      if (lobe > kNegligible) sum.rgb += s.transmitted.share * (lobe * solidAngle);
     }
   }
   return sum;
@@ -268,11 +268,11 @@ AshikhminScattering scatter(const Ashikhmin& m, const Interaction& at, const V3d
   return s;
 }
 
-Rgb directCoefficient(const AshikhminScattering& s, const V3d& direction, const V3d& toSource,
-                      double solidAngle) {
+Coefficient directCoefficient(const AshikhminScattering& s, const V3d& direction, const V3d& toSource,
+                              double solidAngle) {
   const double cosine = s.reflection.normal.dot(toSource);
-  if (cosine <= kNegligible) return Rgb(0, 0, 0);
-  Rgb sum = s.reflection.share * ((1 - schlick(cosine)) * cosine * solidAngle / kPi);
+  if (cosine <= kNegligible) return {};
+  Coefficient sum(s.reflection.share * ((1 - schlick(cosine)) * cosine * solidAngle / kPi));
   if (maxChannel(s.share) > 0) {
     const V3d half = (toSource - direction).normalized();
     const double up = half.dot(s.reflection.normal);
@@ -282,7 +282,7 @@ Rgb directCoefficient(const AshikhminScattering& s, const V3d& direction, const 
     const double power = within > 0 ? (s.powerAlong * a * a + s.powerAcross * b * b) / within : 0;
     const double lobe = std::pow(up, power) * std::sqrt((s.powerAlong + 1) * (s.powerAcross + 1)) /
                         (8 * kPi * toSource.dot(half) * std::max(cosine, s.cosine));
-    if (lobe > kNegligible) sum += s.share * (lobe * cosine * solidAngle);
+    if (lobe > kNegligible) sum.rgb += s.share * (lobe * cosine * solidAngle);
   }
   return sum;
 }

@@ -71,8 +71,8 @@ AnisotropicScattering scatter(const WgmdFunction& material, const WgmdComponent&
 // Like the functions of scattering.h, but with the normal of each lobe. The transmitted lobe is that of the
 // manual ("Behavior of Materials in RADIANCE"). The density of its samples deviates from it by an error of
 // the order of the squared roughness.
-Rgb directCoefficient(const AnisotropicScattering& scattering, const V3d& direction, const V3d& toSource,
-                      double solidAngle, double sourceJitter);
+Coefficient directCoefficient(const AnisotropicScattering& scattering, const V3d& direction,
+                              const V3d& toSource, double solidAngle, double sourceJitter);
 double sampleReflection(const EllipticLobe& lobe, const Interaction& at, double spread, double u1, double u2,
                         V3d& direction);
 double sampleTransmission(const EllipticLobe& lobe, const Interaction& at, double spread, double u1,
@@ -93,8 +93,8 @@ struct AshikhminScattering {
 // light not at all. The albedo can therefore exceed 1 at grazing angles by (1 - specular) (1 - c)^5.
 AshikhminScattering scatter(const Ashikhmin& material, const Interaction& at, const V3d& along,
                             double specularThreshold);
-Rgb directCoefficient(const AshikhminScattering& scattering, const V3d& direction, const V3d& toSource,
-                      double solidAngle);
+Coefficient directCoefficient(const AshikhminScattering& scattering, const V3d& direction,
+                              const V3d& toSource, double solidAngle);
 // Samples the whole lobe by half vectors, the paper's eq. (6) and (8); -ss does not narrow it. Returns false
 // if the sample lies below the surface; RADIANCE then draws another. As in RADIANCE, every sample has weight
 // 1 instead of min(1, cosine out / cosine in), the weight with which the mean would be that of the lobe for

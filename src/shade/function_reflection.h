@@ -37,16 +37,16 @@ SharpPath sharpReflection(const FunctionScattering& scattering, const Interactio
 // The share of a source's radiance that is scattered towards the ray's origin; see scattering.h.
 // distribution: returns the functions' values (1/sr); it is called at most once.
 template <class Distribution>
-Rgb directCoefficient(const FunctionScattering& s, const V3d& toSource, double solidAngle,
-                      const Distribution& distribution) {
+Coefficient directCoefficient(const FunctionScattering& s, const V3d& toSource, double solidAngle,
+                              const Distribution& distribution) {
   const double cosine = s.normal.dot(toSource);
-  if (std::abs(cosine) <= kNegligible) return Rgb(0, 0, 0);
+  if (std::abs(cosine) <= kNegligible) return {};
   const double projected = std::abs(cosine) * solidAngle;
-  Rgb sum = (cosine > 0 ? s.diffuseReflection : s.diffuseTransmission) * (kPerPi * projected);
+  Coefficient sum((cosine > 0 ? s.diffuseReflection : s.diffuseTransmission) * (kPerPi * projected));
   const Rgb& directional = cosine > 0 ? s.directionalReflection : s.directionalTransmission;
   if (maxChannel(directional) > kNegligible) {
     const Rgb value = distribution();
-    if (brightness(value) > kNegligible) sum += value * directional * projected;
+    if (brightness(value) > kNegligible) sum.rgb += value * directional * projected;
   }
   return sum;
 }

@@ -247,13 +247,13 @@ Scattering scatter(const Mirror& material, const Interaction& at) {
   return s;
 }
 
-Rgb directCoefficient(const Scattering& s, const Interaction& at, const V3d& toSource, double solidAngle,
-                      double sourceJitter) {
-  Rgb sum(0, 0, 0);
+Coefficient directCoefficient(const Scattering& s, const Interaction& at, const V3d& toSource,
+                              double solidAngle, double sourceJitter) {
+  Coefficient sum;
   const double cosine = s.normal.dot(toSource);
   const double enters = s.diffuseFresnel > 0 ? 1 - fresnelRise(std::abs(cosine)) : 1;
   if (cosine > kNegligible) {
-    sum += s.diffuseReflection * (enters * cosine * solidAngle * kPerPi);
+    sum.rgb += s.diffuseReflection * (enters * cosine * solidAngle * kPerPi);
     if (maxChannel(s.specularReflection) > 0) {
       double alpha2 = s.alpha2;
       if (s.widenReflection) alpha2 += (1 - sourceJitter) * solidAngle * .25 / kPi;
@@ -262,15 +262,15 @@ Rgb directCoefficient(const Scattering& s, const Interaction& at, const V3d& toS
       const double along2 = along * along, length2 = half.length2();
       const double tangent2 = (length2 - along2) / along2;
       const double lobe = std::exp(-tangent2 / alpha2) * length2 / (kPi * along2 * along2 * alpha2);
-      if (lobe > kNegligible) sum += s.specularReflection * (lobe * cosine * solidAngle);
+      if (lobe > kNegligible) sum.rgb += s.specularReflection * (lobe * cosine * solidAngle);
     }
   } else if (cosine < -kNegligible) {
-    sum += s.diffuseTransmission * (enters * -cosine * solidAngle * kPerPi);
+    sum.rgb += s.diffuseTransmission * (enters * -cosine * solidAngle * kPerPi);
     if (maxChannel(s.specularTransmission) > 0) {
       const double alpha2 = s.alpha2 + solidAngle / kPi;
       const double lobe = std::exp((2 * s.transmitted.dot(toSource) - 2) / alpha2) / (kPi * alpha2);
       if (lobe > kNegligible)
-        sum += s.specularTransmission * (lobe * solidAngle * std::sqrt(-cosine / s.cosine));
+        sum.rgb += s.specularTransmission * (lobe * solidAngle * std::sqrt(-cosine / s.cosine));
     }
   }
   return sum;

@@ -102,7 +102,7 @@ class RoundScattering {
   // What transmits no light is lit from its front alone.
   const V3d& front() const { return transmits_ ? kNoFront : scattering_.normal; }
   Coefficient coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
-    return Coefficient(directCoefficient(scattering_, at_, toSource, solidAngle, sourceJitter_));
+    return directCoefficient(scattering_, at_, toSource, solidAngle, sourceJitter_);
   }
   bool isEven() const;
 
@@ -155,7 +155,7 @@ class EllipticScattering {
   bool takesDirect(Component component) const { return component == Component::transmitted; }
   const V3d& front() const { return kNoFront; }
   Coefficient coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
-    return Coefficient(directCoefficient(scattering_, at_.direction, toSource, solidAngle, sourceJitter_));
+    return directCoefficient(scattering_, at_.direction, toSource, solidAngle, sourceJitter_);
   }
   bool isEven() const { return false; }
 
@@ -189,7 +189,7 @@ class AshikhminLobeScattering {
   bool takesDirect(Component) const { return true; }
   const V3d& front() const { return kNoFront; }
   Coefficient coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
-    return Coefficient(directCoefficient(scattering_, at_.direction, toSource, solidAngle));
+    return directCoefficient(scattering_, at_.direction, toSource, solidAngle);
   }
   bool isEven() const { return false; }
 
@@ -227,9 +227,9 @@ class ProgrammedScattering {
   bool takesDirect(Component component) const;
   const V3d& front() const { return kNoFront; }
   Coefficient coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
-    return Coefficient(directCoefficient(scattering_, toSource, solidAngle, [&] {
+    return directCoefficient(scattering_, toSource, solidAngle, [&] {
       return functions_->distribution(material_, point_, toSource, solidAngle, *scratch_);
-    }));
+    });
   }
   bool isEven() const { return false; }
 

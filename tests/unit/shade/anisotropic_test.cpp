@@ -35,10 +35,10 @@ Anisotropic clear(double along, double across) {
 
 // The share of the radiance from a direction, per sr.
 double scattered(const AnisotropicScattering& s, const Interaction& at, const V3d& toSource) {
-  return directCoefficient(s, at.direction, toSource, kTiny, 1).x / kTiny;
+  return directCoefficient(s, at.direction, toSource, kTiny, 1).rgb.x / kTiny;
 }
 double scattered(const AshikhminScattering& s, const Interaction& at, const V3d& toSource) {
-  return directCoefficient(s, at.direction, toSource, kTiny).x / kTiny;
+  return directCoefficient(s, at.direction, toSource, kTiny).rgb.x / kTiny;
 }
 
 V3d upwards(Random& random) {
@@ -101,12 +101,12 @@ TEST(Anisotropic, OfEqualRoughnessIsItsRoundKin) {
     for (const double size : {1e-9, 1e-3, .1})
       EXPECT_NEAR((directCoefficient(s, at.direction, above, size, .3) -
                    directCoefficient(round, at, above, size, .3))
-                      .length(),
+                      .rgb.length(),
                   0, 1e-5 * size);
     if (!trans) continue;
     // From below, at right angles: elsewhere their lobes differ by more than the order of roughness squared.
-    EXPECT_NEAR(directCoefficient(s, at.direction, round.transmitted, 1e-3, 0).x,
-                directCoefficient(round, at, round.transmitted, 1e-3, 0).x, 1e-9);
+    EXPECT_NEAR(directCoefficient(s, at.direction, round.transmitted, 1e-3, 0).rgb.x,
+                directCoefficient(round, at, round.transmitted, 1e-3, 0).rgb.x, 1e-9);
   }
 }
 

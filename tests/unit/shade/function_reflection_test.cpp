@@ -26,7 +26,7 @@ Rgb albedo(const FunctionScattering& s, const Distribution& distribution) {
       const double z = -1 + 2 * (i + .5) / kRows, r = std::sqrt(1 - z * z),
                    angle = 2 * kPi * (k + .5) / kColumns;
       const V3d d(r * std::cos(angle), r * std::sin(angle), z);
-      sum += directCoefficient(s, d, kCell, [&] { return distribution(d); });
+      sum += directCoefficient(s, d, kCell, [&] { return distribution(d); }).rgb;
     }
   return sum;
 }
@@ -94,7 +94,8 @@ TEST(FunctionScattering, OfAReciprocalFunctionIsReciprocal) {
       Interaction at;
       at.direction = -eye;
       at.cosine = eye.z;
-      return directCoefficient(scatter(m, at), light, 1e-3, [&] { return gray(eye.z * light.z + .1); }).x /
+      return directCoefficient(scatter(m, at), light, 1e-3, [&] { return gray(eye.z * light.z + .1); })
+                 .rgb.x /
              light.z;
     };
     EXPECT_NEAR(brdf(a, b), brdf(b, a), 1e-15);
@@ -130,8 +131,8 @@ TEST(FunctionScattering, AsksNoFunctionWhereItHasNoShare) {
   EXPECT_EQ(asked, 0);
   directCoefficient(s, V3d(0, 0, 1), .1, function);
   EXPECT_EQ(asked, 1);
-  EXPECT_EQ(directCoefficient(s, V3d(0, 0, 1), .1, [] { return gray(-1); }).x,
-            directCoefficient(s, V3d(0, 0, 1), .1, [] { return gray(0); }).x)
+  EXPECT_EQ(directCoefficient(s, V3d(0, 0, 1), .1, [] { return gray(-1); }).rgb.x,
+            directCoefficient(s, V3d(0, 0, 1), .1, [] { return gray(0); }).rgb.x)
       << "what is negative counts as nothing";
 }
 

@@ -275,7 +275,7 @@ TEST(SpecularThreshold, DecidesWhetherLobesAreSampled) {
 constexpr double kTiny = 1e-7;  // sr, of a source for which the lobe is a number
 
 double lobeTimesCosine(const Scattering& s, const Interaction& at, const V3d& direction) {
-  return directCoefficient(s, at, direction, kTiny, 1).x / kTiny;
+  return directCoefficient(s, at, direction, kTiny, 1).rgb.x / kTiny;
 }
 
 TEST(Lobe, ReflectedIsReciprocal) {
@@ -392,11 +392,11 @@ TEST(DirectCoefficient, OfADiffuseSurfaceIsLamberts) {
   const Opaque white{Rgb(.7, .7, .7), 0, 0, false};
   const Interaction at = arriving(.5);
   const Scattering s = scatter(white, at, kSampleAll);
-  EXPECT_NEAR(directCoefficient(s, at, V3d(.6, 0, .8), .01, 0).x, .7 * .8 * .01 / kPi, 1e-15);
-  EXPECT_EQ(directCoefficient(s, at, V3d(.6, 0, -.8), .01, 0).x, 0);
+  EXPECT_NEAR(directCoefficient(s, at, V3d(.6, 0, .8), .01, 0).rgb.x, .7 * .8 * .01 / kPi, 1e-15);
+  EXPECT_EQ(directCoefficient(s, at, V3d(.6, 0, -.8), .01, 0).rgb.x, 0);
   const Scattering thin = scatter(Trans{Rgb(1, 1, 1), 0, 0, .25, 0}, at, kSampleAll);
-  EXPECT_NEAR(directCoefficient(thin, at, V3d(.6, 0, .8), .01, 0).x, .75 * .8 * .01 / kPi, 1e-15);
-  EXPECT_NEAR(directCoefficient(thin, at, V3d(.6, 0, -.8), .01, 0).x, .25 * .8 * .01 / kPi, 1e-15);
+  EXPECT_NEAR(directCoefficient(thin, at, V3d(.6, 0, .8), .01, 0).rgb.x, .75 * .8 * .01 / kPi, 1e-15);
+  EXPECT_NEAR(directCoefficient(thin, at, V3d(.6, 0, -.8), .01, 0).rgb.x, .25 * .8 * .01 / kPi, 1e-15);
 }
 
 // ---- frames and perturbed normals
