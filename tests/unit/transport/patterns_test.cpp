@@ -732,7 +732,7 @@ TEST_F(Patterns, MixturesNestAsDeepAsMakesSense) {
     return text + "void mixfunc M\n4 " + last + " void 1 .\n0\n0\n";
   };
   EXPECT_EQ(errorOf(nested(20)), "no error");
-  EXPECT_NE(errorOf(nested(2000)).find("modifiers name each other more than 64 deep"), std::string::npos);
+  EXPECT_NE(errorOf(nested(2000)).find("modifiers are nested more than 64 deep"), std::string::npos);
 }
 
 // -e and -f: rtrace -h -e 'tone(x)=.25*x;noon:2' and -f with the same in a file give 0.5 (RADIANCE 6.1a).
