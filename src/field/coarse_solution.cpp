@@ -33,6 +33,7 @@ struct CoarseSolution::Patch {
   bool usable = false;  // it has a site
   GatherSite site;
   double reach = 0;
+  double share = 0;  // of the light of what it sees, about
   uint64_t seed = 0;
   std::atomic<const Links*> links{nullptr};
   struct Light {
@@ -52,7 +53,8 @@ CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const Fi
       patches_(std::make_unique<InsertOnce<CellKey, Patch>>(kLogBuckets)) {
   spacing_ =
       Tuning::kSpacing * std::sqrt(std::min(options.accuracy, Tuning::kCoarsestAccuracy) / kSpacingAccuracy);
-  rays_ = static_cast<int>(std::clamp(Tuning::kRays * options.rays, Tuning::kLeastRays, Tuning::kMostRays));
+  const double finer = std::max(1., kSpacingAccuracy / std::max(options.accuracy, Tuning::kFinestAccuracy));
+  rays_ = Tuning::kRays * options.rays * finer;
 }
 
 CoarseSolution::~CoarseSolution() = default;
@@ -67,7 +69,9 @@ CoarseSolution::Patch& CoarseSolution::patchOf(const SurfaceChart& chart, const 
     if (const auto site = chart.site(grid_, key)) {
       patch->usable = true;
       patch->site = *site;
-      patch->reach = looker.reach(*site);
+      const Surroundings seen = looker.surroundings(*site);
+      patch->reach = seen.harmonicMean;
+      patch->share = chart.stepU(grid_, key.level) * chart.stepV(grid_, key.level) / (seen.mean * seen.mean);
     }
     return patch;
   });
@@ -113,7 +117,10 @@ CoarseSolution::Patch* CoarseSolution::find(const SurfacePlace& place, double u1
 const CoarseSolution::Links& CoarseSolution::linksOf(Patch& patch, Looker& looker) {
   if (const Links* links = patch.links.load(std::memory_order_acquire)) return *links;
   auto made = std::make_unique<Links>();
-  looker.link(patch.site, rays_, patch.seed, *made);
+  // The rays go where their noise matters: a patch that is large where it is seen from matters most.
+  const double part = std::clamp(patch.share / Tuning::kUsualShare, Tuning::kFewerRays, Tuning::kMoreRays);
+  const double rays = std::clamp(rays_ * part, Tuning::kLeastRays, Tuning::kMostRays);
+  looker.link(patch.site, static_cast<int>(rays), patch.seed, *made);
   const Links* first = nullptr;
   if (!patch.links.compare_exchange_strong(first, made.get(), std::memory_order_acq_rel)) return *first;
   return *made.release();

@@ -57,9 +57,8 @@ class CoarseSolution {
    public:
     // Sends about `rays` rays over the hemisphere of a site.
     virtual void link(const GatherSite& site, int rays, uint64_t seed, Links& links) = 0;
-    // The harmonic mean distance (world units) of the surfaces seen from a site, estimated in a few
-    // directions.
-    virtual double reach(const GatherSite& site) = 0;
+    // Estimated in a few directions.
+    virtual Surroundings surroundings(const GatherSite& site) = 0;
     // Whether the segment between two points is unoccluded.
     virtual bool sees(const V3d& from, const V3d& to) = 0;
 
@@ -89,7 +88,7 @@ class CoarseSolution {
   const Scene& scene_;
   CellGrid grid_;
   double spacing_;  // of patches, as a multiple of the harmonic mean distance of their surroundings
-  int rays_;        // per patch
+  double rays_;     // of a patch of the usual share in the light of others (Tuning::kUsualShare)
   int bounces_;     // -ab
   V3f ambient_;
   std::atomic<size_t> made_{0};

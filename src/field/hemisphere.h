@@ -23,6 +23,14 @@ struct GatherSite {
   V3d normal{0, 0, 1};  // unit
 };
 
+// How far the surfaces are that are seen from a site (world units), averaged over the hemisphere by projected
+// solid angle. A direction that hits nothing counts as infinite distance in the harmonic mean, and as the size
+// of the scene in the arithmetic mean.
+struct Surroundings {
+  double harmonicMean = 0;
+  double mean = 0;
+};
+
 // The incident light at a point as moments of radiance over directions, up to the second. They determine the
 // irradiance for any normal to about 1% of its maximum. Source:
 // Ramamoorthi and Hanrahan, "An efficient representation for irradiance environment maps" (SIGGRAPH 2001),

@@ -147,7 +147,7 @@ Site& IrradianceField::Cache::siteOf(const SurfaceChart& chart, const CellKey& k
     if (const auto at = chart.site(grid_, key)) {
       made->usable = true;
       made->at = *at;
-      made->reach = asked.looker.reach(*at);
+      made->reach = asked.looker.surroundings(*at).harmonicMean;
       made->smallObjectNear = grid_.side(key.level) > finest_ &&
                               asked.looker.smallObjectNear(*at, grid_.side(key.level), grid_.lift);
     }

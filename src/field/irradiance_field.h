@@ -35,8 +35,8 @@ using FieldReader = std::shared_ptr<FieldMemory>;
 class SiteLooker {
  public:
   virtual GatheredLight gather(const GatherSite& site, uint64_t seed) = 0;
-  // The harmonic mean distance (world units) of the surfaces seen from a site, estimated in a few directions.
-  virtual double reach(const GatherSite& site) = 0;
+  // Estimated in a few directions.
+  virtual Surroundings surroundings(const GatherSite& site) = 0;
   // Whether the segment between two points is unoccluded.
   virtual bool sees(const V3d& from, const V3d& to) = 0;
   // Whether an object narrower than the side of the site's cell (world units) lies within that distance, and

@@ -194,15 +194,17 @@ BrightSpots::BrightSpots(const Scene& scene, const Tracer& tracer, const LightSo
     if (free.size() >= Tuning::kFewest) {
       const auto middle = free.begin() + static_cast<ptrdiff_t>(free.size() / 2);
       std::nth_element(free.begin(), middle, free.end());
-      find(std::move(inside), Tuning::kRoomSurface * *middle * *middle, Tuning::kMostInside);
+      find(std::move(inside), Tuning::kRoomSurface * *middle * *middle, Tuning::kMostInside,
+           Tuning::kBrighterInside, Tuning::kLeastWorthInside);
     }
   }
   double area = 0;
   for (const Surface& s : scene.outermost()) area += areaOf(s.shape);
-  find(particles(scene, tracer, lights), area, Tuning::kMost);
+  find(particles(scene, tracer, lights), area, Tuning::kMost, Tuning::kBrighter, Tuning::kLeastWorth);
 }
 
-void BrightSpots::find(std::vector<Particle> all, double area, size_t most) {
+void BrightSpots::find(std::vector<Particle> all, double area, size_t most, double brighter,
+                       double leastWorth) {
   double power = 0;
   for (const Particle& p : all) power += p.power;
   if (!(power > 0) || !(area > 0)) return;
@@ -233,13 +235,11 @@ void BrightSpots::find(std::vector<Particle> all, double area, size_t most) {
     consider(i);
     consider(nodes.size() - 1);
   }
-  const auto isSpot = [&](const Node& node) {
-    return node.spot.power > Tuning::kBrighter * usual * node.area;
-  };
+  const auto isSpot = [&](const Node& node) { return node.spot.power > brighter * usual * node.area; };
   double worth = 0;
   for (const Node& node : nodes)
     if (isSpot(node)) worth += node.worth();
-  if (!(worth > Tuning::kLeastWorth * usual * power)) return;
+  if (!(worth > leastWorth * usual * power)) return;
   for (const Node& node : nodes)
     if (isSpot(node)) keep(node.spot, usual);
 }

@@ -63,7 +63,8 @@ class BrightSpots {
   static std::optional<Particle> arrived(const Scene& scene, const Tracer& tracer, V3d origin,
                                          const V3d& direction, double power, Random& random);
   // most: maximal number of spots. area: of the surfaces that receive the light (square world units).
-  void find(std::vector<Particle> all, double area, size_t most);
+  // brighter, leastWorth: as in tuning::BrightSpots.
+  void find(std::vector<Particle> all, double area, size_t most, double brighter, double leastWorth);
   void keep(const Spot& spot, double usual);
 
   // The spots, as a structure of arrays.

@@ -12,8 +12,8 @@ namespace {
 
 using Tuning = tuning::Interpolation;
 
-// The harmonic mean distance of the surfaces that a few rays from a site hit.
-double reachOf(const Tracer& tracer, const GatherSite& site) {
+// By a few rays.
+Surroundings surroundingsOf(const Tracer& tracer, const GatherSite& site) {
   // By projected solid angle, in the frame of the site.
   static const auto directions = [] {
     const HemisphereCells cells(Tuning::kReachRays);
@@ -24,12 +24,15 @@ double reachOf(const Tracer& tracer, const GatherSite& site) {
   }();
   V3d x, y;
   frame(site.normal, x, y);
-  double inverse = 0;
+  const double beyond = tracer.bounds().size().length();
+  double inverse = 0, sum = 0;
   for (const V3d& d : directions) {
     const Hit hit = tracer.nearest(site.point, d.x * x + d.y * y + d.z * site.normal);
     if (hit.surface != kNone) inverse += 1 / hit.distance;
+    sum += hit.surface != kNone ? hit.distance : beyond;
   }
-  return inverse > 0 ? static_cast<double>(directions.size()) / inverse : kFarAway;
+  const auto count = static_cast<double>(directions.size());
+  return {inverse > 0 ? count / inverse : kFarAway, sum / count};
 }
 
 // Whether interpolated light is valid at the end of a ray. It was gathered in the whole scene, with nothing
@@ -69,7 +72,7 @@ class Looker final : public SiteLooker, public CoarseSolution::Looker {
     const double length = way.length();
     return !(length > kSamePlace) || tracer_.isClear(from, way / length, length);
   }
-  double reach(const GatherSite& site) override { return reachOf(tracer_, site); }
+  Surroundings surroundings(const GatherSite& site) override { return surroundingsOf(tracer_, site); }
   bool smallObjectNear(const GatherSite& site, double side, double lift) override {
     // Rounding must not make an object that is as wide as the cell seem smaller.
     constexpr double kRounding = 1e-6;

@@ -61,7 +61,10 @@ class FurnaceLooker final : public CoarseSolution::Looker {
       }
     }
   }
-  double reach(const GatherSite& site) override { return placeAlong(site.point, site.normal).distance; }
+  Surroundings surroundings(const GatherSite& site) override {
+    const double distance = placeAlong(site.point, site.normal).distance;
+    return {distance, distance};
+  }
   bool sees(const V3d& from, const V3d& to) override {
     const V3d way = to - from;
     return tracer_.nearest(from, way.normalized(), way.length()).surface == kNone;

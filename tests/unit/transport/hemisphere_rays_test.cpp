@@ -25,8 +25,8 @@ const std::string kSunlit =
     "white polygon south 0 0 30 0 0 0 4 0 0 4 0 3 0 0 3 0 0 0 1.5 0 1 1.5 0 2 2.5 0 2 2.5 0 1 1.5 0 1\n"
     "clear polygon window 0 0 12 1.5 0 1 2.5 0 1 2.5 0 2 1.5 0 2\n";
 
-// The parts of the rays sum to 1 on average, however few they are. If two rays were shared out by rounding, one
-// would be aimed at the window and one at the spot, and the light of all other directions would be missing.
+// The parts of the rays sum to 1 on average, however few they are and whether or not they can be shared out to
+// openings, spots and other directions.
 TEST(HemisphereRays, FewRaysLeaveNoDirectionOut) {
   RayOptions o = unbiased(2);
   o.ambientAccuracy = .1;
@@ -40,8 +40,8 @@ TEST(HemisphereRays, FewRaysLeaveNoDirectionOut) {
   transport.openings()->aim(root.point, root.normal, openings);
   BrightSpots::Aim spots;
   transport.spots()->aim(root.point, root.normal, spots);
-  ASSERT_GT(openings.share, .25);
-  ASSERT_GT(spots.share * (1 - openings.share), .25);
+  ASSERT_GT(openings.share, .2);
+  ASSERT_GT(spots.share * (1 - openings.share), .2);
   for (const int rays : {1, 2, 3, 8, 64}) {
     Random random(1);
     Sample sum;
