@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 
+#include "field/tuning.h"
 #include "shade/scattering.h"
 #include "tests/unit/transport/transport_fixture.h"
 
@@ -36,6 +37,7 @@ class FurnaceLooker final : public CoarseSolution::Looker {
 
   void link(const GatherSite& site, int rays, uint64_t seed, CoarseSolution::Links& links) override {
     ++linked;
+    raysOfLast = rays;
     Random random(seed);
     for (int i = 0; i < rays; ++i) {
       double coefficient = 1. / rays;
@@ -63,14 +65,15 @@ class FurnaceLooker final : public CoarseSolution::Looker {
   }
   Surroundings surroundings(const GatherSite& site) override {
     const double distance = placeAlong(site.point, site.normal).distance;
-    return {distance, distance};
+    return {distance, mean > 0 ? mean : distance};
   }
   bool sees(const V3d& from, const V3d& to) override {
     const V3d way = to - from;
     return tracer_.nearest(from, way.normalized(), way.length()).surface == kNone;
   }
 
-  int linked = 0, served = 0, followed = 0;
+  int linked = 0, served = 0, followed = 0, raysOfLast = 0;
+  double mean = 0;  // distance seen from all sites; 0: that along the normal
 
  private:
   const Tracer& tracer_;
@@ -118,6 +121,37 @@ TEST(CoarseSolution, LightIsTheGeometricSeriesInAFurnace) {
   EXPECT_GT(looker.served, 0);
   EXPECT_GT(looker.followed, 0);
   EXPECT_LE(static_cast<size_t>(looker.linked), solution.patches()) << "a patch is linked once";
+}
+
+// The rays that the patch of a place on the floor of the box has, if others are at a mean distance.
+int raysOfPatch(const Traced& box, const RayOptions& options, double distance) {
+  FurnaceLooker looker(box.transport().tracer(), 1, [](const SurfacePlace&) { return 1; });
+  looker.mean = distance;
+  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(options));
+  looker.solve(solution);
+  const SurfacePlace place = looker.placeAlong(V3d(2, 1.5, 2), V3d(0, 0, -1));
+  CoarseSolution::Patch* const patch = solution.find(place, .5, .5, looker);
+  if (patch) solution.light(*patch, 1, looker);
+  return looker.raysOfLast;
+}
+
+// A patch has rays in proportion to its area over the square of the distance that it is seen from, and more of
+// them the smaller -aa is.
+TEST(CoarseSolution, RaysGoWhereTheirNoiseMatters) {
+  using Tuning = tuning::CoarseSolution;
+  const Traced box(kBox);
+  RayOptions options = optionsOf(1);
+  options.ambientAccuracy = .1;
+  options.ambientDivisions = 8192;
+  const double usual = Tuning::kRays * 8192;
+  EXPECT_NEAR(raysOfPatch(box, options, 1e3), usual * Tuning::kFewerRays, 1);
+  EXPECT_NEAR(raysOfPatch(box, options, 1e-3), usual * Tuning::kMoreRays, 1);
+  const int near = raysOfPatch(box, options, 1.6), far = raysOfPatch(box, options, 2);
+  EXPECT_GT(near, usual * Tuning::kFewerRays + 1);
+  EXPECT_LT(near, usual * Tuning::kMoreRays - 1);
+  EXPECT_NEAR(near, far * (4 / 2.56), 3);
+  options.ambientAccuracy = .05;
+  EXPECT_NEAR(raysOfPatch(box, options, 1e3), 2 * usual * Tuning::kFewerRays, 1);
 }
 
 // A wall of zero thickness with light on one side alone: the patches of places on the dark side are dark.

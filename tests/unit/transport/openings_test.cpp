@@ -74,6 +74,12 @@ TEST(Openings, AreFoundWhereDaylightComesIn) {
   }
 }
 
+// Sunlight on the floor makes the room so bright that the sky is only about twice as bright.
+TEST(Openings, AreFoundAlthoughTheSunShinesIn) {
+  const std::string sun = "void light sunlight 0 0 3 6e5 6e5 6e5\nsunlight source sun 0 0 4 0 -1 1 .53\n";
+  EXPECT_FALSE(openingsOf(kSky + sun + kRoom + kWindow).empty());
+}
+
 TEST(Openings, AreNotFoundElsewhere) {
   const std::string lamp = "void light lamp 0 0 3 10 10 10\nlamp sphere bulb 0 0 4 2 2 2 .1\n";
   const std::string shell = "gray bubble shell 0 0 4 2 2 1.5 8\n";
