@@ -45,16 +45,18 @@ struct CoarseSolution::Patch {
   ~Patch() { delete links.load(std::memory_order_relaxed); }
 };
 
-CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const FieldOptions& options)
+CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const FieldOptions& options,
+                               bool daylit)
     : scene_(scene),
       grid_(bounds),
+      daylit_(daylit),
       bounces_(std::max(options.bounces, 1)),
       ambient_(options.ambientValue.rgb),
       patches_(std::make_unique<InsertOnce<CellKey, Patch>>(kLogBuckets)) {
   spacing_ =
       Tuning::kSpacing * std::sqrt(std::min(options.accuracy, Tuning::kCoarsestAccuracy) / kSpacingAccuracy);
   const double finer = std::max(1., kSpacingAccuracy / std::max(options.accuracy, Tuning::kFinestAccuracy));
-  rays_ = Tuning::kRays * options.rays * finer;
+  rays_ = daylit ? Tuning::kRays * options.rays * finer : Tuning::kRaysByLamps * options.rays;
 }
 
 CoarseSolution::~CoarseSolution() = default;
@@ -119,7 +121,8 @@ const CoarseSolution::Links& CoarseSolution::linksOf(Patch& patch, Looker& looke
   auto made = std::make_unique<Links>();
   // The rays go where their noise matters: a patch that is large where it is seen from matters most.
   const double part = std::clamp(patch.share / Tuning::kUsualShare, Tuning::kFewerRays, Tuning::kMoreRays);
-  const double rays = std::clamp(rays_ * part, Tuning::kLeastRays, Tuning::kMostRays);
+  const double rays = daylit_ ? std::clamp(rays_ * part, Tuning::kLeastRays, Tuning::kMostRays)
+                              : std::clamp(rays_, Tuning::kLeastRaysByLamps, Tuning::kMostRays);
   looker.link(patch.site, static_cast<int>(rays), patch.seed, *made);
   const Links* first = nullptr;
   if (!patch.links.compare_exchange_strong(first, made.get(), std::memory_order_acq_rel)) return *first;

@@ -66,8 +66,10 @@ class CoarseSolution {
     ~Looker() = default;
   };
 
-  // Keeps a reference to the scene. bounds: of all that can be hit.
-  CoarseSolution(const Scene& scene, const Box3d& bounds, const FieldOptions& options);
+  // Keeps a reference to the scene. bounds: of all that can be hit. daylit: whether light comes in through
+  // openings, so that few rays find it and patches that matter more need more of them. Where lamps light the
+  // surfaces directly, more rays do not pay.
+  CoarseSolution(const Scene& scene, const Box3d& bounds, const FieldOptions& options, bool daylit);
   ~CoarseSolution();
 
   // The patch that serves a place; null if there is none and the path has to be followed. One of the patches
@@ -87,6 +89,7 @@ class CoarseSolution {
 
   const Scene& scene_;
   CellGrid grid_;
+  bool daylit_;
   double spacing_;  // of patches, as a multiple of the harmonic mean distance of their surroundings
   double rays_;     // of a patch of the usual share in the light of others (Tuning::kUsualShare)
   int bounces_;     // -ab

@@ -106,7 +106,7 @@ void Transport::prepareInterpolation(const rad::Warn& warn) {
   }
   field_ = std::make_unique<IrradianceField>(scene_, bounds, fieldOptions(options_));
   if (options_.ambientBounces > 1) {
-    coarse_ = std::make_unique<CoarseSolution>(scene_, bounds, fieldOptions(options_));
+    coarse_ = std::make_unique<CoarseSolution>(scene_, bounds, fieldOptions(options_), openings_ != nullptr);
     auto spots = std::make_unique<BrightSpots>(scene_, tracer_, lights_, openings_.get());
     if (!spots->empty()) spots_ = std::move(spots);
   }

@@ -96,7 +96,8 @@ TEST(CoarseSolution, LightIsTheGeometricSeriesInAFurnace) {
   constexpr int kBounces = 4;
   const Traced box(kBox);
   FurnaceLooker looker(box.transport().tracer(), kBounces, [](const SurfacePlace&) { return 1; });
-  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(optionsOf(kBounces)));
+  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(optionsOf(kBounces)),
+                          true);
   looker.solve(solution);
   Random random(2);
   int found = 0;
@@ -127,7 +128,7 @@ TEST(CoarseSolution, LightIsTheGeometricSeriesInAFurnace) {
 int raysOfPatch(const Traced& box, const RayOptions& options, double distance) {
   FurnaceLooker looker(box.transport().tracer(), 1, [](const SurfacePlace&) { return 1; });
   looker.mean = distance;
-  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(options));
+  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(options), true);
   looker.solve(solution);
   const SurfacePlace place = looker.placeAlong(V3d(2, 1.5, 2), V3d(0, 0, -1));
   CoarseSolution::Patch* const patch = solution.find(place, .5, .5, looker);
@@ -163,7 +164,7 @@ TEST(CoarseSolution, PatchesServeWhatTheySee) {
   RayOptions options = optionsOf(kBounces);
   options.ambientValue = Radiance(0);
   options.ambientDivisions = 64;
-  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(options));
+  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(options), true);
   looker.solve(solution);
   Random random(4);
   int found[2] = {0, 0};
@@ -192,7 +193,7 @@ TEST(CoarseSolution, PatchesServeWhatTheySee) {
 TEST(CoarseSolution, NoPatchServesWhatIsSeenFromNear) {
   const Traced box(kBox);
   FurnaceLooker looker(box.transport().tracer(), 2, [](const SurfacePlace&) { return 1; });
-  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(optionsOf(2)));
+  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(optionsOf(2)), true);
   looker.solve(solution);
   SurfacePlace place{V3d(2, 1.5, 0), V3d(0, 0, 1), SurfaceId(0), nullptr, 2.5};
   EXPECT_TRUE(solution.find(place, .5, .5, looker));
