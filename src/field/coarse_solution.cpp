@@ -11,7 +11,7 @@ namespace {
 
 using Tuning = tuning::CoarseSolution;
 
-// The -aa at which Tuning::kSpacing is the side of a patch.
+// The -aa at which Tuning::kSpacing is the side of a patch, and Tuning::kRays its rays.
 constexpr double kSpacingAccuracy = .1;
 
 // The binary logarithm of the buckets of the table of patches: 2 MB.
@@ -49,17 +49,20 @@ CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const Fi
                                bool daylit)
     : scene_(scene),
       grid_(bounds),
-      daylit_(daylit),
+      spacing_(Tuning::kSpacing *
+               std::sqrt(std::min(options.accuracy, Tuning::kCoarsestAccuracy) / kSpacingAccuracy)),
+      rays_(raysFor(options, daylit)),
       bounces_(std::max(options.bounces, 1)),
       ambient_(options.ambientValue.rgb),
-      patches_(std::make_unique<InsertOnce<CellKey, Patch>>(kLogBuckets)) {
-  spacing_ =
-      Tuning::kSpacing * std::sqrt(std::min(options.accuracy, Tuning::kCoarsestAccuracy) / kSpacingAccuracy);
-  const double finer = std::max(1., kSpacingAccuracy / std::max(options.accuracy, Tuning::kFinestAccuracy));
-  rays_ = daylit ? Tuning::kRays * options.rays * finer : Tuning::kRaysByLamps * options.rays;
-}
+      patches_(std::make_unique<InsertOnce<CellKey, Patch>>(kLogBuckets)) {}
 
 CoarseSolution::~CoarseSolution() = default;
+
+CoarseSolution::Rays CoarseSolution::raysFor(const FieldOptions& options, bool daylit) {
+  if (!daylit) return {Tuning::kRaysByLamps * options.rays, 1, 1, Tuning::kLeastRaysByLamps};
+  const double growth = std::max(1., kSpacingAccuracy / std::max(options.accuracy, Tuning::kFinestAccuracy));
+  return {Tuning::kRays * options.rays * growth, Tuning::kFewerRays, Tuning::kMoreRays, Tuning::kLeastRays};
+}
 
 CoarseSolution::Patch& CoarseSolution::patchOf(const SurfaceChart& chart, const CellKey& key,
                                                Looker& looker) {
@@ -120,9 +123,8 @@ const CoarseSolution::Links& CoarseSolution::linksOf(Patch& patch, Looker& looke
   if (const Links* links = patch.links.load(std::memory_order_acquire)) return *links;
   auto made = std::make_unique<Links>();
   // The rays go where their noise matters: a patch that is large where it is seen from matters most.
-  const double part = std::clamp(patch.share / Tuning::kUsualShare, Tuning::kFewerRays, Tuning::kMoreRays);
-  const double rays = daylit_ ? std::clamp(rays_ * part, Tuning::kLeastRays, Tuning::kMostRays)
-                              : std::clamp(rays_, Tuning::kLeastRaysByLamps, Tuning::kMostRays);
+  const double part = std::clamp(patch.share / Tuning::kUsualShare, rays_.fewer, rays_.more);
+  const double rays = std::clamp(rays_.usual * part, rays_.least, Tuning::kMostRays);
   looker.link(patch.site, static_cast<int>(rays), patch.seed, *made);
   const Links* first = nullptr;
   if (!patch.links.compare_exchange_strong(first, made.get(), std::memory_order_acq_rel)) return *first;

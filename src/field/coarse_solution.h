@@ -84,15 +84,22 @@ class CoarseSolution {
   size_t patches() const { return made_.load(std::memory_order_relaxed); }
 
  private:
+  // The number of rays of a patch.
+  struct Rays {
+    double usual;        // of a patch of the usual share in the light of others (Tuning::kUsualShare)
+    double fewer, more;  // bounds on the factor for other shares
+    double least;        // for every patch
+  };
+  static Rays raysFor(const FieldOptions& options, bool daylit);
+
   Patch& patchOf(const SurfaceChart& chart, const CellKey& key, Looker& looker);
   const Links& linksOf(Patch& patch, Looker& looker);
 
   const Scene& scene_;
   CellGrid grid_;
-  bool daylit_;
   double spacing_;  // of patches, as a multiple of the harmonic mean distance of their surroundings
-  double rays_;     // of a patch of the usual share in the light of others (Tuning::kUsualShare)
-  int bounces_;     // -ab
+  Rays rays_;
+  int bounces_;  // -ab
   V3f ambient_;
   std::atomic<size_t> made_{0};
   std::unique_ptr<InsertOnce<CellKey, Patch>> patches_;

@@ -44,7 +44,7 @@ struct BrightSpots {
   // 30% less or more: the same answers in all cases.
   RSPHERE_TUNED(BrightSpots, double, kLeastWorth, 4);
   // The same for light that enters through openings: by measurement in the same classroom, whose spots are
-  // worth 2.3 to 4.
+  // worth 2.3.
   RSPHERE_TUNED(BrightSpots, double, kLeastWorthInside, 1);
   // Ratio of the radius of a spot to half the diagonal of the box around its particles: chosen by experiment.
   // 30% less or more: within noise (sensors by sun; error 14%, time 5%).
@@ -175,8 +175,8 @@ struct Interpolation {
   // experiment. The moments of gathered light give the light at more tilted normals less accurately. 30%
   // less: within noise; 30% more: time -23% (picture of workshop; noise: error 13%, time 4%).
   RSPHERE_TUNED(Interpolation, double, kLeastUpright, .7);
-  // Rays that measure the harmonic mean distance of the surroundings of a site: chosen by experiment. 30%
-  // less or more: within noise (picture by sun; error 3%, time 5%).
+  // Rays that measure the mean distance of the surroundings of a site, and their harmonic mean: chosen by
+  // experiment. 30% less or more: within noise (picture by sun; error 3%, time 5%).
   RSPHERE_TUNED(Interpolation, int, kReachRays, 16);
 };
 

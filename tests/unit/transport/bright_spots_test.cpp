@@ -97,22 +97,6 @@ TEST(BrightSpots, LeaveTheMeanAsItIs) {
   EXPECT_LT(sample.standardError(), .5 * pot.mean(origin, down, kPaths).standardError());
 }
 
-// A room of 4 x 4 x 3 with a pane of 1 x 1 in its south wall, on a wide ground, under a sun of 45
-// degrees: it shines on the floor at 1.5 <= x <= 2.5, 1 <= y <= 2.
-const std::string kSunlit =
-    "void plastic white 0 0 5 .6 .6 .6 0 0\nvoid glass clear 0 0 3 .96 .96 .96\n"
-    "void glow sky 0 0 4 1 1 1 0\nsky source heaven 0 0 4 0 0 1 180\n"
-    "void light sunlight 0 0 3 1e6 1e6 1e6\nsunlight source sun 0 0 4 0 -1 1 .53\n"
-    "white polygon ground 0 0 12 -400 -400 -.01 400 -400 -.01 400 400 "
-    "-.01 -400 400 -.01\n"
-    "white polygon floor 0 0 12 0 0 0 4 0 0 4 4 0 0 4 0\n"
-    "white polygon ceiling 0 0 12 0 0 3 0 4 3 4 4 3 4 0 3\n"
-    "white polygon west 0 0 12 0 0 0 0 4 0 0 4 3 0 0 3\n"
-    "white polygon east 0 0 12 4 0 0 4 0 3 4 4 3 4 4 0\n"
-    "white polygon north 0 0 12 0 4 0 4 4 0 4 4 3 0 4 3\n"
-    "white polygon south 0 0 30 0 0 0 4 0 0 4 0 3 0 0 3 0 0 0 1.5 0 1 1.5 0 2 2.5 0 2 2.5 0 1 1.5 0 1\n"
-    "clear polygon window 0 0 12 1.5 0 1 2.5 0 1 2.5 0 2 1.5 0 2\n";
-
 Openings openingsOf(const std::string& text) {
   Traced t(text, unbiased(1));
   return Openings(t.scene(), t.transport().tracer().bounds(),
@@ -122,8 +106,8 @@ Openings openingsOf(const std::string& text) {
 }
 
 TEST(BrightSpots, AreWhereTheSunShinesThroughOpenings) {
-  const Traced room(kSunlit, unbiased(1));
-  const Openings openings = openingsOf(kSunlit);
+  const Traced room(kSunlitRoom, unbiased(1));
+  const Openings openings = openingsOf(kSunlitRoom);
   ASSERT_FALSE(openings.empty());
   const BrightSpots spots(room.scene(), room.transport().tracer(), room.transport().lights(), &openings);
   for (const V3d& point : {V3d(2, 2, 3), V3d(3, 3.5, 3)}) {
@@ -149,8 +133,8 @@ TEST(BrightSpots, AreWhereTheSunShinesThroughOpenings) {
 }
 
 TEST(BrightSpots, ThroughOpeningsLeaveTheMeanAsItIs) {
-  Traced room(kSunlit, unbiased(1));
-  const Openings openings = openingsOf(kSunlit);
+  Traced room(kSunlitRoom, unbiased(1));
+  const Openings openings = openingsOf(kSunlitRoom);
   const BrightSpots spots(room.scene(), room.transport().tracer(), room.transport().lights(), &openings);
   PathTracer aimed(room.transport(), &spots);
   // A ray to the north wall, below the sill, where no ground is visible through the window.
