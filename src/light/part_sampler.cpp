@@ -227,7 +227,7 @@ void PartSampler::addDistant(double distance) {
 }
 
 // A sample of a plane part. aim: the vector from the point to the place to hit.
-void PartSampler::addMiddle(const V3d& aim, double length, double area) {
+[[gnu::always_inline]] inline void PartSampler::addMiddle(const V3d& aim, double length, double area) {
   if (!(length > 0)) return;
   const double inverse = 1 / length;
   const V3d direction = aim * inverse;
@@ -240,7 +240,7 @@ void PartSampler::addMiddle(const V3d& aim, double length, double area) {
 
 // The same as split() for a plane source that is spanned by u and v, without recursion: a part is given by
 // its middle and by the number of times that u and v were halved.
-void PartSampler::addMiddles(const V3d& towards) {
+[[gnu::always_inline]] inline void PartSampler::addMiddles(const V3d& towards) {
   struct Place {
     V3d middle;  // the vector from the point to it
     int halvedU, halvedV;
