@@ -12,7 +12,7 @@ namespace {
 using Tuning = tuning::CoarseSolution;
 
 // The -aa at which Tuning::kSpacing is the side of a patch, and Tuning::kRays its rays.
-constexpr double kSpacingAccuracy = .1;
+constexpr double kUsualAccuracy = .1;
 
 // The binary logarithm of the buckets of the table of patches: 2 MB.
 constexpr unsigned kLogBuckets = 18;
@@ -49,19 +49,20 @@ CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const Fi
                                bool daylit)
     : scene_(scene),
       grid_(bounds),
-      spacing_(Tuning::kSpacing *
-               std::sqrt(std::min(options.accuracy, Tuning::kCoarsestAccuracy) / kSpacingAccuracy)),
-      rays_(raysFor(options, daylit)),
+      effort_(effortFor(options, daylit)),
       bounces_(std::max(options.bounces, 1)),
       ambient_(options.ambientValue.rgb),
       patches_(std::make_unique<InsertOnce<CellKey, Patch>>(kLogBuckets)) {}
 
 CoarseSolution::~CoarseSolution() = default;
 
-CoarseSolution::Rays CoarseSolution::raysFor(const FieldOptions& options, bool daylit) {
-  if (!daylit) return {Tuning::kRaysByLamps * options.rays, 1, 1, Tuning::kLeastRaysByLamps};
-  const double growth = std::max(1., kSpacingAccuracy / std::max(options.accuracy, Tuning::kFinestAccuracy));
-  return {Tuning::kRays * options.rays * growth, Tuning::kFewerRays, Tuning::kMoreRays, Tuning::kLeastRays};
+CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bool daylit) {
+  const double accuracy =
+      std::clamp(options.accuracy, Tuning::kFinestAccuracy, Tuning::kCoarsestAccuracy) / kUsualAccuracy;
+  const double spacing = Tuning::kSpacing * std::min(accuracy, std::sqrt(accuracy));
+  if (!daylit) return {spacing, Tuning::kRaysByLamps * options.rays, 1, 1, Tuning::kLeastRaysByLamps};
+  return {spacing, Tuning::kRays * options.rays * std::max(1., 1 / accuracy), Tuning::kFewerRays,
+          Tuning::kMoreRays, Tuning::kLeastRays};
 }
 
 CoarseSolution::Patch& CoarseSolution::patchOf(const SurfaceChart& chart, const CellKey& key,
@@ -93,7 +94,7 @@ CoarseSolution::Patch* CoarseSolution::find(const SurfacePlace& place, double u1
   for (;; ++level) {
     const double side = grid_.side(level);
     const Patch& patch = patchOf(*chart, chart->cellAt(grid_, level, chart->u(), chart->v()), looker);
-    const double wanted = patch.usable ? spacing_ * std::min(patch.reach, open) : 0;
+    const double wanted = patch.usable ? effort_.spacing * std::min(patch.reach, open) : 0;
     if (side <= least || side <= wanted) {
       if (extent < Tuning::kOwnPatch * std::max(wanted, Tuning::kFarPatch * place.distance)) return nullptr;
       break;
@@ -123,8 +124,8 @@ const CoarseSolution::Links& CoarseSolution::linksOf(Patch& patch, Looker& looke
   if (const Links* links = patch.links.load(std::memory_order_acquire)) return *links;
   auto made = std::make_unique<Links>();
   // The rays go where their noise matters: a patch that is large where it is seen from matters most.
-  const double part = std::clamp(patch.share / Tuning::kUsualShare, rays_.fewer, rays_.more);
-  const double rays = std::clamp(rays_.usual * part, rays_.least, Tuning::kMostRays);
+  const double part = std::clamp(patch.share / Tuning::kUsualShare, effort_.fewer, effort_.more);
+  const double rays = std::clamp(effort_.usual * part, effort_.least, Tuning::kMostRays);
   looker.link(patch.site, static_cast<int>(rays), patch.seed, *made);
   const Links* first = nullptr;
   if (!patch.links.compare_exchange_strong(first, made.get(), std::memory_order_acq_rel)) return *first;

@@ -84,21 +84,21 @@ class CoarseSolution {
   size_t patches() const { return made_.load(std::memory_order_relaxed); }
 
  private:
-  // The number of rays of a patch.
-  struct Rays {
-    double usual;        // of a patch of the usual share in the light of others (Tuning::kUsualShare)
+  // How finely surfaces are divided, and how many rays a patch has.
+  struct Effort {
+    double spacing;      // of patches, as a multiple of the harmonic mean distance of their surroundings
+    double usual;        // rays of a patch of the usual share in the light of others (Tuning::kUsualShare)
     double fewer, more;  // bounds on the factor for other shares
-    double least;        // for every patch
+    double least;        // rays of every patch
   };
-  static Rays raysFor(const FieldOptions& options, bool daylit);
+  static Effort effortFor(const FieldOptions& options, bool daylit);
 
   Patch& patchOf(const SurfaceChart& chart, const CellKey& key, Looker& looker);
   const Links& linksOf(Patch& patch, Looker& looker);
 
   const Scene& scene_;
   CellGrid grid_;
-  double spacing_;  // of patches, as a multiple of the harmonic mean distance of their surroundings
-  Rays rays_;
+  Effort effort_;
   int bounces_;  // -ab
   V3f ambient_;
   std::atomic<size_t> made_{0};

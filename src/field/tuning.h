@@ -82,10 +82,12 @@ struct SiteInterpolation {
 // classroom of 10 x 7 m, a cell with a small window), each with sun and with an overcast sky, by the error of
 // 40 sensors for the time: tests/bench/rtrace/runs/2026-11-22-coarse-solution.txt.
 struct CoarseSolution {
-  // The side of a patch in mean distances of what it sees, at -aa .1; it grows with the root of -aa, since
-  // the error of an interpolation grows with the square of the spacing: by measurement. At 1.2 the errors
-  // are twice those at .6, at .4 the time. 30% less: within noise; 30% more: time -38% (sensors by sun;
-  // noise: error 10%, time 4%).
+  // The side of a patch in mean distances of what it sees, at -aa .1. Above, it grows with the root of -aa,
+  // since the error of an interpolation grows with the square of the spacing: by measurement. At 1.2 the errors
+  // are twice those at .6, at .4 the time. 30% less: within noise; 30% more: time -38% (sensors by sun; noise:
+  // error 10%, time 4%). Below, it is in proportion to -aa, because other bounds on the sizes then leave the
+  // time as it is: in a narrow room by an overcast sky at -aa .05, sensors near the window are .6% too dark with
+  // the root, and .2% in proportion.
   RSPHERE_TUNED(CoarseSolution, double, kSpacing, .6);
   // Above this -aa, patches do not grow: chosen by experiment. 30% less or more: the same
   // answers in all cases.
