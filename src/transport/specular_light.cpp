@@ -11,15 +11,20 @@ namespace {
 
 using Tuning = tuning::SpecularLight;
 
-// Whether the path of a child goes on. If so, its weight is at least kWeakPath, and its coefficient makes up
-// for the paths that do not go on.
-bool survives(Random& random, Ray& child, Coefficient& coefficient) {
-  const double probability = child.weight / Tuning::kWeakPath;
+// The weight below which sharp paths of an indirect ray are followed by Russian roulette.
+double leastWeight(const Transport& transport, const Ray& ray) {
+  return std::max(Tuning::kWeakBranch * ray.weight, isOfGather(transport, ray) ? Tuning::kWeakPath : 0);
+}
+
+// Whether the path of a child goes on. If so, its weight is at least `least`, and its coefficient makes up for
+// the paths that do not go on.
+bool survives(Random& random, double least, Ray& child, Coefficient& coefficient) {
+  const double probability = child.weight / least;
   if (probability >= 1) return true;
   if (random.uniform() >= probability) return false;
   coefficient /= probability;
   child.contribution /= probability;
-  child.weight = Tuning::kWeakPath;
+  child.weight = least;
   return true;
 }
 
@@ -31,7 +36,8 @@ void SpecularLight::follow(Ray& ray, const SharpPaths& sharp) {
     Ray child;
     Coefficient coefficient = path.coefficient;
     if (isBlack(coefficient) || !continueRay(t_, state_.random, child, path.kind, ray, coefficient)) continue;
-    if (!(ray.kinds & kShadow) && isOfGather(t_, ray) && !survives(state_.random, child, coefficient))
+    if (!(ray.kinds & kShadow) && ray.ambientLevel > 0 &&
+        !survives(state_.random, leastWeight(t_, ray), child, coefficient))
       continue;
     child.direction = path.direction;
     if (path.entersMedium) child.medium = path.medium;
