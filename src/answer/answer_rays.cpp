@@ -16,7 +16,7 @@ uint64_t seedOfRay(std::span<const double> numbers, uint64_t index, const Answer
 std::vector<PathTracer> rayTracers(const Transport& transport, const AnswerOptions& options) {
   std::vector<PathTracer> tracers;
   for (unsigned i = 0; i < threadCount(options.threads); ++i)
-    tracers.emplace_back(transport, transport.spots());
+    tracers.emplace_back(transport, transport.aims());
   return tracers;
 }
 

@@ -81,14 +81,14 @@ double measureDeviation(const Scene& scene, std::span<const SpecialObject> objec
 }  // namespace
 
 Contrasts measureContrasts(const Transport& transport, std::span<const SpecialObject> objects,
-                           const SeenSources& sources, const BrightSpots* spots) {
+                           const SeenSources& sources, const Aims& aims) {
   Contrasts contrasts;
   if (objects.empty()) return contrasts;
   const Scene& scene = transport.scene();
   std::map<ModifierId, std::vector<SpecialObject>> alike;  // by modifier
   for (const SpecialObject& object : objects)
     alike[scene.surfaces[object.surface].modifier].push_back(object);
-  PathTracer tracer(transport, spots);
+  PathTracer tracer(transport, aims);
   tracer.gatherFirstAnew();
   contrasts.surroundings = measureSurroundings(scene, sources, tracer);
   const size_t rays = std::clamp<size_t>(Tuning::kMostRays / alike.size(), 2, Tuning::kRaysPerModifier);

@@ -26,6 +26,6 @@ struct Contrasts {
 // sources: those integrated separately; rays that show one are left out.
 // spots: patches that indirect rays are aimed at, or null.
 Contrasts measureContrasts(const Transport& transport, std::span<const SpecialObject> objects,
-                           const SeenSources& sources, const BrightSpots* spots);
+                           const SeenSources& sources, const Aims& aims);
 
 }  // namespace rsphere

@@ -84,7 +84,8 @@ SampledSet joined(std::vector<KeptSet> sets, const TwoHalves& halves, const Irra
   return all;
 }
 
-// The spots that indirect rays are aimed at; null if there are none, or no indirect light.
+// Patches of strong direct light in scenes where the transport looks for none; null if there are none, or no
+// indirect light.
 std::unique_ptr<const BrightSpots> findSpots(const Transport& transport) {
   const RayOptions& rays = transport.options();
   if (rays.ambientBounces <= 0 || rays.ambientDivisions <= 0) return nullptr;
@@ -101,7 +102,10 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
       sources_(transport) {
   if (options.weights != Weights::homogeneous)
     special_ = findSpecialObjects(transport.scene(), options.densityFactor);
-  if (options.weights == Weights::silhouettes && options.densityFactor > 0) spots_ = findSpots(transport);
+  if (options.weights == Weights::silhouettes && options.densityFactor > 0) {
+    aims_ = transport.aims();
+    if (!aims_.spots) aims_.spots = (spots_ = findSpots(transport)).get();
+  }
   strategy_ = makeStrategy();
 }
 
@@ -114,11 +118,11 @@ std::unique_ptr<const SamplingStrategy> SphereEstimator::makeStrategy() const {
     case Weights::silhouettes:
       break;
   }
-  return std::make_unique<SilhouetteWeights>(transport_, options_, base_, special_, sources_, spots_.get());
+  return std::make_unique<SilhouetteWeights>(transport_, options_, base_, special_, sources_, aims_);
 }
 
 SphereEstimator::Workspace::Workspace(const SphereEstimator& estimator)
-    : tracer(estimator.transport_, estimator.spots_.get()) {
+    : tracer(estimator.transport_, estimator.aims_) {
   tracer.gatherFirstAnew();
 }
 

@@ -69,7 +69,8 @@ class SphereEstimator {
   BaseSet base_;
   SeenSources sources_;
   std::vector<SpecialObject> special_;        // none with -Sw h
-  std::unique_ptr<const BrightSpots> spots_;  // null: indirect rays are not aimed
+  std::unique_ptr<const BrightSpots> spots_;  // those that only this estimator uses, or null
+  Aims aims_;                                 // of indirect rays
   std::unique_ptr<const SamplingStrategy> strategy_;
 };
 

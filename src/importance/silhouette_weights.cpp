@@ -65,10 +65,10 @@ std::vector<V3d> glancesFor(const SphereOptions& options) {
 
 SilhouetteWeights::SilhouetteWeights(const Transport& transport, const SphereOptions& options,
                                      const BaseSet& base, std::span<const SpecialObject> special,
-                                     const SeenSources& sources, const BrightSpots* spots)
+                                     const SeenSources& sources, const Aims& aims)
     : options_(options), base_(base), sources_(sources) {
   if (!(options.densityFactor > 0)) return;
-  guidance_.emplace(Guidance{TargetChoice(transport, special, sources, spots, options.densityFactor),
+  guidance_.emplace(Guidance{TargetChoice(transport, special, sources, aims, options.densityFactor),
                              RadianceGuess(transport, unguessedSurfaces(sources)), glancesFor(options),
                              baseDirections(tuning::RadianceGuess::kFitGlances)});
 }

@@ -20,17 +20,17 @@ namespace rsphere {
 //   the mean by a percent.
 // - How many directions a special object gets follows from how much the radiance on it varies, compared with
 //   the surroundings. That is measured by separate rays, so that the mean stays unbiased (targets.h).
-// - Indirect rays are aimed at diffuse surfaces that receive much direct light (transport/bright_spots.h).
+// - Indirect rays are aimed at openings that daylight enters through (transport/openings.h), and at diffuse
+//   surfaces that receive much direct light (transport/bright_spots.h).
 // - A control variate reduces the variance of diffuse surfaces (transport/radiance_guess.h). Many glances,
 //   rays that are not followed beyond their first hit, estimate its integral. Directions, and the indirect
 //   rays that they spawn, only estimate the difference.
 // With -Sk 0 only the first of these is left.
 class SilhouetteWeights : public SamplingStrategy {
  public:
-  // Keeps references to all of them. spots: patches that tracers aim indirect rays at, or null.
+  // Keeps references to all of them. aims: of indirect rays.
   SilhouetteWeights(const Transport& transport, const SphereOptions& options, const BaseSet& base,
-                    std::span<const SpecialObject> special, const SeenSources& sources,
-                    const BrightSpots* spots);
+                    std::span<const SpecialObject> special, const SeenSources& sources, const Aims& aims);
 
   SampledSet sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace& memory) const override;
 

@@ -26,10 +26,10 @@ double Targets::densityAt(const V3d& direction) const {
 }
 
 TargetChoice::TargetChoice(const Transport& transport, std::span<const SpecialObject> objects,
-                           const SeenSources& sources, const BrightSpots* spots, double densityFactor)
+                           const SeenSources& sources, const Aims& aims, double densityFactor)
     : scene_(transport.scene()),
       densityFactor_(densityFactor),
-      contrasts_(measureContrasts(transport, objects, sources, spots)),
+      contrasts_(measureContrasts(transport, objects, sources, aims)),
       glints_(transport, objects) {}
 
 Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDirections, size_t most) const {

@@ -39,7 +39,7 @@ class TargetChoice {
   // Measures how much radiance varies on the objects (contrasts.h). sources: those integrated separately.
   // spots: patches that indirect rays are aimed at, or null. densityFactor: -Sk.
   TargetChoice(const Transport& transport, std::span<const SpecialObject> objects, const SeenSources& sources,
-               const BrightSpots* spots, double densityFactor);
+               const Aims& aims, double densityFactor);
 
   // The targets at a point (world). Their directions are as many as bring the density up to Neyman's
   // allocation, in proportion to the deviation of radiance on them, where the base directions already have

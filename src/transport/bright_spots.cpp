@@ -245,6 +245,7 @@ void BrightSpots::find(std::vector<Particle> all, double area, size_t most, doub
 }
 
 void BrightSpots::keep(const Spot& spot, double usual) {
+  if (count_ == 0) usual_ = usual;
   const size_t i = count_++;
   const V3d center = spot.center - origin_;
   x_[i] = static_cast<float>(center.x);
@@ -255,7 +256,7 @@ void BrightSpots::keep(const Spot& spot, double usual) {
   normalZ_[i] = static_cast<float>(spot.normal.z);
   radius_[i] = static_cast<float>(spot.radius);
   anyway_[i] = static_cast<float>(1 - spot.normal.length() + Tuning::kEdgeOn);
-  power_[i] = static_cast<float>(spot.power / usual);
+  power_[i] = static_cast<float>(spot.power);
 }
 
 // The contribution of a spot is that of a small flat surface with the spot's normal. Spots that contain the
@@ -285,9 +286,7 @@ __attribute__((target_clones("avx2", "default"))) void BrightSpots::aim(const V3
   float sum = 0;
   for (size_t i = 0; i < count_; ++i) aim.sum[i] = sum += comes[i];
   aim.count = count_;
-  // Relative to the light of all other surfaces.
-  aim.share = Tuning::kMostAimed * sum / (sum + static_cast<float>(kPi));
-  if (!(aim.share > Tuning::kTooFew)) aim.share = 0;
+  aim.mean = sum / (kPi * kPi);
 }
 
 V3d BrightSpots::sample(const Aim& aim, double u1, double u2, double u3) const {

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "base/constants.h"
 #include "light/sources.h"
 #include "scene/random.h"
 #include "trace/tracer.h"
@@ -28,11 +29,13 @@ class BrightSpots {
               const Openings* openings = nullptr);
 
   bool empty() const { return count_ == 0; }
+  // The mean brightness (W/sr/m2) of the surfaces that the spots are on.
+  double usual() const { return usual_ / kPi; }
   static constexpr size_t kRoom = tuning::BrightSpots::kMostRoom;
 
   // The sampling distribution for a point of a diffuse surface.
   struct Aim {
-    double share = 0;  // of the directions that should be aimed; 0: aiming does not pay
+    double mean = 0;  // radiance over the hemisphere from the spots, W/sr/m2, without occlusion
     size_t count = 0;
     std::array<float, kRoom> x, y, z;  // vectors to the centers of the spots (world units)
     std::array<float, kRoom> sine2;    // squared sine of half the angle that a spot subtends
@@ -40,10 +43,10 @@ class BrightSpots {
     std::array<float, kRoom> sum;      // cumulative contributions of the spots
   };
 
-  // front: unit normal. If aim.share is 0, nothing else of aim is set.
+  // front: unit normal.
   void aim(const V3d& point, const V3d& front, Aim& aim) const;
 
-  // One of the aimed directions (unit), for uniform u1, u2, u3 in [0, 1). REQUIRES aim.share > 0.
+  // One of the aimed directions (unit), for uniform u1, u2, u3 in [0, 1). REQUIRES aim.mean > 0.
   V3d sample(const Aim& aim, double u1, double u2, double u3) const;
 
   // The density of aimed directions, per sr.
@@ -70,6 +73,7 @@ class BrightSpots {
   // The spots, as a structure of arrays.
   using Numbers = std::array<float, kRoom>;
   size_t count_ = 0;
+  double usual_ = 0;
   V3d origin_{0, 0, 0};  // origin of the coordinates of the centers
   Numbers x_{}, y_{}, z_{}, normalX_{}, normalY_{}, normalZ_{}, radius_{}, anyway_{}, power_{};
 };

@@ -4,8 +4,9 @@
 #include <vector>
 
 #include "field/irradiance_field.h"
-#include "transport/hemisphere_rays.h"
+#include "transport/gather_directions.h"
 #include "transport/ray_functions.h"
+#include "transport/ray_limits.h"
 
 namespace rsphere {
 namespace {
@@ -23,35 +24,36 @@ Ray rootOf(const Transport& transport, const GatherSite& site, int depth) {
 
 }  // namespace
 
-GatheredLight gatherLight(const Transport& transport, PathState& state, const BrightSpots* aims,
+GatheredLight gatherLight(const Transport& transport, PathState& state, const Aims& aims,
                           RayFollower& follower, const GatherSite& site, int depth) {
   const RayOptions& o = transport.options();
   const Ray root = rootOf(transport, site, depth);
-  V3d x, y;  // the same frame as in sendOverHemisphere()
+  V3d x, y;
   frame(site.normal, x, y);
   const int count = o.ambientDivisions + o.ambientSuperSamples;
   const HemisphereCells cells(count);
   std::vector<Radiance> radiance(cells.count());
   std::vector<double> distance(cells.count(), kFarAway);
-  sendOverHemisphere(transport, aims, state.random, root, site.normal, site.normal, kReflectedAmbient, count,
-                     [&](Ray& child, double part) {
+  const GatherDirections directions(aims, site.point, site.normal, site.normal);
+  sendOverHemisphere(transport, directions, state.random, root, kReflectedAmbient, count, Coefficient(1),
+                     Coefficient(kMeanReflectance), [&](Ray& child, const Coefficient& factor) {
                        follower.follow(child);
                        const int cell = cells.cellOf(child.direction, x, y, site.normal);
-                       radiance[cell] += child.value * (part * cells.count());
+                       radiance[cell] += child.value * factor * cells.count();
                        distance[cell] = std::min(distance[cell], apparentLength(child));
                      });
   return cells.sum(radiance, distance, transport.field()->finestSpacing() / 2, x, y, site.normal);
 }
 
-void linkPatch(const Transport& transport, PathState& state, const BrightSpots* aims, RayFollower& follower,
+void linkPatch(const Transport& transport, PathState& state, const Aims& aims, RayFollower& follower,
                const GatherSite& site, int rays, int depth) {
   const Ray root = rootOf(transport, site, depth);
   Radiance sum;
-  sendOverHemisphere(transport, aims, state.random, root, site.normal, site.normal, kReflectedAmbient, rays,
-                     [&](Ray& child, double part) {
-                       child.contribution = Coefficient(part);
+  const GatherDirections directions(aims, site.point, site.normal, site.normal);
+  sendOverHemisphere(transport, directions, state.random, root, kReflectedAmbient, rays, Coefficient(1),
+                     Coefficient(kMeanReflectance), [&](Ray& child, const Coefficient& factor) {
                        follower.follow(child);
-                       sum += child.value * part;
+                       sum += child.value * factor;
                      });
   state.links->addLight(0, sum);
 }

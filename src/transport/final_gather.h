@@ -7,14 +7,13 @@
 
 namespace rsphere {
 
-// The indirect light of a site, estimated with -ad + -as rays. state: of a path that has just begun. aims:
-// bright spots, or null. depth: of the ray that requests it; only the limit of nesting depends on it.
-GatheredLight gatherLight(const Transport& transport, PathState& state, const BrightSpots* aims,
+// The indirect light of a site, estimated with -ad + -as rays. state: of a path that has just begun. depth: of the ray that requests it; only the limit of nesting depends on it.
+GatheredLight gatherLight(const Transport& transport, PathState& state, const Aims& aims,
                           RayFollower& follower, const GatherSite& site, int depth);
 
 // Sends about `rays` rays from a patch of the coarse solution. Adds the light that they find, and links to
 // the patches that they find, to state.links.
-void linkPatch(const Transport& transport, PathState& state, const BrightSpots* aims, RayFollower& follower,
+void linkPatch(const Transport& transport, PathState& state, const Aims& aims, RayFollower& follower,
                const GatherSite& site, int rays, int depth);
 
 }  // namespace rsphere

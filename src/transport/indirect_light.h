@@ -32,9 +32,8 @@ class IndirectLight {
   };
 
   int raysToGuess(const Ray& ray) const;
-  int strataOf(const Ray& ray, const Coefficient& coefficient) const;
+  int raysOf(const Ray& ray, const Coefficient& coefficient) const;
   void gather(Ray& ray, const Surroundings& at);
-  void gatherStratified(Ray& ray, const Surroundings& at, int guesses);
 
   const Transport& t_;
   const PathSettings& settings_;

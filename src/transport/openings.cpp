@@ -101,23 +101,32 @@ Openings::Openings(const Scene& scene, const Box3d& bounds, const Probe& probe) 
     return a.width * a.height > b.width * b.height;
   });
   if (panes.size() > Tuning::kMostAsked) panes.resize(Tuning::kMostAsked);
-  for (Opening& pane : panes) {
-    double seen[2] = {0, 0};
-    for (int side = 0; side < 2; ++side) {
-      const V3d out = side ? -pane.normal : pane.normal;
-      for (int i = 0; i < Tuning::kProbes; ++i) {
-        const Imath::V2d at = evenly(static_cast<size_t>(i), .5, .5),
-                         to = evenly(static_cast<size_t>(i), .1, .3);
-        const V3d point = pane.corner + at.x * pane.width * pane.x + at.y * pane.height * pane.y;
-        seen[side] += probe(point - lift * out, diffuseDirection(out, to.y, to.x), static_cast<uint64_t>(i)) /
-                      Tuning::kProbes;
-      }
+  // The mean brightness over the hemisphere around a normal, from points of a pane.
+  const auto seenFrom = [&](const Opening& pane, const V3d& offset, const V3d& normal) {
+    double sum = 0;
+    for (int i = 0; i < Tuning::kProbes; ++i) {
+      const Imath::V2d at = evenly(static_cast<size_t>(i), .5, .5),
+                       to = evenly(static_cast<size_t>(i), .1, .3);
+      const V3d point = pane.corner + at.x * pane.width * pane.x + at.y * pane.height * pane.y;
+      sum += probe(point + offset, diffuseDirection(normal, to.y, to.x), static_cast<uint64_t>(i));
     }
-    if (!(std::max(seen[0], seen[1]) > Tuning::kBrighter * std::min(seen[0], seen[1]))) continue;
-    if (seen[0] > seen[1]) pane.normal = -pane.normal;
-    pane.power = std::max(seen[0], seen[1]) * pane.area;
+    return sum / Tuning::kProbes;
+  };
+  double all = 0;
+  for (Opening& pane : panes) {
+    const double along = seenFrom(pane, -lift * pane.normal, pane.normal),
+                 against = seenFrom(pane, lift * pane.normal, -pane.normal);
+    const double bright = std::max(along, against);
+    if (!(bright > Tuning::kBrighter * std::min(along, against))) continue;
+    if (along > against) pane.normal = -pane.normal;
+    const double behind = seenFrom(pane, lift * pane.normal, pane.normal);
+    if (!(behind > 0)) continue;  // no surface receives its light
+    pane.power = bright * pane.area;
+    inside_ += pane.power * behind;
+    all += pane.power;
     openings_.push_back(pane);
   }
+  if (all > 0) inside_ /= all;
   merge(openings_);
   const auto byPower = [](const Opening& a, const Opening& b) { return a.power > b.power; };
   std::stable_sort(openings_.begin(), openings_.end(), byPower);
@@ -125,8 +134,7 @@ Openings::Openings(const Scene& scene, const Box3d& bounds, const Probe& probe) 
 }
 
 void Openings::aim(const V3d& point, const V3d& normal, Aim& aim) const {
-  aim.share = 0;
-  aim.upTo.clear();
+  aim.count = 0;
   double sum = 0, seen = 0;
   for (uint32_t i = 0; i < openings_.size(); ++i) {
     const Opening& o = openings_[i];
@@ -144,11 +152,11 @@ void Openings::aim(const V3d& point, const V3d& normal, Aim& aim) const {
     factor = factor / 5 * o.area / kPi;
     if (!(factor > 0)) continue;
     seen += factor;
-    aim.upTo.emplace_back(i, sum += factor * o.power / o.area);
+    aim.opening[aim.count] = i;
+    aim.upTo[aim.count++] = sum += factor * o.power / o.area;
   }
-  // If openings fill much of the view, rays hit them without being aimed.
-  if (sum > 0) aim.share = Tuning::kMostAimed * std::max(0., 1 - Tuning::kSeenAnyway * seen);
-  if (aim.share < Tuning::kTooFew) aim.share = 0;
+  aim.mean = sum;
+  aim.seen = seen;
 }
 
 double Openings::areaTowards(const V3d& direction) const {
@@ -170,20 +178,19 @@ V3d Openings::pointTowards(const V3d& direction, double u1, double u2, double u3
 }
 
 V3d Openings::sample(const Aim& aim, const V3d& point, double u1, double u2, double u3) const {
-  const double due = u1 * aim.upTo.back().second;
-  auto chosen = std::upper_bound(aim.upTo.begin(), aim.upTo.end(), due,
-                                 [](double x, const auto& entry) { return x < entry.second; });
-  if (chosen == aim.upTo.end()) --chosen;
-  const Opening& o = openings_[chosen->first];
+  const double due = u1 * aim.upTo[aim.count - 1];
+  size_t chosen = 0;
+  while (chosen + 1 < aim.count && !(due < aim.upTo[chosen])) ++chosen;
+  const Opening& o = openings_[aim.opening[chosen]];
   return (o.corner + u2 * o.width * o.x + u3 * o.height * o.y - point).normalized();
 }
 
 double Openings::density(const Aim& aim, const V3d& point, const V3d& direction) const {
   double sum = 0, before = 0;
-  for (const auto& [i, upTo] : aim.upTo) {
-    const double chance = upTo - before;
-    before = upTo;
-    const Opening& o = openings_[i];
+  for (size_t i = 0; i < aim.count; ++i) {
+    const double chance = aim.upTo[i] - before;
+    before = aim.upTo[i];
+    const Opening& o = openings_[aim.opening[i]];
     const double cosine = -direction.dot(o.normal);
     if (!(cosine > 0)) continue;
     const V3d from = point - o.corner;
@@ -193,7 +200,7 @@ double Openings::density(const Aim& aim, const V3d& point, const V3d& direction)
     if (u < 0 || v < 0 || u > o.width || v > o.height) continue;
     sum += chance * distance * distance / (cosine * o.width * o.height);
   }
-  return sum / aim.upTo.back().second;
+  return sum / before;
 }
 
 }  // namespace rsphere

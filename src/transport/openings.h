@@ -6,10 +6,12 @@
 //
 // Source: Bitterli, Novák, Jarosz, "Portal-masked environment map sampling" (Computer Graphics Forum 34,
 // 2015). Differences: portals are found automatically, and sampled by area.
+#include <array>
 #include <functional>
 #include <vector>
 
 #include "scene/scene.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
 
@@ -23,18 +25,23 @@ class Openings {
   Openings(const Scene& scene, const Box3d& bounds, const Probe& probe);
 
   bool empty() const { return openings_.empty(); }
+  // The mean brightness (W/sr/m2) behind the openings, on their dark sides.
+  double inside() const { return inside_; }
 
   // The sampling distribution for a point of a diffuse surface.
   struct Aim {
-    double share = 0;                               // of the rays that should be aimed
-    std::vector<std::pair<uint32_t, double>> upTo;  // openings, with their cumulative weights
+    double mean = 0;   // radiance over the hemisphere from the openings, W/sr/m2, without occlusion
+    double seen = 0;   // form factor to all of them
+    size_t count = 0;  // of openings that light arrives from; below, their numbers and cumulative weights
+    std::array<uint32_t, tuning::Openings::kMostRoom> opening;
+    std::array<double, tuning::Openings::kMostRoom> upTo;
   };
 
-  // normal: unit, on the side that the light arrives at. Clears and fills aim.
+  // normal: unit, on the side that the light arrives at.
   void aim(const V3d& point, const V3d& normal, Aim& aim) const;
 
   // One of the aimed directions (unit) from the point, for uniform u1, u2, u3 in [0, 1); u1 chooses the
-  // opening. REQUIRES aim.share > 0.
+  // opening. REQUIRES aim.mean > 0.
   V3d sample(const Aim& aim, const V3d& point, double u1, double u2, double u3) const;
 
   // The density of aimed directions, per sr.
@@ -58,6 +65,7 @@ class Openings {
   static void merge(std::vector<Opening>& panes);
 
   std::vector<Opening> openings_;
+  double inside_ = 0;
 };
 
 }  // namespace rsphere

@@ -4,16 +4,16 @@
 #include "scene/random.h"
 #include "trace/tracer.h"
 #include "transport/path_observer.h"
+#include "transport/transport.h"
 
 namespace rsphere {
 
-class BrightSpots;
 class LocalGuess;
 
 // How a tracer traces all of its paths.
 struct PathSettings {
-  const BrightSpots* spots = nullptr;  // that gathers aim at; null: none
-  const LocalGuess* guess = nullptr;   // control variate of indirect rays; null: none
+  Aims aims;
+  const LocalGuess* guess = nullptr;  // control variate of indirect rays; null: none
   RayObserver observer;
   bool observesAllShadowRays = false;
   bool gathersFirstAnew = false;  // no interpolation at first diffuse surfaces

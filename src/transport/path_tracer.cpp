@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "transport/bright_spots.h"
 #include "transport/final_gather.h"
 #include "transport/participating_media.h"
 #include "transport/ray_functions.h"
@@ -54,7 +53,7 @@ void checkDepth(const Ray& ray) {
 // The recursion and its parts.
 class PathTracer::Path final : public RayFollower, public SiteGatherer {
  public:
-  Path(const Transport& transport, const BrightSpots* spots)
+  Path(const Transport& transport, const Aims& aims)
       : t_(transport),
         direct_(transport, settings_, state_, *this),
         specular_(transport, state_, *this),
@@ -62,7 +61,7 @@ class PathTracer::Path final : public RayFollower, public SiteGatherer {
         indirect_(transport, settings_, state_, *this, interpolated_),
         media_(transport, state_, direct_),
         shading_(transport, state_, *this, direct_, specular_, indirect_) {
-    settings_.spots = spots;
+    settings_.aims = aims;
   }
 
   Ray trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed);
@@ -234,14 +233,14 @@ void PathTracer::Path::find(Ray& ray) {
 
 // The path for gathers within this path. Nested gathers each use another one.
 PathTracer::Path& PathTracer::Path::gatherer() {
-  if (!gatherer_) gatherer_ = std::make_unique<Path>(t_, t_.spots());
+  if (!gatherer_) gatherer_ = std::make_unique<Path>(t_, t_.aims());
   return *gatherer_;
 }
 
 GatheredLight PathTracer::Path::gather(const GatherSite& site, uint64_t seed, int depth) {
   Path& path = gatherer();
   path.begin(seed ^ rotationBits(t_.options()), site.normal);
-  return gatherLight(t_, path.state_, path.settings_.spots, path, site, depth);
+  return gatherLight(t_, path.state_, path.settings_.aims, path, site, depth);
 }
 
 void PathTracer::Path::link(const GatherSite& site, int rays, uint64_t seed, int depth,
@@ -249,11 +248,11 @@ void PathTracer::Path::link(const GatherSite& site, int rays, uint64_t seed, int
   Path& path = gatherer();
   path.begin(seed ^ rotationBits(t_.options()), site.normal);
   path.state_.links = &links;
-  linkPatch(t_, path.state_, path.settings_.spots, path, site, rays, depth);
+  linkPatch(t_, path.state_, path.settings_.aims, path, site, rays, depth);
 }
 
-PathTracer::PathTracer(const Transport& transport, const BrightSpots* spots)
-    : path_(std::make_unique<Path>(transport, spots)) {}
+PathTracer::PathTracer(const Transport& transport, const Aims& aims)
+    : path_(std::make_unique<Path>(transport, aims)) {}
 PathTracer::~PathTracer() = default;
 PathTracer::PathTracer(PathTracer&&) noexcept = default;
 

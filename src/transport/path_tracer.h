@@ -11,16 +11,14 @@
 
 namespace rsphere {
 
-class BrightSpots;
 class LocalGuess;
 
 // Traces one ray at a time; each thread needs its own tracer. The answer depends only on the ray, the seed,
 // and the transport.
 class PathTracer {
  public:
-  // Keeps references. spots: some directions are aimed at them where indirect light is gathered instead of
-  // interpolated; null: none.
-  explicit PathTracer(const Transport& transport, const BrightSpots* spots = nullptr);
+  // Keeps references. aims: of directions where indirect light is gathered instead of interpolated.
+  explicit PathTracer(const Transport& transport, const Aims& aims = {});
   ~PathTracer();
   PathTracer(PathTracer&&) noexcept;
 

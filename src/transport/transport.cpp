@@ -81,8 +81,10 @@ Transport::Transport(const Scene& scene, const RayOptions& options, IrradianceAt
     if (radiance && maxChannel(*radiance) > kNegligible) distant_.push_back(i);
   }
   findScatterers(warn);
-  if (options.ambientAccuracy > 0 && options.ambientBounces > 0 && options.ambientDivisions > 0)
-    prepareInterpolation(warn);
+  if (options.ambientBounces > 0 && options.ambientDivisions > 0) {
+    findAims();
+    if (options.ambientAccuracy > 0) prepareInterpolation(warn);
+  }
   const bool including = !options.ambientIncluded.empty();
   const auto& names = including ? options.ambientIncluded : options.ambientExcluded;
   if (names.empty()) return;
@@ -94,22 +96,26 @@ Transport::Transport(const Scene& scene, const RayOptions& options, IrradianceAt
 
 Transport::~Transport() = default;
 
-void Transport::prepareInterpolation(const rad::Warn& warn) {
-  const Box3d& bounds = tracer_.bounds();
+void Transport::findAims() {
   if (!scene_.importance) {
     PathTracer probe(*this);
-    auto openings = std::make_unique<Openings>(scene_, bounds,
+    auto openings = std::make_unique<Openings>(scene_, tracer_.bounds(),
                                                [&](const V3d& origin, const V3d& direction, uint64_t seed) {
                                                  return brightness(probe.glimpse(origin, direction, seed));
                                                });
     if (!openings->empty()) openings_ = std::move(openings);
   }
-  field_ = std::make_unique<IrradianceField>(scene_, bounds, fieldOptions(options_));
-  if (options_.ambientBounces > 1) {
-    coarse_ = std::make_unique<CoarseSolution>(scene_, bounds, fieldOptions(options_), openings_ != nullptr);
+  if (options_.ambientAccuracy > 0 || openings_) {
     auto spots = std::make_unique<BrightSpots>(scene_, tracer_, lights_, openings_.get());
     if (!spots->empty()) spots_ = std::move(spots);
   }
+}
+
+void Transport::prepareInterpolation(const rad::Warn& warn) {
+  const Box3d& bounds = tracer_.bounds();
+  field_ = std::make_unique<IrradianceField>(scene_, bounds, fieldOptions(options_));
+  if (options_.ambientBounces > 1)
+    coarse_ = std::make_unique<CoarseSolution>(scene_, bounds, fieldOptions(options_), openings_ != nullptr);
   if (!options_.ambientFile.empty())
     field_->keepIn(AmbientFile::openBeside(options_.ambientFile, fingerprint(scene_),
                                            fingerprint(options_, basicRadiance_, scene_.files), warn));

@@ -30,6 +30,12 @@ inline uint64_t rotationBits(const RayOptions& options) {
   return options.rotation == 0 ? 0 : mixBits(options.rotation);
 }
 
+// What the rays of gathers are aimed at; null: nothing.
+struct Aims {
+  const Openings* openings = nullptr;
+  const BrightSpots* spots = nullptr;
+};
+
 // The options of the fields of interpolated light.
 FieldOptions fieldOptions(const RayOptions& options);
 
@@ -38,8 +44,8 @@ FieldOptions fieldOptions(const RayOptions& options);
 class Transport {
  public:
   // basicRadiance: refraction does not scale radiance by the square of the refractive index (-Sb). warn: gets
-  // the warnings of SurfaceFunctions and LightSources. If light is interpolated (-aa), the constructor traces
-  // some paths to find the openings that daylight enters through.
+  // the warnings of SurfaceFunctions and LightSources. If there is indirect light (-ab) and the scene has
+  // panes, the constructor traces some paths to find the openings that daylight enters through.
   Transport(const Scene& scene, const RayOptions& options, IrradianceAt irradiance,
             bool basicRadiance = false, const rad::Warn& warn = {});
   ~Transport();
@@ -85,12 +91,12 @@ class Transport {
   // The coarse solution, which gives the light of second and later diffuse surfaces; null where paths are
   // followed instead (-aa 0, -ab 1). Tracing adds to it.
   CoarseSolution* coarse() const { return coarse_.get(); }
-  // The openings that daylight enters through; null if none were found.
-  const Openings* openings() const { return openings_.get(); }
-  // Patches of strong direct light that gathers aim at; null if there are none.
-  const BrightSpots* spots() const { return spots_.get(); }
+  // The openings that daylight enters through, and patches of strong direct light. Patches are not looked for
+  // where light is not interpolated (-aa 0) and no daylight enters.
+  Aims aims() const { return {openings_.get(), spots_.get()}; }
 
  private:
+  void findAims();
   void prepareInterpolation(const rad::Warn& warn);
   bool glows(std::span<const Surface> surfaces) const;
   void findScatterers(const rad::Warn& warn);

@@ -49,13 +49,6 @@ struct BrightSpots {
   // Ratio of the radius of a spot to half the diagonal of the box around its particles: chosen by experiment.
   // 30% less or more: within noise (sensors by sun; error 14%, time 5%).
   RSPHERE_TUNED(BrightSpots, double, kWider, 1.15);
-  // Cap on the share of directions that are aimed at spots: chosen by experiment. The others then have
-  // at most twice the weight that they have without aiming. 30% less or more: within noise (sensors by
-  // sun; error 12%, time 5%).
-  RSPHERE_TUNED(BrightSpots, double, kMostAimed, .5);
-  // A smaller share of aimed directions is not worth the work: chosen by experiment. 30% less or more: within
-  // noise (sensors by sun; error 4%, time 7%).
-  RSPHERE_TUNED(BrightSpots, double, kTooFew, .02);
   // No rays are aimed at a spot whose center is nearer than the root of this, in radii: chosen by
   // experiment. From nearer, the formula for a small surface fails. 30% less or more: within noise (sensors
   // by sun; error below 1%, time 7%).
@@ -90,22 +83,11 @@ struct Openings {
   RSPHERE_TUNED(Openings, double, kFilled, .7);
   // Cap on the number of openings; the most powerful are kept: chosen by experiment, to limit the time. 30%
   // less or more: the same answers in all cases.
-  RSPHERE_TUNED(Openings, size_t, kMost, 64);
+  RSPHERE_TUNED_ROOM(Openings, size_t, kMost, 64);
   // The form factor to an opening is estimated from its middle and from four points that are this share of
   // its sides away from its edges: chosen by experiment. 30% less: error +2%; 30% more: within noise (sensors
   // by sun; noise: error 5%, time 5%).
   RSPHERE_TUNED(Openings, double, kInset, .1);
-  // Cap on the share of rays that are aimed at openings: by measurement. From .15 to .35 the noise of sensors
-  // in daylit rooms is the same; .6 takes too many rays from sunlit surfaces.
-  RSPHERE_TUNED(Openings, double, kMostAimed, .3);
-  // The share falls by this multiple of the form factor to all openings, because rays hit openings that fill
-  // much of the view without being aimed: chosen by experiment. 30% less or more: within noise (sensors by
-  // sun; error 6%, time 5%).
-  RSPHERE_TUNED(Openings, double, kSeenAnyway, 2);
-  // A smaller share of aimed rays is not worth the work: chosen by experiment. It ends aiming where openings
-  // fill more than 44% of the view. With 0 instead, the error .9 m from the window of a room is .6% instead of
-  // .8%, in the same time. 30% less or more: the same answers in all cases.
-  RSPHERE_TUNED(Openings, double, kTooFew, .05);
 };
 
 // The control variate of sphere mode (radiance_guess.cpp).
@@ -160,13 +142,28 @@ struct DirectLight {
   RSPHERE_TUNED(DirectLight, int, kBlockerBits, 12);
 };
 
-// The directions of gathers (hemisphere_rays.cpp).
-struct HemisphereRays {
-  // The shares of fewer rays than this are not rounded to whole numbers of each kind; the kind of each ray is
-  // drawn at random: chosen by experiment. If so few were shared out by rounding, a kind with a small share
-  // would never get one. With 4 as the limit, 8 rays at a sensor in a sunlit room would have a third less
-  // noise. 30% less or more: the same answers in all cases.
-  RSPHERE_TUNED(HemisphereRays, int, kFew, 16);
+// Which directions of gathers are aimed (gather_directions.cpp): shares of them in proportion to the light that
+// probably comes from openings, from spots and from elsewhere. The figures are the work, variance times time, of
+// paths without interpolation in four daylit rooms: a narrow and a wide one, by an overcast sky and by the sun.
+struct GatherDirections {
+  // The share of directions at openings, for each share of the light that openings probably bring: by
+  // measurement. At .5 the work is 1.3, .9, 1 and 1 times that at .7, at .3 it is 7.8, 2.4, 1.1 and 1.2 times.
+  RSPHERE_TUNED(GatherDirections, double, kToOpenings, .7);
+  // Cap on that share: chosen by experiment. Others then have at most twice the weight that they have without
+  // aiming.
+  RSPHERE_TUNED(GatherDirections, double, kMostToOpenings, .5);
+  // The same for spots: chosen by experiment. From .5 to .9 the work is the same within its noise.
+  RSPHERE_TUNED(GatherDirections, double, kToSpots, .5);
+  // The light from elsewhere, relative to the smaller of two estimates that are made near openings, where it is
+  // brighter than farther inside: by measurement. At 1 the work is 4.8, 2.3, .8 and 1 times that at .5.
+  RSPHERE_TUNED(GatherDirections, double, kFartherInside, .5);
+  // The share falls by this multiple of the form factor to all openings, because rays hit openings that fill
+  // much of the view without being aimed: chosen by experiment. 30% less or more: within noise (sensors by
+  // sun; error 6%, time 5%).
+  RSPHERE_TUNED(GatherDirections, double, kSeenAnyway, 2);
+  // A smaller share of aimed directions is not worth the work: chosen by experiment. 30% less or more: within
+  // noise (sensors by sun; error 4%, time 7%).
+  RSPHERE_TUNED(GatherDirections, double, kTooFew, .02);
 };
 
 // When and how light is interpolated (interpolated_light.cpp).

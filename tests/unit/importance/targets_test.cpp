@@ -44,7 +44,7 @@ struct Choice {
   SeenSources sources{*setting.transport};
 
   Targets at(const V3d& point, double meanBrightness, size_t most, double densityFactor = 1) const {
-    return TargetChoice(*setting.transport, objects, sources, nullptr, densityFactor)
+    return TargetChoice(*setting.transport, objects, sources, Aims{}, densityFactor)
         .at(point, meanBrightness, 2048, most);
   }
 };
@@ -84,7 +84,7 @@ TEST(TargetChoice, DensityIsMultiplied) {
 TEST(Contrasts, NoneOfDiffuseScenes) {
   const Setting setting;
   const SeenSources sources(*setting.transport);
-  const Contrasts contrasts = measureContrasts(*setting.transport, {}, sources, nullptr);
+  const Contrasts contrasts = measureContrasts(*setting.transport, {}, sources, Aims{});
   EXPECT_TRUE(contrasts.objects.empty());
   EXPECT_EQ(contrasts.surroundings, 1);
 }
@@ -96,7 +96,7 @@ TEST(Contrasts, OfAMirrorUnderHalfASphereOfLight) {
               "void metal chrome 0 0 5 .9 .9 .9 1 0\nchrome sphere s 0 0 4 0 0 0 1\n"));
   const auto objects = findSpecialObjects(setting.scene, 1);
   const SeenSources sources(*setting.transport);
-  const Contrasts contrasts = measureContrasts(*setting.transport, objects, sources, nullptr);
+  const Contrasts contrasts = measureContrasts(*setting.transport, objects, sources, Aims{});
   ASSERT_EQ(contrasts.objects.size(), 1u);
   EXPECT_NEAR(contrasts.objects[0].deviation, .45, .05);
   EXPECT_GT(contrasts.surroundings, 0);

@@ -132,8 +132,8 @@ TEST(RadianceGuess, OfIndirectRaysLeavesTheMeanAsItIs) {
     ASSERT_GT(local.raysToGuess(0), 0);
     const BrightSpots spots(room.scene(), room.transport().tracer(), room.transport().lights());
     EXPECT_EQ(spots.empty(), c.light == &kPanel);
-    PathTracer plain(room.transport(), spots.empty() ? nullptr : &spots);
-    PathTracer guessing(room.transport(), spots.empty() ? nullptr : &spots);
+    PathTracer plain(room.transport(), Aims{nullptr, spots.empty() ? nullptr : &spots});
+    PathTracer guessing(room.transport(), Aims{nullptr, spots.empty() ? nullptr : &spots});
     guessing.guessWith(&local);
     Sample without, with;
     const V3d to = V3d(-.3, .2, -1).normalized();  // the floor

@@ -1,0 +1,92 @@
+#include "transport/gather_directions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/even_sequence.h"
+#include "shade/scattering.h"
+#include "transport/ray_functions.h"
+#include "transport/ray_limits.h"
+#include "transport/tuning.h"
+
+namespace rsphere {
+namespace {
+
+using Tuning = tuning::GatherDirections;
+
+// The mean radiance (W/sr/m2) from directions that are not aimed. Both estimates are made near to the openings,
+// where rooms are brighter than elsewhere.
+double usualRadiance(const Aims& aims) {
+  if (!aims.openings) return aims.spots->usual();
+  const double least =
+      aims.spots ? std::min(aims.openings->inside(), aims.spots->usual()) : aims.openings->inside();
+  return Tuning::kFartherInside * least;
+}
+
+double paying(double share) { return share >= Tuning::kTooFew ? share : 0; }
+
+}  // namespace
+
+GatherDirections::GatherDirections(const Aims& aims, const V3d& point, const V3d& normal,
+                                   const V3d& trueNormal)
+    : aims_(aims), point_(point), normal_(normal), trueNormal_(trueNormal) {
+  if (aims.openings) aims.openings->aim(point, normal, openings_);
+  if (aims.spots) aims.spots->aim(point, normal, spots_);
+  const double aimedAt = openings_.mean + spots_.mean;
+  if (!(aimedAt > 0)) return;
+  const double all = aimedAt + usualRadiance(aims);
+  const double unseen = std::max(0., 1 - Tuning::kSeenAnyway * openings_.seen);
+  toOpenings_ =
+      paying(std::min(Tuning::kMostToOpenings, Tuning::kToOpenings * openings_.mean / all * unseen));
+  toSpots_ = paying(Tuning::kToSpots * spots_.mean / all);
+}
+
+// Relative to the density by projected solid angle.
+double GatherDirections::density(const V3d& direction) const {
+  double aimed = 0;
+  if (toOpenings_ > 0) aimed += toOpenings_ * aims_.openings->density(openings_, point_, direction);
+  if (toSpots_ > 0) aimed += toSpots_ * aims_.spots->density(spots_, direction);
+  return 1 - toOpenings_ - toSpots_ + aimed * kPi / direction.dot(normal_);
+}
+
+void GatherDirections::draw(int count, Random& random, Each each) const {
+  constexpr double kGolden = .6180339887498949;
+  const double shift1 = random.uniform(), shift2 = random.uniform(), shift3 = random.uniform();
+  for (int i = 0; i < count; ++i) {
+    // Systematic sampling: consecutive directions are of one kind, whose number differs from its share by less
+    // than 1. Within its kind, u is evenly spaced from 0 to 1.
+    double u = (i + shift1) / count;
+    const Imath::V2d even = evenly(static_cast<size_t>(i), shift2, shift3);
+    V3d direction;
+    if (u < toOpenings_) {
+      direction = aims_.openings->sample(openings_, point_, u / toOpenings_, even.x, even.y);
+    } else if ((u -= toOpenings_) < toSpots_) {
+      direction = aims_.spots->sample(spots_, u / toSpots_, even.x, even.y);
+    } else {
+      // A Fibonacci lattice over the projected hemisphere, shifted at random. It is as evenly distributed as a
+      // jittered grid, for any number of rays.
+      const double around = shift2 + i * kGolden;
+      direction = diffuseDirection(normal_, std::min(1., (u - toSpots_) / (1 - toOpenings_ - toSpots_)),
+                                   around - std::floor(around));
+    }
+    if (direction.dot(normal_) <= 0 || direction.dot(trueNormal_) <= 0) continue;
+    each(direction, 1 / (density(direction) * count));
+  }
+}
+
+void sendOverHemisphere(const Transport& transport, const GatherDirections& directions, Random& random,
+                        const Ray& root, RayKind kind, int rays, const Coefficient& coefficient,
+                        const Coefficient& weight, GatherRay each) {
+  directions.draw(rays, random, [&](const V3d& direction, double part) {
+    Ray child;
+    child.direction = direction;
+    Coefficient survived = weight;
+    if (!continueRay(transport, random, child, kind, root, survived)) return;
+    ++child.ambientLevel;
+    const Coefficient factor = coefficient * (part * maxChannel(survived) / maxChannel(weight));
+    child.contribution = root.contribution * passedBy(root) * factor;
+    each(child, factor);
+  });
+}
+
+}  // namespace rsphere

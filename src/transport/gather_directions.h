@@ -1,0 +1,49 @@
+#pragma once
+// The directions of a gather: most of them distributed by projected solid angle, the others aimed at openings
+// that daylight enters through and at bright spots. Each is weighted by the density with which all of these
+// together choose its direction (multiple importance sampling with the balance heuristic).
+#include <array>
+
+#include "scene/random.h"
+#include "transport/bright_spots.h"
+#include "transport/function_ref.h"
+#include "transport/openings.h"
+#include "transport/ray.h"
+#include "transport/transport.h"
+
+namespace rsphere {
+
+class GatherDirections {
+ public:
+  // Around a normal (unit) at a point (world). No directions lie behind trueNormal (unit), as if it were dark
+  // there. Keeps references to what the aims refer to.
+  GatherDirections(const Aims& aims, const V3d& point, const V3d& normal, const V3d& trueNormal);
+
+  // Gets a direction (unit), and its share of the mean over the hemisphere.
+  using Each = FunctionRef<void(const V3d& direction, double part)>;
+
+  // Draws `count` directions, whose parts sum to 1 on average. Directions behind the surface are left out.
+  // Any two calls with the same random numbers give the same directions.
+  void draw(int count, Random& random, Each each) const;
+
+ private:
+  double density(const V3d& direction) const;
+
+  Aims aims_;
+  V3d point_, normal_, trueNormal_;
+  Openings::Aim openings_;
+  BrightSpots::Aim spots_;
+  double toOpenings_ = 0, toSpots_ = 0;  // shares of the directions that are aimed
+};
+
+// Gets a child that is ready to be traced, and the factor of its radiance in the result.
+using GatherRay = FunctionRef<void(Ray& child, const Coefficient& factor)>;
+
+// Makes rays of directions at the hit of the root. coefficient: of the mean radiance over the hemisphere in
+// the result. weight: of one child relative to the root's, by which the weight limit (-lw) ends paths. An
+// aimed direction has no smaller weight than others, although its factor is smaller.
+void sendOverHemisphere(const Transport& transport, const GatherDirections& directions, Random& random,
+                        const Ray& root, RayKind kind, int rays, const Coefficient& coefficient,
+                        const Coefficient& weight, GatherRay each);
+
+}  // namespace rsphere
