@@ -23,8 +23,7 @@ struct Contrasts {
 
 // Measures the contrasts of the scene. Objects with the same modifier share one measurement. The result
 // depends on the scene and the options of transport alone. Without objects nothing is traced.
-// sources: those integrated separately; rays that show one are left out.
-// spots: patches that indirect rays are aimed at, or null.
+// sources: those integrated separately; rays that show one are left out. aims: of indirect rays.
 Contrasts measureContrasts(const Transport& transport, std::span<const SpecialObject> objects,
                            const SeenSources& sources, const Aims& aims);
 

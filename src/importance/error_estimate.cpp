@@ -13,16 +13,25 @@ using Tuning = tuning::ErrorEstimate;
 }  // namespace
 
 Variance baseVariance(std::span<const DirectionSample> base, const Neighbours& n,
-                      const std::vector<bool>& enters) {
+                      std::span<const RegionId> regions) {
+  const auto regionOf = [&](size_t i) { return regions.empty() ? RegionId{0} : regions[i]; };
   Variance sum;
   for (size_t i = 0; i < base.size(); ++i) {
-    if (!enters[i]) continue;
-    Radiance around;
-    int count = 0;
+    if (regionOf(i) == kNoRegion) continue;
+    Radiance around, aroundHere;
+    int count = 0, countHere = 0;
     for (uint32_t k = n.first[i]; k < n.first[i + 1]; ++k) {
-      if (!enters[n.neighbour[k]]) continue;
-      around += base[n.neighbour[k]].value;
+      const uint32_t other = n.neighbour[k];
+      if (regionOf(other) == kNoRegion) continue;
+      around += base[other].value;
       ++count;
+      if (regionOf(other) != regionOf(i)) continue;
+      aroundHere += base[other].value;
+      ++countHere;
+    }
+    if (countHere > 0) {
+      around = aroundHere;
+      count = countHere;
     }
     if (count == 0) continue;
     // If m neighbours have the same variance, the variance of the difference to their mean is (m+1)/m

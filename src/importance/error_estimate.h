@@ -37,10 +37,14 @@ struct Neighbours {
 // Variance of the sum of solid angle times radiance over the base directions. Each direction contributes its
 // solid angle times the difference between its radiance and the mean of its neighbours. A slope over the
 // sphere contributes nothing, because an even set integrates it; noise of paths and edges do. An even set
-// averages out a part of the edges, so that the sum is multiplied by tuning::ErrorEstimate::kEvenSet. enters:
-// false for directions that do not enter the sum, because others represent their solid angle.
+// averages out a part of the edges, so that the sum is multiplied by tuning::ErrorEstimate::kEvenSet. regions: of
+// each direction. Only neighbours in the same region are compared, if there are any, because cells keep to
+// regions: the edge of a region is no error. kNoRegion: the direction does not enter the sum, because others
+// represent its solid angle. Empty: all are in one region.
+using RegionId = uint64_t;
+inline constexpr RegionId kNoRegion = UINT64_MAX;
 Variance baseVariance(std::span<const DirectionSample> base, const Neighbours& neighbours,
-                      const std::vector<bool>& enters);
+                      std::span<const RegionId> regions);
 
 // The same for a run of dynamic directions, which are evenly spread over a region in this order,
 // but successive ones are not neighbours: the variance of independent directions, reduced because

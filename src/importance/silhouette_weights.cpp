@@ -135,10 +135,11 @@ SilhouetteWeights::Others SilhouetteWeights::sampleOthers(const SetAtPoint& set,
   double sum = 0;
   // The solid angle of each is the inverse of the density of all directions around it.
   const auto send = [&](const V3d& d, double baseCell) {
-    const double cell = 1 / (1 / baseCell + targets.densityAt(d));
+    const Targets::Region region = targets.regionAt(d);
+    const double cell = 1 / (1 / baseCell + region.density);
     const Ray ray = tracer.trace(set.point(), d, 0, seedOf(set, Stream::firstRay, others.samples.size()));
     const bool enters = !sources_.shown(tracer, images);
-    others.enters.push_back(enters);
+    others.regions.push_back(enters ? region.id : kNoRegion);
     if (enters) sum += cell;
     others.samples.push_back({d, enters ? cell : 0, enters ? ray.value : Radiance()});
     if (options_.everyDirection) others.rays.push_back(ray);
@@ -173,7 +174,7 @@ Moments SilhouetteWeights::excessOfGlances(const SetAtPoint& set, const Others& 
                                            const LocalGuess& guess) const {
   Moments excess;
   for (size_t i = 0; i < others.samples.size(); ++i)
-    if (others.enters[i])
+    if (others.regions[i] != kNoRegion)
       excess.add(others.samples[i].direction,
                  irradianceFrom(others.guesses[i], -others.samples[i].solidAngle));
   const std::vector<V3d> glances = set.turned(guidance_->glances);
@@ -196,10 +197,10 @@ Variance SilhouetteWeights::varianceOf(const Others& others,
     for (size_t i = 0; i < unguessed.size(); ++i) unguessed[i].value -= others.guesses[i];
     const double even =
         std::pow(static_cast<double>(guidance_->glances.size()) / static_cast<double>(base), -1.5);
-    variance += baseVariance(guessed, *base_.neighbours, others.enters) * even;
+    variance += baseVariance(guessed, *base_.neighbours, others.regions) * even;
   }
   const std::span<const DirectionSample> samples(unguessed);
-  variance += baseVariance(samples.first(base), *base_.neighbours, others.enters);
+  variance += baseVariance(samples.first(base), *base_.neighbours, others.regions);
   for (size_t i = 1; i < others.runs.size(); ++i)
     variance += spreadVariance(samples.subspan(others.runs[i - 1], others.runs[i] - others.runs[i - 1]));
   for (size_t i = 0, next = 0; i < toImages.size(); i = next) {

@@ -19,7 +19,8 @@ namespace rsphere {
 //   and outside it is not changed. Plain cells reach over the silhouette's edge from the dense side and bias
 //   the mean by a percent.
 // - How many directions a special object gets follows from how much the radiance on it varies, compared with
-//   the surroundings. That is measured by separate rays, so that the mean stays unbiased (targets.h).
+//   the surroundings. That is measured by separate rays, so that the mean stays unbiased (targets.h). Spots of
+//   sunlight that enters through openings also get directions of their own.
 // - Indirect rays are aimed at openings that daylight enters through (transport/openings.h), and at diffuse
 //   surfaces that receive much direct light (transport/bright_spots.h).
 // - A control variate reduces the variance of diffuse surfaces (transport/radiance_guess.h). Many glances,
@@ -55,9 +56,9 @@ class SilhouetteWeights : public SamplingStrategy {
     std::vector<DirectionSample> samples;  // the base directions, then those to targets
     std::vector<Ray> rays;                 // of the samples, with -Sd only
     std::vector<Radiance> guesses;         // of the samples; empty: nothing is guessed
-    // Whether the sample enters the mean. It does not if it shows an image of a light source, because the
-    // image has its own samples; then its solid angle, radiance and guess are 0.
-    std::vector<bool> enters;
+    // The targets that contain the sample. kNoRegion: it does not enter the mean, because it shows an image of a
+    // light source, which has its own samples; its solid angle, radiance and guess are then 0.
+    std::vector<RegionId> regions;
     // The first sample of each target, or of all parts of one image; then the number of all samples.
     std::vector<size_t> runs;
   };

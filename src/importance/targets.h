@@ -4,8 +4,10 @@
 #include <vector>
 
 #include "importance/contrasts.h"
+#include "importance/error_estimate.h"
 #include "importance/glints.h"
 #include "importance/silhouette_index.h"
+#include "transport/bright_spots.h"
 
 namespace rsphere {
 
@@ -24,24 +26,28 @@ class Targets {
 
   std::span<const Target> all() const { return targets_; }
 
-  // The density, per sr, of the targets' own directions around a direction (unit): the sum over all
-  // targets that contain it.
-  double densityAt(const V3d& direction) const;
+  // The targets that contain a direction (unit).
+  struct Region {
+    double density = 0;  // of their own directions there, per sr
+    RegionId id = 0;     // equal for directions in the same targets
+  };
+  Region regionAt(const V3d& direction) const;
 
  private:
   std::vector<Target> targets_;
   SilhouetteIndex index_;  // of targets_, by position
 };
 
-// Chooses the targets at any point. Shared by all threads; keeps a reference to transport's scene.
+// Chooses the targets at any point. Shared by all threads; keeps a reference to transport.
 class TargetChoice {
  public:
   // Measures how much radiance varies on the objects (contrasts.h). sources: those integrated separately.
-  // spots: patches that indirect rays are aimed at, or null. densityFactor: -Sk.
+  // aims: of indirect rays. densityFactor: -Sk.
   TargetChoice(const Transport& transport, std::span<const SpecialObject> objects, const SeenSources& sources,
                const Aims& aims, double densityFactor);
 
-  // The targets at a point (world). Their directions are as many as bring the density up to Neyman's
+  // The targets at a point (world): special objects, images of light sources in them, and visible spots of
+  // daylight (transport/bright_spots.h). Their directions are as many as bring the density up to Neyman's
   // allocation, in proportion to the deviation of radiance on them, where the base directions already have
   // the density that suits the surroundings. If that needs more than `most` directions on average, all
   // densities are reduced by the same factor, so that no target is dropped. meanBrightness: of the view
@@ -49,7 +55,8 @@ class TargetChoice {
   Targets at(const V3d& point, double meanBrightness, size_t baseDirections, size_t most) const;
 
  private:
-  const Scene& scene_;
+  const Transport& transport_;
+  std::vector<BrightSpots::Sunlit> sunlit_;
   double densityFactor_;
   Contrasts contrasts_;
   Glints glints_;

@@ -74,6 +74,13 @@ struct BrightSpots::Node {
     }
     if (spot.power > 0) spot.normal /= spot.power;
   }
+  Sunlit sunlit() const {
+    Sunlit found{{}, spot.normal, spot.power / (kPi * area), {}};
+    for (const Particle& p : particles) found.box.extendBy(p.point);
+    for (size_t i = 0; i < found.places.size(); ++i)
+      found.places[i] = particles[(2 * i + 1) * particles.size() / (2 * found.places.size())].point;
+    return found;
+  }
   // The worth of the spot: the light that it reflects, times its brightness.
   double worth() const { return spot.power * spot.power / area; }
   std::pair<Node, Node> halves() const {
@@ -194,20 +201,22 @@ BrightSpots::BrightSpots(const Scene& scene, const Tracer& tracer, const LightSo
     if (free.size() >= Tuning::kFewest) {
       const auto middle = free.begin() + static_cast<ptrdiff_t>(free.size() / 2);
       std::nth_element(free.begin(), middle, free.end());
-      find(std::move(inside), Tuning::kRoomSurface * *middle * *middle, Tuning::kMostInside,
-           Tuning::kBrighterInside, Tuning::kLeastWorthInside);
+      for (const Node& node : find(inside, Tuning::kRoomSurface * *middle * *middle, Tuning::kMostInside,
+                                   Tuning::kBrighterInside, Tuning::kLeastWorthInside))
+        sunlit_.push_back(node.sunlit());
     }
   }
   double area = 0;
   for (const Surface& s : scene.outermost()) area += areaOf(s.shape);
-  find(particles(scene, tracer, lights), area, Tuning::kMost, Tuning::kBrighter, Tuning::kLeastWorth);
+  std::vector<Particle> everywhere = particles(scene, tracer, lights);
+  find(everywhere, area, Tuning::kMost, Tuning::kBrighter, Tuning::kLeastWorth);
 }
 
-void BrightSpots::find(std::vector<Particle> all, double area, size_t most, double brighter,
-                       double leastWorth) {
+std::vector<BrightSpots::Node> BrightSpots::find(std::span<Particle> all, double area, size_t most,
+                                                 double brighter, double leastWorth) {
   double power = 0;
   for (const Particle& p : all) power += p.power;
-  if (!(power > 0) || !(area > 0)) return;
+  if (!(power > 0) || !(area > 0)) return {};
   const double usual = power / area;
 
   // The particles are divided into groups greedily: each step halves the group where that gains most worth.
@@ -235,13 +244,12 @@ void BrightSpots::find(std::vector<Particle> all, double area, size_t most, doub
     consider(i);
     consider(nodes.size() - 1);
   }
-  const auto isSpot = [&](const Node& node) { return node.spot.power > brighter * usual * node.area; };
+  std::erase_if(nodes, [&](const Node& node) { return !(node.spot.power > brighter * usual * node.area); });
   double worth = 0;
-  for (const Node& node : nodes)
-    if (isSpot(node)) worth += node.worth();
-  if (!(worth > leastWorth * usual * power)) return;
-  for (const Node& node : nodes)
-    if (isSpot(node)) keep(node.spot, usual);
+  for (const Node& node : nodes) worth += node.worth();
+  if (!(worth > leastWorth * usual * power)) return {};
+  for (const Node& node : nodes) keep(node.spot, usual);
+  return nodes;
 }
 
 void BrightSpots::keep(const Spot& spot, double usual) {

@@ -33,6 +33,15 @@ class BrightSpots {
   double usual() const { return usual_ / kPi; }
   static constexpr size_t kRoom = tuning::BrightSpots::kMostRoom;
 
+  // The spots of light that enters through openings.
+  struct Sunlit {
+    Box3d box;                  // around the particles that found it, world
+    V3d normal;                 // as of Spot
+    double radiance;            // mean over its area, in brightness, W/sr/m2
+    std::array<V3d, 4> places;  // some of the particles
+  };
+  const std::vector<Sunlit>& sunlit() const { return sunlit_; }
+
   // The sampling distribution for a point of a diffuse surface.
   struct Aim {
     double mean = 0;  // radiance over the hemisphere from the spots, W/sr/m2, without occlusion
@@ -67,9 +76,12 @@ class BrightSpots {
                                          const V3d& direction, double power, Random& random);
   // most: maximal number of spots. area: of the surfaces that receive the light (square world units).
   // brighter, leastWorth: as in tuning::BrightSpots.
-  void find(std::vector<Particle> all, double area, size_t most, double brighter, double leastWorth);
+  // Returns the groups of particles that are spots.
+  std::vector<Node> find(std::span<Particle> all, double area, size_t most, double brighter,
+                         double leastWorth);
   void keep(const Spot& spot, double usual);
 
+  std::vector<Sunlit> sunlit_;
   // The spots, as a structure of arrays.
   using Numbers = std::array<float, kRoom>;
   size_t count_ = 0;

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "importance/tuning.h"
 #include "tests/unit/support/statistics.h"
 
 namespace rsphere {
@@ -55,6 +56,23 @@ TEST(ErrorEstimate, LongRunsOfDirectionsAreTakenForEven) {
     }
     expectMean(ratio, 1 / (1 + std::sqrt(static_cast<double>(n)) / 8), 1.15);
   }
+}
+
+// Four directions in a row, two of which see a window that is brighter than the wall beside it.
+TEST(ErrorEstimate, EdgesOfRegionsAreNoErrors) {
+  const std::vector<DirectionSample> base = {{V3d(0, 0, 1), 1, Radiance(1)},
+                                             {V3d(0, 0, 1), 1, Radiance(1)},
+                                             {V3d(0, 0, 1), 1, Radiance(9)},
+                                             {V3d(0, 0, 1), 1, Radiance(9)}};
+  const Neighbours row{{0, 1, 3, 5, 6}, {1, 0, 2, 1, 3, 2}};
+  const double even = tuning::ErrorEstimate::kEvenSet;
+  // The difference of 4 to the mean of two neighbours, twice.
+  EXPECT_NEAR(baseVariance(base, row, {}).brightness, even * 2 * 16 * 2 / 3, 1e-12);
+  EXPECT_EQ(baseVariance(base, row, std::vector<RegionId>{0, 0, 5, 5}).brightness, 0);
+  // A direction that is alone in its region is compared with all neighbours.
+  EXPECT_NEAR(baseVariance(base, row, std::vector<RegionId>{0, 0, 5, 6}).brightness, even * 16 * 2 / 3,
+              1e-12);
+  EXPECT_EQ(baseVariance(base, row, std::vector<RegionId>{0, 0, kNoRegion, kNoRegion}).brightness, 0);
 }
 
 }  // namespace

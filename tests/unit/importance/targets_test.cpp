@@ -9,6 +9,7 @@
 
 #include "tests/unit/support/scene_of.h"
 #include "tests/unit/support/sphere_setting.h"
+#include "tests/unit/transport/transport_fixture.h"
 
 namespace rsphere {
 namespace {
@@ -21,11 +22,14 @@ Target ballAt(const V3d& center, double density) {
 
 TEST(Targets, DensitiesAddWhereTargetsOverlap) {
   const Targets targets({ballAt(V3d(0, 0, 2), 10), ballAt(V3d(0, 0, 3), 5), ballAt(V3d(4, 0, 0), 1)});
-  EXPECT_EQ(targets.densityAt(V3d(0, 0, 1)), 15);
-  EXPECT_EQ(targets.densityAt(V3d(.2, 0, 1).normalized()), 10) << "in the wider of the two alone";
-  EXPECT_EQ(targets.densityAt(V3d(1, 0, 0)), 1);
-  EXPECT_EQ(targets.densityAt(V3d(0, -1, 0)), 0);
-  EXPECT_EQ(Targets({}).densityAt(V3d(0, 0, 1)), 0);
+  EXPECT_EQ(targets.regionAt(V3d(0, 0, 1)).density, 15);
+  EXPECT_EQ(targets.regionAt(V3d(.2, 0, 1).normalized()).density, 10) << "in the wider of the two alone";
+  EXPECT_EQ(targets.regionAt(V3d(1, 0, 0)).density, 1);
+  EXPECT_EQ(targets.regionAt(V3d(0, -1, 0)).density, 0);
+  EXPECT_EQ(Targets({}).regionAt(V3d(0, 0, 1)).density, 0);
+  EXPECT_EQ(targets.regionAt(V3d(0, 0, 1)).id, targets.regionAt(V3d(.01, 0, 1).normalized()).id);
+  EXPECT_NE(targets.regionAt(V3d(0, 0, 1)).id, targets.regionAt(V3d(.2, 0, 1).normalized()).id);
+  EXPECT_EQ(targets.regionAt(V3d(0, -1, 0)).id, Targets({}).regionAt(V3d(0, 0, 1)).id);
 }
 
 // Chrome balls in a room that is bright on one side: the radiance on them varies more than around.
@@ -78,6 +82,25 @@ TEST(TargetChoice, DensityIsMultiplied) {
                 thrice = choice.at(V3d(0, 0, 0), .01, 1000000, 3);
   ASSERT_FALSE(once.all().empty());
   EXPECT_NEAR(thrice.all()[0].density, 3 * once.all()[0].density, 1e-9 * once.all()[0].density);
+}
+
+// The sun shines on the floor at 1.5 <= x <= 2.5, 1 <= y <= 2.
+TEST(TargetChoice, SunlitFloorsAreTargets) {
+  const SphereSetting setting(sceneOf(kSunlitRoom), [](RayOptions& o) { o.ambientBounces = 1; });
+  const SeenSources sources(*setting.transport);
+  const auto towards = [&](const Aims& aims, const V3d& point, const V3d& place) {
+    return TargetChoice(*setting.transport, {}, sources, aims, 1)
+        .at(point, 1, 2048, 4096)
+        .regionAt((place - point).normalized())
+        .density;
+  };
+  const Aims aims = setting.transport->aims();
+  const V3d inside(2, 3.5, 1.5), sunlit(2, 1.5, 0), dark(.5, 3, 0);
+  EXPECT_GT(towards(aims, inside, sunlit), 0);
+  EXPECT_EQ(towards(aims, inside, dark), 0);
+  EXPECT_EQ(towards(Aims{}, inside, sunlit), 0) << "nothing is aimed at";
+  EXPECT_EQ(towards(aims, V3d(2, 6, 1.5), sunlit), 0) << "hidden by a wall";
+  EXPECT_EQ(towards(aims, V3d(2, 1.5, -.005), sunlit), 0) << "below the floor";
 }
 
 // Without special objects nothing is measured.
