@@ -59,10 +59,19 @@ CoarseSolution::~CoarseSolution() = default;
 CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bool daylit) {
   const double accuracy =
       std::clamp(options.accuracy, Tuning::kFinestAccuracy, Tuning::kCoarsestAccuracy) / kUsualAccuracy;
-  const double spacing = Tuning::kSpacing * std::min(accuracy, std::sqrt(accuracy));
-  if (!daylit) return {spacing, Tuning::kRaysByLamps * options.rays, 1, 1, Tuning::kLeastRaysByLamps};
-  return {spacing, Tuning::kRays * options.rays * std::max(1., 1 / accuracy), Tuning::kFewerRays,
-          Tuning::kMoreRays, Tuning::kLeastRays};
+  const double finer = std::min(accuracy, std::sqrt(accuracy));
+  if (!daylit)
+    return {Tuning::kSpacingByLamps * finer,
+            Tuning::kLeastPatchByLamps,
+            Tuning::kFarPatchByLamps,
+            Tuning::kRaysByLamps * options.rays,
+            1,
+            1,
+            Tuning::kLeastRaysByLamps};
+  return {Tuning::kSpacing * finer, Tuning::kLeastPatch,
+          Tuning::kFarPatch,        Tuning::kRays * options.rays * std::max(1., 1 / accuracy),
+          Tuning::kFewerRays,       Tuning::kMoreRays,
+          Tuning::kLeastRays};
 }
 
 CoarseSolution::Patch& CoarseSolution::patchOf(const SurfaceChart& chart, const CellKey& key,
@@ -84,25 +93,29 @@ CoarseSolution::Patch& CoarseSolution::patchOf(const SurfaceChart& chart, const 
 }
 
 CoarseSolution::Patch* CoarseSolution::find(const SurfacePlace& place, double u1, double u2, Looker& looker) {
-  const auto chart = SurfaceChart::of(scene_, grid_, place);
+  auto chart = SurfaceChart::of(scene_, grid_, place);
   if (!chart) return nullptr;
   const double extent = chart->extent(), open = Tuning::kOpen * grid_.size;
-  const double least = std::max(Tuning::kFarPatch * place.distance,
-                                Tuning::kLeastPatch * std::min(extent, Tuning::kWidestExtent * grid_.size));
+  const double least = std::max(effort_.farSide * place.distance,
+                                effort_.leastSide * std::min(extent, Tuning::kWidestExtent * grid_.size));
   int level = grid_.levelOf(std::min(std::max(extent, least), open));
   // As fine as what surrounds the place asks for.
+  double wanted = 0;
   for (;; ++level) {
     const double side = grid_.side(level);
     const Patch& patch = patchOf(*chart, chart->cellAt(grid_, level, chart->u(), chart->v()), looker);
-    const double wanted = patch.usable ? effort_.spacing * std::min(patch.reach, open) : 0;
+    wanted = patch.usable ? effort_.spacing * std::min(patch.reach, open) : 0;
     if (side <= least || side <= wanted) {
-      if (extent < Tuning::kOwnPatch * std::max(wanted, Tuning::kFarPatch * place.distance)) return nullptr;
+      if (extent < Tuning::kOwnPatch * std::max(wanted, effort_.farSide * place.distance)) return nullptr;
       break;
     }
     if (level == CellGrid::kLevels) return nullptr;
   }
   if (place.distance < Tuning::kNear * grid_.side(level)) return nullptr;
   level = std::max(level, std::min(grid_.levelOf(Tuning::kSeenFrom * place.distance), grid_.levelOf(least)));
+  // Light changes across slats and other strips that are near to each other, and others hide a part of each.
+  if (chart->shorterSide() < grid_.side(level) && wanted < chart->shorterSide())
+    chart->divideAcross(Tuning::kPartsAcross);
   const V3d above = place.point + grid_.lift * place.normal;
   const auto serves = [&](const Patch& patch) {
     return patch.usable && looker.sees(patch.site.point, above);

@@ -87,6 +87,8 @@ class CoarseSolution {
   // How finely surfaces are divided, and how many rays a patch has.
   struct Effort {
     double spacing;      // of patches, as a multiple of the harmonic mean distance of their surroundings
+    double leastSide;    // of a patch, as a share of its surface's extent
+    double farSide;      // that suffices, as a share of the distance that it is seen from
     double usual;        // rays of a patch of the usual share in the light of others (Tuning::kUsualShare)
     double fewer, more;  // bounds on the factor for other shares
     double least;        // rays of every patch

@@ -14,6 +14,11 @@ namespace {
 
 using Tuning = tuning::SurfaceCells;
 
+// The number of cells, of at most this side, that an extent is divided into.
+double partsOf(double extent, double side, int least) {
+  return std::max<double>(std::ceil(extent / side), least);
+}
+
 constexpr double kAside = .01371;     // fraction of a cell's side; irregular, to avoid round coordinates
 constexpr double kNormalStep = 1e-9;  // step to which components of plane normals are rounded
 constexpr SurfaceId kPlane(-2);       // in a key, instead of a surface
@@ -186,22 +191,27 @@ SurfaceChart SurfaceChart::ofPlane(const CellGrid& grid, const SurfacePlace& pla
   return chart;
 }
 
+void SurfaceChart::divideAcross(int parts) {
+  (width_ < height_ ? leastU_ : leastV_) = parts;
+  id_ = mixBits(id_ + static_cast<uint64_t>(parts));
+}
+
 double SurfaceChart::stepU(const CellGrid& grid, int level) const {
   const double side = grid.side(level);
-  return width_ > 0 ? width_ / std::ceil(width_ / side) : side;
+  return width_ > 0 ? width_ / partsOf(width_, side, leastU_) : side;
 }
 
 double SurfaceChart::stepV(const CellGrid& grid, int level) const {
   const double side = grid.side(level);
-  return height_ > 0 ? height_ / std::ceil(height_ / side) : side;
+  return height_ > 0 ? height_ / partsOf(height_, side, leastV_) : side;
 }
 
 CellKey SurfaceChart::cell(const CellGrid& grid, int level, int64_t i, int64_t j) const {
-  const auto within = [&](int64_t k, double end) {
+  const auto within = [&](int64_t k, double end, int least) {
     if (!(end > 0)) return k;
-    return std::clamp(k, int64_t{0}, static_cast<int64_t>(std::ceil(end / grid.side(level))) - 1);
+    return std::clamp(k, int64_t{0}, static_cast<int64_t>(partsOf(end, grid.side(level), least)) - 1);
   };
-  return {surface_, level, within(i, width_), within(j, height_), id_};
+  return {surface_, level, within(i, width_, leastU_), within(j, height_, leastV_), id_};
 }
 
 CellKey SurfaceChart::cellAt(const CellGrid& grid, int level, double u, double v) const {

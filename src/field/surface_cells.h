@@ -1,6 +1,8 @@
 #pragma once
 // A hierarchy of cells on surfaces, which is determined by the scene alone. Each cell has a site: a point of
 // the surface where light can be gathered for the cell's surroundings.
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -59,6 +61,11 @@ class SurfaceChart {
   double v() const { return v_; }
   // The longer side of the surface; the radius of a sphere or the larger one of a cone; infinite for a plane.
   double extent() const;
+  // The shorter side of a bounded flat surface; infinite for others.
+  double shorterSide() const { return width_ > 0 ? std::min(width_, height_) : HUGE_VAL; }
+  // From now on, cells divide the shorter side into at least this many parts. They are other cells than before,
+  // with other keys. REQUIRES a finite shorterSide().
+  void divideAcross(int parts);
   bool isCurved() const { return ball_ || cone_; }
   bool isShared() const { return isShared_; }  // by all surfaces in the plane
 
@@ -90,6 +97,7 @@ class SurfaceChart {
   uint64_t id_ = 0;
   V3d origin_{0, 0, 0}, x_{1, 0, 0}, y_{0, 1, 0}, normal_{0, 0, 1};
   double width_ = 0, height_ = 0;  // extent from the origin; 0: unbounded
+  int leastU_ = 1, leastV_ = 1;    // parts that cells divide the sides into
   double u_ = 0, v_ = 0;
   std::optional<Placement> placement_;
   const Sphere* ball_ = nullptr;

@@ -83,30 +83,30 @@ struct SiteInterpolation {
 // 40 sensors for the time: tests/bench/rtrace/runs/2026-11-22-coarse-solution.txt.
 struct CoarseSolution {
   // The side of a patch in mean distances of what it sees, at -aa .1. Above, it grows with the root of -aa,
-  // since the error of an interpolation grows with the square of the spacing: by measurement. At 1.2 the errors
-  // are twice those at .6, at .4 the time. 30% less: within noise; 30% more: time -38% (sensors by sun; noise:
-  // error 10%, time 4%). Below, it is in proportion to -aa, because other bounds on the sizes then leave the
-  // time as it is: in a narrow room by an overcast sky at -aa .05, sensors near the window are .6% too dark with
-  // the root, and .2% in proportion.
-  RSPHERE_TUNED(CoarseSolution, double, kSpacing, .6);
+  // since the error of an interpolation grows with the square of the spacing: by measurement. Below, it is in
+  // proportion to -aa. Near a window with blinds .6, with .1 and .18 for the next two, leaves sensors 17% too
+  // bright, and these numbers leave them right within 1%. With fewer rays for small patches they take no more time.
+  RSPHERE_TUNED(CoarseSolution, double, kSpacing, .4);
   // Above this -aa, patches do not grow: chosen by experiment. 30% less or more: the same
   // answers in all cases.
   RSPHERE_TUNED(CoarseSolution, double, kCoarsestAccuracy, .4);
   // The side of a patch is at most this share of the distance that it is seen from: chosen by experiment. 30%
   // less or more: within noise (picture by sun; error below 1%, time 6%).
   RSPHERE_TUNED(CoarseSolution, double, kSeenFrom, .5);
-  // The side of a patch need not be smaller than this share of the distance that it is seen from:
-  // derived, because ten rays of a gather of 1000 represent a solid angle as wide. A third of it changes
-  // no error by more than a tenth, and makes a tenth more patches. 30% less or more: within noise
-  // (sensors by sun; error 4%, time 4%).
-  RSPHERE_TUNED(CoarseSolution, double, kFarPatch, .18);
+  // The side of a patch need not be smaller than this share of the distance that it is seen from: by
+  // measurement, together with kSpacing.
+  RSPHERE_TUNED(CoarseSolution, double, kFarPatch, .09);
   // A place that is seen from nearer than this many patch sides is not served: the path is followed. 30% less
   // or more: within noise (picture by sun; error 2%, time 4%).
   RSPHERE_TUNED(CoarseSolution, double, kNear, .4);
-  // No patch is smaller than this share of its surface's extent: by measurement. Patches in a corner, where
-  // everything is near, would otherwise be divided without end. 30% less: time +85%; 30% more: within noise
-  // (sensors by panes; noise: error 2%, time 4%).
-  RSPHERE_TUNED(CoarseSolution, double, kLeastPatch, .1);
+  // No patch is smaller than this share of its surface's extent: by measurement, together with kSpacing. Patches
+  // in a corner, where everything is near, would otherwise be divided without end. .02: three times the time.
+  RSPHERE_TUNED(CoarseSolution, double, kLeastPatch, .05);
+  // The same three in scenes without openings for daylight: by measurement. There finer patches take a third more
+  // time, and the errors of pictures are the same.
+  RSPHERE_TUNED(CoarseSolution, double, kSpacingByLamps, .6);
+  RSPHERE_TUNED(CoarseSolution, double, kFarPatchByLamps, .18);
+  RSPHERE_TUNED(CoarseSolution, double, kLeastPatchByLamps, .1);
   // The distance of open surroundings, in sizes of the scene: chosen by experiment. 30% less: within noise;
   // 30% more: time -28% (sensors by sun; noise: error 10%, time 4%).
   RSPHERE_TUNED(CoarseSolution, double, kOpen, .1);
@@ -114,6 +114,9 @@ struct CoarseSolution {
   // ground is wide, rooms are small. 30% less: time +65%; 30% more: within noise (sensors by sun; noise:
   // error below 1%, time 4%).
   RSPHERE_TUNED(CoarseSolution, double, kWidestExtent, .4);
+  // The number of parts across strips that are narrower than their patches and wider than the sides that their
+  // surroundings ask for: by measurement. With 1, sensors near a window with blinds are 33% too bright.
+  RSPHERE_TUNED(CoarseSolution, int, kPartsAcross, 4);
   // A surface smaller than this share of a patch's side has no patch: by measurement. 30% less or more:
   // within noise (sensors by sun; error below 1%, time 6%).
   RSPHERE_TUNED(CoarseSolution, double, kOwnPatch, .5);
@@ -138,13 +141,14 @@ struct CoarseSolution {
   // noise that places share: by measurement. In a sunlit classroom, as many rays for each patch leave
   // 2.4% of noise at sensors, rays by share 1.6% (at .12 and at most 8 times as many), in the same time.
   RSPHERE_TUNED(CoarseSolution, double, kUsualShare, .03);
-  // Bounds on that proportion: by measurement. At 8, and with .12, a narrow room takes 1.7 times the time, and
+  // Bounds on that proportion: by measurement. With .25 -aa .05 takes a third more time in a wide room, for the same
+  // error. At 8, and with a usual share of .12, a narrow room takes 1.7 times the time, and
   // its noise is larger.
-  RSPHERE_TUNED(CoarseSolution, double, kFewerRays, .25);
+  RSPHERE_TUNED(CoarseSolution, double, kFewerRays, .1);
   RSPHERE_TUNED(CoarseSolution, double, kMoreRays, 4);
-  // Bounds on the number of rays of a patch: by measurement. With 32 instead of 48, sensors at -ad 512 and less
-  // have 4 to 43% more error (one run of each of six rooms); more than 4096 are more than other errors justify.
-  RSPHERE_TUNED(CoarseSolution, double, kLeastRays, 48);
+  // Bounds on the number of rays of a patch: by measurement. From 12 to 24 the errors are the same; with 48 the
+  // time is 1.5 times. More than 4096 are more than other errors justify.
+  RSPHERE_TUNED(CoarseSolution, double, kLeastRays, 16);
   RSPHERE_TUNED(CoarseSolution, double, kMostRays, 4096);
 };
 

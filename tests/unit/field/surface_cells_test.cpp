@@ -126,6 +126,29 @@ TEST(SurfaceCells, CellsAreEqualPartsAndTheirNumbersEndAtTheEdges) {
 
 // A key identifies a surface, its side and a cell of it: all places in the cell have the same key, and all
 // others have another.
+// The rectangle of 5 x 3 is divided across into at least 7 parts, and along as before.
+TEST(SurfaceCells, StripsAreDividedAcross) {
+  const Traced t(kShapes);
+  const CellGrid grid(t.transport().tracer().bounds());
+  const SurfacePlace place{V3d(2, .1, 0), V3d(0, 0, 1), SurfaceId(0), nullptr, 1};
+  const SurfaceChart whole = *SurfaceChart::of(t.scene(), grid, place);
+  SurfaceChart strips = whole;
+  strips.divideAcross(7);
+  EXPECT_NEAR(whole.shorterSide(), 3, 1e-9);
+  const int coarse = grid.levelOf(5), fine = grid.levelOf(.1);
+  EXPECT_NEAR(strips.stepV(grid, coarse), 3. / 7, 1e-9);
+  EXPECT_EQ(strips.stepU(grid, coarse), whole.stepU(grid, coarse));
+  EXPECT_EQ(strips.stepU(grid, fine), whole.stepU(grid, fine));
+  EXPECT_EQ(strips.stepV(grid, fine), whole.stepV(grid, fine));
+  const CellKey first = strips.cellAt(grid, coarse, whole.u(), whole.v()),
+                last = strips.cellAt(grid, coarse, whole.u(), whole.v() + 2.8);
+  EXPECT_EQ(std::abs(last.j - first.j) + std::abs(last.i - first.i), 6);
+  EXPECT_FALSE(first == whole.cellAt(grid, coarse, whole.u(), whole.v()));
+  const auto site = strips.site(grid, first);
+  ASSERT_TRUE(site);
+  EXPECT_LT(site->point.y, 3. / 7);
+}
+
 TEST(SurfaceCells, KeysNameCells) {
   const Traced t(kShapes);
   const CellGrid grid(t.transport().tracer().bounds());
