@@ -84,8 +84,8 @@ struct SiteInterpolation {
 struct CoarseSolution {
   // The side of a patch in mean distances of what it sees, at -aa .1. Above, it grows with the root of -aa,
   // since the error of an interpolation grows with the square of the spacing: by measurement. Below, it is in
-  // proportion to -aa. Near a window with blinds .6, with .1 and .18 for the next two, leaves sensors 17% too
-  // bright, and these numbers leave them right within 1%. With fewer rays for small patches they take no more time.
+  // proportion to -aa. Near a window with blinds .6, with .18 for kFarPatch and .1 for kLeastPatch, leaves
+  // sensors 17% too bright, and these numbers leave them right within 1%, in 1.5 to 2 times the time.
   RSPHERE_TUNED(CoarseSolution, double, kSpacing, .4);
   // Above this -aa, patches do not grow: chosen by experiment. 30% less or more: the same
   // answers in all cases.
@@ -99,11 +99,12 @@ struct CoarseSolution {
   // A place that is seen from nearer than this many patch sides is not served: the path is followed. 30% less
   // or more: within noise (picture by sun; error 2%, time 4%).
   RSPHERE_TUNED(CoarseSolution, double, kNear, .4);
-  // No patch is smaller than this share of its surface's extent: by measurement, together with kSpacing. Patches
-  // in a corner, where everything is near, would otherwise be divided without end. .02: three times the time.
+  // No patch is smaller than this share of its surface's extent: by measurement, together with kSpacing.
+  // Patches in a corner, where everything is near, would otherwise be divided without end. .02: three times the
+  // time.
   RSPHERE_TUNED(CoarseSolution, double, kLeastPatch, .05);
-  // The same three in scenes without openings for daylight: by measurement. There finer patches take a third more
-  // time, and the errors of pictures are the same.
+  // The same three in scenes without openings for daylight: by measurement. There finer patches take a third
+  // more time, and the errors of pictures are the same.
   RSPHERE_TUNED(CoarseSolution, double, kSpacingByLamps, .6);
   RSPHERE_TUNED(CoarseSolution, double, kFarPatchByLamps, .18);
   RSPHERE_TUNED(CoarseSolution, double, kLeastPatchByLamps, .1);
@@ -141,9 +142,9 @@ struct CoarseSolution {
   // noise that places share: by measurement. In a sunlit classroom, as many rays for each patch leave
   // 2.4% of noise at sensors, rays by share 1.6% (at .12 and at most 8 times as many), in the same time.
   RSPHERE_TUNED(CoarseSolution, double, kUsualShare, .03);
-  // Bounds on that proportion: by measurement. With .25 -aa .05 takes a third more time in a wide room, for the same
-  // error. At 8, and with a usual share of .12, a narrow room takes 1.7 times the time, and
-  // its noise is larger.
+  // Bounds on that proportion: by measurement. With .25, -aa .05 takes a third more time in a wide room, for
+  // the same error. At 8, and with a usual share of .12, a narrow room takes 1.7 times the time, and its noise is
+  // larger.
   RSPHERE_TUNED(CoarseSolution, double, kFewerRays, .1);
   RSPHERE_TUNED(CoarseSolution, double, kMoreRays, 4);
   // Bounds on the number of rays of a patch: by measurement. From 12 to 24 the errors are the same; with 48 the

@@ -1,7 +1,14 @@
 #pragma once
+#include <cstdint>
+
 #include "base/radiometry.h"
 
 namespace rsphere {
+
+// Equal for directions that lie in the same targets (targets.h), within whose silhouettes cells keep. kNoRegion:
+// the direction does not enter the mean, because others represent its solid angle.
+using RegionId = uint64_t;
+inline constexpr RegionId kNoRegion = UINT64_MAX;
 
 // One traced direction of a point.
 struct DirectionSample {

@@ -38,11 +38,8 @@ struct Neighbours {
 // solid angle times the difference between its radiance and the mean of its neighbours. A slope over the
 // sphere contributes nothing, because an even set integrates it; noise of paths and edges do. An even set
 // averages out a part of the edges, so that the sum is multiplied by tuning::ErrorEstimate::kEvenSet. regions: of
-// each direction. Only neighbours in the same region are compared, if there are any, because cells keep to
-// regions: the edge of a region is no error. kNoRegion: the direction does not enter the sum, because others
-// represent its solid angle. Empty: all are in one region.
-using RegionId = uint64_t;
-inline constexpr RegionId kNoRegion = UINT64_MAX;
+// each direction; empty: all are in one region. Only neighbours in the same region are compared, if there are
+// any: the edge of a region is no error, because cells keep to regions.
 Variance baseVariance(std::span<const DirectionSample> base, const Neighbours& neighbours,
                       std::span<const RegionId> regions);
 

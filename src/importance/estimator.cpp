@@ -84,11 +84,12 @@ SampledSet joined(std::vector<KeptSet> sets, const TwoHalves& halves, const Irra
   return all;
 }
 
-// Patches of strong direct light in scenes where the transport looks for none; null if there are none, or no
+// Patches of strong direct light, where the transport has not looked for them; null if there are none, or no
 // indirect light.
 std::unique_ptr<const BrightSpots> findSpots(const Transport& transport) {
   const RayOptions& rays = transport.options();
   if (rays.ambientBounces <= 0 || rays.ambientDivisions <= 0) return nullptr;
+  if (rays.ambientAccuracy > 0 || transport.aims().openings) return nullptr;
   auto spots = std::make_unique<BrightSpots>(transport.scene(), transport.tracer(), transport.lights());
   return spots->empty() ? nullptr : std::move(spots);
 }

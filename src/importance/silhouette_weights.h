@@ -56,8 +56,8 @@ class SilhouetteWeights : public SamplingStrategy {
     std::vector<DirectionSample> samples;  // the base directions, then those to targets
     std::vector<Ray> rays;                 // of the samples, with -Sd only
     std::vector<Radiance> guesses;         // of the samples; empty: nothing is guessed
-    // The targets that contain the sample. kNoRegion: it does not enter the mean, because it shows an image of a
-    // light source, which has its own samples; its solid angle, radiance and guess are then 0.
+    // kNoRegion: the sample shows an image of a light source, which has its own samples; its solid angle, radiance
+    // and guess are then 0.
     std::vector<RegionId> regions;
     // The first sample of each target, or of all parts of one image; then the number of all samples.
     std::vector<size_t> runs;

@@ -57,7 +57,7 @@ Targets::Region Targets::regionAt(const V3d& direction) const {
 TargetChoice::TargetChoice(const Transport& transport, std::span<const SpecialObject> objects,
                            const SeenSources& sources, const Aims& aims, double densityFactor)
     : transport_(transport),
-      sunlit_(aims.spots ? aims.spots->sunlit() : std::vector<BrightSpots::Sunlit>()),
+      sunlit_(aims.spots ? aims.spots->sunlit() : std::span<const BrightSpots::Sunlit>()),
       densityFactor_(densityFactor),
       contrasts_(measureContrasts(transport, objects, sources, aims)),
       glints_(transport, objects) {}

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "importance/contrasts.h"
-#include "importance/error_estimate.h"
+#include "importance/direction_sample.h"
 #include "importance/glints.h"
 #include "importance/silhouette_index.h"
 #include "transport/bright_spots.h"
@@ -29,7 +29,7 @@ class Targets {
   // The targets that contain a direction (unit).
   struct Region {
     double density = 0;  // of their own directions there, per sr
-    RegionId id = 0;     // equal for directions in the same targets
+    RegionId id = 0;
   };
   Region regionAt(const V3d& direction) const;
 
@@ -38,7 +38,7 @@ class Targets {
   SilhouetteIndex index_;  // of targets_, by position
 };
 
-// Chooses the targets at any point. Shared by all threads; keeps a reference to transport.
+// Chooses the targets at any point. Shared by all threads; keeps references to transport and to the spots of aims.
 class TargetChoice {
  public:
   // Measures how much radiance varies on the objects (contrasts.h). sources: those integrated separately.
@@ -56,7 +56,7 @@ class TargetChoice {
 
  private:
   const Transport& transport_;
-  std::vector<BrightSpots::Sunlit> sunlit_;
+  std::span<const BrightSpots::Sunlit> sunlit_;
   double densityFactor_;
   Contrasts contrasts_;
   Glints glints_;

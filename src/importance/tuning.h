@@ -73,8 +73,8 @@ struct Targets {
   // the image: the most that values between 0 and 1 can have, if half of the region shows the image. 30% less
   // or more: within noise (points beside chrome; error 4%, time 1%).
   RSPHERE_TUNED(Targets, double, kGlintDeviation, .5);
-  // The same for spots of daylight, which are lit in part. With them, the default directions in two sunlit rooms
-  // have errors of 1.5 and 1.8% instead of 2.75 and 1.9%. .25 or 1: within noise.
+  // The same for spots of daylight, which are lit in part: by measurement. With them, the default directions in
+  // two sunlit rooms have errors of 1.5 and 1.8% instead of 2.75 and 1.9%. .25 or 1: within noise.
   RSPHERE_TUNED(Targets, double, kSunlitDeviation, .5);
 };
 

@@ -226,7 +226,8 @@ void PartSampler::addDistant(double distance) {
       distance);
 }
 
-// A sample of a plane part. aim: the vector from the point to the place to hit.
+// A sample of a plane part. aim: the vector from the point to the place to hit. Inline: most sources consist of
+// a few such parts, and the calls were .6% of the instructions for patterned lamps.
 [[gnu::always_inline]] inline void PartSampler::addMiddle(const V3d& aim, double length, double area) {
   if (!(length > 0)) return;
   const double inverse = 1 / length;
@@ -240,7 +241,7 @@ void PartSampler::addDistant(double distance) {
 
 // The same as split() for a plane source that is spanned by u and v, without recursion: a part is given by
 // its middle and by the number of times that u and v were halved.
-[[gnu::always_inline]] inline void PartSampler::addMiddles(const V3d& towards) {
+void PartSampler::addMiddles(const V3d& towards) {
   struct Place {
     V3d middle;  // the vector from the point to it
     int halvedU, halvedV;

@@ -56,11 +56,11 @@ struct BrightSpots::Particle {
 // A group of neighbouring particles, and the spot that they form.
 struct BrightSpots::Node {
   std::span<Particle> particles;
+  Box3d box;  // around the particles
   Spot spot;
   double area = 0;
 
   explicit Node(std::span<Particle> some) : particles(some) {
-    Box3d box;
     for (const Particle& p : some) box.extendBy(p.point);
     std::array<double, 3> sides{box.size().x, box.size().y, box.size().z};
     std::sort(sides.begin(), sides.end());
@@ -75,8 +75,7 @@ struct BrightSpots::Node {
     if (spot.power > 0) spot.normal /= spot.power;
   }
   Sunlit sunlit() const {
-    Sunlit found{{}, spot.normal, spot.power / (kPi * area), {}};
-    for (const Particle& p : particles) found.box.extendBy(p.point);
+    Sunlit found{box, spot.normal, spot.power / (kPi * area), {}};
     for (size_t i = 0; i < found.places.size(); ++i)
       found.places[i] = particles[(2 * i + 1) * particles.size() / (2 * found.places.size())].point;
     return found;
@@ -84,8 +83,6 @@ struct BrightSpots::Node {
   // The worth of the spot: the light that it reflects, times its brightness.
   double worth() const { return spot.power * spot.power / area; }
   std::pair<Node, Node> halves() const {
-    Box3d box;
-    for (const Particle& p : particles) box.extendBy(p.point);
     const auto axis = static_cast<int>(box.majorAxis());
     const size_t half = particles.size() / 2;
     std::nth_element(particles.begin(), particles.begin() + static_cast<ptrdiff_t>(half), particles.end(),
@@ -248,12 +245,12 @@ std::vector<BrightSpots::Node> BrightSpots::find(std::span<Particle> all, double
   double worth = 0;
   for (const Node& node : nodes) worth += node.worth();
   if (!(worth > leastWorth * usual * power)) return {};
-  for (const Node& node : nodes) keep(node.spot, usual);
+  if (empty()) usual_ = usual / kPi;
+  for (const Node& node : nodes) keep(node.spot);
   return nodes;
 }
 
-void BrightSpots::keep(const Spot& spot, double usual) {
-  if (count_ == 0) usual_ = usual;
+void BrightSpots::keep(const Spot& spot) {
   const size_t i = count_++;
   const V3d center = spot.center - origin_;
   x_[i] = static_cast<float>(center.x);

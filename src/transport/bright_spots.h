@@ -11,7 +11,6 @@
 #include <span>
 #include <vector>
 
-#include "base/constants.h"
 #include "light/sources.h"
 #include "scene/random.h"
 #include "trace/tracer.h"
@@ -29,16 +28,16 @@ class BrightSpots {
               const Openings* openings = nullptr);
 
   bool empty() const { return count_ == 0; }
-  // The mean brightness (W/sr/m2) of the surfaces that the spots are on.
-  double usual() const { return usual_ / kPi; }
+  // The mean brightness (W/sr/m2) of all surfaces that are lit by the sources of the spots.
+  double usual() const { return usual_; }
   static constexpr size_t kRoom = tuning::BrightSpots::kMostRoom;
 
-  // The spots of light that enters through openings.
+  // A spot of light that enters through openings.
   struct Sunlit {
-    Box3d box;                  // around the particles that found it, world
-    V3d normal;                 // as of Spot
-    double radiance;            // mean over its area, in brightness, W/sr/m2
-    std::array<V3d, 4> places;  // some of the particles
+    Box3d box;                  // around its particles (world)
+    V3d normal;                 // mean of the normals of its surfaces, not normalized
+    double radiance;            // mean brightness, W/sr/m2
+    std::array<V3d, 4> places;  // of some of its particles (world)
   };
   const std::vector<Sunlit>& sunlit() const { return sunlit_; }
 
@@ -74,18 +73,18 @@ class BrightSpots {
                                          const LightSources& lights) const;
   static std::optional<Particle> arrived(const Scene& scene, const Tracer& tracer, V3d origin,
                                          const V3d& direction, double power, Random& random);
-  // most: maximal number of spots. area: of the surfaces that receive the light (square world units).
-  // brighter, leastWorth: as in tuning::BrightSpots.
-  // Returns the groups of particles that are spots.
+  // Finds spots, keeps them, and returns the groups of particles that form them. most: maximal number of spots.
+  // area: of the surfaces that receive the light (square world units). brighter, leastWorth: as in
+  // tuning::BrightSpots.
   std::vector<Node> find(std::span<Particle> all, double area, size_t most, double brighter,
                          double leastWorth);
-  void keep(const Spot& spot, double usual);
+  void keep(const Spot& spot);
 
   std::vector<Sunlit> sunlit_;
   // The spots, as a structure of arrays.
   using Numbers = std::array<float, kRoom>;
   size_t count_ = 0;
-  double usual_ = 0;
+  double usual_ = 0;     // of those that were found first
   V3d origin_{0, 0, 0};  // origin of the coordinates of the centers
   Numbers x_{}, y_{}, z_{}, normalX_{}, normalY_{}, normalZ_{}, radius_{}, anyway_{}, power_{};
 };

@@ -7,7 +7,8 @@
 
 namespace rsphere {
 
-// The indirect light of a site, estimated with -ad + -as rays. state: of a path that has just begun. depth: of the ray that requests it; only the limit of nesting depends on it.
+// The indirect light of a site, estimated with -ad + -as rays. state: of a path that has just begun. depth: of
+// the ray that requests it; only the limit of nesting depends on it.
 GatheredLight gatherLight(const Transport& transport, PathState& state, const Aims& aims,
                           RayFollower& follower, const GatherSite& site, int depth);
 

@@ -22,8 +22,8 @@ class GatherDirections {
   // Gets a direction (unit), and its share of the mean over the hemisphere.
   using Each = FunctionRef<void(const V3d& direction, double part)>;
 
-  // Draws `count` directions, whose parts sum to 1 on average. Directions behind the surface are left out.
-  // Any two calls with the same random numbers give the same directions.
+  // Draws `count` directions, whose parts sum to 1 on average over a hemisphere that lies in front of the
+  // surface. Those behind the surface are left out.
   void draw(int count, Random& random, Each each) const;
 
  private:

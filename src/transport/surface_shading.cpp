@@ -231,7 +231,7 @@ bool SurfaceShading::follow(Ray& ray, const Alternate& alternate) {
 
 bool SurfaceShading::follow(Ray& ray, const Emits& emits) {
   ray.value = emits.radiance;
-  if (!(ray.kinds & kShadow)) noteShown(t_, ray, state_);
+  if (!(ray.kinds & kShadow)) noteShown(t_, ray, state_);  // most rays are shadow rays
   return true;
 }
 

@@ -74,9 +74,9 @@ struct Openings {
   // (sensors by panes; noise: error 19%, time 4%), because other panes are then found to be openings.
   RSPHERE_TUNED(Openings, int, kProbes, 32);
   // The bright side of an opening is at least this many times brighter than the dark one: between windows,
-  // for which it is 2.7 to 4.3 by day, since panes also mirror the bright side, and panes between two rooms,
-  // for which it is about 1. At 3, two of four windows of a sunlit classroom are not found, and sensors have
-  // 2.7 times the noise of light from the sky.
+  // for which it is 2 to 8 by day, since panes also mirror the bright side, and panes between two rooms, for
+  // which it is about 1. Diffusing windows (1.6) and windows behind sunlit blinds (1.1) are missed. At 3, two of
+  // four windows of a sunlit classroom are not found, and sensors have 2.7 times the noise of light from the sky.
   RSPHERE_TUNED(Openings, double, kBrighter, 1.7);
   // Coplanar panes are merged to one opening if they fill at least this share of the rectangle around them:
   // chosen by experiment. 30% less or more: the same answers in all cases.
@@ -182,8 +182,8 @@ struct SpecularLight {
   // The weight below which sharp paths of a gather's rays are followed by Russian roulette, with a probability
   // in proportion to their weight: by measurement. Gathers begin with a weight of 1/2, so that one of their
   // rays has at most 32 descendants at a time on average; without a limit their number doubles at each surface
-  // of nested transparent objects, up to -lr. 1/32: a fifth less time with three nested cylinders that reflect and transmit a tenth; more
-  // noise behind a pane that transmits 5%.
+  // of nested transparent objects, up to -lr. 1/32: a fifth less time with three nested cylinders that reflect
+  // and transmit a tenth; more noise behind a pane that transmits 5%.
   RSPHERE_TUNED(SpecularLight, double, kWeakPath, 1. / 64);
   // The same for all indirect rays, relative to the weight of the ray that arrives: by measurement. One in three
   // reflections of a pane is followed. In four daylit rooms without interpolation it saves 3 to 22% of the time
