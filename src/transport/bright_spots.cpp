@@ -22,10 +22,6 @@ constexpr float kNarrowest = 1e-6f;
 // power of spots matters.
 constexpr double kTransmittance = .9;
 
-// Panes that a particle passes through at most, so that tracing ends even where rounding keeps a particle from
-// advancing.
-constexpr int kMostPanes = 1000;
-
 // Square of a negligible distance (world units).
 constexpr float kNearest = 1e-12f;
 

@@ -35,6 +35,7 @@ int IndirectLight::raysToGuess(const Ray& ray) const {
 // The number of directions of a gather. Paths that are to be unbiased have as many as RADIANCE gives them at
 // every bounce: a square, in proportion to their weight. The rays of interpolated gathers are not divided.
 int IndirectLight::raysOf(const Ray& ray, const Coefficient& coefficient) const {
+  if (state_.glimpses) return 1;
   const RayOptions& o = t_.options();
   const double asked = o.ambientDivisions + o.ambientSuperSamples,
                weighted = asked * std::min(ray.weight, 1.);

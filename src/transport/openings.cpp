@@ -7,6 +7,9 @@
 #include "scene/even_sequence.h"
 #include "scene/random.h"
 #include "shade/scattering.h"
+#include "trace/tracer.h"
+#include "transport/path_tracer.h"
+#include "transport/transport.h"
 #include "transport/tuning.h"
 
 namespace rsphere {
@@ -14,18 +17,32 @@ namespace {
 
 using Tuning = tuning::Openings;
 
-bool lightPasses(const Material& material) {
-  return isTransparent(material) && !enclosesVolume(material) && !isLightSource(material);
+// Whether light from behind may come through a surface.
+bool lightPasses(const Transport& transport, const Surface& surface) {
+  const Material* material = transport.scene().materialOf(surface);
+  if (!material || enclosesVolume(*material) || isLightSource(*material)) return false;
+  if (const auto* scatterer = std::get_if<FunctionScatterer>(material)) return scatterer->transmissivity > 0;
+  if (const auto* bsdf = std::get_if<BsdfMaterial>(material)) {
+    if (!isBlack(bsdf->diffuseTransmitted)) return true;
+    try {
+      const BsdfData& data = transport.functions().bsdf(surface.material);
+      return data.transmission(true) || !isBlack(data.diffuseTransmittance(true)) ||
+             !isBlack(data.diffuseTransmittance(false));
+    } catch (const rad::Error&) {
+      return false;  // rays that hit it report the file
+    }
+  }
+  return isTransparent(*material) || std::holds_alternative<Prism>(*material);
 }
 
 }  // namespace
 
-std::vector<Openings::Opening> Openings::panesOf(const Scene& scene, double leastArea) {
+std::vector<Openings::Opening> Openings::panesOf(const Transport& transport, double leastArea) {
+  const Scene& scene = transport.scene();
   std::vector<Opening> panes;
   for (const Surface& surface : scene.outermost()) {
     const auto* polygon = std::get_if<Polygon>(&surface.shape);
-    const Material* material = scene.materialOf(surface);
-    if (!polygon || !material || polygon->area < leastArea || !lightPasses(*material)) continue;
+    if (!polygon || polygon->area < leastArea || !lightPasses(transport, surface)) continue;
     const V3d* const corner = scene.vertices.data() + polygon->firstVertex;
     Opening pane;
     double longest = 0;
@@ -90,38 +107,75 @@ void Openings::merge(std::vector<Opening>& panes) {
     }
 }
 
-Openings::Openings(const Scene& scene, const Box3d& bounds, const Probe& probe) {
+namespace {
+
+// The brightness (W/sr/m2) of the sky, for a ray that hits nothing but panes; without their transmittance.
+double skySeen(const Transport& transport, PathTracer& probe, V3d origin, const V3d& direction) {
+  const Scene& scene = transport.scene();
+  SurfaceId from;
+  for (int pane = 0; pane < kMostPanes; ++pane) {
+    const Hit hit = transport.tracer().nearest(origin, direction, kFarAway, from);
+    if (hit.surface == kNone) return brightness(probe.glimpse(origin, direction, 0));
+    const Surface& surface = scene.surfaces[hit.surface];
+    if (scene.materialOf(surface) && !lightPasses(transport, surface)) break;
+    from = hit.surface;
+    origin += hit.distance * direction;
+  }
+  return 0;
+}
+
+// What is seen through a pane, from one side: means over the hemisphere, in brightness (W/sr/m2).
+struct SeenThrough {
+  double all = 0;
+  double sky = 0;  // from the sky, neither reflected nor attenuated by panes
+};
+
+// Whether the side that is seen first is the bright side of an opening.
+bool isBrighter(const SeenThrough& one, const SeenThrough& other) {
+  const auto moreSky = [](const SeenThrough& a, const SeenThrough& b) {
+    return a.sky > std::max(Tuning::kMoreSky * b.sky, Tuning::kLeastSky * a.all);
+  };
+  return moreSky(one, other) || (!moreSky(other, one) && one.all > Tuning::kBrighter * other.all);
+}
+
+}  // namespace
+
+Openings::Openings(const Transport& transport) {
+  const Box3d& bounds = transport.tracer().bounds();
   if (bounds.isEmpty()) return;
   const V3d size = bounds.size();
   const double face = std::max({size.x * size.y, size.y * size.z, size.z * size.x});
   const double lift = std::max(1e-6 * std::max({size.x, size.y, size.z}), 2 * kSamePlace);
-  std::vector<Opening> panes = panesOf(scene, Tuning::kLeastArea * face);
+  std::vector<Opening> panes = panesOf(transport, Tuning::kLeastArea * face);
   if (panes.empty()) return;
   std::stable_sort(panes.begin(), panes.end(), [](const Opening& a, const Opening& b) {
     return a.width * a.height > b.width * b.height;
   });
   if (panes.size() > Tuning::kMostAsked) panes.resize(Tuning::kMostAsked);
-  // The mean brightness over the hemisphere around a normal, from points of a pane.
+  PathTracer probe(transport);
+  // Over the hemisphere around a normal, from points of a pane.
   const auto seenFrom = [&](const Opening& pane, const V3d& offset, const V3d& normal) {
-    double sum = 0;
+    SeenThrough sum;
     for (int i = 0; i < Tuning::kProbes; ++i) {
       const Imath::V2d at = evenly(static_cast<size_t>(i), .5, .5),
                        to = evenly(static_cast<size_t>(i), .1, .3);
-      const V3d point = pane.corner + at.x * pane.width * pane.x + at.y * pane.height * pane.y;
-      sum += probe(point + offset, diffuseDirection(normal, to.y, to.x), static_cast<uint64_t>(i));
+      const V3d point = pane.corner + at.x * pane.width * pane.x + at.y * pane.height * pane.y + offset;
+      const V3d direction = diffuseDirection(normal, to.y, to.x);
+      sum.all += brightness(probe.glimpse(point, direction, static_cast<uint64_t>(i))) / Tuning::kProbes;
+      sum.sky += skySeen(transport, probe, point, direction) / Tuning::kProbes;
     }
-    return sum / Tuning::kProbes;
+    return sum;
   };
   double all = 0;
   for (Opening& pane : panes) {
-    const double along = seenFrom(pane, -lift * pane.normal, pane.normal),
-                 against = seenFrom(pane, lift * pane.normal, -pane.normal);
-    const double bright = std::max(along, against);
-    if (!(bright > Tuning::kBrighter * std::min(along, against))) continue;
-    if (along > against) pane.normal = -pane.normal;
-    const double behind = seenFrom(pane, lift * pane.normal, pane.normal);
+    const SeenThrough along = seenFrom(pane, -lift * pane.normal, pane.normal),
+                      against = seenFrom(pane, lift * pane.normal, -pane.normal);
+    const bool above = isBrighter(along, against);
+    if (!above && !isBrighter(against, along)) continue;
+    if (above) pane.normal = -pane.normal;
+    const double behind = seenFrom(pane, lift * pane.normal, pane.normal).all;
     if (!(behind > 0)) continue;  // no surface receives its light
-    pane.power = bright * pane.area;
+    pane.power = (above ? along : against).all * pane.area;
     inside_ += pane.power * behind;
     all += pane.power;
     openings_.push_back(pane);

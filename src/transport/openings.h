@@ -7,7 +7,6 @@
 // Source: Bitterli, Novák, Jarosz, "Portal-masked environment map sampling" (Computer Graphics Forum 34,
 // 2015). Differences: portals are found automatically, and sampled by area.
 #include <array>
-#include <functional>
 #include <vector>
 
 #include "scene/scene.h"
@@ -15,14 +14,16 @@
 
 namespace rsphere {
 
+class Transport;
+
+// The number of panes that straight rays pass through at most, so that tracing ends even where rounding keeps a ray
+// from leaving a pane; no building has as many in a row.
+inline constexpr int kMostPanes = 1000;
+
 class Openings {
  public:
-  // The brightness (W/sr/m2) seen from a point in a direction (unit).
-  using Probe = std::function<double(const V3d& origin, const V3d& direction, uint64_t seed)>;
-
-  // Finds the panes of the scene and probes the mean radiance on both sides of each. The same scene and probe
-  // give the same openings. bounds: of all that can be hit.
-  Openings(const Scene& scene, const Box3d& bounds, const Probe& probe);
+  // Finds the panes of the scene and probes the mean radiance on both sides of each.
+  explicit Openings(const Transport& transport);
 
   bool empty() const { return openings_.empty(); }
   // The mean brightness (W/sr/m2) behind the openings, on their dark sides.
@@ -61,7 +62,7 @@ class Openings {
     double area = 0;   // of the panes in it
     double power = 0;  // mean radiance towards the dark side times area
   };
-  static std::vector<Opening> panesOf(const Scene& scene, double leastArea);
+  static std::vector<Opening> panesOf(const Transport& transport, double leastArea);
   static void merge(std::vector<Opening>& panes);
 
   std::vector<Opening> openings_;

@@ -25,6 +25,7 @@ struct PathState {
   V3d primaryDirection{0, 0, 1};  // unit
   ShownSource shown;
   Hit firstHit;                            // of the primary ray
+  bool glimpses = false;                   // one direction for each gather
   CoarseSolution::Links* links = nullptr;  // of a path from a patch: collects the light that it finds
 };
 

@@ -152,6 +152,7 @@ Ray PathTracer::Path::traceToSource(const V3d& point, const SourceSample& sample
 
 Radiance PathTracer::Path::glimpse(const V3d& origin, const V3d& direction, uint64_t seed) {
   begin(seed, direction);
+  state_.glimpses = true;
   Ray ray;
   ray.medium = t_.medium();
   ray.origin = origin;

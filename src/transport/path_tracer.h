@@ -35,7 +35,7 @@ class PathTracer {
   // no surface that may transmit light lies in between. shown() says whether the ray showed the source.
   Ray traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed);
 
-  // The radiance (W/sr/m2) along a ray after which at most one diffuse bounce is followed.
+  // The radiance (W/sr/m2) along a ray after which at most one diffuse bounce is followed, in one direction.
   Radiance glimpse(const V3d& origin, const V3d& direction, uint64_t seed);
 
   // Finds the surface that a ray hits; its value stays 0.

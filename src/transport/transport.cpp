@@ -98,11 +98,7 @@ Transport::~Transport() = default;
 
 void Transport::findAims() {
   if (!scene_.importance) {
-    PathTracer probe(*this);
-    auto openings = std::make_unique<Openings>(scene_, tracer_.bounds(),
-                                               [&](const V3d& origin, const V3d& direction, uint64_t seed) {
-                                                 return brightness(probe.glimpse(origin, direction, seed));
-                                               });
+    auto openings = std::make_unique<Openings>(*this);
     if (!openings->empty()) openings_ = std::move(openings);
   }
   if (options_.ambientAccuracy > 0 || openings_) {

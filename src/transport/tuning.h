@@ -78,6 +78,11 @@ struct Openings {
   // which it is about 1. Diffusing windows (1.6) and windows behind sunlit blinds (1.1) are missed. At 3, two of
   // four windows of a sunlit classroom are not found, and sensors have 2.7 times the noise of light from the sky.
   RSPHERE_TUNED(Openings, double, kBrighter, 1.7);
+  // Regardless of brightness, the side from which at least so many times more light of the sky is seen without
+  // reflections is the bright one, if that light is at least this share of all: chosen by experiment. Sunlit
+  // blinds behind a pane are as bright as the sky; through them the sky is hardly seen.
+  RSPHERE_TUNED(Openings, double, kMoreSky, 3);
+  RSPHERE_TUNED(Openings, double, kLeastSky, .1);
   // Coplanar panes are merged to one opening if they fill at least this share of the rectangle around them:
   // chosen by experiment. 30% less or more: the same answers in all cases.
   RSPHERE_TUNED(Openings, double, kFilled, .7);

@@ -99,10 +99,7 @@ TEST(BrightSpots, LeaveTheMeanAsItIs) {
 
 Openings openingsOf(const std::string& text) {
   Traced t(text, unbiased(1));
-  return Openings(t.scene(), t.transport().tracer().bounds(),
-                  [&](const V3d& origin, const V3d& direction, uint64_t seed) {
-                    return t.tracer().glimpse(origin, direction, seed).rgb.x;
-                  });
+  return Openings(t.transport());
 }
 
 TEST(BrightSpots, AreWhereTheSunShinesThroughOpenings) {

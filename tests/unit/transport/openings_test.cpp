@@ -1,5 +1,6 @@
 #include "transport/openings.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,10 +34,7 @@ const std::string kSky = "void glow sky_glow 0 0 4 1 1 1 0\nsky_glow source sky 
 
 Openings openingsOf(const std::string& text) {
   Traced t(text, unbiased(1));
-  return Openings(t.scene(), t.transport().tracer().bounds(),
-                  [&](const V3d& origin, const V3d& direction, uint64_t seed) {
-                    return t.tracer().glimpse(origin, direction, seed).rgb.x;
-                  });
+  return Openings(t.transport());
 }
 
 // The radiance over the hemisphere that is expected from the openings.
@@ -82,6 +80,20 @@ TEST(Openings, AreFoundWhereDaylightComesIn) {
 TEST(Openings, AreFoundAlthoughTheSunShinesIn) {
   const std::string sun = "void light sunlight 0 0 3 6e5 6e5 6e5\nsunlight source sun 0 0 4 0 -1 1 .53\n";
   EXPECT_FALSE(openingsOf(kSky + sun + kRoom + kWindow).empty());
+}
+
+// Sunlit blinds behind the pane are brighter than the sky, so that the room is the brighter side; but the sky is
+// on the other.
+TEST(Openings, AreFoundBehindSunlitBlinds) {
+  std::string blinds = "void light sunlight 0 0 3 6e5 6e5 6e5\nsunlight source sun 0 0 4 0 -1 1 .53\n" +
+                       std::string("void plastic white 0 0 5 .9 .9 .9 0 0\n");
+  for (double z = .95; z < 2.05; z += .1)
+    blinds += fmt::format("white polygon slat_{0:.2f} 0 0 12 .9 .05 {0} 3.1 .05 {0} 3.1 .13 {1} .9 .13 {1}\n",
+                          z, z - .08);
+  const Openings found = openingsOf(kSky + kRoom + kWindow + blinds);
+  ASSERT_FALSE(found.empty());
+  EXPECT_GT(radianceAt(found, V3d(2, 3.5, 0), V3d(0, 0, 1)), 0);
+  EXPECT_EQ(radianceAt(found, V3d(2, -3, 0), V3d(0, 0, 1)), 0) << "outdoors";
 }
 
 TEST(Openings, AreNotFoundElsewhere) {
