@@ -33,7 +33,7 @@ struct CoarseSolution::Patch {
   bool usable = false;  // it has a site
   GatherSite site;
   double reach = 0;
-  double share = 0;  // of the light of what it sees, about
+  double share = 0;  // of the light of what it sees in a room of the usual size, about
   uint64_t seed = 0;
   std::atomic<const Links*> links{nullptr};
   struct Light {
@@ -46,10 +46,11 @@ struct CoarseSolution::Patch {
 };
 
 CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const FieldOptions& options,
-                               bool daylit)
+                               double room)
     : scene_(scene),
       grid_(bounds),
-      effort_(effortFor(options, daylit)),
+      room_(room),
+      effort_(effortFor(options, room > 0)),
       bounces_(std::max(options.bounces, 1)),
       ambient_(options.ambientValue.rgb),
       patches_(std::make_unique<InsertOnce<CellKey, Patch>>(kLogBuckets)) {}
@@ -86,7 +87,9 @@ CoarseSolution::Patch& CoarseSolution::patchOf(const SurfaceChart& chart, const 
       patch->site = *site;
       const Surroundings seen = looker.surroundings(*site);
       patch->reach = seen.harmonicMean;
-      patch->share = chart.stepU(grid_, key.level) * chart.stepV(grid_, key.level) / (seen.mean * seen.mean);
+      const double far = std::max(room_, seen.rootMeanSquare);
+      patch->share =
+          chart.stepU(grid_, key.level) * chart.stepV(grid_, key.level) * seen.covered / (far * far);
     }
     return patch;
   });

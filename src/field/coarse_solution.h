@@ -66,10 +66,10 @@ class CoarseSolution {
     ~Looker() = default;
   };
 
-  // Keeps a reference to the scene. bounds: of all that can be hit. daylit: whether light comes in through
-  // openings, so that few rays find it and patches that matter more need more of them. Where lamps light the
-  // surfaces directly, more rays do not pay.
-  CoarseSolution(const Scene& scene, const Box3d& bounds, const FieldOptions& options, bool daylit);
+  // Keeps a reference to the scene. bounds: of all that can be hit. room: the size of a room into which light
+  // comes through openings (world units), so that few rays find it and patches that matter more need more of
+  // them. 0: lamps light the surfaces directly, where more rays do not pay.
+  CoarseSolution(const Scene& scene, const Box3d& bounds, const FieldOptions& options, double room);
   ~CoarseSolution();
 
   // The patch that serves a place; null if there is none and the path has to be followed. One of the patches
@@ -100,6 +100,7 @@ class CoarseSolution {
 
   const Scene& scene_;
   CellGrid grid_;
+  double room_;
   Effort effort_;
   int bounces_;  // -ab
   V3f ambient_;

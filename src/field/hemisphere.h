@@ -24,11 +24,12 @@ struct GatherSite {
 };
 
 // How far the surfaces are that are seen from a site (world units), averaged over the hemisphere by projected
-// solid angle. A direction that hits nothing counts as infinite distance in the harmonic mean, and as the size
-// of the scene in the arithmetic mean.
+// solid angle. A direction that hits nothing counts as infinite distance in the harmonic mean, and not at all in
+// the root mean square.
 struct Surroundings {
   double harmonicMean = 0;
-  double mean = 0;
+  double rootMeanSquare = 0;
+  double covered = 0;  // share of the directions that hit something
 };
 
 // The incident light at a point as moments of radiance over directions, up to the second. They determine the

@@ -136,20 +136,21 @@ struct CoarseSolution {
   // a patch; but not below this -aa: by measurement. In a sunlit classroom at -aa .05 the noise of sensors
   // is .65% without this growth.
   RSPHERE_TUNED(CoarseSolution, double, kFinestAccuracy, .02);
-  // The share of a patch in the light of what it sees is about its area, divided by the square of their mean
-  // distance. A patch of this share, a square of 60 cm at 3.5 m, has the number of rays above; others have rays
-  // in proportion, because the noise of a few large patches such as those of a ceiling is most of the
-  // noise that places share: by measurement. In a sunlit classroom, as many rays for each patch leave
-  // 2.4% of noise at sensors, rays by share 1.6% (at .12 and at most 8 times as many), in the same time.
-  RSPHERE_TUNED(CoarseSolution, double, kUsualShare, .03);
-  // Bounds on that proportion: by measurement. With .25, -aa .05 takes a third more time in a wide room, for
-  // the same error. At 8, and with a usual share of .12, a narrow room takes 1.7 times the time, and its noise is
-  // larger.
-  RSPHERE_TUNED(CoarseSolution, double, kFewerRays, .1);
+  // In a room whose surfaces all matter alike, the share of a patch in the light of the others is about its area
+  // divided by the square of the room's size; outdoors, less in proportion to the sky that it sees and to the square
+  // of its distance from other surfaces. A patch of this share, a square of 36 cm in a room of 4 m, has the number
+  // of rays above; others have rays in proportion, which leaves the least noise for the same number of all rays:
+  // by measurement. In four daylit rooms, the mean distance of what a patch sees in place of the room's size gives
+  // patches below desks and in gaps so many rays that the same error takes 1.3 to 3 times the time. .012: 15%
+  // more noise in sunlit rooms, a tenth less time.
+  RSPHERE_TUNED(CoarseSolution, double, kUsualShare, .008);
+  // Bounds on that proportion: by measurement. .1 takes 1.3 times the time at -aa .05, for the same error; at 2.5, a
+  // sunlit classroom has 15% more noise, at 8 the same as at 4 in a sixth more time.
+  RSPHERE_TUNED(CoarseSolution, double, kFewerRays, .03);
   RSPHERE_TUNED(CoarseSolution, double, kMoreRays, 4);
-  // Bounds on the number of rays of a patch: by measurement. From 12 to 24 the errors are the same; with 48 the
-  // time is 1.5 times. More than 4096 are more than other errors justify.
-  RSPHERE_TUNED(CoarseSolution, double, kLeastRays, 16);
+  // Bounds on the number of rays of a patch: by measurement. 16 takes up to a sixth more time, for the same error.
+  // More than 4096 are more than other errors justify.
+  RSPHERE_TUNED(CoarseSolution, double, kLeastRays, 8);
   RSPHERE_TUNED(CoarseSolution, double, kMostRays, 4096);
 };
 

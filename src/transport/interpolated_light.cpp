@@ -24,15 +24,17 @@ Surroundings surroundingsOf(const Tracer& tracer, const GatherSite& site) {
   }();
   V3d x, y;
   frame(site.normal, x, y);
-  const double beyond = tracer.bounds().size().length();
-  double inverse = 0, sum = 0;
+  double inverse = 0, squares = 0, hits = 0;
   for (const V3d& d : directions) {
     const Hit hit = tracer.nearest(site.point, d.x * x + d.y * y + d.z * site.normal);
-    if (hit.surface != kNone) inverse += 1 / hit.distance;
-    sum += hit.surface != kNone ? hit.distance : beyond;
+    if (hit.surface == kNone) continue;
+    ++hits;
+    inverse += 1 / hit.distance;
+    squares += hit.distance * hit.distance;
   }
+  if (hits == 0) return {kFarAway, kFarAway, 0};
   const auto count = static_cast<double>(directions.size());
-  return {inverse > 0 ? count / inverse : kFarAway, sum / count};
+  return {count / inverse, std::sqrt(squares / hits), hits / count};
 }
 
 // Whether interpolated light is valid at the end of a ray. It was gathered in the whole scene, with nothing

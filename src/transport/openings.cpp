@@ -124,10 +124,11 @@ double skySeen(const Transport& transport, PathTracer& probe, V3d origin, const 
   return 0;
 }
 
-// What is seen through a pane, from one side: means over the hemisphere, in brightness (W/sr/m2).
+// What is seen through a pane, from one side: means over the hemisphere.
 struct SeenThrough {
-  double all = 0;
-  double sky = 0;  // from the sky, neither reflected nor attenuated by panes
+  double all = 0;       // brightness (W/sr/m2)
+  double sky = 0;       // from the sky, neither reflected nor attenuated by panes
+  double distance = 0;  // root mean square, of what is hit (world units)
 };
 
 // Whether the side that is seen first is the bright side of an opening.
@@ -156,6 +157,7 @@ Openings::Openings(const Transport& transport) {
   // Over the hemisphere around a normal, from points of a pane.
   const auto seenFrom = [&](const Opening& pane, const V3d& offset, const V3d& normal) {
     SeenThrough sum;
+    double squares = 0, hits = 0;
     for (int i = 0; i < Tuning::kProbes; ++i) {
       const Imath::V2d at = evenly(static_cast<size_t>(i), .5, .5),
                        to = evenly(static_cast<size_t>(i), .1, .3);
@@ -163,7 +165,12 @@ Openings::Openings(const Transport& transport) {
       const V3d direction = diffuseDirection(normal, to.y, to.x);
       sum.all += brightness(probe.glimpse(point, direction, static_cast<uint64_t>(i))) / Tuning::kProbes;
       sum.sky += skySeen(transport, probe, point, direction) / Tuning::kProbes;
+      const Hit hit = transport.tracer().nearest(point, direction);
+      if (hit.surface == kNone) continue;
+      squares += hit.distance * hit.distance;
+      ++hits;
     }
+    sum.distance = std::sqrt(squares / std::max(hits, 1.));
     return sum;
   };
   double all = 0;
@@ -173,14 +180,18 @@ Openings::Openings(const Transport& transport) {
     const bool above = isBrighter(along, against);
     if (!above && !isBrighter(against, along)) continue;
     if (above) pane.normal = -pane.normal;
-    const double behind = seenFrom(pane, lift * pane.normal, pane.normal).all;
-    if (!(behind > 0)) continue;  // no surface receives its light
+    const SeenThrough behind = seenFrom(pane, lift * pane.normal, pane.normal);
+    if (!(behind.distance > 0)) continue;  // no surface receives its light
     pane.power = (above ? along : against).all * pane.area;
-    inside_ += pane.power * behind;
+    inside_ += pane.power * behind.all;
+    depth_ += pane.power * behind.distance;
     all += pane.power;
     openings_.push_back(pane);
   }
-  if (all > 0) inside_ /= all;
+  if (all > 0) {
+    inside_ /= all;
+    depth_ /= all;
+  }
   merge(openings_);
   const auto byPower = [](const Opening& a, const Opening& b) { return a.power > b.power; };
   std::stable_sort(openings_.begin(), openings_.end(), byPower);

@@ -28,6 +28,8 @@ class Openings {
   bool empty() const { return openings_.empty(); }
   // The mean brightness (W/sr/m2) behind the openings, on their dark sides.
   double inside() const { return inside_; }
+  // How far the surfaces behind them are (world units): a mean for the size of the rooms.
+  double depth() const { return depth_; }
 
   // The sampling distribution for a point of a diffuse surface.
   struct Aim {
@@ -66,7 +68,7 @@ class Openings {
   static void merge(std::vector<Opening>& panes);
 
   std::vector<Opening> openings_;
-  double inside_ = 0;
+  double inside_ = 0, depth_ = 0;
 };
 
 }  // namespace rsphere

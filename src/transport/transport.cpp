@@ -111,7 +111,8 @@ void Transport::prepareInterpolation(const rad::Warn& warn) {
   const Box3d& bounds = tracer_.bounds();
   field_ = std::make_unique<IrradianceField>(scene_, bounds, fieldOptions(options_));
   if (options_.ambientBounces > 1)
-    coarse_ = std::make_unique<CoarseSolution>(scene_, bounds, fieldOptions(options_), openings_ != nullptr);
+    coarse_ = std::make_unique<CoarseSolution>(scene_, bounds, fieldOptions(options_),
+                                               openings_ ? openings_->depth() : 0);
   if (!options_.ambientFile.empty())
     field_->keepIn(AmbientFile::openBeside(options_.ambientFile, fingerprint(scene_),
                                            fingerprint(options_, basicRadiance_, scene_.files), warn));

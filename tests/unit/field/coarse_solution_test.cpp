@@ -65,7 +65,7 @@ class FurnaceLooker final : public CoarseSolution::Looker {
   }
   Surroundings surroundings(const GatherSite& site) override {
     const double distance = placeAlong(site.point, site.normal).distance;
-    return {distance, mean > 0 ? mean : distance};
+    return {distance, mean > 0 ? mean : distance, covered};
   }
   bool sees(const V3d& from, const V3d& to) override {
     const V3d way = to - from;
@@ -73,7 +73,8 @@ class FurnaceLooker final : public CoarseSolution::Looker {
   }
 
   int linked = 0, served = 0, followed = 0, raysOfLast = 0;
-  double mean = 0;  // distance seen from all sites; 0: that along the normal
+  double mean = 0;     // distance seen from all sites; 0: that along the normal
+  double covered = 1;  // share of directions that hit something
 
  private:
   const Tracer& tracer_;
@@ -97,7 +98,7 @@ TEST(CoarseSolution, LightIsTheGeometricSeriesInAFurnace) {
   const Traced box(kBox);
   FurnaceLooker looker(box.transport().tracer(), kBounces, [](const SurfacePlace&) { return 1; });
   CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(optionsOf(kBounces)),
-                          true);
+                          1);
   looker.solve(solution);
   Random random(2);
   int found = 0;
@@ -124,11 +125,13 @@ TEST(CoarseSolution, LightIsTheGeometricSeriesInAFurnace) {
   EXPECT_LE(static_cast<size_t>(looker.linked), solution.patches()) << "a patch is linked once";
 }
 
-// The rays that the patch of a place on the floor of the box has, if others are at a mean distance.
-int raysOfPatch(const Traced& box, const RayOptions& options, double distance) {
+// The rays that the patch of a place on the floor of the box has, for a room of this size.
+int raysOfPatch(const Traced& box, const RayOptions& options, double room, double distance = 0,
+                double covered = 1) {
   FurnaceLooker looker(box.transport().tracer(), 1, [](const SurfacePlace&) { return 1; });
   looker.mean = distance;
-  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(options), true);
+  looker.covered = covered;
+  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(options), room);
   looker.solve(solution);
   const SurfacePlace place = looker.placeAlong(V3d(2, 1.5, 2), V3d(0, 0, -1));
   CoarseSolution::Patch* const patch = solution.find(place, .5, .5, looker);
@@ -136,8 +139,8 @@ int raysOfPatch(const Traced& box, const RayOptions& options, double distance) {
   return looker.raysOfLast;
 }
 
-// A patch has rays in proportion to its area over the square of the distance that it is seen from, and more of
-// them the smaller -aa is.
+// A patch has rays in proportion to its area over the square of the room's size, fewer outdoors, and more of them
+// the smaller -aa is.
 TEST(CoarseSolution, RaysGoWhereTheirNoiseMatters) {
   using Tuning = tuning::CoarseSolution;
   const Traced box(kBox);
@@ -146,11 +149,13 @@ TEST(CoarseSolution, RaysGoWhereTheirNoiseMatters) {
   options.ambientDivisions = 8192;
   const double usual = Tuning::kRays * 8192;
   EXPECT_NEAR(raysOfPatch(box, options, 1e3), usual * Tuning::kFewerRays, 1);
-  EXPECT_NEAR(raysOfPatch(box, options, 1e-3), usual * Tuning::kMoreRays, 1);
-  const int near = raysOfPatch(box, options, 1.6), far = raysOfPatch(box, options, 2);
-  EXPECT_GT(near, usual * Tuning::kFewerRays + 1);
-  EXPECT_LT(near, usual * Tuning::kMoreRays - 1);
-  EXPECT_NEAR(near, far * (4 / 2.56), 3);
+  EXPECT_NEAR(raysOfPatch(box, options, .01, .01), usual * Tuning::kMoreRays, 1);
+  const int small = raysOfPatch(box, options, 3), large = raysOfPatch(box, options, 4);
+  EXPECT_GT(large, usual * Tuning::kFewerRays + 1);
+  EXPECT_LT(small, usual * Tuning::kMoreRays - 1);
+  EXPECT_NEAR(small, large * (16. / 9), 3);
+  EXPECT_EQ(raysOfPatch(box, options, 3, 4), large) << "what it sees is farther than the room is wide";
+  EXPECT_NEAR(raysOfPatch(box, options, 3, 3, .5), .5 * small, 2) << "it sees the sky";
   options.ambientAccuracy = .05;
   EXPECT_NEAR(raysOfPatch(box, options, 1e3), 2 * usual * Tuning::kFewerRays, 1);
 }
@@ -164,7 +169,7 @@ TEST(CoarseSolution, PatchesServeWhatTheySee) {
   RayOptions options = optionsOf(kBounces);
   options.ambientValue = Radiance(0);
   options.ambientDivisions = 64;
-  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(options), true);
+  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(options), 1);
   looker.solve(solution);
   Random random(4);
   int found[2] = {0, 0};
