@@ -14,7 +14,7 @@ using Tuning = tuning::CoarseSolution;
 // The -aa at which Tuning::kSpacing is the side of a patch, and Tuning::kRays its rays.
 constexpr double kUsualAccuracy = .1;
 
-// The binary logarithm of the buckets of the table of patches: 2 MB.
+// The binary logarithm of the buckets of each table: 2 MB.
 constexpr unsigned kLogBuckets = 18;
 
 }  // namespace
@@ -28,6 +28,13 @@ void CoarseSolution::Links::addEnd(int bounces, const Coefficient& coefficient) 
   if (ends.size() <= static_cast<size_t>(bounces)) ends.resize(bounces + 1, V3f(0, 0, 0));
   ends[bounces] += V3f(coefficient.rgb);
 }
+
+// How a part of a surface is divided into patches.
+struct CoarseSolution::Division {
+  int level = 0;    // of the widest cells whose side is at most what their surroundings ask for, or finest
+  int finest = 0;   // level of cells on the surface
+  double side = 0;  // that the surroundings ask for (world units)
+};
 
 struct CoarseSolution::Patch {
   bool usable = false;  // it has a site
@@ -53,6 +60,7 @@ CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const Fi
       effort_(effortFor(options, room > 0)),
       bounces_(std::max(options.bounces, 1)),
       ambient_(options.ambientValue.rgb),
+      divisions_(std::make_unique<InsertOnce<CellKey, Division>>(kLogBuckets)),
       patches_(std::make_unique<InsertOnce<CellKey, Patch>>(kLogBuckets)) {}
 
 CoarseSolution::~CoarseSolution() = default;
@@ -95,29 +103,39 @@ CoarseSolution::Patch& CoarseSolution::patchOf(const SurfaceChart& chart, const 
   });
 }
 
+// The widest patches around a place that what surrounds them allows, regardless of the distance that the place is
+// seen from. Every place in a cell of the finest level that the surface has gets the answer for the cell's middle.
+const CoarseSolution::Division& CoarseSolution::divisionAt(const SurfaceChart& chart, Looker& looker) {
+  const double extent = chart.extent(), open = Tuning::kOpen * grid_.size,
+               least = effort_.leastSide * std::min(extent, Tuning::kWidestExtent * grid_.size);
+  const int finest = grid_.levelOf(least);
+  const CellKey key = chart.cellAt(grid_, finest, chart.u(), chart.v());
+  return divisions_->findOrAdd(key, [&] {
+    auto found = std::make_unique<Division>();
+    const double u = (static_cast<double>(key.i) + .5) * chart.stepU(grid_, finest),
+                 v = (static_cast<double>(key.j) + .5) * chart.stepV(grid_, finest);
+    for (int level = grid_.levelOf(std::min(std::max(extent, least), open)); level <= finest; ++level) {
+      const Patch& patch = patchOf(chart, chart.cellAt(grid_, level, u, v), looker);
+      *found = {level, finest, patch.usable ? effort_.spacing * std::min(patch.reach, open) : 0};
+      if (grid_.side(level) <= found->side) break;
+    }
+    return found;
+  });
+}
+
 CoarseSolution::Patch* CoarseSolution::find(const SurfacePlace& place, double u1, double u2, Looker& looker) {
   auto chart = SurfaceChart::of(scene_, grid_, place);
   if (!chart) return nullptr;
-  const double extent = chart->extent(), open = Tuning::kOpen * grid_.size;
-  const double least = std::max(effort_.farSide * place.distance,
-                                effort_.leastSide * std::min(extent, Tuning::kWidestExtent * grid_.size));
-  int level = grid_.levelOf(std::min(std::max(extent, least), open));
-  // As fine as what surrounds the place asks for.
-  double wanted = 0;
-  for (;; ++level) {
-    const double side = grid_.side(level);
-    const Patch& patch = patchOf(*chart, chart->cellAt(grid_, level, chart->u(), chart->v()), looker);
-    wanted = patch.usable ? effort_.spacing * std::min(patch.reach, open) : 0;
-    if (side <= least || side <= wanted) {
-      if (extent < Tuning::kOwnPatch * std::max(wanted, effort_.farSide * place.distance)) return nullptr;
-      break;
-    }
-    if (level == CellGrid::kLevels) return nullptr;
-  }
+  const Division& division = divisionAt(*chart, looker);
+  const double suffices = effort_.farSide * place.distance;
+  if (chart->extent() < Tuning::kOwnPatch * std::max(division.side, suffices)) return nullptr;
+  const int enough = grid_.levelOf(std::min(suffices, Tuning::kOpen * grid_.size));
+  int level = std::min(division.level, enough);
   if (place.distance < Tuning::kNear * grid_.side(level)) return nullptr;
-  level = std::max(level, std::min(grid_.levelOf(Tuning::kSeenFrom * place.distance), grid_.levelOf(least)));
+  level = std::max(
+      level, std::min(grid_.levelOf(Tuning::kSeenFrom * place.distance), std::min(enough, division.finest)));
   // Light changes across slats and other strips that are near to each other, and others hide a part of each.
-  if (chart->shorterSide() < grid_.side(level) && wanted < chart->shorterSide())
+  if (chart->shorterSide() < grid_.side(level) && division.side < chart->shorterSide())
     chart->divideAcross(Tuning::kPartsAcross);
   const V3d above = place.point + grid_.lift * place.normal;
   const auto serves = [&](const Patch& patch) {

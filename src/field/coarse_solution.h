@@ -95,6 +95,8 @@ class CoarseSolution {
   };
   static Effort effortFor(const FieldOptions& options, bool daylit);
 
+  struct Division;
+  const Division& divisionAt(const SurfaceChart& chart, Looker& looker);
   Patch& patchOf(const SurfaceChart& chart, const CellKey& key, Looker& looker);
   const Links& linksOf(Patch& patch, Looker& looker);
 
@@ -105,6 +107,7 @@ class CoarseSolution {
   int bounces_;  // -ab
   V3f ambient_;
   std::atomic<size_t> made_{0};
+  std::unique_ptr<InsertOnce<CellKey, Division>> divisions_;
   std::unique_ptr<InsertOnce<CellKey, Patch>> patches_;
 };
 

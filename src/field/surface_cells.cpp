@@ -45,10 +45,9 @@ CellGrid::CellGrid(const Box3d& bounds) {
       magnitude = std::max({magnitude, std::abs(bounds.min[c]), std::abs(bounds.max[c])});
   }
   if (!(size > 0)) size = 1;
+  for (int level = 0; level <= kLevels; ++level) sides[static_cast<size_t>(level)] = std::ldexp(size, -level);
   lift = std::max({1e-6 * size, 1e-12 * magnitude, 2 * kSamePlace});
 }
-
-double CellGrid::side(int level) const { return std::ldexp(size, -level); }
 
 int CellGrid::levelOf(double side) const {
   if (!(side > 0)) return kLevels;
@@ -215,8 +214,13 @@ CellKey SurfaceChart::cell(const CellGrid& grid, int level, int64_t i, int64_t j
 }
 
 CellKey SurfaceChart::cellAt(const CellGrid& grid, int level, double u, double v) const {
-  return cell(grid, level, static_cast<int64_t>(std::floor(u / stepU(grid, level))),
-              static_cast<int64_t>(std::floor(v / stepV(grid, level))));
+  const double side = grid.side(level);
+  const auto index = [side](double at, double end, int least) {
+    if (!(end > 0)) return static_cast<int64_t>(std::floor(at / side));
+    const double parts = partsOf(end, side, least);
+    return static_cast<int64_t>(std::clamp(std::floor(at / (end / parts)), 0., parts - 1));
+  };
+  return {surface_, level, index(u, width_, leastU_), index(v, height_, leastV_), id_};
 }
 
 bool SurfaceChart::holds(const V3d& point) const {

@@ -2,6 +2,7 @@
 // A hierarchy of cells on surfaces, which is determined by the scene alone. Each cell has a site: a point of
 // the surface where light can be gathered for the cell's surroundings.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -36,10 +37,12 @@ struct CellGrid {
   double lift = 0;      // height of sites above their surface (world units), larger than rounding errors
   V3d origin{0, 0, 0};  // a corner of the bounds
 
-  CellGrid(const Box3d& bounds);
   static constexpr int kLevels = 40;
+  std::array<double, kLevels + 1> sides{};  // by level (world units)
+
+  CellGrid(const Box3d& bounds);
   // The approximate side (world units) of the cells of a level; it halves from level to level.
-  double side(int level) const;
+  double side(int level) const { return sides[static_cast<size_t>(level)]; }
   // The first level whose cells are not larger than this.
   int levelOf(double side) const;
 };

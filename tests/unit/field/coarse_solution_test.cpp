@@ -198,7 +198,7 @@ TEST(CoarseSolution, PatchesServeWhatTheySee) {
 TEST(CoarseSolution, NoPatchServesWhatIsSeenFromNear) {
   const Traced box(kBox);
   FurnaceLooker looker(box.transport().tracer(), 2, [](const SurfacePlace&) { return 1; });
-  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(optionsOf(2)), true);
+  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(optionsOf(2)), 1);
   looker.solve(solution);
   SurfacePlace place{V3d(2, 1.5, 0), V3d(0, 0, 1), SurfaceId(0), nullptr, 2.5};
   EXPECT_TRUE(solution.find(place, .5, .5, looker));
