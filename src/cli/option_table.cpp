@@ -1036,6 +1036,9 @@ Options modeDefaults(bool sphereMode) {
   options.ray.ambientDivisions = 4;
   options.ray.ambientSuperSamples = 0;
   options.ray.ambientAccuracy = 0;
+  // Measured in four daylit rooms with -aa .1 -ad 16: patches that have as many rays as -ad asks for leave errors of
+  // .75 to 1.4%, twice what is stated, with 1024 they are .45 to .9%, as stated, for 60 ms more a point.
+  options.ray.leastForPatches = 1024;
   options.ray.directJitter = 1;
   options.ray.directThreshold = 0;
   options.ray.specularThreshold = 0;

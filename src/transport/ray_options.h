@@ -31,6 +31,9 @@ struct RayOptions {
   int ambientSuperSamples = 512;                              // -as
   Radiance ambientValue;                                      // -av
   int ambientWeight = 0;                                      // -aw
+  // The coarse solution behind first surfaces has as many rays as -ad + -as of at least this ask for. No option:
+  // sphere mode sets it, because its directions have a small -ad each and share one solution.
+  int leastForPatches = 0;
   std::string ambientFile;                                    // -af
   double fieldMemory = 0;                                     // -Sm  MB; 0: no bound
   std::vector<std::string> ambientExcluded, ambientIncluded;  // -ae -aE, -ai -aI; one or both are empty

@@ -28,7 +28,7 @@ uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAcc
   for (const Rgb& color : {o.ambientValue.rgb, o.mediumExtinction, o.mediumAlbedo})
     for (int c = 0; c < 3; ++c) print.add(static_cast<double>(color[c]));
   for (const int n : {o.directRelays, o.chosenSources, o.directPretest, o.ambientBounces, o.ambientResolution,
-                      o.ambientDivisions, o.ambientSuperSamples, o.reflectionLimit})
+                      o.ambientDivisions, o.ambientSuperSamples, o.leastForPatches, o.reflectionLimit})
     print.add(static_cast<uint64_t>(n));
   if (o.rotation != 0) print.add(o.rotation);
   for (const bool b : {o.sourcesVisible, o.backFacesVisible, o.uncorrelated, basicRadiance})
@@ -47,9 +47,12 @@ uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAcc
 }  // namespace
 
 FieldOptions fieldOptions(const RayOptions& o) {
-  return {o.ambientBounces,    o.ambientAccuracy,
-          o.ambientResolution, static_cast<double>(o.ambientDivisions + o.ambientSuperSamples),
-          o.ambientValue,      o.fieldMemory};
+  return {o.ambientBounces,
+          o.ambientAccuracy,
+          o.ambientResolution,
+          static_cast<double>(std::max(o.ambientDivisions + o.ambientSuperSamples, o.leastForPatches)),
+          o.ambientValue,
+          o.fieldMemory};
 }
 
 Transport::Transport(const Scene& scene, const RayOptions& options, IrradianceAt irradiance,
