@@ -40,7 +40,7 @@ struct CoarseSolution::Patch {
   bool usable = false;  // it has a site
   GatherSite site;
   double reach = 0;
-  double share = 0;  // of the light of what it sees in a room of the usual size, about
+  double share = 0;  // in the light of the other surfaces of the room (Tuning::kUsualShare)
   uint64_t seed = 0;
   std::atomic<const Links*> links{nullptr};
   struct Light {

@@ -8,7 +8,7 @@ struct FieldOptions {
   int bounces = 0;        // -ab
   double accuracy = .1;   // -aa
   int resolution = 256;   // -ar  0: no limit
-  double rays = 1536;     // of a gather, which those of patches follow: -ad + -as
+  double rays = 1536;     // -ad + -as: the rays of patches are in proportion to it
   Radiance ambientValue;  // -av
   double memory = 0;      // -Sm  MB of the irradiance cache; 0: no bound
 };

@@ -24,15 +24,15 @@ struct RayOptions {
   double specularSampling = 1;     // -ss
   double specularThreshold = .15;  // -st
   // indirect light
-  int ambientBounces = 0;                                     // -ab
-  double ambientAccuracy = .1;                                // -aa
-  int ambientResolution = 256;                                // -ar
-  int ambientDivisions = 1024;                                // -ad
-  int ambientSuperSamples = 512;                              // -as
-  Radiance ambientValue;                                      // -av
-  int ambientWeight = 0;                                      // -aw
-  // The coarse solution behind first surfaces has as many rays as -ad + -as of at least this ask for. No option:
-  // sphere mode sets it, because its directions have a small -ad each and share one solution.
+  int ambientBounces = 0;         // -ab
+  double ambientAccuracy = .1;    // -aa
+  int ambientResolution = 256;    // -ar
+  int ambientDivisions = 1024;    // -ad
+  int ambientSuperSamples = 512;  // -as
+  Radiance ambientValue;          // -av
+  int ambientWeight = 0;          // -aw
+  // Patches of the coarse solution have as many rays as if -ad + -as were at least this. Not an option: sphere mode
+  // sets it, because each of its directions has a small -ad and all share one solution.
   int leastForPatches = 0;
   std::string ambientFile;                                    // -af
   double fieldMemory = 0;                                     // -Sm  MB; 0: no bound
