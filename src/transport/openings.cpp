@@ -8,6 +8,7 @@
 #include "scene/random.h"
 #include "shade/scattering.h"
 #include "trace/tracer.h"
+#include "transport/holes.h"
 #include "transport/path_tracer.h"
 #include "transport/transport.h"
 #include "transport/tuning.h"
@@ -33,6 +34,20 @@ bool lightPasses(const Transport& transport, const Surface& surface) {
     }
   }
   return isTransparent(*material) || std::holds_alternative<Prism>(*material);
+}
+
+// Whether panes close most of a hole: near its middle and near its corners.
+bool hasPane(const Transport& transport, const Rectangle& hole) {
+  const Scene& scene = transport.scene();
+  const double reach = .5 * std::min(hole.width, hole.height);
+  int panes = 0;
+  for (int c = 0; c < 5; ++c) {
+    const double a = c < 4 ? .25 + .5 * (c & 1) : .5, b = c < 4 ? .25 + .5 * (c >> 1) : .5;
+    const V3d middle = hole.corner + a * hole.width * hole.x + b * hole.height * hole.y;
+    const Hit hit = transport.tracer().nearest(middle - reach * hole.normal, hole.normal, 2 * reach);
+    if (hit.surface != kNone && lightPasses(transport, scene.surfaces[hit.surface])) ++panes;
+  }
+  return panes > 2;
 }
 
 }  // namespace
@@ -71,6 +86,35 @@ std::vector<Openings::Opening> Openings::panesOf(const Transport& transport, dou
     panes.push_back(pane);
   }
   return panes;
+}
+
+// Holes in walls through which the sky may be seen, without those that have a pane.
+std::vector<Openings::Opening> Openings::holesOf(const Transport& transport, double leastArea) {
+  std::vector<Opening> holes;
+  if (transport.distant().empty()) return holes;
+  for (const Rectangle& r : rsphere::holesOf(transport.scene(), leastArea)) {
+    Opening hole;
+    hole.corner = r.corner;
+    hole.x = r.x;
+    hole.y = r.y;
+    hole.normal = r.normal;
+    hole.width = r.width;
+    hole.height = r.height;
+    hole.area = r.width * r.height;
+    hole.isHole = true;
+    if (!hasPane(transport, r)) holes.push_back(hole);
+  }
+  return holes;
+}
+
+// Whether a hole leads to another place than the openings so far: the two faces of a thick wall have one each.
+bool Openings::isNewPlace(const Opening& hole) const {
+  return std::none_of(openings_.begin(), openings_.end(), [&](const Opening& o) {
+    const V3d between = o.corner + .5 * o.width * o.x + .5 * o.height * o.y -
+                        (hole.corner + .5 * hole.width * hole.x + .5 * hole.height * hole.y);
+    return std::abs(o.normal.dot(hole.normal)) > .99 &&
+           between.length() < .5 * std::min({o.width, o.height, hole.width, hole.height});
+  });
 }
 
 // Merges panes that lie side by side with small gaps only.
@@ -132,11 +176,11 @@ struct SeenThrough {
 };
 
 // Whether the side that is seen first is the bright side of an opening.
+bool showsMoreSky(const SeenThrough& one, const SeenThrough& other) {
+  return one.sky > std::max(Tuning::kMoreSky * other.sky, Tuning::kLeastSky * one.all);
+}
 bool isBrighter(const SeenThrough& one, const SeenThrough& other) {
-  const auto moreSky = [](const SeenThrough& a, const SeenThrough& b) {
-    return a.sky > std::max(Tuning::kMoreSky * b.sky, Tuning::kLeastSky * a.all);
-  };
-  return moreSky(one, other) || (!moreSky(other, one) && one.all > Tuning::kBrighter * other.all);
+  return showsMoreSky(one, other) || (!showsMoreSky(other, one) && one.all > Tuning::kBrighter * other.all);
 }
 
 }  // namespace
@@ -148,6 +192,8 @@ Openings::Openings(const Transport& transport) {
   const double face = std::max({size.x * size.y, size.y * size.z, size.z * size.x});
   const double lift = std::max(1e-6 * std::max({size.x, size.y, size.z}), 2 * kSamePlace);
   std::vector<Opening> panes = panesOf(transport, Tuning::kLeastArea * face);
+  const std::vector<Opening> holes = holesOf(transport, Tuning::kLeastHole * face);
+  panes.insert(panes.end(), holes.begin(), holes.end());
   if (panes.empty()) return;
   std::stable_sort(panes.begin(), panes.end(), [](const Opening& a, const Opening& b) {
     return a.width * a.height > b.width * b.height;
@@ -177,8 +223,10 @@ Openings::Openings(const Transport& transport) {
   for (Opening& pane : panes) {
     const SeenThrough along = seenFrom(pane, -lift * pane.normal, pane.normal),
                       against = seenFrom(pane, lift * pane.normal, -pane.normal);
-    const bool above = isBrighter(along, against);
-    if (!above && !isBrighter(against, along)) continue;
+    const auto& judge = pane.isHole ? showsMoreSky : isBrighter;
+    const bool above = judge(along, against);
+    if (!above && !judge(against, along)) continue;
+    if (pane.isHole && !isNewPlace(pane)) continue;
     if (above) pane.normal = -pane.normal;
     const SeenThrough behind = seenFrom(pane, lift * pane.normal, pane.normal);
     if (!(behind.distance > 0)) continue;  // no surface receives its light

@@ -1,8 +1,8 @@
 #pragma once
-// Portals of daylight: panes with a bright side and a dark one. A small window brings most of the light of a
-// room, but few directions of a hemisphere hit it. A share of the rays of each gather is therefore aimed at
-// openings and combined with the others by multiple importance sampling (balance heuristic: Veach and Guibas
-// 1995). Openings that are missed or found in vain change the variance, not the mean.
+// Portals of daylight: panes with a bright side and a dark one, and holes in walls. A small window brings most of
+// the light of a room, but few directions of a hemisphere hit it. A share of the rays of each gather is therefore
+// aimed at openings and combined with the others by multiple importance sampling (balance heuristic: Veach and
+// Guibas 1995). Openings that are missed or found in vain change the variance, not the mean.
 //
 // Source: Bitterli, Novák, Jarosz, "Portal-masked environment map sampling" (Computer Graphics Forum 34,
 // 2015). Differences: portals are found automatically, and sampled by area.
@@ -61,10 +61,13 @@ class Openings {
   struct Opening {
     V3d corner{0, 0, 0}, x{1, 0, 0}, y{0, 1, 0}, normal{0, 0, 1};  // x, y: unit
     double width = 0, height = 0;
-    double area = 0;   // of the panes in it
+    double area = 0;  // of the panes in it, or of the hole
+    bool isHole = false;
     double power = 0;  // mean radiance towards the dark side times area
   };
   static std::vector<Opening> panesOf(const Transport& transport, double leastArea);
+  static std::vector<Opening> holesOf(const Transport& transport, double leastArea);
+  bool isNewPlace(const Opening& hole) const;
   static void merge(std::vector<Opening>& panes);
 
   std::vector<Opening> openings_;

@@ -30,6 +30,7 @@ const std::string kHalves =
     "clear polygon west_half 0 0 12 1 0 1 2 0 1 2 0 2 1 0 2\nclear polygon east_half 0 0 12 2 0 1 3 0 1 3 0 "
     "2 2 0 2\n";
 const std::string kSkylight = "clear polygon skylight 0 0 12 2.7 2.7 3 2.7 3.3 3 3.3 3.3 3 3.3 2.7 3\n";
+const std::string kLid = "gray polygon lid 0 0 12 2.7 2.7 3 3.3 2.7 3 3.3 3.3 3 2.7 3.3 3\n";
 const std::string kSky = "void glow sky_glow 0 0 4 1 1 1 0\nsky_glow source sky 0 0 4 0 0 1 360\n";
 
 Openings openingsOf(const std::string& text) {
@@ -58,7 +59,7 @@ bool isInSkylight(const V3d& point, const V3d& d) {
 
 TEST(Openings, AreFoundWhereDaylightComesIn) {
   const V3d floor(2, 3.5, 0), up(0, 0, 1);
-  const Openings window = openingsOf(kSky + kRoom + kWindow);
+  const Openings window = openingsOf(kSky + kRoom + kLid + kWindow);
   ASSERT_FALSE(window.empty());
   // The form factor to the window, by numerical integration, times the diffuse transmittance of its pane.
   EXPECT_GT(radianceAt(window, floor, up), .01486 * .7);
@@ -68,8 +69,9 @@ TEST(Openings, AreFoundWhereDaylightComesIn) {
   EXPECT_EQ(radianceAt(window, V3d(2, 3, 1), V3d(0, 1, 0)), 0) << "it is behind";
   EXPECT_EQ(radianceAt(window, V3d(2, -3, 0), up), 0) << "outdoors";
   // The openings do not depend on how the window is divided or which way its panes face.
-  const Openings halves = openingsOf(kSky + kRoom + kHalves);
-  const Openings turned = openingsOf(kSky + kRoom + "clear polygon window 0 0 12 1 0 1 1 0 2 3 0 2 3 0 1\n");
+  const Openings halves = openingsOf(kSky + kRoom + kLid + kHalves);
+  const Openings turned =
+      openingsOf(kSky + kRoom + kLid + "clear polygon window 0 0 12 1 0 1 1 0 2 3 0 2 3 0 1\n");
   for (const Openings* other : {&halves, &turned}) {
     EXPECT_NEAR(radianceAt(*other, floor, up), radianceAt(window, floor, up), .001);
     EXPECT_EQ(radianceAt(*other, V3d(2, -3, 0), up), 0);
@@ -79,7 +81,7 @@ TEST(Openings, AreFoundWhereDaylightComesIn) {
 // Sunlight on the floor makes the room so bright that the sky is only about twice as bright.
 TEST(Openings, AreFoundAlthoughTheSunShinesIn) {
   const std::string sun = "void light sunlight 0 0 3 6e5 6e5 6e5\nsunlight source sun 0 0 4 0 -1 1 .53\n";
-  EXPECT_FALSE(openingsOf(kSky + sun + kRoom + kWindow).empty());
+  EXPECT_FALSE(openingsOf(kSky + sun + kRoom + kLid + kWindow).empty());
 }
 
 // Sunlit blinds behind the pane are brighter than the sky, so that the room is the brighter side; but the sky is
@@ -90,17 +92,36 @@ TEST(Openings, AreFoundBehindSunlitBlinds) {
   for (double z = .95; z < 2.05; z += .1)
     blinds += fmt::format("white polygon slat_{0:.2f} 0 0 12 .9 .05 {0} 3.1 .05 {0} 3.1 .13 {1} .9 .13 {1}\n",
                           z, z - .08);
-  const Openings found = openingsOf(kSky + kRoom + kWindow + blinds);
+  const Openings found = openingsOf(kSky + kRoom + kLid + kWindow + blinds);
   ASSERT_FALSE(found.empty());
   EXPECT_GT(radianceAt(found, V3d(2, 3.5, 0), V3d(0, 0, 1)), 0);
   EXPECT_EQ(radianceAt(found, V3d(2, -3, 0), V3d(0, 0, 1)), 0) << "outdoors";
+}
+
+// The window without its pane, and a doorway between several polygons.
+TEST(Openings, AreHolesWithoutPanesToo) {
+  const V3d floor(2, 3.5, 0), up(0, 0, 1);
+  const Openings panes = openingsOf(kSky + kRoom + kLid + kWindow), holes = openingsOf(kSky + kRoom + kLid);
+  ASSERT_FALSE(holes.empty());
+  // The form factor to the window (see above); a hole is known to within a 64th of its wall.
+  EXPECT_NEAR(radianceAt(holes, floor, up), .01486, .001);
+  EXPECT_GT(radianceAt(holes, floor, up), 1.1 * radianceAt(panes, floor, up)) << "panes absorb light";
+  EXPECT_EQ(radianceAt(holes, V3d(2, -3, 0), up), 0) << "outdoors";
+  std::string pieces = kRoom;  // kRoom with a doorway
+  const size_t south = pieces.find("gray polygon south");
+  pieces.erase(south, pieces.find('\n', south) - south);
+  const std::string pillars =
+      "gray polygon south1 0 0 12 0 0 0 1 0 0 1 0 3 0 0 3\ngray polygon south2 0 0 12 3 0 0 4 0 0 4 0 3 3 0 3\n"
+      "gray polygon south3 0 0 12 1 0 2 3 0 2 3 0 3 1 0 3\n";
+  const Openings door = openingsOf(kSky + pieces + kLid + pillars);
+  EXPECT_GT(radianceAt(door, floor, up), 1.2 * radianceAt(holes, floor, up))
+      << "it reaches down to the floor";
 }
 
 TEST(Openings, AreNotFoundElsewhere) {
   const std::string lamp = "void light lamp 0 0 3 10 10 10\nlamp sphere bulb 0 0 4 2 2 2 .1\n";
   const std::string shell = "gray bubble shell 0 0 4 2 2 1.5 8\n";
   EXPECT_TRUE(openingsOf("").empty());
-  EXPECT_TRUE(openingsOf(kSky + kRoom).empty()) << "holes without panes are not looked for";
   EXPECT_TRUE(openingsOf(kSky + kRoom + kWindow + kSkylight + shell).empty()) << "what is around is closed";
   EXPECT_TRUE(openingsOf(kRoom + kWindow).empty()) << "no sky";
   EXPECT_TRUE(openingsOf(kSky +
@@ -153,7 +174,7 @@ TEST(Openings, AreAimedAtAsDensitySays) {
 }
 
 TEST(Openings, ShowTheirAreaToLightOnItsWayIn) {
-  const Openings window = openingsOf(kSky + kRoom + kWindow);
+  const Openings window = openingsOf(kSky + kRoom + kLid + kWindow);
   const V3d in = V3d(.3, 1, -.5).normalized();
   EXPECT_NEAR(window.areaTowards(V3d(0, 1, 0)), 2, 1e-9);
   EXPECT_NEAR(window.areaTowards(in), 2 * in.y, 1e-9);
