@@ -7,6 +7,7 @@
 #include "base/constants.h"
 #include "light/surface_point.h"
 #include "shade/scattering.h"
+#include "transport/panes.h"
 #include "transport/tuning.h"
 
 namespace rsphere {
@@ -89,26 +90,22 @@ struct BrightSpots::Node {
 
 // Follows a particle to the first diffuse surface, through panes; empty if it reaches none.
 std::optional<BrightSpots::Particle> BrightSpots::arrived(const Scene& scene, const Tracer& tracer,
-                                                          V3d origin, const V3d& direction, double power,
-                                                          Random& random) {
-  SurfaceId from;
-  for (int pane = 0; pane < kMostPanes; ++pane) {
-    const Hit hit = tracer.nearest(origin, direction, kFarAway, from);
-    if (hit.surface == kNone) break;
-    from = hit.surface;
-    origin += hit.distance * direction;
-    const Material* material = scene.materialOf(scene.surfaces[hit.surface]);
-    if (!material) continue;
-    if (const auto diffuse = diffuseReflection(*material)) {
-      power *= brightness(diffuse->color) * diffuse->share;
-      const V3d front = hit.cosine < 0 ? -hit.normal : hit.normal;
-      const V3d back = sentFrom(front, random);
-      return Particle{origin, front, power, tracer.nearest(origin, back, kFarAway, from).distance};
-    }
-    if (!std::holds_alternative<Glass>(*material)) break;
+                                                          const V3d& origin, const V3d& direction,
+                                                          double power, Random& random) {
+  const auto last = beyondPanes(scene, tracer, origin, direction, [&](const Surface& surface) {
+    if (!std::holds_alternative<Glass>(*scene.materialOf(surface))) return false;
     power *= kTransmittance;
-  }
-  return {};
+    return true;
+  });
+  if (!last || last->hit.surface == kNone) return {};
+  const Hit& hit = last->hit;
+  const auto diffuse = diffuseReflection(*scene.materialOf(scene.surfaces[hit.surface]));
+  if (!diffuse) return {};
+  power *= brightness(diffuse->color) * diffuse->share;
+  const V3d point = last->origin + hit.distance * direction,
+            front = hit.cosine < 0 ? -hit.normal : hit.normal;
+  const V3d back = sentFrom(front, random);
+  return Particle{point, front, power, tracer.nearest(point, back, kFarAway, hit.surface).distance};
 }
 
 // The particles of distant sources that enter through openings, from the bright side to the dark side.

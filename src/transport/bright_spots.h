@@ -71,7 +71,7 @@ class BrightSpots {
   std::vector<Particle> particles(const Scene& scene, const Tracer& tracer, const LightSources& lights) const;
   std::vector<Particle> particlesThrough(const Openings& openings, const Scene& scene, const Tracer& tracer,
                                          const LightSources& lights) const;
-  static std::optional<Particle> arrived(const Scene& scene, const Tracer& tracer, V3d origin,
+  static std::optional<Particle> arrived(const Scene& scene, const Tracer& tracer, const V3d& origin,
                                          const V3d& direction, double power, Random& random);
   // Finds spots, keeps them, and returns the groups of particles that form them. most: maximal number of spots.
   // area: of the surfaces that receive the light (square world units). brighter, leastWorth: as in

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <span>
+#include <utility>
 
 #include "base/constants.h"
-#include "scene/material_questions.h"
 #include "transport/tuning.h"
 
 namespace rsphere {
@@ -15,78 +13,48 @@ namespace {
 
 using Tuning = tuning::Holes;
 
-// The polygons in one plane, whichever way they face.
+// The polygons in one plane, whichever way they face, the largest first.
 struct Wall {
   std::vector<const Polygon*> polygons;
   double area = 0;
 };
 
-bool isWall(const Material* material) {
-  return material && !isTransparent(*material) && !enclosesVolume(*material) && !isLightSource(*material) &&
-         !std::holds_alternative<BsdfMaterial>(*material);
+// The same for all polygons of one plane.
+using PlaneKey = std::array<int64_t, 4>;
+
+PlaneKey planeOf(const Polygon& polygon, const V3d& fromOrigin, double size) {
+  V3d normal = polygon.normal;
+  const double first = std::abs(normal.x) > .5 ? normal.x : std::abs(normal.y) > .5 ? normal.y : normal.z;
+  if (first < 0) normal = -normal;
+  PlaneKey key{};
+  for (int c = 0; c < 3; ++c) key[static_cast<size_t>(c)] = std::llround(normal[c] / Tuning::kSameNormal);
+  key[3] = std::llround(normal.dot(fromOrigin) / (Tuning::kSamePlane * size));
+  return key;
 }
 
-// The walls of a scene, the largest first, without polygons that are smaller than the holes that count.
-std::vector<Wall> wallsOf(const Scene& scene, double leastArea) {
-  Box3d bounds;
-  for (const V3d& vertex : scene.vertices) bounds.extendBy(vertex);
-  if (bounds.isEmpty()) return {};
+// The walls of a scene, the largest first.
+std::vector<Wall> wallsOf(const Scene& scene, const Box3d& bounds, double leastArea, IsWall isWall) {
   const double size = std::max({bounds.size().x, bounds.size().y, bounds.size().z, kSamePlace});
-  std::map<std::array<int64_t, 4>, Wall> byPlane;
-  for (const Surface& surface : scene.outermost()) {
-    const auto* polygon = std::get_if<Polygon>(&surface.shape);
-    if (!polygon || !(polygon->area >= leastArea) || !isWall(scene.materialOf(surface))) continue;
-    V3d normal = polygon->normal;
-    const double first = std::abs(normal.x) > .5 ? normal.x : std::abs(normal.y) > .5 ? normal.y : normal.z;
-    if (first < 0) normal = -normal;
-    const double offset = normal.dot(scene.vertices[polygon->firstVertex] - bounds.min);
-    std::array<int64_t, 4> key{};
-    for (int c = 0; c < 3; ++c) key[static_cast<size_t>(c)] = std::llround(normal[c] / Tuning::kSameNormal);
-    key[3] = std::llround(offset / (Tuning::kSamePlane * size));
-    Wall& wall = byPlane[key];
-    wall.polygons.push_back(polygon);
-    wall.area += polygon->area;
-  }
+  std::vector<std::pair<PlaneKey, const Polygon*>> polygons;
+  for (const Surface& surface : scene.outermost())
+    if (const auto* polygon = std::get_if<Polygon>(&surface.shape))
+      if (polygon->area >= leastArea && isWall(surface))
+        polygons.emplace_back(planeOf(*polygon, scene.vertices[polygon->firstVertex] - bounds.min, size),
+                              polygon);
+  std::stable_sort(polygons.begin(), polygons.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Wall> walls;
-  for (auto& [key, wall] : byPlane) walls.push_back(std::move(wall));
+  for (size_t i = 0; i < polygons.size(); ++i) {
+    if (i == 0 || polygons[i].first != polygons[i - 1].first) walls.emplace_back();
+    walls.back().polygons.push_back(polygons[i].second);
+    walls.back().area += polygons[i].second->area;
+  }
   std::stable_sort(walls.begin(), walls.end(), [](const Wall& a, const Wall& b) { return a.area > b.area; });
   if (walls.size() > Tuning::kMostWalls) walls.resize(Tuning::kMostWalls);
+  for (Wall& wall : walls)
+    std::stable_sort(wall.polygons.begin(), wall.polygons.end(),
+                     [](const Polygon* a, const Polygon* b) { return a->area > b->area; });
   return walls;
-}
-
-std::span<const V3d> cornersOf(const Scene& scene, const Polygon& polygon) {
-  return {scene.vertices.data() + polygon.firstVertex, polygon.vertices};
-}
-
-// The rectangle around a wall, along the longest edge of its largest polygon.
-Rectangle around(const Scene& scene, const Wall& wall) {
-  const Polygon& largest = **std::max_element(wall.polygons.begin(), wall.polygons.end(),
-                                              [](auto* a, auto* b) { return a->area < b->area; });
-  Rectangle r;
-  r.normal = largest.normal;
-  const std::span<const V3d> corners = cornersOf(scene, largest);
-  double longest = 0;
-  for (size_t i = 0; i < corners.size(); ++i) {
-    const V3d edge = corners[(i + 1) % corners.size()] - corners[i];
-    if (edge.length2() <= longest * (1 + 1e-9)) continue;
-    longest = edge.length2();
-    r.x = edge;
-  }
-  r.x = (r.x - r.x.dot(r.normal) * r.normal).normalized();
-  r.y = r.normal.cross(r.x);
-  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
-  for (const Polygon* polygon : wall.polygons)
-    for (const V3d& corner : cornersOf(scene, *polygon)) {
-      const double at[2] = {(corner - corners[0]).dot(r.x), (corner - corners[0]).dot(r.y)};
-      for (int c = 0; c < 2; ++c) {
-        low[c] = std::min(low[c], at[c]);
-        high[c] = std::max(high[c], at[c]);
-      }
-    }
-  r.corner = corners[0] + low[0] * r.x + low[1] * r.y;
-  r.width = high[0] - low[0];
-  r.height = high[1] - low[1];
-  return r;
 }
 
 // Which cells of a grid over a wall have their middle on one of its polygons.
@@ -113,8 +81,8 @@ class Coverage {
     }
   }
 
-  // The rectangles around connected cells that are not covered, of those that fill most of it and that the wall
-  // surrounds.
+  // The rectangles around connected cells that are not covered, if they fill most of it and the wall surrounds them.
+  // Can be called once.
   std::vector<Rectangle> holes() {
     std::vector<Rectangle> found;
     for (int j = 0; j < kCells; ++j)
@@ -122,10 +90,10 @@ class Coverage {
         if (at(i, j) != Cell::open) continue;
         const Extent e = fill(i, j);
         const int width = e.high[0] - e.low[0] + 1, height = e.high[1] - e.low[1] + 1;
-        if (e.cells < Tuning::kFilled * width * height) continue;
-        if (e.sides - e.free < Tuning::kSurrounded * e.sides) continue;
+        if (e.cells < tuning::Openings::kFilled * width * height) continue;
+        if (e.outline - e.free < Tuning::kSurrounded * e.outline) continue;
         Rectangle hole = r_;
-        hole.corner += (r_.width * e.low[0] * r_.x + r_.height * e.low[1] * r_.y) / kCells;
+        hole.corner = r_.at(static_cast<double>(e.low[0]) / kCells, static_cast<double>(e.low[1]) / kCells);
         hole.width = r_.width * width / kCells;
         hole.height = r_.height * height / kCells;
         found.push_back(hole);
@@ -136,14 +104,12 @@ class Coverage {
  private:
   struct Extent {
     int low[2] = {kCells, kCells}, high[2] = {-1, -1}, cells = 0;
-    double sides = 0, free = 0;  // length of the outline, and of it where the wall ends (world units)
+    double outline = 0, free = 0;  // length of the outline, and of its part where the wall ends (world units)
   };
   enum class Cell : uint8_t { open, wall, counted };
 
   Cell& at(int i, int j) { return cells_[static_cast<size_t>(j * kCells + i)]; }
-  V3d middle(int i, int j) const {
-    return r_.corner + (i + .5) / kCells * r_.width * r_.x + (j + .5) / kCells * r_.height * r_.y;
-  }
+  V3d middle(int i, int j) const { return r_.at((i + .5) / kCells, (j + .5) / kCells); }
 
   // Counts the connected cells around one.
   Extent fill(int i, int j) {
@@ -162,7 +128,7 @@ class Coverage {
         const int u = cell[0] + step[0], v = cell[1] + step[1];
         const double side = (step[0] ? r_.height : r_.width) / kCells;
         const bool isBeyond = u < 0 || v < 0 || u >= kCells || v >= kCells;
-        if (isBeyond || at(u, v) == Cell::wall) e.sides += side;
+        if (isBeyond || at(u, v) == Cell::wall) e.outline += side;
         if (isBeyond) e.free += side;
         if (isBeyond || at(u, v) != Cell::open) continue;
         at(u, v) = Cell::counted;
@@ -178,17 +144,16 @@ class Coverage {
 
 }  // namespace
 
-std::vector<Rectangle> holesOf(const Scene& scene, double leastArea) {
+std::vector<Rectangle> holesOf(const Scene& scene, const Box3d& bounds, double leastArea, IsWall isWall) {
   std::vector<Rectangle> found;
-  for (const Wall& wall : wallsOf(scene, leastArea)) {
-    const Rectangle r = around(scene, wall);
-    if (!(r.width > 0) || !(r.height > 0)) continue;
+  for (const Wall& wall : wallsOf(scene, bounds, leastArea, isWall)) {
+    const Rectangle r = rectangleAround(scene, wall.polygons);
+    if (!(r.area() > 0)) continue;
     for (const Rectangle& hole : Coverage(scene, wall, r).holes())
-      if (hole.width * hole.height >= leastArea) found.push_back(hole);
+      if (hole.area() >= leastArea) found.push_back(hole);
   }
-  std::stable_sort(found.begin(), found.end(), [](const Rectangle& a, const Rectangle& b) {
-    return a.width * a.height > b.width * b.height;
-  });
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Rectangle& a, const Rectangle& b) { return a.area() > b.area(); });
   return found;
 }
 

@@ -1,20 +1,21 @@
 #pragma once
-// Holes in walls, floors and roofs: doorways, windows without panes, courtyards. A wall is made of the polygons that
-// lie in one plane; a hole is a part of the rectangle around them, or of its edge, that none of them covers.
+// Holes in walls, floors and roofs, such as doorways and windows without panes. A wall is all polygons in one plane; a
+// hole is a part of the rectangle around them that no polygon covers. Each wall is divided into cells of a grid, which
+// a polygon covers if it contains their middles.
 #include <vector>
 
 #include "scene/scene.h"
+#include "transport/function_ref.h"
+#include "transport/rectangle.h"
 
 namespace rsphere {
 
-// A rectangle in a plane. x, y, normal: unit; lengths in world units.
-struct Rectangle {
-  V3d corner{0, 0, 0}, x{1, 0, 0}, y{0, 1, 0}, normal{0, 0, 1};
-  double width = 0, height = 0;
-};
+// Whether a surface belongs to walls.
+using IsWall = FunctionRef<bool(const Surface&)>;
 
-// The holes of at least this area (square world units), the largest first, to within a cell of a grid over each wall
-// (tuning::Holes::kCells). Only those that fill most of the rectangle around them, and only in the largest walls.
-std::vector<Rectangle> holesOf(const Scene& scene, double leastArea);
+// The rectangles around holes of at least this area (square world units), the largest first, to within a cell
+// (tuning::Holes::kCells). Left out: holes that fill little of their rectangle or that end with the wall on most sides,
+// polygons of less than the area, all but the largest walls, and what is in instances. bounds: of the scene.
+std::vector<Rectangle> holesOf(const Scene& scene, const Box3d& bounds, double leastArea, IsWall isWall);
 
 }  // namespace rsphere

@@ -9,20 +9,16 @@
 #include <array>
 #include <vector>
 
-#include "scene/scene.h"
+#include "transport/rectangle.h"
 #include "transport/tuning.h"
 
 namespace rsphere {
 
 class Transport;
 
-// The number of panes that straight rays pass through at most, so that tracing ends even where rounding keeps a ray
-// from leaving a pane; no building has as many in a row.
-inline constexpr int kMostPanes = 1000;
-
 class Openings {
  public:
-  // Finds the panes of the scene and probes the mean radiance on both sides of each.
+  // Finds the panes and the holes in walls (holes.h), and looks around from both sides of each.
   explicit Openings(const Transport& transport);
 
   bool empty() const { return openings_.empty(); }
@@ -57,16 +53,14 @@ class Openings {
   V3d pointTowards(const V3d& direction, double u1, double u2, double u3) const;
 
  private:
-  // A rectangle in the plane of panes; its normal points to the dark side.
-  struct Opening {
-    V3d corner{0, 0, 0}, x{1, 0, 0}, y{0, 1, 0}, normal{0, 0, 1};  // x, y: unit
-    double width = 0, height = 0;
-    double area = 0;  // of the panes in it, or of the hole
+  // The rectangle around one or more panes, or a hole; its normal points to the dark side.
+  struct Opening : Rectangle {
+    double filled = 0;  // area of the panes in it, or of the hole (square world units)
     bool isHole = false;
-    double power = 0;  // mean radiance towards the dark side times area
+    double power = 0;  // mean radiance towards the dark side times filled
   };
   static std::vector<Opening> panesOf(const Transport& transport, double leastArea);
-  static std::vector<Opening> holesOf(const Transport& transport, double leastArea);
+  static std::vector<Opening> doorsOf(const Transport& transport, double leastArea);
   bool isNewPlace(const Opening& hole) const;
   static void merge(std::vector<Opening>& panes);
 

@@ -104,7 +104,7 @@ void Transport::findAims() {
     auto openings = std::make_unique<Openings>(*this);
     if (!openings->empty()) openings_ = std::move(openings);
   }
-  if (options_.ambientAccuracy > 0 || openings_) {
+  if (looksForSpots()) {
     auto spots = std::make_unique<BrightSpots>(scene_, tracer_, lights_, openings_.get());
     if (!spots->empty()) spots_ = std::move(spots);
   }

@@ -98,6 +98,7 @@ class Transport {
  private:
   void findAims();
   void prepareInterpolation(const rad::Warn& warn);
+  bool looksForSpots() const { return options_.ambientAccuracy > 0 || openings_; }
   bool glows(std::span<const Surface> surfaces) const;
   void findScatterers(const rad::Warn& warn);
   LightId sourceNamed(std::string_view name) const;

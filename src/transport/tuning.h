@@ -68,11 +68,9 @@ struct Holes {
   // Polygons belong to one wall if their normals and their distances from the scene's corner, in sizes of the scene,
   // agree to this: far more than rounding, far less than a wall's thickness.
   static constexpr double kSameNormal = 1e-6, kSamePlane = 1e-5;
-  // Cells along each side of a wall, within which holes are known: chosen so that a door in a wall of 10 m is right
-  // within 16 cm, and a wall takes 20 microseconds.
+  // Cells along each side of a wall, within which holes are known: so that the edges of a door in a wall of 10 m are
+  // right within 16 cm. What is missed changes the variance only.
   static constexpr int kCells = 64;
-  // A hole fills at least this share of the rectangle around it, as the panes of an opening do (Openings::kFilled).
-  static constexpr double kFilled = .7;
   // The wall is at this share of a hole's outline at least: at three sides of a door, but not around the space
   // between the legs of desks in a row.
   static constexpr double kSurrounded = .6;
@@ -84,9 +82,10 @@ struct Openings {
   // Panes smaller than this share of the largest face of the scene's box are ignored, because every opening
   // costs time in every gather: chosen by experiment. 30% less or more: the same answers in all cases.
   RSPHERE_TUNED(Openings, double, kLeastArea, 1e-6);
-  // The same for holes without panes, which are known to within a cell of their wall (Holes::kCells).
+  // The same for holes without panes: larger, because their walls are then known without smaller polygons. A door of
+  // 2 m2 counts in a scene of up to 450 m.
   RSPHERE_TUNED(Openings, double, kLeastHole, 1e-5);
-  // Cap on the number of panes that are probed, of which the largest are chosen: by experiment, to limit the
+  // Cap on the number of panes and holes that are probed, of which the largest are chosen: by experiment, to limit the
   // time at start. 30% less or more: the same answers in all cases.
   RSPHERE_TUNED(Openings, size_t, kMostAsked, 512);
   // Probe rays on each side of a pane: chosen by experiment. 30% less: time +30%; 30% more: time +30%
@@ -94,14 +93,18 @@ struct Openings {
   RSPHERE_TUNED(Openings, int, kProbes, 32);
   // The bright side of an opening is at least this many times brighter than the dark one: between windows,
   // for which it is 2 to 8 by day, since panes also mirror the bright side, and panes between two rooms, for
-  // which it is about 1. Diffusing windows (1.6) and windows behind sunlit blinds (1.1) are missed. At 3, two of
-  // four windows of a sunlit classroom are not found, and sensors have 2.7 times the noise of light from the sky.
+  // which it is about 1. Diffusing windows (1.6) and windows behind sunlit blinds (1.1) are found by the sky that
+  // is seen through them (kMoreSky). At 3, two of four windows of a sunlit classroom are not found, and sensors
+  // have 2.7 times the noise of light from the sky.
   RSPHERE_TUNED(Openings, double, kBrighter, 1.7);
   // Regardless of brightness, the side from which at least so many times more light of the sky is seen without
   // reflections is the bright one, if that light is at least this share of all: chosen by experiment. Sunlit
   // blinds behind a pane are as bright as the sky; through them the sky is hardly seen.
   RSPHERE_TUNED(Openings, double, kMoreSky, 3);
   RSPHERE_TUNED(Openings, double, kLeastSky, .1);
+  // A hole belongs to an opening that is parallel to it (cosine) and whose middle is nearer than this share of the
+  // shortest side: the faces of a wall are nearer to each other than a door is wide.
+  static constexpr double kParallel = .99, kSameHole = .5;
   // Coplanar panes are merged to one opening if they fill at least this share of the rectangle around them:
   // chosen by experiment. 30% less or more: the same answers in all cases.
   RSPHERE_TUNED(Openings, double, kFilled, .7);

@@ -118,6 +118,30 @@ TEST(Openings, AreHolesWithoutPanesToo) {
       << "it reaches down to the floor";
 }
 
+// Both faces of a thick wall have a hole, but there is one way in.
+TEST(Openings, AreOneInAThickWall) {
+  const std::string outer =
+      "gray polygon outer 0 0 30 0 -.2 0 4 -.2 0 4 -.2 3 0 -.2 3 0 -.2 0 1 -.2 1 1 -.2 2 3 -.2 2 3 -.2 1 1 -.2 1\n"
+      "gray polygon sill 0 0 12 1 -.2 1 3 -.2 1 3 0 1 1 0 1\ngray polygon lintel 0 0 12 1 -.2 2 1 0 2 3 0 2 3 -.2 2\n"
+      "gray polygon jamb1 0 0 12 1 -.2 1 1 0 1 1 0 2 1 -.2 2\ngray polygon jamb2 0 0 12 3 -.2 1 3 -.2 2 3 0 2 3 0 1\n";
+  const V3d floor(2, 3.5, 0), up(0, 0, 1);
+  const double thin = radianceAt(openingsOf(kSky + kRoom + kLid), floor, up),
+               thick = radianceAt(openingsOf(kSky + kRoom + kLid + outer), floor, up);
+  EXPECT_GT(thick, .6 * thin);
+  EXPECT_LT(thick, 1.2 * thin);
+}
+
+// A ray that hits the pane reports the file; no other answer needs it.
+TEST(Openings, AreNotAskedOfBsdfsWithoutTheirFile) {
+  const std::string pane =
+      "void BSDF missing 6 0 no_such_file.xml 0 0 1 . 0 0\n"
+      "missing polygon window 0 0 12 1 0 1 3 0 1 3 0 2 1 0 2\n";
+  Traced t(kSky + kRoom + kLid + pane, unbiased(1));
+  EXPECT_TRUE(Openings(t.transport()).empty());
+  EXPECT_THROW(t.value(V3d(2, 2, 1.5), V3d(0, -1, 0)), rad::Error);
+  EXPECT_GE(t.value(V3d(2, 2, 1.5), V3d(0, 1, 0)), 0);
+}
+
 TEST(Openings, AreNotFoundElsewhere) {
   const std::string lamp = "void light lamp 0 0 3 10 10 10\nlamp sphere bulb 0 0 4 2 2 2 .1\n";
   const std::string shell = "gray bubble shell 0 0 4 2 2 1.5 8\n";

@@ -1,0 +1,41 @@
+#include "transport/panes.h"
+
+#include "transport/transport.h"
+
+namespace rsphere {
+
+// No building has as many in a row; tracing ends even where rounding keeps a ray from leaving a pane.
+constexpr int kMostPanes = 1000;
+
+bool lightPasses(const Transport& transport, const Surface& surface) {
+  const Material* material = transport.scene().materialOf(surface);
+  if (!material || enclosesVolume(*material) || isLightSource(*material)) return false;
+  if (const auto* scatterer = std::get_if<FunctionScatterer>(material)) return scatterer->transmissivity > 0;
+  if (const auto* bsdf = std::get_if<BsdfMaterial>(material)) {
+    if (!isBlack(bsdf->diffuseTransmitted)) return true;
+    try {
+      const BsdfData& data = transport.functions().bsdf(surface.material);
+      return data.transmission(true) || !isBlack(data.diffuseTransmittance(true)) ||
+             !isBlack(data.diffuseTransmittance(false));
+    } catch (const rad::Error&) {
+      return false;  // rays that hit it report the file
+    }
+  }
+  return isTransparent(*material) || std::holds_alternative<Prism>(*material);
+}
+
+std::optional<LastPart> beyondPanes(const Scene& scene, const Tracer& tracer, V3d origin,
+                                    const V3d& direction, FunctionRef<bool(const Surface&)> passes) {
+  SurfaceId from;
+  for (int pane = 0; pane < kMostPanes; ++pane) {
+    const Hit hit = tracer.nearest(origin, direction, kFarAway, from);
+    if (hit.surface == kNone) return LastPart{origin, hit};
+    const Surface& surface = scene.surfaces[hit.surface];
+    if (scene.materialOf(surface) && !passes(surface)) return LastPart{origin, hit};
+    from = hit.surface;
+    origin += hit.distance * direction;
+  }
+  return {};
+}
+
+}  // namespace rsphere
