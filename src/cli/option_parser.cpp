@@ -279,6 +279,7 @@ void checkTogether(Options& options, bool mostGiven) {
   if (!options.sphereMode) return;
   if (options.limitDistance) throw rad::Error("-ld needs ray mode (-S-): points have no direction vector");
   SphereOptions& sphere = options.sphere;
+  options.ray.leastForPatches = sphere.raysForPatches();
   if (!mostGiven) {
     sphere.mostDirections = std::max(sphere.mostDirections, 2 * sphere.baseDirections);
     if (sphere.accuracy > 0) sphere.mostForAccuracy = sphere.everyDirection ? kMostToList : kMostForAccuracy;

@@ -14,8 +14,8 @@ using Tuning = tuning::CoarseSolution;
 // The -aa at which Tuning::kSpacing is the side of a patch, and Tuning::kRays its rays.
 constexpr double kUsualAccuracy = .1;
 
-// The binary logarithm of the buckets of each table: 2 MB.
-constexpr unsigned kLogBuckets = 18;
+// The binary logarithm of the buckets of each table: 512 kB.
+constexpr unsigned kLogBuckets = 16;
 
 }  // namespace
 
@@ -31,8 +31,7 @@ void CoarseSolution::Links::addEnd(int bounces, const Coefficient& coefficient) 
 
 // How a part of a surface is divided into patches.
 struct CoarseSolution::Division {
-  int level = 0;    // of the widest cells whose side is at most what their surroundings ask for, or finest
-  int finest = 0;   // level of cells on the surface
+  int level = 0;  // of the widest cells whose side is at most what their surroundings ask for, or the finest
   double side = 0;  // that the surroundings ask for (world units)
 };
 
@@ -85,55 +84,57 @@ CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bo
 
 CoarseSolution::Patch& CoarseSolution::patchOf(const SurfaceChart& chart, const CellKey& key,
                                                Looker& looker) {
-  return patches_->findOrAdd(key, [&] {
-    auto patch = std::make_unique<Patch>();
+  return patches_->findOrAdd(key, [&](Patch& patch) {
     made_.fetch_add(1, std::memory_order_relaxed);
-    patch->seed = key.hash();
-    patch->light = std::make_unique<Patch::Light[]>(static_cast<size_t>(bounces_));
+    patch.seed = key.hash();
+    patch.light = std::make_unique<Patch::Light[]>(static_cast<size_t>(bounces_));
     if (const auto site = chart.site(grid_, key)) {
-      patch->usable = true;
-      patch->site = *site;
+      patch.usable = true;
+      patch.site = *site;
       const Surroundings seen = looker.surroundings(*site);
-      patch->reach = seen.harmonicMean;
+      patch.reach = seen.harmonicMean;
       const double far = std::max(room_, seen.rootMeanSquare);
-      patch->share =
+      patch.share =
           chart.stepU(grid_, key.level) * chart.stepV(grid_, key.level) * seen.covered / (far * far);
     }
-    return patch;
   });
 }
 
-// The widest patches around a place that what surrounds them allows, regardless of the distance that the place is
-// seen from. Every place in a cell of the finest level that the surface has gets the answer for the cell's middle.
-const CoarseSolution::Division& CoarseSolution::divisionAt(const SurfaceChart& chart, Looker& looker) {
-  const double extent = chart.extent(), open = Tuning::kOpen * grid_.size,
-               least = effort_.leastSide * std::min(extent, Tuning::kWidestExtent * grid_.size);
-  const int finest = grid_.levelOf(least);
+// The level of the smallest patches of a surface.
+int CoarseSolution::finestLevel(const SurfaceChart& chart) const {
+  return grid_.levelOf(effort_.leastSide * std::min(chart.extent(), Tuning::kWidestExtent * grid_.size));
+}
+
+// The widest patches that the surroundings of a place allow, regardless of the distance that it is seen from. All
+// places in a cell of the finest level have the answer for its middle.
+const CoarseSolution::Division& CoarseSolution::divisionAt(const SurfaceChart& chart, int finest,
+                                                           Looker& looker) {
+  const double open = Tuning::kOpen * grid_.size;
   const CellKey key = chart.cellAt(grid_, finest, chart.u(), chart.v());
-  return divisions_->findOrAdd(key, [&] {
-    auto found = std::make_unique<Division>();
+  return divisions_->findOrAdd(key, [&](Division& found) {
     const double u = (static_cast<double>(key.i) + .5) * chart.stepU(grid_, finest),
                  v = (static_cast<double>(key.j) + .5) * chart.stepV(grid_, finest);
-    for (int level = grid_.levelOf(std::min(std::max(extent, least), open)); level <= finest; ++level) {
+    for (int level = std::min(grid_.levelOf(std::min(chart.extent(), open)), finest); level <= finest;
+         ++level) {
       const Patch& patch = patchOf(chart, chart.cellAt(grid_, level, u, v), looker);
-      *found = {level, finest, patch.usable ? effort_.spacing * std::min(patch.reach, open) : 0};
-      if (grid_.side(level) <= found->side) break;
+      found = {level, patch.usable ? effort_.spacing * std::min(patch.reach, open) : 0};
+      if (grid_.side(level) <= found.side) break;
     }
-    return found;
   });
 }
 
 CoarseSolution::Patch* CoarseSolution::find(const SurfacePlace& place, double u1, double u2, Looker& looker) {
   auto chart = SurfaceChart::of(scene_, grid_, place);
   if (!chart) return nullptr;
-  const Division& division = divisionAt(*chart, looker);
+  const int finest = finestLevel(*chart);
+  const Division& division = divisionAt(*chart, finest, looker);
   const double suffices = effort_.farSide * place.distance;
   if (chart->extent() < Tuning::kOwnPatch * std::max(division.side, suffices)) return nullptr;
   const int enough = grid_.levelOf(std::min(suffices, Tuning::kOpen * grid_.size));
   int level = std::min(division.level, enough);
   if (place.distance < Tuning::kNear * grid_.side(level)) return nullptr;
-  level = std::max(
-      level, std::min(grid_.levelOf(Tuning::kSeenFrom * place.distance), std::min(enough, division.finest)));
+  level =
+      std::max(level, std::min(grid_.levelOf(Tuning::kSeenFrom * place.distance), std::min(enough, finest)));
   // Light changes across slats and other strips that are near to each other, and others hide a part of each.
   if (chart->shorterSide() < grid_.side(level) && division.side < chart->shorterSide())
     chart->divideAcross(Tuning::kPartsAcross);

@@ -96,7 +96,8 @@ class CoarseSolution {
   static Effort effortFor(const FieldOptions& options, bool daylit);
 
   struct Division;
-  const Division& divisionAt(const SurfaceChart& chart, Looker& looker);
+  int finestLevel(const SurfaceChart& chart) const;
+  const Division& divisionAt(const SurfaceChart& chart, int finest, Looker& looker);
   Patch& patchOf(const SurfaceChart& chart, const CellKey& key, Looker& looker);
   const Links& linksOf(Patch& patch, Looker& looker);
 

@@ -8,7 +8,7 @@
 namespace rsphere {
 
 // A hash table that many threads read and add to concurrently without waiting. The table never moves, changes
-// or removes an entry. Key has hash(); Value is made from a key.
+// or removes an entry. Key has hash(); Value need not be movable.
 template <class Key, class Value>
 class InsertOnce {
  public:
@@ -26,40 +26,43 @@ class InsertOnce {
 
   // The value of the key, or null.
   Value* find(const Key& key) {
-    return findFrom(buckets_[key.hash() & mask_].load(std::memory_order_acquire), key);
+    Node* const node = findFrom(buckets_[key.hash() & mask_].load(std::memory_order_acquire), key);
+    return node ? &node->value : nullptr;
   }
 
-  // The value of the key. If there is none, adds the one that make() returns as a unique pointer; that result
-  // is discarded if another thread adds one first.
+  // The value of the key. If there is none, adds the one that make(value) changes from Value{}; it is discarded if
+  // another thread adds one first.
   template <class Make>
   Value& findOrAdd(const Key& key, Make make) {
     std::atomic<Node*>& bucket = buckets_[key.hash() & mask_];
     Node* first = bucket.load(std::memory_order_acquire);
-    if (Value* value = findFrom(first, key)) return *value;
-    auto node = std::make_unique<Node>(Node{key, make(), nullptr});
+    if (Node* found = findFrom(first, key)) return found->value;
+    auto node = std::make_unique<Node>(key);
+    make(node->value);
     for (;;) {
       node->next = first;
       if (bucket.compare_exchange_weak(first, node.get(), std::memory_order_release,
                                        std::memory_order_acquire)) {
         size_.fetch_add(1, std::memory_order_relaxed);
-        return *node.release()->value;
+        return node.release()->value;
       }
-      if (Value* value = findFrom(first, key)) return *value;
+      if (Node* found = findFrom(first, key)) return found->value;
     }
   }
 
   size_t size() const { return size_.load(std::memory_order_relaxed); }
 
  private:
+  // The value is beside its key, since most of the time of a look-up is spent waiting for memory.
   struct Node {
+    explicit Node(const Key& k) : key(k) {}
     Key key;
-    std::unique_ptr<Value> value;
-    Node* next;
+    Node* next = nullptr;
+    Value value{};
   };
-  static Value* findFrom(Node* node, const Key& key) {
-    for (; node; node = node->next)
-      if (node->key == key) return node->value.get();
-    return nullptr;
+  static Node* findFrom(Node* node, const Key& key) {
+    while (node && !(node->key == key)) node = node->next;
+    return node;
   }
 
   size_t mask_;

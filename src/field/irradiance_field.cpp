@@ -141,19 +141,17 @@ void IrradianceField::Cache::enter(FieldReader& memory) {
 }
 
 Site& IrradianceField::Cache::siteOf(const SurfaceChart& chart, const CellKey& key, const Asked& asked) {
-  return asked.memory.sites.findOrAdd(key, [&] {
-    auto made = std::make_unique<Site>();
-    made->key = key;
+  return asked.memory.sites.findOrAdd(key, [&](Site& made) {
+    made.key = key;
     if (const auto at = chart.site(grid_, key)) {
-      made->usable = true;
-      made->at = *at;
-      made->reach = asked.looker.surroundings(*at).harmonicMean;
-      made->smallObjectNear = grid_.side(key.level) > finest_ &&
-                              asked.looker.smallObjectNear(*at, grid_.side(key.level), grid_.lift);
+      made.usable = true;
+      made.at = *at;
+      made.reach = asked.looker.surroundings(*at).harmonicMean;
+      made.smallObjectNear = grid_.side(key.level) > finest_ &&
+                             asked.looker.smallObjectNear(*at, grid_.side(key.level), grid_.lift);
     }
     asked.memory.add(sizeof(Site) + kNode);
     made_.fetch_add(1, std::memory_order_relaxed);
-    return made;
   });
 }
 

@@ -89,7 +89,7 @@ SampledSet joined(std::vector<KeptSet> sets, const TwoHalves& halves, const Irra
 std::unique_ptr<const BrightSpots> findSpots(const Transport& transport) {
   const RayOptions& rays = transport.options();
   if (rays.ambientBounces <= 0 || rays.ambientDivisions <= 0) return nullptr;
-  if (rays.ambientAccuracy > 0 || transport.aims().openings) return nullptr;
+  if (transport.looksForSpots()) return nullptr;
   auto spots = std::make_unique<BrightSpots>(transport.scene(), transport.tracer(), transport.lights());
   return spots->empty() ? nullptr : std::move(spots);
 }
@@ -123,11 +123,10 @@ std::unique_ptr<const SamplingStrategy> SphereEstimator::makeStrategy() const {
 }
 
 SphereEstimator::Workspace::Workspace(const SphereEstimator& estimator)
-    : tracer(estimator.transport_, estimator.aims_) {
-  tracer.gatherFirstAnew();
-}
+    : tracer(estimator.transport_, estimator.aims_) {}
 
 PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) const {
+  workspace.tracer.useCoarseSolutionAtFirst(true);
   // -Sa may send a million directions. They are kept only if they are to be printed.
   const bool keep = options_.everyDirection || options_.accuracy <= 0;
   const auto most = static_cast<size_t>(options_.mostOfAllSets());

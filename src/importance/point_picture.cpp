@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 
+#include "image/screen_color.h"
 #include "importance/smooth_indirect.h"
 #include "importance/tuning.h"
 #include "rad_parser/error.h"
@@ -17,13 +18,6 @@ namespace {
 
 using std::numbers::pi;
 using Tuning = tuning::Pictures;
-
-// The linear value that the sRGB curve maps to .5.
-constexpr double kMidBright = .21404114;
-
-double sRgb(double x) {
-  return x <= .0031308 ? 12.92 * x : 1.055 * std::pow(std::min(x, 1.), 1 / 2.4) - .055;
-}
 
 Rgb valueAt(const Raster& raster, size_t pixel) {
   const float* p = raster.pixels.data() + 3 * pixel;
@@ -131,6 +125,7 @@ class PixelTracer {
   PixelTracer(const V3d& point, const Transport& transport, PathTracer& tracer)
       : point_(point), transport_(transport), tracer_(tracer) {
     tracer_.guessWith(nullptr);
+    tracer_.useCoarseSolutionAtFirst(false);
     tracer_.observe([this](const Ray& ray) {
       if (ray.depth == 1 && (ray.kind & kAmbient)) indirect_ += ray.value * ray.contribution;
     });

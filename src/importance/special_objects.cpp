@@ -66,23 +66,32 @@ struct Shown {
   const Modifier* modifier = nullptr;
   double irregularity = 0;
 };
+Shown mostIrregular(const Scene& scene, ModifierId modifier);
+
+// What a viewer sees of an illum: its alternate material, or what is behind it, as of a pane.
+Shown seenOf(const Scene& scene, const Modifier& illum, const Alternate& alternate) {
+  if (alternate.kind == Alternate::Kind::modifier) return mostIrregular(scene, alternate.modifier);
+  return {&illum, kPane};
+}
+
 Shown mostIrregular(const Scene& scene, ModifierId modifier) {
   Shown most;
   for (; modifier != kNone; modifier = scene.modifiers[modifier].next) {
     const Modifier& m = scene.modifiers[modifier];
-    const Shown here =
-        std::visit(Overloaded{
-                       [&](const Material& material) {
-                         return Shown{&m, irregularity(material)};
-                       },
-                       [&](const Mixture& mixture) {
-                         const Shown foreground = mostIrregular(scene, mixture.foreground);
-                         const Shown background = mostIrregular(scene, mixture.background);
-                         return background.irregularity > foreground.irregularity ? background : foreground;
-                       },
-                       [](const OneOf<Pattern, Texture> auto&) { return Shown{}; },
-                   },
-                   m.content);
+    const Shown here = std::visit(
+        Overloaded{
+            [&](const Material& material) {
+              const auto* illum = std::get_if<Illum>(&material);
+              return illum ? seenOf(scene, m, illum->alternate) : Shown{&m, irregularity(material)};
+            },
+            [&](const Mixture& mixture) {
+              const Shown foreground = mostIrregular(scene, mixture.foreground);
+              const Shown background = mostIrregular(scene, mixture.background);
+              return background.irregularity > foreground.irregularity ? background : foreground;
+            },
+            [](const OneOf<Pattern, Texture> auto&) { return Shown{}; },
+        },
+        m.content);
     if (here.irregularity > most.irregularity) most = here;
     if (std::holds_alternative<Material>(m.content)) break;
   }

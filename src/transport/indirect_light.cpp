@@ -18,9 +18,11 @@ void IndirectLight::add(Ray& ray, const V3d& normal, const V3d& trueNormal, RayK
     return;
   }
   const Surroundings at{normal, trueNormal, kind, coefficient};
-  if (ray.ambientLevel > 0 && t_.coarse() && interpolated_.addFromPatch(ray, normal, trueNormal, coefficient))
+  if (ray.ambientLevel > 0 || settings_.coarseAtFirst) {
+    if (t_.coarse() && interpolated_.addFromPatch(ray, normal, trueNormal, coefficient)) return;
+  } else if (t_.field() && interpolated_.add(ray, normal, trueNormal, coefficient)) {
     return;
-  if (ray.ambientLevel == 0 && t_.field() && interpolated_.add(ray, normal, trueNormal, coefficient)) return;
+  }
   gather(ray, at);
 }
 

@@ -2,8 +2,8 @@
 // Indirect diffuse light: the mean radiance from the hemisphere over a surface.
 //
 // With -aa above 0, the light at the first diffuse surface of a path is interpolated (irradiance_field.h),
-// and that of later ones comes from the coarse solution (coarse_solution.h). Otherwise it is gathered: -ad +
-// -as stratified directions at the first diffuse surface, one direction at every later one.
+// and that of later ones comes from the coarse solution (coarse_solution.h); in sphere mode that of the first, too.
+// Otherwise it is gathered: -ad + -as stratified directions at the first diffuse surface, and as RADIANCE at later ones.
 #include "shade/scattering.h"
 #include "transport/interpolated_light.h"
 #include "transport/path_state.h"

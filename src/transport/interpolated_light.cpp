@@ -92,7 +92,7 @@ class Looker final : public SiteLooker, public CoarseSolution::Looker {
 bool InterpolatedLight::add(Ray& ray, const V3d& normal, const V3d& trueNormal,
                             const Coefficient& coefficient) {
   // The light at an imagined point (-I) is not interpolated, because no other ray needs it.
-  if (ray.surface == kNone || settings_.gathersFirstAnew) return false;
+  if (ray.surface == kNone) return false;
   if (!isOrdinary(ray, t_.medium()) || normal.dot(trueNormal) < Tuning::kLeastUpright) return false;
   Looker looker(t_.tracer(), gatherer_, ray.depth);
   GatheredLight light;
@@ -105,8 +105,7 @@ bool InterpolatedLight::addFromPatch(Ray& ray, const V3d& normal, const V3d& tru
                                      const Coefficient& coefficient) {
   Looker looker(t_.tracer(), gatherer_, ray.depth);
   const int beyond = ray.ambientLevel - 1;
-  // Patches never need light of more bounces than these, so that the path ends here.
-  const bool isLast = state_.links && ray.ambientLevel >= t_.options().ambientBounces - 1;
+  const bool isLast = state_.links && ray.ambientLevel >= t_.bouncesBeyondPatches();
   CoarseSolution::Patch* patch = nullptr;
   if (!isLast) {
     const double u1 = state_.random.uniform(), u2 = state_.random.uniform();

@@ -276,6 +276,6 @@ void PathTracer::observe(RayObserver observer, bool allShadowRays) {
   path_->settings().observesAllShadowRays = allShadowRays;
 }
 void PathTracer::guessWith(const LocalGuess* guess) { path_->settings().guess = guess; }
-void PathTracer::gatherFirstAnew() { path_->settings().gathersFirstAnew = true; }
+void PathTracer::useCoarseSolutionAtFirst(bool use) { path_->settings().coarseAtFirst = use; }
 
 }  // namespace rsphere

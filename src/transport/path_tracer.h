@@ -41,9 +41,9 @@ class PathTracer {
   // Finds the surface that a ray hits; its value stays 0.
   Ray cast(const V3d& origin, const V3d& direction, double farthest);
 
-  // The light source that the last primary ray showed: one that it hit, directly or straight through panes
-  // that also transmit shadow rays, after at most one reflection by a flat surface. If there are several, the
-  // one that was not mirrored, otherwise the first.
+  // The light source that the last primary ray showed: one that it hit, directly or straight through panes that
+  // also transmit shadow rays, after at most one reflection by a flat surface; a distant one also through slabs of
+  // parallel faces. If there are several, the one that was not mirrored, otherwise the first.
   using Shown = ShownSource;
   const Shown& shown() const;
 
@@ -60,10 +60,10 @@ class PathTracer {
   // value of one ray may be negative. Null: nothing is guessed.
   void guessWith(const LocalGuess* guess);
 
-  // From now on indirect light is gathered directly at the first diffuse surface even if -aa is above 0: if
-  // thousands of directions are averaged, single rays reduce the error faster than the sites of the cache.
-  // Later surfaces still use the coarse solution.
-  void gatherFirstAnew();
+  // Whether, with -aa above 0, the coarse solution gives the indirect light of the first diffuse surface as it
+  // does that of later ones: if thousands of directions are averaged, the errors of single patches matter less than
+  // what a gather at each surface costs. In a picture patches would be visible.
+  void useCoarseSolutionAtFirst(bool use);
 
  private:
   class Path;

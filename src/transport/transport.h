@@ -91,14 +91,18 @@ class Transport {
   // The coarse solution, which gives the light of second and later diffuse surfaces; null where paths are
   // followed instead (-aa 0, -ab 1). Tracing adds to it.
   CoarseSolution* coarse() const { return coarse_.get(); }
-  // The openings that daylight enters through, and patches of strong direct light. Patches are not looked for
-  // where light is not interpolated (-aa 0) and no daylight enters.
+  // The number of diffuse bounces beyond a patch: one less where patches never serve the first surface.
+  int bouncesBeyondPatches() const {
+    return options_.ambientBounces - (options_.leastForPatches > 0 ? 0 : 1);
+  }
+  // The openings that daylight enters through, and patches of strong direct light, which are looked for where light
+  // is interpolated (-aa above 0) or daylight enters.
   Aims aims() const { return {openings_.get(), spots_.get()}; }
+  bool looksForSpots() const { return options_.ambientAccuracy > 0 || openings_; }
 
  private:
   void findAims();
   void prepareInterpolation(const rad::Warn& warn);
-  bool looksForSpots() const { return options_.ambientAccuracy > 0 || openings_; }
   bool glows(std::span<const Surface> surfaces) const;
   void findScatterers(const rad::Warn& warn);
   LightId sourceNamed(std::string_view name) const;

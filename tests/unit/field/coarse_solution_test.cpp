@@ -158,6 +158,12 @@ TEST(CoarseSolution, RaysGoWhereTheirNoiseMatters) {
   EXPECT_NEAR(raysOfPatch(box, options, 3, 3, .5), .5 * small, 2) << "it sees the sky";
   options.ambientAccuracy = .05;
   EXPECT_NEAR(raysOfPatch(box, options, 1e3), 2 * usual * Tuning::kFewerRays, 1);
+  // Few directions at a point do not make patches noisy if more are asked for them.
+  options.ambientDivisions = 4;
+  options.leastForPatches = 8192;
+  EXPECT_NEAR(raysOfPatch(box, options, 1e3), 2 * usual * Tuning::kFewerRays, 1);
+  options.leastForPatches = 1;
+  EXPECT_LE(raysOfPatch(box, options, 1e3), Tuning::kLeastRays + 1);
 }
 
 // A wall of zero thickness with light on one side alone: the patches of places on the dark side are dark.

@@ -325,5 +325,71 @@ TEST(Estimator, LampAloneInSpace) {
   }
 }
 
+// Thick glass with two parallel faces refracts rays into and out of it, but the sun is seen in its own direction. Light that
+// is reflected within the glass an even number of times arrives with the rest: 2 n / (n^2 + 1) of all at normal incidence.
+TEST(Estimator, SeesTheSunThroughThickGlass) {
+  constexpr double kIndex = 1.5, kRadiance = 1e6;
+  std::string text = fmt::format("void dielectric glass 0 0 5 1 1 1 {} 0\n", kIndex);
+  text +=
+      "glass polygon below 0 0 12 -9 -9 1 -9 9 1 9 9 1 9 -9 1\n"
+      "glass polygon above 0 0 12 -9 -9 1.1 9 -9 1.1 9 9 1.1 -9 9 1.1\n";
+  text += "void light sunlight 0 0 3 1e6 1e6 1e6\nsunlight source sun 0 0 4 0 0 1 .5\n";
+  const Setting setting(text);
+  const double share = (1 - std::cos(.25 * kPi / 180)) / 2, passes = 2 * kIndex / (kIndex * kIndex + 1);
+  for (const uint64_t rotation : {1, 2, 3}) {
+    const PointAnswer a = setting.at(V3d(.1, .2, 0), setting.with(Weights::silhouettes, 512, rotation));
+    EXPECT_NEAR(brightness(a.mean) / (kRadiance * share * passes), 1, .01);
+  }
+}
+
+// A room that light enters through a window of a twelfth of its south wall.
+std::string daylitRoom() {
+  return "void plastic gray 0 0 5 .5 .5 .5 0 0\nvoid glass clear 0 0 3 .96 .96 .96\n"
+         "void glow sky_glow 0 0 4 1 1 1 0\nsky_glow source sky 0 0 4 0 0 1 360\n"
+         "gray polygon floor 0 0 12 0 0 0 4 0 0 4 6 0 0 6 0\ngray polygon roof 0 0 12 0 0 3 0 6 3 4 6 3 4 0 3\n"
+         "gray polygon west 0 0 12 0 0 0 0 6 0 0 6 3 0 0 3\ngray polygon east 0 0 12 4 0 0 4 0 3 4 6 3 4 6 0\n"
+         "gray polygon north 0 0 12 0 6 0 4 6 0 4 6 3 0 6 3\n"
+         "gray polygon south 0 0 30 0 0 0 4 0 0 4 0 3 0 0 3 0 0 0 1 0 1 1 0 2 2 0 2 2 0 1 1 0 1\n"
+         "clear polygon window 0 0 12 1 0 1 2 0 1 2 0 2 1 0 2\n";
+}
+
+// With -aa above 0, light comes from the patches of the coarse solution, which other patches share, so that each
+// sample needs a transport of its own.
+TEST(Estimator, PatchesGiveTheMeanOfPathsWithLessNoise) {
+  const V3d point(2.5, 4, 1.2);
+  const auto means = [&](double accuracy, int count, double& stated) {
+    Sample sample;
+    stated = 0;
+    for (int i = 0; i < count; ++i) {
+      const SphereSetting setting(sceneOf(daylitRoom()), [&](RayOptions& o) {
+        o.ambientBounces = 2;
+        o.ambientAccuracy = accuracy;
+        o.rotation = static_cast<uint64_t>(i + 1);
+        o.leastForPatches = 128;
+      });
+      SphereOptions options = setting.options.sphere;
+      options.baseDirections = 256;
+      options.rotation = static_cast<uint64_t>(i + 1);
+      const SphereEstimator estimator(*setting.transport, options, true);
+      SphereEstimator::Workspace workspace(estimator);
+      const PointAnswer a = estimator.estimate(point, workspace);
+      sample.add(brightness(a.mean));
+      stated += a.brightnessError * a.brightnessError / count;
+    }
+    return sample;
+  };
+  double statedOfPaths = 0, statedOfPatches = 0;
+  const int count = 24;
+  const Sample paths = means(0, count, statedOfPaths), patches = means(.1, count, statedOfPatches);
+  const double error = std::hypot(paths.standardError(), patches.standardError());
+  EXPECT_LT(std::abs(paths.mean() - patches.mean()), 3 * error + .005 * paths.mean())
+      << paths.mean() << " and " << patches.mean();
+  EXPECT_LT(3 * error, .045 * paths.mean()) << "would not see an error of 5%";
+  EXPECT_LT(patches.standardError(), .8 * paths.standardError());
+  const double trueToStated = patches.standardError() * std::sqrt(count / statedOfPatches);
+  EXPECT_GT(trueToStated, .6);
+  EXPECT_LT(trueToStated, 1.6);
+}
+
 }  // namespace
 }  // namespace rsphere

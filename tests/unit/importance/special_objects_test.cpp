@@ -108,6 +108,21 @@ TEST(SpecialObjects, AreFoundThroughAliases) {
   EXPECT_EQ(objects[2].irregularity, 1);
 }
 
+// An illum is seen as its alternate material, or not at all.
+TEST(SpecialObjects, IllumsAreWhatTheyShow) {
+  const Scene scene = sceneOf(
+      "void glass clear 0 0 3 .9 .9 .9\nvoid metal steel 0 0 5 .8 .8 .8 .9 0\nvoid plastic gray 0 0 5 .5 .5 .5 0 0\n"
+      "void illum window 1 clear 0 3 5 5 5\nvoid illum hole 1 void 0 3 5 5 5\nvoid illum plate 1 steel 0 3 5 5 5\n"
+      "void illum wall 1 gray 0 3 5 5 5\n"
+      "window ring a 0 0 8 0 0 1 0 0 1 0 1\nhole ring b 0 0 8 0 0 2 0 0 1 0 1\n"
+      "plate ring c 0 0 8 0 0 3 0 0 1 0 1\nwall ring d 0 0 8 0 0 4 0 0 1 0 1\n");
+  const auto objects = findSpecialObjects(scene, 1);
+  EXPECT_EQ(namesOf(scene, objects), (std::vector<std::string>{"a", "b", "c"}));
+  EXPECT_EQ(objects[0].irregularity, kPane);
+  EXPECT_EQ(objects[1].irregularity, kPane);
+  EXPECT_GT(objects[2].irregularity, kPane);
+}
+
 TEST(SpecialObjects, DensityIsMultiplied) {
   const Scene scene = sceneOf(kRoom);
   const auto once = findSpecialObjects(scene, 1), thrice = findSpecialObjects(scene, 3);
