@@ -1,0 +1,77 @@
+#pragma once
+// Diagrams as SVG. A file of its own, a plot is black on white. In a page (page.h) it takes the colors of
+// the page, whose style sheet overrides those of the elements by their classes.
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rsphere {
+
+// The color of lines that belong to the text. A page replaces it by its own.
+inline constexpr std::string_view kInk = "#333333";
+
+struct PlotPoint {
+  double x = 0, y = 0;
+};
+
+// Values from `low` to `high` (above 0) at pixels from `from` to `to`, by their logarithms.
+struct LogAxis {
+  double low = 1, high = 10, from = 0, to = 1;
+  double at(double value) const;
+  // From 3 to 12 round values; fewer where the ends are too close for 3 values of two digits.
+  std::vector<double> ticks() const;
+};
+
+// What is written beside an axis: a title, and values multiplied by `factor` and followed by `unit`.
+struct AxisText {
+  std::string title;
+  double factor = 1;
+  std::string unit = "";
+};
+
+// A plot with logarithmic axes.
+class Plot {
+ public:
+  // The axes contain all values of `extent`, with a margin. sameScale: both axes have the same ends.
+  // REQUIRES: extent is not empty, and its values are above 0 and finite.
+  Plot(std::string title, std::span<const PlotPoint> extent, AxisText x, AxisText y, bool sameScale = false);
+
+  // The ends of the x axis.
+  double xLow() const { return x_.low; }
+  double xHigh() const { return x_.high; }
+
+  // Lines may leave the plot; what is outside is not drawn. style: more attributes, as "stroke-dasharray".
+  void line(std::span<const PlotPoint> points, std::string_view color, std::string_view style = {});
+  // A disc. hint: text that a browser shows when the pointer rests on it.
+  void mark(const PlotPoint& at, double radius, std::string_view color, std::string_view hint = {});
+  // A ring around a disc.
+  void ring(const PlotPoint& at, std::string_view color);
+
+  enum class Key { disc, ring, line };
+  // style: that of the line.
+  void legend(Key key, std::string_view color, std::string text, std::string_view style = {});
+
+  std::string svg() const;
+
+ private:
+  struct Entry {
+    Key key;
+    std::string color, text, style;
+  };
+  std::string title_;
+  AxisText xText_, yText_;
+  LogAxis x_, y_;
+  std::string lines_, marks_;
+  std::vector<Entry> legend_;
+};
+
+// A diagram of bars, one below the other: the text of each, and its value.
+struct Bar {
+  std::string text;
+  double value = 0;  // 0 or more
+  std::string_view color;
+};
+std::string barsSvg(const std::string& title, std::span<const Bar> bars);
+
+}  // namespace rsphere
