@@ -16,16 +16,16 @@ std::vector<OptionEntry> makeTable() {
        .range = {0, 1},
        .remark = "tolerance of relative differences",
        .paragraph = "Tolerance: relative differences up to this do not matter, neither of the mean over all "
-                    "records nor of a single record."});
+                    "records nor of single records."});
   add({.name = "-Cs",
        .arguments = "frac",
        .value = +[](Options& o) -> double& { return own(o).shareBeyond; },
        .range = {0, 1},
        .remark = "share of records that may be beyond it",
        .paragraph =
-           "Share of the records that may differ by more than the tolerance and noise explain. If more "
-           "do, the programs differ. A few records may, because a ray that grazes an edge can pass on "
-           "either side of it."});
+           "Share of the records that may differ by more than the tolerance and the noise explain. If "
+           "more records do, the programs differ. Some records may, because a ray that grazes an edge can "
+           "pass on either side of it."});
   add({.name = "-Cr",
        .arguments = "N",
        .value = +[](Options& o) -> int& { return own(o).repeats; },
@@ -41,8 +41,9 @@ std::vector<OptionEntry> makeTable() {
        .range = {8, kMost},
        .unit = "rays",
        .remark = "rays a point, of the original",
-       .paragraph = "For points (-S) only: number of orientations of the plane whose irradiance the original "
-                    "computes at each point."});
+       .paragraph =
+           "Number of orientations of the plane whose irradiance the original computes at each point. For "
+           "points (-S) only."});
   add({.name = "-Cw",
        .arguments = "N",
        .value = +[](Options& o) -> int& { return own(o).worst; },
@@ -50,17 +51,28 @@ std::vector<OptionEntry> makeTable() {
        .unit = "records",
        .remark = "worst records shown",
        .paragraph =
-           "Number of records shown of those that differ most, with the surfaces that their rays hit."});
+           "Number of records that the report shows of those that differ most, with the surfaces that "
+           "their rays hit."});
   add({.name = "-Cp",
        .arguments = "pic",
        .value = +[](Options& o) -> std::string& { return own(o).differences; },
        .remark = "picture of the differences",
        .paragraph =
-           "Write a picture of the differences, if the records form a picture (-x and -y). The extension "
-           "of the name gives the format. HDR, EXR and TIFF files hold the relative differences "
+           "Writes a picture of the differences, if the records form a picture (-x and -y). The extension "
+           "of the name gives the format. HDR, EXR and TIFF files contain the relative differences "
            "themselves, without their sign. Other files are red where rsphere is brighter, blue where the "
            "original is brighter, and white where both are equal; colors are full at ten times the "
            "tolerance."});
+  add({.name = "-Ch",
+       .arguments = "file",
+       .value = +[](Options& o) -> std::string& { return own(o).page; },
+       .remark = "report as an HTML page",
+       .paragraph =
+           "Writes the report as one HTML page for a browser: the verdict, the figures, a plot of each record's "
+           "answer against the original's, a histogram of the differences, the worst records, the options, "
+           "the date and the versions. If the records form a picture (-x and -y), the page has both pictures "
+           "and their difference, too. It needs no other file, no network and no scripts, and can be "
+           "printed."});
   for (OptionEntry& entry : table) entry.group = Group::companion;
   return table;
 }

@@ -16,6 +16,7 @@ struct CompareOptions : Options {
   int worst = 5;              // -Cw
   int orientations = 128;     // -Cn
   std::string differences;    // -Cp
+  std::string page;           // -Ch
 };
 
 // rsphere-compare, for parseCompanion() with a CompareOptions. It is in ray mode unless

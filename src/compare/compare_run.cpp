@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <ctime>
 #include <numbers>
 #include <optional>
 
@@ -11,11 +12,14 @@
 #include "answer/answer_writer.h"
 #include "answer/load_scene.h"
 #include "answer/record_writer.h"
+#include "compare/compare_page.h"
 #include "compare/comparison.h"
 #include "compare/original.h"
 #include "compare/report.h"
 #include "measure/records_file.h"
 #include "measure/work.h"
+#include "report/markup.h"
+#include "report/page.h"
 #include "sphere/directions.h"
 #include "transport/ray_report.h"
 
@@ -155,6 +159,21 @@ std::string worstText(const CompareOptions& options, const Comparison& compariso
   return text;
 }
 
+// Whether -x and -y give a picture of all records.
+bool formPicture(const CompareOptions& options, size_t records) {
+  return options.width > 0 && options.height > 0 &&
+         static_cast<size_t>(options.width * options.height) == records;
+}
+
+// The command line of this program.
+std::string givenLine(const CompareOptions& options, const std::string& recordsName) {
+  std::vector<std::string> words{"rsphere-compare"};
+  words.insert(words.end(), options.words.begin(), options.words.end());
+  words.insert(words.end(), options.scene.begin(), options.scene.end());
+  words.push_back(recordsName);
+  return shellLine(words);
+}
+
 // The numbers of the records to compare. Throws rad::Error if there are none, or too few or
 // many for the picture of -Cp.
 std::vector<double> recordsToCompare(const CompareOptions& options, const std::string& name) {
@@ -162,8 +181,7 @@ std::vector<double> recordsToCompare(const CompareOptions& options, const std::s
   if (!options.sphereMode) numbers = withoutBogus(numbers);
   const size_t records = numbers.size() / static_cast<size_t>(options.numbersPerRecord());
   if (records == 0) throw rad::Error(fmt::format("{}: no record has a direction", name));
-  if (!options.differences.empty() && (options.width < 1 || options.height < 1 ||
-                                       static_cast<size_t>(options.width * options.height) != records))
+  if (!options.differences.empty() && !formPicture(options, records))
     throw rad::Error(fmt::format("-Cp: {} records do not fill a picture of -x {} times -y {}", records,
                                  options.width, options.height));
   return numbers;
@@ -219,15 +237,35 @@ CompareStatus runCompare(CompareOptions options, std::span<const UsedOption> use
                         options.repeats, program.path, program.version));
   out.write(figuresText(comparison, options.tolerance));
   out.write(histogramText(comparison.records, options.tolerance));
-  out.write(worstText(options, comparison, ours, theirs, numbers, transport, original));
-  out.write(fmt::format("CPU time of all repeats, loading included: rsphere {:.2f} s, the original {:.2f} s",
-                        ourSeconds, original.seconds()));
-  out.write(isOctree ? "\n" : fmt::format(", oconv {:.2f} s\n", original.octreeSeconds()));
-  if (points) out.write(equalErrorText(comparison, options.orientations, ourSeconds, original.seconds()));
+  CompareSubject subject;
+  subject.worst = worstText(options, comparison, ours, theirs, numbers, transport, original);
+  out.write(subject.worst);
+  subject.times =
+      fmt::format("CPU time of all repeats, loading included: rsphere {:.2f} s, the original {:.2f} s",
+                  ourSeconds, original.seconds());
+  subject.times += isOctree ? "\n" : fmt::format(", oconv {:.2f} s\n", original.octreeSeconds());
+  if (points)
+    subject.times += equalErrorText(comparison, options.orientations, ourSeconds, original.seconds());
+  out.write(subject.times);
   out.flush();
   if (!options.differences.empty())
     writeDifferences(options.differences, options.width, options.height, comparison.records,
                      options.tolerance);
+  if (!options.page.empty()) {
+    subject.scene = fmt::format("{}", fmt::join(options.scene, " "));
+    subject.recordsFile = recordsName;
+    subject.given = givenLine(options, recordsName);
+    subject.original = program.path;
+    subject.originalVersion = program.version;
+    subject.points = points;
+    subject.irradiance = !points && options.irradiance != IrradianceAt::none;
+    subject.tolerance = options.tolerance;
+    if (formPicture(options, ours.records)) {
+      subject.width = options.width;
+      subject.height = options.height;
+    }
+    writeTextFile(options.page, comparePage(ours, theirs, comparison, subject, std::time(nullptr)));
+  }
   return statusOf(comparison.verdict);
 }
 

@@ -6,11 +6,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "image/picture_file.h"
 #include "rad_parser/error.h"
 
 namespace rsphere {
-namespace {
 
 std::string percent(double x) {
   const double size = std::abs(100 * x);
@@ -19,7 +17,7 @@ std::string percent(double x) {
 }
 std::string signedPercent(double x) { return (x < 0 ? "" : "+") + percent(x); }
 
-std::string wordsOf(const ChannelComparison& c) {
+std::string verdictText(const ChannelComparison& c) {
   switch (c.verdict) {
     case Verdict::same:
       return "the same but for noise";
@@ -49,8 +47,6 @@ std::string_view conclusion(Verdict verdict) {
   return "";
 }
 
-}  // namespace
-
 std::string figuresText(const Comparison& comparison, double tolerance) {
   std::string text = fmt::format(
       "{:<6}{:>11}{:>9}{:>10}{:>9}{:>10}{:>9}{:>9}{:>9}{:>9}{:>9}\n"
@@ -68,7 +64,8 @@ std::string figuresText(const Comparison& comparison, double tolerance) {
   const ChannelComparison& green = comparison.channels[1];
   text += fmt::format("Noise of one answer (rms, green): rsphere {}, the original {}\n",
                       percent(green.ourNoise), percent(green.originalNoise));
-  for (size_t i = 0; i < 3; ++i) text += fmt::format("{}: {}\n", kNames[i], wordsOf(comparison.channels[i]));
+  for (size_t i = 0; i < 3; ++i)
+    text += fmt::format("{}: {}\n", kNames[i], verdictText(comparison.channels[i]));
   return text + fmt::format("{}.\n", conclusion(comparison.verdict));
 }
 
@@ -99,41 +96,68 @@ std::string equalErrorText(const Comparison& comparison, int orientations, doubl
       originalSeconds * rays(most) / orientations, ourSeconds);
 }
 
-std::string histogramText(std::span<const RecordDifference> records, double tolerance) {
+std::vector<DifferenceClass> differenceClasses(std::span<const RecordDifference> records, double tolerance) {
   const double unit = tolerance > 0 ? tolerance : 1e-6;
   constexpr std::array kEdges = {-8., -4., -2., -1., -.5, .5, 1., 2., 4., 8.};  // times the tolerance
-  constexpr int kWidest = 50;
-  std::array<size_t, kEdges.size() + 1> counts{};
-  for (const RecordDifference& r : records)
-    ++counts[static_cast<size_t>(std::lower_bound(kEdges.begin(), kEdges.end(), r.difference / unit) -
-                                 kEdges.begin())];
-  const size_t most = *std::max_element(counts.begin(), counts.end());
-  std::string text = "Relative difference of records (brightness)\n";
-  for (size_t k = 0; k < counts.size(); ++k) {
-    const std::string low = k > 0 ? signedPercent(kEdges[k - 1] * unit) : "less";
-    const std::string high = k < kEdges.size() ? signedPercent(kEdges[k] * unit) : "more";
-    const auto width = (counts[k] * kWidest + most - 1) / most;
-    text += fmt::format("{:>9} to {:<9}{:>9}  {}\n", low, high, counts[k], std::string(width, '#'));
+  std::vector<DifferenceClass> classes(kEdges.size() + 1);
+  for (size_t k = 0; k < classes.size(); ++k) {
+    classes[k].low = k > 0 ? signedPercent(kEdges[k - 1] * unit) : "less";
+    classes[k].high = k < kEdges.size() ? signedPercent(kEdges[k] * unit) : "more";
+    classes[k].within = k > 0 && k < kEdges.size() && kEdges[k - 1] >= -1 && kEdges[k] <= 1;
   }
+  for (const RecordDifference& r : records)
+    ++classes[static_cast<size_t>(std::lower_bound(kEdges.begin(), kEdges.end(), r.difference / unit) -
+                                  kEdges.begin())]
+          .records;
+  return classes;
+}
+
+std::string histogramText(std::span<const RecordDifference> records, double tolerance) {
+  constexpr int kWidest = 50;
+  const std::vector<DifferenceClass> classes = differenceClasses(records, tolerance);
+  size_t most = 0;
+  for (const DifferenceClass& c : classes) most = std::max(most, c.records);
+  std::string text = "Relative difference of records (brightness)\n";
+  for (const DifferenceClass& c : classes)
+    text += fmt::format("{:>9} to {:<9}{:>9}  {}\n", c.low, c.high, c.records,
+                        std::string((c.records * kWidest + most - 1) / most, '#'));
   return text;
+}
+
+namespace {
+
+// colorOf(relative difference): three channels.
+Raster rasterOf(int64_t width, int64_t height, std::span<const RecordDifference> records,
+                const auto& colorOf) {
+  Raster raster{static_cast<int>(width), static_cast<int>(height), {}};
+  raster.pixels.reserve(records.size() * 3);
+  for (const RecordDifference& r : records)
+    for (const double c : colorOf(r.difference)) raster.pixels.push_back(static_cast<float>(c));
+  return raster;
+}
+
+}  // namespace
+
+Raster differencesOnScreen(int64_t width, int64_t height, std::span<const RecordDifference> records,
+                           double tolerance) {
+  constexpr double kFullColor = 10;  // tolerances
+  const double full = kFullColor * (tolerance > 0 ? tolerance : 1e-6);
+  return rasterOf(width, height, records, [&](double difference) {
+    const double pale = 1 - std::min(1., std::abs(difference) / full);
+    return difference > 0 ? std::array{1., pale, pale} : std::array{pale, pale, 1.};
+  });
 }
 
 void writeDifferences(const std::string& name, int64_t width, int64_t height,
                       std::span<const RecordDifference> records, double tolerance) {
   PictureFile file(name);
-  const bool sizes = file.format() != PictureFormat::screen;
-  constexpr double kFullColor = 10;  // tolerances
-  Raster raster{static_cast<int>(width), static_cast<int>(height), {}};
-  raster.pixels.reserve(records.size() * 3);
-  for (const RecordDifference& r : records) {
-    const double size = std::abs(r.difference);
-    const double pale = 1 - std::min(1., size / (kFullColor * (tolerance > 0 ? tolerance : 1e-6)));
-    const std::array<double, 3> color = sizes              ? std::array{size, size, size}
-                                        : r.difference > 0 ? std::array{1., pale, pale}
-                                                           : std::array{pale, pale, 1.};
-    for (const double c : color) raster.pixels.push_back(static_cast<float>(c));
-  }
-  file.write(raster, "#?RADIANCE\n");
+  file.write(file.format() == PictureFormat::screen ? differencesOnScreen(width, height, records, tolerance)
+                                                    : rasterOf(width, height, records,
+                                                               [](double difference) {
+                                                                 const double size = std::abs(difference);
+                                                                 return std::array{size, size, size};
+                                                               }),
+             "#?RADIANCE\n");
 }
 
 }  // namespace rsphere

@@ -92,4 +92,11 @@ std::optional<size_t> cheapest(std::span<const Figures> all, double accuracy) {
   return found;
 }
 
+Recommendation recommend(std::span<const Figures> all, double accuracy) {
+  if (const auto found = cheapest(all, accuracy)) return {*found, true};
+  const auto nearest = std::min_element(all.begin(), all.end(),
+                                        [](const Figures& a, const Figures& b) { return a.rms < b.rms; });
+  return {static_cast<size_t>(nearest - all.begin()), false};
+}
+
 }  // namespace rsphere

@@ -72,4 +72,12 @@ void markBest(std::vector<Figures>& all);
 // The index of the fastest setting whose rmsAtMost is within the accuracy; empty if there is none.
 std::optional<size_t> cheapest(std::span<const Figures> all, double accuracy);
 
+// The setting to recommend: the cheapest(); if there is none, the one with the least rms, and `sure` is
+// false. REQUIRES: there is a setting.
+struct Recommendation {
+  size_t index = 0;
+  bool sure = false;
+};
+Recommendation recommend(std::span<const Figures> all, double accuracy);
+
 }  // namespace rsphere

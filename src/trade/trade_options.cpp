@@ -40,7 +40,7 @@ std::vector<OptionEntry> makeTable() {
        .value = +[](Options& o) -> bool& { return own(o).bounces; },
        .remark = "fewer bounces on|fewer bounces off",
        .paragraph =
-           "Toggle settings with fewer bounces than -ab. The light that they leave out appears as a bias "
+           "Toggles settings with fewer bounces than -ab. The light that they leave out appears as a bias "
            "against the reference, which has all bounces."});
   add({.name = "-Tl",
        .arguments = "file",
@@ -52,15 +52,23 @@ std::vector<OptionEntry> makeTable() {
        .arguments = "file",
        .value = +[](Options& o) -> std::string& { return own(o).table; },
        .remark = "table as a CSV file",
-       .paragraph = "Write the table to a file of comma-separated values. Errors are fractions there, not "
+       .paragraph = "Writes the table to a file of comma-separated values. Errors are fractions there, not "
                     "percentages."});
   add({.name = "-Tp",
        .arguments = "file",
        .value = +[](Options& o) -> std::string& { return own(o).plot; },
        .remark = "plot as an SVG file",
        .paragraph =
-           "Write a plot of error against time, as an SVG file. Names with another picture extension are "
+           "Writes a plot of error against time, as an SVG file. Names with another picture extension are "
            "refused."});
+  add({.name = "-Th",
+       .arguments = "file",
+       .value = +[](Options& o) -> std::string& { return own(o).page; },
+       .remark = "report as an HTML page",
+       .paragraph =
+           "Writes the report as one HTML page for a browser: the recommended command, the plot, the table "
+           "with the recommended setting marked, the points and their mean radiance, the options, the date "
+           "and the version. The page needs no other file, no network and no scripts, and can be printed."});
   for (OptionEntry& entry : table) entry.group = Group::companion;
   return table;
 }

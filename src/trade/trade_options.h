@@ -14,6 +14,7 @@ struct TradeOptions : Options {
   std::string ladder;         // -Tl
   std::string table;          // -Tc
   std::string plot;           // -Tp
+  std::string page;           // -Th
 };
 
 // rsphere-trade, for parseCompanion() with a TradeOptions.

@@ -3,7 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "base/version.h"
+#include "report/page.h"
+#include "report/plot.h"
 
 namespace rsphere {
 namespace {
@@ -25,19 +30,7 @@ std::string milliseconds(double seconds) {
 
 // The ratio of the measured error to the one that the setting estimates; 0 if it estimates none.
 double dishonesty(const Figures& f) { return f.estimated > 0 ? f.rms / f.estimated : 0; }
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '&')
-      out += "&amp;";
-    else
-      out += c;
-  }
-  return out;
-}
+constexpr double kDishonest = 1.5;  // from here on, the estimate counts as too small
 
 struct Series {
   std::string_view name, color;
@@ -54,30 +47,11 @@ size_t seriesOf(const Figures& f) {
   return weights[1] == "h" ? 0 : weights[1] == "v" ? 1 : 2;
 }
 
-// A logarithmic axis for values from `low` to `high`, drawn from pixel `from` to pixel `to`.
-struct Axis {
-  double low, high, from, to;
-  double at(double x) const { return from + (to - from) * std::log(x / low) / std::log(high / low); }
-};
+constexpr std::string_view kRing = "#c2185b", kDashes = "stroke-width=\"2\" stroke-dasharray=\"4 3\"",
+                           kDots = "stroke-dasharray=\"1 4\"";
 
-Axis axisOf(std::span<const Figures> all, double Figures::*value, double from, double to) {
-  double low = 1e300, high = 0;
-  for (const Figures& f : all) {
-    low = std::min(low, f.*value);
-    high = std::max(high, f.*value);
-  }
-  return {low / 1.3, high * 1.3, from, to};
-}
-
-// The values of an axis that are 1, 2 or 5 times a power of ten.
-std::vector<double> ticksOf(const Axis& axis) {
-  std::vector<double> ticks;
-  for (int power = -12; power < 12; ++power)
-    for (const double digit : {1., 2., 5.}) {
-      const double x = digit * std::pow(10., power);
-      if (x >= axis.low && x <= axis.high) ticks.push_back(x);
-    }
-  return ticks;
+std::string recommendedText(const TradeSubject& subject) {
+  return subject.recommended.sure ? "recommended" : "nearest to the accuracy asked for";
 }
 
 }  // namespace
@@ -86,7 +60,7 @@ std::string tradeTable(std::span<const Figures> all) {
   std::string text = fmt::format("  {:>9}{:>9}{:>9}{:>9}{:>10}{:>9}{:>10}{:>6}  {}\n", "ms/point", "rms",
                                  "largest", "bias", "+-", "says", "true/says", "", "setting");
   for (const Figures& f : all) {
-    const bool honest = dishonesty(f) < 1.5;
+    const bool honest = dishonesty(f) < kDishonest;
     text += fmt::format("{} {:>9}{:>9}{:>9}{:>9}{:>10}{:>9}{:>10}{:>6}  {}\n", f.best ? '*' : ' ',
                         milliseconds(f.seconds), percent(f.rms), percent(f.largest), percent(f.bias),
                         percent(f.biasError), f.estimated > 0 ? percent(f.estimated) : "-",
@@ -99,7 +73,7 @@ std::string tradeTable(std::span<const Figures> all) {
     text += "~ the reference is not good enough to tell (-Te)\n";
   if (std::any_of(all.begin(), all.end(), [](const Figures& f) { return f.biased; }))
     text += "b a bias that is certain (99%)\n";
-  if (std::any_of(all.begin(), all.end(), [](const Figures& f) { return dishonesty(f) >= 1.5; }))
+  if (std::any_of(all.begin(), all.end(), [](const Figures& f) { return dishonesty(f) >= kDishonest; }))
     text += "! the error is more than half again as large as the setting says\n";
   return text;
 }
@@ -115,57 +89,130 @@ std::string tradeCsv(std::span<const Figures> all, const Reference& reference) {
   return text;
 }
 
-std::string tradePlot(std::span<const Figures> given, const std::string& title) {
-  constexpr double kWidth = 720, kHeight = 480, kLeft = 70, kRight = 20, kTop = 40, kBottom = 55;
-  std::vector<Figures> all;
-  for (const Figures& f : given)
-    if (f.rms > 0 && f.seconds > 0) all.push_back(f);
-  std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" "
-      "font-size=\"12\">\n"
-      "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n"
-      "<text x=\"{2}\" y=\"24\" font-size=\"14\">{3}</text>\n",
-      kWidth, kHeight, kLeft, escaped(title));
-  if (all.empty()) return svg + "</svg>\n";
-  const Axis x = axisOf(all, &Figures::seconds, kLeft, kWidth - kRight);
-  const Axis y = axisOf(all, &Figures::rms, kHeight - kBottom, kTop);
-  for (const double tick : ticksOf(x))
-    svg += fmt::format(
-        "<path d=\"M{0:.1f} {1}V{2}\" stroke=\"#ddd\"/><text x=\"{0:.1f}\" y=\"{3}\" "
-        "text-anchor=\"middle\">{4:g}</text>\n",
-        x.at(tick), kTop, kHeight - kBottom, kHeight - kBottom + 18, 1e3 * tick);
-  for (const double tick : ticksOf(y))
-    svg += fmt::format(
-        "<path d=\"M{0} {1:.1f}H{2}\" stroke=\"#ddd\"/><text x=\"{3}\" y=\"{4:.1f}\" "
-        "text-anchor=\"end\">{5:g}%</text>\n",
-        kLeft, y.at(tick), kWidth - kRight, kLeft - 6, y.at(tick) + 4, 100 * tick);
-  svg += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">CPU time a point, ms</text>\n",
-                     (kLeft + kWidth - kRight) / 2, kHeight - 12);
-  svg += fmt::format(
-      "<text transform=\"translate(16 {}) rotate(-90)\" text-anchor=\"middle\">rms error</text>\n",
-      (kTop + kHeight - kBottom) / 2);
+std::string tradePlot(std::span<const Figures> all, const TradeSubject& subject) {
+  const auto pointOf = [](const Figures& f) { return PlotPoint{1e3 * f.seconds, 100 * f.rms}; };
+  const auto isDrawn = [](const Figures& f) { return f.rms > 0 && f.seconds > 0; };
+  std::vector<PlotPoint> extent;
   std::vector<Figures> best;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(best), [](const Figures& f) { return f.best; });
+  for (const Figures& f : all) {
+    if (!isDrawn(f)) continue;
+    extent.push_back(pointOf(f));
+    if (f.best) best.push_back(f);
+  }
+  const std::string title = fmt::format("{}: {} points", subject.scene, subject.points.size() / 3);
+  if (extent.empty()) return barsSvg(title + ": no setting has both an error and a time", {});
+  Plot plot(title, extent, {"CPU time a point, ms"}, {"rms error, relative to the reference", 1, "%"});
+  const double wanted = 100 * subject.accuracy;
+  const std::array goal = {PlotPoint{plot.xLow(), wanted}, PlotPoint{plot.xHigh(), wanted}};
+  plot.line(goal, kInk, kDots);
   std::sort(best.begin(), best.end(),
             [](const Figures& a, const Figures& b) { return a.seconds < b.seconds; });
-  std::string line;
-  for (const Figures& f : best)
-    line += fmt::format("{}{:.1f} {:.1f}", line.empty() ? "M" : "L", x.at(f.seconds), y.at(f.rms));
-  svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#333\" stroke-dasharray=\"3 3\"/>\n", line);
+  std::vector<PlotPoint> curve;
+  for (const Figures& f : best) curve.push_back(pointOf(f));
+  plot.line(curve, kInk, kDashes);
   for (const Figures& f : all)
-    svg += fmt::format(
-        "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"><title>{}: {} ms, {}</title></circle>\n",
-        x.at(f.seconds), y.at(f.rms), f.best ? 5 : 3.5, kSeries[seriesOf(f)].color, escaped(joined(f.words)),
-        milliseconds(f.seconds), percent(f.rms));
-  double row = kTop + 16;
-  for (size_t k = 0; k < std::size(kSeries); ++k) {
-    if (std::none_of(all.begin(), all.end(), [&](const Figures& f) { return seriesOf(f) == k; })) continue;
-    svg += fmt::format(
-        "<circle cx=\"{0}\" cy=\"{1}\" r=\"4\" fill=\"{2}\"/><text x=\"{3}\" y=\"{4}\">{5}</text>\n",
-        kWidth - kRight - 220, row - 4, kSeries[k].color, kWidth - kRight - 210, row, kSeries[k].name);
-    row += 16;
+    if (isDrawn(f))
+      plot.mark(pointOf(f), f.best ? 5 : 3.5, kSeries[seriesOf(f)].color,
+                fmt::format("{}: {} ms, {}", joined(f.words), milliseconds(f.seconds), percent(f.rms)));
+  for (size_t k = 0; k < std::size(kSeries); ++k)
+    if (std::any_of(all.begin(), all.end(), [&](const Figures& f) { return isDrawn(f) && seriesOf(f) == k; }))
+      plot.legend(Plot::Key::disc, kSeries[k].color, std::string(kSeries[k].name));
+  if (const Figures& f = all[subject.recommended.index]; isDrawn(f)) {
+    plot.ring(pointOf(f), kRing);
+    plot.legend(Plot::Key::ring, kRing, recommendedText(subject));
   }
-  return svg + "</svg>\n";
+  plot.legend(Plot::Key::line, kInk, "nothing is as fast and as accurate", kDashes);
+  plot.legend(Plot::Key::line, kInk, fmt::format("the accuracy asked for: {:g}%", wanted), kDots);
+  return plot.svg();
+}
+
+namespace {
+
+PageTable settingsTable(std::span<const Figures> all, const TradeSubject& subject) {
+  PageTable table;
+  table.textColumns = 2;
+  table.head = {"",     "Setting",      "Time a point, ms", "rms error", "95% sure below", "Largest error",
+                "Bias", "Own estimate", "Directions",       "Remarks"};
+  for (size_t i = 0; i < all.size(); ++i) {
+    const Figures& f = all[i];
+    const bool chosen = i == subject.recommended.index;
+    std::vector<std::string> remarks;
+    if (f.limited) remarks.emplace_back("the reference limits the accuracy");
+    if (f.biased) remarks.emplace_back("biased (99% sure)");
+    if (dishonesty(f) >= kDishonest) remarks.emplace_back("own estimate too small");
+    if (subject.repeatsOfLast > 0 && i + 1 == all.size())
+      remarks.push_back(fmt::format("{} of {} repeats", subject.repeatsOfLast, subject.repeats));
+    table.rows.push_back(
+        {{chosen   ? recommendedText(subject)
+          : f.best ? "on the curve"
+                   : "",
+          joined(f.words), milliseconds(f.seconds), percent(f.rms), percent(f.rmsAtMost), percent(f.largest),
+          fmt::format("{} \u00b1 {}", percent(f.bias), percent(f.biasError)),
+          f.estimated > 0 ? percent(f.estimated) : "-", fmt::format("{:.0f}", f.directions),
+          fmt::format("{}", fmt::join(remarks, "; "))},
+         chosen});
+  }
+  return table;
+}
+
+PageTable pointsTable(const Reference& reference, const TradeSubject& subject) {
+  PageTable table;
+  table.head = {"Point", "x", "y", "z", "Mean radiance, W/sr/m2"};
+  for (size_t i = 0; i < reference.points(); ++i) {
+    const double* p = &subject.points[3 * i];
+    table.rows.push_back({{std::to_string(i + 1), fmt::format("{:g}", p[0]), fmt::format("{:g}", p[1]),
+                           fmt::format("{:g}", p[2]), fmt::format("{:.4g}", reference.mean(i))}});
+  }
+  return table;
+}
+
+}  // namespace
+
+std::string tradePage(std::span<const Figures> all, const Reference& reference, const TradeSubject& subject,
+                      std::time_t when) {
+  const Figures& chosen = all[subject.recommended.index];
+  Page page(fmt::format("Speed and accuracy: {}", subject.scene),
+            fmt::format("rsphere-trade {}, {}", kVersion, dateAndTime(when)));
+  if (subject.recommended.sure)
+    page.banner(Tone::good,
+                fmt::format("The fastest setting for an rms error of {:g}% takes {} ms of CPU time a point. "
+                            "Its error is {} (95% sure: below {}).",
+                            100 * subject.accuracy, milliseconds(chosen.seconds), percent(chosen.rms),
+                            percent(chosen.rmsAtMost)));
+  else
+    page.banner(Tone::open, fmt::format("No setting is sure to have an rms error of {:g}%. The nearest has "
+                                        "{} (95% sure: below {}) and takes {} ms of CPU time a point.",
+                                        100 * subject.accuracy, percent(chosen.rms),
+                                        percent(chosen.rmsAtMost), milliseconds(chosen.seconds)));
+  page.command(subject.command);
+  page.heading("Error against time");
+  page.figure(
+      tradePlot(all, subject),
+      "Each mark is a setting. Settings further down are more accurate, and settings further left are "
+      "faster. A browser shows the options of a mark when the pointer rests on it.");
+  page.heading("Settings");
+  page.table(settingsTable(all, subject));
+  page.note(
+      "Time: CPU time of one thread, without reading the scene and other work before the first point. "
+      "Errors are relative to the reference: those of single answers, as root mean square (rms) over points "
+      "and repeats, and the largest. Bias: the mean error \u00b1 its standard error. Own estimate: the standard "
+      "error that the setting states itself (-oe).");
+  page.heading("Measurement");
+  page.facts(
+      {{"Scene", subject.scene},
+       {"Points",
+        fmt::format("{}: {} of {} points", subject.pointsFile, reference.points(), subject.pointsInFile)},
+       {"Reference", fmt::format("{} rotations of {}; relative standard error {}, of the mean over the "
+                                 "points {}",
+                                 reference.repeats(), subject.referenceWords, percent(reference.error()),
+                                 percent(reference.meanError()))},
+       {"Repeats", fmt::format("{} of each setting", subject.repeats)},
+       {"Command", subject.given},
+       {"Date", dateAndTime(when)},
+       {"Version", fmt::format("rsphere {}", kVersion)}});
+  page.foldedTable("The points, with their mean radiance (brightness) in the reference",
+                   pointsTable(reference, subject));
+  return page.html();
 }
 
 }  // namespace rsphere

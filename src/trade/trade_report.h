@@ -1,6 +1,8 @@
 #pragma once
+#include <ctime>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "trade/curve.h"
 
@@ -10,8 +12,29 @@ namespace rsphere {
 std::string tradeTable(std::span<const Figures> all);
 std::string tradeCsv(std::span<const Figures> all, const Reference& reference);
 
+// What a report is about, beside the settings.
+struct TradeSubject {
+  std::string scene;       // its files
+  std::string pointsFile;  // and the number of points in it
+  size_t pointsInFile = 0;
+  std::vector<double> points;  // those measured, three numbers each
+  double accuracy = 0;         // the one asked for
+  Recommendation recommended;
+  std::string command;         // of the recommended setting
+  std::string given;           // the command line of rsphere-trade
+  std::string referenceWords;  // the setting of the reference
+  int repeats = 0;             // of each setting
+  size_t repeatsOfLast = 0;    // those of the last setting, if a signal ended it early; else 0
+};
+
 // An SVG plot of rms error against seconds for a point, with logarithmic axes. Each setting is a mark in the
-// colour of its weights; a line joins the best settings. Settings without error or time are omitted.
-std::string tradePlot(std::span<const Figures> all, const std::string& title);
+// color of its weights; a line joins the best settings, and a ring marks the recommended one. Settings
+// without error or time are omitted.
+std::string tradePlot(std::span<const Figures> all, const TradeSubject& subject);
+
+// An HTML page with the plot, the table, the command and the points.
+// REQUIRES: reference is of subject.points.
+std::string tradePage(std::span<const Figures> all, const Reference& reference, const TradeSubject& subject,
+                      std::time_t when);
 
 }  // namespace rsphere

@@ -7,14 +7,16 @@
 #include <array>
 #include <cctype>
 #include <chrono>
+#include <ctime>
 #include <exception>
-#include <fstream>
 #include <mutex>
 
 #include "answer/load_scene.h"
 #include "answer/record_writer.h"
 #include "answer/threads.h"
 #include "measure/records_file.h"
+#include "report/markup.h"
+#include "report/page.h"
 #include "trade/ladder.h"
 #include "trade/schedule.h"
 #include "trade/trade_report.h"
@@ -63,11 +65,14 @@ class Trade {
   void report(const std::vector<Figures>& all, size_t repeatsOfLast, const Reference& reference,
               double accuracy) const;
   std::string pasteLine(std::span<const std::string> words) const;
+  std::string givenLine() const;
 
   const TradeOptions& options_;
   std::span<const UsedOption> used_;
   const Messages& messages_;
   StopSignals& signals_;
+  size_t pointsInFile_ = 0;
+  std::vector<double> points_;  // those measured
 };
 
 // The options of the command line, followed by those of the setting, which override them.
@@ -175,17 +180,25 @@ void Trade::progress(const std::string& text) const {
 
 // A command line of rsphere with the options given and those of the setting, which replace options given.
 std::string Trade::pasteLine(std::span<const std::string> words) const {
-  std::string line = "rsphere";
+  std::vector<std::string> line{"rsphere"};
   for (const UsedOption& option : used_) {
     const std::string_view name = option.entry->name;
     if (option.entry->group == Group::companion || name == "-Sa" || name == "-S" || name == "-t" ||
         std::find(words.begin(), words.end(), name) != words.end())
       continue;
-    for (const std::string& word : option.words) line += ' ' + word;
+    line.insert(line.end(), option.words.begin(), option.words.end());
   }
-  for (const std::string& word : words) line += ' ' + word;
-  for (size_t i = 0; i + 1 < options_.scene.size(); ++i) line += ' ' + options_.scene[i];
-  return line + " < " + options_.scene.back();
+  line.insert(line.end(), words.begin(), words.end());
+  line.insert(line.end(), options_.scene.begin(), options_.scene.end() - 1);
+  return shellLine(line) + " < " + shellWord(options_.scene.back());
+}
+
+// The command line of this program.
+std::string Trade::givenLine() const {
+  std::vector<std::string> words{"rsphere-trade"};
+  words.insert(words.end(), options_.words.begin(), options_.words.end());
+  words.insert(words.end(), options_.scene.begin(), options_.scene.end());
+  return shellLine(words);
 }
 
 // Throws rad::Error if the name of the plot, which is an SVG file, has the extension of another format:
@@ -202,14 +215,6 @@ void checkPlotName(const std::string& name) {
         fmt::format("-Tp \"{}\": the plot is an SVG file; use the name {}.svg", name, name.substr(0, dot)));
 }
 
-void writeFile(const std::string& name, const std::string& text) {
-  if (name.empty()) return;
-  std::ofstream file(name, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw rad::Error(fmt::format("cannot write \"{}\"", name), rad::Status::system);
-}
-
 // repeatsOfLast: the number of repeats of the last setting if a signal ended it early; else 0.
 void Trade::report(const std::vector<Figures>& all, size_t repeatsOfLast, const Reference& reference,
                    double accuracy) const {
@@ -221,15 +226,26 @@ void Trade::report(const std::vector<Figures>& all, size_t repeatsOfLast, const 
   text += tradeTable(all);
   if (repeatsOfLast > 0)
     text += fmt::format("The last setting has {} of {} repeats.\n", repeatsOfLast, options_.repeats);
-  const auto most = std::min_element(all.begin(), all.end(),
-                                     [](const Figures& a, const Figures& b) { return a.rms < b.rms; });
-  if (const auto found = cheapest(all, accuracy)) {
-    text += fmt::format("\nThe fastest for an rms error of {:g}% (95% sure: {:.3f}%):\n  {}\n",
-                        100 * accuracy, 100 * all[*found].rmsAtMost, pasteLine(all[*found].words));
-  } else {
-    text += fmt::format("\nNone is sure to have an rms error of {:g}%; the nearest, with {:.3f}%:\n  {}\n",
-                        100 * accuracy, 100 * most->rms, pasteLine(most->words));
-  }
+  TradeSubject subject;
+  subject.scene =
+      fmt::format("{}", fmt::join(std::span(options_.scene).first(options_.scene.size() - 1), " "));
+  subject.pointsFile = options_.scene.back();
+  subject.pointsInFile = pointsInFile_;
+  subject.points = points_;
+  subject.accuracy = accuracy;
+  subject.recommended = recommend(all, accuracy);
+  const Figures& chosen = all[subject.recommended.index];
+  subject.command = pasteLine(chosen.words);
+  subject.given = givenLine();
+  subject.referenceWords = fmt::format("{}", fmt::join(referenceWords(), " "));
+  subject.repeats = options_.repeats;
+  subject.repeatsOfLast = repeatsOfLast;
+  text +=
+      subject.recommended.sure
+          ? fmt::format("\nThe fastest for an rms error of {:g}% (95% sure: {:.3f}%):\n  {}\n",
+                        100 * accuracy, 100 * chosen.rmsAtMost, subject.command)
+          : fmt::format("\nNone is sure to have an rms error of {:g}%; the nearest, with {:.3f}%:\n  {}\n",
+                        100 * accuracy, 100 * chosen.rms, subject.command);
   // If one of the outputs fails, the others are written nevertheless, because
   // measuring again would take long.
   std::exception_ptr fault;
@@ -240,14 +256,10 @@ void Trade::report(const std::vector<Figures>& all, size_t repeatsOfLast, const 
       if (!fault) fault = std::current_exception();
     }
   };
-  attempt([&] { writeFile(options_.table, tradeCsv(all, reference)); });
-  attempt([&] {
-    writeFile(
-        options_.plot,
-        tradePlot(all, fmt::format("{}: {} points",
-                                   fmt::join(std::span(options_.scene).first(options_.scene.size() - 1), " "),
-                                   reference.points())));
-  });
+  if (!options_.table.empty()) attempt([&] { writeTextFile(options_.table, tradeCsv(all, reference)); });
+  if (!options_.plot.empty()) attempt([&] { writeTextFile(options_.plot, tradePlot(all, subject)); });
+  if (!options_.page.empty())
+    attempt([&] { writeTextFile(options_.page, tradePage(all, reference, subject, std::time(nullptr))); });
   attempt([&] {
     RecordWriter out(1);
     out.write(text);
@@ -269,15 +281,16 @@ void Trade::run() {
                        error.status());
     }
   }
-  const std::vector<double> points =
-      chosenPoints(readRecords(options_.scene.back(), options_), options_.mostPoints);
+  const std::vector<double> allPoints = readRecords(options_.scene.back(), options_);
+  pointsInFile_ = allPoints.size() / 3;
+  points_ = chosenPoints(allPoints, options_.mostPoints);
 
   const rad::Warn warn = [&](std::string_view text) { messages_.warning(text); };
   AnswerOptions withoutPoints = options_;
   withoutPoints.scene.pop_back();  // with -Sc-, the scene may not name files in the folder of the points
   const Scene scene = loadScene(withoutPoints, warn);
   signals_.defer(true);
-  Trials trials(scene, points, signals_);
+  Trials trials(scene, points_, signals_);
   const double target = options_.referenceError > 0 ? options_.referenceError : accuracy / 10;
   const std::optional<Reference> reference = makeReference(trials, target);
   if (reference && reference->isDark())

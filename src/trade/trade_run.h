@@ -8,7 +8,7 @@
 namespace rsphere {
 
 // Measures the settings of ladder() at the points in the file that is the last word of options.scene,
-// prints the result on standard output, and writes the files of -Tc and -Tp. After a signal, does so
+// prints the result on standard output, and writes the files of -Tc, -Tp and -Th. After a signal, does so
 // with the measurements that are finished, and throws rad::Error with Status::signal. Throws
 // rad::Error for all faults.
 // REQUIRES: options are from parseCompanion(), and `used` is its result.

@@ -63,14 +63,17 @@ TEST(Plot, HasAMarkForEachSetting) {
   }
   all[2].rms = 0;  // is omitted from the plot
   markBest(all);
-  const std::string svg = tradePlot(all, "a & b");
+  TradeSubject subject;
+  subject.scene = "a & b";
+  subject.accuracy = .01;
+  const std::string svg = tradePlot(all, subject);
   size_t marks = 0;
   for (size_t at = svg.find("<title>"); at != std::string::npos; at = svg.find("<title>", at + 1)) ++marks;
   EXPECT_EQ(marks, 2u);
   EXPECT_NE(svg.find("a &amp; b"), std::string::npos);
   EXPECT_NE(svg.find("&lt;&amp;"), std::string::npos);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
-  EXPECT_NE(tradePlot({}, "none").find("</svg>"), std::string::npos);
+  EXPECT_NE(tradePlot({}, subject).find("</svg>"), std::string::npos);
 }
 
 }  // namespace
