@@ -1,0 +1,280 @@
+#include "drawing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "report/markup.h"
+
+namespace grid {
+namespace {
+
+struct Box {
+  double left, top, right, bottom;
+  bool overlaps(const Box& b) const {
+    return left < b.right && b.left < right && top < b.bottom && b.top < bottom;
+  }
+};
+
+struct Color {
+  double red, green, blue;  // 0 to 255
+  std::string text() const {
+    return fmt::format("#{:02x}{:02x}{:02x}", std::lround(red), std::lround(green), std::lround(blue));
+  }
+  bool dark() const { return .3 * red + .59 * green + .11 * blue < 120; }
+};
+
+// From blue over green to yellow and red; lightness rises up to yellow. share: 0 to 1.
+Color falsecolor(double share) {
+  static constexpr std::array<Color, 7> kScale{{{49, 54, 149},
+                                                {44, 123, 182},
+                                                {64, 182, 176},
+                                                {140, 206, 110},
+                                                {250, 234, 98},
+                                                {250, 165, 62},
+                                                {222, 72, 45}}};
+  const double place = std::clamp(share, 0., 1.) * (kScale.size() - 1);
+  const size_t first = std::min(static_cast<size_t>(place), kScale.size() - 2);
+  const double t = place - static_cast<double>(first);
+  const Color &a = kScale[first], &b = kScale[first + 1];
+  return {a.red + t * (b.red - a.red), a.green + t * (b.green - a.green), a.blue + t * (b.blue - a.blue)};
+}
+
+// The next of 1, 2, 5, 10, 20, ... (and fractions) from this value on.
+double roundUp(double value) {
+  const double power = std::pow(10, std::floor(std::log10(value)));
+  for (const double factor : {1., 2., 5.})
+    if (power * factor >= value * (1 - 1e-9)) return power * factor;
+  return 10 * power;
+}
+
+// Collects the elements of the picture. Coordinates are pixels, y down.
+class Canvas {
+ public:
+  void path(const std::string& commands, const std::string& style) {
+    body_ += fmt::format("<path d=\"{}\" {}/>\n", commands, style);
+  }
+  void rectangle(const Box& box, const std::string& style) {
+    body_ += fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" {}/>\n",
+                         box.left, box.top, box.right - box.left, box.bottom - box.top, style);
+  }
+  // style: attributes beyond the place.
+  void text(double x, double y, std::string_view words, const std::string& style) {
+    body_ +=
+        fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, style, rsphere::escaped(words));
+  }
+  std::string svg(double width, double height) const {
+    return fmt::format(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
+        "viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"sans-serif\" font-size=\"12\">\n"
+        "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n{2}</svg>\n",
+        width, height, body_);
+  }
+
+ private:
+  std::string body_;
+};
+
+// From the plane to pixels. The plan has the plane's own directions: right is right, up is up.
+class Scale {
+ public:
+  Scale(const Area& area, double left, double top, double widest, double highest) {
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    low = V2d(kInfinite, kInfinite);
+    high = -low;
+    for (const Edge& edge : area.edges()) {
+      low = V2d(std::min(low.x, edge.from.x), std::min(low.y, edge.from.y));
+      high = V2d(std::max(high.x, edge.from.x), std::max(high.y, edge.from.y));
+    }
+    perUnit = std::min(widest / (high.x - low.x), highest / (high.y - low.y));
+    frame = {left, top, left + perUnit * (high.x - low.x), top + perUnit * (high.y - low.y)};
+  }
+  double x(double u) const { return frame.left + perUnit * (u - low.x); }
+  double y(double v) const { return frame.bottom - perUnit * (v - low.y); }
+  std::string line(std::span<const V2d> points, bool closed) const {
+    std::string commands;
+    for (const V2d& p : points)
+      commands += fmt::format("{}{:.2f} {:.2f}", commands.empty() ? "M" : "L", x(p.x), y(p.y));
+    return closed ? commands + "Z" : commands;
+  }
+  std::string lines(const std::vector<std::vector<V2d>>& lines, bool closed) const {
+    std::string commands;
+    for (const auto& points : lines) commands += line(points, closed);
+    return commands;
+  }
+
+  V2d low, high;
+  double perUnit;
+  Box frame;
+};
+
+// The edges of an area in a row, as far as they follow each other.
+std::vector<Ring> ringsOf(std::vector<Edge> edges) {
+  std::vector<Ring> rings;
+  while (!edges.empty()) {
+    Ring& ring = rings.emplace_back();
+    for (size_t next = edges.size() - 1; next < edges.size();) {
+      const V2d end = edges[next].to;
+      ring.push_back(edges[next].from);
+      edges.erase(edges.begin() + static_cast<std::ptrdiff_t>(next));
+      next = 0;
+      while (next < edges.size() && edges[next].from != end) ++next;
+    }
+  }
+  return rings;
+}
+
+void drawAxes(Canvas& canvas, const Scale& scale) {
+  const Box& frame = scale.frame;
+  const double step = roundUp(60 / scale.perUnit);
+  std::string ticks;
+  for (double u = std::ceil(scale.low.x / step - 1e-6) * step; u <= scale.high.x + 1e-6 * step; u += step) {
+    ticks += fmt::format("M{:.2f} {:.2f}v5", scale.x(u), frame.bottom + 4);
+    canvas.text(scale.x(u), frame.bottom + 21, fmt::format("{:.6g}", std::abs(u) < 1e-6 * step ? 0. : u),
+                "text-anchor=\"middle\" font-size=\"11\" fill=\"#555\"");
+  }
+  for (double v = std::ceil(scale.low.y / step - 1e-6) * step; v <= scale.high.y + 1e-6 * step; v += step) {
+    ticks += fmt::format("M{:.2f} {:.2f}h-5", frame.left - 4, scale.y(v));
+    canvas.text(frame.left - 12, scale.y(v) + 4, fmt::format("{:.6g}", std::abs(v) < 1e-6 * step ? 0. : v),
+                "text-anchor=\"end\" font-size=\"11\" fill=\"#555\"");
+  }
+  canvas.path(ticks, "stroke=\"#555\" fill=\"none\"");
+}
+
+// Each line has a label where it is free of those before, best in its middle.
+void drawLabels(Canvas& canvas, const Scale& scale, const std::vector<std::vector<V2d>>& lines, double level,
+                std::vector<Box>& taken) {
+  const std::string words = luxText(level);
+  const double halfWidth = 3.4 * static_cast<double>(words.size()) + 3;
+  for (const auto& line : lines) {
+    double length = 0;
+    for (size_t i = 1; i < line.size(); ++i) length += (line[i] - line[i - 1]).length();
+    if (length * scale.perUnit < 60) continue;
+    for (int trial = 0; trial < 36; ++trial) {
+      const double share = .5 + (trial % 2 ? -.0125 : .0125) * trial;
+      double left = share * length;
+      size_t i = 1;
+      while (i + 1 < line.size() && left > (line[i] - line[i - 1]).length()) {
+        left -= (line[i] - line[i - 1]).length();
+        ++i;
+      }
+      const double piece = (line[i] - line[i - 1]).length();
+      const V2d p = line[i - 1] + (line[i] - line[i - 1]) * (piece > 0 ? std::min(1., left / piece) : 0);
+      const double x = scale.x(p.x), y = scale.y(p.y);
+      const Box box{x - halfWidth, y - 7, x + halfWidth, y + 7};
+      const Box& frame = scale.frame;
+      if (box.left < frame.left || box.right > frame.right || box.top < frame.top ||
+          box.bottom > frame.bottom)
+        continue;
+      if (std::any_of(taken.begin(), taken.end(), [&](const Box& b) { return b.overlaps(box); })) continue;
+      taken.push_back({box.left - 14, box.top - 9, box.right + 14, box.bottom + 9});
+      const std::string place = "text-anchor=\"middle\" font-size=\"11\" font-weight=\"bold\" ";
+      canvas.text(x, y + 4, words,
+                  place + "stroke=\"white\" stroke-width=\"3\" stroke-linejoin=\"round\" opacity=\".85\"");
+      canvas.text(x, y + 4, words, place + "fill=\"#111\"");
+      break;
+    }
+  }
+}
+
+void drawLegend(Canvas& canvas, const std::vector<double>& levels, const std::vector<Color>& colors,
+                double left, double top, double height) {
+  const double step = std::min(26., height / static_cast<double>(colors.size()));
+  canvas.text(left, top - 8, "lx", "font-weight=\"bold\"");
+  for (size_t i = 0; i < colors.size(); ++i) {
+    const double bottom = top + step * static_cast<double>(colors.size() - i);
+    canvas.rectangle({left, bottom - step, left + 22, bottom},
+                     fmt::format("fill=\"{}\" stroke=\"#444\" stroke-width=\".5\"", colors[i].text()));
+    if (i < levels.size()) canvas.text(left + 28, bottom - step + 4, luxText(levels[i]), "font-size=\"11\"");
+  }
+}
+
+}  // namespace
+
+Summary::Summary(std::span<const double> values) : smallest(values[0]), largest(values[0]) {
+  for (const double value : values) {
+    average += value / static_cast<double>(values.size());
+    smallest = std::min(smallest, value);
+    largest = std::max(largest, value);
+  }
+}
+
+std::string luxText(double lux) {
+  if (lux <= 0) return "0";
+  const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(lux))), 0, 6);
+  std::string text = fmt::format("{:.{}f}", lux, decimals);
+  if (decimals > 0) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+  }
+  return text;
+}
+
+std::string planAsSvg(const Area& area, const Grid& grid, std::span<const double> values,
+                      const Drawing& drawing) {
+  constexpr double kLeft = 54, kTop = 40;
+  const Scale scale(area, kLeft, kTop, 640, 560);
+  const Box& frame = scale.frame;
+  const Field field(grid, values);
+  const std::vector<double>& levels = drawing.levels;
+  std::vector<Color> colors;
+  for (size_t i = 0; i <= levels.size(); ++i)
+    colors.push_back(
+        falsecolor(levels.empty() ? .5 : static_cast<double>(i) / static_cast<double>(levels.size())));
+
+  Canvas canvas;
+  canvas.text(kLeft - 40, 20, drawing.title, "font-size=\"14\" font-weight=\"bold\"");
+  const std::string outline = scale.lines(ringsOf(area.edges()), true);
+  canvas.path(outline, "fill=\"#e9e9e9\" fill-rule=\"evenodd\"");
+  // From the lowest band to the highest, each on top of those below.
+  for (size_t i = 0; i < colors.size(); ++i) {
+    const auto region = field.region(i ? levels[i - 1] : -std::numeric_limits<double>::infinity());
+    if (!region.empty()) canvas.path(scale.lines(region, true), fmt::format("fill=\"{}\"", colors[i].text()));
+  }
+  if (!drawing.context.empty())
+    canvas.path(scale.lines(drawing.context, true), "fill=\"none\" stroke=\"#000\" stroke-width=\"1.4\"");
+  std::vector<std::vector<std::vector<V2d>>> isolines;
+  for (const double level : levels) {
+    isolines.push_back(field.isolines(level));
+    if (!isolines.back().empty())
+      canvas.path(
+          scale.lines(isolines.back(), false),
+          "class=\"isoline\" fill=\"none\" stroke=\"#111\" stroke-width=\".7\" stroke-linejoin=\"round\"");
+  }
+  canvas.path(outline, "fill=\"none\" stroke=\"#111\" stroke-width=\"2\" stroke-linejoin=\"round\"");
+
+  std::vector<Box> taken;
+  if (drawing.values) {
+    const double cell = std::min(grid.across.length(), grid.upwards.length()) * scale.perUnit;
+    const double size = std::clamp(cell * .32, 3.5, 11.);
+    for (size_t i = 0; i < grid.points.size(); ++i) {
+      const auto band =
+          static_cast<size_t>(std::upper_bound(levels.begin(), levels.end(), values[i]) - levels.begin());
+      const double x = scale.x(grid.points[i].x), y = scale.y(grid.points[i].y);
+      const std::string words = luxText(values[i]);
+      const double halfWidth = .32 * size * static_cast<double>(words.size());
+      taken.push_back({x - halfWidth, y - size * .5, x + halfWidth, y + size * .5});
+      canvas.text(x, y + size * .35, words,
+                  fmt::format("text-anchor=\"middle\" font-size=\"{:.1f}\" fill=\"{}\"", size,
+                              colors[band].dark() ? "white" : "black"));
+    }
+  }
+  for (size_t i = levels.size(); i-- > 0;) drawLabels(canvas, scale, isolines[i], levels[i], taken);
+
+  drawAxes(canvas, scale);
+  const double legendHeight = std::max(frame.bottom - frame.top, 18. * static_cast<double>(colors.size()));
+  drawLegend(canvas, levels, colors, frame.right + 24, kTop + 8, legendHeight - 8);
+  double bottom = kTop + legendHeight + 30;
+  for (const std::string& remark : drawing.remarks) canvas.text(kLeft - 40, bottom += 17, remark, "");
+  double width = frame.right + 24 + 78;
+  for (const std::string& remark : drawing.remarks)
+    width = std::max(width, 30 + 6.8 * static_cast<double>(remark.size()));
+  width = std::max(width, 30 + 8.8 * static_cast<double>(drawing.title.size()));
+  return canvas.svg(width, bottom + 16);
+}
+
+}  // namespace grid

@@ -1,0 +1,248 @@
+// A falsecolor plan of the illuminance on a floor, a desk or a wall of a scene, and its average and uniformity. Without
+// arguments it prints its options.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "area.h"
+#include "drawing.h"
+#include "isolines.h"
+#include "layout.h"
+#include "rad_parser/scene_file.h"
+#include "report/page.h"
+#include "rtrace.h"
+
+namespace grid {
+namespace {
+
+constexpr const char* kUsage =
+    R"(usage: plan -s NAME [options] scene... [-- options of rtrace]
+
+  -s NAME   the polygon to measure, or the modifier of polygons; repeat it for several in one plane
+  -h H      height above the polygon, along its normal (0)
+  -d D      largest spacing of the grid (EN 12464-1's: .2 * 5^log10(longer side), in metres)
+  -m M      width of a band along the edges that is left out (0; EN 12464-1 allows .5 m along walls)
+  -r        measure the back of the polygon
+  -z        leave out points of 0 lx, which are inside of furniture
+  -f F      maintenance factor, by which all illuminances are multiplied (1)
+  -o FILE   draw the plan, as SVG
+  -l A,B,.. illuminances of the isolines (round numbers)
+  -w        write the illuminances into the plan
+  -c NAME   draw the outlines of these polygons, too; may be repeated
+  -t TITLE  title of the plan
+  -x FILE   write a table: x y z and illuminance of each point
+  -p        print the sensors, as rtrace reads them, and stop
+  -i FILE   read the illuminances from a file, in the order of -p, instead of running rtrace
+
+Scene files are scene text or one octree. rtrace is run with)";
+
+// Diffuse light between surfaces, interpolated: the setting of examples/daylight.
+const std::vector<std::string> kDefaults{"-ab", "5",   "-aa",  ".1",  "-ad", "1024", "-as", "512", "-ar",
+                                         "64",  "-lw", "1e-4", "-dj", "1",   "-dt",  "0",   "-st", "1"};
+
+struct Settings {
+  std::vector<std::string> surfaces, context, files, rtrace = kDefaults;
+  double height = 0, spacing = 0, margin = 0, maintenance = 1;
+  bool reversed = false, skipDark = false, values = false, onlyPoints = false;
+  std::string picture, title, table, readings;
+  std::vector<double> levels;
+};
+
+double number(const std::string& option, const std::string& word, double least) {
+  char* end = nullptr;
+  const double value = std::strtod(word.c_str(), &end);
+  if (word.empty() || *end || !std::isfinite(value) || value < least)
+    throw rad::Error(fmt::format("{} needs a number{}, not \"{}\"", option,
+                                 std::isfinite(least) ? (least > 0 ? " above 0" : " of at least 0") : "",
+                                 word));
+  return value;
+}
+
+std::vector<double> levelsOf(const std::string& list) {
+  std::vector<double> levels;
+  for (size_t begin = 0; begin <= list.size();) {
+    const size_t end = std::min(list.find(',', begin), list.size());
+    levels.push_back(number("-l", list.substr(begin, end - begin), 0));
+    if (levels.size() > 1 && levels.back() <= levels[levels.size() - 2])
+      throw rad::Error("the numbers of -l must ascend");
+    begin = end + 1;
+  }
+  return levels;
+}
+
+Settings settingsOf(const std::vector<std::string>& words) {
+  Settings s;
+  size_t i = 0;
+  const auto argument = [&]() -> const std::string& {
+    if (i + 1 >= words.size()) throw rad::Error(fmt::format("{} needs an argument", words[i]));
+    return words[++i];
+  };
+  for (; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (word == "--") {
+      s.rtrace.insert(s.rtrace.end(), words.begin() + static_cast<std::ptrdiff_t>(i) + 1, words.end());
+      break;
+    }
+    if (word == "-s")
+      s.surfaces.push_back(argument());
+    else if (word == "-c")
+      s.context.push_back(argument());
+    else if (word == "-h")
+      s.height = number(word, argument(), -HUGE_VAL);
+    else if (word == "-d")
+      s.spacing = number(word, argument(), 1e-9);
+    else if (word == "-m")
+      s.margin = number(word, argument(), 0);
+    else if (word == "-f")
+      s.maintenance = number(word, argument(), 1e-9);
+    else if (word == "-l")
+      s.levels = levelsOf(argument());
+    else if (word == "-o")
+      s.picture = argument();
+    else if (word == "-t")
+      s.title = argument();
+    else if (word == "-x")
+      s.table = argument();
+    else if (word == "-i")
+      s.readings = argument();
+    else if (word == "-r")
+      s.reversed = true;
+    else if (word == "-z")
+      s.skipDark = true;
+    else if (word == "-w")
+      s.values = true;
+    else if (word == "-p")
+      s.onlyPoints = true;
+    else if (word.size() > 1 && word[0] == '-')
+      throw rad::Error(fmt::format("unknown option \"{}\"; options of rtrace come behind --", word));
+    else
+      s.files.push_back(word);
+  }
+  if (s.surfaces.empty()) throw rad::Error("no polygon is named; -s NAME names one");
+  if (s.files.empty()) throw rad::Error("no scene file is named");
+  return s;
+}
+
+std::vector<double> readIlluminances(const std::string& path, size_t count) {
+  std::ifstream file(path);
+  if (!file) throw rad::Error(fmt::format("cannot read \"{}\"", path), rad::Status::system);
+  std::vector<double> values;
+  for (double value; file >> value;) values.push_back(value);
+  if (!file.eof() || values.size() != count)
+    throw rad::Error(fmt::format("\"{}\" must have {} numbers, one for each point; it has {}{}", path, count,
+                                 values.size(), file.eof() ? "" : " and then something else"));
+  return values;
+}
+
+std::string facing(const Plane& plane) {
+  if (plane.horizontal()) return plane.normal.z > 0 ? "up" : "down";
+  const V3d& n = plane.normal;
+  return fmt::format("along the polygon's normal ({:.3g} {:.3g} {:.3g})", n.x, n.y, n.z);
+}
+
+std::string whereAbove(double height) {
+  if (height == 0) return "on the polygon";
+  return fmt::format("{:.4g} {} the polygon", std::abs(height), height > 0 ? "above" : "behind");
+}
+
+std::vector<std::string> remarksOf(const Settings& s, const Plane& plane, const Grid& grid, size_t dark,
+                                   const Summary& summary) {
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format("Grid: {} x {}, {} points, spacing {:.3g} x {:.3g}; sensors {}, facing {}",
+                              grid.columns, grid.rows, grid.points.size(), grid.across.length(),
+                              grid.upwards.length(), whereAbove(s.height), facing(plane)));
+  if (dark > 0)
+    lines.push_back(
+        fmt::format("Left out: {} of 0 lx", dark == 1 ? "1 point" : fmt::format("{} points", dark)));
+  const std::string average =
+      s.maintenance == 1
+          ? "average illuminance (no maintenance factor)"
+          : fmt::format("average maintained illuminance (maintenance factor {:.3g})", s.maintenance);
+  lines.push_back(fmt::format("E_m = {} lx, {}", luxText(summary.average), average));
+  lines.push_back(
+      fmt::format("E_min = {} lx, E_max = {} lx", luxText(summary.smallest), luxText(summary.largest)));
+  lines.push_back(fmt::format("U_o = E_min/E_m = {:.2f}, U_d = E_min/E_max = {:.2f}",
+                              summary.overallUniformity(), summary.diversity()));
+  return lines;
+}
+
+void warn(std::string_view text) { fmt::print(stderr, "plan: warning - {}\n", text); }
+
+void run(const Settings& s) {
+  const rad::Description scene = rad::readScene(s.files, {.warn = warn});
+  const Area area = findArea(scene, s.surfaces, s.reversed);
+  const Plane& plane = area.plane();
+  Grid grid = layGrid(area, s.spacing, s.margin);
+  std::vector<V3d> sensors;
+  for (const V2d& p : grid.points) sensors.push_back(plane.at(p, s.height));
+  if (s.onlyPoints) {
+    for (const V3d& p : sensors)
+      fmt::print("{:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g}\n", p.x, p.y, p.z, plane.normal.x, plane.normal.y,
+                 plane.normal.z);
+    return;
+  }
+  if (plane.normal.z < 0 && plane.horizontal() && !s.reversed)
+    warn(fmt::format("the front of \"{}\" faces down, and so do the sensors; -r measures its back",
+                     s.surfaces[0]));
+
+  std::vector<double> values = s.readings.empty()
+                                   ? traceIlluminances(sensors, plane.normal, s.rtrace, s.files)
+                                   : readIlluminances(s.readings, sensors.size());
+  for (double& value : values) value *= s.maintenance;
+  std::vector<bool> lit;
+  for (const double value : values) lit.push_back(value > 0);
+  auto dark = static_cast<size_t>(std::count(lit.begin(), lit.end(), false));
+  if (s.skipDark && dark > 0) {
+    if (dark == lit.size()) throw rad::Error("all points have 0 lx; is there a light source in the scene?");
+    grid = withOnly(grid, lit);
+    size_t kept = 0;
+    for (size_t i = 0; i < values.size(); ++i)
+      if (lit[i]) {
+        values[kept] = values[i];
+        sensors[kept++] = sensors[i];
+      }
+    values.resize(kept);
+    sensors.resize(kept);
+  } else if (dark > 0) {
+    warn(fmt::format("0 lx at {} of {} points; if these are inside of furniture, -z leaves them out", dark,
+                     lit.size()));
+    dark = 0;
+  }
+
+  const Summary summary(values);
+  Drawing drawing{s.title.empty() ? fmt::format("Illuminance, {}", fmt::join(s.surfaces, ", ")) : s.title,
+                  remarksOf(s, plane, grid, dark, summary), s.levels.empty() ? roundLevels(values) : s.levels,
+                  findOutlines(scene, s.context, plane), s.values};
+  for (const std::string& line : drawing.remarks) fmt::print("{}\n", line);
+  if (!s.table.empty()) {
+    std::string table;
+    for (size_t i = 0; i < sensors.size(); ++i)
+      table += fmt::format("{:.6g}\t{:.6g}\t{:.6g}\t{:.5g}\n", sensors[i].x, sensors[i].y, sensors[i].z,
+                           values[i]);
+    rsphere::writeTextFile(s.table, table);
+  }
+  if (!s.picture.empty()) rsphere::writeTextFile(s.picture, planAsSvg(area, grid, values, drawing));
+}
+
+}  // namespace
+}  // namespace grid
+
+int main(int argc, char** argv) {
+  if (argc == 1) {
+    fmt::print("{}\n{}, and then those behind --.\n", grid::kUsage, fmt::join(grid::kDefaults, " "));
+    return 0;
+  }
+  try {
+    grid::run(grid::settingsOf({argv + 1, argv + argc}));
+  } catch (const rad::Error& error) {
+    fmt::print(stderr, "plan: fatal - {}\n", error.what());
+    return static_cast<int>(error.status());
+  }
+}

@@ -1,0 +1,90 @@
+#include "rtrace.h"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+
+#include "base/rgb.h"
+#include "rad_parser/error.h"
+
+namespace grid {
+namespace {
+
+constexpr double kLumensPerWatt = 179;  // RADIANCE's, of white light
+
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+rad::Error systemError(const std::string& what) {
+  return rad::Error(fmt::format("{}: {}", what, std::strerror(errno)), rad::Status::system);
+}
+
+std::string program() {
+  if (const char* named = std::getenv("RTRACE"); named && *named) return named;
+  std::error_code none;
+  const auto beside = std::filesystem::read_symlink("/proc/self/exe", none).parent_path() / "rtrace";
+  return std::filesystem::exists(beside, none) ? beside.string() : "rtrace";
+}
+
+}  // namespace
+
+std::vector<double> traceIlluminances(std::span<const Imath::V3d> points, const Imath::V3d& normal,
+                                      const std::vector<std::string>& options,
+                                      const std::vector<std::string>& files) {
+  const File sensors(std::tmpfile(), std::fclose);
+  if (!sensors) throw systemError("cannot make a temporary file");
+  for (const Imath::V3d& p : points)
+    fmt::print(sensors.get(), "{:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", p.x, p.y, p.z, normal.x,
+               normal.y, normal.z);
+  std::rewind(sensors.get());  // it also writes what is left in the buffer
+
+  // The user's options come before those that the answer relies on.
+  std::vector<std::string> words{program()};
+  words.insert(words.end(), options.begin(), options.end());
+  words.insert(words.end(), {"-h-", "-I+", "-fa", "-ov"});
+  words.insert(words.end(), files.begin(), files.end());
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+
+  int pipe[2];
+  if (::pipe(pipe)) throw systemError("cannot make a pipe");
+  const pid_t child = fork();
+  if (child < 0) throw systemError("cannot start rtrace");
+  if (child == 0) {
+    dup2(fileno(sensors.get()), 0);
+    dup2(pipe[1], 1);
+    close(pipe[0]);
+    close(pipe[1]);
+    execvp(arguments[0], arguments.data());
+    _exit(127);
+  }
+  close(pipe[1]);
+  std::vector<double> illuminances;
+  {
+    const File answers(fdopen(pipe[0], "r"), std::fclose);
+    rsphere::Rgb c;
+    while (answers && std::fscanf(answers.get(), "%lf %lf %lf", &c.x, &c.y, &c.z) == 3)
+      illuminances.push_back(kLumensPerWatt * rsphere::brightness(c));
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
+    throw rad::Error(fmt::format("cannot run \"{}\"; $RTRACE can name another rtrace", words[0]),
+                     rad::Status::system);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    throw rad::Error(fmt::format("\"{}\" failed; its message is above", words[0]));
+  if (illuminances.size() != points.size())
+    throw rad::Error(
+        fmt::format("\"{}\" answered {} of {} points", words[0], illuminances.size(), points.size()));
+  return illuminances;
+}
+
+}  // namespace grid
