@@ -190,5 +190,5 @@ END {
   print "  is seen, and what errs then are the paths of indirect light, few of which bring much. None of the three is accurate"
   print "  there at the paper's numbers of directions, whatever a time ratio says."
   print "- Rows with `-Sk 0` are without directions to special objects. For radiance these are worth little here, and for"
-  print "  importance they cost more than they bring. README.md, \"Accuracy and speed\", has two rooms where they count."
+  print "  importance they cost more than they bring. tests/bench/README.md has two rooms where they count."
 }

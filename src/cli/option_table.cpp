@@ -150,10 +150,10 @@ constexpr std::array<NamedSpace, 6> kSpaces = {{
     {"-pY", ColorSpace::photopic, "photopic output",
      "One number for each color, its luminance: 179 lm/W times .265 red + .670 green + .065 blue."},
     {"-pS", ColorSpace::scotopic, "scotopic output",
-     "One number for each color, for night vision (412 lm/W): red stands for all wavelengths from 588 nm up, "
-     "green for those from 480 nm, blue for those below."},
+     "One number for each color, its scotopic luminance, that of night vision (412 lm/W). Red represents the "
+     "wavelengths from 588 nm up, green those from 480 to 588 nm, and blue those below."},
     {"-pM", ColorSpace::melanopic, "melanopic output",
-     "One number for each color, for the melanopic response (179 lm/W), with the channels as for -pS."},
+     "One number for each color, its melanopic luminance (179 lm/W), with the channels as for -pS."},
     {"-pA", ColorSpace::average, "radiometric average output",
      "One number for each color: the mean of its channels."},
 }};
@@ -254,16 +254,17 @@ void addRecordOptions(const Add& add) {
        .group = Group::program,
        .value = +[](O& o) -> bool& { return o.messages.warnings; },
        .remark = "warning messages on|warning messages off",
-       .paragraph = "Switch for warnings, about what is odd but does not prevent an answer."});
+       .paragraph =
+           "Toggles warnings. A warning reports something unusual that does not prevent an answer."});
   add({.name = "-I",
        .group = Group::records,
        .value = +[](O& o) -> bool& { return o.irradianceAtPoint; },
        .remark = "immediate irradiance on|immediate irradiance off",
        .paragraph =
-           "Switch for irradiance (W/m2) on a sensor: the origin of each ray is a point, and its direction "
-           "is that in which the sensor looks. As in rtrace, the ray is traced from 1.1e-4 units above the "
-           "point, and -oo and -od show this. Ray mode only; in sphere mode -oH, -oC and -oE give "
-           "irradiances.",
+           "Toggles irradiance (W/m2) at a sensor: the origin of each ray is the place of the sensor, and "
+           "its direction is the direction in which the sensor looks. As in rtrace, the ray is traced "
+           "from 1.1e-4 units above the sensor, and -oo and -od print this ray. Ray mode only; in sphere "
+           "mode -oH, -oC and -oE give irradiances.",
        .line = immediateLine});
   add({.name = "-n",
        .arguments = "N",
@@ -273,8 +274,8 @@ void addRecordOptions(const Add& add) {
        .unit = "threads",
        .remark = "number of rendering processes",
        .paragraph =
-           "Answer records on N threads; 0 stands for one on each core. If the system does not start that "
-           "many, there is a warning and fewer are used. The answers do not depend on N.",
+           "Answers records on N threads; 0 starts one for each core. If the system refuses to start so "
+           "many, there is a warning and the program uses fewer. The answers do not depend on N.",
        .line = +[](const O& o) { return fmt::format("-n {:<2}\t\t\t\t", o.threads); }});
   add({.name = "-x",
        .arguments = "res",
@@ -285,7 +286,7 @@ void addRecordOptions(const Add& add) {
        .remark = "flush interval",
        .paragraph =
            "Number of records in a scanline. If -y is 0, answers are written after every res records, and "
-           "only then. With 1, they are written after every record, whatever -y is. With 0, they are "
+           "only then. With -x 1 they are written after every record, whatever -y is. With -x 0 they are "
            "written whenever the program has to wait for input."});
   add({.name = "-y",
        .arguments = "res",
@@ -295,21 +296,21 @@ void addRecordOptions(const Add& add) {
        .unit = "scanlines",
        .remark = "y resolution",
        .paragraph =
-           "Stop after res scanlines of -x records each (of one record if -x is 0). 0 goes on to the end of "
-           "the input. If both -x and -y are given, a resolution line precedes the records, even without a "
-           "header."});
+           "Stops after res scanlines of -x records each (of one record each if -x is 0). With 0 the "
+           "program continues to the end of the input. If both -x and -y are given, a resolution line "
+           "precedes the records, even without a header."});
   add({.name = "-ld",
        .group = Group::records,
        .value = +[](O& o) -> bool& { return o.limitDistance; },
        .remark = "limit distance on|limit distance off",
        .paragraph =
-           "Switch for limited rays: a ray goes only as far as its direction vector is long. Ray mode "
+           "Toggles limited rays: a ray extends only as far as its direction vector is long. Ray mode "
            "only."});
   add({.name = "-h",
        .group = Group::records,
        .value = +[](O& o) -> bool& { return o.header; },
        .remark = "output header|no header",
-       .paragraph = "Switch for the information header before the records."});
+       .paragraph = "Toggles the information header before the records."});
 }
 
 void addFormatOptions(const Add& add) {
@@ -319,9 +320,9 @@ void addFormatOptions(const Add& add) {
        .value = Custom{setFormat},
        .remark = "format input/output",
        .paragraph =
-           "Format of the input (i) and of the output (o): a for text, f for floats and d for doubles of "
-           "this machine. c, for output only, stands for RADIANCE's 4-byte pixels and requires a single "
-           "color letter in -o. If only one letter is given, it holds for both. No blank precedes io.",
+           "Formats of the input (i) and of the output (o): a is text, f is floats and d is doubles as "
+           "this machine stores them. c, for output only, is RADIANCE's pixel of 4 bytes and requires a "
+           "single color letter in -o. A single letter sets both formats. No blank precedes io.",
        .glued = true,
        .line = formatLine});
   add({.name = "-o",
@@ -330,11 +331,10 @@ void addFormatOptions(const Add& add) {
        .value = Custom{setOutputs},
        .remark = "output",
        .paragraph =
-           "Contents of an output record, in the order of the letters in spec; see Output under "
-           "DESCRIPTION. In ray mode, the letters behind a t are written for all rays on the way: "
-           "reflected, transmitted and indirect rays, and shadow rays that pass through something. A T "
-           "instead of the t includes all shadow rays. Each ray comes before its parent, indented by a TAB "
-           "for each of its ancestors. No blank precedes spec.",
+           "Contents of an output record: one letter for each quantity, in the order of output; see "
+           "OUTPUT. In ray mode, the letters after a t are written for every ray of the tree that leads "
+           "to the answer: reflected, transmitted and indirect rays, and shadow rays that pass through "
+           "something. A T instead of the t includes all shadow rays. No blank precedes spec.",
        .glued = true,
        .line = outputsLine});
 }
@@ -354,17 +354,18 @@ void addColorOptions(const Add& add) {
        .range = {-2, 3},
        .remark = "output color primaries and white point",
        .paragraph =
-           "Colors as red, green and blue of these primaries (CIE x and y), with the white point adapted.",
+           "Colors as red, green and blue of the given primaries (CIE x and y of each), adapted to the "
+           "given white point.",
        .line = primariesLine});
   add({.name = "-co",
        .group = Group::color,
        .value = Custom{setSpectralOutput},
        .remark = "output spectral values",
        .paragraph =
-           "Switch for spectra. Each color is written as one number for each band of -cs, from the longest "
-           "wavelength to the shortest. Scenes have three channels, and each band has the value of the "
-           "channel that it belongs to (see -pS). With three bands, red, green and blue are written instead "
-           "of a spectrum.",
+           "Toggles spectral output: each color is written as one number for each band of -cs, from the "
+           "longest wavelength to the shortest. Scenes have three channels, and each band has the value "
+           "of the channel that it belongs to (see -pS). With three bands, red, green and blue are "
+           "written instead of a spectrum.",
        .glued = true,
        .line = spectralLine});
 }
@@ -375,25 +376,26 @@ void addRayOptions(const Add& add) {
        .value = +[](O& o) -> bool& { return o.irradianceAtHit; },
        .remark = "irradiance calculation on|irradiance calculation off",
        .paragraph =
-           "Switch for irradiance (W/m2) of the surface that a ray hits, instead of the radiance (W/sr/m2) "
-           "that it sends back. Rays pass glass and similar surfaces as if they were not there. Light "
-           "sources keep their radiance (see -dv). Ray mode only."});
+           "Toggles the irradiance (W/m2) of the surface that a ray hits, in place of the radiance "
+           "(W/sr/m2) that the surface sends back along the ray. Rays pass through glass and similar "
+           "materials as if they were not there. Light sources keep their radiance (see -dv). Ray mode "
+           "only."});
   add({.name = "-u",
        .group = Group::program,
        .value = +[](O& o) -> bool& { return o.ray.uncorrelated; },
        .remark = "uncorrelated Monte Carlo sampling|correlated quasi-Monte Carlo sampling",
        .paragraph =
-           "With -u+, the random numbers of a ray depend on its number in the input as well as on the ray "
-           "itself. A repeated ray is then a new sample each time, so that the mean of its answers has less "
-           "noise than one of them. Otherwise random numbers depend on the ray alone, so that a repeated "
-           "ray repeats its noise, which it never does in rtrace. Answers do not depend on -n either way. "
-           "Interpolated indirect light (-aa above 0) is the same for repeated rays in any case. Ray mode "
-           "only. Samples are random, not quasi-random, whatever -u is."});
+           "Toggles independent samples for repeated rays. With -u+, the random numbers of a ray depend "
+           "on its number in the input as well as on the ray itself, so that the mean of the answers to a "
+           "repeated ray has less variance than a single answer. With -u-, they depend on the ray alone, "
+           "so that a repeated ray has the same answer each time; in rtrace it never has. In both cases "
+           "the answers do not depend on -n, and interpolated indirect light (-aa above 0) is the same "
+           "for repeated rays. All samples are random; quasi-random sequences are not used. Ray mode only."});
   add({.name = "-bv",
        .group = Group::program,
        .value = +[](O& o) -> bool& { return o.ray.backFacesVisible; },
        .remark = "back face visibility on|back face visibility off",
-       .paragraph = "Switch for the visibility of the backs of surfaces."});
+       .paragraph = "Toggles the visibility of the back faces of surfaces."});
 }
 
 void addShadowOptions(const Add& add) {
@@ -404,10 +406,10 @@ void addShadowOptions(const Add& add) {
        .range = kNotNegative,
        .remark = "direct threshold",
        .paragraph =
-           "Light sources are tested for shadows until those that are left could add less than this "
-           "fraction of the light found so far. The light of the rest is estimated from how often sources "
-           "were visible. Behind an indirect bounce, one source drawn at random represents the rest, so "
-           "that means are unbiased. 0 tests all sources."});
+           "Threshold of shadow testing. Light sources are tested for shadows until those that remain "
+           "could add less than this fraction of the light found so far. The light of the untested "
+           "sources is estimated from how often sources were visible. After a diffuse bounce, one source "
+           "drawn at random represents the untested ones, which keeps means unbiased. 0 tests all sources."});
   add({.name = "-dc",
        .arguments = "frac",
        .group = Group::direct,
@@ -415,8 +417,8 @@ void addShadowOptions(const Add& add) {
        .range = kFraction,
        .remark = "direct certainty",
        .paragraph =
-           "Certainty of -dt. 1 keeps the error of the sum of all light sources below -dt; 0 keeps only the "
-           "error at any single shadow edge below it."});
+           "Certainty of -dt. With 1, the error of the sum of all light sources stays below -dt; with 0, "
+           "only the error at any single shadow edge does."});
 }
 
 void addSourceOptions(const Add& add) {
@@ -427,8 +429,8 @@ void addSourceOptions(const Add& add) {
        .range = kNotNegative,
        .remark = "direct jitter",
        .paragraph =
-           "Extent of a light source's part over which the point to aim at is varied at random: 0 aims at "
-           "the middle of the part, 1 at the whole of it. Values above 1 are of no use."});
+           "Jitter of shadow rays. 0 aims them at the middle of each part of a light source (see -ds), 1 "
+           "at random points of the whole part. Values above 1 have no use."});
   add({.name = "-ds",
        .arguments = "frac",
        .group = Group::direct,
@@ -436,8 +438,8 @@ void addSourceOptions(const Add& add) {
        .range = kNotNegative,
        .remark = "direct sampling",
        .paragraph =
-           "Light sources are divided into parts whose size is below this fraction of their distance. 0 "
-           "leaves them whole."});
+           "Light sources are divided into parts until the size of each part is below this fraction of "
+           "its distance. 0 leaves light sources undivided."});
   add({.name = "-dr",
        .arguments = "N",
        .group = Group::direct,
@@ -446,9 +448,9 @@ void addSourceOptions(const Add& add) {
        .unit = "reflections",
        .remark = "direct relays",
        .paragraph =
-           "Largest number of times that plane surfaces of mirror, prism1 or prism2 pass on the light of a "
-           "source: each such surface makes a virtual source of every source that it sees. 0: there are no "
-           "virtual sources."});
+           "Largest number of successive plane surfaces of mirror, prism1 or prism2 through which "
+           "next-event estimation reaches a light source. Each such surface makes a virtual source of "
+           "every source that it sees. 0 disables virtual sources."});
   add({.name = "-dp",
        .arguments = "D",
        .group = Group::direct,
@@ -457,17 +459,16 @@ void addSourceOptions(const Add& add) {
        .unit = "samples/sr",
        .remark = "direct pretest density",
        .paragraph =
-           "Accepted and not used. It is the density of the rays that rtrace sends beforehand to learn "
-           "whether a virtual source can be reached at all, or from everywhere. Here every virtual source "
-           "that geometry does not rule out is tested, as with 0.",
+           "Accepted without effect. In rtrace it is the density of the rays that test in advance whether "
+           "a virtual source can be reached at all, or from everywhere. Here every virtual source that "
+           "geometry does not rule out is tested, as with 0.",
        .support = Support::unused});
   add({.name = "-dv",
        .group = Group::direct,
        .value = +[](O& o) -> bool& { return o.ray.sourcesVisible; },
        .remark = "direct visibility on|direct visibility off",
-       .paragraph =
-           "Switch for the direct visibility of light sources. If it is off, rays see them as black, but "
-           "they light the scene all the same."});
+       .paragraph = "Toggles the direct visibility of light sources. When it is off, a ray that hits a light "
+                    "source finds it black, but the sources still light the scene."});
 }
 
 void addSpecularOptions(const Add& add) {
@@ -477,9 +478,9 @@ void addSpecularOptions(const Add& add) {
        .value = +[](O& o) -> double& { return o.ray.specularSampling; },
        .range = kNotNegative,
        .remark = "specular sampling",
-       .paragraph =
-           "Number of samples of a rough highlight. A value below 1 sends one ray and is the fraction of "
-           "the highlight's width over which it is spread. 0 makes every highlight sharp."});
+       .paragraph = "Number of rays that sample a rough highlight. A value below 1 sends one ray and is the "
+                    "fraction of the width of the highlight over which this ray is jittered. 0 makes every "
+                    "highlight sharp."});
   add({.name = "-st",
        .arguments = "frac",
        .group = Group::specular,
@@ -487,8 +488,9 @@ void addSpecularOptions(const Add& add) {
        .range = kNotNegative,
        .remark = "specular threshold",
        .paragraph =
-           "If the share of specular reflection or transmission is below this, it sends no rays of its own "
-           "and is treated as a part of the indirect light instead. 0 always sends rays, 1 never does."});
+           "Threshold of specular reflectance and transmittance. Below it a material sends no specular "
+           "rays, and its highlight is treated as part of the indirect light instead. 0 always sends "
+           "rays, 1 never does."});
 }
 
 void addAmbientOptions(const Add& add) {
@@ -507,9 +509,9 @@ void addAmbientOptions(const Add& add) {
        .range = kCount,
        .remark = "ambient value weight",
        .paragraph =
-           "Accepted and not used. rtrace replaces the ambient value step by step by the mean of the "
-           "indirect light that it has computed; here an answer does not depend on those before it, and the "
-           "ambient value stays as -av gives it."});
+           "Accepted without effect. rtrace gradually replaces the ambient value by the mean of the "
+           "indirect light that it has computed. Here an answer does not depend on those before it, and "
+           "the ambient value remains that of -av."});
   add({.name = "-ab",
        .arguments = "N",
        .group = Group::indirect,
@@ -517,8 +519,7 @@ void addAmbientOptions(const Add& add) {
        .range = kCount,
        .unit = "bounces",
        .remark = "ambient bounces",
-       .paragraph =
-           "Largest number of diffuse reflections of an indirect path. 0: there is no indirect light."});
+       .paragraph = "Largest number of diffuse bounces of an indirect path. 0 disables indirect light."});
 }
 
 void addGatheringOptions(const Add& add) {
@@ -529,10 +530,9 @@ void addGatheringOptions(const Add& add) {
        .range = kNotNegative,
        .remark = "ambient accuracy",
        .paragraph =
-           "Relative error that the interpolation of indirect light may add; see Interpolation under "
-           "DESCRIPTION. 0: there is no interpolation, and each path gathers indirect light anew. This is "
-           "faster for a few rays in a detailed scene. It is usually the better choice in sphere mode, "
-           "where directions hit surfaces all over the scene."});
+           "Relative error that the interpolation of indirect light may add; see Interpolation. 0 "
+           "disables the irradiance cache and the coarse solution, and each path gathers indirect light "
+           "anew. This is faster for a few rays or points in a detailed scene."});
   add({.name = "-ar",
        .arguments = "res",
        .group = Group::indirect,
@@ -540,9 +540,10 @@ void addGatheringOptions(const Add& add) {
        .range = kCount,
        .remark = "ambient resolution",
        .paragraph =
-           "Finest resolution of interpolation. The smallest distance between sites is about the size of "
-           "the scene times -aa (at most .5), divided by res. They are somewhat closer only if an obstacle "
-           "hides them from the place. Smaller detail of the indirect light is blurred. 0 sets no limit."});
+           "Finest resolution of the irradiance cache. The smallest spacing of cache records is about the "
+           "size of the scene times -aa (at most .5), divided by res. Where an obstacle hides cache "
+           "records from the place that needs them, the spacing may be somewhat smaller. Smaller detail "
+           "of the indirect light is blurred. 0 sets no limit."});
   add({.name = "-ad",
        .arguments = "N",
        .group = Group::indirect,
@@ -551,10 +552,10 @@ void addGatheringOptions(const Add& add) {
        .unit = "rays",
        .remark = "ambient divisions",
        .paragraph =
-           "Number of rays over the hemisphere where indirect light is gathered: at the first diffuse "
-           "surface of a path, or, if it is interpolated, at each site. A ray of less weight gathers with "
-           "fewer rays, a site always with all of them. The noise falls approximately with the square root "
-           "of their number. 0: there is no indirect light."});
+           "Number of stratified rays over the hemisphere that gather indirect light. They start at the "
+           "first diffuse surface of a path or, with interpolation, at each cache record. A path of less "
+           "weight gathers with fewer rays, a cache record always with all of them. The noise falls "
+           "approximately with the square root of their number. 0 disables indirect light."});
   add({.name = "-as",
        .arguments = "N",
        .group = Group::indirect,
@@ -564,7 +565,8 @@ void addGatheringOptions(const Add& add) {
        .remark = "ambient super-samples",
        .paragraph =
            "Number of rays that are added to those of -ad. All of them are spread over the hemisphere "
-           "together. Unlike in rtrace, none are placed according to what the others have found."});
+           "together. Unlike in rtrace, these rays are not adaptive: their directions do not depend on "
+           "what the others have found."});
 }
 
 void addMediumOptions(const Add& add) {
@@ -576,8 +578,8 @@ void addMediumOptions(const Add& add) {
        .unit = "1/length",
        .remark = "mist extinction coefficient",
        .paragraph =
-           "Extinction coefficient of a medium that fills the scene. It scatters the light of those sources "
-           "that a mist material names.",
+           "Extinction coefficient of a medium that fills the scene. The medium scatters the light of "
+           "those sources that a mist material names.",
        .line =
            +[](const O& o) {
              const Rgb& c = o.ray.mediumExtinction;
@@ -590,8 +592,8 @@ void addMediumOptions(const Add& add) {
        .range = kFraction,
        .remark = "mist scattering albedo",
        .paragraph =
-           "Scattering albedo: the share of the extinction that is scattered; the rest is absorbed. The "
-           "indirect light that the medium scatters is that of -av."});
+           "Scattering albedo: the share of the extinction that is scattered; the rest is absorbed. For "
+           "the indirect light that the medium scatters, the value of -av is used."});
   add({.name = "-mg",
        .arguments = "gecc",
        .group = Group::medium,
@@ -599,8 +601,8 @@ void addMediumOptions(const Add& add) {
        .range = {-1, 1},
        .remark = "mist scattering eccentricity",
        .paragraph =
-           "Eccentricity g of the phase function of Henyey and Greenstein. 0 scatters evenly, and values "
-           "near 1 scatter forward. Values below 0 are replaced by 0."});
+           "Eccentricity g of the Henyey-Greenstein phase function. 0 scatters evenly in all directions, "
+           "and values near 1 scatter forward. Values below 0 are replaced by 0."});
   add({.name = "-ms",
        .arguments = "sampdist",
        .group = Group::medium,
@@ -609,8 +611,8 @@ void addMediumOptions(const Add& add) {
        .unit = "length",
        .remark = "mist sampling distance",
        .paragraph =
-           "Length of the part of a ray through mist for which one sample of each light source is taken, "
-           "with at most 16 samples. 0: one sample for the whole ray."});
+           "Length of a ray through mist for which each light source is sampled once. A ray takes at most "
+           "16 samples. 0 takes one sample for the whole ray."});
 }
 
 void addSpectrumOptions(const Add& add) {
@@ -622,9 +624,9 @@ void addSpectrumOptions(const Add& add) {
        .unit = "bands",
        .remark = "number of spectral bins",
        .paragraph =
-           "Number of bands of spectral output, at most 24; see -co. Other output is the same as with three "
-           "bands. rtrace changes it slightly, because it converts red, green and blue to a spectrum and "
-           "back; this is not imitated.",
+           "Number of bands of spectral output, at most 24; see -co. Other output does not depend on it. "
+           "In rtrace it changes slightly, because rtrace converts red, green and blue to a spectrum and "
+           "back.",
        .line = bandsLine});
   add({.name = "-cw",
        .arguments = "nmA nmB",
@@ -646,9 +648,10 @@ void addLimitOptions(const Add& add) {
        .unit = "reflections",
        .remark = "limit reflection",
        .paragraph =
-           "Largest number of reflections of a ray. If N is positive, rays whose weight is below -lw end. "
-           "If N is negative, they are continued at random by Russian roulette, for at most -N reflections; "
-           "if N is 0, for any number. Russian roulette requires -lw above 0."});
+           "Largest number of reflections of a path. If N is positive, paths whose weight falls below -lw "
+           "end. If N is negative, Russian roulette decides whether they continue, for at most |N| "
+           "reflections. If N is 0, Russian roulette decides and there is no limit. Russian roulette "
+           "requires -lw above 0."});
   add({.name = "-lw",
        .arguments = "frac",
        .group = Group::limits,
@@ -671,7 +674,7 @@ void addPhotonOptions(const Add& add) {
        .range = kNotNegative,
        .unit = "length",
        .remark = "max photon search radius",
-       .paragraph = "Accepted as in rtrace; changes nothing without -ap.",
+       .paragraph = "Accepted without effect, because it concerns photon maps only.",
        .support = Support::unused,
        .line = +[](const O& o) { return fmt::format("-am {:.1f}\t\t\t\t", o.photonRadius); }});
 
@@ -680,7 +683,7 @@ void addPhotonOptions(const Add& add) {
        .group = Group::indirect,
        .value = Custom{ignore},
        .remark = "photon map",
-       .paragraph = "A photon map, with one or two bandwidths.",
+       .paragraph = "Photon map, with one or two bandwidths.",
        .support = Support::refused,
        .reason = kPhotons});
   add({.name = "-ac",
@@ -689,14 +692,14 @@ void addPhotonOptions(const Add& add) {
        .value = Custom{ignore},
        .range = kNotNegative,
        .remark = "photon cache page size",
-       .paragraph = "Accepted as in rtrace; changes nothing without -ap.",
+       .paragraph = "Accepted without effect, because it concerns photon maps only.",
        .support = Support::unused});
   add({.name = "-aC",
        .arguments = "cachesize",
        .group = Group::indirect,
        .value = Custom{ignore},
        .remark = "photon cache size",
-       .paragraph = "Accepted as in rtrace; changes nothing without -ap.",
+       .paragraph = "Accepted without effect, because it concerns photon maps only.",
        .support = Support::unused});
 }
 
@@ -707,28 +710,28 @@ void addModifierOptions(const Add& add) {
        .value = +[](O& o) -> std::string& { return o.ray.ambientFile; },
        .remark = "ambient file",
        .paragraph =
-           "Keeps the sites of interpolation and the light gathered there in a file beside this one, "
-           "file.rsphere, for later runs and for others that run at the same time. The file is read first. "
-           "Sites are added to it now and then, and at the end; a process that is killed does not damage "
-           "it. No answer changes by this. The coarse solution of later bounces is not kept. In sphere mode "
-           "and with -I there is nothing to keep. A file that was made for another scene, with other "
-           "options or by another version is neither used nor changed, and there is a warning. The file "
-           "named here may be an ambient file of RADIANCE's own programs, so that one name can serve both: "
-           "it is neither read nor written. Requires -aa and -ab above 0."});
+           "Stores the irradiance cache in a file beside the one named here, file.rsphere. The program "
+           "reads it at the start, adds new cache records to it now and then and at the end, and shares "
+           "it with other processes that run at the same time. A process that is killed does not damage "
+           "it. The file saves time and changes no answer. It does not contain the coarse solution of "
+           "later bounces. In sphere mode and with -I there is nothing to store. If file.rsphere was made "
+           "for another scene, with other options or by another version, there is a warning, and it is "
+           "neither used nor changed. The file named here may be an ambient file of RADIANCE's own "
+           "programs: it is neither read nor written, so that one name can serve both. Requires -aa and "
+           "-ab above 0."});
   add({.name = "-ae",
        .arguments = "mod",
        .group = Group::indirect,
        .value = Custom{setModifiers},
        .remark = "modifier without indirect light",
-       .paragraph =
-           "Surfaces with modifier mod get the ambient value instead of computed indirect light. May be "
-           "repeated; -ai or -aI after it starts anew."});
+       .paragraph = "Surfaces with modifier mod receive the ambient value (-av) instead of computed indirect "
+                    "light. May be repeated. A later -ai or -aI discards the list."});
   add({.name = "-aE",
        .arguments = "file",
        .group = Group::indirect,
        .value = Custom{setModifiers},
        .remark = "modifiers without indirect light",
-       .paragraph = "The same as -ae for all modifiers in a file, which are separated by blanks. The file is "
+       .paragraph = "Like -ae, for all modifiers in a file. They are separated by white space. The file is "
                     "searched for along RAYPATH."});
   add({.name = "-ai",
        .arguments = "mod",
@@ -736,14 +739,14 @@ void addModifierOptions(const Add& add) {
        .value = Custom{setModifiers},
        .remark = "modifier with indirect light",
        .paragraph =
-           "Only surfaces with modifier mod, or with that of another -ai, get computed indirect light. -ae "
-           "or -aE after it starts anew."});
+           "Only surfaces with modifier mod receive computed indirect light. May be repeated for several "
+           "modifiers. A later -ae or -aE discards the list."});
   add({.name = "-aI",
        .arguments = "file",
        .group = Group::indirect,
        .value = Custom{setModifiers},
        .remark = "modifiers with indirect light",
-       .paragraph = "The same as -ai for all modifiers in a file, which are separated by blanks. The file is "
+       .paragraph = "Like -ai, for all modifiers in a file. They are separated by white space. The file is "
                     "searched for along RAYPATH."});
 }
 
@@ -755,11 +758,12 @@ void addTreeOptions(const Add& add) {
          .value = Custom{setModifiers},
          .remark = name == "-te" ? "modifier left out of ray trees" : "modifier in ray trees",
          .paragraph = name == "-te"
-                          ? "Leave rays that hit a surface with modifier mod out of the trees of -ot and "
-                            "-oT. May be repeated; -ti or -tI after it starts anew. The blank may be "
-                            "left out."
-                          : "Show only rays that hit a surface with modifier mod, or that of another -ti, "
-                            "in the trees of -ot and -oT; -te or -tE after it starts anew.",
+                          ? "Leaves rays that hit a surface with modifier mod out of the trees of -ot and "
+                            "-oT. May be repeated. A later -ti or -tI discards the list. The blank "
+                            "before mod may be omitted."
+                          : "Shows only rays that hit a surface with modifier mod in the trees of -ot and "
+                            "-oT. May be repeated. A later -te or -tE discards the list. The blank "
+                            "before mod may be omitted.",
          .alsoGlued = true});
   for (const std::string_view name : {"-tE", "-tI"})
     add({.name = name,
@@ -767,10 +771,11 @@ void addTreeOptions(const Add& add) {
          .group = Group::trees,
          .value = Custom{setModifiers},
          .remark = name == "-tE" ? "modifiers left out of ray trees" : "modifiers in ray trees",
-         .paragraph = name == "-tE" ? "The same as -te for all modifiers in a file, which are separated by "
-                                      "blanks. The file is searched for along RAYPATH."
-                                    : "The same as -ti for all modifiers in a file, which are separated by "
-                                      "blanks. The file is searched for along RAYPATH."});
+         .paragraph = name == "-tE"
+                          ? "Like -te, for all modifiers in a file. They are separated by white space. "
+                            "The file is searched for along RAYPATH."
+                          : "Like -ti, for all modifiers in a file. They are separated by white space. "
+                            "The file is searched for along RAYPATH."});
 }
 
 void addProgramOptions(const Add& add) {
@@ -781,17 +786,17 @@ void addProgramOptions(const Add& add) {
        .value = Custom{setFunctionFile},
        .remark = "function file",
        .paragraph =
-           "Adds the definitions of the function file source, which is searched for along RAYPATH, to those "
-           "that all function files share. They replace those of rayinit.cal."});
+           "Adds the definitions of the function file source to those that all function files share. They "
+           "replace definitions of rayinit.cal by the same names. The file is searched for along RAYPATH."});
   add({.name = "-e",
        .arguments = "file",
        .group = Group::program,
        .value = Custom{setErrorFile},
        .remark = "error file",
        .paragraph =
-           "Append messages to the file, after the process id and the command line, instead of writing them "
-           "to standard error. A word that contains = or : is not a file name but definitions like those of "
-           "-f: -e 'height=2;x(a):a*height'.",
+           "Appends messages to the file, after the process id and the command line, instead of writing "
+           "them to standard error. A word that contains = or : is not a file name but a list of "
+           "definitions, like those of -f: -e 'height=2;x(a):a*height'.",
        .line = +[](const O& o) {
          const std::string& file = o.messages.errorFile;
          return file.empty() ? "" : fmt::format("-e {}\t\t", file);
@@ -813,9 +818,9 @@ void addProgramOptions(const Add& add) {
        .unit = "s",
        .remark = "progress report interval",
        .paragraph =
-           "Report progress on standard error about every so many seconds: the number of answered records, "
-           "their number per second, and, if the end is known (-y, or input from a file), the time left. 0: "
-           "never."});
+           "Interval of progress reports on standard error. A report gives the number of answered "
+           "records, the records per second and, if the end of the input is known (-y, or input from a "
+           "file), the time left. 0 disables reports."});
 }
 
 void addDirectionOptions(const Add& add) {
@@ -824,8 +829,8 @@ void addDirectionOptions(const Add& add) {
        .value = +[](O& o) -> bool& { return o.sphereMode; },
        .remark = "sphere mode on|sphere mode off (rays)",
        .paragraph =
-           "Switch for sphere mode. It is off by default if the program is called by the name rtrace. The "
-           "mode determines the defaults of all other options, wherever -S stands on the command line."});
+           "Toggles sphere mode. It is on unless the program is called by the name rtrace. The mode "
+           "determines the defaults of all other options, wherever -S is placed on the command line."});
   add({.name = "-Sn",
        .arguments = "N",
        .group = Group::sphere,
@@ -833,7 +838,8 @@ void addDirectionOptions(const Add& add) {
        .range = {1, 1000000},
        .unit = "directions",
        .remark = "base directions",
-       .paragraph = "Number of directions that cover the sphere evenly. They are the same for every point."});
+       .paragraph =
+           "Number of base directions. They cover the sphere evenly and are the same for every point."});
   add({.name = "-Sx",
        .arguments = "N",
        .group = Group::sphere,
@@ -842,11 +848,11 @@ void addDirectionOptions(const Add& add) {
        .unit = "directions",
        .remark = "most directions",
        .paragraph =
-           "Largest number of directions of one point, including those for special objects. It includes "
-           "directions to light sources, too; these are at most a quarter of -Sn unless there are more "
-           "sources, and they are sent even if there is no room for them. Shadow rays, and rays that are "
-           "only intersected to guess radiance, are not included. If it is not given, it grows with -Sn to "
-           "twice that; see -Sa."});
+           "Largest number of directions for one point: base directions, directions to special objects "
+           "and directions to light sources. Directions to light sources are at most a quarter of -Sn "
+           "unless there are more sources than that; they are sent even if they exceed the limit. Shadow "
+           "rays, and the rays that find the surfaces for the control variate of -Sw c, do not count. If "
+           "-Sx is not given, it is twice -Sn where that is more than the default; see -Sa."});
 }
 
 void addWeightOptions(const Add& add) {
@@ -857,10 +863,9 @@ void addWeightOptions(const Add& add) {
        .range = kNotNegative,
        .remark = "density factor",
        .paragraph =
-           "Factor on the density of directions (1/sr) that the materials of special objects ask for: "
-           "mirrors, glass and others whose radiance has peaks. With 0 and -Sw c, directions have equal "
-           "weights, except for light sources that are seen directly; the radiance of diffuse surfaces is "
-           "not guessed, and no indirect rays are aimed at small bright patches."});
+           "Factor on the density of directions (1/sr) towards special objects. With 0 and -Sw c, all "
+           "directions have equal weights except those to light sources that are seen directly, diffuse "
+           "surfaces have no control variate, and no indirect rays are aimed at small bright patches."});
   add({.name = "-Sa",
        .arguments = "acc",
        .group = Group::sphere,
@@ -868,22 +873,24 @@ void addWeightOptions(const Add& add) {
        .range = kFraction,
        .remark = "accuracy",
        .paragraph =
-           "Average sets of directions, each of -Sn and those for special objects, until the estimated "
-           "standard error of the mean's brightness is below acc times the mean. There are at least two "
-           "sets. The number of all directions is at most -Sx if that is given, otherwise a million, or "
-           "100,000 with -Sd. Each half of the sets decides on the number of sets in the other half, so "
-           "that stopping causes hardly any bias. A warning at the end gives the number of points where the "
-           "accuracy was not reached, and the largest error. 0: one set."});
+           "Adaptive accuracy: the program averages sets of directions, each of -Sn base directions and "
+           "those for special objects, until the estimated standard error of the mean's brightness is "
+           "below acc times the mean. There are at least two sets. The total number of directions is at "
+           "most -Sx if that is given, otherwise a million, or 100,000 with -Sd. Each half of the sets "
+           "decides on the number of sets in the other half, so that stopping causes hardly any bias. At "
+           "the end, a warning gives the number of points that did not reach the accuracy, and the "
+           "largest error. 0 uses one set."});
   add({.name = "-Sw",
        .arguments = "letter",
        .group = Group::sphere,
        .value = Custom{setWeights},
        .remark = "weights: h equal, v Voronoi, c Voronoi within silhouettes",
        .paragraph =
-           "Weights of the directions' radiances. h: equal weights for all base directions, and no other "
-           "directions. v: the solid angle of the direction's spherical Voronoi cell. c: the same with "
-           "cells that keep to the silhouettes of special objects, while light sources are integrated "
-           "separately. With h and v a light source is a surface like any other.",
+           "Weights of the directions. h: equal weights for the base directions, and no other directions. "
+           "v: the solid angle of each direction's cell in a spherical Voronoi diagram. c: the same, with "
+           "cells that end at the silhouettes of special objects, with light sources integrated "
+           "separately by next-event estimation, and with a control variate for diffuse surfaces. With h "
+           "and v, a light source is a surface like any other.",
        .line = weightsLine});
 }
 
@@ -895,20 +902,21 @@ void addAnswerOptions(const Add& add) {
        .value = +[](O& o) -> std::vector<std::string>& { return o.goals; },
        .remark = "goals",
        .paragraph =
-           "Compute importance instead of radiance: surfaces with modifier mod emit 1 W/sr/m2 from their "
-           "front, in addition to reflecting light, and every other source is dark. May be repeated."});
+           "Computes importance instead of radiance, for goals: surfaces with modifier mod emit 1 W/sr/m2 "
+           "from their front, in addition to reflecting light, and every other source is dark. May be "
+           "repeated for several modifiers."});
   add({.name = "-Sb",
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.sphere.basicRadiance; },
        .remark = "basic radiance on|basic radiance off",
-       .paragraph = "Switch for basic radiance L/n2, which refraction does not change. Importance must be "
-                    "transported in this form through refracting materials."});
+       .paragraph =
+           "Toggles basic radiance, L/n2, where n is the refractive index. Refraction does not change it. "
+           "Through refracting materials, importance is correct only in this form."});
   add({.name = "-Sd",
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.sphere.everyDirection; },
        .remark = "every direction|mean of directions",
-       .paragraph = "Switch for a record of every direction instead of the mean of a point; see Output under "
-                    "DESCRIPTION."});
+       .paragraph = "Toggles a record for every direction instead of the mean of a point; see OUTPUT."});
 }
 
 // Options of rsphere that hold in ray mode as well.
@@ -920,10 +928,10 @@ void addBothModesOptions(const Add& add) {
        .range = {0, 1e6},
        .remark = "light sources tested at a surface",
        .paragraph =
-           "Instead of all light sources, test N of them at a surface of even radiance, or fewer for rays "
-           "of less weight. They are drawn at random in proportion to their contribution without shadows; "
-           "-dt, -dc, -dj and -ds do not apply there. 0: all sources are tested. Holds in ray mode as "
-           "well."});
+           "Number of light sources that next-event estimation tests at a diffuse surface, instead of all "
+           "of them; for rays of less weight it is smaller. The sources are drawn at random, in "
+           "proportion to their contribution without shadows; -dt, -dc, -dj and -ds do not apply to them. "
+           "0 tests all sources. Holds in ray mode as well."});
   add({.name = "-Sm",
        .arguments = "MB",
        .group = Group::sphere,
@@ -932,12 +940,12 @@ void addBothModesOptions(const Add& add) {
        .unit = "MB",
        .remark = "memory of interpolation",
        .paragraph =
-           "Limit of the memory for the sites between which indirect light is interpolated in ray mode (-aa "
-           "above 0), in millions of bytes. When it is reached, sites are discarded, and computed again "
-           "when they are needed: answers stay the same, and only the time grows. The coarse solution of "
-           "later bounces is not included; its memory has no limit and grows with the number of surfaces "
-           "that paths reach. 0: no limit. Not together with -af. In sphere mode nothing is interpolated "
-           "between sites, and the limit has no effect."});
+           "Limit of the memory for the irradiance cache of ray mode (-aa above 0), in millions of bytes. "
+           "When it is reached, cache records are discarded, and computed again when they are needed: "
+           "answers stay the same, and only the time grows. The coarse solution of later bounces is not "
+           "included; its memory has no limit and grows with the number of surfaces that paths reach. 0 "
+           "sets no limit. Not together with -af. Sphere mode has no cache records, and the limit has no "
+           "effect there."});
   add({.name = "-Sr",
        .arguments = "N",
        .group = Group::sphere,
@@ -945,19 +953,19 @@ void addBothModesOptions(const Add& add) {
        .range = kCount,
        .remark = "rotation and random numbers",
        .paragraph =
-           "Another rotation of the base directions and other random numbers for each N, so that repeated "
-           "runs show the spread of the answers. In ray mode it changes the random numbers.",
+           "Selects a rotation of the base directions and a sequence of random numbers, so that runs with "
+           "different N show the variance of the answers. In ray mode it selects the random numbers.",
        .line = +[](const O& o) { return fmt::format("-Sr {:<9}\t\t\t", o.sphere.rotation); }});
   add({.name = "-Sc",
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.commands; },
        .remark = "scene commands on|scene commands off",
        .paragraph =
-           "Switch for commands in scene files (lines with !). xform always works, because it needs no "
-           "other program. Off is meant for untrusted scenes: it also restricts the files that scene files "
-           "name (xform, octrees, meshes, data, pictures, fonts, functions, BSDFs) to regular files in or "
-           "below the folders of the files on the command line and of RAYPATH, even if symbolic links point "
-           "elsewhere. Holds in ray mode as well."});
+           "Toggles commands in scene files (lines that begin with !). xform always works, because it "
+           "needs no other program. -Sc- is meant for untrusted scenes: it also restricts the files that "
+           "scene files name (xform, octrees, meshes, data, pictures, fonts, functions, BSDFs) to regular "
+           "files in or below the folders of the files on the command line and of RAYPATH, even if "
+           "symbolic links point elsewhere. Holds in ray mode as well."});
 }
 
 // What shows how an answer came about.
@@ -967,33 +975,34 @@ void addInspectionOptions(const Add& add) {
        .value = +[](O& o) -> bool& { return o.sphere.verify; },
        .remark = "verify weights|weights not verified",
        .paragraph =
-           "Switch for verifying the weights of each point: that they sum to 4 pi, and that no circle "
-           "through three neighbours contains a fourth. The program stops with an error if they do not."});
+           "Toggles verification of the weights of each point: they must sum to 4 pi, and no circle "
+           "through three neighbors may contain a fourth. Otherwise the program stops with an error."});
   add({.name = "-Si",
        .arguments = "pic",
        .group = Group::sphere,
        .value = +[](O& o) -> std::string& { return o.picture; },
        .remark = "picture of each point",
        .paragraph =
-           "Draw a picture of the light that arrives at each point from all directions. The extension of "
-           "the name gives the format. The picture has a ray through each of its half a million pixels, "
-           "besides the directions of the answer and whatever -Sn is, which takes seconds for each point. "
-           "Light sources have their own radiance and size. Indirect light is averaged over nearby pixels; "
-           "a larger -ad makes it smoother. RADIANCE pictures (.hdr, .pic) are angular fisheyes of 360 "
-           "degrees, with +y in the middle and +z above it, and with the command, SOFTWARE= and VIEW= in "
-           "the header; pinterp converts them to other views, such as the hemisphere that evalglare "
-           "expects. In all other formats, the columns are azimuths from the x axis, counterclockwise about "
-           "z, and the rows go from the zenith to the nadir. EXR and TIFF files contain radiance, others "
-           "contain colors, exposed so that the median is mid-bright. %d in the name (or %04d and the like) "
-           "is replaced by the number of the record, from 0."});
+           "Draws a picture of the light that arrives at each point from all directions. The extension of "
+           "the name gives the format. The program traces a ray through each of the half a million "
+           "pixels, in addition to the directions of the answer and whatever -Sn is, so that a picture "
+           "takes much longer than an answer. Light sources have their own radiance and size. Indirect "
+           "light is averaged over nearby pixels; a larger -ad makes it smoother. RADIANCE pictures "
+           "(.hdr, .pic) are angular fisheyes of 360 degrees, with +y in the middle and +z above it. "
+           "Their header has the command, SOFTWARE= and VIEW=; pinterp converts them to other views, such "
+           "as the hemisphere that evalglare expects. In all other formats, the columns are azimuths from "
+           "the x axis, counterclockwise about z, and the rows go from the zenith to the nadir. EXR and "
+           "TIFF files contain radiance. Other files contain colors, exposed so that the median is "
+           "mid-bright. %d in the name (or %04d and the like) is replaced by the number of the record, "
+           "from 0."});
   add({.name = "-Sl",
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.listSpecial; },
        .remark = "list special objects|answers",
        .paragraph =
-           "Switch for a list of the special objects of the scene instead of answers. Each line has the "
-           "place, the material, the density of directions (1/sr) and the reason why the object is special, "
-           "separated by tabs. Nothing is read from standard input."});
+           "Toggles a list of the special objects of the scene instead of answers. Each line has the "
+           "place, the material, the density of directions (1/sr) and the reason why the object is "
+           "special, separated by tabs. Nothing is read from standard input."});
 }
 
 // The order is that of rtrace's -defaults. From -ap to -t follow options of rtrace that its
@@ -1036,9 +1045,7 @@ Options modeDefaults(bool sphereMode) {
   options.ray.ambientDivisions = 4;
   options.ray.ambientSuperSamples = 0;
   options.ray.ambientAccuracy = 0;
-  // Measured in four daylit rooms with -aa .1 -ad 16: patches that have as many rays as -ad asks for leave errors of
-  // .75 to 1.4%, twice what is stated, with 1024 they are .45 to .9%, as stated, for 60 ms more a point.
-  options.ray.leastForPatches = 1024;
+  options.ray.leastForPatches = options.sphere.raysForPatches();
   options.ray.directJitter = 1;
   options.ray.directThreshold = 0;
   options.ray.specularThreshold = 0;

@@ -241,6 +241,18 @@ TEST(Defaults, OfSphereModeAreItsOwn) {
   EXPECT_EQ(sphere.ray.specularThreshold, 0);
   EXPECT_EQ(sphere.ray.ambientBounces, rays.ray.ambientBounces);
   EXPECT_EQ(rays.ray.ambientDivisions, 1024);
+  EXPECT_EQ(rays.ray.leastForPatches, 0);
+}
+
+// The error of patches falls with that of directions, whatever -ad is.
+TEST(Defaults, RaysOfPatchesFollowDirections) {
+  const auto rays = [](std::initializer_list<const char*> words) { return parse(words).ray.leastForPatches; };
+  EXPECT_EQ(rays({"rsphere", "-aa", ".1", "-defaults"}), 1024);
+  EXPECT_EQ(rays({"rsphere", "-Sn", "8192", "-defaults"}), 8192);
+  EXPECT_EQ(rays({"rsphere", "-Sn", "512", "-ad", "16", "-defaults"}), 256);
+  EXPECT_EQ(rays({"rsphere", "-Sa", ".05", "-defaults"}), 1024);
+  EXPECT_EQ(rays({"rsphere", "-Sa", ".005", "-defaults"}), 4096);
+  EXPECT_EQ(rays({"rsphere", "-S-", "-defaults"}), 0);
 }
 
 TEST(Help, HasALineForEveryOptionThatWorks) {
