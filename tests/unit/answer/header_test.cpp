@@ -100,7 +100,13 @@ TEST(Header, PipesAreNotPadded) {
 
 TEST(Version, IsThatOfTheProject) {
   const std::string lists = contents(std::string(RSPHERE_TESTS) + "/../CMakeLists.txt");
-  EXPECT_NE(lists.find(std::string("project(rsphere VERSION ") + kVersion + " "), std::string::npos);
+  const std::string version = kVersion;
+  const size_t dash = version.find('-');
+  EXPECT_NE(lists.find("project(rsphere VERSION " + version.substr(0, dash) + " "), std::string::npos);
+  const std::string candidate = dash == std::string::npos ? "" : version.substr(dash + 1);
+  EXPECT_NE(lists.find("set(RSPHERE_PRERELEASE " + candidate + ")"), std::string::npos) << candidate;
+  EXPECT_NE(contents(std::string(RSPHERE_TESTS) + "/../CHANGELOG.md").find("## " + version + ","),
+            std::string::npos);
   EXPECT_EQ(versionLine(), std::string("rsphere ") + kVersion);
   EXPECT_EQ(versionAnswer("rsphere"), versionLine());
   EXPECT_EQ(versionAnswer("rsphere-trade"), versionLine());
