@@ -2,16 +2,14 @@
 // checked by quadrature when it was written down).
 #include <gtest/gtest.h>
 
-#include <numbers>
 #include <string>
 
+#include "base/constants.h"
 #include "importance/estimator.h"
 #include "tests/unit/support/scene_of.h"
 
 namespace rsphere {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // F, the irradiances facing +x -x +y -y +z -z, the cylindrical one about z, and the light vector's z (x and y
 // are 0).

@@ -3,9 +3,9 @@
 // I F / A on a goal of area A, where F = 4 pi v is the integral of importance at the lamp's place.
 #include <gtest/gtest.h>
 
-#include <numbers>
 #include <string>
 
+#include "base/constants.h"
 #include "importance/estimator.h"
 #include "tests/unit/support/scene_of.h"
 #include "tests/unit/support/statistics.h"
@@ -13,7 +13,6 @@
 namespace rsphere {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 const V3d kLamp(1, 1.2, 1.9);
 constexpr double kLampRadius = .01, kLampRadiance = 1000;
 constexpr double kGoalHeight = .7, kGoalX = 2.2, kGoalY = 1.6, kGoalWidth = .8, kGoalDepth = .5;

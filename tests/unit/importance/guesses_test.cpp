@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 #include <string>
 
+#include "base/constants.h"
 #include "rad_parser/scene_file.h"
 #include "sphere/directions.h"
 #include "tests/unit/support/sphere_setting.h"
@@ -15,8 +15,6 @@
 
 namespace rsphere {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 struct Setting : SphereSetting {
   explicit Setting(const std::string& text, int bounces = 0, bool goal = false)

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include "base/constants.h"
 #include "importance/smooth_indirect.h"
 #include "rad_parser/error.h"
 #include "tests/unit/support/scene_of.h"
@@ -15,8 +15,6 @@
 
 namespace rsphere {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // ---- where directions lie
 

@@ -4,17 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include "base/constants.h"
 #include "tests/unit/support/scene_of.h"
 #include "tests/unit/support/sphere_setting.h"
 #include "tests/unit/support/statistics.h"
 
 namespace rsphere {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Radiance 100; a mirror that reflects 90%.
 constexpr const char* kMaterials =

@@ -4,15 +4,13 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "base/constants.h"
 #include "tests/unit/support/statistics.h"
 
 namespace rsphere {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 struct Plane {
   std::vector<V3d> vertices;

@@ -1,16 +1,14 @@
 #include "importance/two_halves.h"
 
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <vector>
 
+#include "base/constants.h"
 #include "tests/unit/support/statistics.h"
 
 namespace rsphere {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // A set of directions, as far as its average tells: 64 values with a mean of 1, few of which are most of the
 // light (log-normal), so that a set that finds little estimates a small error.

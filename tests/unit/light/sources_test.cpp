@@ -5,17 +5,16 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "base/constants.h"
 #include "tests/unit/support/scene_of.h"
 #include "tests/unit/support/statistics.h"
 
 namespace rsphere {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kDegree = kPi / 180;
 
 std::string lit(const char* material, const std::string& surface) {

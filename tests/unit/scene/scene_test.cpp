@@ -2,16 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "base/constants.h"
 #include "tests/unit/support/scene_of.h"
 
 namespace rsphere {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr const char* kGray = "void plastic gray\n0\n0\n5 .5 .5 .5 0 0\n";  // lines 1 to 4
 
 std::string errorOf(const std::string& text) {

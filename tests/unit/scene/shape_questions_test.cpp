@@ -1,15 +1,13 @@
 #include <gtest/gtest.h>
 
-#include <numbers>
 #include <set>
 #include <vector>
 
+#include "base/constants.h"
 #include "scene/shape.h"
 
 namespace rsphere {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 struct Row {
   Shape shape;

@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <optional>
 #include <vector>
 
+#include "base/constants.h"
 #include "tests/unit/support/statistics.h"
 
 namespace rsphere {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Where scenes may lie. The shapes' own coordinates are rounded to 2^-20, so that moving them is exact.
 const V3d kPlaces[] = {V3d(0, 0, 0), V3d(1e5, -1e5, 1e5), V3d(5e6, 5e6, -5e6)};

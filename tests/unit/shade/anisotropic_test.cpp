@@ -3,14 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "base/constants.h"
 #include "tests/unit/shade/lobe_sampling.h"
 
 namespace rsphere {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kSampleAll = 0;  // -st
 constexpr double kTiny = 1e-9;    // sr, of a source for which a lobe is a number
 const V3d kAlong(.9, .4, .2);     // a direction of brushing, not within the surface

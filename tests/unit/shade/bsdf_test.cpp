@@ -4,18 +4,16 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "../support/bsdf_xml.h"
 #include "../support/statistics.h"
+#include "base/constants.h"
 
 namespace rsphere {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 BsdfData dataOf(const std::string& xml, std::vector<std::string>* warnings = nullptr) {
   const rad::Warn warn = [warnings](std::string_view line) {

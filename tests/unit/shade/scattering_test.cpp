@@ -3,16 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "base/constants.h"
 #include "tests/unit/shade/lobe_sampling.h"
 #include "tests/unit/support/statistics.h"
 
 namespace rsphere {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kSampleAll = 0;  // -st
 
 const SharpPath* find(const Scattering& s, RayKind kind) {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string_view>
 
+#include "base/constants.h"
 #include "shade/bsdf_scattering.h"
 #include "tests/unit/shade/fake_hit.h"
 #include "tests/unit/shade/lobe_sampling.h"
@@ -15,7 +15,6 @@
 namespace rsphere {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kTiny = 1e-9;    // sr, of a source for which a lobe is a number
 constexpr double kThreshold = 0;  // -st: all lobes are sampled
 const MaterialOptions kOptions{.specularThreshold = kThreshold, .directJitter = 1};

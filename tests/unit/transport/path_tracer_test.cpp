@@ -4,16 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "base/constants.h"
 #include "tests/unit/transport/transport_fixture.h"
 
 namespace rsphere {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 const V3d kOrigin(0, 0, 0), kUp(0, 0, 1), kDown(0, 0, -1);
 
 std::string plastic(const char* name, double reflectance) {

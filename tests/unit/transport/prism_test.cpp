@@ -3,15 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include "base/constants.h"
 #include "tests/unit/transport/original_room.h"
 
 namespace rsphere {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kRadius = .01, kRadiance = 1e5;
 const V3d kLamp(1, .3, 2);
 

@@ -4,16 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "base/constants.h"
 #include "tests/unit/transport/transport_fixture.h"
 
 namespace rsphere {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kRadius = .01, kRadiance = 1e5;
 
 std::string lamp(const V3d& at) {

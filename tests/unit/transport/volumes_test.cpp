@@ -4,16 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "base/constants.h"
 #include "tests/unit/transport/original_room.h"
 
 namespace rsphere {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // A ball of mist around (x, 0, 0). arguments: as in a scene file, with the numbers of strings and reals.
 std::string mist(const std::string& name, const std::string& arguments, double x = 0, double radius = 1) {
