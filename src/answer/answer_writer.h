@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "answer/answer_options.h"
@@ -43,6 +44,12 @@ struct InputRay {
   double length = 0;
 };
 InputRay inputRay(const double* numbers, IrradianceAt irradiance);
+
+// Whether a record of ray mode (six numbers) has no direction. As in rtrace, it has none if the squared
+// length is zero in floating point.
+inline bool hasNoDirection(std::span<const double> ray) {
+  return ray[3] * ray[3] + ray[4] * ray[4] + ray[5] * ray[5] == 0;
+}
 
 // The answer of rtrace to a record whose direction is zero: the ray before it (zeros if there is
 // none), as if it hit nothing.

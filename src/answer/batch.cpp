@@ -14,6 +14,7 @@
 #include <mutex>
 #include <vector>
 
+#include "answer/answer_writer.h"
 #include "answer/threads.h"
 
 namespace rsphere {
@@ -91,10 +92,7 @@ class Batch {
   void stop(std::exception_ptr error);
   void endInput();
   bool stopping() const { return stopped_ || (signals_ != nullptr && signals_->raised()); }
-  // As in rtrace: a direction whose squared length is zero in floating point cannot be normalized.
-  bool isBogus(const double* record) const {
-    return perRecord_ == 6 && record[3] * record[3] + record[4] * record[4] + record[5] * record[5] == 0;
-  }
+  bool isBogus(const double* record) const { return perRecord_ == 6 && hasNoDirection({record, 6}); }
 
   RecordReader& reader_;
   RecordWriter& writer_;

@@ -2,21 +2,45 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <link.h>
 
 #include <filesystem>
 #include <system_error>
+#include <vector>
 
 #include "rad_parser/error.h"
 
 namespace rsphere {
 namespace {
 
-const ImageCodec* load() {
+// The folders in which the shared object may lie.
+std::vector<std::filesystem::path> folders() {
+  std::vector<std::filesystem::path> found;
+  // Part of librsphere.so: below the folder of the library, or beside it where Debian's name of the machine
+  // is between.
+  Dl_info info;
+  link_map* object = nullptr;
+  const bool known = dladdr1(reinterpret_cast<const void*>(&imageCodec), &info,
+                             reinterpret_cast<void**>(&object), RTLD_DL_LINKMAP) != 0;
+  if (known && object && object->l_name[0] != '\0') {  // the program itself has no name
+    const std::filesystem::path beside = std::filesystem::path(object->l_name).parent_path();
+    found.push_back(beside / "rsphere");
+    found.push_back(beside.parent_path() / "rsphere");
+  }
   std::error_code none;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", none);
-  const auto beside = program.parent_path().parent_path() / "lib/rsphere/openimageio.so";
-  void* object = dlopen(beside.c_str(), RTLD_LAZY | RTLD_LOCAL);
-  const std::string why = object ? "" : dlerror();
+  found.push_back(program.parent_path().parent_path() / "lib/rsphere");
+  return found;
+}
+
+const ImageCodec* load() {
+  void* object = nullptr;
+  std::string why;
+  for (const auto& folder : folders()) {
+    if (object) break;
+    object = dlopen((folder / "openimageio.so").c_str(), RTLD_LAZY | RTLD_LOCAL);
+    if (!object) why = dlerror();
+  }
   if (!object) object = dlopen("openimageio.so", RTLD_LAZY | RTLD_LOCAL);
   const void* codec = object ? dlsym(object, kImageCodecSymbol) : nullptr;
   if (!codec) throw rad::Error(fmt::format("cannot read or write pictures: {}", why), rad::Status::system);

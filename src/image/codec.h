@@ -22,8 +22,9 @@ struct ImageCodec {
 // The name of the ImageCodec in the shared object.
 inline constexpr const char* kImageCodecSymbol = "rsphereImageCodec";
 
-// Loads the shared object once: ../lib/rsphere/openimageio.so from the program's folder, or wherever the
-// loader looks for openimageio.so. Throws rad::Error (Status::system) if it cannot be loaded.
+// Loads the shared object once: rsphere/openimageio.so from the folder of librsphere.so,
+// ../lib/rsphere/openimageio.so from that of the program, or wherever the loader looks for openimageio.so.
+// Throws rad::Error (Status::system) if it cannot be loaded.
 const ImageCodec& imageCodec();
 
 }  // namespace rsphere

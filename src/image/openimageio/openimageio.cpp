@@ -71,7 +71,7 @@ std::string encode(const std::string& name, int width, int height, bool radiance
 }  // namespace
 
 extern "C" {
-extern const ImageCodec rsphereImageCodec;
+__attribute__((visibility("default"))) extern const ImageCodec rsphereImageCodec;
 const ImageCodec rsphereImageCodec{formatOf, encode};
 }
 

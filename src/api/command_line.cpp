@@ -1,0 +1,105 @@
+#include "api/command_line.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/option_table.h"
+#include "rad_parser/error.h"
+
+namespace rsphere::v1 {
+namespace {
+
+// Ends the words of the options, as a scene does on a command line.
+constexpr std::string_view kScene = "scene";
+
+class Words {
+ public:
+  explicit Words(std::string program) : words_{std::move(program)} {}
+
+  template <typename Number>
+  void add(std::string_view name, const std::optional<Number>& value) {
+    if (!value) return;
+    words_.emplace_back(name);
+    words_.push_back(fmt::format("{}", *value));
+  }
+  void add(std::string_view name, const std::optional<std::array<double, 3>>& value) {
+    if (!value) return;
+    words_.emplace_back(name);
+    for (const double number : *value) words_.push_back(fmt::format("{}", number));
+  }
+  void add(std::string word) { words_.push_back(std::move(word)); }
+  const std::vector<std::string>& words() const { return words_; }
+
+ private:
+  std::vector<std::string> words_;
+};
+
+void refuse(bool given, std::string_view option, std::string_view reason) {
+  if (given) throw rad::Error(fmt::format("option '{}': {}", option, reason));
+}
+
+// Whether an option concerns threads or output alone.
+bool isOfOutput(const OptionEntry& entry) {
+  static constexpr std::array<std::string_view, 7> kNames = {"-n", "-o", "-h", "-x", "-y", "-t", "-w"};
+  return entry.group == Group::color || std::find(kNames.begin(), kNames.end(), entry.name) != kNames.end();
+}
+
+}  // namespace
+
+CommandOptions commandOptions(const Options& options, Records records) {
+  const bool rays = records == Records::rays;
+  Words words(rays ? "rtrace" : "rsphere");
+  words.add("-ab", options.ambientBounces);
+  words.add("-aa", options.ambientAccuracy);
+  words.add("-ad", options.ambientDivisions);
+  words.add("-as", options.ambientSuperSamples);
+  words.add("-ar", options.ambientResolution);
+  words.add("-av", options.ambientValue);
+  words.add("-lr", options.limitReflections);
+  words.add("-lw", options.limitWeight);
+  words.add("-Sr", options.rotation);
+  if (options.irradianceAtOrigin) words.add("-I+");
+  if (options.irradianceAtSurface) words.add("-i+");
+  words.add("-Sn", options.directions);
+  words.add("-Sx", options.mostDirections);
+  words.add("-Sa", options.accuracy);
+  if (!options.outputs.empty()) words.add("-o" + options.outputs);
+  words.add("-n", std::optional(options.threads));
+  for (const std::string& argument : options.arguments) words.add(argument);
+  words.add(std::string(kScene));
+
+  rsphere::Options parsed;
+  const std::vector<UsedOption> used = parseCompanion(words.words(), Companion(), parsed);
+  if (parsed.request != Request::answers)
+    throw rad::Error(
+        "-help, -version, -defaults and -features are for the command rsphere, not for the library");
+  if (parsed.scene.size() > 1)
+    throw rad::Error(fmt::format("\"{}\" is not an option: options begin with a hyphen", parsed.scene[0]));
+  refuse(parsed.sphereMode == rays, "-S", "trace() answers rays, and sphere() points");
+  refuse(!parsed.goals.empty(), "-Sg", "goals belong to the scene: see SceneOptions");
+  refuse(!parsed.commands, "-Sc", "commands belong to the scene: see SceneOptions");
+  refuse(parsed.sphere.everyDirection, "-Sd", "only the command rsphere lists every direction");
+  refuse(parsed.listSpecial, "-Sl", "only the command rsphere lists the special objects");
+  refuse(!parsed.treeOutputs.empty(), "-ot", "only the command rsphere writes ray trees");
+  const auto isOutputs = [](const UsedOption& option) { return option.entry->name == "-o"; };
+  if (!rays && std::none_of(used.begin(), used.end(), isOutputs)) {
+    // Standard errors are those of red, green and blue, or of luminance.
+    const bool errors = parsed.color.space == ColorSpace::rgb || parsed.color.space == ColorSpace::photopic;
+    parsed.outputs = errors ? "veECHuk" : "vECHuk";
+  }
+  parsed.out = NumberFormat::float64;
+
+  // The words have variables and files of options replaced.
+  CommandOptions result{std::move(parsed), {}, {}};
+  const auto add = [](std::string& key, const std::string& word) { key.append(word).push_back('\0'); };
+  add(result.key, result.options.program);
+  for (const std::string& word : result.options.words) add(result.key, word);
+  add(result.sceneKey, result.options.program);
+  for (const UsedOption& option : used)
+    if (!isOfOutput(*option.entry))
+      for (const std::string& word : option.words) add(result.sceneKey, word);
+  return result;
+}
+
+}  // namespace rsphere::v1

@@ -1,0 +1,77 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rsphere/version.h"
+
+namespace RSPHERE_API_NAMESPACE {
+
+// A quantity for every record of a call, in the order of the records. Its numbers are those that the command
+// writes with -fdd and the same options, bit by bit.
+struct Quantity {
+  size_t columns = 0;  // numbers for each record; 0: the quantity was not asked for (Options::outputs)
+  std::vector<double> numbers;  // columns for the first record, then columns for the second, ...
+
+  // REQUIRES: the quantity was asked for, and record is below RayAnswers::size or PointAnswers::size.
+  std::span<const double> operator[](size_t record) const {
+    return {numbers.data() + record * columns, columns};
+  }
+};
+
+// A color has three columns, red, green and blue, unless options say otherwise: one with -pY, -pS, -pM or
+// -pA, as many as there are bands with -co and -cs.
+
+// Answers to rays, by the letters of Options::outputs. A ray that hits nothing has names "*", lengths 1e10,
+// normals 0, and its origin as the point. A ray whose direction is 0 is not traced: its record is that of the
+// ray before, as if it had hit nothing, as in rtrace.
+struct RayAnswers {
+  size_t size = 0;                    // the number of rays
+  Quantity value;                     // v  radiance (W/sr/m2) along the ray; irradiance (W/m2) with -i and -I
+  Quantity origin;                    // o  of the ray as it was traced
+  Quantity direction;                 // d  of length 1
+  Quantity point;                     // p  that the ray hits
+  Quantity normal;                    // n  of the surface there, perturbed by textures
+  Quantity unperturbedNormal;         // N
+  Quantity firstLength;               // L  to the first hit (units of the scene)
+  Quantity effectiveLength;           // l  to the surface whose light dominates the value
+  Quantity localCoordinates;          // c  u, v on the surface
+  Quantity weight;                    // w
+  Quantity coefficient;               // W
+  Quantity contribution;              // V
+  Quantity mirroredValue;             // r  the part of the value that is mirrored
+  Quantity mirroredLength;            // R
+  Quantity unmirroredValue;           // x  the rest of the value
+  Quantity unmirroredLength;          // X
+  std::vector<std::string> surface;   // s  names, empty if they were not asked for
+  std::vector<std::string> modifier;  // m
+  std::vector<std::string> material;  // M
+};
+
+// Answers to points. F is the integral of the radiance L over all 4 pi sr of directions.
+struct PointAnswers {
+  size_t size = 0;                 // the number of points
+  Quantity mean;                   // v  mean radiance F/(4 pi) (W/sr/m2)
+  Quantity meanStandardError;      // e  of mean, estimated. That of scalarIrradiance is pi times as large
+  Quantity scalarIrradiance;       // E  F/4 (W/m2)
+  Quantity cylindricalIrradiance;  // C  about the z axis: 1/pi times the integral of L sin(angle to z) (W/m2)
+  Quantity faceIrradiance;         // H  of faces towards +x -x +y -y +z -z, a color for each (W/m2)
+  Quantity lightVector;  // u  integral of L d over directions d, of brightness, towards more light (W/m2)
+  Quantity directions;   // k  number of directions used
+  Quantity point;        // o
+};
+
+// RADIANCE's luminous efficacy of white light (lm/W), and the part of each channel in it.
+inline constexpr double kLumensPerWatt = 179;
+inline constexpr std::array<double, 3> kBrightnessWeights = {.265105820, .670105820, .064788360};
+
+// Turns a color's radiance (W/sr/m2) into luminance (cd/m2), and its irradiance (W/m2) into illuminance (lx),
+// as -pY does. REQUIRES: the color has red, green and blue.
+constexpr double photometric(std::span<const double> color) {
+  return kLumensPerWatt * (kBrightnessWeights[0] * color[0] + kBrightnessWeights[1] * color[1] +
+                           kBrightnessWeights[2] * color[2]);
+}
+
+}  // namespace RSPHERE_API_NAMESPACE

@@ -1,0 +1,434 @@
+#include "rsphere/scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <cstring>
+#include <exception>
+#include <functional>
+#include <limits>
+#include <mutex>
+#include <thread>
+
+#include "answer/answer_points.h"
+#include "answer/answer_rays.h"
+#include "answer/answer_writer.h"
+#include "answer/load_scene.h"
+#include "answer/threads.h"
+#include "api/command_line.h"
+#include "base/rgb.h"
+#include "cli/options.h"
+#include "scene/scene.h"
+#include "transport/transport.h"
+
+namespace rsphere::v1 {
+namespace {
+
+constexpr auto kAskToStop = std::chrono::milliseconds(100);
+// Claims of records for each thread: enough of them that all threads end at nearly the same time.
+constexpr size_t kClaims = 64;
+constexpr size_t kLargestClaim = 256;
+
+static_assert(kBrightnessWeights == std::array{kRedWeight, kGreenWeight, kBlueWeight});
+static_assert(sizeof(Point) == 3 * sizeof(double) && sizeof(Ray) == 6 * sizeof(double));
+
+// Thrown by a thread that finds that the call is to end.
+struct Stopped {};
+
+// Collects the warnings of all threads until the thread that called the library passes them on.
+class Warnings {
+ public:
+  rad::Warn collector() {
+    return [this](std::string_view text) {
+      const std::lock_guard lock(mutex_);
+      texts_.emplace_back(text);
+    };
+  }
+  void passOn(const Warn& warn) {
+    std::vector<std::string> texts;
+    {
+      const std::lock_guard lock(mutex_);
+      texts.swap(texts_);
+    }
+    if (warn)
+      for (const std::string& text : texts) warn(text);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::string> texts_;
+};
+
+// Calls `work` and turns the library's own exceptions into public ones. passWarnings() is called in either
+// case.
+template <typename PassWarnings, typename Work>
+auto guarded(const PassWarnings& passWarnings, const Work& work) {
+  const auto fault = [&](const std::string& text, Error::Cause cause) {
+    passWarnings();
+    return Error(text, cause);
+  };
+  try {
+    auto result = work();
+    passWarnings();
+    return result;
+  } catch (const rad::Error& error) {
+    throw fault(error.what(),
+                error.status() == rad::Status::input ? Error::Cause::input : Error::Cause::system);
+  } catch (const Stopped&) {
+    throw fault("stopped", Error::Cause::stopped);
+  }
+}
+
+// The scene prepared for a set of options. Its warnings come also while it is used.
+struct PreparedScene {
+  PreparedScene(const rsphere::Scene& scene, const rsphere::Options& options)
+      : transport(scene, options.ray, options.irradiance, options.sphere.basicRadiance,
+                  warnings.collector()) {}
+  Warnings warnings;
+  Transport transport;
+};
+
+// What answers the records of one call at a time.
+struct Answerer {
+  Answerer(std::shared_ptr<PreparedScene> prepared, const rsphere::Options& given)
+      : options(given), scene(std::move(prepared)), writer(options), warn(scene->warnings.collector()) {
+    const auto checkStop = [this] {
+      if (stop) throw Stopped();
+    };
+    answer = options.sphereMode
+                 ? answerPoints(scene->transport, options, writer, warn, unreached.emplace(), checkStop)
+                 : answerRays(scene->transport, options, writer, warn);
+  }
+  Answerer(const Answerer&) = delete;
+  Answerer& operator=(const Answerer&) = delete;
+
+  const rsphere::Options options;
+  const std::shared_ptr<PreparedScene> scene;
+  const AnswerWriter writer;
+  const rad::Warn warn;
+  std::optional<Unreached> unreached;
+  std::atomic<bool> stop = false;
+  AnswerRecord answer;
+};
+
+// Receives the answer to a record: bytes as the command writes them.
+using Keep = std::function<void(size_t record, const std::string& bytes)>;
+
+// One call: its records, and the threads that answer them.
+class Call {
+ public:
+  Call(Answerer& answerer, std::span<const double> numbers, const Keep& keep)
+      : answerer_(answerer),
+        numbers_(numbers),
+        keep_(keep),
+        perRecord_(static_cast<size_t>(answerer.options.numbersPerRecord())),
+        records_(numbers.size() / perRecord_) {}
+
+  void run(const std::function<bool()>& stop);
+
+ private:
+  void runThreads();
+  void work(unsigned worker);
+  void answer(size_t index, unsigned worker, std::string& bytes);
+  Record record(size_t index) const;
+  void fail(size_t index);
+
+  Answerer& answerer_;
+  const std::span<const double> numbers_;
+  const Keep& keep_;
+  const size_t perRecord_, records_;
+  size_t claim_ = 1;
+  std::atomic<size_t> next_ = 0;
+  std::mutex mutex_;
+  std::exception_ptr fault_;
+  std::atomic<size_t> faultAt_ = std::numeric_limits<size_t>::max();
+};
+
+void Call::run(const std::function<bool()>& stop) {
+  answerer_.stop = false;
+  if (!stop) {
+    runThreads();
+  } else {
+    std::mutex mutex;
+    std::condition_variable ended;
+    bool done = false;
+    std::exception_ptr fault;
+    std::thread starter([&] {
+      try {
+        runThreads();
+      } catch (...) {
+        fault = std::current_exception();
+      }
+      const std::lock_guard lock(mutex);
+      done = true;
+      ended.notify_one();
+    });
+    try {
+      std::unique_lock lock(mutex);
+      while (!ended.wait_for(lock, kAskToStop, [&] { return done; }))
+        if (!answerer_.stop) answerer_.stop = stop();
+    } catch (...) {  // thrown by stop()
+      answerer_.stop = true;
+      starter.join();
+      throw;
+    }
+    starter.join();
+    if (fault) std::rethrow_exception(fault);
+  }
+  if (fault_) std::rethrow_exception(fault_);
+}
+
+void Call::runThreads() {
+  const unsigned threads = threadCount(answerer_.options.threads);
+  claim_ = std::clamp<size_t>(records_ / (kClaims * threads), 1, kLargestClaim);
+  const size_t claims = (records_ + claim_ - 1) / claim_;
+  runOnThreads(static_cast<unsigned>(std::min<size_t>(threads, claims)),
+               [this](unsigned worker) { work(worker); });
+}
+
+void Call::work(unsigned worker) {
+  std::string bytes;
+  for (size_t first = next_.fetch_add(claim_); first < records_; first = next_.fetch_add(claim_))
+    for (size_t i = first; i < std::min(first + claim_, records_); ++i) {
+      // Records before a faulty one are still answered, so that the first fault is reported whatever the
+      // threads do.
+      if (i > faultAt_) return;
+      try {
+        if (answerer_.stop) throw Stopped();
+        answer(i, worker, bytes);
+      } catch (...) {
+        fail(i);
+      }
+    }
+}
+
+void Call::answer(size_t index, unsigned worker, std::string& bytes) {
+  for (const double number : numbers_.subspan(index * perRecord_, perRecord_))
+    if (!std::isfinite(number))
+      throw rad::Error(fmt::format("{}[{}]: {} is not a finite number",
+                                   answerer_.options.sphereMode ? "points" : "rays", index, number));
+  bytes.clear();
+  answerer_.answer(record(index), worker, bytes);
+  keep_(index, bytes);
+}
+
+Record Call::record(size_t index) const {
+  static constexpr std::array<double, 6> kNone{};
+  const auto numbers = [this](size_t i) { return numbers_.subspan(i * perRecord_, perRecord_); };
+  Record record;
+  record.index = index;
+  record.numbers = numbers(index);
+  record.bogus = !answerer_.options.sphereMode && hasNoDirection(record.numbers);
+  if (!record.bogus) return record;
+  while (index > 0 && hasNoDirection(numbers(index))) --index;
+  record.numbers = hasNoDirection(numbers(index)) ? std::span<const double>(kNone) : numbers(index);
+  return record;
+}
+
+// Keeps the exception that is being handled, if no earlier record has one.
+void Call::fail(size_t index) {
+  const std::lock_guard lock(mutex_);
+  if (index > faultAt_) return;
+  faultAt_ = index;
+  fault_ = std::current_exception();
+}
+
+// A letter of -o and where its answers are kept.
+struct Column {
+  char letter;
+  Quantity* quantity = nullptr;
+  std::vector<std::string>* names = nullptr;
+};
+
+std::vector<Column> columnsOf(RayAnswers& a) {
+  return {{'v', &a.value},
+          {'o', &a.origin},
+          {'d', &a.direction},
+          {'p', &a.point},
+          {'n', &a.normal},
+          {'N', &a.unperturbedNormal},
+          {'L', &a.firstLength},
+          {'l', &a.effectiveLength},
+          {'c', &a.localCoordinates},
+          {'w', &a.weight},
+          {'W', &a.coefficient},
+          {'V', &a.contribution},
+          {'r', &a.mirroredValue},
+          {'R', &a.mirroredLength},
+          {'x', &a.unmirroredValue},
+          {'X', &a.unmirroredLength},
+          {'s', nullptr, &a.surface},
+          {'m', nullptr, &a.modifier},
+          {'M', nullptr, &a.material}};
+}
+
+std::vector<Column> columnsOf(PointAnswers& a) {
+  return {{'v', &a.mean},
+          {'e', &a.meanStandardError},
+          {'E', &a.scalarIrradiance},
+          {'C', &a.cylindricalIrradiance},
+          {'H', &a.faceIrradiance},
+          {'u', &a.lightVector},
+          {'k', &a.directions},
+          {'o', &a.point}};
+}
+
+// The columns of the letters, in their order, with room for the answers.
+std::vector<Column> prepareColumns(const std::vector<Column>& all, const rsphere::Options& options,
+                                   size_t records) {
+  std::vector<Column> columns;
+  for (const char letter : options.outputs) {
+    const auto known =
+        std::find_if(all.begin(), all.end(), [&](const Column& c) { return c.letter == letter; });
+    if (known == all.end()) {
+      columns.push_back({letter});  // a tilde
+      continue;
+    }
+    columns.push_back(*known);
+    if (known->names) {
+      known->names->resize(records);
+      continue;
+    }
+    rsphere::Options alone = options;
+    alone.outputs = letter;
+    known->quantity->columns = static_cast<size_t>(componentCount(alone));
+    known->quantity->numbers.resize(records * known->quantity->columns);
+  }
+  return columns;
+}
+
+// Takes a record apart that AnswerWriter has written as float64: numbers as they are, names with a TAB behind
+// them.
+void takeApart(const std::string& bytes, const std::vector<Column>& columns, size_t record) {
+  const char* at = bytes.data();
+  for (const Column& column : columns) {
+    if (Quantity* const q = column.quantity) {
+      std::memcpy(q->numbers.data() + record * q->columns, at, q->columns * sizeof(double));
+      at += q->columns * sizeof(double);
+      continue;
+    }
+    const char* const end = std::find(at, bytes.data() + bytes.size(), '\t');
+    if (column.names) (*column.names)[record].assign(at, end);
+    at = end + 1;
+  }
+}
+
+}  // namespace
+
+struct Scene::Implementation {
+  explicit Implementation(rsphere::Scene&& read) : scene(std::move(read)) {}
+
+  std::unique_ptr<Answerer> take(const CommandOptions& given);
+  void giveBack(const std::string& key, std::unique_ptr<Answerer> answerer);
+
+  template <typename Answers>
+  Answers answer(std::span<const double> numbers, const Options& options, Records records);
+
+  const rsphere::Scene scene;
+
+ private:
+  // Prepared scenes by CommandOptions::sceneKey, as long as they are in use; and at most one idle answerer
+  // for rays and one for points: those of the last options.
+  struct Idle {
+    std::string key;
+    std::unique_ptr<Answerer> answerer;
+  };
+  std::mutex mutex_;
+  std::vector<std::pair<std::string, std::weak_ptr<PreparedScene>>> prepared_;
+  Idle rays_, points_;
+};
+
+// An answerer for these options: the idle one, or a new one. The scene of another answerer serves as well if
+// the same preparations do.
+std::unique_ptr<Answerer> Scene::Implementation::take(const CommandOptions& given) {
+  std::shared_ptr<PreparedScene> shared;
+  {
+    const std::lock_guard lock(mutex_);
+    Idle& idle = given.options.sphereMode ? points_ : rays_;
+    if (idle.answerer && idle.key == given.key) return std::move(idle.answerer);
+    for (const auto& [key, prepared] : prepared_)
+      if (key == given.sceneKey && !shared) shared = prepared.lock();
+    if (!shared)
+      idle.answerer.reset();  // the memory of the last options is free before that of others is needed
+  }
+  if (!shared) {
+    shared = std::make_shared<PreparedScene>(scene, given.options);
+    const std::lock_guard lock(mutex_);
+    std::erase_if(prepared_, [](const auto& entry) { return entry.second.expired(); });
+    prepared_.emplace_back(given.sceneKey, shared);
+  }
+  return std::make_unique<Answerer>(std::move(shared), given.options);
+}
+
+void Scene::Implementation::giveBack(const std::string& key, std::unique_ptr<Answerer> answerer) {
+  if (!answerer->options.ray.ambientFile.empty())
+    return;  // -af: other processes may read the file between calls
+  const std::lock_guard lock(mutex_);
+  Idle& idle = answerer->options.sphereMode ? points_ : rays_;
+  idle = {key, std::move(answerer)};
+}
+
+template <typename Answers>
+Answers Scene::Implementation::answer(std::span<const double> numbers, const Options& options,
+                                      Records records) {
+  Warnings warnings;
+  std::shared_ptr<PreparedScene> prepared;
+  const auto passWarnings = [&] {
+    if (prepared) prepared->warnings.passOn(options.warn);
+    warnings.passOn(options.warn);
+  };
+  return guarded(passWarnings, [&] {
+    const CommandOptions given = commandOptions(options, records);
+    const rsphere::Options& parsed = given.options;
+    const rad::Warn warn = warnings.collector();
+    for (const std::string& remark : parsed.messages.remarks) warn(remark);
+    Answers answers;
+    answers.size = numbers.size() / static_cast<size_t>(parsed.numbersPerRecord());
+    const std::vector<Column> columns = prepareColumns(columnsOf(answers), parsed, answers.size);
+    const auto keep = [&](size_t record, const std::string& bytes) { takeApart(bytes, columns, record); };
+
+    std::unique_ptr<Answerer> answerer = take(given);
+    prepared = answerer->scene;
+    if (answerer->unreached) answerer->unreached.emplace();
+    Call(*answerer, numbers, keep).run(options.stop);
+    if (answerer->unreached)
+      if (const std::string text = answerer->unreached->summary(parsed.sphere); !text.empty()) warn(text);
+    giveBack(given.key, std::move(answerer));
+    return answers;
+  });
+}
+
+Scene::Scene(const std::vector<std::string>& files, const SceneOptions& options) {
+  Warnings warnings;
+  implementation_ =
+      guarded([&] { warnings.passOn(options.warn); },
+              [&] {
+                if (files.empty())
+                  throw rad::Error("a scene needs at least one file: an octree, scene text or '!command'");
+                AnswerOptions read;
+                read.scene = files;
+                read.commands = options.commands;
+                read.goals = options.goals;
+                return std::make_unique<Implementation>(loadScene(read, warnings.collector()));
+              });
+}
+
+Scene::~Scene() = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+
+RayAnswers Scene::trace(std::span<const Ray> rays, const Options& options) const {
+  const std::span numbers(reinterpret_cast<const double*>(rays.data()), 6 * rays.size());
+  return implementation_->answer<RayAnswers>(numbers, options, Records::rays);
+}
+
+PointAnswers Scene::sphere(std::span<const Point> points, const Options& options) const {
+  const std::span numbers(reinterpret_cast<const double*>(points.data()), 3 * points.size());
+  return implementation_->answer<PointAnswers>(numbers, options, Records::points);
+}
+
+}  // namespace rsphere::v1

@@ -1,0 +1,341 @@
+#include "rsphere/scene.h"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <sstream>
+#include <thread>
+
+namespace {
+
+using rsphere::Error;
+using rsphere::Options;
+using rsphere::Quantity;
+using rsphere::Scene;
+
+const std::string kRoom = std::string(RSPHERE_TESTS) + "/cli/same-bytes-interpolated/small_room.rad";
+const std::string kFurnace = std::string(RSPHERE_TESTS) + "/../examples/minimal/furnace.rad";
+
+// A folder that goes with the test.
+class Folder {
+ public:
+  Folder() { EXPECT_TRUE(mkdtemp(path_.data())); }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ + "/" + name, std::ios::binary) << text;
+    return path_ + "/" + name;
+  }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_ = "/tmp/rsphere_api_XXXXXX";
+};
+
+// The numbers that the command writes for binary records.
+std::vector<double> command(const std::string& program, const std::string& options,
+                            std::span<const double> records) {
+  const Folder folder;
+  const std::string input = folder.write(
+      "in", std::string(reinterpret_cast<const char*>(records.data()), records.size() * sizeof(double)));
+  const std::string output = folder.path() + "/out";
+  const std::string line =
+      std::string(RSPHERE_PROGRAMS) + "/" + program + " -h -fdd " + options + " <" + input + " >" + output;
+  EXPECT_EQ(std::system(line.c_str()), 0) << line;
+  std::ifstream file(output, std::ios::binary);
+  std::stringstream bytes;
+  bytes << file.rdbuf();
+  std::vector<double> numbers(bytes.str().size() / sizeof(double));
+  std::memcpy(numbers.data(), bytes.str().data(), numbers.size() * sizeof(double));
+  return numbers;
+}
+
+// Whether the quantities, side by side, are bit by bit the columns of the command's output.
+void expectSame(const std::vector<double>& wanted, size_t records,
+                const std::vector<const Quantity*>& quantities) {
+  std::vector<double> found;
+  for (size_t i = 0; i < records; ++i)
+    for (const Quantity* q : quantities) found.insert(found.end(), (*q)[i].begin(), (*q)[i].end());
+  ASSERT_EQ(found.size(), wanted.size());
+  EXPECT_EQ(std::memcmp(found.data(), wanted.data(), found.size() * sizeof(double)), 0);
+}
+
+std::vector<rsphere::Ray> someRays() {
+  std::vector<rsphere::Ray> rays;
+  for (int i = 0; i < 60; ++i)
+    rays.push_back({{.1 + i * .04, 1.3, .4 + i * .03}, {std::cos(i), std::sin(i), std::cos(3 * i)}});
+  rays[20].direction = {0, 0, 0};  // as in rtrace: that of the ray before, as if it hit nothing
+  return rays;
+}
+std::span<const double> numbersOf(std::span<const rsphere::Ray> rays) {
+  return {rays[0].origin.data(), 6 * rays.size()};
+}
+std::span<const double> numbersOf(std::span<const rsphere::Point> points) {
+  return {points[0].data(), 3 * points.size()};
+}
+
+std::string faultOf(const std::function<void()>& action, Error::Cause cause = Error::Cause::input) {
+  try {
+    action();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.cause(), cause) << error.what();
+    return error.what();
+  }
+  return "no fault";
+}
+
+TEST(Version, IsThatOfTheHeaders) {
+  const std::string numbers = std::to_string(RSPHERE_VERSION_MAJOR) + "." +
+                              std::to_string(RSPHERE_VERSION_MINOR) + "." +
+                              std::to_string(RSPHERE_VERSION_PATCH);
+  const std::string version = rsphere::version();
+  EXPECT_EQ(version.substr(0, version.find('-')), numbers);
+}
+
+TEST(Scene, RaysHaveTheBytesOfTheCommand) {
+  const Scene scene({kRoom});
+  const std::vector<rsphere::Ray> rays = someRays();
+  Options options;
+  options.ambientBounces = 2;
+  options.ambientDivisions = 16;
+  options.ambientAccuracy = .2;
+  options.limitWeight = 1e-3;
+  options.outputs = "vodpnNLlcwWVrRxX";
+  const rsphere::RayAnswers a = scene.trace(rays, options);
+  ASSERT_EQ(a.size, rays.size());
+  EXPECT_TRUE(a.surface.empty());
+  expectSame(
+      command("rtrace", "-w -ab 2 -ad 16 -aa .2 -lw 1e-3 -ovodpnNLlcwWVrRxX " + kRoom, numbersOf(rays)),
+      a.size,
+      {&a.value, &a.origin, &a.direction, &a.point, &a.normal, &a.unperturbedNormal, &a.firstLength,
+       &a.effectiveLength, &a.localCoordinates, &a.weight, &a.coefficient, &a.contribution, &a.mirroredValue,
+       &a.mirroredLength, &a.unmirroredValue, &a.unmirroredLength});
+}
+
+TEST(Scene, PointsHaveTheBytesOfTheCommand) {
+  const Scene scene({kRoom});
+  const std::vector<rsphere::Point> points{{.5, .5, 1}, {1.5, 2.5, 2}, {2, 1, .3}};
+  Options options;
+  options.ambientBounces = 1;
+  options.directions = 256;
+  options.mostDirections = 600;
+  options.rotation = 3;
+  const rsphere::PointAnswers a = scene.sphere(points, options);
+  EXPECT_EQ(a.point.columns, 0u);
+  EXPECT_EQ(a.faceIrradiance.columns, 18u);
+  expectSame(command("rsphere", "-ab 1 -Sn 256 -Sx 600 -Sr 3 -oveECHuk " + kRoom, numbersOf(points)), a.size,
+             {&a.mean, &a.meanStandardError, &a.scalarIrradiance, &a.cylindricalIrradiance, &a.faceIrradiance,
+              &a.lightVector, &a.directions});
+}
+
+TEST(Scene, TakesAllOptionsOfTheCommand) {
+  const Scene scene({kRoom});
+  const std::vector<rsphere::Ray> rays = someRays();
+  Options options;
+  options.irradianceAtOrigin = true;
+  options.ambientBounces = 3;  // the later one prevails
+  options.arguments = {"-ab", "1", "-u+", "-ds", ".1"};
+  const rsphere::RayAnswers colors = scene.trace(rays, options);
+  options.arguments.push_back("-pY");
+  const rsphere::RayAnswers a = scene.trace(rays, options);
+  EXPECT_EQ(a.value.columns, 1u);
+  expectSame(command("rtrace", "-I -ab 1 -pY -u+ -ds .1 " + kRoom, numbersOf(rays)), a.size, {&a.value});
+  EXPECT_NEAR(rsphere::photometric(colors.value[5]), a.value[5][0], 1e-12 * a.value[5][0]);
+}
+
+TEST(Scene, ColorsWithoutStandardErrors) {
+  const Scene scene({kFurnace});
+  const rsphere::Point point{0, 0, 0};
+  Options options;
+  options.directions = 100;
+  options.arguments = {"-pA"};
+  const rsphere::PointAnswers a = scene.sphere({&point, 1}, options);
+  EXPECT_EQ(a.meanStandardError.columns, 0u);
+  EXPECT_NEAR(a.mean[0][0], 1, 1e-9);
+  options.outputs = "ve";
+  EXPECT_EQ(faultOf([&] { scene.sphere({&point, 1}, options); }).find("-oe needs -pRGB or -pY"), 0u);
+}
+
+TEST(Scene, AnswersDependNeitherOnThreadsNorOnOtherCalls) {
+  const Scene scene({kRoom});
+  const std::vector<rsphere::Ray> rays = someRays();
+  Options options;
+  options.ambientBounces = 2;
+  options.ambientAccuracy = .2;
+  options.ambientDivisions = 64;
+  options.threads = 1;
+  const std::vector<double> wanted = scene.trace(rays, options).value.numbers;
+  EXPECT_EQ(scene.trace(rays, options).value.numbers, wanted);
+  std::vector<std::vector<double>> found(6);
+  {
+    std::vector<std::jthread> callers;
+    for (size_t i = 0; i < found.size(); ++i)
+      callers.emplace_back([&, i] {
+        Options own = options;
+        own.threads = static_cast<int>(i / 2 + 1);
+        found[i] = scene.trace(rays, own).value.numbers;
+      });
+  }
+  for (const auto& numbers : found) EXPECT_EQ(numbers, wanted);
+  Options others;
+  others.rotation = 1;
+  others.ambientBounces = 2;
+  others.ambientDivisions = 64;
+  EXPECT_NE(scene.trace(rays, others).value.numbers, wanted);
+  const rsphere::RayAnswers one = scene.trace({&rays[7], 1}, options);
+  EXPECT_EQ(one.value.numbers, std::vector<double>(wanted.begin() + 21, wanted.begin() + 24));
+}
+
+TEST(Scene, NamesWhatARayHits) {
+  const Scene scene({kRoom});
+  const rsphere::Ray rays[] = {
+      {{1.5, 1.5, 2}, {0, 0, 1}}, {{1.5, 1.5, 2}, {0, 0, -1}}, {{9, 9, 9}, {1, 0, 0}}};
+  Options options;
+  options.outputs = "sL~mM";
+  const rsphere::RayAnswers a = scene.trace(rays, options);
+  EXPECT_EQ(a.surface, (std::vector<std::string>{"ceiling", "ball", "*"}));
+  EXPECT_EQ(a.modifier, (std::vector<std::string>{"wall", "steel", "*"}));
+  EXPECT_EQ(a.material, (std::vector<std::string>{"wall", "steel", "*"}));
+  EXPECT_NEAR(a.firstLength[1][0], .6, 1e-9);
+  EXPECT_EQ(a.firstLength[2][0], 1e10);
+  EXPECT_TRUE(a.value.numbers.empty());
+}
+
+TEST(Scene, TheMeanInAFurnaceIsItsRadiance) {
+  const Scene scene({kFurnace});
+  const rsphere::Point point{0, 0, 0};
+  Options options;
+  options.directions = 100;
+  const rsphere::PointAnswers a = scene.sphere({&point, 1}, options);
+  EXPECT_NEAR(a.mean[0][1], 1, 1e-9);
+  EXPECT_NEAR(a.scalarIrradiance[0][1], std::numbers::pi, 1e-8);
+  EXPECT_NEAR(rsphere::photometric(a.mean[0]), 179, 1e-6);
+  EXPECT_LT(a.meanStandardError[0][1], 1e-6);
+}
+
+TEST(Scene, NothingToAnswer) {
+  const Scene scene({kFurnace});
+  EXPECT_EQ(scene.trace({}).size, 0u);
+  EXPECT_EQ(scene.sphere({}).size, 0u);
+  EXPECT_EQ(scene.sphere({}).mean.columns, 3u);
+}
+
+TEST(Error, HasFileAndLine) {
+  const Folder folder;
+  const std::string file =
+      folder.write("a:b 7.rad", "void plastic grey 0 0 5 .5 .5 .5 0 0\n\nwall sphere ball 0 0 4 0 0 0 1\n");
+  try {
+    const Scene scene({file});
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.cause(), Error::Cause::input);
+    EXPECT_EQ(error.file(), file);
+    EXPECT_EQ(error.line(), 3);
+    EXPECT_EQ(std::string(error.what()).find(file + ":3: undefined modifier \"wall\""), 0u) << error.what();
+  }
+  const Error without("cannot do it at 12:30", Error::Cause::system);
+  EXPECT_EQ(without.file(), "");
+  EXPECT_EQ(without.line(), 0);
+}
+
+TEST(Error, OfFilesThatAreNotThere) {
+  const std::string fault = faultOf([] { Scene({"/no/such/room.rad"}); }, Error::Cause::system);
+  EXPECT_NE(fault.find("/no/such/room.rad"), std::string::npos) << fault;
+  EXPECT_NE(faultOf([] { Scene(std::vector<std::string>{}); }).find("at least one file"), std::string::npos);
+}
+
+TEST(Error, OfOptions) {
+  const Scene scene({kFurnace});
+  const rsphere::Point points[] = {{0, 0, 0}};
+  const auto fault = [&](std::vector<std::string> arguments) {
+    Options options;
+    options.arguments = std::move(arguments);
+    return faultOf([&] { scene.sphere(points, options); });
+  };
+  EXPECT_EQ(fault({"-ab", "x"}).find("command line error at '-ab': \"x\" is not a whole number"), 0u);
+  EXPECT_EQ(fault({"-zz"}).find("command line error at '-zz'"), 0u);
+  EXPECT_EQ(fault({"room.rad"}), "\"room.rad\" is not an option: options begin with a hyphen");
+  for (const std::string option : {"-S", "-Sd", "-Sl", "-Sc"})
+    EXPECT_EQ(fault({option}).find("option '" + option + "': "), 0u) << fault({option});
+  EXPECT_EQ(fault({"-Sg", "goal"}).find("option '-Sg': "), 0u);
+  EXPECT_NE(fault({"-help"}).find("not for the library"), std::string::npos);
+  EXPECT_EQ(fault({"-ov"}), "no fault");
+  Options trees;
+  trees.outputs = "v~tW";
+  EXPECT_EQ(faultOf([&] { scene.trace({}, trees); }).find("option '-ot': "), 0u);
+}
+
+TEST(Error, OfTheFirstRecordThatIsNotFinite) {
+  const Scene scene({kFurnace});
+  std::vector<rsphere::Point> points(50, {0, 0, 0});
+  points[40][1] = std::numeric_limits<double>::infinity();
+  points[17][2] = std::numeric_limits<double>::quiet_NaN();
+  Options options;
+  options.directions = 16;
+  options.threads = 3;
+  for (int repeat = 0; repeat < 5; ++repeat)
+    EXPECT_EQ(faultOf([&] { scene.sphere(points, options); }), "points[17]: nan is not a finite number");
+  points[17][2] = points[40][1] = 0;
+  EXPECT_EQ(scene.sphere(points, options).size, points.size());
+}
+
+TEST(Warn, GetsThemOnTheCallersThread) {
+  const Folder folder;
+  const std::string file =
+      folder.write("dark.rad", "void plastic grey 0 0 5 .5 .5 .5 0 0\ngrey sphere ball 0 0 4 0 0 0 1\n");
+  const Scene scene({file});
+  std::vector<std::string> texts;
+  Options options;
+  options.warn = [&, caller = std::this_thread::get_id()](std::string_view text) {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    texts.emplace_back(text);
+  };
+  const rsphere::Ray rays[] = {{{0, 0, 3}, {0, 0, -1}}};
+  scene.trace(rays, options);
+  EXPECT_EQ(texts, std::vector<std::string>{"no light sources found"});
+}
+
+TEST(SceneOptions, UntrustedScenesRunNoCommands) {
+  const Folder folder;
+  const std::string file = folder.write("scene.rad", "!echo void plastic grey 0 0 5 .5 .5 .5 0 0\n");
+  EXPECT_EQ(faultOf([&] { Scene scene({file}); }), "no fault");
+  rsphere::SceneOptions options;
+  options.commands = false;
+  EXPECT_EQ(faultOf([&] { Scene scene({file}, options); }).find(file + ":1: "), 0u);
+}
+
+TEST(SceneOptions, GoalsEmit) {
+  rsphere::SceneOptions options;
+  options.goals = {"steel"};
+  const Scene scene({kRoom}, options);
+  const rsphere::Ray rays[] = {{{1.5, 1.5, 2}, {0, 0, -1}}};
+  EXPECT_GE(scene.trace(rays).value[0][0], 1);
+}
+
+TEST(Stop, EndsACall) {
+  const Scene scene({kRoom});
+  const std::vector<rsphere::Point> points(100000, {1, 1, 1});
+  Options options;
+  options.ambientBounces = 2;
+  int asked = 0;
+  options.stop = [&, caller = std::this_thread::get_id()] {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    return ++asked > 2;
+  };
+  EXPECT_EQ(faultOf([&] { scene.sphere(points, options); }, Error::Cause::stopped), "stopped");
+  EXPECT_EQ(asked, 3);
+  // The scene is as good as before, and a call that is not stopped has its answers.
+  options.stop = [] { return false; };
+  options.directions = 64;
+  EXPECT_EQ(scene.sphere(std::span(points).first(2), options).size, 2u);
+}
+
+}  // namespace
