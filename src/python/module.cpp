@@ -1,0 +1,229 @@
+// The module rsphere of Python: NumPy arrays in and out, by the public library alone.
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "python/options.h"
+#include "rsphere/scene.h"
+
+namespace py = pybind11;
+
+namespace rsphere::python {
+namespace {
+
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+// Calls `work` without the lock of the interpreter. Warnings become Python's. Ctrl-C ends the work.
+template <typename SomeOptions, typename Work>
+auto withoutLock(SomeOptions& options, const Work& work) {
+  std::vector<std::string> warnings;
+  options.warn = [&](std::string_view text) { warnings.emplace_back(text); };
+  const auto issue = [&] {
+    for (const std::string& text : warnings)
+      if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
+  };
+  try {
+    auto result = [&] {
+      const py::gil_scoped_release released;
+      return work();
+    }();
+    issue();
+    return result;
+  } catch (const Error& error) {
+    if (error.cause() == Error::Cause::stopped && PyErr_Occurred()) throw py::error_already_set();
+    issue();
+    throw;
+  }
+}
+
+// Whether a signal has come for which Python has an exception, as KeyboardInterrupt.
+bool interrupted() {
+  const py::gil_scoped_acquire lock;
+  return PyErr_CheckSignals() != 0;
+}
+
+// The array of a quantity, which takes its memory over: one row for each record, divided into faces if there
+// are any; one number instead of a row of one. None if the quantity was not asked for.
+py::object arrayOf(Quantity&& quantity, size_t records, size_t faces = 0) {
+  if (quantity.columns == 0) return py::none();
+  std::vector<size_t> shape{records};
+  const size_t columns = faces > 0 ? quantity.columns / faces : quantity.columns;
+  if (faces > 0) shape.push_back(faces);
+  if (columns > 1) shape.push_back(columns);
+  auto* const numbers = new std::vector<double>(std::move(quantity.numbers));
+  const py::capsule owner(numbers, [](void* p) { delete static_cast<std::vector<double>*>(p); });
+  return py::array_t<double>(shape, numbers->data(), owner);
+}
+
+py::object arrayOf(const std::vector<std::string>& names) {
+  if (names.empty()) return py::none();
+  return py::module_::import("numpy").attr("array")(names);
+}
+
+// The records of an array as structs of doubles.
+template <typename Record>
+std::span<const Record> recordsOf(const Numbers& array, const char* name) {
+  constexpr py::ssize_t kColumns = sizeof(Record) / sizeof(double);
+  if (array.ndim() != 2 || array.shape(1) != kColumns)
+    throw py::value_error(std::string(name) + " must be an array of shape (n, " + std::to_string(kColumns) +
+                          ")");
+  return {reinterpret_cast<const Record*>(array.data()), static_cast<size_t>(array.shape(0))};
+}
+
+py::object answersObject(const py::dict& arrays) {
+  return py::module_::import("types").attr("SimpleNamespace")(**arrays);
+}
+
+py::object trace(const Scene& scene, const Numbers& array, const py::kwargs& keywords) {
+  const std::span<const Ray> rays = recordsOf<Ray>(array, "rays");
+  Options options = optionsOf(keywords);
+  options.stop = interrupted;
+  RayAnswers a = withoutLock(options, [&] { return scene.trace(rays, options); });
+  py::dict arrays;
+  arrays["value"] = arrayOf(std::move(a.value), a.size);
+  arrays["origin"] = arrayOf(std::move(a.origin), a.size);
+  arrays["direction"] = arrayOf(std::move(a.direction), a.size);
+  arrays["point"] = arrayOf(std::move(a.point), a.size);
+  arrays["normal"] = arrayOf(std::move(a.normal), a.size);
+  arrays["unperturbed_normal"] = arrayOf(std::move(a.unperturbedNormal), a.size);
+  arrays["first_length"] = arrayOf(std::move(a.firstLength), a.size);
+  arrays["effective_length"] = arrayOf(std::move(a.effectiveLength), a.size);
+  arrays["local_coordinates"] = arrayOf(std::move(a.localCoordinates), a.size);
+  arrays["weight"] = arrayOf(std::move(a.weight), a.size);
+  arrays["coefficient"] = arrayOf(std::move(a.coefficient), a.size);
+  arrays["contribution"] = arrayOf(std::move(a.contribution), a.size);
+  arrays["mirrored_value"] = arrayOf(std::move(a.mirroredValue), a.size);
+  arrays["mirrored_length"] = arrayOf(std::move(a.mirroredLength), a.size);
+  arrays["unmirrored_value"] = arrayOf(std::move(a.unmirroredValue), a.size);
+  arrays["unmirrored_length"] = arrayOf(std::move(a.unmirroredLength), a.size);
+  arrays["surface"] = arrayOf(a.surface);
+  arrays["modifier"] = arrayOf(a.modifier);
+  arrays["material"] = arrayOf(a.material);
+  return answersObject(arrays);
+}
+
+py::object sphere(const Scene& scene, const Numbers& array, const py::kwargs& keywords) {
+  const std::span<const Point> points = recordsOf<Point>(array, "points");
+  Options options = optionsOf(keywords);
+  options.stop = interrupted;
+  PointAnswers a = withoutLock(options, [&] { return scene.sphere(points, options); });
+  py::dict arrays;
+  arrays["mean"] = arrayOf(std::move(a.mean), a.size);
+  arrays["mean_standard_error"] = arrayOf(std::move(a.meanStandardError), a.size);
+  arrays["scalar_irradiance"] = arrayOf(std::move(a.scalarIrradiance), a.size);
+  arrays["cylindrical_irradiance"] = arrayOf(std::move(a.cylindricalIrradiance), a.size);
+  arrays["face_irradiance"] = arrayOf(std::move(a.faceIrradiance), a.size, 6);
+  arrays["light_vector"] = arrayOf(std::move(a.lightVector), a.size);
+  arrays["directions"] = arrayOf(std::move(a.directions), a.size);
+  arrays["point"] = arrayOf(std::move(a.point), a.size);
+  if (!arrays["directions"].is_none()) arrays["directions"] = arrays["directions"].attr("astype")("int64");
+  return answersObject(arrays);
+}
+
+std::unique_ptr<Scene> readScene(const py::object& files, bool commands,
+                                 const std::vector<std::string>& goals) {
+  SceneOptions options;
+  options.commands = commands;
+  options.goals = goals;
+  const std::vector<std::string> paths = pathsOf(files);
+  return withoutLock(options, [&] { return std::make_unique<Scene>(paths, options); });
+}
+
+py::object photometricOf(const py::object& color) {
+  const py::module_ numpy = py::module_::import("numpy");
+  return numpy.attr("dot")(color, numpy.attr("array")(kBrightnessWeights)) * py::float_(kLumensPerWatt);
+}
+
+// Makes the exception rsphere.Error, with the members of the library's.
+void addError(py::module_& m) {
+  static PyObject* type = nullptr;  // lives as long as the interpreter
+  type = PyErr_NewExceptionWithDoc(
+      "rsphere.Error",
+      "A fault in the scene, the options or the records. Its text begins with the place: room.rad:12: ...\n\n"
+      "file, line: that place; None and None if the fault has none.\n"
+      "cause: 'input', or 'system' if a file cannot be opened or memory or threads are short.",
+      PyExc_Exception, nullptr);
+  m.attr("Error") = py::handle(type);
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const Error& error) {
+      const py::object instance = py::handle(type)(error.what());
+      instance.attr("file") = error.file().empty() ? py::object(py::none()) : py::str(error.file());
+      instance.attr("line") = error.line() == 0 ? py::object(py::none()) : py::int_(error.line());
+      instance.attr("cause") = error.cause() == Error::Cause::input ? "input" : "system";
+      PyErr_SetObject(type, instance.ptr());
+    }
+  });
+}
+
+constexpr const char* kModule = R"(Light in scenes of RADIANCE's format: along rays and at points.
+
+    scene = rsphere.Scene(["sky.rad", "room.rad"])
+    answers = scene.sphere([[4, 2.6, 1.2]], ambient_bounces=5)
+    rsphere.photometric(answers.scalar_irradiance)  # lx
+
+Calls use all cores, release the lock of the interpreter, and end with KeyboardInterrupt on Ctrl-C. Answers do
+not depend on the number of threads. Warnings about the scene are UserWarning.)";
+
+constexpr const char* kScene = R"(A scene, read from files.
+
+files: one octree, or scene files in their order, or '!command'; one path or a list.
+commands: False if the scene is untrusted: its !commands are refused, and so are files outside its folders and
+RAYPATH.
+goals: modifiers of goals; their surfaces emit importance 1, all others nothing.
+Raises rsphere.Error.)";
+
+constexpr const char* kOptions = R"(
+Options by name: ambient_bounces, ambient_accuracy, ambient_divisions, ambient_super_samples,
+ambient_resolution, ambient_value, limit_reflections, limit_weight, rotation, irradiance_at_origin,
+irradiance_at_surface, directions, most_directions, accuracy, outputs (letters of -o), threads (0: one for
+each core), arguments (a list of words as on the command line). Any other option of the command is a keyword
+without its hyphen: ab=5, av=(.1, .1, .1), dv=False; as_=512 is -as 512. Options that are neither switches nor
+have values, such as -pY, go into arguments=["-pY"].
+
+Calls that repeat the same options are fast; only threads, outputs and colors may differ.
+Raises rsphere.Error.)";
+
+constexpr const char* kTrace = R"(Traces rays: an array of shape (n, 6), origins and directions.
+
+Returns an object with an array for each letter of outputs ("v" if not given), and None for others:
+v value (n, 3): radiance (W/sr/m2), or irradiance (W/m2) with irradiance_at_origin (-I) or
+irradiance_at_surface (-i); o origin, d direction, p point, n normal, N unperturbed_normal, L first_length, l effective_length,
+c local_coordinates, w weight, W coefficient, V contribution, r mirrored_value, R mirrored_length,
+x unmirrored_value, X unmirrored_length, s surface, m modifier, M material.
+)";
+
+constexpr const char* kSphere = R"(Computes what passes through points from all directions: an array (n, 3).
+
+Returns an object with an array for each letter of outputs ("veECHuk" if not given), and None for others. F is
+the integral of radiance over 4 pi sr.
+v mean (n, 3): F/(4 pi) (W/sr/m2), e mean_standard_error: that of mean, estimated,
+E scalar_irradiance: F/4 (W/m2; its standard error is pi times that of mean), C cylindrical_irradiance,
+H face_irradiance (n, 6, 3): +x -x +y -y +z -z, u light_vector, k directions, o point.
+)";
+
+}  // namespace
+
+PYBIND11_MODULE(rsphere, m) {
+  m.doc() = kModule;
+  m.attr("__version__") = version();
+  addError(m);
+  const std::string traceText = std::string(kTrace) + kOptions, sphereText = std::string(kSphere) + kOptions;
+  py::class_<Scene>(m, "Scene", kScene)
+      .def(py::init(&readScene), py::arg("files"), py::kw_only(), py::arg("commands") = true,
+           py::arg("goals") = std::vector<std::string>())
+      .def("trace", &trace, py::arg("rays"), traceText.c_str())
+      .def("sphere", &sphere, py::arg("points"), sphereText.c_str());
+  m.def("photometric", &photometricOf, py::arg("color"),
+        "Turns colors (..., 3) of radiance (W/sr/m2) into luminance (cd/m2), and of irradiance (W/m2) into "
+        "illuminance (lx).");
+  m.attr("LUMENS_PER_WATT") = kLumensPerWatt;
+}
+
+}  // namespace rsphere::python

@@ -1,0 +1,283 @@
+"""The module rsphere: the same bytes as the commands, arrays, exceptions, warnings, threads, Ctrl-C.
+
+test_rsphere.py PROGRAMS: the folder of rsphere and rtrace. PYTHONPATH has the folder of the module.
+"""
+import contextlib
+import io
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import warnings
+
+import numpy as np
+
+import rsphere
+
+TESTS = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+ROOM = os.path.join(TESTS, "cli/same-bytes-interpolated/small_room.rad")
+FURNACE = os.path.join(TESTS, "../examples/minimal/furnace.rad")
+PROGRAMS = sys.argv.pop(1) if len(sys.argv) > 1 else "build/bin"
+
+
+def command(program, options, records):
+    """The numbers that the command writes for binary records."""
+    words = [os.path.join(PROGRAMS, program), "-h", "-fdd", *options, ROOM]
+    records = np.ascontiguousarray(records, dtype=np.float64)
+    return subprocess.run(words, input=records.tobytes(), stdout=subprocess.PIPE, check=True).stdout
+
+
+def some_rays(count=50):
+    i = np.arange(count)
+    position = np.stack([0.1 + i * 0.04, np.full(count, 1.3), 0.4 + i * 0.03], axis=1)
+    return np.hstack([position, np.stack([np.cos(i), np.sin(i), np.cos(3 * i)], axis=1)])
+
+
+POINTS = np.array([[0.5, 0.5, 1], [1.5, 2.5, 2], [2, 1, 0.3]])
+
+
+class SameBytes(unittest.TestCase):
+    def test_rays(self):
+        scene = rsphere.Scene(ROOM)
+        answers = scene.trace(some_rays(), ambient_bounces=2, ad=16, as_=0, aa=0.2, av=(0.1, 0.2, 0.1), outputs="vpl")
+        found = np.hstack([answers.value, answers.point, answers.effective_length[:, None]])
+        options = "-ab 2 -ad 16 -as 0 -aa 0.2 -av 0.1 0.2 0.1 -ovpl".split()
+        self.assertEqual(found.tobytes(), command("rtrace", options, some_rays()))
+
+    def test_points(self):
+        scene = rsphere.Scene([ROOM])
+        answers = scene.sphere(POINTS, ambient_bounces=1, directions=256, most_directions=600, rotation=3)
+        columns = [
+            answers.mean,
+            answers.mean_standard_error,
+            answers.scalar_irradiance,
+            answers.cylindrical_irradiance,
+            answers.face_irradiance.reshape(3, 18),
+            answers.light_vector,
+            answers.directions[:, None].astype(float),
+        ]
+        options = "-ab 1 -Sn 256 -Sx 600 -Sr 3 -oveECHuk".split()
+        self.assertEqual(np.hstack(columns).tobytes(), command("rsphere", options, POINTS))
+        self.assertIsNone(answers.point)
+        self.assertEqual(answers.directions.dtype, np.int64)
+
+    def test_switches_and_words(self):
+        scene = rsphere.Scene(ROOM)
+        answers = scene.trace(some_rays(), I=True, dv=False, threads=3, arguments=["-ab", "1", "-pY"])
+        self.assertEqual(answers.value.shape, (50,))
+        options = "-I -dv- -ab 1 -pY".split()
+        self.assertEqual(answers.value.tobytes(), command("rtrace", options, some_rays()))
+
+
+class Arrays(unittest.TestCase):
+    def test_other_layouts_and_types(self):
+        scene = rsphere.Scene(ROOM)
+        wanted = scene.trace(some_rays()).value
+        np.testing.assert_array_equal(scene.trace(np.asfortranarray(some_rays())).value, wanted)
+        np.testing.assert_array_equal(scene.trace(some_rays().tolist()).value, wanted)
+        np.testing.assert_array_equal(scene.trace(some_rays(100)[::2][:3]).value, scene.trace(some_rays(6)[::2]).value)
+
+    def test_names(self):
+        answers = rsphere.Scene(ROOM).trace([[1.5, 1.5, 2, 0, 0, 1], [9, 9, 9, 1, 0, 0]], outputs="smL")
+        self.assertEqual(answers.surface.tolist(), ["ceiling", "*"])
+        self.assertEqual(answers.modifier.tolist(), ["wall", "*"])
+        self.assertEqual(answers.first_length.tolist(), [0.5, 1e10])
+        self.assertIsNone(answers.value)
+
+    def test_no_records(self):
+        scene = rsphere.Scene(ROOM)
+        self.assertEqual(scene.trace(np.empty((0, 6))).value.shape, (0, 3))
+        self.assertEqual(scene.sphere(np.empty((0, 3))).face_irradiance.shape, (0, 6, 3))
+
+    def test_answers_outlive_the_scene(self):
+        answers = rsphere.Scene(ROOM).trace([[1.5, 1.5, 2, 0, 0, 1]], outputs="p")
+        np.testing.assert_array_equal(answers.point, [[1.5, 1.5, 2.5]])
+
+    def test_photometric(self):
+        scene = rsphere.Scene(ROOM)
+        colors = scene.sphere(POINTS, directions=64, outputs="EH")
+        lux = scene.sphere(POINTS, directions=64, outputs="EH", arguments=["-pY"])
+        np.testing.assert_allclose(rsphere.photometric(colors.scalar_irradiance), lux.scalar_irradiance, rtol=1e-12)
+        np.testing.assert_allclose(rsphere.photometric(colors.face_irradiance), lux.face_irradiance, rtol=1e-12)
+
+    def test_the_standard_error_is_that_of_repeats(self):
+        scene = rsphere.Scene(ROOM)
+        repeats = [scene.sphere(POINTS[:1], ab=1, Sn=256, Sx=512, Sr=i) for i in range(1, 61)]
+        spread = np.std([r.mean[0, 1] for r in repeats], ddof=1)
+        stated = np.sqrt(np.mean([r.mean_standard_error[0, 1] ** 2 for r in repeats]))
+        # The spread of 60 repeats is known to 9%, and the estimate errs to the safe side.
+        self.assertGreater(stated, 0.65 * spread)
+        self.assertLess(stated, 2.5 * spread)
+
+
+class Faults(unittest.TestCase):
+    def test_place(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "room.rad")
+            with open(path, "w") as file:
+                file.write("void plastic grey 0 0 5 .5 .5 .5 0 0\n\nwall sphere ball 0 0 4 0 0 0 1\n")
+            with self.assertRaises(rsphere.Error) as caught:
+                rsphere.Scene([path])
+        error = caught.exception
+        self.assertTrue(str(error).startswith(path + ':3: undefined modifier "wall"'), str(error))
+        self.assertEqual((error.file, error.line, error.cause), (path, 3, "input"))
+
+    def test_system(self):
+        with self.assertRaises(rsphere.Error) as caught:
+            rsphere.Scene("/no/such/room.rad")
+        error = caught.exception
+        self.assertEqual((error.file, error.line, error.cause), (None, None, "system"))
+
+    def test_options(self):
+        scene = rsphere.Scene(FURNACE)
+        for options, text in [
+            ({"zz": 3}, "command line error at '-zz': there is no such option"),
+            ({"ab": "x"}, "command line error at '-ab': \"x\" is not a whole number"),
+            ({"arguments": ["-Sg", "goal"]}, "option '-Sg': "),
+        ]:
+            with self.assertRaisesRegex(rsphere.Error, "^" + text):
+                scene.trace([[0, 0, 0, 1, 0, 0]], **options)
+        with self.assertRaisesRegex(TypeError, "^threads has a value of the wrong type: 'x'"):
+            scene.sphere([[0, 0, 0]], threads="x")
+
+    def test_records(self):
+        scene = rsphere.Scene(FURNACE)
+        with self.assertRaisesRegex(ValueError, r"^points must be an array of shape \(n, 3\)"):
+            scene.sphere([[0, 0, 0, 1]])
+        with self.assertRaisesRegex(rsphere.Error, r"^points\[1\]: nan is not a finite number"):
+            scene.sphere([[0, 0, 0], [0, np.nan, 0]])
+
+    def test_untrusted(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "scene.rad")
+            with open(path, "w") as file:
+                file.write("!echo void plastic grey 0 0 5 .5 .5 .5 0 0\n")
+            rsphere.Scene(path)
+            with self.assertRaises(rsphere.Error) as caught:
+                rsphere.Scene(path, commands=False)
+            self.assertEqual(caught.exception.line, 1)
+
+    def test_warnings(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "dark.rad")
+            with open(path, "w") as file:
+                file.write("void plastic grey 0 0 5 .5 .5 .5 0 0\ngrey sphere ball 0 0 4 0 0 0 1\n")
+            scene = rsphere.Scene(path)
+            with self.assertWarnsRegex(UserWarning, "^no light sources found$"):
+                scene.trace([[0, 0, 3, 0, 0, -1]])
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                with self.assertRaises(UserWarning):
+                    scene.trace([[0, 0, 3, 0, 0, -1]], ab=1)
+
+
+class Threads(unittest.TestCase):
+    def test_others_run_during_a_call(self):
+        """While one thread computes, others count and compute: the lock of the interpreter is released."""
+        scene = rsphere.Scene(ROOM)
+        points = np.tile(POINTS, (40, 1))
+        wanted = scene.sphere(points[:3], ab=1, threads=1).mean
+        done = threading.Event()
+        found = {}
+
+        def compute(name, count):
+            found[name] = scene.sphere(points[:count], ab=1, threads=1).mean
+            if name == "long":
+                done.set()
+
+        threads = [threading.Thread(target=compute, args=("long", 120))]
+        threads[0].start()
+        steps = 0
+        while not done.is_set():
+            if steps == 5:
+                threads.append(threading.Thread(target=compute, args=("short", 3)))
+                threads[1].start()
+            steps += 1
+            time.sleep(0.001)
+        for thread in threads:
+            thread.join()
+        self.assertGreater(steps, 10)
+        np.testing.assert_array_equal(found["short"], wanted)
+        np.testing.assert_array_equal(found["long"], np.tile(wanted, (40, 1)))
+
+    def test_control_c(self):
+        scene = rsphere.Scene(ROOM)
+        timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            scene.sphere(np.tile(POINTS, (100000, 1)), ab=2)
+        timer.join()
+        self.assertEqual(scene.sphere(POINTS, Sn=64).mean.shape, (3, 3))
+
+
+class Page(unittest.TestCase):
+    """examples/python/README.md: its program runs, and what takes the place of rtrace has rtrace's numbers."""
+
+    def test_program_and_lines(self):
+        with open(os.path.join(TESTS, "../examples/python/README.md")) as file:
+            page = file.read()
+        program = re.search(r"```python\n(.*?)```", page, re.S).group(1)
+        lines = re.findall(r"\| `([^|`]*scene\.trace[^|`]*)` \|$", page, re.M)
+        self.assertEqual(len(lines), 6)
+        rays, options = some_rays(), "-ab 1 -ad 32 -fdd -h".split()
+        wanted = command("rtrace", ["-ab", "1", "-ad", "32"], rays)
+        lux = command("rtrace", ["-ab", "1", "-ad", "32", "-I"], rays)
+        before = os.getcwd()
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()) as printed:
+            os.chdir(folder)
+            try:
+                shutil.copy(ROOM, "room.rad")
+                np.savetxt("grid.pts", rays, fmt="%r")
+                exec(program, {})  # pylint: disable=exec-used
+                values = {
+                    "scene": rsphere.Scene("room.rad"),
+                    "rsphere": rsphere,
+                    "np": np,
+                    "rays": rays,
+                    "vecs": rays,
+                    "text": "\n".join(" ".join(map(repr, row)) for row in rays.tolist()),
+                    "options": options,
+                    "args": " ".join(options),
+                }
+                pyradiance, sensors, frads, honeybee, raytraverse, process = [eval(line, values) for line in lines]
+            finally:
+                os.chdir(before)
+        self.assertEqual(printed.getvalue().count("["), 8)
+        for found in (pyradiance, raytraverse, process):
+            self.assertEqual(found.tobytes(), wanted)
+        self.assertEqual(sensors.tobytes(), lux)
+        self.assertEqual(frads.tobytes(), command("rtrace", "-av .31831 .31831 .31831".split(), rays))
+        np.testing.assert_array_equal(honeybee, rsphere.photometric(sensors))
+
+    def test_script(self):
+        script = os.path.join(TESTS, "../examples/python/sensor_grid.py")
+        with tempfile.TemporaryDirectory() as folder:
+            output = os.path.join(folder, "grid.npz")
+            words = [sys.executable, script, ROOM, "--corners", "0", "0", "3", "1.5", "--output", output, "--bounces", "1"]
+            text = subprocess.run(words, stdout=subprocess.PIPE, check=True).stdout.decode()
+            with np.load(output) as arrays:
+                lux, sensors = arrays["lux"], arrays["sensors"]
+        self.assertEqual((lux.shape, sensors.shape), ((3, 6), (18, 6)))
+        options = "-I -ab 1 -ad 1024 -as 512 -aa .1 -ar 64 -lw 1e-4".split()
+        colors = np.frombuffer(command("rtrace", options, sensors)).reshape(18, 3)
+        np.testing.assert_allclose(lux.ravel(), rsphere.photometric(colors), rtol=1e-12)
+        self.assertRegex(text, rf"\naverage {lux.mean():.0f} lx, .*\neyes in the middle: cylindrical [1-9]")
+        fault = subprocess.run([*words[:2], "/none.rad", *words[3:]], stderr=subprocess.PIPE, check=False)
+        self.assertEqual(fault.returncode, 1)
+        self.assertTrue(fault.stderr.startswith(b"sensor_grid.py: /none.rad: cannot open"), fault.stderr)
+
+
+class Version(unittest.TestCase):
+    def test_is_that_of_the_command(self):
+        line = subprocess.run([os.path.join(PROGRAMS, "rsphere"), "-version"], stdout=subprocess.PIPE, check=True).stdout
+        self.assertEqual(line.decode().split()[:2], ["rsphere", rsphere.__version__])
+
+
+if __name__ == "__main__":
+    unittest.main()
