@@ -164,6 +164,27 @@ TEST(Scene, ColorsWithoutStandardErrors) {
   EXPECT_EQ(faultOf([&] { scene.sphere({&point, 1}, options); }).find("-oe needs -pRGB or -pY"), 0u);
 }
 
+// Function files, data and pictures are read when a ray first meets them.
+TEST(Scene, ThreadsMeetAPatternForTheFirstTimeTogether) {
+  setenv("RAYPATH", (std::string(RSPHERE_TESTS) + "/scenes/patterns").c_str(), 1);
+  const Folder folder;
+  const std::string file =
+      folder.write("painted.rad",
+                   "void colorpict P\n7 red green blue small.hdr . Px/4+.5 Py/4+.5\n0\n0\n"
+                   "P mixfunc N\n4 void void wave shading.cal\n0\n0\nN glow M\n0\n0\n4 1 1 1 0\n"
+                   "M polygon floor\n0\n0\n12 -4 -4 0 4 -4 0 4 4 0 -4 4 0\n");
+  const std::vector<rsphere::Ray> rays(8, {{1, 1.5, 3}, {0, 0, -1}});
+  for (int round = 0; round < 10; ++round) {
+    const Scene scene({file});
+    Options options;
+    options.threads = 4;
+    const auto answers = scene.trace(rays, options);
+    EXPECT_GT(answers.value[0][0], 0);
+    for (size_t i = 1; i < rays.size(); ++i) EXPECT_EQ(answers.value[i][0], answers.value[0][0]);
+  }
+  unsetenv("RAYPATH");
+}
+
 TEST(Scene, AnswersDependNeitherOnThreadsNorOnOtherCalls) {
   const Scene scene({kRoom});
   const std::vector<rsphere::Ray> rays = someRays();
