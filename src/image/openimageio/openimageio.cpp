@@ -11,6 +11,9 @@
 namespace rsphere {
 namespace {
 
+// No threads of its own: -n says how many there are, and pictures are small.
+[[maybe_unused]] const bool kOneThread = OIIO::attribute("threads", 1);
+
 std::string formatOf(const std::string& name, std::string& format) {
   const auto output = OIIO::ImageOutput::create(name);
   if (!output) return OIIO::geterror();

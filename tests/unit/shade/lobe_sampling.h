@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "base/constants.h"
 #include "shade/scattering.h"
 #include "tests/unit/support/statistics.h"
 
@@ -26,7 +26,6 @@ inline Interaction arriving(double cosine) {
 template <class Draw, class Density>
 double samplingSigmas(const V3d& middle, double widest, uint64_t seed, const Draw& draw,
                       const Density& density) {
-  constexpr double kPi = std::numbers::pi;
   constexpr int kRows = 40, kColumns = 24, kFine = 24;
   std::vector<double> counts(kRows * kColumns + 1, 0.), expected(kRows * kColumns + 1, 0.);
   V3d x, y;
