@@ -15,32 +15,32 @@ namespace rsphere {
 
 // plastic: uncoloured highlights. metal: highlights have the material's colour.
 struct Opaque {
-  Rgb color;
+  Rgb color{0, 0, 0};
   double specularity = 0;  // fraction reflected specularly
   double roughness = 0;    // rms slope of the facets; 0: perfect mirror reflection
   bool metal = false;
 };
 struct Trans {
-  Rgb color;
+  Rgb color{0, 0, 0};
   double specularity = 0, roughness = 0;
   double transmissivity = 0;       // fraction of the light not reflected specularly that passes
   double transmittedSpecular = 0;  // fraction of the transmitted light that is not scattered
 };
 // The surface of a solid, with Fresnel reflection and absorption per unit length.
 struct Dielectric {
-  Rgb transmission;  // per unit length
+  Rgb transmission{0, 0, 0};  // per unit length
   double refraction = 1;
   double hartmann = 0;  // dispersion constant, nm
 };
 struct Interface {
-  Rgb innerTransmission;
+  Rgb innerTransmission{0, 0, 0};
   double innerRefraction = 1;
-  Rgb outerTransmission;
+  Rgb outerTransmission{0, 0, 0};
   double outerRefraction = 1;
 };
 // A thin pane. transmissivity: of one passage at normal incidence, without the reflections.
 struct Glass {
-  Rgb transmissivity;
+  Rgb transmissivity{0, 0, 0};
   double refraction = 1.52;
 };
 
@@ -50,7 +50,7 @@ struct Glass {
 // plastic2, metal2 and trans2: elliptical highlights. The functions give a direction, which is projected onto
 // the surface; the roughnesses along it and across it are both above 0.
 struct Anisotropic {
-  Rgb color;
+  Rgb color{0, 0, 0};
   double specularity = 0;
   double roughnessAlong = 0, roughnessAcross = 0;
   bool metal = false;
@@ -60,14 +60,14 @@ struct Anisotropic {
 };
 // ashik2: the higher the powers, the smoother the surface. The diffuse and specular colours add up.
 struct Ashikhmin {
-  Rgb diffuse, specular;
+  Rgb diffuse{0, 0, 0}, specular{0, 0, 0};
   double powerAlong = 0, powerAcross = 0;
   ModifierId functions = kNone;
 };
 // plasfunc, metfunc, transfunc, plasdata, metdata and transdata: the specular component is scattered
 // according to a function of the direction to a light source.
 struct FunctionScatterer {
-  Rgb color;
+  Rgb color{0, 0, 0};
   double specularity = 0;
   bool metal = false;
   double transmissivity = 0, transmittedSpecular = 0;
@@ -75,7 +75,7 @@ struct FunctionScatterer {
 };
 // BRTDfunc. Arguments that are numbers are evaluated here; the others are known only at a hit.
 struct BrtdFunction {
-  Rgb diffuseFront, diffuseBack, diffuseTransmitted;
+  Rgb diffuseFront{0, 0, 0}, diffuseBack{0, 0, 0}, diffuseTransmitted{0, 0, 0};
   bool transmits = true;     // sharply: some transmission argument is not "0"
   bool directional = true;   // some distribution function is not "0"
   double mostReflected = 1;  // upper bound of the sharp reflection of either side; 1 if functions decide
@@ -89,7 +89,7 @@ struct WgmdFunction {
     double share = 1, roughnessAlong = 0, roughnessAcross = 0;
     std::optional<ModifierId> modifier;  // kNone: void; empty: the material's
   };
-  Rgb diffuseFront, diffuseBack, diffuseTransmitted;
+  Rgb diffuseFront{0, 0, 0}, diffuseBack{0, 0, 0}, diffuseTransmitted{0, 0, 0};
   Lobe reflected, transmitted;
   std::optional<ModifierId> diffuseTransmittedModifier;
   bool transmits = true;  // the specular transmission is not "0"
@@ -110,7 +110,7 @@ struct Alternate {
   ModifierId modifier = kNone;  // for Kind::modifier
 };
 struct Mirror {
-  Rgb reflectance;
+  Rgb reflectance{0, 0, 0};
   Alternate alternate;
 };
 
@@ -137,21 +137,21 @@ struct Mist {
 };
 
 struct Light {
-  Rgb radiance;  // W/sr/m2
+  Rgb radiance{0, 0, 0};  // W/sr/m2
 };
 struct Illum {
-  Rgb radiance;
+  Rgb radiance{0, 0, 0};
   Alternate alternate;  // Kind::none also lets rays pass
 };
 // reach (world units): beyond this distance it is not sampled as a light source and lights only by indirect
 // rays that happen to hit it. 0: it lights in this way alone, at any distance. Negative: it does not light
 // the scene and is only seen directly.
 struct Glow {
-  Rgb radiance;
+  Rgb radiance{0, 0, 0};
   double reach = 0;
 };
 struct Spotlight {
-  Rgb radiance;
+  Rgb radiance{0, 0, 0};
   double solidAngle = 0;   // of the cone, sr
   V3d aim{0, 0, 1};        // unit
   double focalLength = 0;  // length of the aim vector as given: the focus lies this far behind the surface
