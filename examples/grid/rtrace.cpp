@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "base/rgb.h"
+#include "base/color.h"
 #include "rad_parser/error.h"
 
 namespace grid {
@@ -69,7 +69,7 @@ std::vector<double> traceIlluminances(std::span<const Imath::V3d> points, const 
   std::vector<double> illuminances;
   {
     const File answers(fdopen(pipe[0], "r"), std::fclose);
-    rsphere::Rgb c;
+    rsphere::Color c;
     while (answers && std::fscanf(answers.get(), "%lf %lf %lf", &c.x, &c.y, &c.z) == 3)
       illuminances.push_back(kLumensPerWatt * rsphere::brightness(c));
   }

@@ -21,8 +21,8 @@ constexpr double kMelanopicEfficacy = 179;  // RADIANCE's choice
 
 // Fractions of V'(lambda) and of the melanopic curve in the parts of the spectrum that red, green and blue
 // represent, as rtrace -pS and -pM of RADIANCE 6.1a give them for pure red, green and blue.
-const Rgb kScotopicWeights(740 / 65535., 46459 / 65535., 18336 / 65535.);
-const Rgb kMelanopicWeights(120 / 65535., 39340 / 65535., 26075 / 65535.);
+const Color kScotopicWeights(740 / 65535., 46459 / 65535., 18336 / 65535.);
+const Color kMelanopicWeights(120 / 65535., 39340 / 65535., 26075 / 65535.);
 
 // Wavelengths (nm) of the limits between red, green and blue, and of the peaks of the
 // outer channels' responses.
@@ -129,7 +129,7 @@ bool primariesSpan(const std::array<double, 8>& p) {
 }  // namespace
 
 OutputColors::OutputColors(const ColorOptions& options) : options_(options) {
-  const auto oneChannel = [&](const Rgb& weights, double scale) {
+  const auto oneChannel = [&](const Color& weights, double scale) {
     count_ = 1;
     weights_ = weights;
     scale_ = scale;
@@ -147,7 +147,7 @@ OutputColors::OutputColors(const ColorOptions& options) : options_(options) {
       break;
     }
     case ColorSpace::photopic:
-      oneChannel(Rgb(kRedWeight, kGreenWeight, kBlueWeight), kPhotopicEfficacy);
+      oneChannel(Color(kRedWeight, kGreenWeight, kBlueWeight), kPhotopicEfficacy);
       break;
     case ColorSpace::scotopic:
       oneChannel(kScotopicWeights, kScotopicEfficacy);
@@ -156,7 +156,7 @@ OutputColors::OutputColors(const ColorOptions& options) : options_(options) {
       oneChannel(kMelanopicWeights, kMelanopicEfficacy);
       break;
     case ColorSpace::average:
-      oneChannel(Rgb(1 / 3., 1 / 3., 1 / 3.), 1);
+      oneChannel(Color(1 / 3., 1 / 3., 1 / 3.), 1);
       break;
     case ColorSpace::spectrum: {
       count_ = options.bands;
@@ -171,17 +171,17 @@ OutputColors::OutputColors(const ColorOptions& options) : options_(options) {
   }
 }
 
-void OutputColors::write(RecordText& text, const Rgb& color, double scale) const {
+void OutputColors::write(RecordText& text, const Color& color, double scale) const {
   switch (options_.space) {
     case ColorSpace::rgb:
       return text.color(color);
     case ColorSpace::xyz: {
-      const V3d xyz = product(fromRgb_, color) * scale;
-      return text.color(Rgb(xyz.x, xyz.y, xyz.z));
+      const V3d xyz = product(fromRgb_, color.rgb()) * scale;
+      return text.color(Color(xyz.x, xyz.y, xyz.z));
     }
     case ColorSpace::primaries: {
-      const V3d other = intoGamut(product(fromRgb_, color), brightness(color));
-      return text.color(Rgb(other.x, other.y, other.z));
+      const V3d other = intoGamut(product(fromRgb_, color.rgb()), brightness(color));
+      return text.color(Color(other.x, other.y, other.z));
     }
     case ColorSpace::photopic:
     case ColorSpace::scotopic:

@@ -6,6 +6,7 @@
 
 #include "answer/record_text.h"
 #include "base/radiometry.h"
+#include "base/spectral_sampling.h"
 
 namespace rsphere {
 
@@ -27,7 +28,6 @@ struct ColorOptions {
   int bands = 3;                         // -cs  3 to kMostBands
   double shortest = 380, longest = 780;  // -cw  nm
 };
-inline constexpr int kMostBands = 24;
 
 // Converts red, green and blue to the colors that -p.., -cs, -cw and -co ask for. Scenes have three channels,
 // each of which represents a part of the spectrum: red from 588 nm up, green from 480 nm, blue below.
@@ -47,16 +47,16 @@ class OutputColors {
   // The number of numbers in a color: 1, 3 or the number of bands.
   int count() const { return count_; }
 
-  void write(RecordText& text, const Radiance& radiance) const { write(text, radiance.rgb, scale_); }
-  void write(RecordText& text, const Irradiance& irradiance) const { write(text, irradiance.rgb, scale_); }
+  void write(RecordText& text, const Radiance& radiance) const { write(text, radiance.color, scale_); }
+  void write(RecordText& text, const Irradiance& irradiance) const { write(text, irradiance.color, scale_); }
   // Without the conversion to lumens.
-  void write(RecordText& text, const Coefficient& coefficient) const { write(text, coefficient.rgb, 1); }
+  void write(RecordText& text, const Coefficient& coefficient) const { write(text, coefficient.color, 1); }
 
   // Writes a standard error: that of red, green and blue, or under -pY that of brightness, in lumens.
   // REQUIRES: colors are RGB or -pY. The errors of other sums of the channels cannot be computed from these.
   void writeError(RecordText& text, const Radiance& channels, double brightness) const {
     if (options_.space == ColorSpace::photopic) return text.number(scale_ * brightness);
-    text.color(channels.rgb);
+    text.color(channels.color);
   }
 
   // The lines of the header that describe the colors, with line ends, and the FORMAT of their pixels (-fc).
@@ -65,12 +65,12 @@ class OutputColors {
 
  private:
   using Matrix = std::array<std::array<double, 3>, 3>;
-  void write(RecordText& text, const Rgb& color, double scale) const;
+  void write(RecordText& text, const Color& color, double scale) const;
 
   ColorOptions options_;
   int count_ = 3;
   double scale_ = 1;
-  Rgb weights_{0, 0, 0};      // if a color is one number
+  Color weights_{0, 0, 0};    // if a color is one number
   Matrix fromRgb_{};          // if it is three
   std::vector<int> channel_;  // if it is bands: the channel of each, from the longest wavelength
 };

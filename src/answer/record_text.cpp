@@ -39,13 +39,13 @@ void RecordText::vector(const V3d& v) {
   number(v.z);
 }
 
-void RecordText::color(const Rgb& c) {
-  if (format_ != NumberFormat::rgbe) return vector(c);
+void RecordText::color(const Color& c) {
+  if (format_ != NumberFormat::rgbe) return vector(c.rgb());
   const std::array<uint8_t, 4> pixel = rgbePixel(c);
   bytes_.append(reinterpret_cast<const char*>(pixel.data()), pixel.size());
 }
 
-void RecordText::spectrum(const Rgb& c, std::span<const int> channels) {
+void RecordText::spectrum(const Color& c, std::span<const int> channels) {
   const std::array<double, 3> values = {c.x, c.y, c.z};
   const std::array<uint8_t, 4> pixel = rgbePixel(c);
   for (const int channel : channels)

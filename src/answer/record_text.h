@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "answer/number_format.h"
-#include "base/rgb.h"
+#include "base/color.h"
 
 namespace rsphere {
 
@@ -17,12 +17,12 @@ class RecordText {
   RecordText(std::string& bytes, NumberFormat format) : bytes_(bytes), format_(format) {}
 
   void number(double x);
-  void integer(uint64_t n);   // in text: all its digits, where "%e" has only seven
-  void vector(const V3d& v);  // three numbers
-  void color(const Rgb& c);   // three numbers, or one RGBE pixel where the format is rgbe
+  void integer(uint64_t n);    // in text: all its digits, where "%e" has only seven
+  void vector(const V3d& v);   // three numbers
+  void color(const Color& c);  // three numbers, or one RGBE pixel where the format is rgbe
   // For each band, the value of its channel (0 red, 1 green, 2 blue). In the format rgbe, a pixel: a byte for
   // each band, and the exponent.
-  void spectrum(const Rgb& c, std::span<const int> channels);
+  void spectrum(const Color& c, std::span<const int> channels);
   void name(std::string_view n);  // the name and a TAB
   void end();                     // in text: a line end
 

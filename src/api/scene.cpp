@@ -20,7 +20,7 @@
 #include "answer/load_scene.h"
 #include "answer/threads.h"
 #include "api/command_line.h"
-#include "base/rgb.h"
+#include "base/color.h"
 #include "cli/options.h"
 #include "scene/scene.h"
 #include "transport/transport.h"

@@ -6,43 +6,45 @@
 // paths carry both with the same coefficients. Only those of refraction may differ: see scatter() in
 // shade/scattering.h. The two never meet, because light sources emit nothing in a scene with goals.
 #include <type_traits>
+#include <utility>
 
-#include "base/rgb.h"
+#include "base/color.h"
 
 namespace rsphere {
 
-// One value in each channel of Rgb. Kinds do not convert into each other, and Rgb converts only where its
+// A color that is a physical quantity. Kinds do not convert into each other, and Color converts only where its
 // kind is named. Quantities of the same kind can be added, and any can be scaled by a number or by a
-// Coefficient. Other arithmetic within a function uses `rgb`.
+// Coefficient. Other arithmetic within a function uses `color`.
 template <class Kind>
 struct Quantity {
-  Rgb rgb{0, 0, 0};
+  Color color{0, 0, 0};
 
   constexpr Quantity() = default;
-  explicit constexpr Quantity(const Rgb& channels) : rgb(channels) {}
-  explicit constexpr Quantity(double everyChannel) : rgb(everyChannel) {}
+  explicit constexpr Quantity(const Color& c) : color(c) {}
+  explicit constexpr Quantity(Color&& c) : color(std::move(c)) {}
+  explicit constexpr Quantity(double gray) : color(gray) {}
 
   Quantity& operator+=(const Quantity& other) {
-    rgb += other.rgb;
+    color += other.color;
     return *this;
   }
   Quantity& operator-=(const Quantity& other) {
-    rgb -= other.rgb;
+    color -= other.color;
     return *this;
   }
   Quantity& operator*=(double factor) {
-    rgb *= factor;
+    color *= factor;
     return *this;
   }
   Quantity& operator/=(double divisor) {
-    rgb /= divisor;
+    color /= divisor;
     return *this;
   }
-  friend Quantity operator+(const Quantity& a, const Quantity& b) { return Quantity(a.rgb + b.rgb); }
-  friend Quantity operator-(const Quantity& a, const Quantity& b) { return Quantity(a.rgb - b.rgb); }
-  friend Quantity operator*(const Quantity& a, double factor) { return Quantity(a.rgb * factor); }
-  friend Quantity operator*(double factor, const Quantity& a) { return Quantity(a.rgb * factor); }
-  friend Quantity operator/(const Quantity& a, double divisor) { return Quantity(a.rgb / divisor); }
+  friend Quantity operator+(const Quantity& a, const Quantity& b) { return Quantity(a.color + b.color); }
+  friend Quantity operator-(const Quantity& a, const Quantity& b) { return Quantity(a.color - b.color); }
+  friend Quantity operator*(const Quantity& a, double factor) { return Quantity(a.color * factor); }
+  friend Quantity operator*(double factor, const Quantity& a) { return Quantity(a.color * factor); }
+  friend Quantity operator/(const Quantity& a, double divisor) { return Quantity(a.color / divisor); }
 };
 
 using Radiance = Quantity<struct RadianceKind>;      // W/sr/m2
@@ -52,37 +54,37 @@ using Coefficient = Quantity<struct CoefficientKind>;
 
 template <class Kind>
 Quantity<Kind> operator*(const Quantity<Kind>& a, const Coefficient& share) {
-  return Quantity<Kind>(a.rgb * share.rgb);
+  return Quantity<Kind>(a.color * share.color);
 }
 template <class Kind>
 requires(!std::is_same_v<Quantity<Kind>, Coefficient>) Quantity<Kind>
-operator*(const Coefficient& share, const Quantity<Kind>& a) { return Quantity<Kind>(share.rgb * a.rgb); }
+operator*(const Coefficient& share, const Quantity<Kind>& a) { return Quantity<Kind>(share.color * a.color); }
 template <class Kind>
 Quantity<Kind>& operator*=(Quantity<Kind>& a, const Coefficient& share) {
-  a.rgb *= share.rgb;
+  a.color *= share.color;
   return a;
 }
 
 // The irradiance by a radiance from a solid angle (sr) on a surface perpendicular to it.
 inline Irradiance irradianceFrom(const Radiance& radiance, double solidAngle) {
-  return Irradiance(radiance.rgb * solidAngle);
+  return Irradiance(radiance.color * solidAngle);
 }
 // The mean radiance over a solid angle (sr) from which an irradiance comes.
 inline Radiance meanRadiance(const Irradiance& irradiance, double solidAngle) {
-  return Radiance(irradiance.rgb / solidAngle);
+  return Radiance(irradiance.color / solidAngle);
 }
 
 template <class Kind>
 double brightness(const Quantity<Kind>& a) {
-  return brightness(a.rgb);
+  return brightness(a.color);
 }
 template <class Kind>
 double maxChannel(const Quantity<Kind>& a) {
-  return maxChannel(a.rgb);
+  return maxChannel(a.color);
 }
 template <class Kind>
 bool isBlack(const Quantity<Kind>& a) {
-  return isBlack(a.rgb);
+  return isBlack(a.color);
 }
 
 }  // namespace rsphere

@@ -185,7 +185,7 @@ void apply(const Use& use, Options& options) {
     void operator()(RealValue value) const { value(options) = realWord(entry, use.words[0]); }
     void operator()(ColorValue value) const {
       value(options) =
-          Rgb(realWord(entry, use.words[0]), realWord(entry, use.words[1]), realWord(entry, use.words[2]));
+          Color(realWord(entry, use.words[0]), realWord(entry, use.words[1]), realWord(entry, use.words[2]));
     }
     void operator()(WordValue value) const { value(options) = use.words[0]; }
     void operator()(WordsValue value) const { value(options).push_back(use.words[0]); }

@@ -497,7 +497,7 @@ void addAmbientOptions(const Add& add) {
   add({.name = "-av",
        .arguments = "red grn blu",
        .group = Group::indirect,
-       .value = +[](O& o) -> Rgb& { return o.ray.ambientValue.rgb; },
+       .value = +[](O& o) -> Color& { return o.ray.ambientValue.color; },
        .range = kNotNegative,
        .unit = "W/sr/m2",
        .remark = "ambient value",
@@ -573,7 +573,7 @@ void addMediumOptions(const Add& add) {
   add({.name = "-me",
        .arguments = "rext gext bext",
        .group = Group::medium,
-       .value = +[](O& o) -> Rgb& { return o.ray.mediumExtinction; },
+       .value = +[](O& o) -> Color& { return o.ray.mediumExtinction; },
        .range = kNotNegative,
        .unit = "1/length",
        .remark = "mist extinction coefficient",
@@ -582,13 +582,13 @@ void addMediumOptions(const Add& add) {
            "those sources that a mist material names.",
        .line =
            +[](const O& o) {
-             const Rgb& c = o.ray.mediumExtinction;
+             const Color& c = o.ray.mediumExtinction;
              return fmt::format("-me {:.2e} {:.2e} {:.2e}\t", c.x, c.y, c.z);
            }});
   add({.name = "-ma",
        .arguments = "ralb galb balb",
        .group = Group::medium,
-       .value = +[](O& o) -> Rgb& { return o.ray.mediumAlbedo; },
+       .value = +[](O& o) -> Color& { return o.ray.mediumAlbedo; },
        .range = kFraction,
        .remark = "mist scattering albedo",
        .paragraph =

@@ -41,7 +41,7 @@ using SwitchValue = bool& (*)(Options&);
 using IntegerValue = int& (*)(Options&);
 using CountValue = int64_t& (*)(Options&);
 using RealValue = double& (*)(Options&);
-using ColorValue = Rgb& (*)(Options&);
+using ColorValue = Color& (*)(Options&);
 using WordValue = std::string& (*)(Options&);
 using WordsValue = std::vector<std::string>& (*)(Options&);  // each use adds one
 // For options that no type above describes. `words` are the words after the name; `rest` is the part of the

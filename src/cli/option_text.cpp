@@ -92,7 +92,7 @@ std::string lineOf(const OptionEntry& entry, Options& options) {
   if (const auto* value = std::get_if<RealValue>(&entry.value))
     return fmt::format("{} {:f}\t\t\t", entry.name, (*value)(options));
   if (const auto* value = std::get_if<ColorValue>(&entry.value)) {
-    const Rgb& c = (*value)(options);
+    const Color& c = (*value)(options);
     return fmt::format("{} {:f} {:f} {:f}\t", entry.name, c.x, c.y, c.z);
   }
   if (const auto* value = std::get_if<WordValue>(&entry.value))
@@ -146,7 +146,7 @@ std::string valueOf(const OptionEntry& entry, Options& options) {
   if (const auto* value = std::get_if<CountValue>(&entry.value)) return fmt::format("{}", (*value)(options));
   if (const auto* value = std::get_if<RealValue>(&entry.value)) return fmt::format("{}", (*value)(options));
   if (const auto* value = std::get_if<ColorValue>(&entry.value)) {
-    const Rgb& c = (*value)(options);
+    const Color& c = (*value)(options);
     return fmt::format("{} {} {}", c.x, c.y, c.z);
   }
   if (std::holds_alternative<Custom>(entry.value) && entry.line != nullptr) {

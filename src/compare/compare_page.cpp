@@ -22,8 +22,8 @@ constexpr std::string_view kWithin = "#1b6fb3", kBeyond = "#d95f02", kDashes = "
 
 std::string_view unitOf(const CompareSubject& subject) { return subject.irradiance ? "W/m2" : "W/sr/m2"; }
 
-Rgb meanOf(const Answers& answers, size_t record) {
-  Rgb sum(0, 0, 0);
+Color meanOf(const Answers& answers, size_t record) {
+  Color sum(0, 0, 0);
   for (size_t r = 0; r < answers.repeats; ++r) sum += answers.of(record, r);
   return sum / static_cast<double>(answers.repeats);
 }
@@ -41,7 +41,7 @@ std::string pngOf(const Raster& raster) {
 std::string pngOf(const Answers& answers, const CompareSubject& subject, double exposure) {
   Raster raster{static_cast<int>(subject.width), static_cast<int>(subject.height), {}};
   for (size_t i = 0; i < answers.records; ++i) {
-    const Rgb mean = meanOf(answers, i);
+    const Color mean = meanOf(answers, i);
     for (int c = 0; c < 3; ++c)
       raster.pixels.push_back(static_cast<float>(sRgb(std::max(0., exposure * mean[c]))));
   }

@@ -51,7 +51,7 @@ Answers answerRays(const Transport& transport, const CompareOptions& options, st
       answers.values[r * answers.records + i] =
           tracers[worker]
               .trace(in.origin, in.direction, farthest, seedOfRepeat(seedOfRay(numbers, i, options), r))
-              .value.rgb;
+              .value.color;
   });
   return answers;
 }
@@ -66,7 +66,7 @@ Answers answerPoints(const Transport& transport, const CompareOptions& options,
     PointWorkers workers(transport, rotated, false);
     forEachIndex(answers.records, options.threads, nullptr, [&](size_t i, unsigned worker) {
       const V3d point(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
-      answers.values[r * answers.records + i] = workers.answer(point, worker).mean.rgb;
+      answers.values[r * answers.records + i] = workers.answer(point, worker).mean.color;
     });
   }
   return answers;
@@ -97,8 +97,8 @@ Answers originalPoints(Original& original, const CompareOptions& options, std::s
   const std::vector<double> numbers = original.answers(rays, "v", 3);
   Answers answers{points.size() / 3, repeats, {}};
   for (size_t i = 0; i < numbers.size(); i += 3 * count) {
-    Rgb sum(0, 0, 0);
-    for (size_t k = i; k < i + 3 * count; k += 3) sum += Rgb(numbers[k], numbers[k + 1], numbers[k + 2]);
+    Color sum(0, 0, 0);
+    for (size_t k = i; k < i + 3 * count; k += 3) sum += Color(numbers[k], numbers[k + 1], numbers[k + 2]);
     answers.values.push_back(sum / (std::numbers::pi * static_cast<double>(count)));
   }
   return answers;

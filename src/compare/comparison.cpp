@@ -18,7 +18,8 @@ using Values = std::vector<double>;  // one channel of Answers::values
 Values channelOf(const Answers& answers, int channel) {
   Values values;
   values.reserve(answers.values.size());
-  for (const Rgb& value : answers.values) values.push_back(channel < 3 ? value[channel] : brightness(value));
+  for (const Color& value : answers.values)
+    values.push_back(channel < 3 ? value[channel] : brightness(value));
   return values;
 }
 

@@ -4,15 +4,15 @@
 #include <cstddef>
 #include <vector>
 
-#include "base/rgb.h"
+#include "base/color.h"
 
 namespace rsphere {
 
 // The answers of one program. The answer to record i in repeat r is at [r * records + i].
 struct Answers {
   size_t records = 0, repeats = 0;
-  std::vector<Rgb> values;
-  const Rgb& of(size_t record, size_t repeat) const { return values[repeat * records + record]; }
+  std::vector<Color> values;
+  const Color& of(size_t record, size_t repeat) const { return values[repeat * records + record]; }
 };
 
 // The result of the comparison with the tolerance, in ascending order of difference.

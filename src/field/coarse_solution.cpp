@@ -17,16 +17,37 @@ constexpr double kUsualAccuracy = .1;
 // The binary logarithm of the buckets of each table: 512 kB.
 constexpr unsigned kLogBuckets = 16;
 
+// The color of an element, of which bands may be kept beside it.
+Color colorAt(const V3f& channels, const std::vector<Bands>& bands, size_t i) {
+  return Color(V3d(channels), i < bands.size() ? bands[i] : Bands());
+}
+
+// Adds a color to an element.
+void addAt(std::vector<V3f>& channels, std::vector<Bands>& bands, size_t i, const Color& color) {
+  if (channels.size() <= i) channels.resize(i + 1, V3f(0, 0, 0));
+  if (color.bands() || i < bands.size()) {
+    if (bands.size() <= i) bands.resize(i + 1);
+    bands[i] = (colorAt(channels[i], bands, i) + color).bands();
+  }
+  channels[i] += V3f(color.rgb());
+}
+
 }  // namespace
 
+void CoarseSolution::Links::add(Patch* patch, const Coefficient& coefficient, int bounces) {
+  if (coefficient.color.bands()) {
+    bandsOfLinks.resize(links.size() + 1);
+    bandsOfLinks.back() = coefficient.color.bands();
+  }
+  links.push_back({patch, V3f(coefficient.color.rgb()), bounces});
+}
+
 void CoarseSolution::Links::addLight(int bounces, const Radiance& radiance) {
-  if (light.size() <= static_cast<size_t>(bounces)) light.resize(bounces + 1, V3f(0, 0, 0));
-  light[bounces] += V3f(radiance.rgb);
+  addAt(light, bandsOfLight, static_cast<size_t>(bounces), radiance.color);
 }
 
 void CoarseSolution::Links::addEnd(int bounces, const Coefficient& coefficient) {
-  if (ends.size() <= static_cast<size_t>(bounces)) ends.resize(bounces + 1, V3f(0, 0, 0));
-  ends[bounces] += V3f(coefficient.rgb);
+  addAt(ends, bandsOfEnds, static_cast<size_t>(bounces), coefficient.color);
 }
 
 // How a part of a surface is divided into patches.
@@ -45,6 +66,9 @@ struct CoarseSolution::Patch {
   struct Light {
     std::atomic<bool> known{false};
     std::array<std::atomic<float>, 3> mean{};
+    std::atomic<const Bands*> bands{nullptr};
+
+    ~Light() { delete bands.load(std::memory_order_relaxed); }
   };
   std::unique_ptr<Light[]> light;  // by bounces - 1
 
@@ -58,7 +82,8 @@ CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const Fi
       room_(room),
       effort_(effortFor(options, room > 0)),
       bounces_(std::max(options.bounces, 1)),
-      ambient_(options.ambientValue.rgb),
+      spectral_(options.spectral),
+      ambient_(V3d(V3f(options.ambientValue.color.rgb()))),  // in single precision as all light here
       divisions_(std::make_unique<InsertOnce<CellKey, Division>>(kLogBuckets)),
       patches_(std::make_unique<InsertOnce<CellKey, Patch>>(kLogBuckets)) {}
 
@@ -167,23 +192,43 @@ const CoarseSolution::Links& CoarseSolution::linksOf(Patch& patch, Looker& looke
   return *made.release();
 }
 
-V3f CoarseSolution::light(Patch& patch, int bounces, Looker& looker) {
+Color CoarseSolution::light(Patch& patch, int bounces, Looker& looker) {
   if (bounces <= 0) return ambient_;
   bounces = std::min(bounces, bounces_);
   Patch::Light& kept = patch.light[bounces - 1];
-  if (kept.known.load(std::memory_order_acquire))
-    return {kept.mean[0].load(std::memory_order_relaxed), kept.mean[1].load(std::memory_order_relaxed),
-            kept.mean[2].load(std::memory_order_relaxed)};
+  if (kept.known.load(std::memory_order_acquire)) {
+    const V3d mean(kept.mean[0].load(std::memory_order_relaxed), kept.mean[1].load(std::memory_order_relaxed),
+                   kept.mean[2].load(std::memory_order_relaxed));
+    const Bands* bands = kept.bands.load(std::memory_order_relaxed);
+    return bands ? Color(mean, *bands) : Color(mean);
+  }
   const Links& links = linksOf(patch, looker);
   V3f sum(0, 0, 0);
-  for (size_t i = 0; i < std::min<size_t>(links.light.size(), bounces); ++i) sum += links.light[i];
-  if (static_cast<size_t>(bounces) <= links.ends.size()) sum += links.ends[bounces - 1] * ambient_;
-  for (const Links::Link& link : links.links)
-    if (link.bounces < bounces)
-      sum += link.coefficient * light(*link.patch, bounces - 1 - link.bounces, looker);
+  Color inBands;  // the same sum where anything has bands
+  const auto add = [&](const V3f& part, const auto& color) {
+    sum += part;
+    if (spectral_) inBands += color();
+  };
+  for (size_t i = 0; i < std::min<size_t>(links.light.size(), bounces); ++i)
+    add(links.light[i], [&] { return colorAt(links.light[i], links.bandsOfLight, i); });
+  if (const auto last = static_cast<size_t>(bounces - 1); last < links.ends.size())
+    add(links.ends[last] * V3f(ambient_.rgb()),
+        [&] { return colorAt(links.ends[last], links.bandsOfEnds, last) * ambient_; });
+  for (size_t i = 0; i < links.links.size(); ++i) {
+    const Links::Link& link = links.links[i];
+    if (link.bounces >= bounces) continue;
+    const Color arriving = light(*link.patch, bounces - 1 - link.bounces, looker);
+    add(link.coefficient * V3f(arriving.rgb()),
+        [&] { return colorAt(link.coefficient, links.bandsOfLinks, i) * arriving; });
+  }
   for (int c = 0; c < 3; ++c) kept.mean[c].store(sum[c], std::memory_order_relaxed);
+  if (inBands.bands()) {
+    const Bands* first = nullptr;
+    auto made = std::make_unique<const Bands>(inBands.bands());
+    if (kept.bands.compare_exchange_strong(first, made.get(), std::memory_order_acq_rel)) made.release();
+  }
   kept.known.store(true, std::memory_order_release);
-  return sum;
+  return Color(V3d(sum), inBands.bands());
 }
 
 }  // namespace rsphere

@@ -48,8 +48,12 @@ class CoarseSolution {
     std::vector<V3f> light;  // by bounces: radiance that depends on no patch (W/sr/m2)
     std::vector<V3f> ends;   // by bounces: factor on -av, used if the path ends there for lack of bounces
 
+    void add(Patch* patch, const Coefficient& coefficient, int bounces);
     void addLight(int bounces, const Radiance& radiance);
     void addEnd(int bounces, const Coefficient& coefficient);
+
+    // The bands of each element of those above, empty until one has some.
+    std::vector<Bands> bandsOfLinks, bandsOfLight, bandsOfEnds;
   };
 
   // The rays that the solution needs. Answers depend on nothing but the arguments.
@@ -79,7 +83,7 @@ class CoarseSolution {
 
   // The mean radiance that arrives at a patch (irradiance over pi) after at most `bounces` diffuse
   // reflections; -av for 0 of them.
-  V3f light(Patch& patch, int bounces, Looker& looker);
+  Color light(Patch& patch, int bounces, Looker& looker);
 
   size_t patches() const { return made_.load(std::memory_order_relaxed); }
 
@@ -106,7 +110,8 @@ class CoarseSolution {
   double room_;
   Effort effort_;
   int bounces_;  // -ab
-  V3f ambient_;
+  bool spectral_;
+  Color ambient_;
   std::atomic<size_t> made_{0};
   std::unique_ptr<InsertOnce<CellKey, Division>> divisions_;
   std::unique_ptr<InsertOnce<CellKey, Patch>> patches_;

@@ -10,6 +10,7 @@ struct FieldOptions {
   int resolution = 256;   // -ar  0: no limit
   double rays = 1536;     // -ad + -as: the rays of patches are in proportion to it
   Radiance ambientValue;  // -av
+  bool spectral = false;  // a spectral run: light has bands
   double memory = 0;      // -Sm  MB of the irradiance cache; 0: no bound
 };
 

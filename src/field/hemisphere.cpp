@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "base/spectral_sampling.h"
 
 namespace rsphere {
 
@@ -56,9 +57,9 @@ std::vector<RingMeans> meansOfRings(int rings, int sectors) {
 
 // Sums of radiance over a sector, weighted with the means of its rings.
 struct SectorSums {
-  Rgb one{0, 0, 0}, s{0, 0, 0}, c{0, 0, 0}, inverseC{0, 0, 0}, tangent{0, 0, 0};
+  Color one{0, 0, 0}, s{0, 0, 0}, c{0, 0, 0}, inverseC{0, 0, 0}, tangent{0, 0, 0};
 
-  void add(const Rgb& radiance, const RingMeans& ring) {
+  void add(const Color& radiance, const RingMeans& ring) {
     one += radiance;
     inverseC += radiance * ring.inverseC;
     tangent += radiance * ring.tangent;
@@ -106,19 +107,19 @@ GatheredLight HemisphereCells::sum(std::span<const Radiance> radiance, std::span
   for (int k = 0; k < sectors_; ++k) {
     const int before = (k + sectors_ - 1) % sectors_;
     const double middle = (k + .5) * sector, edge = k * sector;
-    Rgb outwards(0, 0, 0), around(0, 0, 0);
+    V3d outwards(0, 0, 0), around(0, 0, 0);
     SectorSums sums;
     for (int j = 0; j < rings_; ++j) {
       const int here = at(j, k);
       mean += radiance[here];
-      sums.add(radiance[here].rgb, rings[j]);
+      sums.add(Color(radiance[here].color.rgb()), rings[j]);
       if (j > 0) {
         const double weight = rings[j].edgeWeight / apart(here, at(j - 1, k));
-        outwards += (radiance[here] - radiance[at(j - 1, k)]).rgb * weight;
+        outwards += (radiance[here].color.rgb() - radiance[at(j - 1, k)].color.rgb()) * weight;
         addChance(here, at(j - 1, k), weight);
       }
       const double weight = rings[j].width / (kPi * apart(here, at(j, before)));
-      around += (radiance[here] - radiance[at(j, before)]).rgb * weight;
+      around += (radiance[here].color.rgb() - radiance[at(j, before)].color.rgb()) * weight;
       addChance(here, at(j, before), weight);
     }
     for (int b = 0; b < 3; ++b) {
@@ -132,7 +133,9 @@ GatheredLight HemisphereCells::sum(std::span<const Radiance> radiance, std::span
   light.reach = static_cast<float>(count() / inverse);
   light.noise = static_cast<float>(std::sqrt(variance) / count());
   light.noisePerLength = static_cast<float>(std::sqrt(slopeVariance));
-  light.mean = V3f(mean.rgb / count());
+  const Color average = mean.color / count();
+  light.mean = V3f(average.rgb());
+  light.bands = average.bands();
   for (int b = 0; b < 3; ++b) light.perLength[b] = V3f(move[b][0] * x + move[b][1] * y);
   return light;
 }
@@ -155,7 +158,7 @@ float LightMoments::towards(const V3f& n, int c) const {
 
 Radiance GatheredLight::meanOfTilted(const V3d& normal, const V3d& perturbed) const {
   const V3f before(normal), after(perturbed);
-  if ((after - before).length2() < 1e-12F) return Radiance(mean);
+  if ((after - before).length2() < 1e-12F) return Radiance(color());
   V3f result;
   for (int c = 0; c < 3; ++c) {
     // The mean itself is known better than its moments tell it.
@@ -165,7 +168,23 @@ Radiance GatheredLight::meanOfTilted(const V3d& normal, const V3d& perturbed) co
     const float most = tilted.all[c] > 0 ? tilted.all[c] : mean[c];
     result[c] = std::clamp(mean[c] * ratio, 0.F, std::max(most, mean[c]));
   }
-  return Radiance(result);
+  if (!bands) return Radiance(Color(V3d(result)));
+  GatheredLight turned;
+  turned.mean = mean;
+  turned.bands = bands;
+  turned.setMean(result);
+  return Radiance(turned.color());
+}
+
+void GatheredLight::setMean(const V3f& changed) {
+  if (bands) {
+    const auto values = bands.values();
+    for (size_t i = 0; i < values.size(); ++i) {
+      const int c = bands.sampling().channel[i];
+      values[i] *= mean[c] > 0 ? changed[c] / mean[c] : 0;
+    }
+  }
+  mean = changed;
 }
 
 }  // namespace rsphere

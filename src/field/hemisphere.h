@@ -51,6 +51,7 @@ struct LightMoments {
 // projected solid angle (W/sr/m2), and its gradients, by channel.
 struct GatheredLight {
   V3f mean{0, 0, 0};
+  Bands bands;  // of the mean, in a spectral run; gradients and moments of a band are those of its channel
   V3f perLength[3] = {V3f(0), V3f(0), V3f(0)};  // gradient in the plane of the site, per world unit
   LightMoments tilted;                          // moments of the light above the surface
   // Standard errors of the brightness: of the mean, and of its gradient. They are overestimates, because they
@@ -58,6 +59,9 @@ struct GatheredLight {
   float noise = 0, noisePerLength = 0;
   float reach = 0;  // harmonic mean distance of the surfaces that are seen (world units)
 
+  Color color() const { return Color(V3d(mean), bands); }  // of the mean
+  // Changes the mean, and its bands in proportion to their channels.
+  void setMean(const V3f& changed);
   // The mean if a texture perturbs the normal of the surface from `normal` to `perturbed` (both unit). Light
   // from behind either of the two is excluded.
   Radiance meanOfTilted(const V3d& normal, const V3d& perturbed) const;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/rgb.h"
+#include "base/color.h"
 #include "field/tuning.h"
 
 namespace rsphere {
@@ -15,7 +15,7 @@ using Tuning = tuning::SiteInterpolation;
 // functions.
 constexpr float kSlopes = .5F;
 
-float luminance(const V3f& color) { return static_cast<float>(brightness(Rgb(color.x, color.y, color.z))); }
+float luminance(const V3f& color) { return static_cast<float>(brightness(Color(color.x, color.y, color.z))); }
 V3f luminanceOf(const V3f (&change)[3]) {
   return static_cast<float>(kRedWeight) * change[0] + static_cast<float>(kGreenWeight) * change[1] +
          static_cast<float>(kBlueWeight) * change[2];
@@ -24,6 +24,7 @@ V3f luminanceOf(const V3f (&change)[3]) {
 }  // namespace
 
 void blend(GatheredLight& into, const GatheredLight& light, float share) {
+  if (into.bands || light.bands) into.bands = (into.color() + light.color() * share).bands();
   into.mean += share * light.mean;
   into.tilted.add(light.tilted, share);
 }
@@ -58,27 +59,28 @@ GatheredLight SitesAround::at(const V3d& place, double& extrapolationError) cons
     inverseReach += w / light[a]->reach;
     for (int k = 0; k < 3; ++k) result.perLength[k] += light[a]->perLength[k] * w;
   }
+  V3f mean(0, 0, 0);
   for (int a = 0; a < count; ++a) {
     const auto w = static_cast<float>(weight[a] / served);
     const V3f way(middle - site[a]->point);
     blend(result, *light[a], w);
+    mean += w * light[a]->mean;
     for (int k = 0; k < 3; ++k) {
       const float there = light[a]->mean[k];
-      result.mean[k] += w * kSlopes * std::clamp(light[a]->perLength[k].dot(way), -there, there);
+      mean[k] += w * kSlopes * std::clamp(light[a]->perLength[k].dot(way), -there, there);
     }
   }
   const V3f aside(place - middle);
-  const float level = luminance(result.mean);
+  const float level = luminance(mean);
   extrapolationError = 0;
   if (level > 0) {
     const double linear = std::abs(luminanceOf(result.perLength).dot(aside)) / level;
     extrapolationError = std::max(
         linear, Tuning::kBeyond * static_cast<double>(aside.length2()) * inverseReach * inverseReach);
   }
-  for (int k = 0; k < 3; ++k) {
-    const float base = result.mean[k];
-    result.mean[k] = std::max(base + result.perLength[k].dot(aside), Tuning::kLeast * base);
-  }
+  for (int k = 0; k < 3; ++k)
+    mean[k] = std::max(mean[k] + result.perLength[k].dot(aside), Tuning::kLeast * mean[k]);
+  result.setMean(mean);
   return result;
 }
 

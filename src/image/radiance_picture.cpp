@@ -53,7 +53,7 @@ std::string radiancePicture(const Raster& raster, std::string_view header) {
   for (int row = 0; row < raster.height; ++row) {
     const float* pixels = raster.pixels.data() + 3 * width * static_cast<size_t>(row);
     for (size_t x = 0; x < width; ++x) {
-      const auto pixel = rgbePixel(Rgb(pixels[3 * x], pixels[3 * x + 1], pixels[3 * x + 2]));
+      const auto pixel = rgbePixel(Color(pixels[3 * x], pixels[3 * x + 1], pixels[3 * x + 2]));
       for (size_t c = 0; c < 4; ++c) scanline[c][x] = pixel[c];
       if (!coded) out.append(reinterpret_cast<const char*>(pixel.data()), pixel.size());
     }

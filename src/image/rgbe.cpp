@@ -4,7 +4,7 @@
 
 namespace rsphere {
 
-std::array<uint8_t, 4> rgbePixel(const Rgb& c) {
+std::array<uint8_t, 4> rgbePixel(const Color& c) {
   const auto red = static_cast<float>(c.x), green = static_cast<float>(c.y), blue = static_cast<float>(c.z);
   const float largest = std::fmax(red, std::fmax(green, blue));
   if (!(largest > 1e-32)) return {0, 0, 0, 0};

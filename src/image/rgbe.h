@@ -2,7 +2,7 @@
 #include <array>
 #include <cstdint>
 
-#include "base/rgb.h"
+#include "base/color.h"
 
 namespace rsphere {
 
@@ -11,6 +11,6 @@ namespace rsphere {
 // smallest power of two above the largest channel. Negative channels become 0. If the largest channel is at
 // most 1e-32 or all are nan, all four bytes are 0. From 2^127 on, the result is the largest pixel. Source:
 // RADIANCE file formats, "Picture file format"; G. Ward, "Real Pixels", Graphics Gems II.
-std::array<uint8_t, 4> rgbePixel(const Rgb& c);
+std::array<uint8_t, 4> rgbePixel(const Color& c);
 
 }  // namespace rsphere

@@ -10,9 +10,10 @@ namespace rsphere {
 
 // The even directions that every strategy starts from.
 struct BaseSet {
-  std::vector<V3d> directions;           // unit, world
-  std::vector<double> solidAngles;       // that they represent, sr
-  std::optional<Neighbours> neighbours;  // if standard errors are wanted
+  std::vector<V3d> directions;                 // unit, world
+  std::vector<double> solidAngles;             // that they represent, sr
+  std::optional<Neighbours> neighbours;        // if standard errors are wanted
+  const SpectralSampling* sampling = nullptr;  // RayOptions::sampling
 };
 
 // -Sn directions, rotated as -Sr says. Their solid angles are all the same with -Sw h, otherwise those of

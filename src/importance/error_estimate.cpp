@@ -13,7 +13,7 @@ using Tuning = tuning::ErrorEstimate;
 }  // namespace
 
 Variance baseVariance(std::span<const DirectionSample> base, const Neighbours& n,
-                      std::span<const RegionId> regions) {
+                      std::span<const RegionId> regions, const SpectralSampling* sampling) {
   const auto regionOf = [&](size_t i) { return regions.empty() ? RegionId{0} : regions[i]; };
   Variance sum;
   for (size_t i = 0; i < base.size(); ++i) {
@@ -37,35 +37,35 @@ Variance baseVariance(std::span<const DirectionSample> base, const Neighbours& n
     // If m neighbours have the same variance, the variance of the difference to their mean is (m+1)/m
     // times that of the direction.
     const double own = static_cast<double>(count) / (count + 1);
-    sum += Variance::of(irradianceFrom(base[i].value - around / count, base[i].solidAngle)) * own;
+    sum += Variance::of(irradianceFrom(base[i].value - around / count, base[i].solidAngle), sampling) * own;
   }
   return sum * Tuning::kEvenSet;
 }
 
-Variance spreadVariance(std::span<const DirectionSample> samples) {
+Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling) {
   const double n = static_cast<double>(samples.size());
   Irradiance sum;
   Variance squares;
   for (const DirectionSample& s : samples) {
     const Irradiance part = irradianceFrom(s.value, s.solidAngle);
     sum += part;
-    squares += Variance::of(part);
+    squares += Variance::of(part, sampling);
   }
   if (samples.size() < 2) return squares;
   // If an edge crosses the region, only the cells on the edge contribute, about n^1/2 of n.
   const double even = 1 / (1 + std::sqrt(n) / Tuning::kEvenRun);
-  squares += Variance::of(sum) * (-1 / n);
+  squares += Variance::of(sum, sampling) * (-1 / n);
   return squares * (n / (n - 1) * even);
 }
 
-Variance partsVariance(std::span<const SeenSources::Sample> samples) {
+Variance partsVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling) {
   // The samples are in the order of the rows of the grid. Pairs are neighbours in a row, and samples that lie
   // one row of the first row's length apart.
   Variance sum, edges;
   size_t pairs = 0;
   for (const auto& s : samples) {
     const double clear = static_cast<double>(s.clear) / s.aimed;
-    edges += Variance::of(irradianceFrom(s.direction.value, s.part)) *
+    edges += Variance::of(irradianceFrom(s.direction.value, s.part), sampling) *
              (Tuning::kEvenParts * clear * (1 - clear) / s.aimed);
   }
   const size_t columns = static_cast<size_t>(std::count_if(
@@ -76,7 +76,8 @@ Variance partsVariance(std::span<const SeenSources::Sample> samples) {
     const double clear = static_cast<double>(samples[i].clear * samples[k].clear) /
                          static_cast<double>(samples[i].aimed * samples[k].aimed);
     sum += Variance::of(irradianceFrom(samples[i].direction.value, samples[i].part) -
-                        irradianceFrom(samples[k].direction.value, samples[k].part)) *
+                            irradianceFrom(samples[k].direction.value, samples[k].part),
+                        sampling) *
            clear;
   };
   for (size_t i = 1; i < samples.size(); ++i)

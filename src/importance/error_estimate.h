@@ -1,24 +1,27 @@
 #pragma once
-// The variance of an estimate from one set of directions, computed from that set alone.
+// The variance of an estimate from one set of directions, computed from that set alone. sampling, throughout:
+// RayOptions::sampling.
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "base/spectral_sampling.h"
 #include "importance/direction_sample.h"
 #include "importance/seen_sources.h"
 
 namespace rsphere {
 
-// Variance of an integral of radiance, (W/m2)^2, for each channel and for the brightness. The variance of the
+// Variance of an integral of radiance, (W/m2)^2, for each channel and band and for the brightness, which in a spectral
+// run is the photopic integral. The variance of the
 // brightness does not follow from those of the channels, because the errors of channels are correlated.
 struct Variance {
-  Rgb channels{0, 0, 0};
+  Color channels{0, 0, 0};
   double brightness = 0;
 
   // The square of one error.
-  static Variance of(const Irradiance& error) {
-    const double b = rsphere::brightness(error);
-    return {error.rgb * error.rgb, b * b};
+  static Variance of(const Irradiance& error, const SpectralSampling* sampling) {
+    const double b = photopicOf(error.color, sampling);
+    return {error.color * error.color, b * b};
   }
   Variance& operator+=(const Variance& v) {
     channels += v.channels;
@@ -41,15 +44,16 @@ struct Neighbours {
 // each direction; empty: all are in one region. Only neighbours in the same region are compared, if there are
 // any: the edge of a region is no error, because cells keep to regions.
 Variance baseVariance(std::span<const DirectionSample> base, const Neighbours& neighbours,
-                      std::span<const RegionId> regions);
+                      std::span<const RegionId> regions, const SpectralSampling* sampling = nullptr);
 
 // The same for a run of dynamic directions, which are evenly spread over a region in this order,
 // but successive ones are not neighbours: the variance of independent directions, reduced because
 // the directions are even.
-Variance spreadVariance(std::span<const DirectionSample> samples);
+Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling = nullptr);
 
 // The same for the samples of one image of a light source, in the order of its grid: from differences between
 // neighbouring cells, because an occluder hides cells that lie together.
-Variance partsVariance(std::span<const SeenSources::Sample> samples);
+Variance partsVariance(std::span<const SeenSources::Sample> samples,
+                       const SpectralSampling* sampling = nullptr);
 
 }  // namespace rsphere

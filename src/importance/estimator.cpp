@@ -26,26 +26,32 @@ void shareOut(const Irradiance& excess, std::span<const Radiance> guesses,
     guessed += irradianceFrom(guesses[i], samples[i].solidAngle);
     solidAngle += samples[i].solidAngle;
   }
-  for (int c = 0; c < 3; ++c) {
-    const double all = guessed.rgb[c], more = excess.rgb[c];
-    const double scale = all > 0 ? more / all : 0,
-                 shift = all > 0 || !(solidAngle > 0) ? 0 : more / solidAngle;
-    for (size_t i = 0; i < samples.size(); ++i) samples[i].value.rgb[c] += scale * guesses[i].rgb[c] + shift;
-  }
+  // Of one channel or band: those of the guess and of the excess.
+  const auto scaleOf = [](double all, double more) { return all > 0 ? more / all : 0; };
+  const auto shiftOf = [&](double all, double more) {
+    return all > 0 || !(solidAngle > 0) ? 0 : more / solidAngle;
+  };
+  const Color scale =
+      combined(excess.color, guessed.color, [&](double e, double g) { return scaleOf(g, e); });
+  const Color shift =
+      combined(excess.color, guessed.color, [&](double e, double g) { return shiftOf(g, e); });
+  for (size_t i = 0; i < samples.size(); ++i) samples[i].value.color += scale * guesses[i].color + shift;
 }
 
 // Sets radiances to 0 that guesses have made negative, and reduces the others so that the
 // integral stays the same.
 void keepPositive(std::vector<DirectionSample>& samples) {
-  for (int c = 0; c < 3; ++c) {
-    double sum = 0, positive = 0;
-    for (const DirectionSample& s : samples) {
-      sum += s.value.rgb[c] * s.solidAngle;
-      positive += std::max(0., s.value.rgb[c]) * s.solidAngle;
-    }
-    if (!(sum > 0) || sum == positive) continue;
-    for (DirectionSample& s : samples) s.value.rgb[c] = std::max(0., s.value.rgb[c]) * (sum / positive);
+  Color sum, positive;
+  for (const DirectionSample& s : samples) {
+    sum += s.value.color * s.solidAngle;
+    Color part = s.value.color;
+    part.transform([](double v) { return std::max(0., v); });
+    positive += part * s.solidAngle;
   }
+  for (DirectionSample& s : samples)
+    s.value.color = combined(s.value.color, sum, positive, [](double value, double all, double kept) {
+      return !(all > 0) || all == kept ? value : std::max(0., value) * (all / kept);
+    });
 }
 
 // Sums over the sets of one half (two_halves.h).
@@ -101,6 +107,7 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
       options_(options),
       base_(makeBaseSet(options, standardError || options.accuracy > 0)),
       sources_(transport) {
+  base_.sampling = transport.options().sampling;
   if (options.weights != Weights::homogeneous)
     special_ = findSpecialObjects(transport.scene(), options.densityFactor);
   if (options.weights == Weights::silhouettes && options.densityFactor > 0) {
@@ -139,12 +146,13 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
     if (workspace.checkStop) workspace.checkStop();
     SampledSet set =
         strategy_->sample(SetAtPoint(point, sets++, options_.rotation), workspace.tracer, workspace.voronoi_);
-    const Moments moments = set.moments();
+    const Moments moments = set.moments(transport_.options().sampling);
     Half& half = halves[*next];
     half.moments.add(moments, 1);
     half.excess += set.excess.total;
     half.variance += set.variance;
-    decision.add(*next, brightness(moments.total), set.variance.brightness);
+    decision.add(*next, photopicOf(moments.total.color, transport_.options().sampling),
+                 set.variance.brightness);
     directions += set.samples.size();
     largest = std::max(largest, set.samples.size());
     if (keep) kept.push_back({*next, std::move(set)});
@@ -165,7 +173,8 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
   PointAnswer answer = moments.answer(point, directions);
   // Rounding may leave a variance a little below 0.
   const auto standardError = [](double v) { return std::sqrt(std::max(0., v)) / (4 * std::numbers::pi); };
-  for (int i = 0; i < 3; ++i) answer.standardError.rgb[i] = standardError(variance.channels[i]);
+  answer.standardError.color = variance.channels;
+  answer.standardError.color.transform(standardError);
   answer.brightnessError = standardError(variance.brightness);
   answer.reached = options_.accuracy <= 0 || decision.isReached();
   return answer;

@@ -5,13 +5,15 @@
 #include <iterator>
 #include <numbers>
 
+#include "base/spectral_sampling.h"
+
 namespace rsphere {
 
-void Moments::add(const V3d& d, const Irradiance& part) {
+void Moments::add(const V3d& d, const Irradiance& part, const SpectralSampling* sampling) {
   total += part;
   cylindrical += part * std::sqrt(std::max(0., 1 - d.z * d.z));
   for (int axis = 0; axis < 3; ++axis) facing[2 * axis + (d[axis] < 0)] += part * std::abs(d[axis]);
-  light += brightness(part) * d;
+  light += photopicOf(part.color, sampling) * d;
 }
 
 void Moments::add(const Moments& other, double share) {

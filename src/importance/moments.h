@@ -9,10 +9,10 @@ struct Moments {
   Irradiance total;        // of L
   Irradiance cylindrical;  // of L sin(angle to z)
   Irradiance facing[6];    // of L |cos(angle to the axis)| over the hemispheres around +x -x +y -y +z -z
-  V3d light{0, 0, 0};      // of brightness(L) d, W/m2
+  V3d light{0, 0, 0};      // of photopicOf(L) d, W/m2
 
-  // Adds one direction. part: its radiance times its solid angle.
-  void add(const V3d& direction, const Irradiance& part);
+  // Adds one direction. part: its radiance times its solid angle. sampling: RayOptions::sampling.
+  void add(const V3d& direction, const Irradiance& part, const SpectralSampling* sampling = nullptr);
   void add(const Moments& other, double share);
 
   // The quantities at a point (world), without their standard errors. Definitions: point_answer.h.

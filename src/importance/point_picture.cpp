@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 
+#include "base/colorimetry.h"
 #include "image/screen_color.h"
 #include "importance/smooth_indirect.h"
 #include "importance/tuning.h"
@@ -19,14 +20,19 @@ namespace {
 using std::numbers::pi;
 using Tuning = tuning::Pictures;
 
-Rgb valueAt(const Raster& raster, size_t pixel) {
+V3d valueAt(const Raster& raster, size_t pixel) {
   const float* p = raster.pixels.data() + 3 * pixel;
-  return Rgb(p[0], p[1], p[2]);
+  return V3d(p[0], p[1], p[2]);
 }
 
-void setValue(Raster& raster, size_t pixel, const Rgb& value) {
+void setValue(Raster& raster, size_t pixel, const V3d& value) {
   for (int c = 0; c < 3; ++c)
     raster.pixels[3 * pixel + static_cast<size_t>(c)] = static_cast<float>(value[c]);
+}
+
+// Red, green and blue of a picture.
+V3d shownRgb(const Color& color, const SpectralSampling* sampling) {
+  return sampling ? standardRgb(tristimulus(spectrumOf(color.bandsIn(*sampling)))) : color.rgb();
 }
 
 // The seeds of a picture, each named after its use.
@@ -134,28 +140,29 @@ class PixelTracer {
   PixelTracer(const PixelTracer&) = delete;
   PixelTracer& operator=(const PixelTracer&) = delete;
 
-  // Returns the radiance without the indirect light that it stores in pixel.light, which is to be
+  // Returns the radiance (red, green, blue) without the indirect light that it stores in pixel.light, which is to be
   // multiplied by `pattern` and added.
-  Radiance trace(const V3d& direction, uint64_t seed, IndirectPixels::Pixel& pixel, Rgb& pattern) {
+  V3d trace(const V3d& direction, uint64_t seed, IndirectPixels::Pixel& pixel, V3d& pattern) {
     indirect_ = {};
     pixel = {};
     const Ray ray = tracer_.trace(point_, direction, 0, seed);
     const Hit& hit = tracer_.firstHit();
-    pattern = ray.pattern;
+    const SpectralSampling* const sampling = transport_.options().sampling;
+    pattern = shownRgb(ray.pattern, sampling);
     // The indirect light is not separated if a medium attenuates it on its way, or if the pattern is
     // black in a channel and it cannot be divided by the pattern.
     if (hit.surface == kNone || !isBlack(transport_.medium().extinction) ||
         !transport_.scatterers().empty() || !(std::min({pattern.x, pattern.y, pattern.z}) > 0))
-      return ray.value;
+      return shownRgb(ray.value.color, sampling);
     const Scene& scene = transport_.scene();
     const ModifierId material = scene.surfaces[hit.surface].material;
-    if (!scene.materialAt(material)) return ray.value;
+    if (!scene.materialAt(material)) return shownRgb(ray.value.color, sampling);
     pixel.material = material;
-    pixel.light = Imath::V3f(indirect_.rgb / pattern);
+    pixel.light = Imath::V3f(shownRgb(indirect_.color, sampling) / pattern);
     pixel.point = Imath::V3f(hit.distance * direction);
     pixel.normal = Imath::V3f(hit.normal);
     pixel.distance = static_cast<float>(hit.distance);
-    return ray.value - indirect_;
+    return shownRgb((ray.value - indirect_).color, sampling);
   }
 
  private:
@@ -172,8 +179,8 @@ Raster drawPoint(const V3d& point, const PixelMap& map, const Transport& transpo
                  const std::function<void()>& checkStop) {
   const PictureStreams streams(seed);
   const SmallSources small = smallSources(point, map, sources, tracer, streams.smallSources());
-  std::vector<Radiance> direct(map.count());
-  std::vector<Rgb> patterns(map.count(), Rgb(1, 1, 1));
+  std::vector<V3d> direct(map.count(), V3d(0, 0, 0));
+  std::vector<V3d> patterns(map.count(), V3d(1, 1, 1));
   IndirectPixels indirect{map.width(), map.height(), map.wraps(), {}};
   indirect.pixels.resize(map.count());
   PixelTracer pixels(point, transport, tracer);
@@ -184,7 +191,7 @@ Raster drawPoint(const V3d& point, const PixelMap& map, const Transport& transpo
           static_cast<size_t>(row) * static_cast<size_t>(map.width()) + static_cast<size_t>(column);
       const auto trace = [&](double x, double y, uint64_t raySeed) {
         const auto direction = map.direction(column + x, row + y);
-        direct[pixel] = {};
+        direct[pixel] = V3d(0, 0, 0);
         indirect.pixels[pixel] = {};
         if (!direction) return true;
         direct[pixel] = pixels.trace(*direction, raySeed, indirect.pixels[pixel], patterns[pixel]);
@@ -193,19 +200,20 @@ Raster drawPoint(const V3d& point, const PixelMap& map, const Transport& transpo
       bool shown = !trace(.5, .5, streams.middle(pixel));
       for (size_t i = 0; shown && i < Tuning::kBeside.size(); ++i)
         shown = !trace(.5 + Tuning::kBeside[i][0], .5 + Tuning::kBeside[i][1], streams.aside(pixel, i));
-      if (shown) direct[pixel] = {};
+      if (shown) direct[pixel] = V3d(0, 0, 0);
     }
   }
   smoothIndirect(indirect);
   Raster raster{map.width(), map.height(), std::vector<float>(3 * map.count())};
   for (size_t pixel = 0; pixel < map.count(); ++pixel) {
     const Imath::V3f& light = indirect.pixels[pixel].light;
-    setValue(raster, pixel, direct[pixel].rgb + patterns[pixel] * Rgb(light.x, light.y, light.z));
+    setValue(raster, pixel, direct[pixel] + patterns[pixel] * V3d(light));
   }
   for (const auto& [pixel, spot] : small.spots) {
     const double whole = std::max(map.solidAngle(pixel), spot.solidAngle);
     setValue(raster, pixel,
-             valueAt(raster, pixel) * (1 - spot.solidAngle / whole) + meanRadiance(spot.light, whole).rgb);
+             valueAt(raster, pixel) * (1 - spot.solidAngle / whole) +
+                 shownRgb(meanRadiance(spot.light, whole).color, transport.options().sampling));
   }
   return raster;
 }
@@ -214,7 +222,7 @@ void expose(Raster& raster, const PixelMap& map) {
   std::vector<std::pair<double, double>> lit;  // brightness, solid angle
   double all = 0;
   for (size_t pixel = 0; pixel < map.count(); ++pixel) {
-    const double b = brightness(valueAt(raster, pixel)), solidAngle = map.solidAngle(pixel);
+    const double b = brightness(Color(valueAt(raster, pixel))), solidAngle = map.solidAngle(pixel);
     if (!(b > 0) || !(solidAngle > 0)) continue;
     lit.emplace_back(b, solidAngle);
     all += solidAngle;

@@ -15,9 +15,10 @@ std::vector<V3d> SetAtPoint::turned(std::span<const V3d> directions) const {
   return rotatedDirections(directions, mixBits(seed_));
 }
 
-Moments SampledSet::moments() const {
+Moments SampledSet::moments(const SpectralSampling* sampling) const {
   Moments moments;
-  for (const DirectionSample& s : samples) moments.add(s.direction, irradianceFrom(s.value, s.solidAngle));
+  for (const DirectionSample& s : samples)
+    moments.add(s.direction, irradianceFrom(s.value, s.solidAngle), sampling);
   moments.add(excess, 1);
   return moments;
 }

@@ -44,7 +44,7 @@ struct SampledSet {
   Variance variance;  // of moments().total; 0 unless standard errors are wanted
 
   // The set's estimate of the integrals over all directions.
-  Moments moments() const;
+  Moments moments(const SpectralSampling* sampling = nullptr) const;  // RayOptions::sampling
 };
 
 // Traces each direction once and gives it its solid angle (sr). The random numbers of direction i

@@ -176,11 +176,11 @@ Moments SilhouetteWeights::excessOfGlances(const SetAtPoint& set, const Others& 
   for (size_t i = 0; i < others.samples.size(); ++i)
     if (others.regions[i] != kNoRegion)
       excess.add(others.samples[i].direction,
-                 irradianceFrom(others.guesses[i], -others.samples[i].solidAngle));
+                 irradianceFrom(others.guesses[i], -others.samples[i].solidAngle), base_.sampling);
   const std::vector<V3d> glances = set.turned(guidance_->glances);
   const double solidAngle = 4 * pi / static_cast<double>(glances.size());
   for (const V3d& direction : glances)
-    excess.add(direction, irradianceFrom(guess.along(set.point(), direction), solidAngle));
+    excess.add(direction, irradianceFrom(guess.along(set.point(), direction), solidAngle), base_.sampling);
   return excess;
 }
 
@@ -197,15 +197,16 @@ Variance SilhouetteWeights::varianceOf(const Others& others,
     for (size_t i = 0; i < unguessed.size(); ++i) unguessed[i].value -= others.guesses[i];
     const double even =
         std::pow(static_cast<double>(guidance_->glances.size()) / static_cast<double>(base), -1.5);
-    variance += baseVariance(guessed, *base_.neighbours, others.regions) * even;
+    variance += baseVariance(guessed, *base_.neighbours, others.regions, base_.sampling) * even;
   }
   const std::span<const DirectionSample> samples(unguessed);
-  variance += baseVariance(samples.first(base), *base_.neighbours, others.regions);
+  variance += baseVariance(samples.first(base), *base_.neighbours, others.regions, base_.sampling);
   for (size_t i = 1; i < others.runs.size(); ++i)
-    variance += spreadVariance(samples.subspan(others.runs[i - 1], others.runs[i] - others.runs[i - 1]));
+    variance += spreadVariance(samples.subspan(others.runs[i - 1], others.runs[i] - others.runs[i - 1]),
+                               base_.sampling);
   for (size_t i = 0, next = 0; i < toImages.size(); i = next) {
     while (next < toImages.size() && toImages[next].image == toImages[i].image) ++next;
-    variance += partsVariance(toImages.subspan(i, next - i));
+    variance += partsVariance(toImages.subspan(i, next - i), base_.sampling);
   }
   return variance;
 }

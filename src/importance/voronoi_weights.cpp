@@ -43,7 +43,8 @@ SampledSet VoronoiWeights::sample(const SetAtPoint& set, PathTracer& tracer, Vor
       set.isFirst() ? cellSolidAngles(triangulation_, dynamic, memory) : cellSolidAngles(directions, memory);
   if (options_.verify) checkCells(memory);
   SampledSet sampled = traceEach(set, directions, solidAngles, options_.everyDirection, tracer);
-  if (base_.neighbours) sampled.variance = baseVariance(sampled.samples, neighboursOf(memory), {});
+  if (base_.neighbours)
+    sampled.variance = baseVariance(sampled.samples, neighboursOf(memory), {}, base_.sampling);
   return sampled;
 }
 

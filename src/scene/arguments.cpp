@@ -38,9 +38,9 @@ V3d PrimitiveArguments::vector(size_t at) const {
   return V3d(r[at], r[at + 1], r[at + 2]);
 }
 
-Rgb PrimitiveArguments::color(size_t at) const {
+Color PrimitiveArguments::color(size_t at) const {
   const auto r = reals();
-  return Rgb(r[at], r[at + 1], r[at + 2]);
+  return Color(r[at], r[at + 1], r[at + 2]);
 }
 
 void PrimitiveArguments::needReals(size_t count) const {

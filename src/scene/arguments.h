@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/rgb.h"
+#include "base/color.h"
 #include "rad_parser/description.h"
 #include "rad_parser/error.h"
 #include "scene/placement.h"
@@ -35,7 +35,7 @@ class PrimitiveArguments {
 
   // Real arguments from an index on. REQUIRES that they exist: one of the checks below has passed.
   V3d vector(size_t at) const;
-  Rgb color(size_t at) const;
+  Color color(size_t at) const;
 
   // Each throws rad::Error if the number of arguments differs.
   void needReals(size_t count) const;

@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "base/rgb.h"
+#include "base/color.h"
 #include "scene/ids.h"
 
 namespace rsphere {
@@ -15,32 +15,32 @@ namespace rsphere {
 
 // plastic: uncoloured highlights. metal: highlights have the material's colour.
 struct Opaque {
-  Rgb color{0, 0, 0};
+  Color color;
   double specularity = 0;  // fraction reflected specularly
   double roughness = 0;    // rms slope of the facets; 0: perfect mirror reflection
   bool metal = false;
 };
 struct Trans {
-  Rgb color{0, 0, 0};
+  Color color;
   double specularity = 0, roughness = 0;
   double transmissivity = 0;       // fraction of the light not reflected specularly that passes
   double transmittedSpecular = 0;  // fraction of the transmitted light that is not scattered
 };
 // The surface of a solid, with Fresnel reflection and absorption per unit length.
 struct Dielectric {
-  Rgb transmission{0, 0, 0};  // per unit length
+  Color transmission;  // per unit length
   double refraction = 1;
   double hartmann = 0;  // dispersion constant, nm
 };
 struct Interface {
-  Rgb innerTransmission{0, 0, 0};
+  Color innerTransmission;
   double innerRefraction = 1;
-  Rgb outerTransmission{0, 0, 0};
+  Color outerTransmission;
   double outerRefraction = 1;
 };
 // A thin pane. transmissivity: of one passage at normal incidence, without the reflections.
 struct Glass {
-  Rgb transmissivity{0, 0, 0};
+  Color transmissivity;
   double refraction = 1.52;
 };
 
@@ -50,7 +50,7 @@ struct Glass {
 // plastic2, metal2 and trans2: elliptical highlights. The functions give a direction, which is projected onto
 // the surface; the roughnesses along it and across it are both above 0.
 struct Anisotropic {
-  Rgb color{0, 0, 0};
+  Color color;
   double specularity = 0;
   double roughnessAlong = 0, roughnessAcross = 0;
   bool metal = false;
@@ -60,14 +60,14 @@ struct Anisotropic {
 };
 // ashik2: the higher the powers, the smoother the surface. The diffuse and specular colours add up.
 struct Ashikhmin {
-  Rgb diffuse{0, 0, 0}, specular{0, 0, 0};
+  Color diffuse, specular;
   double powerAlong = 0, powerAcross = 0;
   ModifierId functions = kNone;
 };
 // plasfunc, metfunc, transfunc, plasdata, metdata and transdata: the specular component is scattered
 // according to a function of the direction to a light source.
 struct FunctionScatterer {
-  Rgb color{0, 0, 0};
+  Color color;
   double specularity = 0;
   bool metal = false;
   double transmissivity = 0, transmittedSpecular = 0;
@@ -75,7 +75,7 @@ struct FunctionScatterer {
 };
 // BRTDfunc. Arguments that are numbers are evaluated here; the others are known only at a hit.
 struct BrtdFunction {
-  Rgb diffuseFront{0, 0, 0}, diffuseBack{0, 0, 0}, diffuseTransmitted{0, 0, 0};
+  Color diffuseFront, diffuseBack, diffuseTransmitted;
   bool transmits = true;     // sharply: some transmission argument is not "0"
   bool directional = true;   // some distribution function is not "0"
   double mostReflected = 1;  // upper bound of the sharp reflection of either side; 1 if functions decide
@@ -89,7 +89,7 @@ struct WgmdFunction {
     double share = 1, roughnessAlong = 0, roughnessAcross = 0;
     std::optional<ModifierId> modifier;  // kNone: void; empty: the material's
   };
-  Rgb diffuseFront{0, 0, 0}, diffuseBack{0, 0, 0}, diffuseTransmitted{0, 0, 0};
+  Color diffuseFront, diffuseBack, diffuseTransmitted;
   Lobe reflected, transmitted;
   std::optional<ModifierId> diffuseTransmittedModifier;
   bool transmits = true;  // the specular transmission is not "0"
@@ -100,7 +100,7 @@ struct WgmdFunction {
 struct BsdfMaterial {
   bool aperture = false;  // aBSDF: light that passes straight through is treated separately
   bool proxy = false;     // BSDF whose thickness is not "0": a proxy for geometry that it hides
-  Rgb diffuseFront{0, 0, 0}, diffuseBack{0, 0, 0}, diffuseTransmitted{0, 0, 0};
+  Color diffuseFront{0, 0, 0}, diffuseBack{0, 0, 0}, diffuseTransmitted{0, 0, 0};
   ModifierId functions = kNone;
 };
 
@@ -110,7 +110,7 @@ struct Alternate {
   ModifierId modifier = kNone;  // for Kind::modifier
 };
 struct Mirror {
-  Rgb reflectance{0, 0, 0};
+  Color reflectance;
   Alternate alternate;
 };
 
@@ -128,30 +128,30 @@ struct Antimatter {
 // A volume that absorbs and scatters light. sources: the light sources whose light is scattered;
 // "mirror>lamp" is the lamp as seen by way of a mirror or prism.
 struct Mist {
-  Rgb extinction{0, 0, 0};                          // per unit length, added to the surrounding medium's
+  Color extinction{0, 0, 0};                        // per unit length, added to the surrounding medium's
   bool hasAlbedo = false, hasEccentricity = false;  // if not, the surrounding medium's values apply
-  Rgb albedo{0, 0, 0};                              // fraction of the extinction that is scattered
+  Color albedo{0, 0, 0};                            // fraction of the extinction that is scattered
   double eccentricity = 0;                          // of the Henyey-Greenstein phase function
   std::vector<std::string> sources;
   uint32_t number = 0;  // index among the scene's mists
 };
 
 struct Light {
-  Rgb radiance{0, 0, 0};  // W/sr/m2
+  Color radiance;  // W/sr/m2
 };
 struct Illum {
-  Rgb radiance{0, 0, 0};
+  Color radiance;
   Alternate alternate;  // Kind::none also lets rays pass
 };
 // reach (world units): beyond this distance it is not sampled as a light source and lights only by indirect
 // rays that happen to hit it. 0: it lights in this way alone, at any distance. Negative: it does not light
 // the scene and is only seen directly.
 struct Glow {
-  Rgb radiance{0, 0, 0};
+  Color radiance;
   double reach = 0;
 };
 struct Spotlight {
-  Rgb radiance{0, 0, 0};
+  Color radiance;
   double solidAngle = 0;   // of the cone, sr
   V3d aim{0, 0, 1};        // unit
   double focalLength = 0;  // length of the aim vector as given: the focus lies this far behind the surface

@@ -76,7 +76,7 @@ std::optional<MirrorReflection> mirrorReflection(const Material& material);
 // The diffuse reflection of both sides of an opaque material without functions: `share` of the light, in this
 // color. Empty for all other materials.
 struct DiffuseReflection {
-  Rgb color;
+  Color color;
   double share = 0;
 };
 std::optional<DiffuseReflection> diffuseReflection(const Material& material);

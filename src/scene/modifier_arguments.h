@@ -82,7 +82,7 @@ Spotlight readSpotlight(const PrimitiveArguments& arguments);
 
 // mirror, illum: a color, and the name of the alternate material ("void" is one); empty if it is not given.
 struct AlternatingArguments {
-  Rgb color;  // reflectance of mirror, radiance of illum
+  Color color;  // reflectance of mirror, radiance of illum
   std::optional<std::string_view> alternate;
 };
 AlternatingArguments readAlternating(const PrimitiveArguments& arguments);

@@ -25,7 +25,7 @@ V3d normalOf(const Interaction& at, double& cosine) {
   return isPerturbed(at) ? perturbedNormal(at, cosine) : at.normal;
 }
 
-Rgb gray(double x) { return Rgb(x, x, x); }
+Color gray(double x) { return Color(x, x, x); }
 
 // Sets the lobe's tangents and its mean square slopes along them.
 void orient(EllipticLobe& lobe, const V3d& along, double roughnessAlong, double roughnessAcross) {
@@ -120,7 +120,7 @@ AnisotropicScattering scatter(const Anisotropic& m, const Interaction& at, const
   cosine = std::max(cosine, kLeastCosine);
   s.reflection.normal = s.transmission.normal = normal;
   s.widenReflection = at.flat && !isPerturbed(at);
-  const Rgb color = m.color * at.pattern;
+  const Color color = m.color * at.pattern;
   const double passes = m.transmissivity * (1 - m.specularity);
   const double straight = passes * m.transmittedSpecular;
   s.reflection.share = s.reflection.ambient = color * (1 - passes - m.specularity);
@@ -165,7 +165,7 @@ AnisotropicScattering scatter(const WgmdFunction& m, const WgmdComponent& reflec
     s.polished = true;
     s.polishedNormal = normalOf(reflected.at, mirrorCosine);
     const double rise = fresnelRise(mirrorCosine);
-    s.reflected.share += rise * (Rgb(1, 1, 1) - s.reflected.share);
+    s.reflected.share += rise * (Color(1, 1, 1) - s.reflected.share);
     s.reflection.share *= 1 - rise;
     s.transmission.share *= 1 - rise;
     s.transmitted.share *= 1 - rise;
@@ -187,7 +187,7 @@ AnisotropicScattering scatter(const WgmdFunction& m, const WgmdComponent& reflec
       const double bright = brightness(s.transmitted.share);
       const bool image = bright > brightness(s.reflection.share) + brightness(s.transmission.share);
       s.sharp.add({through, Coefficient(s.transmitted.share), kTransmitted, image});
-      s.transmitted.share = Rgb(0, 0, 0);
+      s.transmitted.share = Color(0, 0, 0);
     } else {
       sampleOrAdd(s.transmitted, brightness(s.transmitted.share), specularThreshold, s.transmission);
     }
@@ -198,7 +198,7 @@ AnisotropicScattering scatter(const WgmdFunction& m, const WgmdComponent& reflec
     if (isPerturbed(at) && mirrored.dot(at.normal) <= 0) mirrored = at.direction + 2 * at.cosine * at.normal;
     s.sharp.add({mirrored.normalized(), Coefficient(s.reflected.share), kReflected,
                  s.widenReflection && (at.kinds & kAmbient) != 0});
-    s.reflected.share = Rgb(0, 0, 0);
+    s.reflected.share = Color(0, 0, 0);
   } else if (maxChannel(s.reflected.share) > 0) {
     sampleOrAdd(s.reflected, brightness(s.reflected.share), specularThreshold, s.reflection);
   }
@@ -210,21 +210,21 @@ Coefficient directCoefficient(const AnisotropicScattering& s, const V3d& directi
   Coefficient sum;
   const double enters = s.polished ? 1 - fresnelRise(std::abs(s.polishedNormal.dot(toSource))) : 1;
   const double before = s.reflection.normal.dot(toSource), beyond = -s.transmission.normal.dot(toSource);
-  if (before > kNegligible) sum.rgb += s.reflection.share * (enters * before * solidAngle / kPi);
-  if (beyond > kNegligible) sum.rgb += s.transmission.share * (enters * beyond * solidAngle / kPi);
+  if (before > kNegligible) sum.color += s.reflection.share * (enters * before * solidAngle / kPi);
+  if (beyond > kNegligible) sum.color += s.transmission.share * (enters * beyond * solidAngle / kPi);
   if (maxChannel(s.reflected.share) > 0) {
     const double cosine = s.reflected.normal.dot(toSource);
     if (cosine > kNegligible) {
       const double widening = s.widenReflection ? (1 - sourceJitter) * solidAngle * .25 / kPi : 0;
       const double lobe = reflectedLobe(s.reflected, direction, toSource, widening);
-      if (lobe > kNegligible) sum.rgb += s.reflected.share * (lobe * cosine * solidAngle);
+      if (lobe > kNegligible) sum.color += s.reflected.share * (lobe * cosine * solidAngle);
     }
   }
   if (maxChannel(s.transmitted.share) > 0) {
     const double cosine = -s.transmitted.normal.dot(toSource);
     if (cosine > kNegligible) {
       const double lobe = transmittedLobe(s.transmitted, toSource, cosine, solidAngle);
-      if (lobe > kNegligible) sum.rgb += s.transmitted.share * (lobe * solidAngle);
+      if (lobe > kNegligible) sum.color += s.transmitted.share * (lobe * solidAngle);
     }
   }
   return sum;
@@ -261,7 +261,7 @@ AshikhminScattering scatter(const Ashikhmin& m, const Interaction& at, const V3d
     s.powerAlong = s.powerAcross = 2 / (1 / (m.powerAlong + kAbove) + 1 / (m.powerAcross + kAbove));
   }
   if (maxChannel(m.specular) > kNegligible) {
-    s.share = m.specular + schlick(s.cosine) * (Rgb(1, 1, 1) - m.specular);
+    s.share = m.specular + schlick(s.cosine) * (Color(1, 1, 1) - m.specular);
     s.sampled = specularThreshold < brightness(m.specular) - kNegligible;
     if (!s.sampled && maxChannel(s.reflection.share) > kNegligible) s.reflection.ambient += s.share;
   }
@@ -282,7 +282,7 @@ Coefficient directCoefficient(const AshikhminScattering& s, const V3d& direction
     const double power = within > 0 ? (s.powerAlong * a * a + s.powerAcross * b * b) / within : 0;
     const double lobe = std::pow(up, power) * std::sqrt((s.powerAlong + 1) * (s.powerAcross + 1)) /
                         (8 * kPi * toSource.dot(half) * std::max(cosine, s.cosine));
-    if (lobe > kNegligible) sum.rgb += s.share * (lobe * cosine * solidAngle);
+    if (lobe > kNegligible) sum.color += s.share * (lobe * cosine * solidAngle);
   }
   return sum;
 }

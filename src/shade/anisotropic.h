@@ -20,9 +20,9 @@ Tangents tangents(const V3d& normal, const V3d& direction);
 
 // A Gaussian lobe whose mean square facet slopes differ along two directions.
 struct EllipticLobe {
-  Rgb share{0, 0, 0};   // of radiance, coloured; black: there is no lobe
-  V3d normal{0, 0, 1};  // perturbed, on the ray's side
-  double cosine = 1;    // -normal . direction, at least .001
+  Color share{0, 0, 0};  // of radiance, coloured; black: there is no lobe
+  V3d normal{0, 0, 1};   // perturbed, on the ray's side
+  double cosine = 1;     // -normal . direction, at least .001
   Tangents tangents;
   double alongSquare = 0, acrossSquare = 0;  // mean square slopes
   V3d transmitted{0, 0, 0};                  // the middle of a transmitted lobe
@@ -35,7 +35,7 @@ struct EllipticLobe {
 // lobe too weak to be sampled (-st).
 struct DiffuseComponent {
   V3d normal{0, 0, 1};  // perturbed, on the ray's side
-  Rgb share{0, 0, 0}, ambient{0, 0, 0};
+  Color share{0, 0, 0}, ambient{0, 0, 0};
 };
 
 struct AnisotropicScattering {
@@ -80,8 +80,8 @@ double sampleTransmission(const EllipticLobe& lobe, const Interaction& at, doubl
 
 struct AshikhminScattering {
   DiffuseComponent reflection;
-  Rgb share{0, 0, 0};  // of the lobe, with its Fresnel rise
-  double cosine = 1;   // -normal . direction, at least .001
+  Color share{0, 0, 0};  // of the lobe, with its Fresnel rise
+  double cosine = 1;     // -normal . direction, at least .001
   Tangents tangents;
   double powerAlong = 0, powerAcross = 0;
   bool sampled = false;

@@ -610,16 +610,16 @@ class TreeScattering final : public DirectedScattering {
 
 }  // namespace
 
-Rgb rgbOf(const Tristimulus& c) {
-  if (c.x == c.y && c.z == c.y) return Rgb(c.y, c.y, c.y);
+Color rgbOf(const Tristimulus& c) {
+  if (c.x == c.y && c.z == c.y) return Color(c.y, c.y, c.y);
   static const M33d matrix = rgbFromXyz();
   const V3d v = V3d(c.x, c.y, c.z) * matrix;
   const double least = std::min({v.x, v.y, v.z});
-  if (least >= 0) return Rgb(v.x, v.y, v.z);
-  if (!(c.y > 0)) return Rgb(0, 0, 0);
+  if (least >= 0) return Color(v.x, v.y, v.z);
+  if (!(c.y > 0)) return Color(0, 0, 0);
   const double kept = c.y / (c.y - least);
   const auto mixed = [&](double channel) { return std::max(0., c.y + kept * (channel - c.y)); };
-  return Rgb(mixed(v.x), mixed(v.y), mixed(v.z));
+  return Color(mixed(v.x), mixed(v.y), mixed(v.z));
 }
 
 BsdfData::BsdfData(const BsdfFile& file, std::string_view name, const rad::Warn& warn) {
@@ -710,7 +710,7 @@ BsdfData::Through BsdfData::through(const V3d& view) const {
   int inPeak = 0;
   for (const Probe& p : found) {
     const double angle = p.cell.projectedSolidAngle;
-    const Rgb light = rgbOf(p.cell.value) * angle;
+    const Color light = rgbOf(p.cell.value) * angle;
     if (angle > kSizeOfPeak * part->finestCell() || luminance > kHeightOfPeak * p.luminance * inPeak) {
       t.around += light;
       aroundAngle += angle;

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/rgb.h"
+#include "base/color.h"
 #include "rad_parser/bsdf_file.h"
 
 namespace rsphere {
@@ -25,7 +25,7 @@ struct Tristimulus {
 };
 // For RADIANCE's primaries and white point. Colours outside their gamut are mixed with grey of the same
 // luminance until no channel is negative.
-Rgb rgbOf(const Tristimulus& c);
+Color rgbOf(const Tristimulus& c);
 
 // One of the four components of a file, without its diffuse part, which is the same for all directions.
 class DirectedScattering {
@@ -83,8 +83,8 @@ class BsdfData {
 
   // The share of light that is scattered diffusely, by the side of the view: the smallest value of the data,
   // if that is more than 1% of the light, otherwise 0. The rest is directed.
-  const Rgb& diffuseReflectance(bool front) const { return diffuse_[front ? 0 : 1]; }
-  const Rgb& diffuseTransmittance(bool front) const { return diffuse_[front ? 2 : 3]; }
+  const Color& diffuseReflectance(bool front) const { return diffuse_[front ? 0 : 1]; }
+  const Color& diffuseTransmittance(bool front) const { return diffuse_[front ? 2 : 3]; }
 
   // The directed part for a view on this side; null if there is none.
   const DirectedScattering* reflection(bool front) const { return directed_[front ? 0 : 1].get(); }
@@ -106,12 +106,12 @@ class BsdfData {
   // The share of light that is transmitted without deflection, and the scattering (1/sr) around that
   // direction; black if the data have no narrow peak there. Neither contains the diffuse part.
   struct Through {
-    Rgb peak{0, 0, 0}, around{0, 0, 0};
+    Color peak{0, 0, 0}, around{0, 0, 0};
   };
   Through through(const V3d& view) const;
 
  private:
-  std::array<Rgb, 4> diffuse_;  // by rad::BsdfFile::Component
+  std::array<Color, 4> diffuse_;  // by rad::BsdfFile::Component
   std::array<double, 4> diffuseLuminance_{};
   std::array<std::unique_ptr<const DirectedScattering>, 4> directed_;
 };

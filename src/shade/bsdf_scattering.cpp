@@ -67,7 +67,7 @@ std::optional<Lobe> BsdfScattering::lobe(Component component, Random& random) {
   if (share <= kNegligible) return {};
   if (share <= threshold_ + kNegligible) {
     (transmits ? unsampledTransmission_ : unsampledReflection_) =
-        (transmits ? at_.pattern : Rgb(1, 1, 1)) * share;
+        (transmits ? at_.pattern : Color(1, 1, 1)) * share;
     return {};
   }
   return Lobe{.share = share, .offset = transmits ? across_ : kNoOffset};
@@ -88,7 +88,7 @@ LobeSample BsdfScattering::draw(Component component, int i, int n, Random& rando
     if (dx * dx + dy * dy <= resolution_.finest) return {};
   }
   const Tristimulus value = directed.cell(view, direction).value;
-  Rgb coefficient = (transmits ? at_.pattern : Rgb(1, 1, 1)) * (albedo / n);
+  Color coefficient = (transmits ? at_.pattern : Color(1, 1, 1)) * (albedo / n);
   if (value.y > 0) coefficient *= rgbOf(value) / value.y;
   return {frame_.world(direction), Coefficient(coefficient)};
 }
@@ -98,16 +98,16 @@ Coefficient BsdfScattering::coefficient(Component component, const V3d& toSource
   const bool reflects = component == Component::reflected, transmits = !thick_ || !reflects;
   const double c = frame_.normal.dot(toSource);
   if (!(c > 0 ? reflects && c > kNegligible : transmits && c < -kNegligible)) return {};
-  const Rgb even = (c > 0 ? reflectance_ : transmittance_) / kPi;
-  const Rgb uneven = directed(toSource, solidAngle, random) * (c > 0 ? Rgb(1, 1, 1) : at_.pattern);
+  const Color even = (c > 0 ? reflectance_ : transmittance_) / kPi;
+  const Color uneven = directed(toSource, solidAngle, random) * (c > 0 ? Color(1, 1, 1) : at_.pattern);
   return Coefficient((even + uneven) * (std::abs(c) * solidAngle));
 }
 
 // The BSDF (1/sr) without its diffuse part for light from a source, averaged over views within a cell.
-Rgb BsdfScattering::directed(const V3d& toSource, double solidAngle, Random& random) const {
+Color BsdfScattering::directed(const V3d& toSource, double solidAngle, Random& random) const {
   const V3d other = frame_.local(toSource);
   const DirectedScattering* part = data_->between(view_, other);
-  if (!part) return Rgb(0, 0, 0);
+  if (!part) return Color(0, 0, 0);
   if (part->transmits() && maxChannel(through_.peak) > kNegligible) {
     // The peak of straight transmission is left to the ray that is followed through the surface. Only the
     // scattering around the peak remains within the width of the source plus that of the peak. The widths are
@@ -121,7 +121,7 @@ Rgb BsdfScattering::directed(const V3d& toSource, double solidAngle, Random& ran
   // Cells smaller than this share of the cell of the view belong to a peak, whose light must not be spread
   // over a neighbouring cell.
   constexpr double kMuchFiner = .12;
-  Rgb sum(0, 0, 0);
+  Color sum(0, 0, 0);
   int counted = 0;
   for (int i = 0; i < draws; ++i) {
     const auto cell = part->cell(jittered(view_, size, random), other);
@@ -131,7 +131,7 @@ Rgb BsdfScattering::directed(const V3d& toSource, double solidAngle, Random& ran
     }
     ++counted;
   }
-  return counted > 0 ? sum / counted : Rgb(0, 0, 0);
+  return counted > 0 ? sum / counted : Color(0, 0, 0);
 }
 
 }  // namespace rsphere

@@ -57,7 +57,7 @@ class BsdfScattering {
                                                : data_->reflection(at_.front);
   }
   V3d jittered(const V3d& view, double projectedSolidAngle, Random& random) const;
-  Rgb directed(const V3d& toSource, double solidAngle, Random& random) const;
+  Color directed(const V3d& toSource, double solidAngle, Random& random) const;
 
   const BsdfData* data_;
   Interaction at_;
@@ -71,8 +71,8 @@ class BsdfScattering {
   bool showsThrough_ = false;    // whether a ray follows the straight transmission
   SharpPaths sharp_;
   DirectedScattering::Resolution resolution_{};
-  Rgb reflectance_{0, 0, 0}, transmittance_{0, 0, 0};                  // of the diffuse parts
-  Rgb unsampledReflection_{0, 0, 0}, unsampledTransmission_{0, 0, 0};  // of lobes too weak to be sampled
+  Color reflectance_{0, 0, 0}, transmittance_{0, 0, 0};                  // of the diffuse parts
+  Color unsampledReflection_{0, 0, 0}, unsampledTransmission_{0, 0, 0};  // of lobes too weak to be sampled
 };
 
 }  // namespace rsphere

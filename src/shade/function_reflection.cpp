@@ -13,7 +13,7 @@ FunctionScattering begin(const Interaction& at) {
   return s;
 }
 
-Coefficient coefficientOf(const std::array<double, 3>& v) { return Coefficient(Rgb(v[0], v[1], v[2])); }
+Coefficient coefficientOf(const std::array<double, 3>& v) { return Coefficient(Color(v[0], v[1], v[2])); }
 
 }  // namespace
 
@@ -27,7 +27,7 @@ FunctionScattering scatter(const FunctionScatterer& m, const Interaction& at) {
   s.ambientReflection = s.color * (1 - passes);
   s.ambientTransmission = s.color * passes;
   s.directionalReflection =
-      m.metal ? s.color * m.specularity : Rgb(m.specularity, m.specularity, m.specularity);
+      m.metal ? s.color * m.specularity : Color(m.specularity, m.specularity, m.specularity);
   s.directionalTransmission = s.color * directional;
   return s;
 }
@@ -37,7 +37,7 @@ FunctionScattering scatter(const BrtdFunction& m, const Interaction& at) {
   s.color = at.pattern;
   s.diffuseReflection = s.ambientReflection = (at.front ? m.diffuseFront : m.diffuseBack) * at.pattern;
   s.diffuseTransmission = s.ambientTransmission = m.diffuseTransmitted * at.pattern;
-  if (m.directional) s.directionalReflection = s.directionalTransmission = Rgb(1, 1, 1);
+  if (m.directional) s.directionalReflection = s.directionalTransmission = Color(1, 1, 1);
   return s;
 }
 

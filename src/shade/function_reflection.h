@@ -13,15 +13,15 @@
 namespace rsphere {
 
 struct FunctionScattering {
-  V3d normal{0, 0, 1};  // perturbed, on the ray's side
-  double cosine = 1;    // -normal . direction
-  Rgb color{1, 1, 1};   // passed to the functions as the material's colour
+  V3d normal{0, 0, 1};   // perturbed, on the ray's side
+  double cosine = 1;     // -normal . direction
+  Color color{1, 1, 1};  // passed to the functions as the material's colour
   SharpPaths sharp;
-  Rgb diffuseReflection{0, 0, 0}, diffuseTransmission{0, 0, 0};
-  Rgb ambientReflection{0, 0, 0}, ambientTransmission{0, 0, 0};
+  Color diffuseReflection{0, 0, 0}, diffuseTransmission{0, 0, 0};
+  Color ambientReflection{0, 0, 0}, ambientTransmission{0, 0, 0};
   // The factors on the functions' values for sources in front of the surface and behind it. If the factor is
   // black, the functions are not evaluated.
-  Rgb directionalReflection{0, 0, 0}, directionalTransmission{0, 0, 0};
+  Color directionalReflection{0, 0, 0}, directionalTransmission{0, 0, 0};
 };
 
 FunctionScattering scatter(const FunctionScatterer& material, const Interaction& at);
@@ -43,10 +43,10 @@ Coefficient directCoefficient(const FunctionScattering& s, const V3d& toSource, 
   if (std::abs(cosine) <= kNegligible) return {};
   const double projected = std::abs(cosine) * solidAngle;
   Coefficient sum((cosine > 0 ? s.diffuseReflection : s.diffuseTransmission) * (kPerPi * projected));
-  const Rgb& directional = cosine > 0 ? s.directionalReflection : s.directionalTransmission;
+  const Color& directional = cosine > 0 ? s.directionalReflection : s.directionalTransmission;
   if (maxChannel(directional) > kNegligible) {
-    const Rgb value = distribution();
-    if (brightness(value) > kNegligible) sum.rgb += value * directional * projected;
+    const Color value = distribution();
+    if (brightness(value) > kNegligible) sum.color += value * directional * projected;
   }
   return sum;
 }

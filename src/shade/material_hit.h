@@ -72,7 +72,7 @@ class MaterialHit {
   }
   virtual Interaction interaction() const = 0;
   // The factor of the patterns that were applied.
-  virtual const Rgb& pattern() const = 0;
+  virtual const Color& pattern() const = 0;
   // The hit with the patterns and textures of a chain of modifiers added (kNone: of none); without those of
   // modify(), if it was not called. Does not change the hit itself.
   virtual Interaction interactionAfter(ModifierId modifiers) const = 0;

@@ -19,7 +19,7 @@ bool countedByDirect(const Arrival& a, const Glow* glow = nullptr) {
   return (a.kinds & (kAmbient | kSpecular)) && !a.isShadow() && a.cosine >= 0 && !beyondReach(glow, a.length);
 }
 
-SourceResponse emission(const Rgb& radiance, MaterialHit& hit, const Glow* glow = nullptr) {
+SourceResponse emission(const Color& radiance, MaterialHit& hit, const Glow* glow = nullptr) {
   const Arrival& a = hit.arrival();
   if (a.isAimed() && (!a.isAimedHere() || a.atImage)) return Absorbs{};
   if (!hit.options().sourcesVisible && !a.isShadow() && !beyondReach(glow, a.pathLength + a.length))
@@ -256,7 +256,7 @@ std::variant<Absorbs, Redirects, Relays> response(const Prism& material, Materia
 // ---- volumes
 
 CrossesMist response(const Mist& material, MaterialHit& hit) {
-  Rgb extinction = material.extinction;
+  Color extinction = material.extinction;
   if (!isBlack(extinction)) {
     hit.modify();
     extinction *= hit.pattern();
@@ -304,7 +304,7 @@ SourceResponse response(const Illum& material, MaterialHit& hit) {
 
 SourceResponse goalResponse(bool sampled, MaterialHit& hit) {
   if (sampled && countedByDirect(hit.arrival())) return Absorbs{};
-  return emission(Rgb(1, 1, 1), hit);
+  return emission(Color(1, 1, 1), hit);
 }
 
 }  // namespace rsphere

@@ -40,7 +40,7 @@ struct Relays {
 // The ray enters or leaves a volume of mist. extinction (per unit length): the mist's, with its pattern.
 struct CrossesMist {
   const Mist& mist;
-  Rgb extinction;
+  Color extinction;
   bool enters;
 };
 // The ray enters or leaves antimatter. clips: the surfaces that it cuts away (Surface::clip).

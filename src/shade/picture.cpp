@@ -238,16 +238,16 @@ Picture Picture::read(const std::string& path) {
   return picture;
 }
 
-Rgb Picture::value(double x, double y) const {
+Color Picture::value(double x, double y) const {
   const Weights along = weightsAt(x / sizeX_ * static_cast<double>(width_ - 1), width_);
   const Weights up = weightsAt(y / sizeY_ * static_cast<double>(height_ - 1), height_);
-  Rgb sum(0, 0, 0);
+  Color sum(0, 0, 0);
   const auto add = [&](size_t row, double weight) {
     if (std::abs(weight) <= 1e-6) return;
     const Pixel* p = &pixels_[row * width_ + along.index];
     const double a = weight * along.first, b = weight * along.second;
-    sum += Rgb(a * p[0].r, a * p[0].g, a * p[0].b);
-    if (width_ > 1) sum += Rgb(b * p[1].r, b * p[1].g, b * p[1].b);
+    sum += Color(a * p[0].r, a * p[0].g, a * p[0].b);
+    if (width_ > 1) sum += Color(b * p[1].r, b * p[1].g, b * p[1].b);
   };
   add(up.index, up.first);
   if (height_ > 1) add(up.index + 1, up.second);

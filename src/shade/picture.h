@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "base/rgb.h"
+#include "base/color.h"
 
 namespace rsphere {
 
@@ -22,7 +22,7 @@ class Picture {
   // 0), the centers of the other corner pixels are at the picture's size, and the shorter side, with regard
   // to PIXASPECT, is 1 (RADIANCE reference manual, "Colorpict"). Outside, the picture is extended like a data
   // file (rad::DataFile::value).
-  Rgb value(double x, double y) const;
+  Color value(double x, double y) const;
 
  private:
   struct Pixel {

@@ -52,7 +52,7 @@ void beginScattering(Scattering& s, const Interaction& at, double roughness) {
   s.widenReflection = at.flat && !isPerturbed(at);
 }
 
-void addReflection(Scattering& s, const Interaction& at, const Gloss& g, const Rgb& color,
+void addReflection(Scattering& s, const Interaction& at, const Gloss& g, const Color& color,
                    double specularThreshold) {
   if (g.specular <= kNegligible) return;
   if (g.polished) {
@@ -78,8 +78,8 @@ double fresnelReflectance(double cosine, double ratio, double& cosineBeyond) {
 
 // The extinction per unit length for a transmission per unit length, limited to 0 to 100: no medium is
 // completely black, and none amplifies light.
-Rgb extinctionOf(const Rgb& transmission, const Rgb& pattern) {
-  Rgb e;
+Color extinctionOf(const Color& transmission, const Color& pattern) {
+  Color e;
   for (int i = 0; i < 3; ++i) {
     const double t = transmission[i] * pattern[i];
     e[i] = t < 1e-40 ? 100 : t >= 1 ? 0 : -std::log(t);
@@ -142,15 +142,15 @@ V3d perturbedNormal(const Interaction& at, double& cosine) {
 Scattering scatter(const Opaque& material, const Interaction& at, double specularThreshold) {
   Scattering s;
   beginScattering(s, at, material.roughness);
-  const Rgb color = material.color * at.pattern;
+  const Color color = material.color * at.pattern;
   const Gloss g = gloss(material.specularity, material.roughness, s.cosine);
   s.diffuseReflection = s.ambientReflection = color * (1 - g.specular);
   s.diffuseFresnel = g.polished && g.specular >= kFresnelSpecularity;
-  Rgb highlight(g.specular, g.specular, g.specular);
+  Color highlight(g.specular, g.specular, g.specular);
   if (material.metal)
-    highlight = g.fresnel > kNegligible
-                    ? Rgb(g.fresnel, g.fresnel, g.fresnel) + color * (material.specularity * (1 - g.fresnel))
-                    : color * g.specular;
+    highlight = g.fresnel > kNegligible ? Color(g.fresnel, g.fresnel, g.fresnel) +
+                                              color * (material.specularity * (1 - g.fresnel))
+                                        : color * g.specular;
   addReflection(s, at, g, highlight, specularThreshold);
   return s;
 }
@@ -158,7 +158,7 @@ Scattering scatter(const Opaque& material, const Interaction& at, double specula
 Scattering scatter(const Trans& material, const Interaction& at, double specularThreshold) {
   Scattering s;
   beginScattering(s, at, material.roughness);
-  const Rgb color = material.color * at.pattern;
+  const Color color = material.color * at.pattern;
   const Gloss g = gloss(material.specularity, material.roughness, s.cosine);
   const double passes = material.transmissivity * (1 - g.specular);
   const double straight = passes * material.transmittedSpecular;
@@ -182,7 +182,7 @@ Scattering scatter(const Trans& material, const Interaction& at, double specular
     }
   }
   if (!(at.kinds & kShadow))
-    addReflection(s, at, g, Rgb(g.specular, g.specular, g.specular), specularThreshold);
+    addReflection(s, at, g, Color(g.specular, g.specular, g.specular), specularThreshold);
   return s;
 }
 
@@ -208,7 +208,7 @@ Scattering scatter(const Glass& material, const Interaction& at) {
   double reflected[2];  // amplitudes at a single surface, for the two polarisations
   reflected[0] = (s.cosine - n * inside) / (s.cosine + n * inside);
   reflected[1] = (1 / s.cosine - n / inside) / (1 / s.cosine + n / inside);
-  Rgb transmittance(0, 0, 0), reflectance(0, 0, 0);
+  Color transmittance(0, 0, 0), reflectance(0, 0, 0);
   for (const double amplitude : reflected) {
     const double r = amplitude * amplitude;
     for (int i = 0; i < 3; ++i) {
@@ -253,7 +253,7 @@ Coefficient directCoefficient(const Scattering& s, const Interaction& at, const 
   const double cosine = s.normal.dot(toSource);
   const double enters = s.diffuseFresnel > 0 ? 1 - fresnelRise(std::abs(cosine)) : 1;
   if (cosine > kNegligible) {
-    sum.rgb += s.diffuseReflection * (enters * cosine * solidAngle * kPerPi);
+    sum.color += s.diffuseReflection * (enters * cosine * solidAngle * kPerPi);
     if (maxChannel(s.specularReflection) > 0) {
       double alpha2 = s.alpha2;
       if (s.widenReflection) alpha2 += (1 - sourceJitter) * solidAngle * .25 / kPi;
@@ -262,15 +262,15 @@ Coefficient directCoefficient(const Scattering& s, const Interaction& at, const 
       const double along2 = along * along, length2 = half.length2();
       const double tangent2 = (length2 - along2) / along2;
       const double lobe = std::exp(-tangent2 / alpha2) * length2 / (kPi * along2 * along2 * alpha2);
-      if (lobe > kNegligible) sum.rgb += s.specularReflection * (lobe * cosine * solidAngle);
+      if (lobe > kNegligible) sum.color += s.specularReflection * (lobe * cosine * solidAngle);
     }
   } else if (cosine < -kNegligible) {
-    sum.rgb += s.diffuseTransmission * (enters * -cosine * solidAngle * kPerPi);
+    sum.color += s.diffuseTransmission * (enters * -cosine * solidAngle * kPerPi);
     if (maxChannel(s.specularTransmission) > 0) {
       const double alpha2 = s.alpha2 + solidAngle / kPi;
       const double lobe = std::exp((2 * s.transmitted.dot(toSource) - 2) / alpha2) / (kPi * alpha2);
       if (lobe > kNegligible)
-        sum.rgb += s.specularTransmission * (lobe * solidAngle * std::sqrt(-cosine / s.cosine));
+        sum.color += s.specularTransmission * (lobe * solidAngle * std::sqrt(-cosine / s.cosine));
     }
   }
   return sum;

@@ -25,15 +25,15 @@ struct Interaction {
   bool flat = false;          // a plane surface, whose sharp reflections show an undistorted image
   bool smoothed = false;      // see Surface::smoothed
   V3d perturbation{0, 0, 0};  // of the normal, the sum of all textures, for the side that the ray came from
-  Rgb pattern{1, 1, 1};       // the patterns' factor on the material's colour
+  Color pattern{1, 1, 1};     // the patterns' factor on the material's colour
   unsigned kinds = kPrimary;  // of the ray and its ancestors
 };
 
 // The participating medium between surfaces.
 struct Medium {
-  Rgb extinction{0, 0, 0};  // per unit length
-  Rgb albedo{0, 0, 0};      // share of the extinction that is scattering
-  double eccentricity = 0;  // of Henyey and Greenstein's phase function
+  Color extinction{0, 0, 0};  // per unit length
+  Color albedo{0, 0, 0};      // share of the extinction that is scattering
+  double eccentricity = 0;    // of Henyey and Greenstein's phase function
 };
 
 // The continuation of a path by sharp reflection or transmission, which needs no sampling. lengthCounts:
@@ -67,14 +67,14 @@ struct Scattering {
   double cosine = 1;    // -normal . direction, at least 0.001
   SharpPaths sharp;
 
-  Rgb diffuseReflection{0, 0, 0}, diffuseTransmission{0, 0, 0};
+  Color diffuseReflection{0, 0, 0}, diffuseTransmission{0, 0, 0};
   // The coefficients of indirect light: the diffuse share plus, if that is not 0, the lobes that are too weak
   // to be sampled (-st).
-  Rgb ambientReflection{0, 0, 0}, ambientTransmission{0, 0, 0};
+  Color ambientReflection{0, 0, 0}, ambientTransmission{0, 0, 0};
   double diffuseFresnel = 0;  // 1 if less light enters a polished surface at grazing angles, else 0
 
   // Shares of the Gaussian lobes; black: no lobe. alpha2: the mean square slope of the facets.
-  Rgb specularReflection{0, 0, 0}, specularTransmission{0, 0, 0};
+  Color specularReflection{0, 0, 0}, specularTransmission{0, 0, 0};
   double alpha2 = 0;
   V3d transmitted{0, 0, 0};  // the middle of the transmitted lobe
   bool sampleReflection = false, sampleTransmission = false;

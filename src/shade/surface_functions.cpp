@@ -365,8 +365,10 @@ class SurfaceFunctions::Maker {
 };
 
 SurfaceFunctions::SurfaceFunctions(const Scene& scene, rad::Warn warn,
-                                   std::span<const SharedDefinitions> definitions)
+                                   std::span<const SharedDefinitions> definitions,
+                                   const SpectralSampling* sampling)
     : scene_(scene),
+      sampling_(sampling),
       warn_(std::move(warn)),
       ready_(scene.modifiers.size()),
       library_(
@@ -424,7 +426,7 @@ void SurfaceFunctions::setInputs(const Function& f, const FunctionPoint& at, Fun
   }
   if (needs & bits(NxP, 3)) put(&in[NxP], direction(at.perturbedNormal));
   in[RdotP] = at.perturbedCosine;
-  if (needs & bits(CrP, 3)) put(&in[CrP], at.color);
+  if (needs & bits(CrP, 3)) put(&in[CrP], at.color.rgb());
   if (needs & bits(DxA, 3)) put(&in[DxA], direction(at.toTarget));
 }
 
@@ -473,7 +475,7 @@ bool SurfaceFunctions::evaluate(ModifierId modifier, const Function& f, const Fu
     std::array<double, 2> xy{};
     image->coordinates->evaluate(point, state, xy);
     if (state.faults == 0) {
-      const Rgb color = image->picture->value(xy[0], xy[1]);
+      const Color color = image->picture->value(xy[0], xy[1]);
       const std::array<double, 3> found{color.x, color.y, color.z};
       correct(image->corrections, found.data());
     }
@@ -481,11 +483,12 @@ bool SurfaceFunctions::evaluate(ModifierId modifier, const Function& f, const Fu
   return computed(modifier, scratch);
 }
 
-Rgb SurfaceFunctions::pattern(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const {
+Color SurfaceFunctions::pattern(ModifierId modifier, const FunctionPoint& at,
+                                FunctionScratch& scratch) const {
   const Function& f = ready(modifier);
   std::array<double, 3> v;
-  if (!evaluate(modifier, f, at, scratch, v)) return Rgb(1, 1, 1);
-  return f.results == 1 ? Rgb(v[0], v[0], v[0]) : Rgb(v[0], v[1], v[2]);
+  if (!evaluate(modifier, f, at, scratch, v)) return Color(1, 1, 1);
+  return f.results == 1 ? Color(v[0], v[0], v[0]) : Color(v[0], v[1], v[2]);
 }
 
 V3d SurfaceFunctions::texture(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const {
@@ -557,8 +560,8 @@ std::array<double, 3> SurfaceFunctions::transmission(ModifierId modifier, const 
   return three(modifier, &Scatterer::transmission, at, scratch);
 }
 
-Rgb SurfaceFunctions::distribution(ModifierId modifier, const FunctionPoint& at, const V3d& toSource,
-                                   double solidAngle, FunctionScratch& scratch) const {
+Color SurfaceFunctions::distribution(ModifierId modifier, const FunctionPoint& at, const V3d& toSource,
+                                     double solidAngle, FunctionScratch& scratch) const {
   const Function& f = ready(modifier);
   const Scatterer& s = std::get<Scatterer>(f.what);
   setInputs(f, at, scratch);
@@ -575,12 +578,12 @@ Rgb SurfaceFunctions::distribution(ModifierId modifier, const FunctionPoint& at,
     if (state.faults == 0) arguments[0] = s.table->value({place.data(), s.coordinates.size()});
     point.arguments = arguments;
   }
-  Rgb value(0, 0, 0);
+  Color value(0, 0, 0);
   for (int i = 0; i < (s.gray ? 1 : 3) && state.faults == 0; ++i)
     if (s.distribution[static_cast<size_t>(i)])
       value[i] = s.distribution[static_cast<size_t>(i)]->evaluate(point, state);
-  if (!computed(modifier, scratch)) return Rgb(0, 0, 0);
-  return s.gray ? Rgb(value.x, value.x, value.x) : value;
+  if (!computed(modifier, scratch)) return Color(0, 0, 0);
+  return s.gray ? Color(value.x, value.x, value.x) : value;
 }
 
 SurfaceFunctions::Redirection SurfaceFunctions::redirection(ModifierId modifier, int image,

@@ -39,7 +39,7 @@ struct FunctionPoint {
   // For reflection(), transmission() and distribution():
   V3d perturbedNormal{0, 0, 1};  // unit, on the ray's side
   double perturbedCosine = 1;    // -perturbedNormal . direction
-  Rgb color{1, 1, 1};            // of the material with its pattern; of BRTDfunc, the pattern's
+  Color color{1, 1, 1};          // of the material with its pattern; of BRTDfunc, the pattern's
   V3d toTarget{0, 0, 0};         // for redirection(): to the light source that the ray is for (unit), or 0
 };
 
@@ -57,7 +57,8 @@ class SurfaceFunctions {
   // shared by all function files, instead of those of rayinit.cal. Throws rad::Error if a definition is
   // missing or invalid.
   explicit SurfaceFunctions(const Scene& scene, rad::Warn warn = {},
-                            std::span<const SharedDefinitions> definitions = {});
+                            std::span<const SharedDefinitions> definitions = {},
+                            const SpectralSampling* sampling = nullptr);
 
   // Each of these functions takes a modifier. If a value cannot be computed, it returns the neutral value
   // given below. It throws rad::Error, with the modifier's place in the scene file, when it first needs
@@ -66,7 +67,7 @@ class SurfaceFunctions {
   // expression uses a name that does not exist.
 
   // The factor on the colour of the material that it modifies. Neutral value: (1, 1, 1).
-  Rgb pattern(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
+  Color pattern(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
   // The perturbation that is added to the surface's normal, in the world. Neutral value: (0, 0, 0).
   V3d texture(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
   // The foreground's share, 0 to 1; negative if it cannot be computed: the mixture is then ignored.
@@ -92,8 +93,8 @@ class SurfaceFunctions {
                                      FunctionScratch& scratch) const;
   // plasfunc and the like, BRTDfunc: the bidirectional scattering (1/sr) towards the ray's origin of light
   // from a source that fills solidAngle (sr) in direction toSource (unit, world).
-  Rgb distribution(ModifierId modifier, const FunctionPoint& at, const V3d& toSource, double solidAngle,
-                   FunctionScratch& scratch) const;
+  Color distribution(ModifierId modifier, const FunctionPoint& at, const V3d& toSource, double solidAngle,
+                     FunctionScratch& scratch) const;
 
   // prism1, prism2, for one of its images (0 or 1): the coefficient of the redirected ray, and its direction
   // (world, unit).
@@ -191,6 +192,7 @@ class SurfaceFunctions {
   class Maker;
 
   const Scene& scene_;
+  const SpectralSampling* sampling_;  // RayOptions::sampling
   rad::Warn warn_;
   mutable std::vector<std::atomic<const Function*>> ready_;  // by modifier
   mutable std::mutex mutex_;                                 // of all that follows

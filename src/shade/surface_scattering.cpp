@@ -17,7 +17,7 @@ constexpr int kAshikhminSamples = 4;
 
 // A sample of a lobe, stratified in its first number. sample: as sampleReflection().
 template <class Sample>
-LobeSample drawStratified(const Rgb& share, int i, int n, Random& random, const Sample& sample) {
+LobeSample drawStratified(const Color& share, int i, int n, Random& random, const Sample& sample) {
   LobeSample drawn;
   const double u1 = (i + random.uniform()) / n, u2 = random.uniform();
   const double weight = sample(u1, u2, drawn.direction);

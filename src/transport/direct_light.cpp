@@ -46,7 +46,7 @@ Radiance DirectLight::sourceValue(const Ray& ray, const SourceSample& sample) {
   }
   if (sample.cosine < 0) return {};
   const Coefficient passed =
-      passing(ray.medium.extinction * (Rgb(1, 1, 1) - ray.medium.albedo), sample.distance);
+      passing(ray.medium.extinction * (Color(1, 1, 1) - ray.medium.albedo), sample.distance);
   if (const Radiance* radiance = t_.constantRadiance(sample.source)) return *radiance * passed;
   Ray child;
   child.origin = ray.point;

@@ -115,7 +115,7 @@ bool InterpolatedLight::addFromPatch(Ray& ray, const V3d& normal, const V3d& tru
   if (state_.links) {
     const Coefficient whole = coefficient * ray.contribution * passedBy(ray);
     if (patch)
-      state_.links->links.push_back({patch, V3f(whole.rgb), beyond});
+      state_.links->add(patch, whole, beyond);
     else
       state_.links->addEnd(beyond, whole);
     if (isLast) return true;

@@ -201,11 +201,11 @@ LocalGuess RadianceGuess::fit(const V3d& point, std::span<const V3d> glances, st
   for (const Traced& t : traced) {
     const Place& at = t.place;
     if (!(brightness(at.reflectance) > 0)) continue;
-    const Rgb rest = (t.radiance - local.direct(at, true)).rgb, reflectance = at.reflectance.rgb;
+    const Color rest = (t.radiance - local.direct(at, true)).color, reflectance = at.reflectance.color;
     for (int c = 0; c < 3; ++c)
       if (reflectance[c] > 0) around[c].push_back(rest[c] / reflectance[c]);
   }
-  for (int c = 0; c < 3; ++c) local.ambient_.rgb[c] = std::max(0., middleOf(around[c]));
+  for (int c = 0; c < 3; ++c) local.ambient_.color[c] = std::max(0., middleOf(around[c]));
   // The variance that the guess leaves to the directions, and the part of it that the random choice of
   // indirect rays causes. That part is estimated from the mean absolute difference of two guesses: it is less
   // sensitive than a mean square to single rays that hit something bright by chance. For normally distributed

@@ -77,7 +77,7 @@ struct Ray {
   bool fromBehind = false;  // normal, cosine and perturbation were flipped because of a hit from behind
   bool insideOut = false;   // they were flipped at a cut by antimatter, whose front is the inside
   V3d perturbation{0, 0, 0};
-  Rgb pattern{1, 1, 1};
+  Color pattern{1, 1, 1};
   double u = 0, v = 0;
   PlacementPath path;  // the placements of the surface's modifiers in the world
 

@@ -10,7 +10,7 @@ namespace rsphere {
 
 // A diffuse material of reflectance pi. Its radiance is pi times the mean incident radiance, which is the
 // irradiance (-i, -I).
-inline const Opaque kIrradianceMeter{Rgb(kPi, kPi, kPi), 0, 0, false};
+inline const Opaque kIrradianceMeter{Color(kPi, kPi, kPi), 0, 0, false};
 
 // The apparent distance of the object seen along the ray: that of the mirrored image if it gives more than
 // half of the light.
@@ -19,13 +19,14 @@ inline double apparentLength(const Ray& ray) {
 }
 
 // Whether the extinction is large enough to matter over a distance of kFarAway.
-inline bool isMedium(const Rgb& extinction) { return maxChannel(extinction) > 1 / kFarAway; }
+inline bool isMedium(const Color& extinction) { return maxChannel(extinction) > 1 / kFarAway; }
 
 // The transmittance of a medium. extinction: per unit length.
-inline Coefficient passing(const Rgb& extinction, double length) {
+inline Coefficient passing(const Color& extinction, double length) {
   if (!isMedium(extinction)) return Coefficient(1);
-  return Coefficient(Rgb(std::exp(-extinction.x * length), std::exp(-extinction.y * length),
-                         std::exp(-extinction.z * length)));
+  Color transmittance = extinction;
+  transmittance.transform([&](double k) { return std::exp(-k * length); });
+  return Coefficient(std::move(transmittance));
 }
 
 // The transmittance of the medium along a ray. Shadow rays are attenuated by absorption alone: it is assumed
@@ -34,7 +35,7 @@ inline Coefficient passedBy(const Ray& ray) {
   const Medium& medium = ray.medium;
   if (!isMedium(medium.extinction)) return Coefficient(1);
   const bool scatteredIn = (ray.kinds & kShadow) != 0;
-  return passing(scatteredIn ? medium.extinction * (Rgb(1, 1, 1) - medium.albedo) : medium.extinction,
+  return passing(scatteredIn ? medium.extinction * (Color(1, 1, 1) - medium.albedo) : medium.extinction,
                  ray.length);
 }
 

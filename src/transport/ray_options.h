@@ -11,6 +11,8 @@ namespace rsphere {
 // The options that steer the path of a ray. They are rtrace's, and rtrace(1) explains them. The defaults here
 // are rtrace's too; sphere mode has others (modeDefaults() in cli/option_table.h).
 struct RayOptions {
+  // -cs, -cw  The division of the spectrum in a spectral run; null: three channels.
+  const SpectralSampling* sampling = nullptr;
   // direct light
   double directThreshold = .03;      // -dt  share of the direct light that may be left untested for shadows
   double directCertainty = .75;      // -dc
@@ -42,10 +44,10 @@ struct RayOptions {
   int reflectionLimit = -10;  // -lr  its absolute value, if not 0; not positive: Russian roulette below -lw
   double weightLimit = 1e-4;  // -lw
   // medium
-  Rgb mediumExtinction{0, 0, 0};  // -me  per unit length
-  Rgb mediumAlbedo{0, 0, 0};      // -ma
-  double mediumEccentricity = 0;  // -mg
-  double mediumSampling = 0;      // -ms  length (world units) for each sample; 0: one sample a ray
+  Color mediumExtinction{0, 0, 0};  // -me  per unit length
+  Color mediumAlbedo{0, 0, 0};      // -ma
+  double mediumEccentricity = 0;    // -mg
+  double mediumSampling = 0;        // -ms  length (world units) for each sample; 0: one sample a ray
   // others
   std::vector<SharedDefinitions> definitions;  // -e -f, in their order
   bool backFacesVisible = true;                // -bv

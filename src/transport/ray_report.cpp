@@ -44,7 +44,7 @@ RayAnswer branchAnswer(const Transport& transport, const Ray& ray) {
   RayAnswer a = answerOf(transport.scene(), ray);
   a.rayWeight = ray.weight;
   a.contribution = ray.contribution * passedBy(ray);
-  const bool dark = ray.value.rgb.x + ray.value.rgb.y + ray.value.rgb.z <= 3 * kNegligible;
+  const bool dark = ray.value.color.x + ray.value.color.y + ray.value.color.z <= 3 * kNegligible;
   if (ray.aimedAt != kNone && dark && transport.lights().all()[ray.aimedAt].surface != ray.surface)
     a.contribution = {};
   return a;

@@ -39,7 +39,7 @@ class SurfaceShading::Hit final : public MaterialHit {
       : MaterialHit(arrivalOf(shading.t_, ray), behind, shading.context_), shading_(shading), ray_(ray) {}
 
   Interaction interaction() const override { return interactionOf(scene(), ray_); }
-  const Rgb& pattern() const override { return ray_.pattern; }
+  const Color& pattern() const override { return ray_.pattern; }
   Interaction interactionAfter(ModifierId modifiers) const override {
     Ray own = ray_;
     shading_.applyModifiers(own, modifiers);
@@ -101,7 +101,7 @@ bool SurfaceShading::shade(Ray& ray, ModifierId modifier) {
     }
     if (meters && isTransparent(*material)) return follow(ray, Passes{});
     if (meters && !isLightSource(*material) && !std::holds_alternative<Antimatter>(*material)) {
-      ray.pattern = Rgb(1, 1, 1);
+      ray.pattern = Color(1, 1, 1);
       meter(ray);
       return true;
     }

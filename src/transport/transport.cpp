@@ -25,7 +25,7 @@ uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAcc
        {o.directThreshold, o.directCertainty, o.directJitter, o.sourceSubstructuring, o.specularSampling,
         o.specularThreshold, o.ambientAccuracy, o.weightLimit, o.mediumEccentricity, o.mediumSampling})
     print.add(x);
-  for (const Rgb& color : {o.ambientValue.rgb, o.mediumExtinction, o.mediumAlbedo})
+  for (const Color& color : {o.ambientValue.color, o.mediumExtinction, o.mediumAlbedo})
     for (int c = 0; c < 3; ++c) print.add(static_cast<double>(color[c]));
   for (const int n : {o.directRelays, o.chosenSources, o.directPretest, o.ambientBounces, o.ambientResolution,
                       o.ambientDivisions, o.ambientSuperSamples, o.leastForPatches, o.reflectionLimit})
@@ -52,6 +52,7 @@ FieldOptions fieldOptions(const RayOptions& o) {
           o.ambientResolution,
           static_cast<double>(std::max(o.ambientDivisions + o.ambientSuperSamples, o.leastForPatches)),
           o.ambientValue,
+          o.sampling != nullptr,
           o.fieldMemory};
 }
 
@@ -62,7 +63,7 @@ Transport::Transport(const Scene& scene, const RayOptions& options, IrradianceAt
       irradiance_(irradiance),
       basicRadiance_(basicRadiance),
       tracer_(scene, options.backFacesVisible),
-      functions_(scene, warn, options.definitions),
+      functions_(scene, warn, options.definitions, options.sampling),
       lights_(scene, options.directRelays, functions_, warn),
       presumedShadows_(scene, tracer_, lights_),
       choice_(scene, lights_),
@@ -116,7 +117,9 @@ void Transport::prepareInterpolation(const rad::Warn& warn) {
   if (options_.ambientBounces > 1)
     coarse_ = std::make_unique<CoarseSolution>(scene_, bounds, fieldOptions(options_),
                                                openings_ ? openings_->depth() : 0);
-  if (!options_.ambientFile.empty())
+  if (options_.sampling && !options_.ambientFile.empty()) {
+    if (warn) warn("-af: nothing is kept of a spectral run (-cs above 3); the ambient file is ignored");
+  } else if (!options_.ambientFile.empty())
     field_->keepIn(AmbientFile::openBeside(options_.ambientFile, fingerprint(scene_),
                                            fingerprint(options_, basicRadiance_, scene_.files), warn));
 }

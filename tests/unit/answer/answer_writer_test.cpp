@@ -9,9 +9,9 @@ RayAnswer someRay() {
   RayAnswer a;
   a.origin = V3d(1, 2, 3);
   a.direction = V3d(0, 0, -1);
-  a.value = Radiance(Rgb(4, 5, 6));
-  a.mirroredContribution = Radiance(Rgb(7, 8, 9));
-  a.unmirroredContribution = Radiance(Rgb(10, 11, 12));
+  a.value = Radiance(Color(4, 5, 6));
+  a.mirroredContribution = Radiance(Color(7, 8, 9));
+  a.unmirroredContribution = Radiance(Color(10, 11, 12));
   a.mirroredLength = 13;
   a.unmirroredLength = 14;
   a.effectiveLength = 15;
@@ -24,7 +24,7 @@ RayAnswer someRay() {
   a.surface = "ball";
   a.modifier = "paint";
   a.material = "white";
-  a.contribution = Coefficient(Rgb(.5, .25, .125));
+  a.contribution = Coefficient(Color(.5, .25, .125));
   a.rayWeight = 27;
   a.solidAngle = 28;
   return a;
@@ -120,11 +120,11 @@ TEST(AnswerWriter, RaysThatHitNothingAreOnlyInTreesWithoutAList) {
 TEST(AnswerWriter, EveryLetterOfAPoint) {
   PointAnswer a;
   a.point = V3d(1, 2, 3);
-  a.mean = Radiance(Rgb(4, 5, 6));
-  a.standardError = Radiance(Rgb(7, 8, 9));
-  a.scalarIrradiance = Irradiance(Rgb(10, 11, 12));
-  a.cylindricalIrradiance = Irradiance(Rgb(13, 14, 15));
-  for (int i = 0; i < 6; ++i) a.facing[i] = Irradiance(Rgb(20 + i, 30 + i, 40 + i));
+  a.mean = Radiance(Color(4, 5, 6));
+  a.standardError = Radiance(Color(7, 8, 9));
+  a.scalarIrradiance = Irradiance(Color(10, 11, 12));
+  a.cylindricalIrradiance = Irradiance(Color(13, 14, 15));
+  for (int i = 0; i < 6; ++i) a.facing[i] = Irradiance(Color(20 + i, 30 + i, 40 + i));
   a.lightVector = V3d(16, 17, 18);
   a.directions = 123456789;
   const Options options = parse({"rsphere", "-fad", "-ooveECHu", "s.oct"});
@@ -146,7 +146,7 @@ TEST(AnswerWriter, PixelsAreFourBytes) {
   std::string bytes;
   const Options options = parse({"rsphere", "-fac", "s.oct"});
   PointAnswer answer;
-  answer.mean = Radiance(Rgb(1, 1, 1));
+  answer.mean = Radiance(Color(1, 1, 1));
   AnswerWriter(options).write(bytes, answer);
   EXPECT_EQ(bytes, "\x80\x80\x80\x81");
 }

@@ -9,7 +9,7 @@ namespace rsphere {
 namespace {
 
 // The numbers written for a ray of this color.
-std::vector<double> written(std::vector<const char*> words, const Rgb& color, const char* letters = "-ov") {
+std::vector<double> written(std::vector<const char*> words, const Color& color, const char* letters = "-ov") {
   std::vector<std::string> all{"rtrace"};
   all.insert(all.end(), words.begin(), words.end());
   all.insert(all.end(), {letters, "s.oct"});
@@ -30,7 +30,7 @@ void expectNear(const std::vector<double>& numbers, const std::vector<double>& e
     EXPECT_NEAR(numbers[i], expected[i], 1.5e-6 * std::fabs(expected[i]) + 1e-8) << i;
 }
 
-const Rgb kLamp(10, 8, 5), kFloor(.8 / 30, .64 / 90, .2 / 90);
+const Color kLamp(10, 8, 5), kFloor(.8 / 30, .64 / 90, .2 / 90);
 
 // The output of rtrace -h with the option (RADIANCE 6.1a) for rays that see these two colors.
 TEST(OutputColors, AreThoseOfTheOriginal) {
@@ -45,8 +45,8 @@ TEST(OutputColors, AreThoseOfTheOriginal) {
   expectNear(written(wide, kLamp), {9.929738e+00, 8.088112e+00, 5.381193e+00});
   expectNear(written(wide, kFloor), {2.561085e-02, 7.970176e-03, 3.241121e-03});
   // Pure colors. Those outside the smaller gamut are mixed with grey.
-  expectNear(written(wide, Rgb(1, 0, 0)), {0.9422708749771118, 0.043866150081157684, 0.024370217695832253});
-  expectNear(written(wide, Rgb(0, 0, 1)), {0, 0.011732321232557297, 0.7355017066001892});
+  expectNear(written(wide, Color(1, 0, 0)), {0.9422708749771118, 0.043866150081157684, 0.024370217695832253});
+  expectNear(written(wide, Color(0, 0, 1)), {0, 0.011732321232557297, 0.7355017066001892});
   const std::vector<const char*> small = {"-pc", ".64", ".33", ".3", ".6", ".15", ".06", ".3333", ".3333"};
   expectNear(written(small, kLamp), {1.007057e+01, 7.999896e+00, 5.035167e+00});
   expectNear(written({"-pc", "1", "0", "0", "1", "0", "0", ".3333", ".3333"}, kLamp),
@@ -62,7 +62,7 @@ TEST(OutputColors, StandardPrimariesAreRgb) {
 
 // The output of rtrace -co -cs .. -cw .. for pure red and green.
 TEST(OutputColors, BandsHaveTheValueOfTheirChannel) {
-  const Rgb abc(1, 2, 3);
+  const Color abc(1, 2, 3);
   expectNear(written({"-cs", "6", "-co+"}, abc), {1, 1, 1, 2, 2, 3});
   expectNear(written({"-co", "-cs", "7"}, abc), {1, 1, 1, 2, 2, 3, 3});
   expectNear(written({"-co", "-cs", "4", "-cw", "600", "500"}, abc), {1, 2, 2, 3});
@@ -82,7 +82,7 @@ TEST(OutputColors, CoefficientsAreNotScaled) {
 TEST(OutputColors, PixelsOfBandsShareAnExponent) {
   const Options options = parse({"rtrace", "-cs", "6", "-co", "-fac", "s.oct"});
   RayAnswer answer;
-  answer.value = Radiance(Rgb(0, 0, 1));
+  answer.value = Radiance(Color(0, 0, 1));
   std::string bytes;
   AnswerWriter(options).write(bytes, answer);
   EXPECT_EQ(bytes, std::string("\0\0\0\0\0\x80\x81", 7));  // as rtrace writes it

@@ -11,7 +11,7 @@ TEST(RecordText, AsRtraceWritesIt) {
   text.vector(V3d(1, -.5, 1e10));
   text.integer(12345678901);
   text.name("wall");
-  text.color(Rgb(0, 1, 2));
+  text.color(Color(0, 1, 2));
   text.end();
   EXPECT_EQ(bytes,
             "1.000000e+00\t-5.000000e-01\t1.000000e+10\t12345678901\twall\t0.000000e+00\t1.000000e+00\t2."

@@ -17,9 +17,9 @@ static_assert(Unrelated<Radiance, Irradiance> && Unrelated<Radiance, Coefficient
 
 // Colors and numbers convert only where the kind is named, and nothing converts back.
 template <class Q>
-concept Explicit =
-    std::is_constructible_v<Q, Rgb> && !std::is_convertible_v<Rgb, Q> && !std::is_assignable_v<Q&, Rgb> &&
-    std::is_constructible_v<Q, double> && !std::is_convertible_v<double, Q> && !std::is_convertible_v<Q, Rgb>;
+concept Explicit = std::is_constructible_v<Q, Color> && !std::is_convertible_v<Color, Q> &&
+                   !std::is_assignable_v<Q&, Color> && std::is_constructible_v<Q, double> &&
+                   !std::is_convertible_v<double, Q> && !std::is_convertible_v<Q, Color>;
 static_assert(Explicit<Radiance> && Explicit<Irradiance> && Explicit<Coefficient>);
 
 template <class A, class B>
@@ -32,15 +32,15 @@ static_assert(CanBeAdded<Radiance, Radiance> && CanBeAdded<Irradiance, Irradianc
               CanBeAdded<Coefficient, Coefficient>);
 static_assert(!CanBeAdded<Radiance, Irradiance> && !CanBeAdded<Irradiance, Radiance> &&
               !CanBeAdded<Radiance, Coefficient> && !CanBeAdded<Coefficient, Radiance> &&
-              !CanBeAdded<Radiance, Rgb> && !CanBeAdded<Rgb, Radiance>);
+              !CanBeAdded<Radiance, Color> && !CanBeAdded<Color, Radiance>);
 
 template <class A, class B>
 concept CanBeMultiplied = requires(const A& a, const B& b) {
   a* b;
 };
 static_assert(!CanBeMultiplied<Radiance, Radiance> && !CanBeMultiplied<Radiance, Irradiance> &&
-              !CanBeMultiplied<Irradiance, Irradiance> && !CanBeMultiplied<Radiance, Rgb> &&
-              !CanBeMultiplied<Rgb, Radiance>);
+              !CanBeMultiplied<Irradiance, Irradiance> && !CanBeMultiplied<Radiance, Color> &&
+              !CanBeMultiplied<Color, Radiance>);
 template <class A, class B>
 using Product = decltype(std::declval<A>() * std::declval<B>());
 static_assert(std::same_as<Product<Radiance, Coefficient>, Radiance> &&
@@ -52,36 +52,36 @@ static_assert(std::same_as<Product<Radiance, Coefficient>, Radiance> &&
 static_assert(!std::is_invocable_v<decltype(irradianceFrom), Coefficient, double> &&
               !std::is_invocable_v<decltype(meanRadiance), Radiance, double>);
 
-static_assert(sizeof(Radiance) == sizeof(Rgb), "a type costs no memory");
+static_assert(sizeof(Radiance) == sizeof(Color), "a type costs no memory");
 
 TEST(Radiometry, QuantitiesAreZeroUntilSet) {
-  EXPECT_EQ(Radiance().rgb, Rgb(0, 0, 0));
+  EXPECT_EQ(Radiance().color, Color(0, 0, 0));
   EXPECT_TRUE(isBlack(Irradiance()));
 }
 
 TEST(Radiometry, ArithmeticIsThatOfTheChannels) {
-  const Rgb a(1, 2, 3), b(.5, .25, 4);
-  EXPECT_EQ((Radiance(a) + Radiance(b)).rgb, a + b);
-  EXPECT_EQ((Radiance(a) - Radiance(b)).rgb, a - b);
-  EXPECT_EQ((Radiance(a) * Coefficient(b)).rgb, a * b);
-  EXPECT_EQ((Coefficient(b) * Radiance(a)).rgb, a * b);
-  EXPECT_EQ((Coefficient(a) * Coefficient(b)).rgb, a * b);
-  EXPECT_EQ((3 * Radiance(a) / 2).rgb, Rgb(1.5, 3, 4.5));
+  const Color a(1, 2, 3), b(.5, .25, 4);
+  EXPECT_EQ((Radiance(a) + Radiance(b)).color, a + b);
+  EXPECT_EQ((Radiance(a) - Radiance(b)).color, a - b);
+  EXPECT_EQ((Radiance(a) * Coefficient(b)).color, a * b);
+  EXPECT_EQ((Coefficient(b) * Radiance(a)).color, a * b);
+  EXPECT_EQ((Coefficient(a) * Coefficient(b)).color, a * b);
+  EXPECT_EQ((3 * Radiance(a) / 2).color, Color(1.5, 3, 4.5));
   Radiance sum(a);
   sum += Radiance(b);
   sum -= Radiance(1);
   sum *= Coefficient(b);
   sum *= 6;
   sum /= 3;
-  EXPECT_EQ(sum.rgb, (a + b - Rgb(1, 1, 1)) * b * 2.);
+  EXPECT_EQ(sum.color, (a + b - Color(1, 1, 1)) * b * 2.);
   EXPECT_EQ(brightness(Radiance(a)), brightness(a));
   EXPECT_EQ(maxChannel(Coefficient(b)), 4);
 }
 
 TEST(Radiometry, MeanRadianceIsThatOfTheIrradianceFromTheSameSolidAngle) {
-  const Radiance radiance(Rgb(1, 2, 3));
-  EXPECT_EQ(irradianceFrom(radiance, .25).rgb, Rgb(.25, .5, .75));
-  EXPECT_EQ(meanRadiance(irradianceFrom(radiance, .25), .25).rgb, radiance.rgb);
+  const Radiance radiance(Color(1, 2, 3));
+  EXPECT_EQ(irradianceFrom(radiance, .25).color, Color(.25, .5, .75));
+  EXPECT_EQ(meanRadiance(irradianceFrom(radiance, .25), .25).color, radiance.color);
 }
 
 }  // namespace

@@ -94,12 +94,12 @@ TEST(ComparePlot, IsThinned) {
 
 TEST(ComparePlot, BlackRecordsAreCounted) {
   Answers ours = answersOf(3, 1, 0);
-  for (size_t r = 0; r < ours.repeats; ++r) ours.values[r * ours.records] = Rgb(0, 0, 0);
+  for (size_t r = 0; r < ours.repeats; ++r) ours.values[r * ours.records] = Color(0, 0, 0);
   const Comparison comparison = compare(ours, ours, .01, .001, true);
   const std::string svg = comparePlot(ours, ours, comparison, subjectOf());
   EXPECT_NE(svg.find("3 records, 1 of them black"), std::string::npos);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
-  Answers dark{2, 2, std::vector<Rgb>(4, Rgb(0, 0, 0))};
+  Answers dark{2, 2, std::vector<Color>(4, Color(0, 0, 0))};
   EXPECT_NE(comparePlot(dark, dark, compare(dark, dark, .01, .001, true), subjectOf()).find("none to draw"),
             std::string::npos);
 }

@@ -19,7 +19,7 @@ Answers answersOf(size_t records, size_t repeats, double noise, double bias, uin
   for (size_t r = 0; r < repeats; ++r)
     for (size_t i = 0; i < records; ++i) {
       const double value = 1 + static_cast<double>(i) / static_cast<double>(records);
-      Rgb color;
+      Color color;
       for (int c = 0; c < 3; ++c) color[c] = value * (1 + bias) * (1 + noise * normal(random));
       answers.values.push_back(color);
     }
@@ -57,7 +57,7 @@ TEST(Compare, BothProgramsNoiseIsTakenAlike) {
     Answers answers{8000, 8, {}};
     for (size_t i = 0; i < 8000 * 8; ++i) {
       const double value = random.uniform() < .01 ? 30 : 1;
-      answers.values.push_back(Rgb(value, value, value));
+      answers.values.push_back(Color(value, value, value));
     }
     return answers;
   };
@@ -115,12 +115,12 @@ TEST(Compare, FindsTheRecordThatDiffers) {
 TEST(Compare, FiguresAreThoseOfTheDefinition) {
   const Answers ours{4,
                      2,
-                     {Rgb(1, 1, 1), Rgb(2, 2, 2), Rgb(3, 3, 3), Rgb(4.2, 4.2, 4.2), Rgb(1, 1, 1),
-                      Rgb(2, 2, 2), Rgb(3, 3, 3), Rgb(4.2, 4.2, 4.2)}};
+                     {Color(1, 1, 1), Color(2, 2, 2), Color(3, 3, 3), Color(4.2, 4.2, 4.2), Color(1, 1, 1),
+                      Color(2, 2, 2), Color(3, 3, 3), Color(4.2, 4.2, 4.2)}};
   const Answers theirs{4,
                        2,
-                       {Rgb(1, 1, 1), Rgb(2, 2, 2), Rgb(3, 3, 3), Rgb(3.8, 3.8, 3.8), Rgb(1, 1, 1),
-                        Rgb(2, 2, 2), Rgb(3, 3, 3), Rgb(3.8, 3.8, 3.8)}};
+                       {Color(1, 1, 1), Color(2, 2, 2), Color(3, 3, 3), Color(3.8, 3.8, 3.8), Color(1, 1, 1),
+                        Color(2, 2, 2), Color(3, 3, 3), Color(3.8, 3.8, 3.8)}};
   const ChannelComparison c = compare(ours, theirs, .05, 0, true).channels[0];
   EXPECT_NEAR(c.bias, .4 / 9.8, 1e-12);
   EXPECT_EQ(c.biasError, 0);
@@ -133,8 +133,8 @@ TEST(Compare, FiguresAreThoseOfTheDefinition) {
 
 // The differences of records that are black in the original are relative to the mean.
 TEST(Compare, DarkRecordsHaveAScale) {
-  const Answers ours{2, 2, {Rgb(.01, 0, 0), Rgb(1, 0, 0), Rgb(.01, 0, 0), Rgb(1, 0, 0)}};
-  const Answers theirs{2, 2, {Rgb(0, 0, 0), Rgb(1, 0, 0), Rgb(0, 0, 0), Rgb(1, 0, 0)}};
+  const Answers ours{2, 2, {Color(.01, 0, 0), Color(1, 0, 0), Color(.01, 0, 0), Color(1, 0, 0)}};
+  const Answers theirs{2, 2, {Color(0, 0, 0), Color(1, 0, 0), Color(0, 0, 0), Color(1, 0, 0)}};
   const Comparison comparison = compare(ours, theirs, .05, 0, true);
   EXPECT_NEAR(comparison.channels[0].percentiles[3], .01 / (kDarkest * .5), 1e-9);
   EXPECT_EQ(comparison.channels[1].verdict, Verdict::same);

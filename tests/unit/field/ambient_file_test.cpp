@@ -196,13 +196,13 @@ TEST_F(AmbientFiles, AreOfTheirOptions) {
   EXPECT_TRUE(other([](RayOptions& c) { c.ambientResolution = 0; }));
   EXPECT_TRUE(other([](RayOptions& c) { c.ambientDivisions = 2; }));
   EXPECT_TRUE(other([](RayOptions& c) { c.ambientSuperSamples = 0; }));
-  EXPECT_TRUE(other([](RayOptions& c) { c.ambientValue = Radiance(Rgb(0, 1, 0)); }));
+  EXPECT_TRUE(other([](RayOptions& c) { c.ambientValue = Radiance(Color(0, 1, 0)); }));
   EXPECT_TRUE(other([](RayOptions& c) { c.ambientExcluded = {"wall"}; }));
   EXPECT_TRUE(other([](RayOptions& c) { c.ambientIncluded = {"wall"}; }));
   EXPECT_TRUE(other([](RayOptions& c) { c.reflectionLimit = 3; }));
   EXPECT_TRUE(other([](RayOptions& c) { c.weightLimit = .1; }));
-  EXPECT_TRUE(other([](RayOptions& c) { c.mediumExtinction = Rgb(1, 0, 0); }));
-  EXPECT_TRUE(other([](RayOptions& c) { c.mediumAlbedo = Rgb(1, 0, 0); }));
+  EXPECT_TRUE(other([](RayOptions& c) { c.mediumExtinction = Color(1, 0, 0); }));
+  EXPECT_TRUE(other([](RayOptions& c) { c.mediumAlbedo = Color(1, 0, 0); }));
   EXPECT_TRUE(other([](RayOptions& c) { c.mediumEccentricity = .5; }));
   EXPECT_TRUE(other([](RayOptions& c) { c.mediumSampling = 1; }));
   EXPECT_TRUE(other([](RayOptions& c) { c.definitions = {{false, "a=1;"}}; }));

@@ -59,7 +59,7 @@ TEST(Hemisphere, SumsWhatIntegralsGive) {
   // Of a uniform sky, a share of (1 + cos) / 2 lies above a tilted surface.
   for (const double angle : {0., .3, .8, 1.5}) {
     const V3d tilted(std::sin(angle), 0, std::cos(angle));
-    EXPECT_NEAR(flat.meanOfTilted(V3d(0, 0, 1), tilted).rgb.x, (1 + std::cos(angle)) / 2, 1e-5) << angle;
+    EXPECT_NEAR(flat.meanOfTilted(V3d(0, 0, 1), tilted).color.x, (1 + std::cos(angle)) / 2, 1e-5) << angle;
   }
   EXPECT_NEAR(flat.noise, 0, 1e-6);
   EXPECT_NEAR(flat.reach, 2, 1e-6);
@@ -76,7 +76,7 @@ TEST(Hemisphere, SumsWhatIntegralsGive) {
       const V3d d(radius * std::cos(angle), radius * std::sin(angle), z);
       sum += (1 + V3d(.3, -.2, .5).dot(d)) * std::max(0., d.dot(tilted)) * 2 / kSteps / kSteps;
     }
-  EXPECT_NEAR(linear.meanOfTilted(V3d(0, 0, 1), tilted).rgb.x, sum, .01);
+  EXPECT_NEAR(linear.meanOfTilted(V3d(0, 0, 1), tilted).color.x, sum, .01);
   // A large wall in +x is brighter, so that the light increases towards it.
   EXPECT_GT(linear.perLength[0].x, 0);
   EXPECT_LT(linear.perLength[0].y, 0);
@@ -144,13 +144,13 @@ TEST(IrradianceField, AnswersTheSameInAnyOrderAndForAnyThread) {
     places.emplace_back(.2 + 3.6 * random.uniform(), .2 + 3.6 * random.uniform(), 1.5);
   const V3d down = V3d(.2, .1, -1).normalized();
   Traced forwards(kRoom, interpolated(.2)), shared(kRoom, interpolated(.2));
-  std::vector<Rgb> expected;
+  std::vector<Color> expected;
   for (const V3d& p : places) expected.push_back(forwards.color(p, down, 7));
   const auto work = [&](bool backwards) {
     PathTracer tracer(shared.transport());
     for (size_t i = 0; i < places.size(); ++i) {
       const size_t k = backwards ? places.size() - 1 - i : i;
-      EXPECT_EQ(tracer.trace(places[k], down, 0, 7).value.rgb, expected[k]);
+      EXPECT_EQ(tracer.trace(places[k], down, 0, 7).value.color, expected[k]);
     }
   };
   std::thread other(work, true);
@@ -169,8 +169,8 @@ TEST(IrradianceField, ForgetsBeyondItsBoundAndAnswersTheSame) {
   const V3d down = V3d(.2, .1, -1).normalized();
   constexpr size_t kTable = sizeof(void*) << 16;  // of a memory without a bound, before anything is in it
   Traced whole(kRoom, o);
-  std::vector<Rgb> expected;
-  for (const V3d& p : places) expected.push_back(whole.tracer().trace(p, down, 0, 7).value.rgb);
+  std::vector<Color> expected;
+  for (const V3d& p : places) expected.push_back(whole.tracer().trace(p, down, 0, 7).value.color);
   const size_t needed = whole.transport().field()->bytes() - kTable;
 
   constexpr size_t kThreads = 3, kQuestion = 6'000;  // bytes
@@ -181,7 +181,7 @@ TEST(IrradianceField, ForgetsBeyondItsBoundAndAnswersTheSame) {
     PathTracer tracer(bounded.transport());
     for (size_t i = 0; i < places.size(); ++i) {
       const size_t k = (first + i) % places.size();
-      EXPECT_EQ(tracer.trace(places[k], down, 0, 7).value.rgb, expected[k]);
+      EXPECT_EQ(tracer.trace(places[k], down, 0, 7).value.color, expected[k]);
       EXPECT_LT(field.bytes(), needed / 20 + kThreads * kQuestion);
     }
   };

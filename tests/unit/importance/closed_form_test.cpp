@@ -38,11 +38,11 @@ void expectField(const Field& field) {
     SCOPED_TRACE(std::string(field.radiance) + " weights " + std::to_string(static_cast<int>(weights)));
     const PointAnswer a = under(field, weights);
     for (int channel = 0; channel < 3; ++channel) {
-      EXPECT_NEAR(a.mean.rgb[channel], field.integral / (4 * kPi), kTolerance / 4);
-      EXPECT_NEAR(a.scalarIrradiance.rgb[channel], field.integral / 4, kTolerance);
-      EXPECT_NEAR(a.cylindricalIrradiance.rgb[channel], field.cylindrical, kTolerance);
+      EXPECT_NEAR(a.mean.color[channel], field.integral / (4 * kPi), kTolerance / 4);
+      EXPECT_NEAR(a.scalarIrradiance.color[channel], field.integral / 4, kTolerance);
+      EXPECT_NEAR(a.cylindricalIrradiance.color[channel], field.cylindrical, kTolerance);
       for (int face = 0; face < 6; ++face)
-        EXPECT_NEAR(a.facing[face].rgb[channel], field.facing[face], kTolerance) << face;
+        EXPECT_NEAR(a.facing[face].color[channel], field.facing[face], kTolerance) << face;
     }
     EXPECT_NEAR(a.lightVector.x, 0, kTolerance);
     EXPECT_NEAR(a.lightVector.y, 0, kTolerance);
@@ -80,9 +80,9 @@ TEST(ClosedForm, QuadraticAlongX) {
 // A field that is 1% stronger than the closed form says must not pass.
 TEST(ClosedForm, AnErrorOfOnePercentIsSeen) {
   const PointAnswer a = under({"1.01", 0, {}, 0, 0}, Weights::silhouettes);
-  EXPECT_GT(std::abs(a.scalarIrradiance.rgb.x - kPi), kTolerance);
-  EXPECT_GT(std::abs(a.facing[4].rgb.x - kPi), kTolerance);
-  EXPECT_GT(std::abs(a.cylindricalIrradiance.rgb.x - kPi), kTolerance);
+  EXPECT_GT(std::abs(a.scalarIrradiance.color.x - kPi), kTolerance);
+  EXPECT_GT(std::abs(a.facing[4].color.x - kPi), kTolerance);
+  EXPECT_GT(std::abs(a.cylindricalIrradiance.color.x - kPi), kTolerance);
 }
 
 }  // namespace

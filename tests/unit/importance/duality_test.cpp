@@ -69,7 +69,7 @@ Sample irradianceOnGoal(int bounces, int relays = 2) {
     for (int j = 0; j < 100; ++j) {
       const V3d at(kGoalX + kGoalWidth * (i + random.uniform()) / 100,
                    kGoalY + kGoalDepth * (j + random.uniform()) / 100, kGoalHeight + 1e-4);
-      sample.add(tracer.trace(at, V3d(0, 0, -1), 0, random.bits()).value.rgb.y);
+      sample.add(tracer.trace(at, V3d(0, 0, -1), 0, random.bits()).value.color.y);
     }
   return sample;
 }
@@ -88,7 +88,7 @@ Sample irradianceByImportance(int bounces, bool basic) {
     const SphereEstimator estimator(transport, options);
     SphereEstimator::Workspace workspace(estimator);
     const double intensity = kLampRadiance * kPi * kLampRadius * kLampRadius;
-    sample.add(4 * kPi * intensity * estimator.estimate(kLamp, workspace).mean.rgb.y /
+    sample.add(4 * kPi * intensity * estimator.estimate(kLamp, workspace).mean.color.y /
                (kGoalWidth * kGoalDepth));
   }
   return sample;
@@ -124,7 +124,7 @@ TEST(Duality, BasicRadianceLeavesOutTheSquareOfTheIndex) {
     PathTracer tracer(transport);
     Sample sample;
     for (uint64_t seed = 0; seed < 200; ++seed)
-      sample.add(tracer.trace(V3d(0, 0, 0), V3d(0, 0, 1), 0, seed).value.rgb.x);
+      sample.add(tracer.trace(V3d(0, 0, 0), V3d(0, 0, 1), 0, seed).value.color.x);
     return sample.mean();
   };
   EXPECT_NEAR(straightUp(false), 1.5 * 1.5, .02);

@@ -166,7 +166,7 @@ TEST(Estimator, AnswersDoNotDependOnThoseBefore) {
     for (const V3d& p : {V3d(1, 1, 1), V3d(4, 4, 2), V3d(1, 1, 1)}) estimator.estimate(p, used);
     const PointAnswer later = estimator.estimate(V3d(2, 3, 1.5), used);
     const PointAnswer first = estimator.estimate(V3d(2, 3, 1.5), fresh);
-    EXPECT_EQ(first.mean.rgb, later.mean.rgb);
+    EXPECT_EQ(first.mean.color, later.mean.color);
     EXPECT_EQ(first.lightVector, later.lightVector);
     ASSERT_EQ(used.samples.size(), fresh.samples.size());
     for (size_t i = 0; i < used.samples.size(); ++i) {
@@ -292,17 +292,17 @@ TEST(Estimator, StandardErrorOfLuminanceIsItsOwn) {
     SphereEstimator::Workspace workspace(estimator);
     const PointAnswer a = estimator.estimate(V3d(.2, .4, 1.5), workspace);
     EXPECT_GT(a.brightnessError, 0);
-    EXPECT_NEAR(a.brightnessError / a.standardError.rgb.y, 1, 1e-6) << static_cast<int>(weights);
+    EXPECT_NEAR(a.brightnessError / a.standardError.color.y, 1, 1e-6) << static_cast<int>(weights);
 
     const SphereEstimator apart(*redAndGreen.transport, redAndGreen.with(weights, 512), true);
     SphereEstimator::Workspace other(apart);
     const PointAnswer b = apart.estimate(V3d(0, 0, 0), other);
-    EXPECT_GT(b.standardError.rgb.x, 0);
-    EXPECT_GT(b.standardError.rgb.y, 0);
+    EXPECT_GT(b.standardError.color.x, 0);
+    EXPECT_GT(b.standardError.color.y, 0);
     const double independent =
-        std::hypot(kRedWeight * b.standardError.rgb.x, kGreenWeight * b.standardError.rgb.y);
+        std::hypot(kRedWeight * b.standardError.color.x, kGreenWeight * b.standardError.color.y);
     EXPECT_NEAR(b.brightnessError / independent, 1, .15) << static_cast<int>(weights);
-    EXPECT_LT(b.brightnessError, .85 * std::sqrt(brightness(b.standardError.rgb * b.standardError.rgb)));
+    EXPECT_LT(b.brightnessError, .85 * std::sqrt(brightness(b.standardError.color * b.standardError.color)));
   }
 }
 

@@ -45,7 +45,7 @@ Found compare(const Setting& setting, const V3d& point) {
   for (int i = 0; i < kSide; ++i)
     for (int k = 0; k < kSide; ++k) {
       const V3d direction = whole.sample((i + .5) / kSide, (k + .5) / kSide);
-      const bool bright = tracer.trace(point, direction, 0, 1).value.rgb.y > 1;
+      const bool bright = tracer.trace(point, direction, 0, 1).value.color.y > 1;
       bool in = false;
       for (const Glint& g : glints) in = in || g.region.contains(direction);
       found.bright += bright;

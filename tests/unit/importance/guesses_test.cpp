@@ -72,7 +72,7 @@ Spread spreadOf(const Setting& setting, double density, int base, int rotations)
     double sum = 0;
     for (const DirectionSample& s : workspace.samples) {
       sum += s.solidAngle * brightness(s.value);
-      EXPECT_GE(std::min({s.value.rgb.x, s.value.rgb.y, s.value.rgb.z}), 0)
+      EXPECT_GE(std::min({s.value.color.x, s.value.color.y, s.value.color.z}), 0)
           << "what is guessed leaves no radiance negative";
     }
     EXPECT_NEAR(sum / (4 * kPi), brightness(a.mean), 1e-9 * brightness(a.mean));

@@ -174,7 +174,7 @@ TEST(PlacedSpecialObjects, TheMeanIsThatOfTheSceneWrittenOut) {
     const SphereEstimator estimator(transport, options);
     EXPECT_EQ(estimator.specialObjects().size(), 1u);
     SphereEstimator::Workspace workspace(estimator);
-    return estimator.estimate(V3d(.1, -.3, 1.2), workspace).mean.rgb.x;
+    return estimator.estimate(V3d(.1, -.3, 1.2), workspace).mean.color.x;
   };
   const double written = mean("!xform -s .6 -t 0 0 .5 " + file + "\n");
   EXPECT_NEAR(mean(instance(oct, "-s .6 -t 0 0 .5")), written, .005 * written);

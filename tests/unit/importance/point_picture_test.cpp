@@ -135,7 +135,7 @@ TEST(PointPicture, WallsAndLuminairesAreAsBrightAsTheyAre) {
     PathTracer tracer(*drawn.transport);
     int black = 0;
     for (uint64_t seed = 0; seed < 100; ++seed)
-      black += tracer.trace(V3d(.2, -.3, .1), V3d(-.6, 0, .8), 0, seed).value.rgb.y < .1 ? 1 : 0;
+      black += tracer.trace(V3d(.2, -.3, .1), V3d(-.6, 0, .8), 0, seed).value.color.y < .1 ? 1 : 0;
     EXPECT_GT(black, 0) << "single rays would pass";
   }
 }

@@ -11,7 +11,7 @@
 namespace rsphere {
 namespace {
 
-const Rgb kGray(.5, .5, .5);
+const Color kGray(.5, .5, .5);
 
 std::vector<std::string> namesOf(const Scene& scene, const std::vector<SpecialObject>& objects) {
   std::vector<std::string> names;

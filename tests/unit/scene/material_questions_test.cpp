@@ -174,7 +174,7 @@ TEST(MaterialQuestions, HaveTheseAnswers) {
     }
     EXPECT_EQ(isLightSource(material), row.source);
     if (row.sampled) {
-      EXPECT_EQ(sourceRadiance(material)->rgb, Rgb(5, 6, 7));
+      EXPECT_EQ(sourceRadiance(material)->rgb, Color(5, 6, 7));
     }
     EXPECT_EQ(isSampled(material), row.sampled);
     EXPECT_EQ(reachOf(material), row.reach);
@@ -193,7 +193,7 @@ TEST(MaterialQuestions, HaveTheseAnswers) {
     ASSERT_EQ(diffuse.has_value(), row.diffuse.has_value());
     if (diffuse) {
       EXPECT_EQ(diffuse->share, *row.diffuse);
-      EXPECT_EQ(diffuse->color, Rgb(.5, .6, .7));
+      EXPECT_EQ(diffuse->color, Color(.5, .6, .7));
     }
   }
 }

@@ -135,7 +135,7 @@ TEST(Scene, LooksAtUsedModifiersOnly) {
       "a sphere t\n0\n0\n4 5 0 0 1\n");
   ASSERT_EQ(scene.modifiers.size(), 1u) << "the same modifier is converted once";
   const auto& plastic = materialAt<Opaque>(scene, ModifierId(0));
-  EXPECT_EQ(plastic.color, Rgb(.1, .2, .3));
+  EXPECT_EQ(plastic.color, Color(.1, .2, .3));
   EXPECT_EQ(plastic.specularity, .04);
   EXPECT_EQ(plastic.roughness, .05);
   EXPECT_FALSE(plastic.metal);

@@ -14,7 +14,7 @@ constexpr double kSampleAll = 0;  // -st
 constexpr double kTiny = 1e-9;    // sr, of a source for which a lobe is a number
 const V3d kAlong(.9, .4, .2);     // a direction of brushing, not within the surface
 
-Rgb gray(double x) { return Rgb(x, x, x); }
+Color gray(double x) { return Color(x, x, x); }
 
 Anisotropic shiny(double along, double across) {
   Anisotropic m;
@@ -34,10 +34,10 @@ Anisotropic clear(double along, double across) {
 
 // The share of the radiance from a direction, per sr.
 double scattered(const AnisotropicScattering& s, const Interaction& at, const V3d& toSource) {
-  return directCoefficient(s, at.direction, toSource, kTiny, 1).rgb.x / kTiny;
+  return directCoefficient(s, at.direction, toSource, kTiny, 1).color.x / kTiny;
 }
 double scattered(const AshikhminScattering& s, const Interaction& at, const V3d& toSource) {
-  return directCoefficient(s, at.direction, toSource, kTiny).rgb.x / kTiny;
+  return directCoefficient(s, at.direction, toSource, kTiny).color.x / kTiny;
 }
 
 V3d upwards(Random& random) {
@@ -77,12 +77,12 @@ TEST(Tangents, AreAlongAndAcrossWithinTheSurface) {
 TEST(Anisotropic, OfEqualRoughnessIsItsRoundKin) {
   Random random(32);
   for (int i = 0; i < 1000; ++i) {
-    const Rgb color(random.uniform(), random.uniform(), random.uniform());
+    const Color color(random.uniform(), random.uniform(), random.uniform());
     const double specular = random.uniform(), rough = between(random, .05, .5);
     const double passes = random.uniform(), straight = random.uniform();
     const bool metal = i % 2, trans = i % 3 == 0;
     Interaction at = seenFrom(upwards(random));
-    at.pattern = Rgb(.9, .8, .7);
+    at.pattern = Color(.9, .8, .7);
     at.flat = i % 5 == 0;
     if (i % 7 == 0) at.perturbation = .1 * randomDirection(random);
     Anisotropic m{color, specular, rough, rough, metal, trans, trans ? passes : 0, trans ? straight : 0,
@@ -100,12 +100,12 @@ TEST(Anisotropic, OfEqualRoughnessIsItsRoundKin) {
     for (const double size : {1e-9, 1e-3, .1})
       EXPECT_NEAR((directCoefficient(s, at.direction, above, size, .3) -
                    directCoefficient(round, at, above, size, .3))
-                      .rgb.length(),
+                      .color.length(),
                   0, 1e-5 * size);
     if (!trans) continue;
     // From below, at right angles: elsewhere their lobes differ by more than the order of roughness squared.
-    EXPECT_NEAR(directCoefficient(s, at.direction, round.transmitted, 1e-3, 0).rgb.x,
-                directCoefficient(round, at, round.transmitted, 1e-3, 0).rgb.x, 1e-9);
+    EXPECT_NEAR(directCoefficient(s, at.direction, round.transmitted, 1e-3, 0).color.x,
+                directCoefficient(round, at, round.transmitted, 1e-3, 0).color.x, 1e-9);
   }
 }
 
@@ -150,7 +150,7 @@ void expectNoGain(const AnisotropicScattering& s, const Interaction& at, Random&
   });
   for (int channel = 0; channel < 3; ++channel) {
     double sum = s.reflection.share[channel] + s.transmission.share[channel];
-    for (const SharpPath& p : s.sharp) sum += p.coefficient.rgb[channel];
+    for (const SharpPath& p : s.sharp) sum += p.coefficient.color[channel];
     const double r = s.reflected.share[channel], t = s.transmitted.share[channel];
     EXPECT_GE(r, 0);
     EXPECT_GE(t, 0);
@@ -169,7 +169,7 @@ TEST(Energy, NoEllipticHighlightGainsLight) {
     Interaction at = arriving(between(random, .02, 1));
     at.flat = i % 2;
     SCOPED_TRACE(testing::Message() << "material " << i << ", cosine " << at.cosine);
-    Anisotropic m{Rgb(share(), share(), share()), share(), between(random, .01, .5),
+    Anisotropic m{Color(share(), share(), share()), share(), between(random, .01, .5),
                   between(random, .01, .5)};
     for (const bool metal : {false, true}) {
       m.metal = metal;
@@ -290,7 +290,7 @@ TEST(EllipticLobe, TexturedSamplesWeighAsThoseOfARoundLobe) {
     Interaction at = arriving(.4);
     at.perturbation = tilt;
     const AnisotropicScattering s = scatter(shiny(.2, .2), at, kAlong, kSampleAll);
-    const Scattering round = scatter(Opaque{Rgb(0, 0, 0), 1, .2, false}, at, kSampleAll);
+    const Scattering round = scatter(Opaque{Color(0, 0, 0), 1, .2, false}, at, kSampleAll);
     Random random(43);
     Sample ours, theirs;
     V3d d;
@@ -390,7 +390,7 @@ TEST(SpecularThreshold, GivesUnsampledLobesToADiffuseSurfaceOnly) {
   m.color = gray(0);
   EXPECT_EQ(scatter(m, at, kAlong, .1).reflection.ambient.x, 0) << "as in the original";
   // ashik2 and WGMDfunc go by luminance.
-  const Ashikhmin blue{gray(.2), Rgb(0, 0, 1), 5, 5, kNone};
+  const Ashikhmin blue{gray(.2), Color(0, 0, 1), 5, 5, kNone};
   EXPECT_TRUE(scatter(blue, at, kAlong, .06).sampled);
   EXPECT_FALSE(scatter(blue, at, kAlong, .07).sampled);
 }
@@ -408,10 +408,10 @@ TEST(Wgmdfunc, MirrorsTakeFromTheRestWhatTheirFresnelRiseAdds) {
   EXPECT_NEAR(s.transmission.share.x, .2 * (1 - rise), 1e-12);
   ASSERT_EQ(s.sharp.count, 2u);
   EXPECT_EQ(s.sharp.path[0].kind, kTransmitted);
-  EXPECT_NEAR(s.sharp.path[0].coefficient.rgb.x, .3 * (1 - rise), 1e-12);
+  EXPECT_NEAR(s.sharp.path[0].coefficient.color.x, .3 * (1 - rise), 1e-12);
   EXPECT_EQ(s.sharp.path[1].kind, kReflected);
-  EXPECT_NEAR(s.sharp.path[1].coefficient.rgb.x, .1 + .9 * rise, 1e-12);
-  EXPECT_EQ(s.reflected.share, Rgb(0, 0, 0));
+  EXPECT_NEAR(s.sharp.path[1].coefficient.color.x, .1 + .9 * rise, 1e-12);
+  EXPECT_EQ(s.reflected.share, Color(0, 0, 0));
   // Too weak a mirror is no polished surface.
   const AnisotropicScattering weak =
       scatter(m, WgmdComponent{at, .017, 0, 0}, pane, at, at, kAlong, kSampleAll);

@@ -23,9 +23,9 @@ BsdfData dataOf(const std::string& xml, std::vector<std::string>* warnings = nul
 }
 
 // All of the scattering between two directions, as the original's library has it.
-Rgb value(const BsdfData& data, const V3d& view, const V3d& other) {
+Color value(const BsdfData& data, const V3d& view, const V3d& other) {
   const bool front = view.z > 0;
-  Rgb c = front == (other.z > 0) ? data.diffuseReflectance(front) : data.diffuseTransmittance(front);
+  Color c = front == (other.z > 0) ? data.diffuseReflectance(front) : data.diffuseTransmittance(front);
   c /= kPi;
   if (const DirectedScattering* part = data.between(view, other)) c += rgbOf(part->cell(view, other).value);
   return c;
@@ -90,8 +90,8 @@ TEST(Bsdf, ValuesAsTheOriginal) {
     const BsdfData data = dataOf(xml);
     for (const Row& row : rows) {
       if (std::string(row.name) != name) continue;
-      const Rgb ours = value(data, row.view.normalized(), row.other.normalized());
-      const Rgb theirs = rgbOf({row.xyz.x, row.xyz.y, row.xyz.z});
+      const Color ours = value(data, row.view.normalized(), row.other.normalized());
+      const Color theirs = rgbOf({row.xyz.x, row.xyz.y, row.xyz.z});
       EXPECT_NEAR(brightness(ours), row.xyz.y, 4e-4 * row.xyz.y) << name << " " << row.view << row.other;
       for (int i = 0; i < 3; ++i)
         EXPECT_NEAR(ours[i], theirs[i], .03 * row.xyz.y + .005) << name << " " << row.view << row.other;
@@ -102,14 +102,14 @@ TEST(Bsdf, ValuesAsTheOriginal) {
 // Equal values of X, Y and Z are white; a colour beyond what RADIANCE's primaries can mix keeps its
 // luminance.
 TEST(Bsdf, Colours) {
-  const Rgb white = rgbOf({.3, .3, .3});
-  EXPECT_EQ(white, Rgb(.3, .3, .3));
+  const Color white = rgbOf({.3, .3, .3});
+  EXPECT_EQ(white, Color(.3, .3, .3));
   // RADIANCE's green, x = .29, y = .6; its part in white's luminance is its weight in brightness.
-  const Rgb green = rgbOf({.29 / .6 * kGreenWeight, kGreenWeight, .11 / .6 * kGreenWeight});
+  const Color green = rgbOf({.29 / .6 * kGreenWeight, kGreenWeight, .11 / .6 * kGreenWeight});
   EXPECT_NEAR(green.x, 0, 1e-4);
   EXPECT_NEAR(green.y, 1, 1e-4);
   EXPECT_NEAR(green.z, 0, 1e-4);
-  const Rgb deep = rgbOf({.1, .7, .1});
+  const Color deep = rgbOf({.1, .7, .1});
   EXPECT_GE(std::min({deep.x, deep.y, deep.z}), 0);
   EXPECT_NEAR(brightness(deep), .7, 1e-4);
 }
@@ -117,7 +117,7 @@ TEST(Bsdf, Colours) {
 // The smallest value is the diffuse part where it is worth more than 1%; the rest is directed.
 TEST(Bsdf, TheDiffusePartIsTheSmallestValue) {
   const BsdfData data = dataOf(halfXml());
-  EXPECT_EQ(data.diffuseReflectance(true), Rgb(0, 0, 0));
+  EXPECT_EQ(data.diffuseReflectance(true), Color(0, 0, 0));
   EXPECT_NEAR(data.diffuseReflectance(false).x, .05 * kPi, 1e-5);
   EXPECT_NEAR(data.diffuseTransmittance(true).x, .01 * kPi, 1e-5);
   EXPECT_NEAR(data.diffuseTransmittance(false).y, .02 * kPi, 1e-5);
@@ -304,7 +304,7 @@ TEST(Bsdf, OnlyANarrowPeakGoesThrough) {
     EXPECT_LT(t.peak.x, albedo);
     EXPECT_GT(t.around.x, 0);
     EXPECT_LT(t.around.x, 1);
-    EXPECT_EQ(wide.through(view).peak, Rgb(0, 0, 0));
+    EXPECT_EQ(wide.through(view).peak, Color(0, 0, 0));
   }
 }
 

@@ -14,13 +14,13 @@ class FakeHit final : public MaterialHit {
     at_.normal = V3d(0, 0, at_.front ? 1 : -1);
     at_.direction = -at_.normal;
     at_.kinds = arrival.kinds;
-    at_.pattern = Rgb(.5, .5, .5);
+    at_.pattern = Color(.5, .5, .5);
   }
   FakeHit(const Interaction& at, MaterialContext& context)
       : MaterialHit({}, ModifierId(0), context), at_(at) {}
 
   Interaction interaction() const override { return at_; }
-  const Rgb& pattern() const override { return at_.pattern; }
+  const Color& pattern() const override { return at_.pattern; }
   Interaction interactionAfter(ModifierId) const override { return at_; }
   FunctionPoint point() const override { return {}; }
   const Medium& medium() const override { return medium_; }
@@ -34,7 +34,7 @@ class FakeHit final : public MaterialHit {
   void turnToFront() override { turned = true; }
 
   Interaction at_;
-  Medium medium_{Rgb(.1, .1, .1), {}, 0};
+  Medium medium_{Color(.1, .1, .1), {}, 0};
 };
 
 }  // namespace rsphere

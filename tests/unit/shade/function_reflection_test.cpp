@@ -10,21 +10,21 @@
 namespace rsphere {
 namespace {
 
-Rgb gray(double x) { return Rgb(x, x, x); }
+Color gray(double x) { return Color(x, x, x); }
 
 // What leaves along the ray under unit radiance from everywhere, towards light sources: the coefficient over
 // the sphere, by a midpoint rule of equal solid angles. distribution: of the direction to the source, per sr.
 template <class Distribution>
-Rgb albedo(const FunctionScattering& s, const Distribution& distribution) {
+Color albedo(const FunctionScattering& s, const Distribution& distribution) {
   constexpr int kRows = 64, kColumns = 32;
   constexpr double kCell = 4 * kPi / (kRows * kColumns);
-  Rgb sum(0, 0, 0);
+  Color sum(0, 0, 0);
   for (int i = 0; i < kRows; ++i)
     for (int k = 0; k < kColumns; ++k) {
       const double z = -1 + 2 * (i + .5) / kRows, r = std::sqrt(1 - z * z),
                    angle = 2 * kPi * (k + .5) / kColumns;
       const V3d d(r * std::cos(angle), r * std::sin(angle), z);
-      sum += directCoefficient(s, d, kCell, [&] { return distribution(d); }).rgb;
+      sum += directCoefficient(s, d, kCell, [&] { return distribution(d); }).color;
     }
   return sum;
 }
@@ -32,7 +32,7 @@ Rgb albedo(const FunctionScattering& s, const Distribution& distribution) {
 // |z|^n over each hemisphere, which integrates to 1 over it when projected.
 struct CosinePower {
   double n = 0;
-  Rgb operator()(const V3d& d) const { return gray((n + 2) / (2 * kPi) * std::pow(std::abs(d.z), n)); }
+  Color operator()(const V3d& d) const { return gray((n + 2) / (2 * kPi) * std::pow(std::abs(d.z), n)); }
 };
 
 // The manual: functions that integrate to 1 over the projected hemisphere keep the energy balance.
@@ -40,19 +40,19 @@ TEST(Energy, NormalizedFunctionsGainNoLight) {
   Random random(51);
   for (int i = 0; i < 1000; ++i) {
     const auto share = [&] { return random.uniform(); };
-    const Rgb color(share(), share(), share());
+    const Color color(share(), share(), share());
     FunctionScatterer m{color, share()};
     m.metal = i % 3 == 0;
     if (i % 3 == 1) m.transmissivity = share(), m.transmittedSpecular = share();
     const Interaction at = arriving(between(random, .02, 1));
     const FunctionScattering s = scatter(m, at);
     const CosinePower function{between(random, 0, 8)};
-    const Rgb total = albedo(s, function), indirect = s.ambientReflection + s.ambientTransmission;
+    const Color total = albedo(s, function), indirect = s.ambientReflection + s.ambientTransmission;
     for (int channel = 0; channel < 3; ++channel) {
       EXPECT_LE(total[channel], 1.001) << i;
       EXPECT_LE(indirect[channel], 1 + 1e-12) << i;
     }
-    const Rgb spoiled = albedo(s, [&](const V3d& d) { return function(d) * 1.05; });
+    const Color spoiled = albedo(s, [&](const V3d& d) { return function(d) * 1.05; });
     EXPECT_GE(spoiled.x, total.x + .049 * s.directionalReflection.x);
   }
 }
@@ -70,9 +70,9 @@ TEST(Energy, BrtdfuncGivesBackWhatItIsTold) {
     const FunctionScattering s = scatter(m, at);
     const CosinePower function{between(random, 0, 5)};
     // Directional scattering goes to both hemispheres, so half of it to each.
-    const Rgb total = albedo(s, [&](const V3d& d) { return function(d) * (shares[2] / 2); });
-    const double sharp = sharpReflection(s, at, {shares[3], 0, 0}).coefficient.rgb.x +
-                         sharpTransmission(s, at, {shares[4], 0, 0}).coefficient.rgb.x;
+    const Color total = albedo(s, [&](const V3d& d) { return function(d) * (shares[2] / 2); });
+    const double sharp = sharpReflection(s, at, {shares[3], 0, 0}).coefficient.color.x +
+                         sharpTransmission(s, at, {shares[4], 0, 0}).coefficient.color.x;
     EXPECT_NEAR(total.x + sharp, 1, 2e-3);
   }
 }
@@ -93,7 +93,7 @@ TEST(FunctionScattering, OfAReciprocalFunctionIsReciprocal) {
       at.direction = -eye;
       at.cosine = eye.z;
       return directCoefficient(scatter(m, at), light, 1e-3, [&] { return gray(eye.z * light.z + .1); })
-                 .rgb.x /
+                 .color.x /
              light.z;
     };
     EXPECT_NEAR(brdf(a, b), brdf(b, a), 1e-15);
@@ -101,7 +101,7 @@ TEST(FunctionScattering, OfAReciprocalFunctionIsReciprocal) {
 }
 
 TEST(FunctionScattering, SharesItsLightAsTheManualSays) {
-  FunctionScatterer m{Rgb(.8, .6, .4), .1};
+  FunctionScatterer m{Color(.8, .6, .4), .1};
   m.transmissivity = .5;
   m.transmittedSpecular = .4;
   const FunctionScattering s = scatter(m, arriving(.5));
@@ -113,7 +113,7 @@ TEST(FunctionScattering, SharesItsLightAsTheManualSays) {
   // Indirect light takes what is directional for diffuse.
   EXPECT_NEAR(s.ambientReflection.x, .8 * (1 - .45), 1e-12);
   EXPECT_NEAR(s.ambientTransmission.x, .8 * .45, 1e-12);
-  FunctionScatterer metal{Rgb(.8, .6, .4), .1, true};
+  FunctionScatterer metal{Color(.8, .6, .4), .1, true};
   EXPECT_NEAR(scatter(metal, arriving(.5)).directionalReflection.z, .04, 1e-12);
 }
 
@@ -129,8 +129,8 @@ TEST(FunctionScattering, AsksNoFunctionWhereItHasNoShare) {
   EXPECT_EQ(asked, 0);
   directCoefficient(s, V3d(0, 0, 1), .1, function);
   EXPECT_EQ(asked, 1);
-  EXPECT_EQ(directCoefficient(s, V3d(0, 0, 1), .1, [] { return gray(-1); }).rgb.x,
-            directCoefficient(s, V3d(0, 0, 1), .1, [] { return gray(0); }).rgb.x)
+  EXPECT_EQ(directCoefficient(s, V3d(0, 0, 1), .1, [] { return gray(-1); }).color.x,
+            directCoefficient(s, V3d(0, 0, 1), .1, [] { return gray(0); }).color.x)
       << "what is negative counts as nothing";
 }
 

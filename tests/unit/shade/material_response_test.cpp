@@ -35,7 +35,7 @@ bool is(const Variant& answer) {
   return std::holds_alternative<Outcome>(answer);
 }
 
-constexpr Rgb kGray{.5, .5, .5};
+constexpr Color kGray{.5, .5, .5};
 
 TEST_F(Response, OpaqueBlocksShadowRaysAndTransFollowsThem) {
   EXPECT_TRUE(is<Absorbs>(of(Opaque{kGray}, shadow)));
@@ -46,29 +46,29 @@ TEST_F(Response, OpaqueBlocksShadowRaysAndTransFollowsThem) {
 TEST_F(Response, BacksAreTurnedRoundOrInvisible) {
   EXPECT_TRUE(is<RoundScattering>(of(Opaque{kGray}, back)));
   EXPECT_TRUE(turned);
-  EXPECT_TRUE(is<ReflectsSharply>(of(Glass{Rgb(.9, .9, .9)}, back)));
+  EXPECT_TRUE(is<ReflectsSharply>(of(Glass{Color(.9, .9, .9)}, back)));
   EXPECT_TRUE(turned);
   EXPECT_TRUE(is<Absorbs>(of(Light{kGray}, back)));
   of(Dielectric{kGray, 1.5}, back);
   EXPECT_FALSE(turned) << "a boundary has two different sides";
   options.backFacesVisible = false;
   EXPECT_TRUE(is<Passes>(of(Opaque{kGray}, back)));
-  EXPECT_TRUE(is<Passes>(of(Glass{Rgb(.9, .9, .9)}, back)));
+  EXPECT_TRUE(is<Passes>(of(Glass{Color(.9, .9, .9)}, back)));
   EXPECT_TRUE(is<Passes>(of(Light{kGray}, back)));
   EXPECT_TRUE(is<RoundScattering>(of(Opaque{kGray}, front)));
 }
 
 TEST_F(Response, BoundariesKnowTheMediumThatTheRayCameThrough) {
-  const Dielectric water{Rgb(.5, .5, .5), 1.33};
-  EXPECT_EQ(of(water, front).scattering.medium.extinction, Rgb(.1, .1, .1)) << "the ray's";
+  const Dielectric water{Color(.5, .5, .5), 1.33};
+  EXPECT_EQ(of(water, front).scattering.medium.extinction, Color(.1, .1, .1)) << "the ray's";
   EXPECT_NEAR(of(water, back).scattering.medium.extinction.x, -std::log(.25), 1e-12)
       << "the pattern absorbs too";
 }
 
 TEST_F(Response, EmissionIsCountedOnce) {
-  const auto emitted = of(Light{Rgb(4, 4, 4)}, front);
+  const auto emitted = of(Light{Color(4, 4, 4)}, front);
   ASSERT_TRUE(is<Emits>(emitted));
-  EXPECT_EQ(std::get<Emits>(emitted).radiance.rgb, Rgb(2, 2, 2)) << "with its pattern";
+  EXPECT_EQ(std::get<Emits>(emitted).radiance.color, Color(2, 2, 2)) << "with its pattern";
   Arrival indirect = front;
   indirect.kinds |= kReflectedAmbient;
   EXPECT_TRUE(is<Absorbs>(of(Light{kGray}, indirect))) << "next-event estimation includes it";
@@ -103,7 +103,7 @@ TEST_F(Response, SpotlightsShineInTheirCone) {
 }
 
 TEST_F(Response, MirrorsRelayRaysThatAreAimedAtTheirImages) {
-  const Mirror mirror{Rgb(.8, .8, .8), {}};
+  const Mirror mirror{Color(.8, .8, .8), {}};
   EXPECT_TRUE(is<ReflectsSharply>(of(mirror, front)));
   EXPECT_TRUE(is<Absorbs>(of(mirror, shadow))) << "aimed at another source";
   Arrival aimed = shadow;
@@ -112,7 +112,7 @@ TEST_F(Response, MirrorsRelayRaysThatAreAimedAtTheirImages) {
   const auto answer = of(mirror, aimed);
   ASSERT_TRUE(is<Relays>(answer));
   EXPECT_EQ(std::get<Relays>(answer).path.direction, V3d(0, 0, 1));
-  EXPECT_NEAR(std::get<Relays>(answer).path.coefficient.rgb.x, .4, 1e-12) << "with the pattern";
+  EXPECT_NEAR(std::get<Relays>(answer).path.coefficient.color.x, .4, 1e-12) << "with the pattern";
   EXPECT_TRUE(is<Absorbs>(of(mirror, back)));
 }
 
@@ -126,7 +126,7 @@ TEST_F(Response, IllumsEmitAsSourcesAndAreOtherwiseTheirAlternate) {
 
 TEST_F(Response, VolumesSayWhetherTheyAreEntered) {
   Mist mist;
-  mist.extinction = Rgb(.4, .4, .4);
+  mist.extinction = Color(.4, .4, .4);
   const CrossesMist in = of(mist, front);
   EXPECT_TRUE(in.enters);
   EXPECT_NEAR(in.extinction.x, .2, 1e-12) << "with the pattern";

@@ -92,8 +92,8 @@ void expectPixels(const Picture& picture, const std::string& what) {
   ASSERT_EQ(picture.height(), static_cast<size_t>(kHeight)) << what;
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) {
-      const Rgb got = picture.value(static_cast<double>(kWidth) / kHeight * x / (kWidth - 1.),
-                                    static_cast<double>(y) / (kHeight - 1));
+      const Color got = picture.value(static_cast<double>(kWidth) / kHeight * x / (kWidth - 1.),
+                                      static_cast<double>(y) / (kHeight - 1));
       for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(got[c], channel(pixel(x, y), c), 1e-6) << what << " pixel " << x << ' ' << y;
     }
@@ -129,7 +129,7 @@ TEST(Picture, XyzBecomesRgb) {
   // Equal-energy white of 179 lumens is 1 in each channel; Y alone is the matrix's second column.
   const PictureFile file("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n" +
                          append({{179, 179, 179, 136}}));
-  const Rgb white = Picture::read(file.path()).value(0, 0);
+  const Color white = Picture::read(file.path()).value(0, 0);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(white[c], 179.5 / 179, 1e-5);
 }
 

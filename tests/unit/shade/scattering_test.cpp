@@ -22,7 +22,7 @@ const SharpPath* find(const Scattering& s, RayKind kind) {
 
 double coefficient(const Scattering& s, RayKind kind) {
   const SharpPath* p = find(s, kind);
-  return p ? p->coefficient.rgb.x : 0;
+  return p ? p->coefficient.color.x : 0;
 }
 
 // ---- energy
@@ -42,8 +42,8 @@ Sample meanWeight(const Scattering& s, const Interaction& at, Random& random, Sa
 void expectNoGain(const Scattering& s, const Interaction& at, Random& random) {
   for (int channel = 0; channel < 3; ++channel) {
     double sum = s.diffuseReflection[channel] + s.diffuseTransmission[channel], variance = 0;
-    for (const SharpPath& p : s.sharp) sum += p.coefficient.rgb[channel];
-    const auto addLobe = [&](const Rgb& share, auto sampleLobe) {
+    for (const SharpPath& p : s.sharp) sum += p.coefficient.color[channel];
+    const auto addLobe = [&](const Color& share, auto sampleLobe) {
       EXPECT_GE(share[channel], 0);
       if (share[channel] == 0) return;
       const Sample w = meanWeight(s, at, random, sampleLobe);
@@ -65,7 +65,7 @@ TEST(Energy, NoMaterialGainsLight) {
     Interaction at = arriving(between(random, .02, 1));
     at.flat = i % 2;
     const double roughness = i % 3 ? between(random, .01, .4) : 0;
-    const Rgb color(share(), share(), share());
+    const Color color(share(), share(), share());
     SCOPED_TRACE(testing::Message() << "material " << i << ", cosine " << at.cosine);
     expectNoGain(scatter(Opaque{color, share(), roughness, false}, at, kSampleAll), at, random);
     expectNoGain(scatter(Opaque{color, share(), roughness, true}, at, kSampleAll), at, random);
@@ -83,7 +83,7 @@ TEST(Energy, BoundariesSplitLightWithoutLoss) {
     Interaction at = arriving(between(random, .01, 1));
     at.front = i % 2;
     const double inner = between(random, 1, 2.5), outer = between(random, 1, 2.5);
-    const Scattering s = scatter(Interface{Rgb(1, 1, 1), inner, Rgb(1, 1, 1), outer}, at);
+    const Scattering s = scatter(Interface{Color(1, 1, 1), inner, Color(1, 1, 1), outer}, at);
     const double ratio = at.front ? outer / inner : inner / outer;
     EXPECT_NEAR(coefficient(s, kReflected) + coefficient(s, kRefracted) / (ratio * ratio), 1, 1e-12);
   }
@@ -92,7 +92,7 @@ TEST(Energy, BoundariesSplitLightWithoutLoss) {
 // ---- Fresnel, Snell, panes
 
 TEST(Dielectric, ReflectsAsTextbooksSay) {
-  const Dielectric water{Rgb(1, 1, 1), 1.33, 0}, crown{Rgb(1, 1, 1), 1.5, 0};
+  const Dielectric water{Color(1, 1, 1), 1.33, 0}, crown{Color(1, 1, 1), 1.5, 0};
   const Medium air;
   // At right angles ((n-1)/(n+1))^2: 4% for glass, 2% for water.
   EXPECT_NEAR(coefficient(scatter(crown, arriving(1), air), kReflected), .04, 1e-12);
@@ -110,7 +110,7 @@ TEST(Dielectric, RefractsAsSnellSays) {
     Interaction at = arriving(between(random, .05, 1));
     at.front = i % 2;
     const double n = 1.5, ratio = at.front ? 1 / n : n;
-    const Scattering s = scatter(Dielectric{Rgb(1, 1, 1), n, 0}, at, {});
+    const Scattering s = scatter(Dielectric{Color(1, 1, 1), n, 0}, at, {});
     const double sine = ratio * std::sqrt(1 - at.cosine * at.cosine);
     const SharpPath* refracted = find(s, kRefracted);
     if (sine >= 1) {
@@ -129,8 +129,8 @@ TEST(Dielectric, RefractsAsSnellSays) {
 }
 
 TEST(Dielectric, TellsTheMediumOnBothSides) {
-  const Dielectric tinted{Rgb(.5, 1, .25), 1.5, 0};
-  const Rgb haze(.1, .2, .3);
+  const Dielectric tinted{Color(.5, 1, .25), 1.5, 0};
+  const Color haze(.1, .2, .3);
   Interaction at = arriving(.8);
   const Scattering in = scatter(tinted, at, {haze});
   EXPECT_EQ(in.medium.extinction, haze);
@@ -145,12 +145,12 @@ TEST(Dielectric, TellsTheMediumOnBothSides) {
 }
 
 TEST(Dielectric, HartmannsConstantRaisesTheIndex) {
-  const Scattering s = scatter(Dielectric{Rgb(1, 1, 1), 1.48, 10}, arriving(1), {});
+  const Scattering s = scatter(Dielectric{Color(1, 1, 1), 1.48, 10}, arriving(1), {});
   EXPECT_NEAR(coefficient(s, kReflected), .04, 1e-12) << "1.48 + 10/500";
 }
 
 TEST(Interface, OfEqualIndicesIsNotSeen) {
-  const Scattering s = scatter(Interface{Rgb(1, 1, 1), 1.5, Rgb(1, 1, 1), 1.5}, arriving(.3));
+  const Scattering s = scatter(Interface{Color(1, 1, 1), 1.5, Color(1, 1, 1), 1.5}, arriving(.3));
   EXPECT_NEAR(coefficient(s, kReflected), 0, 1e-12);
   EXPECT_NEAR(coefficient(s, kRefracted), 1, 1e-12);
   EXPECT_NEAR((find(s, kRefracted)->direction - arriving(.3).direction).length(), 0, 1e-12);
@@ -175,7 +175,7 @@ TEST(Glass, SumsAllReflectionsWithinThePane) {
         inside *= r;
       }
     }
-    const Scattering s = scatter(Glass{Rgb(tn, tn, tn), n}, arriving(cosine));
+    const Scattering s = scatter(Glass{Color(tn, tn, tn), n}, arriving(cosine));
     EXPECT_NEAR(coefficient(s, kTransmitted), transmitted, 1e-12);
     EXPECT_NEAR(coefficient(s, kReflected), reflected, 1e-12);
   }
@@ -183,24 +183,24 @@ TEST(Glass, SumsAllReflectionsWithinThePane) {
 
 // The manual's figure: a pane of 88% transmittance has a transmissivity of .96.
 TEST(Glass, OfTransmissivity96Transmits88Percent) {
-  const Scattering s = scatter(Glass{Rgb(.96, .96, .96), 1.52}, arriving(1));
+  const Scattering s = scatter(Glass{Color(.96, .96, .96), 1.52}, arriving(1));
   EXPECT_NEAR(coefficient(s, kTransmitted), .88, 2e-3);
   EXPECT_EQ(find(s, kTransmitted)->direction, V3d(0, 0, -1));
 }
 
 TEST(Mirror, ReflectsItsColorAtEqualAngles) {
   Interaction at = arriving(.6);
-  at.pattern = Rgb(.5, 1, 1);
-  const Scattering s = scatter(Mirror{Rgb(.8, .7, .6), {}}, at);
+  at.pattern = Color(.5, 1, 1);
+  const Scattering s = scatter(Mirror{Color(.8, .7, .6), {}}, at);
   ASSERT_EQ(s.sharp.count, 1u);
   EXPECT_NEAR((find(s, kReflected)->direction - V3d(.8, 0, .6)).length(), 0, 1e-15);
-  EXPECT_EQ(find(s, kReflected)->coefficient.rgb, Rgb(.4, .7, .6));
+  EXPECT_EQ(find(s, kReflected)->coefficient.color, Color(.4, .7, .6));
 }
 
 // ---- plastic, metal, trans
 
 TEST(Plastic, PolishedRisesToAFullReflectionAtGrazingAngles) {
-  const Opaque polished{Rgb(.5, .5, .5), .05, 0, false};
+  const Opaque polished{Color(.5, .5, .5), .05, 0, false};
   EXPECT_NEAR(coefficient(scatter(polished, arriving(1), kSampleAll), kReflected), .05, 1e-11);
   EXPECT_GT(coefficient(scatter(polished, arriving(.001), kSampleAll), kReflected), .98);
   double last = 0;
@@ -209,7 +209,7 @@ TEST(Plastic, PolishedRisesToAFullReflectionAtGrazingAngles) {
     EXPECT_GE(coefficient(s, kReflected), last);
     last = coefficient(s, kReflected);
     EXPECT_NEAR(s.diffuseReflection.x, .5 * (1 - last), 1e-12);
-    EXPECT_EQ(s.specularReflection, Rgb(0, 0, 0));
+    EXPECT_EQ(s.specularReflection, Color(0, 0, 0));
   }
 }
 
@@ -217,20 +217,20 @@ TEST(Plastic, PolishedRisesToAFullReflectionAtGrazingAngles) {
 TEST(Plastic, PolishedFollowsFresnelWithinHalfAPercent) {
   const double clear = .04;
   for (double cosine = .1; cosine <= 1; cosine += .05) {
-    const double approximate =
-        coefficient(scatter(Opaque{Rgb(0, 0, 0), clear, 0, false}, arriving(cosine), kSampleAll), kReflected);
+    const double approximate = coefficient(
+        scatter(Opaque{Color(0, 0, 0), clear, 0, false}, arriving(cosine), kSampleAll), kReflected);
     const double exact =
-        coefficient(scatter(Dielectric{Rgb(1, 1, 1), 1.5, 0}, arriving(cosine), {}), kReflected);
+        coefficient(scatter(Dielectric{Color(1, 1, 1), 1.5, 0}, arriving(cosine), {}), kReflected);
     EXPECT_NEAR(approximate, exact, .005);
   }
 }
 
 TEST(Metal, ColorsItsHighlightsAndPlasticDoesNot) {
-  const Rgb red(.8, .2, .1);
+  const Color red(.8, .2, .1);
   for (const double roughness : {0., .1}) {
     const auto highlight = [&](bool metal) {
       const Scattering s = scatter(Opaque{red, .9, roughness, metal}, arriving(1), kSampleAll);
-      return roughness > 0 ? s.specularReflection : find(s, kReflected)->coefficient.rgb;
+      return roughness > 0 ? s.specularReflection : find(s, kReflected)->coefficient.color;
     };
     EXPECT_NEAR(highlight(true).x, .72, 1e-12);
     EXPECT_NEAR(highlight(true).z, .09, 1e-12);
@@ -241,7 +241,7 @@ TEST(Metal, ColorsItsHighlightsAndPlasticDoesNot) {
 
 // Shares as the manual's equations for trans give them.
 TEST(Trans, SharesItsLightAsTheManualSays) {
-  const Trans m{Rgb(.8, .6, .4), .1, .1, .5, .4};
+  const Trans m{Color(.8, .6, .4), .1, .1, .5, .4};
   const Scattering s = scatter(m, arriving(1), kSampleAll);
   EXPECT_NEAR(s.specularReflection.x, .1, 1e-12) << "uncoloured";
   EXPECT_NEAR(s.diffuseReflection.x, .8 * .9 * .5, 1e-12);
@@ -252,20 +252,20 @@ TEST(Trans, SharesItsLightAsTheManualSays) {
 
 // -st: a lobe whose share is not above it is not sampled, and counts with the indirect light instead.
 TEST(SpecularThreshold, DecidesWhetherLobesAreSampled) {
-  const Opaque plastic{Rgb(.5, .5, .5), .1, .1, false};
+  const Opaque plastic{Color(.5, .5, .5), .1, .1, false};
   for (const double threshold : {.05, .0999, .1, .2, 1.}) {
     const Scattering s = scatter(plastic, arriving(.7), threshold);
     EXPECT_EQ(s.sampleReflection, threshold < .1);
     EXPECT_NEAR(s.ambientReflection.x, threshold < .1 ? .45 : .55, 1e-12);
     EXPECT_NEAR(s.specularReflection.x, .1, 1e-12) << "direct light sees the lobe in any case";
   }
-  const Trans trans{Rgb(1, 1, 1), 0, .1, .5, .4};
+  const Trans trans{Color(1, 1, 1), 0, .1, .5, .4};
   for (const double threshold : {.1, .1999, .2, 1.}) {
     const Scattering s = scatter(trans, arriving(.7), threshold);
     EXPECT_EQ(s.sampleTransmission, threshold < .2);
     EXPECT_NEAR(s.ambientTransmission.x, threshold < .2 ? .3 : .5, 1e-12);
   }
-  const Scattering polished = scatter(Opaque{Rgb(.5, .5, .5), .1, 0, false}, arriving(.7), 1);
+  const Scattering polished = scatter(Opaque{Color(.5, .5, .5), .1, 0, false}, arriving(.7), 1);
   EXPECT_NE(find(polished, kReflected), nullptr) << "sharp reflections are always followed";
 }
 
@@ -274,13 +274,13 @@ TEST(SpecularThreshold, DecidesWhetherLobesAreSampled) {
 constexpr double kTiny = 1e-7;  // sr, of a source for which the lobe is a number
 
 double lobeTimesCosine(const Scattering& s, const Interaction& at, const V3d& direction) {
-  return directCoefficient(s, at, direction, kTiny, 1).rgb.x / kTiny;
+  return directCoefficient(s, at, direction, kTiny, 1).color.x / kTiny;
 }
 
 TEST(Lobe, ReflectedIsReciprocal) {
   Random random(25);
   for (int i = 0; i < 1000; ++i) {
-    const Opaque m{Rgb(.3, .3, .3), .4, between(random, .05, .4), false};
+    const Opaque m{Color(.3, .3, .3), .4, between(random, .05, .4), false};
     V3d a = randomDirection(random), b = randomDirection(random);
     a.z = std::abs(a.z) + .05, b.z = std::abs(b.z) + .05;
     a.normalize(), b.normalize();
@@ -313,7 +313,7 @@ double samplingSigmas(const Interaction& at, const Scattering& sampled, const Sc
 
 // Only the lobe, of share 1.
 Scattering lobeOf(const Interaction& at, double roughness) {
-  Scattering s = scatter(Opaque{Rgb(0, 0, 0), 1, roughness, false}, at, kSampleAll);
+  Scattering s = scatter(Opaque{Color(0, 0, 0), 1, roughness, false}, at, kSampleAll);
   return s;
 }
 
@@ -369,7 +369,7 @@ TEST(Lobe, ReflectedSamplesFollowTheLobeOfDirectLight) {
 TEST(Lobe, TransmittedSamplesFollowTheLobeOfDirectLight) {
   const Interaction at = arriving(1);
   const auto lobe = [&](double roughness) {
-    return scatter(Trans{Rgb(1, 1, 1), 0, roughness, 1, 1}, at, kSampleAll);
+    return scatter(Trans{Color(1, 1, 1), 0, roughness, 1, 1}, at, kSampleAll);
   };
   const auto weight = [](const V3d&) { return 1.; };
   const Scattering s = lobe(.02);
@@ -388,14 +388,14 @@ TEST(Lobe, SpreadBelowOneKeepsToTheMiddle) {
 // ---- direct light
 
 TEST(DirectCoefficient, OfADiffuseSurfaceIsLamberts) {
-  const Opaque white{Rgb(.7, .7, .7), 0, 0, false};
+  const Opaque white{Color(.7, .7, .7), 0, 0, false};
   const Interaction at = arriving(.5);
   const Scattering s = scatter(white, at, kSampleAll);
-  EXPECT_NEAR(directCoefficient(s, at, V3d(.6, 0, .8), .01, 0).rgb.x, .7 * .8 * .01 / kPi, 1e-15);
-  EXPECT_EQ(directCoefficient(s, at, V3d(.6, 0, -.8), .01, 0).rgb.x, 0);
-  const Scattering thin = scatter(Trans{Rgb(1, 1, 1), 0, 0, .25, 0}, at, kSampleAll);
-  EXPECT_NEAR(directCoefficient(thin, at, V3d(.6, 0, .8), .01, 0).rgb.x, .75 * .8 * .01 / kPi, 1e-15);
-  EXPECT_NEAR(directCoefficient(thin, at, V3d(.6, 0, -.8), .01, 0).rgb.x, .25 * .8 * .01 / kPi, 1e-15);
+  EXPECT_NEAR(directCoefficient(s, at, V3d(.6, 0, .8), .01, 0).color.x, .7 * .8 * .01 / kPi, 1e-15);
+  EXPECT_EQ(directCoefficient(s, at, V3d(.6, 0, -.8), .01, 0).color.x, 0);
+  const Scattering thin = scatter(Trans{Color(1, 1, 1), 0, 0, .25, 0}, at, kSampleAll);
+  EXPECT_NEAR(directCoefficient(thin, at, V3d(.6, 0, .8), .01, 0).color.x, .75 * .8 * .01 / kPi, 1e-15);
+  EXPECT_NEAR(directCoefficient(thin, at, V3d(.6, 0, -.8), .01, 0).color.x, .25 * .8 * .01 / kPi, 1e-15);
 }
 
 // ---- frames and perturbed normals

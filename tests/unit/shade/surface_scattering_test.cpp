@@ -28,7 +28,7 @@ RoundScattering roundScattering(const M& material, const Interaction& at) {
   return RoundScattering(material, FakeHit(at, context));
 }
 
-Rgb gray(double x) { return Rgb(x, x, x); }
+Color gray(double x) { return Color(x, x, x); }
 
 // Radiance that depends on the direction in all ways, between 0 and 2.
 double sky(const V3d& d) { return 1 + .5 * d.x + .3 * d.y - .2 * d.z; }
@@ -43,7 +43,7 @@ Sample bySamples(S s, Component component, uint64_t seed, int n = 1) {
     double sum = 0;
     for (int i = 0; i < n; ++i) {
       const LobeSample drawn = s.draw(component, i, n, random);
-      if (!isBlack(drawn.coefficient)) sum += drawn.coefficient.rgb.x * sky(drawn.direction);
+      if (!isBlack(drawn.coefficient)) sum += drawn.coefficient.color.x * sky(drawn.direction);
     }
     sample.add(sum);
   }
@@ -66,7 +66,7 @@ double byDirectLight(const S& s, Component component, const V3d& middle, double 
     for (int k = 0; k < kColumns; ++k) {
       const double angle = (k + .5) / kColumns * 2 * kPi;
       const V3d d = cosine * middle + sine * (std::cos(angle) * x + std::sin(angle) * y);
-      sum += s.coefficient(component, d, kTiny, random).rgb.x / kTiny * omega * sky(d);
+      sum += s.coefficient(component, d, kTiny, random).color.x / kTiny * omega * sky(d);
     }
   }
   return sum;
@@ -143,7 +143,7 @@ TEST(BsdfScattering, SamplesSeeWhatDirectLightSees) {
     BsdfScattering s = bsdf(data, at, kOptions);
     const V3d middle = c == Component::reflected ? at.normal : -at.normal;
     // Direct light has the diffuse part too.
-    const Rgb indirect = s.indirect(c).rgb;
+    const Color indirect = s.indirect(c).color;
     double diffuse = 0;
     constexpr int kCells = 400;
     for (int i = 0; i < kCells; ++i) {  // the cosine-weighted mean of the sky over the hemisphere
@@ -165,16 +165,16 @@ TEST(BsdfScattering, WeakLobesAreIndirectLight) {
   MaterialOptions options = kOptions;
   options.specularThreshold = 1;
   BsdfScattering s = bsdf(data, arriving(.8), options);
-  const double before = s.indirect(Component::transmitted).rgb.x;
+  const double before = s.indirect(Component::transmitted).color.x;
   Random random(1);
   EXPECT_FALSE(s.lobe(Component::transmitted, random));
-  const double after = s.indirect(Component::transmitted).rgb.x;
+  const double after = s.indirect(Component::transmitted).color.x;
   BsdfScattering sampled = bsdf(data, arriving(.8), kOptions);
   Random same(1);
   const std::optional<Lobe> lobe = sampled.lobe(Component::transmitted, same);
   ASSERT_TRUE(lobe);
   EXPECT_DOUBLE_EQ(after, before + lobe->share);
-  EXPECT_EQ(sampled.indirect(Component::transmitted).rgb.x, before);
+  EXPECT_EQ(sampled.indirect(Component::transmitted).color.x, before);
 }
 
 // Light is transmitted behind the thickness; without one, all direct light arrives at the same point.
@@ -185,13 +185,13 @@ TEST(BsdfScattering, ThicknessPartsTheTwoSides) {
   BsdfScattering thin = bsdf(data, arriving(.8), kOptions), thick = bsdf(data, arriving(.8), kOptions, .25);
   EXPECT_TRUE(thin.takesDirect(Component::reflected));
   EXPECT_FALSE(thin.takesDirect(Component::transmitted));
-  EXPECT_GT(thin.coefficient(Component::reflected, below, .1, random).rgb.x, 0);
+  EXPECT_GT(thin.coefficient(Component::reflected, below, .1, random).color.x, 0);
   EXPECT_TRUE(thick.takesDirect(Component::transmitted));
   EXPECT_EQ(thick.offset(Component::transmitted), V3d(0, 0, -.25));
-  EXPECT_EQ(thick.coefficient(Component::reflected, below, .1, random).rgb.x, 0);
-  EXPECT_EQ(thick.coefficient(Component::transmitted, above, .1, random).rgb.x, 0);
-  EXPECT_GT(thick.coefficient(Component::reflected, above, .1, random).rgb.x, 0);
-  EXPECT_GT(thick.coefficient(Component::transmitted, below, .1, random).rgb.x, 0);
+  EXPECT_EQ(thick.coefficient(Component::reflected, below, .1, random).color.x, 0);
+  EXPECT_EQ(thick.coefficient(Component::transmitted, above, .1, random).color.x, 0);
+  EXPECT_GT(thick.coefficient(Component::reflected, above, .1, random).color.x, 0);
+  EXPECT_GT(thick.coefficient(Component::transmitted, below, .1, random).color.x, 0);
 }
 
 // The first numbers of a lobe's samples are stratified: their mean is nearer to the truth.
@@ -219,7 +219,7 @@ TEST(SurfaceScattering, TellsWhereDirectLightMatters) {
   EXPECT_TRUE(matt.takesDirect(Component::reflected));
   EXPECT_TRUE(matt.isEven());
   EXPECT_EQ(matt.front(), at.normal);
-  EXPECT_EQ(matt.indirect(Component::reflected).rgb, gray(.5));
+  EXPECT_EQ(matt.indirect(Component::reflected).color, gray(.5));
   const RoundScattering glossy = roundScattering(Opaque{gray(.5), .1, .05, false}, at);
   EXPECT_FALSE(glossy.isEven());
   const RoundScattering paper = roundScattering(Trans{gray(.5), 0, 0, .5, 0}, at);

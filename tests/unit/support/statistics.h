@@ -6,7 +6,7 @@
 #include <numbers>
 #include <span>
 
-#include "base/rgb.h"
+#include "base/color.h"
 #include "measure/statistics.h"
 #include "scene/random.h"
 

@@ -92,7 +92,7 @@ TEST(BrightSpots, LeaveTheMeanAsItIs) {
   constexpr int kPaths = 80000;
   Sample sample;
   for (int i = 0; i < kPaths; ++i)
-    sample.add(aimed.trace(origin, down.normalized(), 0, mixBits(i)).value.rgb.x);
+    sample.add(aimed.trace(origin, down.normalized(), 0, mixBits(i)).value.color.x);
   expectMean(sample, kMean, 1.08);
   EXPECT_LT(sample.standardError(), .5 * pot.mean(origin, down, kPaths).standardError());
 }
@@ -138,7 +138,7 @@ TEST(BrightSpots, ThroughOpeningsLeaveTheMeanAsItIs) {
   const V3d origin(2, 2, .9), north = V3d(.1, 1, 0).normalized();
   Sample with, without;
   for (uint64_t i = 0; i < 30000; ++i) {
-    with.add(aimed.trace(origin, north, 0, mixBits(i)).value.rgb.x);
+    with.add(aimed.trace(origin, north, 0, mixBits(i)).value.color.x);
     without.add(room.value(origin, north, mixBits(i + 1000000)));
   }
   const double error = std::hypot(with.standardError(), without.standardError());

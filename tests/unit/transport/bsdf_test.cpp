@@ -51,7 +51,7 @@ TEST_F(BsdfMaterials, DirectLightAsTheOriginal) {
     std::string_view lamp;
     bool floor;
     V3d origin, direction;
-    Rgb value;
+    Color value;
   };
   const Row rows[] = {
       {"void BSDF m\n6 0 half.xml 0 1 0 .\n0 0",
@@ -250,7 +250,7 @@ TEST_F(BsdfMaterials, DirectLightAsTheOriginal) {
     scene += kPane;
     if (row.floor)
       scene += "void plastic f 0 0 5 .5 .5 .5 0 0\nf polygon fl 0 0 12 -3 -3 -1 3 -3 -1 3 3 -1 -3 3 -1\n";
-    const Rgb ours = Traced(scene, o).color(row.origin, row.direction);
+    const Color ours = Traced(scene, o).color(row.origin, row.direction);
     const std::string_view m = row.material;
     const bool colored = m.find("quarter") != m.npos || m.find("treec") != m.npos;
     const double tolerance = (colored ? .08 : 1e-3) * brightness(row.value) + 1e-6;

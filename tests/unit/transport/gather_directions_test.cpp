@@ -62,7 +62,7 @@ TEST(GatherDirections, LeaveTheMeanOfPathsAsItIs) {
   PathTracer aimed(room.transport(), room.transport().aims());
   const V3d origin(2, 2, .9), north = V3d(.1, 1, 0).normalized();
   Sample with, without;
-  for (uint64_t i = 0; i < 40000; ++i) with.add(aimed.trace(origin, north, 0, mixBits(i)).value.rgb.x);
+  for (uint64_t i = 0; i < 40000; ++i) with.add(aimed.trace(origin, north, 0, mixBits(i)).value.color.x);
   for (uint64_t i = 0; i < 160000; ++i) without.add(room.value(origin, north, mixBits(i + 1000000)));
   const double error = std::hypot(with.standardError(), without.standardError());
   EXPECT_LT(std::abs(with.mean() - without.mean()), kMostSigmas * error);

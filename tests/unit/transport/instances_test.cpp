@@ -69,7 +69,7 @@ TEST(Instances, LookAsToTheOriginal) {
       near(a.point[k], 4 + i, 1e-5);
       near(a.unperturbedNormal[k], 10 + i, 1e-5);
       near(a.normal[k], 13 + i, 1e-5);
-      near(a.value.rgb[k], 18 + i, 1e-4 * std::abs(a.value.rgb[k]) + 1e-7);
+      near(a.value.color[k], 18 + i, 1e-4 * std::abs(a.value.color[k]) + 1e-7);
     }
     near(a.firstLength, 9, 1e-5);
     near(a.u, 16, 1e-5);

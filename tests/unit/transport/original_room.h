@@ -29,7 +29,7 @@ inline const std::string kRoomBall = "void light l 0 0 3 800 700 600\nl sphere l
 
 struct OriginalFigure {
   V3d origin, direction;
-  Rgb value;
+  Color value;
 };
 
 // -ab 0 -dj 0 -dt 0 -ds 0 -ss 0 -st 1 -lr 8 -dr 2 -dp 0
@@ -47,7 +47,7 @@ inline RayOptions originalOptions() {
 inline void expectFigures(const std::string& scene, const std::vector<OriginalFigure>& figures) {
   Traced traced(scene, originalOptions());
   for (const OriginalFigure& f : figures) {
-    const Rgb got = traced.color(f.origin, f.direction);
+    const Color got = traced.color(f.origin, f.direction);
     for (int i = 0; i < 3; ++i)
       EXPECT_NEAR(got[i], f.value[i], 1e-4 * f.value[i]) << f.origin << " channel " << i;
   }

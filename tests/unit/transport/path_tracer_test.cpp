@@ -42,7 +42,7 @@ double irradianceAt(Traced& traced, const V3d& point, const V3d& normal, uint64_
 TEST(Light, IsMissedOnlyWhereNothingCanGiveIt) {
   const std::string walls = plastic("paint", .5) + floor("paint");
   RayOptions ambient;
-  ambient.ambientValue = Radiance(Rgb(0, .1, 0));
+  ambient.ambientValue = Radiance(Color(0, .1, 0));
   EXPECT_TRUE(Traced(walls).transport().isDark());
   EXPECT_FALSE(Traced(walls, ambient).transport().isDark());
   EXPECT_FALSE(Traced(walls + light(1) + "lamp sphere bulb\n0\n0\n4 0 0 5 .5\n").transport().isDark());
@@ -120,9 +120,9 @@ TEST(Ambient, FirstBounceMeetsGlow) {
 
 TEST(Ambient, ValueStandsForTheBouncesNotFollowed) {
   RayOptions o = unbiased(0);
-  o.ambientValue = Radiance(Rgb(.5, .25, 1));
+  o.ambientValue = Radiance(Color(.5, .25, 1));
   const std::string wall = plastic("wall", .4) + "wall bubble s\n0\n0\n4 0 0 0 1\n";
-  const Rgb seen = Traced(wall, o).color(kOrigin, V3d(1, .2, .1));
+  const Color seen = Traced(wall, o).color(kOrigin, V3d(1, .2, .1));
   EXPECT_NEAR(seen.x, .2, 1e-12);
   EXPECT_NEAR(seen.y, .1, 1e-12);
   EXPECT_NEAR(seen.z, .4, 1e-12);
@@ -473,7 +473,7 @@ TEST(Sources, IllumIsSeenAsItsAlternate) {
 TEST(Mirror, ShowsWhatItFaces) {
   Traced scene("void mirror m\n0\n0\n3 .9 .8 .7\n" + floor("m") + light(2) +
                "lamp sphere l\n0\n0\n4 3 0 3 .5\n");
-  const Rgb seen = scene.color(V3d(-3, 0, 3), V3d(3, 0, -3));
+  const Color seen = scene.color(V3d(-3, 0, 3), V3d(3, 0, -3));
   EXPECT_NEAR(seen.x, 1.8, 1e-12);
   EXPECT_NEAR(seen.z, 1.4, 1e-12);
   EXPECT_EQ(scene.value(V3d(0, 0, -1), kUp), 0) << "from behind it is black";
@@ -492,11 +492,11 @@ TEST(Mirror, GivesWayToItsAlternate) {
 TEST(Medium, AbsorbsByItsLength) {
   const std::string sky = glow(1, 0) + "sky source all\n0\n0\n4 0 0 1 360\n";
   Traced scene(sky + "void dielectric d\n0\n0\n5 .5 .9 1 1 0\nd sphere s\n0\n0\n4 0 0 0 1.5\n", unbiased());
-  const Rgb seen = scene.color(V3d(0, 0, 5), kDown);
+  const Color seen = scene.color(V3d(0, 0, 5), kDown);
   EXPECT_NEAR(seen.x, .125, 1e-9);
   EXPECT_NEAR(seen.y, .729, 1e-9);
   EXPECT_NEAR(seen.z, 1, 1e-9);
-  const Rgb inside = scene.color(V3d(0, 0, .5), kDown);
+  const Color inside = scene.color(V3d(0, 0, .5), kDown);
   EXPECT_NEAR(inside.x, .25, 1e-9) << "a ray that starts inside is told the medium by the surface it meets";
 }
 
@@ -597,7 +597,7 @@ TEST(PathTracer, AnswersDoNotDependOnWhatWasTracedBefore) {
   Random random(33);
   std::vector<std::pair<V3d, V3d>> rays;
   for (int i = 0; i < 50; ++i) rays.emplace_back(randomPoint(random, .2), randomDirection(random));
-  std::vector<Rgb> forward;
+  std::vector<Color> forward;
   for (size_t i = 0; i < rays.size(); ++i)
     forward.push_back(traced.color(rays[i].first, rays[i].second, 100 + i));
   for (size_t i = rays.size(); i-- > 0;)

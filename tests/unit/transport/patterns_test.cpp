@@ -540,7 +540,7 @@ TEST_F(Patterns, AreTheOriginals) {
   for (const Figures& f : figures()) {
     Traced scene(f.text + std::string(kFloor) + (f.sky ? kSky : ""), plain());
     for (size_t i = 0; i < kShots.size(); ++i) {
-      const Rgb got = scene.color(kShots[i].origin, kShots[i].direction);
+      const Color got = scene.color(kShots[i].origin, kShots[i].direction);
       for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(got[c], f.values[i][c], 2e-6 + 2e-6 * std::abs(f.values[i][c]))
             << f.name << ", ray " << i << ", channel " << c;
@@ -627,7 +627,7 @@ TEST_F(Patterns, WarnsOnceOfWhatHasNoValue) {
                             [&](std::string_view text) { warnings.emplace_back(text); });
   PathTracer tracer(transport);
   for (int i = 0; i < 3; ++i)
-    EXPECT_EQ(tracer.trace(V3d(3, 3, 3), V3d(0, 0, -1), 0, 1).value.rgb.x, 1) << "left out";
+    EXPECT_EQ(tracer.trace(V3d(3, 3, 3), V3d(0, 0, -1), 0, 1).value.color.x, 1) << "left out";
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings[0], "room.rad:1: brightfunc \"P\": compute error");
 }
@@ -661,10 +661,10 @@ TEST_F(Patterns, ThreadsMeetAModifierForTheFirstTimeTogether) {
         PathTracer tracer(transport);
         --waiting;
         while (waiting > 0) std::this_thread::yield();
-        values[i] = tracer.trace(V3d(1, 1.5, 3), V3d(0, 0, -1), 0, 1).value.rgb.x;
+        values[i] = tracer.trace(V3d(1, 1.5, 3), V3d(0, 0, -1), 0, 1).value.color.x;
       });
     for (std::thread& t : threads) t.join();
-    for (double v : values) EXPECT_EQ(v, alone.trace(V3d(1, 1.5, 3), V3d(0, 0, -1), 0, 1).value.rgb.x);
+    for (double v : values) EXPECT_EQ(v, alone.trace(V3d(1, 1.5, 3), V3d(0, 0, -1), 0, 1).value.color.x);
   }
 }
 
@@ -689,10 +689,10 @@ TEST_F(Patterns, GoalMayBeAMixture) {
   const Scene scene = buildScene(rad::readSceneText(text, "room.rad"), {}, goals);
   const Transport transport(scene, unbiased(), IrradianceAt::none);
   PathTracer tracer(transport);
-  EXPECT_EQ(tracer.trace(V3d(.2, .3, 1), V3d(0, 0, 1), 0, 1).value.rgb.x, 1);
+  EXPECT_EQ(tracer.trace(V3d(.2, .3, 1), V3d(0, 0, 1), 0, 1).value.color.x, 1);
   Sample floor;
   for (uint64_t i = 0; i < 4000; ++i)
-    floor.add(tracer.trace(V3d(0, 0, 1), V3d(0, 0, -1), 0, mixBits(i)).value.rgb.x);
+    floor.add(tracer.trace(V3d(0, 0, 1), V3d(0, 0, -1), 0, mixBits(i)).value.color.x);
   // .5/pi times the irradiance under the middle of a square, which is 4 / pi times that of a quarter, with
   // a = b = 1/2.
   const double side = 1 / std::sqrt(5.), factor = 4 / 3.14159265358979 * side * std::atan(side);
@@ -712,11 +712,11 @@ TEST_F(Patterns, RaysToAGoalTakeTheRandomNumbersOfTheirSeed) {
   const SourceSample sample{
       .direction = V3d(0, 0, 1), .distance = 1, .normal = V3d(0, 0, -1), .source = LightId(0)};
   const auto toGoal = [&](PathTracer& tracer, uint64_t seed) {
-    return tracer.traceToSource(V3d(0, 0, 1), sample, seed).value.rgb;
+    return tracer.traceToSource(V3d(0, 0, 1), sample, seed).value.color;
   };
   PathTracer fresh(transport), used(transport);
   used.trace(V3d(.2, .3, 1), V3d(0, 0, -1), 0, 99);
-  const Rgb first = toGoal(fresh, 7);
+  const Color first = toGoal(fresh, 7);
   EXPECT_EQ(toGoal(used, 7), first);
   EXPECT_NE(toGoal(fresh, 8), first) << "the path takes no random numbers, and the test shows nothing";
 }

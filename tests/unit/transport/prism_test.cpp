@@ -88,9 +88,9 @@ TEST(Prism, ShowsWhatItTurnsTo) {
       "void glow sky 0 0 4 2 3 4 0\nsky ring target 0 0 8 0 5 1 0 -1 0 0 .1\n"
       "void prism1 turner 9 .5 0 1 0 . -t 1 2 3 0 0\n"
       "turner ring window 0 0 8 0 0 1 -1 0 0 0 .5\n");
-  const Rgb seen = scene.color(V3d(-3, 0, 1), V3d(1, 0, 0));
-  EXPECT_NEAR((seen - Rgb(1, 1.5, 2)).length(), 0, 1e-12);
-  EXPECT_EQ(scene.color(V3d(-3, 0, 1.7), V3d(1, 0, 0)), Rgb(0, 0, 0));
+  const Color seen = scene.color(V3d(-3, 0, 1), V3d(1, 0, 0));
+  EXPECT_NEAR((seen - Color(1, 1.5, 2)).length(), 0, 1e-12);
+  EXPECT_EQ(scene.color(V3d(-3, 0, 1.7), V3d(1, 0, 0)), Color(0, 0, 0));
 }
 
 // In functions, DxA DyA DzA are the direction to the source that a shadow ray is aimed at, in the coordinates

@@ -65,7 +65,8 @@ TEST(RadianceGuess, IsTheRadianceWhereNothingIsHidden) {
         const V3d direction = (V3d(x, y, 0) - point).normalized();
         double traced = 0;
         for (uint64_t seed = 0; seed < 32; ++seed) traced += room.color(point, direction, seed).y / 32;
-        EXPECT_NEAR(local.along(point, direction).rgb.y / traced, 1, c.tolerance) << c.lamp << x << ' ' << y;
+        EXPECT_NEAR(local.along(point, direction).color.y / traced, 1, c.tolerance)
+            << c.lamp << x << ' ' << y;
       }
   }
 }
@@ -77,10 +78,10 @@ TEST(RadianceGuess, KnowsNothingOfMirrorsLightsAndNothing) {
   const RadianceGuess guess = guessOf(room);
   const V3d point(0, 0, 0);
   const auto local = fitted(guess, room, point);
-  EXPECT_EQ(local.along(point, V3d(1, 0, 0)).rgb, Rgb(0, 0, 0));
-  EXPECT_EQ(local.along(point, V3d(0, 0, 1)).rgb, Rgb(0, 0, 0));
-  EXPECT_EQ(local.along(point, V3d(0, 0, -1)).rgb, Rgb(0, 0, 0));
-  EXPECT_GT(local.along(point, V3d(0, 1, 0)).rgb.y, 0) << "the diffuse half of steel";
+  EXPECT_EQ(local.along(point, V3d(1, 0, 0)).color, Color(0, 0, 0));
+  EXPECT_EQ(local.along(point, V3d(0, 0, 1)).color, Color(0, 0, 0));
+  EXPECT_EQ(local.along(point, V3d(0, 0, -1)).color, Color(0, 0, 0));
+  EXPECT_GT(local.along(point, V3d(0, 1, 0)).color.y, 0) << "the diffuse half of steel";
 }
 
 // The guess includes no light of a source that reaches no place.
@@ -93,7 +94,7 @@ TEST(RadianceGuess, LeavesOutSourcesThatAreShutOut) {
     const RadianceGuess guess = guessOf(room);
     const auto local = fitted(guess, room, point);
     EXPECT_EQ(local.expectsLight(), !shut);
-    EXPECT_EQ(local.along(point, V3d(0, 0, -1)).rgb.y > 0, !shut);
+    EXPECT_EQ(local.along(point, V3d(0, 0, -1)).color.y > 0, !shut);
   }
 }
 
@@ -138,8 +139,8 @@ TEST(RadianceGuess, OfIndirectRaysLeavesTheMeanAsItIs) {
     Sample without, with;
     const V3d to = V3d(-.3, .2, -1).normalized();  // the floor
     for (uint64_t i = 0; i < 8000; ++i) {
-      without.add(plain.trace(from, to, 0, mixBits(i)).value.rgb.x);
-      with.add(guessing.trace(from, to, 0, mixBits(i + 100000)).value.rgb.x);
+      without.add(plain.trace(from, to, 0, mixBits(i)).value.color.x);
+      with.add(guessing.trace(from, to, 0, mixBits(i + 100000)).value.color.x);
     }
     const double error = std::hypot(with.standardError(), without.standardError());
     EXPECT_LT(std::abs(with.mean() - without.mean()), kMostSigmas * error) << *c.light << c.bounces;
@@ -164,7 +165,7 @@ TEST(RadianceGuess, EndsWherePathsDo) {
     Sample without, with;
     for (uint64_t i = 0; i < 4000; ++i) {
       without.add(room.value(from, V3d(-.3, .2, -1), mixBits(i)));
-      with.add(guessing.trace(from, V3d(-.3, .2, -1).normalized(), 0, mixBits(i + 100000)).value.rgb.x);
+      with.add(guessing.trace(from, V3d(-.3, .2, -1).normalized(), 0, mixBits(i + 100000)).value.color.x);
     }
     const double error = std::hypot(with.standardError(), without.standardError());
     EXPECT_LT(std::abs(with.mean() - without.mean()), kMostSigmas * error) << limit;

@@ -21,7 +21,7 @@ const std::string kRoom =
 struct Shown {
   std::string surface;
   int depth;
-  Rgb value, contribution;
+  Color value, contribution;
   bool shadow;
 };
 
@@ -31,7 +31,7 @@ std::vector<Shown> treeOf(Traced& room, const V3d& origin, const V3d& direction,
   room.tracer().observe(
       [&](const Ray& ray) {
         const RayAnswer a = branchAnswer(transport, ray);
-        tree.push_back({std::string(a.surface), ray.depth, ray.value.rgb, a.contribution.rgb,
+        tree.push_back({std::string(a.surface), ray.depth, ray.value.color, a.contribution.color,
                         (ray.kinds & kShadow) != 0});
       },
       shadows);
@@ -53,7 +53,7 @@ TEST(RayTree, IsThatOfTheOriginal) {
   const struct {
     const char* surface;
     int depth;
-    Rgb value, contribution;
+    Color value, contribution;
   } expected[] = {
       {"bulb", 3, {10, 8, 5}, {2.452877e-04, 6.401788e-05, 4.088128e-05}},
       {"pane", 2, {8.182423, 5.773479, 4.091211}, {2.997739e-04, 8.870613e-05, 4.996232e-05}},
@@ -92,12 +92,12 @@ TEST(RayTree, ContributionsSumToTheValue) {
     const auto tree = treeOf(room, V3d(0, 0, 1), direction, true, room.transport());
     ASSERT_FALSE(tree.empty());
     EXPECT_EQ(tree.back().depth, 0);
-    Rgb sum(0, 0, 0), outside(0, 0, 0);
+    Color sum(0, 0, 0), outside(0, 0, 0);
     for (const Shown& s : tree) {
       if (s.surface == "bulb") sum += s.contribution * s.value;
       if (s.surface == "*") outside += s.value;
     }
-    EXPECT_EQ(outside, Rgb(0, 0, 0));
+    EXPECT_EQ(outside, Color(0, 0, 0));
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], tree.back().value[c], 1e-5 * tree.back().value[c]);
   }
 }
@@ -107,7 +107,7 @@ TEST(RayTree, ChangesNoAnswer) {
   Random random(7);
   for (int i = 0; i < 200; ++i) {
     const V3d direction = randomDirection(random);
-    const Rgb before = room.color(V3d(0, 0, 1), direction, 5);
+    const Color before = room.color(V3d(0, 0, 1), direction, 5);
     int shown = 0;
     room.tracer().observe([&](const Ray&) { ++shown; }, i % 2 == 0);
     EXPECT_EQ(room.color(V3d(0, 0, 1), direction, 5), before);

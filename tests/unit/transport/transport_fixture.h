@@ -17,8 +17,8 @@ class Traced {
                   IrradianceAt irradiance = IrradianceAt::none)
       : scene_(sceneOf(text)), transport_(scene_, options, irradiance), tracer_(transport_) {}
 
-  Rgb color(const V3d& origin, const V3d& direction, uint64_t seed = 1, double farthest = 0) {
-    return tracer_.trace(origin, direction.normalized(), farthest, seed).value.rgb;
+  Color color(const V3d& origin, const V3d& direction, uint64_t seed = 1, double farthest = 0) {
+    return tracer_.trace(origin, direction.normalized(), farthest, seed).value.color;
   }
   // The red channel alone: the scenes are gray unless a test says otherwise.
   double value(const V3d& origin, const V3d& direction, uint64_t seed = 1, double farthest = 0) {

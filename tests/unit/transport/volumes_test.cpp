@@ -22,7 +22,7 @@ std::string mist(const std::string& name, const std::string& arguments, double x
 const std::string kWall = "void glow white 0 0 4 1 1 1 0\nwhite ring wall 0 0 8 10 0 0 -1 0 0 0 5\n";
 const V3d kEye(-5, 0, 0), kAhead(1, 0, 0);
 
-RayOptions inMedium(const Rgb& extinction, const Rgb& albedo = Rgb(0, 0, 0)) {
+RayOptions inMedium(const Color& extinction, const Color& albedo = Color(0, 0, 0)) {
   RayOptions o;
   o.mediumExtinction = extinction;
   o.mediumAlbedo = albedo;
@@ -30,13 +30,13 @@ RayOptions inMedium(const Rgb& extinction, const Rgb& albedo = Rgb(0, 0, 0)) {
   return o;
 }
 
-void expectColor(const Rgb& got, const Rgb& expected) {
+void expectColor(const Color& got, const Color& expected) {
   EXPECT_NEAR((got - expected).length(), 0, 1e-9) << got << " expected " << expected;
 }
-Rgb exponential(const Rgb& e) { return Rgb(std::exp(e.x), std::exp(e.y), std::exp(e.z)); }
+Color exponential(const Color& e) { return Color(std::exp(e.x), std::exp(e.y), std::exp(e.z)); }
 
 TEST(Medium, AbsorbsAsBeerAndLambertSay) {
-  const Rgb k(.1, .2, .4);
+  const Color k(.1, .2, .4);
   Traced everywhere(kWall, inMedium(k));
   expectColor(everywhere.color(kEye, kAhead), exponential(-15. * k));
   Traced ball(kWall + mist("fog", "0 0 3 .1 .2 .4"));
@@ -65,11 +65,11 @@ TEST(Medium, VolumesWithinEachOtherAdd) {
 }
 
 TEST(Medium, ScattersIndirectLight) {
-  RayOptions o = inMedium(Rgb(.1, .2, .3), Rgb(.5, .6, .7));
+  RayOptions o = inMedium(Color(.1, .2, .3), Color(.5, .6, .7));
   o.ambientValue = Radiance(2);
   Traced everywhere(kWall, o);
-  const Rgb passed = exponential(Rgb(-1.5, -3, -4.5));
-  expectColor(everywhere.color(kEye, kAhead), passed + Rgb(.5, .6, .7) * 2. * (Rgb(1, 1, 1) - passed));
+  const Color passed = exponential(Color(-1.5, -3, -4.5));
+  expectColor(everywhere.color(kEye, kAhead), passed + Color(.5, .6, .7) * 2. * (Color(1, 1, 1) - passed));
   // The albedo of a mist applies inside of it. Beyond, in the mist around it, that of the outer mist applies.
   RayOptions clear;
   clear.ambientValue = Radiance(1);
@@ -89,8 +89,8 @@ TEST(Medium, DimsDirectLightByAbsorptionAlone) {
     return Traced(lamp + more, o, IrradianceAt::point).value(V3d(0, 0, -1.9999), V3d(0, 0, -1));
   };
   const double clear = irradiance("", {});
-  EXPECT_NEAR(irradiance("", inMedium(Rgb(.1, .1, .1), Rgb(.75, .75, .75))) / clear, std::exp(-.025 * 3.99),
-              1e-4);
+  EXPECT_NEAR(irradiance("", inMedium(Color(.1, .1, .1), Color(.75, .75, .75))) / clear,
+              std::exp(-.025 * 3.99), 1e-4);
   EXPECT_NEAR(irradiance(mist("fog", "0 0 3 .1 .1 .1"), {}) / clear, std::exp(-.2), 1e-9);
   EXPECT_NEAR(irradiance(mist("fog", "0 0 6 .1 .1 .1 .75 .75 .75"), {}) / clear, std::exp(-.05), 1e-9);
 }
@@ -159,7 +159,7 @@ TEST(Mist, SamplingDistanceChangesTheNoiseAlone) {
 // A mist without arguments scatters with the properties of the surrounding medium, inside its volume alone.
 TEST(Mist, MarksABeamInTheGlobalMedium) {
   Scattered s{.05, .9, .4};
-  RayOptions o = inMedium(Rgb(.05, .05, .05), Rgb(.9, .9, .9));
+  RayOptions o = inMedium(Color(.05, .05, .05), Color(.9, .9, .9));
   o.mediumEccentricity = .4;
   o.mediumSampling = .1;
   Traced traced("void light bright 0 0 3 1e4 1e4 1e4\nbright sphere lamp 0 0 4 0 1 .5 .01\n" +
@@ -214,8 +214,8 @@ TEST(Mist, ThirtyTwoSourcesAtOnce) {
 // -ma .5 .6 .7 -mg .2 -ms .1 -av .1 .1 .1, means of 4000 answers, RADIANCE 6.1a.
 TEST(Mist, AgreesWithTheOriginal) {
   RayOptions o = originalOptions();
-  o.mediumExtinction = Rgb(.1, .1, .1);
-  o.mediumAlbedo = Rgb(.5, .6, .7);
+  o.mediumExtinction = Color(.1, .1, .1);
+  o.mediumAlbedo = Color(.5, .6, .7);
   o.mediumEccentricity = .2;
   o.mediumSampling = .1;
   o.ambientValue = Radiance(.1);
@@ -235,7 +235,7 @@ TEST(Mist, AgreesWithTheOriginal) {
                                             {{2, 2, 1}, {.3, .2, .1}, {.208653, .163229, .129860}},
                                             {{3.7, 4, 1.1}, {-1, 0, 0}, {.153743, .136188, .115906}}};
   for (const OriginalFigure& f : figures) {
-    Rgb sum(0, 0, 0);
+    Color sum(0, 0, 0);
     for (uint64_t seed = 0; seed < 400; ++seed) sum += room.color(f.origin, f.direction, mixBits(seed));
     // The answers spread by .2% to .4%.
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(sum[i] / 400, f.value[i], 1e-3 * f.value[i]) << f.origin;
@@ -251,18 +251,18 @@ constexpr const char* kBoards =
 TEST(Antimatter, MakesHoles) {
   Traced board(std::string(kBoards) +
                "void antimatter hole 2 void red 0 0\nhole sphere ball 0 0 4 0 0 0 .5\n");
-  expectColor(board.color(kEye, kAhead), Rgb(0, 0, 1));
-  expectColor(board.color(V3d(-5, .4, .2), kAhead), Rgb(0, 0, 1));
-  expectColor(board.color(V3d(-5, .6, 0), kAhead), Rgb(1, 0, 0));
+  expectColor(board.color(kEye, kAhead), Color(0, 0, 1));
+  expectColor(board.color(V3d(-5, .4, .2), kAhead), Color(0, 0, 1));
+  expectColor(board.color(V3d(-5, .6, 0), kAhead), Color(1, 0, 0));
   // Surfaces with other modifiers are not cut away, nor are those with this one beyond the antimatter.
   Traced other(std::string(kBoards) +
                "void glow green 0 0 4 0 1 0 0\nvoid antimatter hole 2 void green 0 0\n"
                "hole sphere ball 0 0 4 0 0 0 .5\n");
-  expectColor(other.color(kEye, kAhead), Rgb(1, 0, 0));
+  expectColor(other.color(kEye, kAhead), Color(1, 0, 0));
   Traced two(std::string(kBoards) +
              "red ring second 0 0 8 2 0 0 -1 0 0 0 1\n"
              "void antimatter hole 2 void red 0 0\nhole sphere ball 0 0 4 0 0 0 .5\n");
-  expectColor(two.color(kEye, kAhead), Rgb(1, 0, 0));
+  expectColor(two.color(kEye, kAhead), Color(1, 0, 0));
 }
 
 // The cut is shaded with the first modifier, where the antimatter ends inside the volume.
@@ -272,7 +272,7 @@ TEST(Antimatter, ShowsTheCut) {
       "void antimatter cut 1 red 0 0\ncut sphere ball 0 0 4 -1 0 0 .5\n";
   Traced scene(block);
   EXPECT_EQ(scene.seen(kEye, kAhead), "ball");
-  expectColor(scene.color(kEye, kAhead), Rgb(1, 0, 0));
+  expectColor(scene.color(kEye, kAhead), Color(1, 0, 0));
   const Ray ray = scene.tracer().trace(kEye, kAhead, 0, 1);
   EXPECT_NEAR(ray.unmirroredLength, 4.5, 1e-9);
   // A ray that only grazes the antimatter sees the block's own surface.
@@ -301,7 +301,7 @@ TEST(Antimatter, OfADielectricRefractsAtTheHollowAsAnInnerSurfaceDoes) {
   double change = 0;
   for (int i = 0; i < 500; ++i) {
     const V3d from = 3. * randomDirection(random), to = .8 * randomDirection(random);
-    const Rgb expected = inner.color(from, to - from);
+    const Color expected = inner.color(from, to - from);
     EXPECT_NEAR((cut.color(from, to - from) - expected).length(), 0, 1e-6) << i;
     change += (full.color(from, to - from) - expected).length();
   }
@@ -344,7 +344,7 @@ TEST(Antimatter, ClipsSixtyFourModifiers) {
                               count + 1, names);
   };
   Traced most(scene(64));
-  expectColor(most.color(kEye, kAhead), Rgb(0, 0, 0));
+  expectColor(most.color(kEye, kAhead), Color(0, 0, 0));
   EXPECT_THROW(sceneOf(scene(65)), rad::Error);
 }
 
