@@ -1,0 +1,26 @@
+#pragma once
+// The CIE's curves, at steps of 1 nm.
+#include <span>
+
+namespace rsphere {
+
+struct CieCurve {
+  std::span<const double> values;
+  int shortest = 0;  // nm, of the first value
+
+  int longest() const { return shortest + static_cast<int>(values.size()) - 1; }  // nm, of the last value
+};
+
+// The color matching functions of the observer of 1931 (2 degrees). The second is V(lambda). Source: CIE
+// dataset 10.25039/CIE.DS.xvudnb9b, with 7 digits.
+CieCurve colorMatchingX();
+CieCurve colorMatchingY();
+CieCurve colorMatchingZ();
+
+// V'(lambda), CIE 1951.
+CieCurve scotopicEfficiency();
+
+// The melanopic action spectrum. Source: CIE S 026:2018, table 2.
+CieCurve melanopicSensitivity();
+
+}  // namespace rsphere

@@ -1,0 +1,105 @@
+#include "base/colorimetry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/cie_tables.h"
+#include "base/primaries.h"
+
+namespace rsphere {
+namespace {
+
+// The integral of a curve from its shortest wavelength on, 1 at its longest. Between the values of the table, which
+// are 1 nm apart, the integral is interpolated linearly: the curve is constant there, at the mean of both.
+class Cumulative {
+ public:
+  explicit Cumulative(const CieCurve& curve) : shortest_(curve.shortest), upTo_{0} {
+    for (size_t i = 1; i < curve.values.size(); ++i)
+      upTo_.push_back(upTo_.back() + (curve.values[i - 1] + curve.values[i]) / 2);
+    for (double& share : upTo_) share /= upTo_.back();
+  }
+
+  double upTo(double wavelength) const {
+    const double at = wavelength - shortest_;
+    if (!(at > 0)) return 0;
+    const auto i = static_cast<size_t>(std::min(at, static_cast<double>(upTo_.size())));
+    if (i + 1 >= upTo_.size()) return 1;
+    return std::lerp(upTo_[i], upTo_[i + 1], at - static_cast<double>(i));
+  }
+
+  double of(const Spectrum& s) const {
+    const double step = (s.last - s.first) / static_cast<double>(s.values.size());
+    double sum = 0, from = upTo(s.first);
+    for (size_t i = 0; i < s.values.size(); ++i) {
+      const double to = upTo(s.first + static_cast<double>(i + 1) * step);
+      sum += s.values[i] * (to - from);
+      from = to;
+    }
+    return step < 0 ? -sum : sum;
+  }
+
+ private:
+  double shortest_;
+  std::vector<double> upTo_;
+};
+
+const Cumulative& cumulativeY() {
+  static const Cumulative curve(colorMatchingY());
+  return curve;
+}
+
+}  // namespace
+
+V3d tristimulus(const Spectrum& spectrum) {
+  static const Cumulative x(colorMatchingX()), z(colorMatchingZ());
+  return V3d(x.of(spectrum), cumulativeY().of(spectrum), z.of(spectrum));
+}
+
+double photopic(const Spectrum& spectrum) { return cumulativeY().of(spectrum); }
+
+double scotopic(const Spectrum& spectrum) {
+  static const Cumulative curve(scotopicEfficiency());
+  return curve.of(spectrum);
+}
+
+double melanopic(const Spectrum& spectrum) {
+  static const Cumulative curve(melanopicSensitivity());
+  return curve.of(spectrum);
+}
+
+Spectrum spectrumOf(const Bands& bands) {
+  return {bands.values(), bands.sampling().longest, bands.sampling().shortest};
+}
+
+Bands bandsOf(const Spectrum& spectrum, const SpectralSampling& sampling) {
+  Bands bands(sampling);
+  const std::span<double> means = bands.values();
+  const size_t count = spectrum.values.size();
+  const bool falls = spectrum.first > spectrum.last;
+  const double longest = std::max(spectrum.first, spectrum.last);
+  const double step = std::abs(spectrum.last - spectrum.first) / static_cast<double>(count);
+  const double width = sampling.width();
+  // Positions are distances (nm) from the longest wavelength of the bands, in which both sequences rise.
+  const double offset = sampling.longest - longest;
+  for (size_t i = 0; i < count; ++i) {
+    const double value = spectrum.values[falls ? i : count - 1 - i];
+    const double from = std::max(0., offset + static_cast<double>(i) * step);
+    const double to = std::min(sampling.longest - sampling.shortest, offset + static_cast<double>(i + 1) * step);
+    if (!(from < to)) continue;
+    for (auto band = static_cast<size_t>(from / width); band < means.size(); ++band) {
+      const double begin = static_cast<double>(band) * width;
+      const double overlap = std::min(to, begin + width) - std::max(from, begin);
+      if (overlap > 0) means[band] += value * overlap / width;
+      if (begin + width >= to) break;
+    }
+  }
+  return bands;
+}
+
+V3d standardRgb(const V3d& xyz) {
+  static const Matrix rgbFromXyz = inverse(xyzFromRgb(kStandardPrimaries));
+  return intoGamut(product(rgbFromXyz, xyz), xyz.y);
+}
+
+}  // namespace rsphere
