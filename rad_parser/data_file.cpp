@@ -46,6 +46,12 @@ DataFile DataFile::parse(std::string_view text, std::string_view name) {
   return data;
 }
 
+DataFile::Divisions DataFile::divisions(size_t i) const {
+  const Axis& axis = axes_[i];
+  if (!axis.points.empty()) return {axis.count, axis.points.front(), axis.points.back(), false};
+  return {axis.count, axis.first, static_cast<double>(axis.first) + axis.span, true};
+}
+
 DataFile::Weights DataFile::weights(const Axis& axis, double coordinate) {
   const size_t last = axis.count - 2;  // index of the first of the last two divisions
   double u;

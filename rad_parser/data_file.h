@@ -25,6 +25,14 @@ class DataFile {
 
   size_t dimensions() const { return axes_.size(); }
 
+  // The divisions of an axis: their number, the first and the last of them, and whether they are evenly spaced.
+  struct Divisions {
+    size_t count = 0;
+    double first = 0, last = 0;
+    bool even = true;
+  };
+  Divisions divisions(size_t axis) const;
+
   // The value at a point with dimensions() coordinates. It is interpolated linearly along each axis, and
   // extrapolated linearly by up to one division beyond its ends. Further out it falls towards 0 with the
   // inverse of the distance. Let u be the position in units of divisions, with the ends at 0 and n-1. Then

@@ -48,7 +48,9 @@ FunctionArguments readFunction(const PrimitiveArguments& a) {
 }
 
 DataArguments readData(const PrimitiveArguments& a) {
-  const size_t first = namesIn(a), count = a.type() == Type::brightdata || a.type() == Type::mixdata ? 1 : 3;
+  const bool single =
+      a.type() == Type::brightdata || a.type() == Type::mixdata || a.type() == Type::specdata;
+  const size_t first = namesIn(a), count = single ? 1 : 3;
   const size_t file = first + 2 * count;
   a.needAtLeast(file + 2);
   return {readMixed(a), a.strings(first, count), a.strings(first + count, count), a.string(file),
@@ -56,7 +58,8 @@ DataArguments readData(const PrimitiveArguments& a) {
 }
 
 PictureArguments readPicture(const PrimitiveArguments& a) {
-  const size_t first = namesIn(a), picture = first + (a.type() == Type::mixpict ? 1 : 3);
+  const bool single = a.type() == Type::mixpict || a.type() == Type::specpict;
+  const size_t first = namesIn(a), picture = first + (single ? 1 : 3);
   a.needAtLeast(picture + 4);
   return {readMixed(a),
           a.strings(first, picture - first),
@@ -87,6 +90,26 @@ TextArguments readText(const PrimitiveArguments& a) {
   }
   if (reals.size() > end) text.spacing = reals[end];
   return text;
+}
+
+SpectrumArguments readSpectrum(const PrimitiveArguments& a) {
+  a.needAtLeast(0, 5);
+  const auto r = a.reals();
+  if (r[0] == r[1]) a.fail("the wavelengths of the first and the last value must differ");
+  return {r[0], r[1], r.subspan(2)};
+}
+
+std::string_view readSpectrumFile(const PrimitiveArguments& a) {
+  a.needAtLeast(1);
+  a.needAtMostStrings(1);
+  return a.string(0);
+}
+
+SpectralFunctionArguments readSpectralFunction(const PrimitiveArguments& a) {
+  a.needAtLeast(2, 2);
+  const auto r = a.reals();
+  if (r[0] == r[1]) a.fail("the limits of the wavelength must differ");
+  return {a.string(0), readFunctionFile(a, 1), std::min(r[0], r[1]), std::max(r[0], r[1])};
 }
 
 // ---- materials without functions

@@ -8,6 +8,7 @@
 // them. REQUIRES that the primitive has one of the types that are given above the struct.
 #include <array>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -37,17 +38,19 @@ struct FunctionArguments {
 };
 FunctionArguments readFunction(const PrimitiveArguments& arguments);
 
-// brightdata, mixdata: one table and one correction. colordata, texdata: three of each.
+// brightdata, mixdata, specdata: one table and one correction. colordata, texdata: three of each.
 struct DataArguments {
   Mixed mixed;
   Words corrections;      // functions of the values of the tables
   Words tables;           // data files
   std::string_view file;  // the function file of both corrections and coordinates
-  Words rest;             // the coordinates, as many as the tables have dimensions, then the transform
+  // The coordinates, as many as the tables have dimensions (specdata: one less, because the last dimension is
+  // the wavelength), then the transform.
+  Words rest;
 };
 DataArguments readData(const PrimitiveArguments& arguments);
 
-// colorpict: three corrections. mixpict: one.
+// colorpict: three corrections. mixpict, specpict: one.
 struct PictureArguments {
   Mixed mixed;
   Words corrections;  // functions of the color of the picture
@@ -67,6 +70,24 @@ struct TextArguments {
   std::optional<double> spacing;               // of characters, as in the font if empty
 };
 TextArguments readText(const PrimitiveArguments& arguments);
+
+// spectrum. The values are means over bins of equal width, whose middles run from `first` to `last` (nm).
+struct SpectrumArguments {
+  double first = 0, last = 0;
+  std::span<const double> values;  // at least three
+};
+SpectrumArguments readSpectrum(const PrimitiveArguments& arguments);
+
+// specfile: the name of a data file.
+std::string_view readSpectrumFile(const PrimitiveArguments& arguments);
+
+// specfunc
+struct SpectralFunctionArguments {
+  std::string_view function;  // of the wavelength (nm)
+  FunctionFile file;
+  double shortest = 0, longest = 0;  // nm
+};
+SpectralFunctionArguments readSpectralFunction(const PrimitiveArguments& arguments);
 
 // ---- materials without functions
 

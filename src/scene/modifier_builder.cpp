@@ -94,10 +94,21 @@ Content ModifierBuilder::content(PrimitiveId i) {
       return Pattern{};
     case Type::brightdata:
     case Type::colordata:
+    case Type::specdata:
       readData(arguments);
       return Pattern{};
     case Type::colorpict:
+    case Type::specpict:
       readPicture(arguments);
+      return Pattern{};
+    case Type::spectrum:
+      readSpectrum(arguments);
+      return Pattern{};
+    case Type::specfile:
+      readSpectrumFile(arguments);
+      return Pattern{};
+    case Type::specfunc:
+      readSpectralFunction(arguments);
       return Pattern{};
     case Type::brighttext:
     case Type::colortext:
@@ -170,12 +181,6 @@ Content ModifierBuilder::content(PrimitiveId i) {
       return readGlow(arguments);
     case Type::spotlight:
       return readSpotlight(arguments);
-    case Type::spectrum:
-    case Type::specfunc:
-    case Type::specdata:
-    case Type::specfile:
-    case Type::specpict:
-      break;
     case Type::source:
     case Type::sphere:
     case Type::bubble:

@@ -26,8 +26,10 @@ struct Layout {
 struct Header {
   Layout layout;
   double aspect = 1;
-  bool xyz = false;
-  size_t size = 0;  // bytes up to the pixels
+  std::string_view format;  // empty: not given
+  int components = 3;
+  std::array<double, 2> wavelengths{};  // nm, limits of the spectra; 0: not given
+  size_t size = 0;                      // bytes up to the pixels
 };
 
 using Rgbe = std::array<uint8_t, 4>;
@@ -58,6 +60,28 @@ std::optional<Layout> readLayout(std::string_view line) {
   return Layout{axes[0].length, axes[1].length, alongX, axes[0].falls, axes[1].falls};
 }
 
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\r')) text.remove_suffix(1);
+  return text;
+}
+
+// The next number of a text; 0 if there is none.
+template <class T>
+T nextNumber(std::string_view& text) {
+  text = trimmed(text);
+  T number{};
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), number).ptr;
+  text.remove_prefix(static_cast<size_t>(end - text.data()));
+  return number;
+}
+
+// The part of a header line behind its name; empty if it has another name.
+std::optional<std::string_view> after(std::string_view name, std::string_view line) {
+  if (!line.starts_with(name)) return {};
+  return line.substr(name.size());
+}
+
 Header readHeader(std::string_view bytes, const std::string& path) {
   Header header;
   size_t at = 0;
@@ -72,18 +96,16 @@ Header readHeader(std::string_view bytes, const std::string& path) {
     const auto text = line();
     if (!text) bad(path, "its header does not end");
     if (text->empty()) break;
-    if (text->starts_with("FORMAT=")) {
-      std::string_view format = text->substr(7);
-      while (!format.empty() && format.front() == ' ') format.remove_prefix(1);
-      while (!format.empty() && (format.back() == ' ' || format.back() == '\r')) format.remove_suffix(1);
-      header.xyz = format == "32-bit_rle_xyze";
-      if (!header.xyz && format != "32-bit_rle_rgbe") bad(path, "neither RGBE nor XYZE");
-    } else if (text->starts_with("PIXASPECT=")) {
-      std::string_view number = text->substr(10);
-      while (!number.empty() && number.front() == ' ') number.remove_prefix(1);
-      double aspect = 0;
-      std::from_chars(number.data(), number.data() + number.size(), aspect);
-      header.aspect *= aspect;
+    if (const auto format = after("FORMAT=", *text)) {
+      header.format = trimmed(*format);
+    } else if (auto aspect = after("PIXASPECT=", *text)) {
+      header.aspect *= nextNumber<double>(*aspect);
+    } else if (auto components = after("NCOMP=", *text)) {
+      header.components = nextNumber<int>(*components);
+    } else if (auto splits = after("WAVELENGTH_SPLITS=", *text)) {
+      std::array<double, 4> limits{};
+      for (double& limit : limits) limit = nextNumber<double>(*splits);
+      header.wavelengths = {limits.front(), limits.back()};
     }
   }
   if (!(header.aspect > 1e-6 && header.aspect < 1e6)) bad(path, "pixel aspect ratio out of range");
@@ -93,6 +115,30 @@ Header readHeader(std::string_view bytes, const std::string& path) {
   header.layout = *layout;
   header.size = at;
   return header;
+}
+
+std::string readBytes(const std::string& path) {
+  const rad::OpenFile file(path);
+  if (file.descriptor() < 0)
+    throw rad::Error(fmt::format("{}: cannot open picture file", path), rad::Status::system);
+  return file.contents(path);
+}
+
+// The size of a picture whose shorter side is 1.
+struct Size {
+  double x, y;
+};
+Size sizeOf(size_t columns, size_t rows, double aspect) {
+  const double height = static_cast<double>(rows) * aspect;
+  const auto width = static_cast<double>(columns);
+  return {std::max(1., width / height), std::max(1., height / width)};
+}
+
+// The pixel of the picture, counted from the lower left row by row, that a row and column of the file give.
+size_t placeOf(const Layout& layout, size_t row, size_t column) {
+  const size_t slow = layout.rowsFall ? layout.rows - 1 - row : row;
+  const size_t fast = layout.columnsFall ? layout.columns - 1 - column : column;
+  return layout.columnsAlongX ? slow * layout.columns + fast : fast * layout.rows + slow;
 }
 
 // Reads the pixels of a file, of four bytes each: three mantissas and their shared exponent.
@@ -154,14 +200,19 @@ class PixelReader {
   const std::string& path_;
 };
 
-// A mantissa is decoded to the middle of its step. Source: RADIANCE file formats, "Picture File Format".
-void decode(const Rgbe& pixel, float* rgb) {
+// The step of the mantissas with an exponent.
+float stepOf(uint8_t exponent) {
   static const std::array<float, 256> steps = [] {
     std::array<float, 256> s{};
-    for (int exponent = 1; exponent < 256; ++exponent) s[exponent] = std::ldexp(1.f, exponent - 136);
+    for (int e = 1; e < 256; ++e) s[e] = std::ldexp(1.f, e - 136);
     return s;
   }();
-  const float step = steps[pixel[3]];
+  return steps[exponent];
+}
+
+// A mantissa is decoded to the middle of its step. Source: RADIANCE file formats, "Picture File Format".
+void decode(const Rgbe& pixel, float* rgb) {
+  const float step = stepOf(pixel[3]);
   for (size_t i = 0; i < 3; ++i) rgb[i] = (static_cast<float>(pixel[i]) + .5f) * step;
 }
 
@@ -198,19 +249,23 @@ Weights weightsAt(double position, size_t count) {
   return {index, i + 1 - position, position - i};
 }
 
+constexpr std::string_view kSpectra = "Radiance_spectra";
+constexpr size_t kMostPixels = 65536;  // in a row or a column
+
 }  // namespace
 
 Picture Picture::read(const std::string& path) {
-  const rad::OpenFile file(path);
-  if (file.descriptor() < 0)
-    throw rad::Error(fmt::format("{}: cannot open picture file", path), rad::Status::system);
-  const std::string bytes = file.contents(path);
+  const std::string bytes = readBytes(path);
   const Header header = readHeader(bytes, path);
+  const bool xyz = header.format == "32-bit_rle_xyze";
+  if (header.format == kSpectra) bad(path, "it has spectra, which only specpict reads");
+  if (!xyz && !header.format.empty() && header.format != "32-bit_rle_rgbe") bad(path, "neither RGBE nor XYZE");
   const Layout& layout = header.layout;
   // Rejects sizes that the file is too short for. The new code packs at most 127 values of a channel into two
   // bytes, which is 16 pixels per byte. The old code could be denser, but no such files are known.
   const size_t coded = bytes.size() - header.size;
-  if (layout.rows > 65536 || layout.columns > 65536 || layout.rows * layout.columns > 32 * coded + 64)
+  if (layout.rows > kMostPixels || layout.columns > kMostPixels ||
+      layout.rows * layout.columns > 32 * coded + 64)
     bad(path, "it ends too early");
   PixelReader reader(std::string_view(bytes).substr(header.size), path);
   std::vector<Rgbe> pixels(layout.columns);
@@ -224,17 +279,13 @@ Picture Picture::read(const std::string& path) {
     for (size_t column = 0; column < layout.columns; ++column) {
       float rgb[3];
       decode(pixels[column], rgb);
-      if (header.xyz) rgbOfXyz(rgb);
-      const size_t slow = layout.rowsFall ? layout.rows - 1 - row : row;
-      const size_t fast = layout.columnsFall ? layout.columns - 1 - column : column;
-      const size_t x = layout.columnsAlongX ? fast : slow, y = layout.columnsAlongX ? slow : fast;
-      picture.pixels_[y * picture.width_ + x] = {rgb[0], rgb[1], rgb[2]};
+      if (xyz) rgbOfXyz(rgb);
+      picture.pixels_[placeOf(layout, row, column)] = {rgb[0], rgb[1], rgb[2]};
     }
   }
-  const double height = static_cast<double>(picture.height_) * header.aspect;
-  const auto width = static_cast<double>(picture.width_);
-  picture.sizeX_ = std::max(1., width / height);
-  picture.sizeY_ = std::max(1., height / width);
+  const Size size = sizeOf(picture.width_, picture.height_, header.aspect);
+  picture.sizeX_ = size.x;
+  picture.sizeY_ = size.y;
   return picture;
 }
 
@@ -252,6 +303,59 @@ Color Picture::value(double x, double y) const {
   add(up.index, up.first);
   if (height_ > 1) add(up.index + 1, up.second);
   return sum;
+}
+
+SpectralPicture SpectralPicture::read(const std::string& path) {
+  const std::string bytes = readBytes(path);
+  const Header header = readHeader(bytes, path);
+  const auto [first, last] = header.wavelengths;
+  if (!header.format.empty() && header.format != kSpectra)
+    bad(path, fmt::format("expected spectra (FORMAT={})", kSpectra));
+  constexpr int kLeastComponents = 4;  // three are red, green and blue, which colorpict reads
+  if (header.components < kLeastComponents) bad(path, "expected at least 4 components (NCOMP=)");
+  const auto isWavelength = [](double nm) { return nm >= 1 && nm <= 1e6; };
+  if (!(isWavelength(first) && isWavelength(last) && first != last))
+    bad(path, "expected four wavelengths (WAVELENGTH_SPLITS=)");
+  const Layout& layout = header.layout;
+  const std::string_view coded = std::string_view(bytes).substr(header.size);
+  const auto components = static_cast<size_t>(header.components), stride = components + 1;
+  if (layout.rows > kMostPixels || layout.columns > kMostPixels ||
+      layout.rows * layout.columns > coded.size() / stride)
+    bad(path, "it ends too early");
+
+  SpectralPicture picture;
+  picture.width_ = layout.columnsAlongX ? layout.columns : layout.rows;
+  picture.height_ = layout.columnsAlongX ? layout.rows : layout.columns;
+  picture.components_ = components;
+  picture.first_ = first;
+  picture.last_ = last;
+  picture.pixels_.resize(layout.rows * layout.columns * stride);
+  for (size_t row = 0; row < layout.rows; ++row)
+    for (size_t column = 0; column < layout.columns; ++column)
+      std::copy_n(coded.begin() + static_cast<ptrdiff_t>((row * layout.columns + column) * stride), stride,
+                  picture.pixels_.begin() + static_cast<ptrdiff_t>(placeOf(layout, row, column) * stride));
+  const Size size = sizeOf(picture.width_, picture.height_, header.aspect);
+  picture.sizeX_ = size.x;
+  picture.sizeY_ = size.y;
+  return picture;
+}
+
+void SpectralPicture::value(double x, double y, std::span<double> spectrum) const {
+  const Weights along = weightsAt(x / sizeX_ * static_cast<double>(width_ - 1), width_);
+  const Weights up = weightsAt(y / sizeY_ * static_cast<double>(height_ - 1), height_);
+  std::fill(spectrum.begin(), spectrum.end(), 0.);
+  const auto add = [&](size_t row, size_t column, double weight) {
+    if (std::abs(weight) <= 1e-6) return;
+    const uint8_t* const pixel = &pixels_[(row * width_ + column) * (components_ + 1)];
+    const double step = weight * stepOf(pixel[components_]);
+    for (size_t i = 0; i < components_; ++i) spectrum[i] += step * (pixel[i] + .5);
+  };
+  const auto addRow = [&](size_t row, double weight) {
+    add(row, along.index, weight * along.first);
+    if (width_ > 1) add(row, along.index + 1, weight * along.second);
+  };
+  addRow(up.index, up.first);
+  if (height_ > 1) addRow(up.index + 1, up.second);
 }
 
 }  // namespace rsphere

@@ -1,5 +1,7 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,32 @@ class Picture {
   size_t width_ = 0, height_ = 0;
   double sizeX_ = 1, sizeY_ = 1;
   std::vector<Pixel> pixels_;  // the lowest row first, each from left to right
+};
+
+// A picture with a spectrum in each pixel, as specpict uses it. Immutable.
+class SpectralPicture {
+ public:
+  // Reads a picture as rtrace -co writes it: FORMAT=Radiance_spectra, NCOMP and WAVELENGTH_SPLITS in its
+  // header, and mantissas with a shared exponent without run-length coding. Its exposure is not undone. Throws
+  // as Picture::read() does.
+  static SpectralPicture read(const std::string& path);
+
+  size_t width() const { return width_; }
+  size_t height() const { return height_; }
+  // The bins of the spectra: their number, and the wavelengths (nm) where the first begins and the last ends.
+  size_t components() const { return components_; }
+  double first() const { return first_; }
+  double last() const { return last_; }
+
+  // The spectrum at (x, y), by the rules of Picture::value(). REQUIRES room for components() values.
+  void value(double x, double y, std::span<double> spectrum) const;
+
+ private:
+  size_t width_ = 0, height_ = 0;
+  double sizeX_ = 1, sizeY_ = 1;
+  size_t components_ = 0;
+  double first_ = 0, last_ = 0;
+  std::vector<uint8_t> pixels_;  // as in the file, components and exponent; rows and columns as in Picture
 };
 
 }  // namespace rsphere

@@ -79,11 +79,8 @@ double fresnelReflectance(double cosine, double ratio, double& cosineBeyond) {
 // The extinction per unit length for a transmission per unit length, limited to 0 to 100: no medium is
 // completely black, and none amplifies light.
 Color extinctionOf(const Color& transmission, const Color& pattern) {
-  Color e;
-  for (int i = 0; i < 3; ++i) {
-    const double t = transmission[i] * pattern[i];
-    e[i] = t < 1e-40 ? 100 : t >= 1 ? 0 : -std::log(t);
-  }
+  Color e = transmission * pattern;
+  e.transform([](double t) { return t < 1e-40 ? 100 : t >= 1 ? 0 : -std::log(t); });
   return e;
 }
 

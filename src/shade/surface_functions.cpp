@@ -40,6 +40,17 @@ std::optional<calc::SourceText> loadFunctionFile(std::string_view name, const ra
   return calc::SourceText{*path, std::move(*text)};
 }
 
+// Number i of `count` wavelengths that are evenly spaced from first to last. REQUIRES count above 1.
+double between(double first, double last, size_t i, size_t count) {
+  return first + (last - first) * static_cast<double>(i) / static_cast<double>(count - 1);
+}
+
+// The spectrum of bins whose middles run from first to last. REQUIRES at least two values.
+Spectrum betweenMiddles(std::span<const double> values, double first, double last) {
+  const double half = (last - first) / static_cast<double>(values.size() - 1) / 2;
+  return {values, first - half, last + half};
+}
+
 std::vector<std::string> linesOf(std::string_view text) {
   std::vector<std::string> lines;
   while (!text.empty()) {
@@ -76,6 +87,16 @@ class SurfaceFunctions::Maker {
       case Type::colorpict:
       case Type::mixpict:
         return image(readPicture(arguments_));
+      case Type::spectrum:
+        return spectrum(readSpectrum(arguments_));
+      case Type::specfile:
+        return spectrumFile(readSpectrumFile(arguments_));
+      case Type::specfunc:
+        return spectralFunction(readSpectralFunction(arguments_));
+      case Type::specdata:
+        return spectralData(readData(arguments_));
+      case Type::specpict:
+        return spectralImage(readPicture(arguments_));
       case Type::brighttext:
       case Type::colortext:
       case Type::mixtext:
@@ -238,6 +259,95 @@ class SurfaceFunctions::Maker {
     return f;
   }
 
+  // ---- spectra
+
+  std::unique_ptr<Function> constant(std::span<const double> values, double first, double last) const {
+    auto f = std::make_unique<Function>();
+    f->results = 0;
+    f->what = ConstantSpectrum{functions_.colorOf(betweenMiddles(values, first, last))};
+    return f;
+  }
+
+  std::unique_ptr<Function> spectrum(const SpectrumArguments& read) const {
+    return constant(read.values, read.first, read.last);
+  }
+
+  std::unique_ptr<Function> spectrumFile(std::string_view name) const {
+    const auto data = table(name);
+    if (data->dimensions() != 1)
+      fail(fmt::format("expected data of 1 dimension, the wavelength, got {}", data->dimensions()));
+    const rad::DataFile::Divisions d = data->divisions(0);
+    // Unevenly spaced data are resampled, as in RADIANCE at twice as many wavelengths.
+    std::vector<double> values(d.even ? d.count : 2 * d.count);
+    for (size_t i = 0; i < values.size(); ++i) {
+      const double wavelength = between(d.first, d.last, i, values.size());
+      values[i] = data->value({&wavelength, 1});
+    }
+    return constant(values, d.first, d.last);
+  }
+
+  std::unique_ptr<Function> spectralFunction(const SpectralFunctionArguments& read) const {
+    auto f = std::make_unique<Function>();
+    f->results = 0;
+    SpectralFunction s;
+    s.program = functions_.library_.compileCall(request(read.file.name), read.function, 1);
+    use(*f, s.program);
+    const SpectralSampling* sampling = functions_.sampling_;
+    s.longest = std::min(read.longest, sampling ? sampling->longest : SpectralSampling{}.longest);
+    s.shortest = std::max(read.shortest, sampling ? sampling->shortest : SpectralSampling{}.shortest);
+    // No more than four bins in a band: more resolve nothing.
+    constexpr double kMostBins = 24;
+    const double range = s.longest - s.shortest;
+    const double most = sampling ? std::min(kMostBins, std::ceil(4 * range / sampling->width())) : kMostBins;
+    s.bins = range > 0 ? static_cast<size_t>(most) : 0;
+    f->what = std::move(s);
+    setTransform(*f, read.file.transform);
+    return f;
+  }
+
+  std::unique_ptr<Function> spectralData(const DataArguments& read) const {
+    SpectralData s;
+    s.table = table(read.tables[0]);
+    if (s.table->dimensions() < 2)
+      fail("expected data of at least 2 dimensions, the last of them the wavelength");
+    const size_t coordinates = s.table->dimensions() - 1;
+    const rad::DataFile::Divisions d = s.table->divisions(coordinates);
+    s.count = d.count;
+    s.firstWavelength = d.first;
+    s.lastWavelength = d.last;
+    if (read.rest.size() < coordinates) fail("too few string arguments");
+    const auto rest = std::span(read.rest);
+    return corrected(std::move(s), read.file, rest.first(coordinates), read.corrections[0],
+                     transformAmong(rest.subspan(coordinates)));
+  }
+
+  std::unique_ptr<Function> spectralImage(const PictureArguments& read) const {
+    SpectralData s;
+    s.picture = shared(functions_.spectralPictures_, read.picture,
+                       [&] { return SpectralPicture::read(find(read.picture, "picture")); });
+    s.count = s.picture->components();
+    const double half = (s.picture->last() - s.picture->first()) / static_cast<double>(s.count) / 2;
+    s.firstWavelength = s.picture->first() + half;
+    s.lastWavelength = s.picture->last() - half;
+    return corrected(std::move(s), read.file.name, read.coordinates, read.corrections[0],
+                     read.file.transform);
+  }
+
+  std::unique_ptr<Function> corrected(SpectralData s, std::string_view file,
+                                      std::span<const std::string_view> coordinates,
+                                      std::string_view correction, const Words& transform) const {
+    auto f = std::make_unique<Function>();
+    f->results = 0;
+    s.coordinates = compiled(*f, file, coordinates);
+    s.correction = functions_.library_.compileCall(request(file), correction, 2);
+    use(*f, s.correction);
+    f->what = std::move(s);
+    setTransform(*f, transform);
+    return f;
+  }
+
+  // ---- text
+
   std::unique_ptr<Function> text(const TextArguments& read) const {
     auto f = std::make_unique<Function>();
     const size_t channels = read.foreground.size();
@@ -368,8 +478,8 @@ SurfaceFunctions::SurfaceFunctions(const Scene& scene, rad::Warn warn,
                                    std::span<const SharedDefinitions> definitions,
                                    const SpectralSampling* sampling)
     : scene_(scene),
-      sampling_(sampling),
       warn_(std::move(warn)),
+      sampling_(sampling),
       ready_(scene.modifiers.size()),
       library_(
           calc::sceneInterface(scene.files),
@@ -486,9 +596,77 @@ bool SurfaceFunctions::evaluate(ModifierId modifier, const Function& f, const Fu
 Color SurfaceFunctions::pattern(ModifierId modifier, const FunctionPoint& at,
                                 FunctionScratch& scratch) const {
   const Function& f = ready(modifier);
+  if (f.results == 0) [[unlikely]] return spectralPattern(modifier, f, at, scratch);
   std::array<double, 3> v;
   if (!evaluate(modifier, f, at, scratch, v)) return Color(1, 1, 1);
   return f.results == 1 ? Color(v[0], v[0], v[0]) : Color(v[0], v[1], v[2]);
+}
+
+Color SurfaceFunctions::spectralPattern(ModifierId modifier, const Function& f, const FunctionPoint& at,
+                                        FunctionScratch& scratch) const {
+  if (const auto* constant = std::get_if<ConstantSpectrum>(&f.what)) return constant->color;
+  setInputs(f, at, scratch);
+  calc::Point point{scratch.inputs, realsOf(modifier), {}};
+  scratch.state.faults = 0;
+  if (const auto* function = std::get_if<SpectralFunction>(&f.what)) {
+    if (function->bins == 0) {
+      warn(modifier, "its wavelengths are outside the limits of the spectrum (-cw): it is ignored");
+      return Color(1, 1, 1);
+    }
+    evaluateSpectrum(*function, point, scratch);
+    if (!computed(modifier, scratch)) return Color(1, 1, 1);
+    return colorOf({scratch.spectrum, function->longest, function->shortest});
+  }
+  const auto& data = std::get<SpectralData>(f.what);
+  evaluateSpectrum(data, point, scratch);
+  if (!computed(modifier, scratch)) return Color(1, 1, 1);
+  return colorOf(betweenMiddles(scratch.spectrum, data.firstWavelength, data.lastWavelength));
+}
+
+// The original draws one wavelength at random in each bin. The two here have the same mean up to terms of the third
+// order in the wavelength.
+void SurfaceFunctions::evaluateSpectrum(const SpectralFunction& f, calc::Point& point,
+                                        FunctionScratch& scratch) const {
+  scratch.spectrum.resize(f.bins);
+  const double step = (f.longest - f.shortest) / static_cast<double>(f.bins);
+  for (size_t i = 0; i < f.bins && scratch.state.faults == 0; ++i) {
+    double sum = 0;
+    for (const double part : {.25, .75}) {
+      const double wavelength = f.longest - (static_cast<double>(i) + part) * step;
+      point.arguments = {&wavelength, 1};
+      sum += f.program->evaluate(point, scratch.state);
+    }
+    scratch.spectrum[i] = sum / 2;
+  }
+}
+
+void SurfaceFunctions::evaluateSpectrum(const SpectralData& data, calc::Point& point,
+                                        FunctionScratch& scratch) const {
+  calc::State& state = scratch.state;
+  std::array<double, rad::DataFile::kMaxDimensions> place{};
+  const size_t coordinates = data.coordinates->outputs();
+  data.coordinates->evaluate(point, state, std::span(place).first(coordinates));
+  if (state.faults > 0) return;
+  scratch.spectrum.resize(data.count);
+  if (data.picture) data.picture->value(place[0], place[1], scratch.spectrum);
+  for (size_t i = 0; i < data.count && state.faults == 0; ++i) {
+    double& value = scratch.spectrum[i];
+    const double wavelength = between(data.firstWavelength, data.lastWavelength, i, data.count);
+    if (data.table) {
+      place[coordinates] = wavelength;
+      value = data.table->value(std::span(place).first(coordinates + 1));
+    }
+    const std::array arguments{value, wavelength};
+    point.arguments = arguments;
+    value = data.correction->evaluate(point, state);
+  }
+}
+
+Color SurfaceFunctions::colorOf(const Spectrum& spectrum) const {
+  if (sampling_) return Color(bandsOf(spectrum, *sampling_));
+  if (spectrum.values.size() != 3) return Color(standardRgb(tristimulus(spectrum)));
+  const size_t red = spectrum.first > spectrum.last ? 0 : 2;
+  return Color(spectrum.values[red], spectrum.values[1], spectrum.values[2 - red]);
 }
 
 V3d SurfaceFunctions::texture(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const {

@@ -14,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/colorimetry.h"
 #include "rad_parser/calc/library.h"
 #include "rad_parser/data_file.h"
 #include "rad_parser/font_file.h"
@@ -48,14 +49,15 @@ struct FunctionScratch {
   rad::calc::State state;
   std::array<double, rad::calc::kInputs> inputs{};
   Placement placement;
+  std::vector<double> spectrum;
 };
 
 class SurfaceFunctions {
  public:
   // Keeps a reference to the scene. warn: called with a line, once for each modifier, when a value cannot be
   // computed (division by zero and the like); from any thread, but never from two at once. definitions:
-  // shared by all function files, instead of those of rayinit.cal. Throws rad::Error if a definition is
-  // missing or invalid.
+  // shared by all function files, instead of those of rayinit.cal. sampling: the bands of a spectral run; null
+  // in a run of three channels. Throws rad::Error if a definition is missing or invalid.
   explicit SurfaceFunctions(const Scene& scene, rad::Warn warn = {},
                             std::span<const SharedDefinitions> definitions = {},
                             const SpectralSampling* sampling = nullptr);
@@ -66,7 +68,10 @@ class SurfaceFunctions {
   // there is no such file), their contents, a transform, or the number of arguments; and whenever an
   // expression uses a name that does not exist.
 
-  // The factor on the colour of the material that it modifies. Neutral value: (1, 1, 1).
+  // The factor on the colour of the material that it modifies. Neutral value: (1, 1, 1). That of a spectral
+  // pattern (spectrum, specfile, specfunc, specdata, specpict) has bands in a spectral run. Otherwise it is the
+  // color of the spectrum for the CIE's observer; three values of a spectrum are red, green and blue, as in
+  // RADIANCE.
   Color pattern(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
   // The perturbation that is added to the surface's normal, in the world. Neutral value: (0, 0, 0).
   V3d texture(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
@@ -139,6 +144,26 @@ class SurfaceFunctions {
     std::array<double, 3> foreground, background;
   };
 
+  // spectrum, specfile: the same everywhere.
+  struct ConstantSpectrum {
+    Color color;
+  };
+  // specfunc: the means of a function of the wavelength over bins, each by its values at two wavelengths.
+  struct SpectralFunction {
+    ProgramPointer program;
+    double longest = 0, shortest = 0;  // nm
+    size_t bins = 0;                   // 0: none of its wavelengths is among those of the run
+  };
+  // specdata: a table by coordinates and wavelength. specpict: a picture of spectra. The correction is a
+  // function of a value and its wavelength.
+  struct SpectralData {
+    ProgramPointer coordinates, correction;
+    std::shared_ptr<const rad::DataFile> table;          // of specdata
+    std::shared_ptr<const SpectralPicture> picture;      // of specpict
+    size_t count = 0;                                    // of wavelengths
+    double firstWavelength = 0, lastWavelength = 0;      // nm, of the middles of their bins
+  };
+
   // The functions of a material; null if its type has no such function.
   struct Scatterer {
     ProgramPointer orientation, reflection, transmission;  // of three numbers each
@@ -159,8 +184,10 @@ class SurfaceFunctions {
 
   // A modifier, compiled.
   struct Function {
-    std::variant<Values, Data, Image, Text, Scatterer, Redirector> what;
-    size_t results = 1;   // 1 or 3
+    std::variant<Values, Data, Image, Text, Scatterer, Redirector, ConstantSpectrum, SpectralFunction,
+                 SpectralData>
+        what;
+    size_t results = 1;   // 1, 3, or 0 for a spectrum
     uint64_t needs = 0;   // the inputs that it reads, one bit each
     bool moved = false;   // whether it has a transform
     Placement placement;  // by that transform
@@ -189,17 +216,25 @@ class SurfaceFunctions {
   bool evaluate(ModifierId modifier, const Function& f, const FunctionPoint& at, FunctionScratch& scratch,
                 std::array<double, 3>& out) const;
 
+  Color spectralPattern(ModifierId modifier, const Function& f, const FunctionPoint& at,
+                        FunctionScratch& scratch) const;
+  // These set scratch.spectrum, unless a fault occurs.
+  void evaluateSpectrum(const SpectralFunction& f, rad::calc::Point& point, FunctionScratch& scratch) const;
+  void evaluateSpectrum(const SpectralData& data, rad::calc::Point& point, FunctionScratch& scratch) const;
+  Color colorOf(const Spectrum& spectrum) const;
+
   class Maker;
 
   const Scene& scene_;
-  const SpectralSampling* sampling_;  // RayOptions::sampling
   rad::Warn warn_;
+  const SpectralSampling* sampling_;
   mutable std::vector<std::atomic<const Function*>> ready_;  // by modifier
   mutable std::mutex mutex_;                                 // of all that follows
   mutable std::vector<std::unique_ptr<Function>> functions_;
   mutable rad::calc::Library library_;
   mutable Cache<rad::DataFile> data_;
   mutable Cache<Picture> pictures_;
+  mutable Cache<SpectralPicture> spectralPictures_;
   mutable Cache<rad::FontFile> fonts_;
   mutable Cache<BsdfData> bsdfs_;
 };
