@@ -89,7 +89,10 @@ Bands Color::bandsIn(const SpectralSampling& sampling) const {
 }
 
 void Color::addBands(const Color& other, double sign) {
-  if (!bands_) bands_ = bandsIn(other.bands_.sampling());
+  if (!bands_) {
+    if (!other.bands_) return;
+    bands_ = bandsIn(other.bands_.sampling());
+  }
   const SpectralSampling& sampling = bands_.sampling();
   const std::span<double> values = bands_.values();
   if (other.bands_) {

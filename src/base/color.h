@@ -124,6 +124,16 @@ class Color {
     return *this;
   }
 
+  // Adds a * factor or a * b, for sums that most of the time goes into.
+  void addScaled(const Color& a, double factor) {
+    if (bands_ || a.bands_) [[unlikely]] addBands(a * factor, 1);
+    x += a.x * factor, y += a.y * factor, z += a.z * factor;
+  }
+  void addProduct(const Color& a, const Color& b) {
+    if (bands_ || a.bands_ || b.bands_) [[unlikely]] addBands(a * b, 1);
+    x += a.x * b.x, y += a.y * b.y, z += a.z * b.z;
+  }
+
   friend Color operator+(const Color& a, const Color& b) {
     Color sum(a.x + b.x, a.y + b.y, a.z + b.z);
     if (a.bands_ || b.bands_) [[unlikely]]
@@ -209,6 +219,9 @@ Color combined(const Color& a, const Color& b, const Color& c, const F& f) {
 // -pY, thresholds and the light vector use this brightness.
 inline constexpr double kRedWeight = .265105820, kGreenWeight = .670105820, kBlueWeight = .064788360;
 inline double brightness(const Color& c) { return kRedWeight * c.x + kGreenWeight * c.y + kBlueWeight * c.z; }
+inline double brightnessOfProduct(const Color& a, const Color& b) {
+  return kRedWeight * (a.x * b.x) + kGreenWeight * (a.y * b.y) + kBlueWeight * (a.z * b.z);
+}
 inline double maxChannel(const Color& c) {
   return c.x > c.y ? (c.x > c.z ? c.x : c.z) : (c.y > c.z ? c.y : c.z);
 }

@@ -250,7 +250,7 @@ Coefficient directCoefficient(const Scattering& s, const Interaction& at, const 
   const double cosine = s.normal.dot(toSource);
   const double enters = s.diffuseFresnel > 0 ? 1 - fresnelRise(std::abs(cosine)) : 1;
   if (cosine > kNegligible) {
-    sum.color += s.diffuseReflection * (enters * cosine * solidAngle * kPerPi);
+    sum.color.addScaled(s.diffuseReflection, enters * cosine * solidAngle * kPerPi);
     if (maxChannel(s.specularReflection) > 0) {
       double alpha2 = s.alpha2;
       if (s.widenReflection) alpha2 += (1 - sourceJitter) * solidAngle * .25 / kPi;
@@ -259,15 +259,15 @@ Coefficient directCoefficient(const Scattering& s, const Interaction& at, const 
       const double along2 = along * along, length2 = half.length2();
       const double tangent2 = (length2 - along2) / along2;
       const double lobe = std::exp(-tangent2 / alpha2) * length2 / (kPi * along2 * along2 * alpha2);
-      if (lobe > kNegligible) sum.color += s.specularReflection * (lobe * cosine * solidAngle);
+      if (lobe > kNegligible) sum.color.addScaled(s.specularReflection, lobe * cosine * solidAngle);
     }
   } else if (cosine < -kNegligible) {
-    sum.color += s.diffuseTransmission * (enters * -cosine * solidAngle * kPerPi);
+    sum.color.addScaled(s.diffuseTransmission, enters * -cosine * solidAngle * kPerPi);
     if (maxChannel(s.specularTransmission) > 0) {
       const double alpha2 = s.alpha2 + solidAngle / kPi;
       const double lobe = std::exp((2 * s.transmitted.dot(toSource) - 2) / alpha2) / (kPi * alpha2);
       if (lobe > kNegligible)
-        sum.color += s.specularTransmission * (lobe * solidAngle * std::sqrt(-cosine / s.cosine));
+        sum.color.addScaled(s.specularTransmission, lobe * solidAngle * std::sqrt(-cosine / s.cosine));
     }
   }
   return sum;

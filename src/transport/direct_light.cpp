@@ -161,13 +161,17 @@ uint32_t DirectLight::findContributions(const Ray& ray, DirectCoefficient coeffi
   const bool clear = !isMedium(ray.medium.extinction);
   uint32_t count = 0;
   for (const SourceSample& sample : samples_) {
-    const Coefficient coefficient = coefficientOf(sample.direction, sample.solidAngle);
+    Coefficient coefficient = coefficientOf(sample.direction, sample.solidAngle);
     if (isBlack(coefficient)) continue;
-    const Radiance* constant = clear && sample.cosine >= 0 ? t_.constantRadiance(sample.source) : nullptr;
-    const Radiance value = constant ? *constant : sourceValue(ray, sample);
-    const double bright = brightness(value * coefficient);
+    Contribution& c = contributions_[count];
+    if (const Radiance* constant = clear && sample.cosine >= 0 ? t_.constantRadiance(sample.source) : nullptr)
+      c.value = *constant;
+    else
+      c.value = sourceValue(ray, sample);
+    const double bright = brightnessOfProduct(c.value.color, coefficient.color);
     if (!(bright > 0)) continue;
-    contributions_[count] = {&sample, coefficient, value};
+    c.sample = &sample;
+    c.coefficient = std::move(coefficient);
     brightness_[count++] = bright;
   }
   return count;
@@ -205,7 +209,7 @@ void DirectLight::add(Ray& ray, DirectCoefficient coefficientOf, const V3d& fron
     Radiance value;
     const bool visible = arrives(ray, c, value);
     tests.add(visible);
-    if (visible) ray.value += value * c.coefficient;
+    if (visible) ray.value.color.addProduct(value.color, c.coefficient.color);
   };
   size_t tested = 0;
   for (; tested < count; ++tested) {

@@ -22,11 +22,9 @@ inline double apparentLength(const Ray& ray) {
 inline bool isMedium(const Color& extinction) { return maxChannel(extinction) > 1 / kFarAway; }
 
 // The transmittance of a medium. extinction: per unit length.
+Coefficient transmittanceOf(const Color& extinction, double length);
 inline Coefficient passing(const Color& extinction, double length) {
-  if (!isMedium(extinction)) return Coefficient(1);
-  Color transmittance = extinction;
-  transmittance.transform([&](double k) { return std::exp(-k * length); });
-  return Coefficient(std::move(transmittance));
+  return isMedium(extinction) ? transmittanceOf(extinction, length) : Coefficient(1);
 }
 
 // The transmittance of the medium along a ray. Shadow rays are attenuated by absorption alone: it is assumed
