@@ -85,7 +85,8 @@ Bands bandsOf(const Spectrum& spectrum, const SpectralSampling& sampling) {
   for (size_t i = 0; i < count; ++i) {
     const double value = spectrum.values[falls ? i : count - 1 - i];
     const double from = std::max(0., offset + static_cast<double>(i) * step);
-    const double to = std::min(sampling.longest - sampling.shortest, offset + static_cast<double>(i + 1) * step);
+    const double to =
+        std::min(sampling.longest - sampling.shortest, offset + static_cast<double>(i + 1) * step);
     if (!(from < to)) continue;
     for (auto band = static_cast<size_t>(from / width); band < means.size(); ++band) {
       const double begin = static_cast<double>(band) * width;
