@@ -48,8 +48,7 @@ FunctionArguments readFunction(const PrimitiveArguments& a) {
 }
 
 DataArguments readData(const PrimitiveArguments& a) {
-  const bool single =
-      a.type() == Type::brightdata || a.type() == Type::mixdata || a.type() == Type::specdata;
+  const bool single = a.type() == Type::brightdata || a.type() == Type::mixdata || a.type() == Type::specdata;
   const size_t first = namesIn(a), count = single ? 1 : 3;
   const size_t file = first + 2 * count;
   a.needAtLeast(file + 2);

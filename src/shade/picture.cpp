@@ -259,7 +259,8 @@ Picture Picture::read(const std::string& path) {
   const Header header = readHeader(bytes, path);
   const bool xyz = header.format == "32-bit_rle_xyze";
   if (header.format == kSpectra) bad(path, "it has spectra, which only specpict reads");
-  if (!xyz && !header.format.empty() && header.format != "32-bit_rle_rgbe") bad(path, "neither RGBE nor XYZE");
+  if (!xyz && !header.format.empty() && header.format != "32-bit_rle_rgbe")
+    bad(path, "neither RGBE nor XYZE");
   const Layout& layout = header.layout;
   // Rejects sizes that the file is too short for. The new code packs at most 127 values of a channel into two
   // bytes, which is 16 pixels per byte. The old code could be denser, but no such files are known.

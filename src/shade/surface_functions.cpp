@@ -51,6 +51,15 @@ Spectrum betweenMiddles(std::span<const double> values, double first, double las
   return {values, first - half, last + half};
 }
 
+// The color of a spectrum that falls in wavelength, as RADIANCE 6.1 has it: three values are red, green and blue;
+// other spectra are those that its tables of the observer, which are displaced by 1.5 nm, see.
+Color threeChannels(const Spectrum& spectrum) {
+  constexpr double kDisplacement = 1.5;  // nm
+  const auto& v = spectrum.values;
+  if (v.size() == 3) return Color(v[0], v[1], v[2]);
+  return Color(standardRgb(tristimulus({v, spectrum.first + kDisplacement, spectrum.last + kDisplacement})));
+}
+
 std::vector<std::string> linesOf(std::string_view text) {
   std::vector<std::string> lines;
   while (!text.empty()) {
@@ -295,11 +304,14 @@ class SurfaceFunctions::Maker {
     const SpectralSampling* sampling = functions_.sampling_;
     s.longest = std::min(read.longest, sampling ? sampling->longest : SpectralSampling{}.longest);
     s.shortest = std::max(read.shortest, sampling ? sampling->shortest : SpectralSampling{}.shortest);
-    // No more than four bins in a band: more resolve nothing.
-    constexpr double kMostBins = 24;
     const double range = s.longest - s.shortest;
-    const double most = sampling ? std::min(kMostBins, std::ceil(4 * range / sampling->width())) : kMostBins;
-    s.bins = range > 0 ? static_cast<size_t>(most) : 0;
+    if (range > 0) {
+      // As in RADIANCE: no more than four bins in a band, because more resolve nothing.
+      const double band =
+          sampling ? sampling->width() : (SpectralSampling{}.longest - SpectralSampling{}.shortest) / 3;
+      s.step = std::max(range / kMostBands, band / 4);
+      s.bins = std::max(size_t{1}, static_cast<size_t>(range / s.step + .1));
+    }
     f->what = std::move(s);
     setTransform(*f, read.file.transform);
     return f;
@@ -478,8 +490,8 @@ SurfaceFunctions::SurfaceFunctions(const Scene& scene, rad::Warn warn,
                                    std::span<const SharedDefinitions> definitions,
                                    const SpectralSampling* sampling)
     : scene_(scene),
-      warn_(std::move(warn)),
       sampling_(sampling),
+      warn_(std::move(warn)),
       ready_(scene.modifiers.size()),
       library_(
           calc::sceneInterface(scene.files),
@@ -596,7 +608,8 @@ bool SurfaceFunctions::evaluate(ModifierId modifier, const Function& f, const Fu
 Color SurfaceFunctions::pattern(ModifierId modifier, const FunctionPoint& at,
                                 FunctionScratch& scratch) const {
   const Function& f = ready(modifier);
-  if (f.results == 0) [[unlikely]] return spectralPattern(modifier, f, at, scratch);
+  if (f.results == 0) [[unlikely]]
+    return spectralPattern(modifier, f, at, scratch);
   std::array<double, 3> v;
   if (!evaluate(modifier, f, at, scratch, v)) return Color(1, 1, 1);
   return f.results == 1 ? Color(v[0], v[0], v[0]) : Color(v[0], v[1], v[2]);
@@ -615,7 +628,7 @@ Color SurfaceFunctions::spectralPattern(ModifierId modifier, const Function& f, 
     }
     evaluateSpectrum(*function, point, scratch);
     if (!computed(modifier, scratch)) return Color(1, 1, 1);
-    return colorOf({scratch.spectrum, function->longest, function->shortest});
+    return colorOf({scratch.spectrum, function->shortest, function->longest});
   }
   const auto& data = std::get<SpectralData>(f.what);
   evaluateSpectrum(data, point, scratch);
@@ -623,20 +636,19 @@ Color SurfaceFunctions::spectralPattern(ModifierId modifier, const Function& f, 
   return colorOf(betweenMiddles(scratch.spectrum, data.firstWavelength, data.lastWavelength));
 }
 
-// The original draws one wavelength at random in each bin. The two here have the same mean up to terms of the third
-// order in the wavelength.
+// RADIANCE draws one wavelength at random in each bin. The mean of the two here is the mean of its draws up to terms
+// of the third order in the wavelength.
 void SurfaceFunctions::evaluateSpectrum(const SpectralFunction& f, calc::Point& point,
                                         FunctionScratch& scratch) const {
   scratch.spectrum.resize(f.bins);
-  const double step = (f.longest - f.shortest) / static_cast<double>(f.bins);
   for (size_t i = 0; i < f.bins && scratch.state.faults == 0; ++i) {
     double sum = 0;
     for (const double part : {.25, .75}) {
-      const double wavelength = f.longest - (static_cast<double>(i) + part) * step;
+      const double wavelength = f.longest - (static_cast<double>(i) + part) * f.step;
       point.arguments = {&wavelength, 1};
       sum += f.program->evaluate(point, scratch.state);
     }
-    scratch.spectrum[i] = sum / 2;
+    scratch.spectrum[f.bins - 1 - i] = sum / 2;
   }
 }
 
@@ -664,9 +676,17 @@ void SurfaceFunctions::evaluateSpectrum(const SpectralData& data, calc::Point& p
 
 Color SurfaceFunctions::colorOf(const Spectrum& spectrum) const {
   if (sampling_) return Color(bandsOf(spectrum, *sampling_));
-  if (spectrum.values.size() != 3) return Color(standardRgb(tristimulus(spectrum)));
-  const size_t red = spectrum.first > spectrum.last ? 0 : 2;
-  return Color(spectrum.values[red], spectrum.values[1], spectrum.values[2 - red]);
+  // In a run of three channels, RADIANCE first resamples spectra that rise in wavelength or have many values, at
+  // about their own resolution. This shifts colors by up to a fifth where it is coarse, and scenes are made with
+  // these colors.
+  const size_t count = spectrum.values.size();
+  if (spectrum.first > spectrum.last && count <= kMostBands) return threeChannels(spectrum);
+  const SpectralSampling whole;
+  const double range = std::abs(spectrum.last - spectrum.first);
+  const double bands = static_cast<double>(count) * (whole.longest - whole.shortest) / range + .99;
+  const int resampled = static_cast<int>(std::clamp(bands, 3., double{kMostBands}));
+  return threeChannels(
+      spectrumOf(bandsOf(spectrum, spectralSampling(resampled, whole.shortest, whole.longest))));
 }
 
 V3d SurfaceFunctions::texture(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const {

@@ -69,9 +69,8 @@ class SurfaceFunctions {
   // expression uses a name that does not exist.
 
   // The factor on the colour of the material that it modifies. Neutral value: (1, 1, 1). That of a spectral
-  // pattern (spectrum, specfile, specfunc, specdata, specpict) has bands in a spectral run. Otherwise it is the
-  // color of the spectrum for the CIE's observer; three values of a spectrum are red, green and blue, as in
-  // RADIANCE.
+  // pattern (spectrum, specfile, specfunc, specdata, specpict) has bands in a spectral run. In a run of three
+  // channels it is the red, green and blue to which RADIANCE converts the spectrum.
   Color pattern(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
   // The perturbation that is added to the surface's normal, in the world. Neutral value: (0, 0, 0).
   V3d texture(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
@@ -148,20 +147,22 @@ class SurfaceFunctions {
   struct ConstantSpectrum {
     Color color;
   };
-  // specfunc: the means of a function of the wavelength over bins, each by its values at two wavelengths.
+  // specfunc: the means of a function of the wavelength over bins, each by its values at two wavelengths. As in
+  // RADIANCE, the bins are taken to fill the range, of which a part of a step may be left over.
   struct SpectralFunction {
     ProgramPointer program;
     double longest = 0, shortest = 0;  // nm
+    double step = 0;                   // nm, from bin to bin
     size_t bins = 0;                   // 0: none of its wavelengths is among those of the run
   };
   // specdata: a table by coordinates and wavelength. specpict: a picture of spectra. The correction is a
   // function of a value and its wavelength.
   struct SpectralData {
     ProgramPointer coordinates, correction;
-    std::shared_ptr<const rad::DataFile> table;          // of specdata
-    std::shared_ptr<const SpectralPicture> picture;      // of specpict
-    size_t count = 0;                                    // of wavelengths
-    double firstWavelength = 0, lastWavelength = 0;      // nm, of the middles of their bins
+    std::shared_ptr<const rad::DataFile> table;      // of specdata
+    std::shared_ptr<const SpectralPicture> picture;  // of specpict
+    size_t count = 0;                                // of wavelengths
+    double firstWavelength = 0, lastWavelength = 0;  // nm, of the middles of their bins
   };
 
   // The functions of a material; null if its type has no such function.
@@ -226,8 +227,8 @@ class SurfaceFunctions {
   class Maker;
 
   const Scene& scene_;
+  const SpectralSampling* sampling_;  // of the bands, or null
   rad::Warn warn_;
-  const SpectralSampling* sampling_;
   mutable std::vector<std::atomic<const Function*>> ready_;  // by modifier
   mutable std::mutex mutex_;                                 // of all that follows
   mutable std::vector<std::unique_ptr<Function>> functions_;

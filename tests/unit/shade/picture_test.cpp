@@ -165,8 +165,10 @@ std::string errorOf(const std::string& bytes) {
 
 TEST(Picture, BadFilesAreSaidToBe) {
   EXPECT_EQ(errorOf("GIF89a"), ": bad picture file: its header does not end");
-  EXPECT_EQ(errorOf("#?RADIANCE\nFORMAT=Radiance_spectra\n\n-Y 1 +X 1\n1234"),
+  EXPECT_EQ(errorOf("#?RADIANCE\nFORMAT=float\n\n-Y 1 +X 1\n1234"),
             ": bad picture file: neither RGBE nor XYZE");
+  EXPECT_EQ(errorOf("#?RADIANCE\nFORMAT=Radiance_spectra\n\n-Y 1 +X 1\n1234"),
+            ": bad picture file: it has spectra, which only specpict reads");
   EXPECT_EQ(errorOf("#?RADIANCE\n\n-Y 1 +Y 1\n1234"), ": bad picture file: no resolution");
   EXPECT_EQ(errorOf("#?RADIANCE\n\n-Y 4 +X 4\n1234"), ": bad picture file: it ends too early");
   EXPECT_EQ(errorOf("#?RADIANCE\n\n-Y 60000 +X 60000\n1234"), ": bad picture file: it ends too early");
