@@ -174,7 +174,7 @@ TEST(MaterialQuestions, HaveTheseAnswers) {
     }
     EXPECT_EQ(isLightSource(material), row.source);
     if (row.sampled) {
-      EXPECT_EQ(sourceRadiance(material)->rgb, Color(5, 6, 7));
+      EXPECT_EQ(sourceRadiance(material)->color, Color(5, 6, 7));
     }
     EXPECT_EQ(isSampled(material), row.sampled);
     EXPECT_EQ(reachOf(material), row.reach);

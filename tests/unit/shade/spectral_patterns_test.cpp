@@ -96,6 +96,12 @@ std::string errorOf(const std::string& pattern, const SpectralSampling* sampling
 
 const SpectralSampling& twenty() { return spectralSampling(20, 380, 780); }
 
+TEST(SpectralPattern, UnusedOnesAreNotRead) {
+  EXPECT_NO_THROW(sceneOf("void spectrum A 0 0 0\nvoid specfile B 0 0 0\nvoid specfunc C 0 0 0\n"
+                          "void specdata D 0 0 0\nvoid specpict E 0 0 0\n"
+                          "void plastic M 0 0 5 1 1 1 0 0\nM sphere s 0 0 4 0 0 0 1\n"));
+}
+
 // ---- spectrum
 
 constexpr std::array<double, 5> kFive{.2, .9, .4, .7, .1};
