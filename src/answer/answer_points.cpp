@@ -6,6 +6,7 @@
 
 #include "answer/header.h"
 #include "answer/threads.h"
+#include "base/spectral_sampling.h"
 #include "importance/point_picture.h"
 
 namespace rsphere {
@@ -39,12 +40,13 @@ PointWorkers::PointWorkers(const Transport& transport, const AnswerOptions& opti
   }
 }
 
-void Unreached::add(uint64_t record, const PointAnswer& answer) {
+void Unreached::add(uint64_t record, const PointAnswer& answer, const SpectralSampling* sampling) {
   const std::lock_guard lock(mutex_);
   ++points_;
   if (answer.reached) return;
   ++missed_;
-  const double mean = brightness(answer.mean), error = mean > 0 ? answer.brightnessError / mean : 1e30;
+  const double mean = photopicOf(answer.mean.color, sampling),
+               error = mean > 0 ? answer.brightnessError / mean : 1e30;
   // Of equal errors the first record in the input is kept, whichever thread computed it.
   if (error < worstError_ || (error == worstError_ && record > worst_)) return;
   worst_ = record;
@@ -69,7 +71,7 @@ AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& optio
   return [&, workers](const Record& record, unsigned worker, std::string& bytes) {
     const V3d point(record.numbers[0], record.numbers[1], record.numbers[2]);
     const PointAnswer answer = workers->answer(point, worker);
-    unreached.add(record.index, answer);
+    unreached.add(record.index, answer, options.ray.sampling);
     SphereEstimator::Workspace& workspace = workers->workspace(worker);
     if (!options.picture.empty())
       writePicture(pictureName(options.picture, record.index), point, transport, options,

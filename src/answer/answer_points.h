@@ -41,7 +41,8 @@ class PointWorkers {
 // from several threads at once.
 class Unreached {
  public:
-  void add(uint64_t record, const PointAnswer& answer);
+  // sampling: RayOptions::sampling.
+  void add(uint64_t record, const PointAnswer& answer, const SpectralSampling* sampling = nullptr);
 
   // "-Sa 0.01 was not reached at 3 of 20 points with at most 8192 directions; the worst is record 7: 1.25%".
   // Empty if the accuracy was reached at all points.

@@ -1,10 +1,11 @@
 #pragma once
-#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "answer/record_text.h"
+#include "base/colorimetry.h"
+#include "base/primaries.h"
 #include "base/radiometry.h"
 #include "base/spectral_sampling.h"
 
@@ -21,23 +22,31 @@ enum class ColorSpace : uint8_t {
   spectrum  // -co
 };
 
-// The options that choose how colors are written.
+// The options that choose how colors are computed and written.
 struct ColorOptions {
   ColorSpace space = ColorSpace::rgb;
-  std::array<double, 8> primaries{};     // x y of red, green, blue and white
+  Primaries primaries{};                 // -pc
   int bands = 3;                         // -cs  3 to kMostBands
   double shortest = 380, longest = 780;  // -cw  nm
+
+  // The division of the spectrum; null if the run has three channels. REQUIRES what checkColors() checks.
+  const SpectralSampling* sampling() const {
+    return bands > 3 ? &spectralSampling(bands, shortest, longest) : nullptr;
+  }
 };
 
-// Converts red, green and blue to the colors that -p.., -cs, -cw and -co ask for. Scenes have three channels,
-// each of which represents a part of the spectrum: red from 588 nm up, green from 480 nm, blue below.
+// Converts colors to those that -p.. and -co ask for:
+//   -pRGB        RADIANCE's red, green and blue
 //   -pXYZ        CIE 1931, times 179 lm/W
 //   -pc          RGB of other primaries: von Kries' adaptation to their white between the cones of
 //                the "sharp" transform, and colors outside the gamut mixed with grey
 //                until no channel is negative
 //   -pY -pS -pM  luminance (times 179 lm/W), scotopic luminance (412 lm/W), melanopic (179)
-//   -pA          the mean of the channels
-//   -co          with more than three bands (-cs): each band has the value of its channel
+//   -pA          the mean of the channels or bands
+//   -co          the bands, with more than three of them (-cs)
+// In a spectral run (-cs above 3) all of these are computed from the bands, also those of colors without
+// bands, as rtrace does. In a run of three channels each channel represents a part of the spectrum: red from
+// 588 nm up, green from 480 nm, blue below.
 // Source: rtrace(1); G. Finlayson, S. Suesstrunk, "Spectral sharpening and the Bradford transform" (2000);
 // CIE 15:2018 for X, Y, Z and V'(lambda), CIE S 026 for melanopic.
 class OutputColors {
@@ -52,37 +61,36 @@ class OutputColors {
   // Without the conversion to lumens.
   void write(RecordText& text, const Coefficient& coefficient) const { write(text, coefficient.color, 1); }
 
-  // Writes a standard error: that of red, green and blue, or under -pY that of brightness, in lumens.
-  // REQUIRES: colors are RGB or -pY. The errors of other sums of the channels cannot be computed from these.
-  void writeError(RecordText& text, const Radiance& channels, double brightness) const {
-    if (options_.space == ColorSpace::photopic) return text.number(scale_ * brightness);
-    text.color(channels.color);
-  }
+  // Writes a standard error: that of each channel or band, or under -pY that of brightness, in lumens.
+  // REQUIRES: haveStandardErrors().
+  void writeError(RecordText& text, const Radiance& error, double brightness) const;
 
   // The lines of the header that describe the colors, with line ends, and the FORMAT of their pixels (-fc).
   std::string headerLines() const;
   std::string_view pixelFormat() const;
 
  private:
-  using Matrix = std::array<std::array<double, 3>, 3>;
   void write(RecordText& text, const Color& color, double scale) const;
+  void writeBands(RecordText& text, const Bands& bands, double scale) const;
 
   ColorOptions options_;
+  const SpectralSampling* sampling_;
   int count_ = 3;
   double scale_ = 1;
-  Color weights_{0, 0, 0};    // if a color is one number
-  Matrix fromRgb_{};          // if it is three
-  std::vector<int> channel_;  // if it is bands: the channel of each, from the longest wavelength
+  Color weights_{0, 0, 0};   // of the channels, if a color is one number
+  Matrix matrix_{};          // from RGB, in a spectral run from X, Y and Z, if it is three
+  BandWeights bandWeights_;  // in a spectral run
 };
 
 // Throws rad::Error with rtrace's words if the bands or limits are impossible, or if
 // the primaries span no gamut.
 void checkColors(const ColorOptions& options);
 
-// Whether every channel has a part of the spectrum within its limits. rtrace warns if this is not so.
-bool spectrumHoldsChannels(const ColorOptions& options);
+// Whether colors have standard errors (-oe): if they are as computed (channels without conversion, or bands),
+// or luminance. The errors of other sums cannot be computed from those of their terms.
+bool haveStandardErrors(const ColorOptions& options);
 
 // Whether all of -pc's numbers are within .001 of RADIANCE's standard primaries and white.
-bool areStandard(const std::array<double, 8>& primaries);
+bool areStandard(const Primaries& primaries);
 
 }  // namespace rsphere

@@ -45,15 +45,9 @@ void RecordText::color(const Color& c) {
   bytes_.append(reinterpret_cast<const char*>(pixel.data()), pixel.size());
 }
 
-void RecordText::spectrum(const Color& c, std::span<const int> channels) {
-  const std::array<double, 3> values = {c.x, c.y, c.z};
-  const std::array<uint8_t, 4> pixel = rgbePixel(c);
-  for (const int channel : channels)
-    if (format_ == NumberFormat::rgbe)
-      bytes_ += static_cast<char>(pixel[static_cast<size_t>(channel)]);
-    else
-      number(values[static_cast<size_t>(channel)]);
-  if (format_ == NumberFormat::rgbe) bytes_ += static_cast<char>(pixel[3]);
+void RecordText::spectrum(std::span<const double> bands) {
+  if (format_ == NumberFormat::rgbe) return appendSpectralPixel(bands, bytes_);
+  for (const double value : bands) number(value);
 }
 
 void RecordText::name(std::string_view n) {

@@ -20,9 +20,8 @@ class RecordText {
   void integer(uint64_t n);    // in text: all its digits, where "%e" has only seven
   void vector(const V3d& v);   // three numbers
   void color(const Color& c);  // three numbers, or one RGBE pixel where the format is rgbe
-  // For each band, the value of its channel (0 red, 1 green, 2 blue). In the format rgbe, a pixel: a byte for
-  // each band, and the exponent.
-  void spectrum(const Color& c, std::span<const int> channels);
+  // A number for each band. Where the format is rgbe, one pixel: a byte for each band, and the exponent.
+  void spectrum(std::span<const double> bands);
   void name(std::string_view n);  // the name and a TAB
   void end();                     // in text: a line end
 

@@ -42,6 +42,7 @@ void refuse(bool given, std::string_view option, std::string_view reason) {
 // Whether an option concerns threads or output alone.
 bool isOfOutput(const OptionEntry& entry) {
   static constexpr std::array<std::string_view, 7> kNames = {"-n", "-o", "-h", "-x", "-y", "-t", "-w"};
+  if (entry.name == "-cs" || entry.name == "-cw") return false;  // the bands in which light is computed
   return entry.group == Group::color || std::find(kNames.begin(), kNames.end(), entry.name) != kNames.end();
 }
 
@@ -84,9 +85,7 @@ CommandOptions commandOptions(const Options& options, Records records) {
   refuse(!parsed.treeOutputs.empty(), "-ot", "only the command rsphere writes ray trees");
   const auto isOutputs = [](const UsedOption& option) { return option.entry->name == "-o"; };
   if (!rays && std::none_of(used.begin(), used.end(), isOutputs)) {
-    // Standard errors are those of red, green and blue, or of luminance.
-    const bool errors = parsed.color.space == ColorSpace::rgb || parsed.color.space == ColorSpace::photopic;
-    parsed.outputs = errors ? "veECHuk" : "vECHuk";
+    parsed.outputs = haveStandardErrors(parsed.color) ? "veECHuk" : "vECHuk";
   }
   parsed.out = NumberFormat::float64;
 

@@ -1,6 +1,7 @@
 #include "base/colorimetry.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -101,6 +102,42 @@ Bands bandsOf(const Spectrum& spectrum, const SpectralSampling& sampling) {
 V3d standardRgb(const V3d& xyz) {
   static const Matrix rgbFromXyz = inverse(xyzFromRgb(kStandardPrimaries));
   return intoGamut(product(rgbFromXyz, xyz), xyz.y);
+}
+
+V3d BandWeights::tristimulus(const Bands& bands) const {
+  const std::span<const double> values = bands.values();
+  V3d sum(0, 0, 0);
+  for (size_t i = 0; i < values.size(); ++i) sum += values[i] * xyz[i];
+  return sum;
+}
+
+BandWeights bandWeights(const SpectralSampling& sampling) {
+  constexpr double kColor = 1.5, kScotopic = -.5, kMelanopic = .5;  // nm
+  BandWeights weights;
+  const size_t count = sampling.count();
+  const auto limit = [&](size_t fromShortest) {
+    return std::floor(sampling.shortest + static_cast<double>(fromShortest) * sampling.width());
+  };
+  for (size_t i = 0; i < count; ++i) {
+    const double longer = limit(count - i), shorter = limit(count - i - 1);
+    static constexpr std::array<double, 1> kOne{1};
+    const auto seen = [&](double displacement) {
+      return Spectrum{kOne, longer + displacement, shorter + displacement};
+    };
+    weights.xyz.push_back(tristimulus(seen(kColor)));
+    weights.scotopic.push_back(scotopic(seen(kScotopic)));
+    weights.melanopic.push_back(melanopic(seen(kMelanopic)));
+  }
+  return weights;
+}
+
+V3d shownRgb(const Color& color, const SpectralSampling* sampling) {
+  if (!sampling) return color.rgb();
+  static thread_local const SpectralSampling* last = nullptr;
+  static thread_local BandWeights weights;
+  if (last != sampling) weights = bandWeights(*sampling);
+  last = sampling;
+  return standardRgb(weights.tristimulus(color.bandsIn(*sampling)));
 }
 
 }  // namespace rsphere

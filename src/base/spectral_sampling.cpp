@@ -28,12 +28,7 @@ SpectralSampling makeSampling(int bands, double shortest, double longest) {
     const double middle = longest - (i + .5) * width;
     s.channel.push_back(middle >= s.splits[0] ? 0 : middle >= s.splits[1] ? 1 : 2);
   }
-  std::vector<double> one(s.count());
-  for (size_t i = 0; i < s.count(); ++i) {
-    one[i] = 1;
-    s.photopic.push_back(photopic({one, s.longest, s.shortest}));
-    one[i] = 0;
-  }
+  for (const V3d& weight : bandWeights(s).xyz) s.photopic.push_back(weight.y);
   return s;
 }
 

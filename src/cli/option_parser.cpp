@@ -232,15 +232,19 @@ void checkColorOutput(Options& options) {
   ColorOptions& color = options.color;
   if (color.space == ColorSpace::spectrum && color.bands == 3) color.space = ColorSpace::rgb;
   checkColors(color);
+  options.ray.sampling = color.sampling();
   const bool oneChannel = color.space >= ColorSpace::photopic && color.space <= ColorSpace::average;
-  if (!spectrumHoldsChannels(color) && !oneChannel && color.space != ColorSpace::spectrum)
+  if (!spectrumHoldsChannels(color.shortest, color.longest) && !oneChannel &&
+      color.space != ColorSpace::spectrum)
     options.messages.remarks.push_back("spectral range incompatible with color output");
   if (options.out == NumberFormat::rgbe && oneChannel)
     throw rad::Error("color format incompatible with -pY, -pS, -pM");
-  if (options.sphereMode && !options.sphere.everyDirection && color.space != ColorSpace::rgb &&
-      color.space != ColorSpace::photopic && options.outputs.find('e') != std::string::npos)
+  if (options.sphereMode && !options.sphere.everyDirection && !haveStandardErrors(color) &&
+      options.outputs.find('e') != std::string::npos)
     throw rad::Error(
-        "-oe needs -pRGB or -pY: standard errors are those of red, green and blue, or of luminance");
+        color.bands > 3
+            ? "-oe needs -co or -pY with -cs above 3: standard errors are those of bands, or of luminance"
+            : "-oe needs -pRGB or -pY: standard errors are those of red, green and blue, or of luminance");
 }
 
 // Sets options.irradiance; the errors and warnings of rtrace about irradiance and the letters of a ray.

@@ -144,18 +144,23 @@ struct NamedSpace {
 };
 constexpr std::array<NamedSpace, 6> kSpaces = {{
     {"-pRGB", ColorSpace::rgb, "standard RGB color output",
-     "Colors as red, green and blue of RADIANCE's standard primaries."},
+     "Colors as red, green and blue of RADIANCE's standard primaries. In a spectral run (-cs above 3) they are "
+     "computed from CIE X, Y and Z; colors outside the gamut are mixed with gray until no channel is "
+     "negative."},
     {"-pXYZ", ColorSpace::xyz, "CIE XYZ color output",
      "Colors as CIE X, Y and Z, times 179 lm/W: Y is luminance or illuminance."},
     {"-pY", ColorSpace::photopic, "photopic output",
-     "One number for each color, its luminance: 179 lm/W times .265 red + .670 green + .065 blue."},
+     "One number for each color, its luminance: 179 lm/W times .265 red + .670 green + .065 blue, or times the "
+     "integral of spectrum and V(lambda) in a spectral run."},
     {"-pS", ColorSpace::scotopic, "scotopic output",
-     "One number for each color, its scotopic luminance, that of night vision (412 lm/W). Red represents the "
-     "wavelengths from 588 nm up, green those from 480 to 588 nm, and blue those below."},
+     "One number for each color, its scotopic luminance, that of night vision (412 lm/W). Without a spectrum, "
+     "red represents the wavelengths from 588 nm up, green those from 480 to 588 nm, and blue those below."},
     {"-pM", ColorSpace::melanopic, "melanopic output",
-     "One number for each color, its melanopic luminance (179 lm/W), with the channels as for -pS."},
+     "One number for each color, its melanopic luminance, with the channels as for -pS. It equals luminance for "
+     "light of equal energy at all wavelengths (179 lm/W). Times .906 it is the melanopic equivalent daylight "
+     "(D65) luminance of CIE S 026."},
     {"-pA", ColorSpace::average, "radiometric average output",
-     "One number for each color: the mean of its channels."},
+     "One number for each color: the mean of its channels or bands."},
 }};
 
 void setColorSpace(Options& options, const OptionEntry& entry, std::span<const std::string>,
@@ -363,9 +368,10 @@ void addColorOptions(const Add& add) {
        .remark = "output spectral values",
        .paragraph =
            "Toggles spectral output: each color is written as one number for each band of -cs, from the "
-           "longest wavelength to the shortest. Scenes have three channels, and each band has the value "
-           "of the channel that it belongs to (see -pS). With three bands, red, green and blue are "
-           "written instead of a spectrum.",
+           "longest wavelength to the shortest. A color that the scene gives as red, green and blue has in "
+           "each band the value of the band's channel (see -pS). With three bands, red, green and blue are "
+           "written instead of a spectrum. -fac writes the pixels of a hyperspectral picture, with a common "
+           "exponent for all bands.",
        .glued = true,
        .line = spectralLine});
 }
@@ -624,9 +630,10 @@ void addSpectrumOptions(const Add& add) {
        .unit = "bands",
        .remark = "number of spectral bins",
        .paragraph =
-           "Number of bands of spectral output, at most 24; see -co. Other output does not depend on it. "
-           "In rtrace it changes slightly, because rtrace converts red, green and blue to a spectrum and "
-           "back.",
+           "Number of bands of equal width in which light is computed, at most 24. With more than three, all "
+           "that is written is computed from the bands: see -co and -p. Spectral patterns (spectrum, specfile, "
+           "specfunc, specdata, specpict) need them: in three channels they become red, green and blue by "
+           "the CIE's observer, and products of spectra are approximate. See Spectra.",
        .line = bandsLine});
   add({.name = "-cw",
        .arguments = "nmA nmB",
@@ -635,7 +642,8 @@ void addSpectrumOptions(const Add& add) {
        .range = kNotNegative,
        .unit = "nm",
        .remark = "wavelength limits (nm)",
-       .paragraph = "Limits of the spectrum, at least 50 nm apart. Default: 380 and 780.",
+       .paragraph = "Limits of the spectrum that -cs divides, at least 50 nm apart. Light beyond them is left out. Default: 380 "
+                    "and 780.",
        .line = wavelengthsLine});
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
+#include <string>
 
 #include "base/color.h"
 
@@ -12,5 +14,9 @@ namespace rsphere {
 // most 1e-32 or all are nan, all four bytes are 0. From 2^127 on, the result is the largest pixel. Source:
 // RADIANCE file formats, "Picture file format"; G. Ward, "Real Pixels", Graphics Gems II.
 std::array<uint8_t, 4> rgbePixel(const Color& c);
+
+// Appends the pixel of a hyperspectral picture ("Radiance_spectra"): a mantissa for each band, and the shared
+// exponent + 128, with the rules of rgbePixel().
+void appendSpectralPixel(std::span<const double> bands, std::string& bytes);
 
 }  // namespace rsphere

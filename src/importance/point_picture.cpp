@@ -30,11 +30,6 @@ void setValue(Raster& raster, size_t pixel, const V3d& value) {
     raster.pixels[3 * pixel + static_cast<size_t>(c)] = static_cast<float>(value[c]);
 }
 
-// Red, green and blue of a picture.
-V3d shownRgb(const Color& color, const SpectralSampling* sampling) {
-  return sampling ? standardRgb(tristimulus(spectrumOf(color.bandsIn(*sampling)))) : color.rgb();
-}
-
 // The seeds of a picture, each named after its use.
 class PictureStreams {
  public:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/spectral_sampling.h"
 #include "measure/work.h"
 
 namespace rsphere {
@@ -34,7 +35,7 @@ bool Trials::run(const Setting& setting, bool standardErrors, bool timed, Trial&
   if (!whole) return false;
   trial.answers.points = count;
   for (size_t i = 0; i < count; ++i) {
-    trial.answers.values.push_back(brightness(answers[i].mean));
+    trial.answers.values.push_back(photopicOf(answers[i].mean.color, options.ray.sampling));
     if (standardErrors) trial.estimates.push_back(answers[i].brightnessError);
     if (!timed) continue;
     trial.seconds += seconds[i];

@@ -22,13 +22,14 @@ import rsphere
 
 TESTS = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 ROOM = os.path.join(TESTS, "cli/same-bytes-interpolated/small_room.rad")
+SPECTRAL = os.path.join(TESTS, "scenes/spectral/room.rad")
 FURNACE = os.path.join(TESTS, "../examples/minimal/furnace.rad")
 PROGRAMS = sys.argv.pop(1) if len(sys.argv) > 1 else "build/bin"
 
 
-def command(program, options, records):
+def command(program, options, records, scene=ROOM):
     """The numbers that the command writes for binary records."""
-    words = [os.path.join(PROGRAMS, program), "-h", "-fdd", *options, ROOM]
+    words = [os.path.join(PROGRAMS, program), "-h", "-fdd", *options, scene]
     records = np.ascontiguousarray(records, dtype=np.float64)
     return subprocess.run(words, input=records.tobytes(), stdout=subprocess.PIPE, check=True).stdout
 
@@ -73,6 +74,16 @@ class SameBytes(unittest.TestCase):
         self.assertEqual(answers.value.shape, (50,))
         options = "-I -dv- -ab 1 -pY".split()
         self.assertEqual(answers.value.tobytes(), command("rtrace", options, some_rays()))
+
+    def test_bands(self):
+        scene = rsphere.Scene(SPECTRAL)
+        answers = scene.trace(some_rays(), cs=8, co=True)
+        self.assertEqual(answers.value.shape, (50, 8))
+        self.assertEqual(answers.value.tobytes(), command("rtrace", "-cs 8 -co".split(), some_rays(), SPECTRAL))
+        points = scene.sphere(POINTS, cs=8, co=True, directions=128, most_directions=300)
+        self.assertEqual(points.mean_standard_error.shape, (3, 8))
+        self.assertEqual(points.face_irradiance.shape, (3, 6, 8))
+        self.assertEqual(scene.trace(some_rays(), cs=8).value.shape, (50, 3))
 
 
 class Arrays(unittest.TestCase):

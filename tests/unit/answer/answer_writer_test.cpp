@@ -142,6 +142,36 @@ TEST(AnswerWriter, EveryLetterOfAPoint) {
   EXPECT_EQ(bytes, "123456789\t\n");
 }
 
+// In bands each has its own standard error; that of luminance is that of the brightness.
+TEST(AnswerWriter, PointsInBands) {
+  const Options options = parse({"rsphere", "-fad", "-cs", "4", "-co", "-oveHu", "s.oct"});
+  const auto bandsOf = [&](std::initializer_list<double> values) {
+    Bands bands(*options.ray.sampling);
+    std::copy(values.begin(), values.end(), bands.values().begin());
+    return Color(bands);
+  };
+  PointAnswer a;
+  a.mean = Radiance(bandsOf({1, 2, 3, 4}));
+  a.standardError = Radiance(bandsOf({5, 6, 7, 8}));
+  a.brightnessError = 2;
+  for (Irradiance& face : a.facing) face = Irradiance(Color(3, 2, 1));  // red, red, green, blue
+  a.lightVector = V3d(16, 17, 18);
+  const auto numbersOf = [&](const Options& given) {
+    std::string bytes;
+    AnswerWriter(given).write(bytes, a);
+    std::vector<double> numbers(bytes.size() / sizeof(double));
+    std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(numbers.data()));
+    EXPECT_EQ(static_cast<size_t>(componentCount(given)), numbers.size());
+    return numbers;
+  };
+  std::vector<double> expected{1, 2, 3, 4, 5, 6, 7, 8};
+  for (int i = 0; i < 6; ++i) expected.insert(expected.end(), {3, 3, 2, 1});
+  expected.insert(expected.end(), {16, 17, 18});
+  EXPECT_EQ(numbersOf(options), expected);
+  EXPECT_EQ(numbersOf(parse({"rsphere", "-fad", "-cs", "4", "-pY", "-oe", "s.oct"})),
+            (std::vector<double>{358}));
+}
+
 TEST(AnswerWriter, PixelsAreFourBytes) {
   std::string bytes;
   const Options options = parse({"rsphere", "-fac", "s.oct"});

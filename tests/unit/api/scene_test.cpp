@@ -23,6 +23,7 @@ using rsphere::Quantity;
 using rsphere::Scene;
 
 const std::string kRoom = std::string(RSPHERE_TESTS) + "/cli/same-bytes-interpolated/small_room.rad";
+const std::string kSpectral = std::string(RSPHERE_TESTS) + "/scenes/spectral/room.rad";
 const std::string kFurnace = std::string(RSPHERE_TESTS) + "/../examples/minimal/furnace.rad";
 
 // A folder that goes with the test.
@@ -183,6 +184,39 @@ TEST(Scene, ThreadsMeetAPatternForTheFirstTimeTogether) {
     for (size_t i = 1; i < rays.size(); ++i) EXPECT_EQ(answers.value[i][0], answers.value[0][0]);
   }
   unsetenv("RAYPATH");
+}
+
+// In a spectral run, colors have as many columns as there are bands with -co, also when the same scene was asked in
+// three channels before.
+TEST(Scene, SpectraHaveTheBytesOfTheCommand) {
+  const Scene scene({kSpectral});
+  const std::vector<rsphere::Ray> rays = someRays();
+  const std::vector<rsphere::Point> points{{1, 1, 1}, {3, 2.5, 2}};
+  Options options;
+  options.outputs = "vWL";
+  EXPECT_EQ(scene.trace(rays, options).value.columns, 3u);
+  options.arguments = {"-cs", "12", "-co"};
+  const rsphere::RayAnswers a = scene.trace(rays, options);
+  EXPECT_EQ(a.value.columns, 12u);
+  EXPECT_EQ(a.coefficient.columns, 12u);
+  expectSame(command("rtrace", "-w -cs 12 -co -ovWL " + kSpectral, numbersOf(rays)), a.size,
+             {&a.value, &a.coefficient, &a.firstLength});
+  options.outputs.clear();
+  options.directions = 256;
+  options.mostDirections = 600;
+  const rsphere::PointAnswers bands = scene.sphere(points, options);
+  EXPECT_EQ(bands.mean.columns, 12u);
+  EXPECT_EQ(bands.meanStandardError.columns, 12u);
+  EXPECT_EQ(bands.faceIrradiance.columns, 72u);
+  EXPECT_EQ(bands.lightVector.columns, 3u);
+  expectSame(command("rsphere", "-Sn 256 -Sx 600 -cs 12 -co -oveECHuk " + kSpectral, numbersOf(points)),
+             bands.size,
+             {&bands.mean, &bands.meanStandardError, &bands.scalarIrradiance, &bands.cylindricalIrradiance,
+              &bands.faceIrradiance, &bands.lightVector, &bands.directions});
+  options.arguments = {"-cs", "12"};
+  const rsphere::PointAnswers colors = scene.sphere(points, options);
+  EXPECT_EQ(colors.mean.columns, 3u);
+  EXPECT_EQ(colors.meanStandardError.columns, 0u);
 }
 
 TEST(Scene, AnswersDependNeitherOnThreadsNorOnOtherCalls) {
