@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/colorimetry.h"
 #include "base/version.h"
 #include "compare/report.h"
 #include "image/codec.h"
@@ -22,12 +23,6 @@ constexpr std::string_view kWithin = "#1b6fb3", kBeyond = "#d95f02", kDashes = "
 
 std::string_view unitOf(const CompareSubject& subject) { return subject.irradiance ? "W/m2" : "W/sr/m2"; }
 
-Color meanOf(const Answers& answers, size_t record) {
-  Color sum(0, 0, 0);
-  for (size_t r = 0; r < answers.repeats; ++r) sum += answers.of(record, r);
-  return sum / static_cast<double>(answers.repeats);
-}
-
 std::string pngOf(const Raster& raster) {
   std::string bytes;
   const std::string why =
@@ -41,7 +36,7 @@ std::string pngOf(const Raster& raster) {
 std::string pngOf(const Answers& answers, const CompareSubject& subject, double exposure) {
   Raster raster{static_cast<int>(subject.width), static_cast<int>(subject.height), {}};
   for (size_t i = 0; i < answers.records; ++i) {
-    const Color mean = meanOf(answers, i);
+    const V3d mean = shownRgb(meanOf(answers, i), answers.sampling);
     for (int c = 0; c < 3; ++c)
       raster.pixels.push_back(static_cast<float>(sRgb(std::max(0., exposure * mean[c]))));
   }
@@ -52,7 +47,7 @@ std::string pngOf(const Answers& answers, const CompareSubject& subject, double 
 double exposureOf(const Answers& original) {
   std::vector<double> bright;
   for (size_t i = 0; i < original.records; ++i)
-    if (const double b = brightness(meanOf(original, i)); b > 0) bright.push_back(b);
+    if (const double b = brightnessOf(original, i); b > 0) bright.push_back(b);
   if (bright.empty()) return 1;
   const auto middle = bright.begin() + static_cast<ptrdiff_t>(bright.size() / 2);
   std::nth_element(bright.begin(), middle, bright.end());
@@ -68,12 +63,23 @@ std::set<size_t> recordsDrawn(const Comparison& comparison) {
   return drawn;
 }
 
-constexpr std::array kChannels = {"red", "green", "blue"};
+// The table with a row for each of its columns.
+PageTable transposed(const PageTable& table) {
+  PageTable result;
+  result.head = {table.head.front()};
+  for (const PageTable::Row& row : table.rows) result.head.push_back(row.cells.front());
+  for (size_t column = 1; column < table.head.size(); ++column) {
+    PageTable::Row cells{{table.head[column]}};
+    for (const PageTable::Row& row : table.rows) cells.cells.push_back(row.cells[column]);
+    result.rows.push_back(std::move(cells));
+  }
+  return result;
+}
 
 PageTable figuresTable(const Comparison& comparison, const CompareSubject& subject) {
   PageTable table;
   table.head = {""};
-  for (const char* name : kChannels) table.head.emplace_back(name);
+  for (const ChannelComparison& c : comparison.channels) table.head.push_back(c.name);
   const auto row = [&](const std::string& name, const auto& textOf) {
     PageTable::Row cells{{name}};
     for (const ChannelComparison& c : comparison.channels) cells.cells.push_back(textOf(c));
@@ -99,7 +105,8 @@ PageTable figuresTable(const Comparison& comparison, const CompareSubject& subje
       [](const Channel& c) { return percent(c.shareWithin); });
   row("Noise of one answer of rsphere, rms", [](const Channel& c) { return percent(c.ourNoise); });
   row("Noise of one answer of the original, rms", [](const Channel& c) { return percent(c.originalNoise); });
-  return table;
+  // The bands of a spectral run are too many for the width of a page.
+  return comparison.channels.size() > 3 ? transposed(table) : table;
 }
 
 std::string histogramSvg(const Comparison& comparison, double tolerance) {
@@ -136,7 +143,7 @@ std::string comparePlot(const Answers& ours, const Answers& original, const Comp
   std::vector<Mark> marks;
   std::vector<PlotPoint> extent;
   for (const size_t i : drawn) {
-    const PlotPoint at{brightness(meanOf(original, i)), brightness(meanOf(ours, i))};
+    const PlotPoint at{brightnessOf(original, i), brightnessOf(ours, i)};
     if (!(at.x > 0 && at.y > 0 && std::isfinite(at.x) && std::isfinite(at.y))) continue;
     marks.push_back({at, i, std::abs(comparison.records[i].difference) <= subject.tolerance});
     extent.push_back(at);
@@ -187,8 +194,7 @@ std::string comparePage(const Answers& ours, const Answers& original, const Comp
   page.table(figuresTable(comparison, subject));
   page.note("Differences are relative to the original's mean, or for a record to the mean of both programs.");
   std::vector<std::pair<std::string, std::string>> verdicts;
-  for (size_t i = 0; i < kChannels.size(); ++i)
-    verdicts.emplace_back(kChannels[i], verdictText(comparison.channels[i]));
+  for (const ChannelComparison& c : comparison.channels) verdicts.emplace_back(c.name, verdictText(c));
   page.facts(verdicts);
   if (subject.width > 0) {
     page.heading("Pictures");

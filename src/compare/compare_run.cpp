@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <numbers>
@@ -40,7 +41,7 @@ std::vector<double> withoutBogus(const std::vector<double>& rays) {
 }
 
 Answers answerRays(const Transport& transport, const CompareOptions& options, std::span<const double> rays) {
-  Answers answers{rays.size() / 6, static_cast<size_t>(options.repeats), {}};
+  Answers answers{rays.size() / 6, static_cast<size_t>(options.repeats), {}, options.ray.sampling};
   answers.values.resize(answers.records * answers.repeats);
   std::vector<PathTracer> tracers = rayTracers(transport, options);
   forEachIndex(answers.records, options.threads, nullptr, [&](size_t i, unsigned worker) {
@@ -58,7 +59,7 @@ Answers answerRays(const Transport& transport, const CompareOptions& options, st
 
 Answers answerPoints(const Transport& transport, const CompareOptions& options,
                      std::span<const double> points) {
-  Answers answers{points.size() / 3, static_cast<size_t>(options.repeats), {}};
+  Answers answers{points.size() / 3, static_cast<size_t>(options.repeats), {}, options.ray.sampling};
   answers.values.resize(answers.records * answers.repeats);
   for (size_t r = 0; r < answers.repeats; ++r) {
     AnswerOptions rotated = options;
@@ -72,15 +73,33 @@ Answers answerPoints(const Transport& transport, const CompareOptions& options,
   return answers;
 }
 
+// The colors that the original has written, of three numbers or as many as there are bands.
+std::vector<Color> colorsOf(std::span<const double> numbers, const SpectralSampling* sampling) {
+  std::vector<Color> colors;
+  for (; !numbers.empty(); numbers = numbers.subspan(sampling ? sampling->count() : 3)) {
+    if (!sampling) {
+      colors.emplace_back(numbers[0], numbers[1], numbers[2]);
+      continue;
+    }
+    Bands bands(*sampling);
+    std::copy_n(numbers.begin(), sampling->count(), bands.values().begin());
+    colors.emplace_back(std::move(bands));
+  }
+  return colors;
+}
+
+std::vector<Color> originalColors(Original& original, std::span<const double> rays,
+                                  const SpectralSampling* sampling) {
+  return colorsOf(original.answers(rays, "v", sampling ? sampling->count() : 3), sampling);
+}
+
 // Runs the original once for all repeats: it draws different random numbers for equal records of a run.
-Answers originalRays(Original& original, std::span<const double> rays, size_t repeats) {
+Answers originalRays(Original& original, const CompareOptions& options, std::span<const double> rays) {
+  const auto repeats = static_cast<size_t>(options.repeats);
   std::vector<double> all;
   for (size_t r = 0; r < repeats; ++r) all.insert(all.end(), rays.begin(), rays.end());
-  const std::vector<double> numbers = original.answers(all, "v", 3);
-  Answers answers{rays.size() / 6, repeats, {}};
-  for (size_t i = 0; i < numbers.size(); i += 3)
-    answers.values.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
-  return answers;
+  const SpectralSampling* const sampling = options.ray.sampling;
+  return {rays.size() / 6, repeats, originalColors(original, all, sampling), sampling};
 }
 
 // The mean irradiance of planes of all orientations is F/4, which is pi times the mean radiance F/4pi.
@@ -94,11 +113,11 @@ Answers originalPoints(Original& original, const CompareOptions& options, std::s
       for (const V3d& d : facing)
         rays.insert(rays.end(), {points[i], points[i + 1], points[i + 2], d.x, d.y, d.z});
   }
-  const std::vector<double> numbers = original.answers(rays, "v", 3);
-  Answers answers{points.size() / 3, repeats, {}};
-  for (size_t i = 0; i < numbers.size(); i += 3 * count) {
+  Answers answers{points.size() / 3, repeats, {}, options.ray.sampling};
+  const std::vector<Color> irradiances = originalColors(original, rays, answers.sampling);
+  for (size_t i = 0; i < irradiances.size(); i += count) {
     Color sum(0, 0, 0);
-    for (size_t k = i; k < i + 3 * count; k += 3) sum += Color(numbers[k], numbers[k + 1], numbers[k + 2]);
+    for (size_t k = i; k < i + count; ++k) sum += irradiances[k];
     answers.values.push_back(sum / (std::numbers::pi * static_cast<double>(count)));
   }
   return answers;
@@ -138,14 +157,9 @@ std::string worstText(const CompareOptions& options, const Comparison& compariso
   std::string text = "Worst records (brightness, means of the repeats)\n";
   for (size_t k = 0; k < count; ++k) {
     const size_t i = comparison.worst[k];
-    const auto mean = [&](const Answers& answers) {
-      double sum = 0;
-      for (size_t r = 0; r < answers.repeats; ++r) sum += brightness(answers.of(i, r));
-      return sum / static_cast<double>(answers.repeats);
-    };
-    text += fmt::format("{:>8}: {:.4e}, original {:.4e}, {:+.2f}% +- {:.2f}%  at", i + 1, mean(ours),
-                        mean(original), 100 * comparison.records[i].difference,
-                        100 * comparison.records[i].error);
+    text += fmt::format("{:>8}: {:.4e}, original {:.4e}, {:+.2f}% +- {:.2f}%  at", i + 1,
+                        brightnessOf(ours, i), brightnessOf(original, i),
+                        100 * comparison.records[i].difference, 100 * comparison.records[i].error);
     for (size_t c = 0; c < per; ++c) text += fmt::format(" {:g}", rays[per * k + c]);
     if (hits) {
       const InputRay in = inputRay(&rays[per * k], options.irradiance);
@@ -229,7 +243,7 @@ CompareStatus runCompare(CompareOptions options, std::span<const UsedOption> use
   Original original(program, options.scene, isOctree,
                     points ? pointOptions(options, used) : originalOptions(options, used));
   const Answers theirs =
-      points ? originalPoints(original, options, numbers) : originalRays(original, numbers, ours.repeats);
+      points ? originalPoints(original, options, numbers) : originalRays(original, options, numbers);
   const Comparison comparison = compare(ours, theirs, options.tolerance, options.shareBeyond, !points);
 
   RecordWriter out(1);

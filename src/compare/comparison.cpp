@@ -1,5 +1,7 @@
 #include "compare/comparison.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -15,12 +17,32 @@ constexpr double kUndecided = .05;
 
 using Values = std::vector<double>;  // one channel of Answers::values
 
-Values channelOf(const Answers& answers, int channel) {
+template <class F>
+Values valuesOf(const Answers& answers, const F& valueOf) {
   Values values;
   values.reserve(answers.values.size());
-  for (const Color& value : answers.values)
-    values.push_back(channel < 3 ? value[channel] : brightness(value));
+  for (const Color& value : answers.values) values.push_back(valueOf(value));
   return values;
+}
+
+size_t channelsOf(const Answers& answers) { return answers.sampling ? answers.sampling->count() : 3; }
+
+Values channelOf(const Answers& answers, size_t channel) {
+  const SpectralSampling* const sampling = answers.sampling;
+  return valuesOf(answers, [&](const Color& value) {
+    return sampling ? value.bandsIn(*sampling).values()[channel] : value[static_cast<int>(channel)];
+  });
+}
+
+Values brightnessesOf(const Answers& answers) {
+  return valuesOf(answers, [&](const Color& value) { return photopicOf(value, answers.sampling); });
+}
+
+std::string nameOf(const Answers& answers, size_t channel) {
+  constexpr std::array kNames = {"red", "green", "blue"};
+  if (!answers.sampling) return kNames[channel];
+  const SpectralSampling& s = *answers.sampling;
+  return fmt::format("{:.0f} nm", s.longest - (static_cast<double>(channel) + .5) * s.width());
 }
 
 struct Pair {
@@ -76,10 +98,11 @@ MeanError meanError(const std::vector<Pair>& pairs, const Values& ours, const Va
   return {differences.standardError(), repeats - 1};
 }
 
-ChannelComparison compareChannel(const Values& ours, const Values& original, size_t records, double tolerance,
-                                 double shareBeyond, bool independent) {
+// channels: the number of them that are compared.
+ChannelComparison compareChannel(const Values& ours, const Values& original, size_t records, size_t channels,
+                                 double tolerance, double shareBeyond, bool independent) {
   const std::vector<Pair> pairs = pairsOf(ours, original, records);
-  const auto n = static_cast<double>(records);
+  const auto n = static_cast<double>(records), tests = static_cast<double>(channels);
   ChannelComparison c;
   c.ourMean = meanOf(pairs, &Pair::ours);
   c.originalMean = meanOf(pairs, &Pair::original);
@@ -87,8 +110,8 @@ ChannelComparison compareChannel(const Values& ours, const Values& original, siz
   const MeanError error = meanError(pairs, ours, original, independent);
   // The original computes with floats, so that its answers are rounded.
   constexpr double kRounding = 1e-6;
-  const auto certain = [&](double excess, double standardError, size_t degrees, double tests) {
-    return excess > kRounding && chanceOf(excess, standardError, degrees) < kFalseAlarm / tests;
+  const auto certain = [&](double excess, double standardError, size_t degrees, double count) {
+    return excess > kRounding && chanceOf(excess, standardError, degrees) < kFalseAlarm / count;
   };
   c.bias = (c.ourMean - c.originalMean) / scale;
   c.biasError = error.error / scale;
@@ -104,7 +127,7 @@ ChannelComparison compareChannel(const Values& ours, const Values& original, siz
     ourNoise += pair.ours.variance() / (by * by);
     originalNoise += pair.original.variance() / (by * by);
     const size_t degrees = 2 * (pair.ours.count() - 1);
-    c.beyond += certain(size - tolerance, std::sqrt(pair.variance()) / by, degrees, 3 * n);
+    c.beyond += certain(size - tolerance, std::sqrt(pair.variance()) / by, degrees, tests * n);
   }
   c.rms = std::sqrt(squares / n);
   c.noiseRms = std::sqrt(noise / n);
@@ -117,28 +140,43 @@ ChannelComparison compareChannel(const Values& ours, const Values& original, siz
       static_cast<double>(std::upper_bound(sizes.begin(), sizes.end(), tolerance) - sizes.begin()) / n;
 
   const double room = tolerance + 2 * kRounding - std::abs(c.bias);
-  if (certain(std::abs(c.bias) - tolerance, c.biasError, error.degrees, 3) ||
+  if (certain(std::abs(c.bias) - tolerance, c.biasError, error.degrees, tests) ||
       static_cast<double>(c.beyond) > shareBeyond * n)
     c.verdict = Verdict::differs;
   else if (room <= 0 || chanceOf(room, c.biasError, error.degrees) > kUndecided)
     c.verdict = Verdict::undecided;
   else
-    c.verdict = c.chance < kFalseAlarm / 3 ? Verdict::small : Verdict::same;
+    c.verdict = c.chance < kFalseAlarm / tests ? Verdict::small : Verdict::same;
   return c;
 }
 
 }  // namespace
 
+Color meanOf(const Answers& answers, size_t record) {
+  Color sum(0, 0, 0);
+  for (size_t r = 0; r < answers.repeats; ++r) sum += answers.of(record, r);
+  return sum / static_cast<double>(answers.repeats);
+}
+
+double brightnessOf(const Answers& answers, size_t record) {
+  return photopicOf(meanOf(answers, record), answers.sampling);
+}
+
 Comparison compare(const Answers& ours, const Answers& original, double tolerance, double shareBeyond,
                    bool independentRecords) {
   Comparison comparison;
-  for (int channel = 0; channel < 3; ++channel)
-    comparison.channels[channel] = compareChannel(channelOf(ours, channel), channelOf(original, channel),
-                                                  ours.records, tolerance, shareBeyond, independentRecords);
+  const size_t channels = channelsOf(ours);
+  comparison.channels.clear();
+  for (size_t channel = 0; channel < channels; ++channel) {
+    comparison.channels.push_back(compareChannel(channelOf(ours, channel), channelOf(original, channel),
+                                                 ours.records, channels, tolerance, shareBeyond,
+                                                 independentRecords));
+    comparison.channels.back().name = nameOf(ours, channel);
+  }
   for (const ChannelComparison& c : comparison.channels)
     comparison.verdict = std::max(comparison.verdict, c.verdict);
 
-  const std::vector<Pair> pairs = pairsOf(channelOf(ours, 3), channelOf(original, 3), ours.records);
+  const std::vector<Pair> pairs = pairsOf(brightnessesOf(ours), brightnessesOf(original), ours.records);
   const double mean = meanOf(pairs, &Pair::original);
   for (const Pair& pair : pairs) {
     const double by = scaleOf(pair, mean);

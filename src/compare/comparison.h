@@ -2,9 +2,10 @@
 // Statistics of the repeated answers of two programs to the same records.
 #include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
 
-#include "base/color.h"
+#include "base/spectral_sampling.h"
 
 namespace rsphere {
 
@@ -12,6 +13,7 @@ namespace rsphere {
 struct Answers {
   size_t records = 0, repeats = 0;
   std::vector<Color> values;
+  const SpectralSampling* sampling = nullptr;  // of a spectral run, whose bands are compared
   const Color& of(size_t record, size_t repeat) const { return values[repeat * records + record]; }
 };
 
@@ -23,10 +25,11 @@ enum class Verdict {
   differs     // a bias above the tolerance is certain, or too many records differ by more than it
 };
 
-// The comparison of one channel. The bias is relative to the mean of the original. The difference of a record
+// The comparison of one channel, or of one band of a spectral run. The bias is relative to the mean of the original. The difference of a record
 // is that of its means over the repeats; it is relative to the mean of both programs for the record, or to
 // kDarkest times the mean of all records where this is larger.
 struct ChannelComparison {
+  std::string name;  // "red", or the middle of the band: "570 nm"
   double ourMean = 0, originalMean = 0;
   double bias = 0, biasError = 0;          // relative bias of the mean, and its standard error
   double chance = 1;                       // probability of so large a bias if there is none
@@ -45,15 +48,23 @@ inline constexpr double kDarkest = .01;
 inline constexpr double kFalseAlarm = .001;
 
 struct RecordDifference {
-  double difference = 0, error = 0;  // relative difference of brightness, and its standard error
+  double difference = 0, error = 0;  // relative difference of brightness (photopic), and its standard error
 };
 
 struct Comparison {
-  std::array<ChannelComparison, 3> channels;
+  std::vector<ChannelComparison> channels = std::vector<ChannelComparison>(3);
   std::vector<RecordDifference> records;
   std::vector<size_t> worst;  // indexes, in descending order of the difference beyond noise
   Verdict verdict = Verdict::same;
+
+  // Green, or the band in the middle of the spectrum.
+  const ChannelComparison& middle() const { return channels[channels.size() / 2]; }
 };
+
+// The mean of the repeats for a record.
+Color meanOf(const Answers& answers, size_t record);
+// Its brightness, or photopic integral.
+double brightnessOf(const Answers& answers, size_t record);
 
 // Compares the answers of two programs. tolerance: relative. shareBeyond: the fraction of records that may
 // exceed it. independentRecords: whether the errors of different records are independent. If they are not

@@ -10,6 +10,7 @@
 #include <optional>
 #include <sstream>
 
+#include "base/spectral_sampling.h"
 #include "rad_parser/error.h"
 
 namespace rsphere {
@@ -106,6 +107,11 @@ std::vector<std::string> originalOptions(const Options& options, std::span<const
         break;
     }
     if (pass) words.insert(words.end(), option.words.begin(), option.words.end());
+  }
+  if (const SpectralSampling* const s = options.ray.sampling) {
+    const std::string bands = std::to_string(s->count());
+    words.insert(words.end(), {"-cs", bands, "-cw", fmt::format("{}", s->shortest),
+                               fmt::format("{}", s->longest), "-co+"});
   }
   return words;
 }

@@ -19,7 +19,8 @@ struct OriginalProgram {
 OriginalProgram findOriginal();
 
 // The options that make the original compute the same quantities: those in `used` that affect rays rather
-// than records, and in sphere mode those whose defaults differ from rtrace's.
+// than records, and in sphere mode those whose defaults differ from rtrace's. In a spectral run the original
+// writes bands (-co), otherwise red, green and blue.
 std::vector<std::string> originalOptions(const Options& options, std::span<const UsedOption> used);
 
 class Original {

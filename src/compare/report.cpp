@@ -53,25 +53,23 @@ std::string figuresText(const Comparison& comparison, double tolerance) {
       "{:<6}{:>11}{:>9}{:>10}{:>9}{:>10}{:>9}{:>9}{:>9}{:>9}{:>9}\n",
       "", "original", "mean", "+-", "records", "of it", "half", "90%", "99%", "all", "within", "", "mean",
       "differs", "", "rms", "noise", "below", "below", "below", "below", percent(tolerance));
-  constexpr std::array kNames = {"red", "green", "blue"};
-  for (size_t i = 0; i < 3; ++i) {
-    const ChannelComparison& c = comparison.channels[i];
-    text += fmt::format("{:<6}{:>11.4e}{:>9}{:>10}{:>9}{:>10}", kNames[i], c.originalMean,
-                        signedPercent(c.bias), percent(c.biasError), percent(c.rms), percent(c.noiseRms));
+  for (const ChannelComparison& c : comparison.channels) {
+    text += fmt::format("{:<6}{:>11.4e}{:>9}{:>10}{:>9}{:>10}", c.name, c.originalMean, signedPercent(c.bias),
+                        percent(c.biasError), percent(c.rms), percent(c.noiseRms));
     for (const double p : c.percentiles) text += fmt::format("{:>9}", percent(p));
     text += fmt::format("{:>9}\n", percent(c.shareWithin));
   }
-  const ChannelComparison& green = comparison.channels[1];
-  text += fmt::format("Noise of one answer (rms, green): rsphere {}, the original {}\n",
-                      percent(green.ourNoise), percent(green.originalNoise));
-  for (size_t i = 0; i < 3; ++i)
-    text += fmt::format("{}: {}\n", kNames[i], verdictText(comparison.channels[i]));
+  const ChannelComparison& middle = comparison.middle();
+  text += fmt::format("Noise of one answer (rms, {}): rsphere {}, the original {}\n", middle.name,
+                      percent(middle.ourNoise), percent(middle.originalNoise));
+  for (const ChannelComparison& c : comparison.channels)
+    text += fmt::format("{}: {}\n", c.name, verdictText(c));
   return text + fmt::format("{}.\n", conclusion(comparison.verdict));
 }
 
 std::string equalErrorText(const Comparison& comparison, int orientations, double ourSeconds,
                            double originalSeconds) {
-  const double ours = comparison.channels[1].ourNoise, theirs = comparison.channels[1].originalNoise;
+  const double ours = comparison.middle().ourNoise, theirs = comparison.middle().originalNoise;
   if (ours <= 0 || theirs <= 0) return "Equal error: one of them has no noise to go by.\n";
   const double ratio = theirs / ours;
   const double fewest = std::min(ratio, ratio * ratio), most = std::max(ratio, ratio * ratio);

@@ -9,10 +9,10 @@
 
 namespace rsphere {
 
-// A table of the figures, a line for each channel; then the verdicts and the conclusion.
+// A table of the figures, a line for each channel or band; then the verdicts and the conclusion.
 std::string figuresText(const Comparison& comparison, double tolerance);
 
-// For points: the -Cn at which the original's answers are as noisy as rsphere's (green), and the CPU time
+// For points: the -Cn at which the original's answers are as noisy as rsphere's (green, or the middle band), and the CPU time
 // that it would take then. Both are predicted from its noise and its time with `orientations` planes. The
 // planes are spread evenly: the error of smooth irradiance falls with their number, and that of random
 // irradiance with its square root, so that the text gives both predictions. The time is proportional to -Cn,

@@ -140,5 +140,28 @@ TEST(Compare, DarkRecordsHaveAScale) {
   EXPECT_EQ(comparison.channels[1].verdict, Verdict::same);
 }
 
+// In a spectral run each band is compared, and records by their photopic sums: a fault in one band is found.
+TEST(Compare, BandsOfASpectralRun) {
+  const SpectralSampling& sampling = spectralSampling(4, 380, 780);
+  const auto bandsOf = [&](double first, double others) {
+    Bands bands(sampling);
+    for (double& value : bands.values()) value = others;
+    bands.values()[0] = first;
+    return Color(bands);
+  };
+  const Answers ours{1, 2, {bandsOf(1.2, 1), bandsOf(1.2, 1)}, &sampling};
+  const Answers theirs{1, 2, {bandsOf(1, 1), Color(1, 1, 1)}, &sampling};
+  const Comparison comparison = compare(ours, theirs, .05, 0, true);
+  ASSERT_EQ(comparison.channels.size(), 4u);
+  EXPECT_EQ(comparison.channels[0].name, "730 nm");
+  EXPECT_EQ(comparison.middle().name, "530 nm");
+  EXPECT_NEAR(comparison.channels[0].bias, .2, 1e-12);
+  EXPECT_EQ(comparison.channels[0].verdict, Verdict::differs);
+  for (size_t i = 1; i < 4; ++i) EXPECT_EQ(comparison.channels[i].verdict, Verdict::same);
+  // The eye hardly sees the first band.
+  EXPECT_GT(comparison.records[0].difference, 0);
+  EXPECT_LT(comparison.records[0].difference, .01);
+}
+
 }  // namespace
 }  // namespace rsphere
