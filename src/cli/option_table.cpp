@@ -631,7 +631,7 @@ void addSpectrumOptions(const Add& add) {
        .remark = "number of spectral bins",
        .paragraph =
            "Number of bands of equal width in which light is computed, at most 24. With more than three, all "
-           "that is written is computed from the bands: see -co and -p. Spectral patterns (spectrum, specfile, "
+           "that is written is computed from the bands: see -co and -pRGB. Spectral patterns (spectrum, specfile, "
            "specfunc, specdata, specpict) need them: in three channels they become red, green and blue by "
            "the CIE's observer, and products of spectra are approximate. See Spectra.",
        .line = bandsLine});

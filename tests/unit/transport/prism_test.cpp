@@ -89,7 +89,7 @@ TEST(Prism, ShowsWhatItTurnsTo) {
       "void prism1 turner 9 .5 0 1 0 . -t 1 2 3 0 0\n"
       "turner ring window 0 0 8 0 0 1 -1 0 0 0 .5\n");
   const Color seen = scene.color(V3d(-3, 0, 1), V3d(1, 0, 0));
-  EXPECT_NEAR((seen - Color(1, 1.5, 2)).length(), 0, 1e-12);
+  EXPECT_NEAR((seen - Color(1, 1.5, 2)).rgb().length(), 0, 1e-12);
   EXPECT_EQ(scene.color(V3d(-3, 0, 1.7), V3d(1, 0, 0)), Color(0, 0, 0));
 }
 
