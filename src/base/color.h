@@ -126,12 +126,20 @@ class Color {
 
   // Adds a * factor or a * b, for sums that most of the time goes into.
   void addScaled(const Color& a, double factor) {
-    if (bands_ || a.bands_) [[unlikely]] addBands(a * factor, 1);
+    if (bands_ || a.bands_) [[unlikely]]
+      addBands(a * factor, 1);
     x += a.x * factor, y += a.y * factor, z += a.z * factor;
   }
   void addProduct(const Color& a, const Color& b) {
-    if (bands_ || a.bands_ || b.bands_) [[unlikely]] addBands(a * b, 1);
+    if (bands_ || a.bands_ || b.bands_) [[unlikely]]
+      addBands(a * b, 1);
     x += a.x * b.x, y += a.y * b.y, z += a.z * b.z;
+  }
+  // Adds a * b * f * g, multiplied in this order.
+  void addProduct(const Color& a, const Color& b, double f, double g) {
+    if (bands_ || a.bands_ || b.bands_) [[unlikely]]
+      addBands(a * b * f * g, 1);
+    x += a.x * b.x * f * g, y += a.y * b.y * f * g, z += a.z * b.z * f * g;
   }
 
   friend Color operator+(const Color& a, const Color& b) {

@@ -247,33 +247,46 @@ Scattering scatter(const Mirror& material, const Interaction& at) {
   return s;
 }
 
-Coefficient directCoefficient(const Scattering& s, const Interaction& at, const V3d& toSource,
-                              double solidAngle, double sourceJitter) {
-  Coefficient sum;
-  const double cosine = s.normal.dot(toSource);
-  const double enters = s.diffuseFresnel > 0 ? 1 - fresnelRise(std::abs(cosine)) : 1;
-  if (cosine > kNegligible) {
-    sum.color.addScaled(s.diffuseReflection, enters * cosine * solidAngle * kPerPi);
-    if (maxChannel(s.specularReflection) > 0) {
-      double alpha2 = s.alpha2;
-      if (s.widenReflection) alpha2 += (1 - sourceJitter) * solidAngle * .25 / kPi;
-      const V3d half = toSource - at.direction;
-      const double along = half.dot(s.normal);
-      const double along2 = along * along, length2 = half.length2();
-      const double tangent2 = (length2 - along2) / along2;
-      const double lobe = std::exp(-tangent2 / alpha2) * length2 / (kPi * along2 * along2 * alpha2);
-      if (lobe > kNegligible) sum.color.addScaled(s.specularReflection, lobe * cosine * solidAngle);
-    }
-  } else if (cosine < -kNegligible) {
-    sum.color.addScaled(s.diffuseTransmission, enters * -cosine * solidAngle * kPerPi);
-    if (maxChannel(s.specularTransmission) > 0) {
-      const double alpha2 = s.alpha2 + solidAngle / kPi;
-      const double lobe = std::exp((2 * s.transmitted.dot(toSource) - 2) / alpha2) / (kPi * alpha2);
-      if (lobe > kNegligible)
-        sum.color.addScaled(s.specularTransmission, lobe * solidAngle * std::sqrt(-cosine / s.cosine));
-    }
+namespace {
+// The two halves of directCoefficient(), by the side of the surface that the source is on;
+// enters: the part of the light that is left to diffuse scattering.
+Coefficient reflectedCoefficient(const Scattering& s, const Interaction& at, const V3d& toSource,
+                                 double cosine, double enters, double solidAngle, double sourceJitter) {
+  Coefficient sum(s.diffuseReflection * (enters * cosine * solidAngle * kPerPi));
+  if (maxChannel(s.specularReflection) > 0) {
+    double alpha2 = s.alpha2;
+    if (s.widenReflection) alpha2 += (1 - sourceJitter) * solidAngle * .25 / kPi;
+    const V3d half = toSource - at.direction;
+    const double along = half.dot(s.normal);
+    const double along2 = along * along, length2 = half.length2();
+    const double tangent2 = (length2 - along2) / along2;
+    const double lobe = std::exp(-tangent2 / alpha2) * length2 / (kPi * along2 * along2 * alpha2);
+    if (lobe > kNegligible) sum.color.addScaled(s.specularReflection, lobe * cosine * solidAngle);
   }
   return sum;
+}
+
+Coefficient transmittedCoefficient(const Scattering& s, const V3d& toSource, double cosine, double enters,
+                                   double solidAngle) {
+  Coefficient sum(s.diffuseTransmission * (enters * -cosine * solidAngle * kPerPi));
+  if (maxChannel(s.specularTransmission) > 0) {
+    const double alpha2 = s.alpha2 + solidAngle / kPi;
+    const double lobe = std::exp((2 * s.transmitted.dot(toSource) - 2) / alpha2) / (kPi * alpha2);
+    if (lobe > kNegligible)
+      sum.color.addScaled(s.specularTransmission, lobe * solidAngle * std::sqrt(-cosine / s.cosine));
+  }
+  return sum;
+}
+}  // namespace
+
+Coefficient directCoefficient(const Scattering& s, const Interaction& at, const V3d& toSource,
+                              double solidAngle, double sourceJitter) {
+  const double cosine = s.normal.dot(toSource);
+  const double enters = s.diffuseFresnel > 0 ? 1 - fresnelRise(std::abs(cosine)) : 1;
+  if (cosine > kNegligible)
+    return reflectedCoefficient(s, at, toSource, cosine, enters, solidAngle, sourceJitter);
+  if (cosine < -kNegligible) return transmittedCoefficient(s, toSource, cosine, enters, solidAngle);
+  return {};
 }
 
 namespace {

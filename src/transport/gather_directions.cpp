@@ -77,6 +77,7 @@ void GatherDirections::draw(int count, Random& random, Each each) const {
 void sendOverHemisphere(const Transport& transport, const GatherDirections& directions, Random& random,
                         const Ray& root, RayKind kind, int rays, const Coefficient& coefficient,
                         const Coefficient& weight, GatherRay each) {
+  const Coefficient arriving = root.contribution * passedBy(root);
   directions.draw(rays, random, [&](const V3d& direction, double part) {
     Ray child;
     child.direction = direction;
@@ -84,7 +85,7 @@ void sendOverHemisphere(const Transport& transport, const GatherDirections& dire
     if (!continueRay(transport, random, child, kind, root, survived)) return;
     ++child.ambientLevel;
     const Coefficient factor = coefficient * (part * maxChannel(survived) / maxChannel(weight));
-    child.contribution = root.contribution * passedBy(root) * factor;
+    child.contribution = arriving * factor;
     each(child, factor);
   });
 }

@@ -233,9 +233,11 @@ Radiance LocalGuess::direct(const Place& at, bool looking) const {
   for (const Light& light : lights_) {
     const double irradiance = guess_->factor(light.source, at);
     if (!(irradiance > 0)) continue;
-    const Radiance radiance = light.radiance * at.reflectance * (irradiance / kPi);
-    sum += radiance *
-           (looking && brightness(radiance) > bright_ ? guess_->seenFrom(at, light.source) : light.share);
+    const Color &arriving = light.radiance.color, &reflectance = at.reflectance.color;
+    const double perPi = irradiance / kPi;
+    const bool bright = looking && brightness(Color(arriving.rgb() * reflectance.rgb() * perPi)) > bright_;
+    sum.color.addProduct(arriving, reflectance, perPi,
+                         bright ? guess_->seenFrom(at, light.source) : light.share);
   }
   return sum;
 }
