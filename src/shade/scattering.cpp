@@ -209,10 +209,13 @@ Scattering scatter(const Glass& material, const Interaction& at) {
   reflected[0] = (s.cosine - n * inside) / (s.cosine + n * inside);
   reflected[1] = (1 / s.cosine - n / inside) / (1 / s.cosine + n / inside);
   Color transmittance(0, 0, 0), reflectance(0, 0, 0);
+  V3d passed(0, 0, 0);  // once through the pane
+  for (int i = 0; i < 3; ++i)
+    if (material.transmissivity[i] > 0) passed[i] = std::pow(material.transmissivity[i], 1 / inside);
   for (const double amplitude : reflected) {
     const double r = amplitude * amplitude;
     for (int i = 0; i < 3; ++i) {
-      const double t = material.transmissivity[i] > 0 ? std::pow(material.transmissivity[i], 1 / inside) : 0;
+      const double t = passed[i];
       const double between = 1 - r * r * t * t;
       transmittance[i] += .5 * (1 - r) * (1 - r) * t / between;
       reflectance[i] += .5 * r * (1 + (1 - 2 * r) * t * t) / between;

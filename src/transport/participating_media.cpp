@@ -25,9 +25,8 @@ double phase(double g, double cosine) {
 
 }  // namespace
 
-void ParticipatingMedia::participate(Ray& ray) {
+void ParticipatingMedia::passThrough(Ray& ray) {
   const Medium& medium = ray.medium;
-  if (!isMedium(medium.extinction)) return;
   const Coefficient passed = passedBy(ray);
   ray.value *= passed;
   if ((ray.kinds & kShadow) || !(maxChannel(medium.albedo) > kNegligible)) return;

@@ -2,6 +2,7 @@
 // Media that absorb and scatter light along a ray (-me, -ma, -mg, mist).
 #include "transport/direct_light.h"
 #include "transport/path_state.h"
+#include "transport/ray_functions.h"
 #include "transport/transport.h"
 
 namespace rsphere {
@@ -14,9 +15,12 @@ class ParticipatingMedia {
 
   // Attenuates the ray's radiance by the medium between its origin and its hit, and adds the light that the
   // medium scatters into the ray: that of the uniform ambient value (-av) and of the sources that mist names.
-  void participate(Ray& ray);
+  void participate(Ray& ray) {
+    if (isMedium(ray.medium.extinction)) passThrough(ray);
+  }
 
  private:
+  void passThrough(Ray& ray);
   void addScattered(Ray& ray);
 
   const Transport& t_;

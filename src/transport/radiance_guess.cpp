@@ -81,6 +81,9 @@ double RadianceGuess::factor(LightId source, const Place& at) const {
   if (light.distant) return 2 * kPi * (1 - light.cosHalfAngle) * std::max(0., at.normal.dot(light.center));
   const V3d to = light.center - at.point;
   if (at.normal.dot(to) <= -light.radius) return 0;
+  const bool oneSided = light.map == LightSource::Map::disk || light.map == LightSource::Map::fan ||
+                        light.map == LightSource::Map::parallelogram;
+  if (oneSided && !(light.normal.dot(to) < 0)) return 0;
   const double squared = to.length2(), distance = std::sqrt(squared);
   if (light.reach > 0 && distance - light.radius > light.reach) return 0;
   if (light.spot && outsideSpot(*light.spot, to / distance)) return 0;

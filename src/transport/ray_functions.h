@@ -54,7 +54,8 @@ inline void inherit(Ray& child, const Ray& parent, RayKind kind) {
   child.clips = (kind & kReflections) ? parent.clips : parent.clipsBeyond;
   child.clipsBeyond = child.clips;
   child.unobstructed = parent.unobstructed;
-  child.contribution = parent.contribution * passedBy(parent);
+  child.contribution = parent.contribution;
+  if (isMedium(parent.medium.extinction)) child.contribution *= passedBy(parent);
 }
 
 // Swaps the front and the back of the surface that was hit.
