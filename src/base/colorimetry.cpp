@@ -111,8 +111,15 @@ V3d BandWeights::tristimulus(const Bands& bands) const {
   return sum;
 }
 
+// How much longer the wavelength of light seems to be by RADIANCE's tables (nm): found by comparing what rtrace writes for
+// narrow bands with the CIE's curves.
+constexpr double kColor = 1.5, kScotopic = -.5, kMelanopic = .5;
+
+V3d tristimulusInRadiance(const Spectrum& spectrum) {
+  return tristimulus({spectrum.values, spectrum.first + kColor, spectrum.last + kColor});
+}
+
 BandWeights bandWeights(const SpectralSampling& sampling) {
-  constexpr double kColor = 1.5, kScotopic = -.5, kMelanopic = .5;  // nm
   BandWeights weights;
   const size_t count = sampling.count();
   const auto limit = [&](size_t fromShortest) {
@@ -124,7 +131,7 @@ BandWeights bandWeights(const SpectralSampling& sampling) {
     const auto seen = [&](double displacement) {
       return Spectrum{kOne, longer + displacement, shorter + displacement};
     };
-    weights.xyz.push_back(tristimulus(seen(kColor)));
+    weights.xyz.push_back(tristimulusInRadiance({kOne, longer, shorter}));
     weights.scotopic.push_back(scotopic(seen(kScotopic)));
     weights.melanopic.push_back(melanopic(seen(kMelanopic)));
   }

@@ -34,6 +34,9 @@ Bands bandsOf(const Spectrum& spectrum, const SpectralSampling& sampling);
 // enough gray of the same Y that no channel is negative.
 V3d standardRgb(const V3d& tristimulus);
 
+// X, Y, Z by the tables of RADIANCE 6.1: see BandWeights.
+V3d tristimulusInRadiance(const Spectrum& spectrum);
+
 // The shares of bands in the integrals of the observers as RADIANCE 6.1 has them, by which all is written, so that
 // it is the same as rtrace's. Their tables are displaced against the CIE's: light is seen as if its wavelength were
 // 1.5 nm (X, Y, Z) or .5 nm (melanopic) longer, or .5 nm shorter (scotopic), and limits of bands are rounded down to

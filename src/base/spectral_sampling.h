@@ -7,6 +7,11 @@
 
 namespace rsphere {
 
+// What is computed of the spectrum (-cw), nm.
+struct WavelengthLimits {
+  double shortest = 380, longest = 780;
+};
+
 // How the spectrum is divided: into bands of equal width, of which each is also a part of one channel.
 struct SpectralSampling {
   double longest = 780, shortest = 380;    // nm, the limits (-cw)

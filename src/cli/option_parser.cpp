@@ -233,6 +233,7 @@ void checkColorOutput(Options& options) {
   if (color.space == ColorSpace::spectrum && color.bands == 3) color.space = ColorSpace::rgb;
   checkColors(color);
   options.ray.sampling = color.sampling();
+  options.ray.wavelengths = {color.shortest, color.longest};
   const bool oneChannel = color.space >= ColorSpace::photopic && color.space <= ColorSpace::average;
   if (!spectrumHoldsChannels(color.shortest, color.longest) && !oneChannel &&
       color.space != ColorSpace::spectrum)

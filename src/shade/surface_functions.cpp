@@ -51,13 +51,11 @@ Spectrum betweenMiddles(std::span<const double> values, double first, double las
   return {values, first - half, last + half};
 }
 
-// The color of a spectrum that falls in wavelength, as RADIANCE 6.1 has it: three values are red, green and blue;
-// other spectra are those that its tables of the observer, which are displaced by 1.5 nm, see.
+// The color of a spectrum that falls in wavelength, as RADIANCE 6.1 has it: three values are red, green and blue.
 Color threeChannels(const Spectrum& spectrum) {
-  constexpr double kDisplacement = 1.5;  // nm
   const auto& v = spectrum.values;
   if (v.size() == 3) return Color(v[0], v[1], v[2]);
-  return Color(standardRgb(tristimulus({v, spectrum.first + kDisplacement, spectrum.last + kDisplacement})));
+  return Color(standardRgb(tristimulusInRadiance(spectrum)));
 }
 
 std::vector<std::string> linesOf(std::string_view text) {
@@ -302,13 +300,13 @@ class SurfaceFunctions::Maker {
     s.program = functions_.library_.compileCall(request(read.file.name), read.function, 1);
     use(*f, s.program);
     const SpectralSampling* sampling = functions_.sampling_;
-    s.longest = std::min(read.longest, sampling ? sampling->longest : SpectralSampling{}.longest);
-    s.shortest = std::max(read.shortest, sampling ? sampling->shortest : SpectralSampling{}.shortest);
+    const WavelengthLimits& limits = functions_.limits_;
+    s.longest = std::min(read.longest, limits.longest);
+    s.shortest = std::max(read.shortest, limits.shortest);
     const double range = s.longest - s.shortest;
     if (range > 0) {
       // As in RADIANCE: no more than four bins in a band, because more resolve nothing.
-      const double band =
-          sampling ? sampling->width() : (SpectralSampling{}.longest - SpectralSampling{}.shortest) / 3;
+      const double band = sampling ? sampling->width() : (limits.longest - limits.shortest) / 3;
       s.step = std::max(range / kMostBands, band / 4);
       s.bins = std::max(size_t{1}, static_cast<size_t>(range / s.step + .1));
     }
@@ -488,9 +486,10 @@ class SurfaceFunctions::Maker {
 
 SurfaceFunctions::SurfaceFunctions(const Scene& scene, rad::Warn warn,
                                    std::span<const SharedDefinitions> definitions,
-                                   const SpectralSampling* sampling)
+                                   const SpectralSampling* sampling, const WavelengthLimits& limits)
     : scene_(scene),
       sampling_(sampling),
+      limits_(sampling ? WavelengthLimits{sampling->shortest, sampling->longest} : limits),
       warn_(std::move(warn)),
       ready_(scene.modifiers.size()),
       library_(
@@ -681,12 +680,11 @@ Color SurfaceFunctions::colorOf(const Spectrum& spectrum) const {
   // these colors.
   const size_t count = spectrum.values.size();
   if (spectrum.first > spectrum.last && count <= kMostBands) return threeChannels(spectrum);
-  const SpectralSampling whole;
   const double range = std::abs(spectrum.last - spectrum.first);
-  const double bands = static_cast<double>(count) * (whole.longest - whole.shortest) / range + .99;
+  const double bands = static_cast<double>(count) * (limits_.longest - limits_.shortest) / range + .99;
   const int resampled = static_cast<int>(std::clamp(bands, 3., double{kMostBands}));
   return threeChannels(
-      spectrumOf(bandsOf(spectrum, spectralSampling(resampled, whole.shortest, whole.longest))));
+      spectrumOf(bandsOf(spectrum, spectralSampling(resampled, limits_.shortest, limits_.longest))));
 }
 
 V3d SurfaceFunctions::texture(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const {

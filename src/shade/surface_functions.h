@@ -57,10 +57,11 @@ class SurfaceFunctions {
   // Keeps a reference to the scene. warn: called with a line, once for each modifier, when a value cannot be
   // computed (division by zero and the like); from any thread, but never from two at once. definitions:
   // shared by all function files, instead of those of rayinit.cal. sampling: the bands of a spectral run; null
-  // in a run of three channels. Throws rad::Error if a definition is missing or invalid.
+  // in a run of three channels, in which spectra are computed between these limits. Throws rad::Error if a
+  // definition is missing or invalid.
   explicit SurfaceFunctions(const Scene& scene, rad::Warn warn = {},
                             std::span<const SharedDefinitions> definitions = {},
-                            const SpectralSampling* sampling = nullptr);
+                            const SpectralSampling* sampling = nullptr, const WavelengthLimits& limits = {});
 
   // Each of these functions takes a modifier. If a value cannot be computed, it returns the neutral value
   // given below. It throws rad::Error, with the modifier's place in the scene file, when it first needs
@@ -228,6 +229,7 @@ class SurfaceFunctions {
 
   const Scene& scene_;
   const SpectralSampling* sampling_;  // of the bands, or null
+  WavelengthLimits limits_;
   rad::Warn warn_;
   mutable std::vector<std::atomic<const Function*>> ready_;  // by modifier
   mutable std::mutex mutex_;                                 // of all that follows

@@ -13,6 +13,7 @@ namespace rsphere {
 struct RayOptions {
   // -cs, -cw  The division of the spectrum in a spectral run; null: three channels.
   const SpectralSampling* sampling = nullptr;
+  WavelengthLimits wavelengths;  // -cw  In three channels too, spectra are 0 beyond these.
   // direct light
   double directThreshold = .03;      // -dt  share of the direct light that may be left untested for shadows
   double directCertainty = .75;      // -dc

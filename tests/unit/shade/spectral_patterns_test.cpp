@@ -38,10 +38,11 @@ class File {
 // The pattern P of a scene, without and with bands.
 class Evaluated {
  public:
-  explicit Evaluated(const std::string& pattern, const SpectralSampling* sampling = nullptr)
+  explicit Evaluated(const std::string& pattern, const SpectralSampling* sampling = nullptr,
+                     const WavelengthLimits& limits = {})
       : scene_(sceneOf(pattern + "\nP glow M 0 0 4 1 1 1 0\nM sphere s 0 0 4 0 0 0 1\n")),
         functions_(
-            scene_, [this](std::string_view line) { warnings_.emplace_back(line); }, {}, sampling) {}
+            scene_, [this](std::string_view line) { warnings_.emplace_back(line); }, {}, sampling, limits) {}
 
   Color at(const V3d& point) {
     for (const ModifierId id : scene_.modifiers.ids())
@@ -97,9 +98,10 @@ std::string errorOf(const std::string& pattern, const SpectralSampling* sampling
 const SpectralSampling& twenty() { return spectralSampling(20, 380, 780); }
 
 TEST(SpectralPattern, UnusedOnesAreNotRead) {
-  EXPECT_NO_THROW(sceneOf("void spectrum A 0 0 0\nvoid specfile B 0 0 0\nvoid specfunc C 0 0 0\n"
-                          "void specdata D 0 0 0\nvoid specpict E 0 0 0\n"
-                          "void plastic M 0 0 5 1 1 1 0 0\nM sphere s 0 0 4 0 0 0 1\n"));
+  EXPECT_NO_THROW(
+      sceneOf("void spectrum A 0 0 0\nvoid specfile B 0 0 0\nvoid specfunc C 0 0 0\n"
+              "void specdata D 0 0 0\nvoid specpict E 0 0 0\n"
+              "void plastic M 0 0 5 1 1 1 0 0\nM sphere s 0 0 4 0 0 0 1\n"));
 }
 
 // ---- spectrum
@@ -139,6 +141,15 @@ TEST(SpectrumPattern, HasTheColorsOfTheOriginal) {
       {"void specfunc P 2 rb " + file.path() + " 0 2 400 720", Color(.9098, .6225, .0910)}};
   for (const auto& [pattern, color] : patterns)
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(inChannels(pattern)[i], color[i], .007) << pattern;
+}
+
+// rtrace -cs 3 -cw 650 450 of RADIANCE 6.1a.
+TEST(SpectrumPattern, LimitsHoldInThreeChannels) {
+  Evaluated limited("void spectrum P 0 0 6 380 780 1 1 1 1", nullptr, {450, 650});
+  const Color c = limited.at(V3d(0, 0, 0));
+  EXPECT_NEAR(c.x, .8633, .005);
+  EXPECT_NEAR(c.y, 1.0792, .005);
+  EXPECT_NEAR(c.z, .4179, .005);
 }
 
 TEST(SpectrumPattern, NeedsValuesAndARange) {
