@@ -113,10 +113,10 @@ V3d BandWeights::tristimulus(const Bands& bands) const {
 
 // How much longer the wavelength of light seems to be by RADIANCE's tables (nm): found by comparing what rtrace writes for
 // narrow bands with the CIE's curves.
-constexpr double kColor = 1.5, kScotopic = -.5, kMelanopic = .5;
+constexpr double kColorShift = 1.5, kScotopicShift = -.5, kMelanopicShift = .5;
 
 V3d tristimulusInRadiance(const Spectrum& spectrum) {
-  return tristimulus({spectrum.values, spectrum.first + kColor, spectrum.last + kColor});
+  return tristimulus({spectrum.values, spectrum.first + kColorShift, spectrum.last + kColorShift});
 }
 
 BandWeights bandWeights(const SpectralSampling& sampling) {
@@ -132,8 +132,8 @@ BandWeights bandWeights(const SpectralSampling& sampling) {
       return Spectrum{kOne, longer + displacement, shorter + displacement};
     };
     weights.xyz.push_back(tristimulusInRadiance({kOne, longer, shorter}));
-    weights.scotopic.push_back(scotopic(seen(kScotopic)));
-    weights.melanopic.push_back(melanopic(seen(kMelanopic)));
+    weights.scotopic.push_back(scotopic(seen(kScotopicShift)));
+    weights.melanopic.push_back(melanopic(seen(kMelanopicShift)));
   }
   return weights;
 }
