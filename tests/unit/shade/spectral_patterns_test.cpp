@@ -145,7 +145,9 @@ TEST(SpectrumPattern, HasTheColorsOfTheOriginal) {
 
 // rtrace -cs 3 -cw 650 450 of RADIANCE 6.1a.
 TEST(SpectrumPattern, LimitsHoldInThreeChannels) {
-  Evaluated limited("void spectrum P 0 0 6 380 780 1 1 1 1", nullptr, {450, 650});
+  std::string forty = "void spectrum P 0 0 42 380 780";
+  for (int i = 0; i < 40; ++i) forty += " 1";
+  Evaluated limited(forty, nullptr, {450, 650});
   const Color c = limited.at(V3d(0, 0, 0));
   EXPECT_NEAR(c.x, .8633, .005);
   EXPECT_NEAR(c.y, 1.0792, .005);
