@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "rad_parser/error.h"
+#include "rad_parser/nearest_name.h"
 
 namespace rad {
 namespace {
@@ -47,6 +48,12 @@ bool findType(std::string_view name, Type& type) {
   if (at == kByName.end() || at->name != name) return false;
   type = at->type;
   return true;
+}
+
+std::string nearestType(std::string_view name) {
+  NearestName nearest(name);
+  for (const std::string_view type : kNames) nearest.consider(type);
+  return nearest.hint();
 }
 
 bool isSurface(Type type) { return within(type, Type::source, Type::mesh); }
@@ -136,6 +143,14 @@ PrimitiveId ModifierIndex::before(std::string_view name, PrimitiveId index) cons
   const std::vector<PrimitiveId>& at = found->second;
   const auto after = std::lower_bound(at.begin(), at.end(), index);
   return after == at.begin() ? PrimitiveId() : *std::prev(after);
+}
+
+std::string ModifierIndex::nearest(std::string_view name, PrimitiveId index) const {
+  NearestName nearest(name);
+  nearest.consider("void");
+  for (const auto& [defined, at] : definitions_)
+    if (at.front() < index) nearest.consider(defined);
+  return nearest.hint();
 }
 
 }  // namespace rad

@@ -51,6 +51,9 @@ std::string_view typeName(Type type);
 // unchanged, if there is none.
 bool findType(std::string_view name, Type& type);
 
+// The nearest type of a misspelt name, as the end of a message (see NearestName::hint()).
+std::string nearestType(std::string_view name);
+
 bool isSurface(Type type);   // source .. mesh; all other types are modifiers, which others can name
 bool isMaterial(Type type);  // light .. antimatter
 bool isTexture(Type type);
@@ -141,6 +144,10 @@ class ModifierIndex {
   // refers to there. kVoid if there is none, and for "void". Takes logarithmic time in the number of
   // definitions of the name.
   PrimitiveId before(std::string_view name, PrimitiveId index) const;
+
+  // The nearest modifier that is defined before primitives[index], or void, as the end of a message (see
+  // NearestName::hint()). Takes time in proportion to the number of modifiers.
+  std::string nearest(std::string_view name, PrimitiveId index) const;
 
  private:
   std::unordered_map<std::string_view, std::vector<PrimitiveId>> definitions_;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "rad_parser/nearest_name.h"
+
 namespace rad {
 
 uint32_t DescriptionBuilder::addFile(std::string_view name, Place from) {
@@ -12,6 +14,14 @@ uint32_t DescriptionBuilder::addFile(std::string_view name, Place from) {
 PrimitiveId DescriptionBuilder::modifier(std::string_view name) const {
   const uint32_t word = words_.find(name);
   return word < inForce_.size() ? inForce_[word] : PrimitiveId();
+}
+
+std::string DescriptionBuilder::nearestModifier(std::string_view name) const {
+  NearestName nearest(name);
+  nearest.consider("void");
+  for (const Primitive& p : description_.primitives)
+    if (!isSurface(p.type)) nearest.consider(description_.name(p));
+  return nearest.hint();
 }
 
 Primitive DescriptionBuilder::begin(Type type, Place place, uint32_t name, PrimitiveId modifier) const {

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
@@ -11,6 +12,7 @@
 
 #include "rad_parser/description_builder.h"
 #include "rad_parser/file_path.h"
+#include "rad_parser/number.h"
 #include "rad_parser/octree_file.h"
 #include "rad_parser/open_file.h"
 #include "rad_parser/shell_command.h"
@@ -36,6 +38,13 @@ std::string shownCommand(std::string_view command) {
     i += continued;
   }
   return text;
+}
+
+// Whether the word begins a line of a Wavefront .obj file.
+bool isWordOfObj(std::string_view word) {
+  constexpr std::array<std::string_view, 9> kWords = {"mtllib", "usemtl", "o",  "g", "v",
+                                                      "vn",     "vt",     "vp", "f"};
+  return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
 }
 
 class Reader {
@@ -236,16 +245,17 @@ class Reader {
     modifier_ = word;
     PrimitiveId modifier = builder_.modifier(modifier_);
     const bool isVoid = modifier_ == "void", inherits = modifier_ == "inherit";
-    const auto undefined = [&] {
-      return builder_.error(place, fmt::format("undefined modifier \"{}\"", printable(modifier_)));
+    const auto undefined = [&](std::string_view why) {
+      return builder_.error(place, fmt::format("undefined modifier \"{}\"{}", printable(modifier_), why));
     };
 
     Type type;
     const bool hasType = text.word(word);
     if (!hasType || !findType(word, type)) {
-      if (modifier == kVoid && !isVoid && !inherits) throw undefined();
+      if (modifier == kVoid && !isVoid && !inherits) throw undefined(whyNoPrimitive(place));
       if (!hasType) throw builder_.error(place, fmt::format("text ends after \"{}\"", printable(modifier_)));
-      throw builder_.error(text.place(), fmt::format("unknown type \"{}\"", printable(word)));
+      throw builder_.error(text.place(),
+                           fmt::format("unknown type \"{}\"{}", printable(word), nearestType(word)));
     }
     if (transform && transform->modifier && isSurface(type)) {
       modifier_ = *transform->modifier;
@@ -256,7 +266,7 @@ class Reader {
     } else if (modifier_ == "inherit") {
       if (type != Type::alias) throw builder_.error(place, "\"inherit\" is for aliases only");
     } else if (modifier == kVoid) {
-      throw undefined();
+      throw undefined(builder_.nearestModifier(modifier_));
     }
 
     if (!text.word(word)) throw ends(place, type, "");
@@ -277,14 +287,30 @@ class Reader {
     builder_.add(p);
   }
 
+  // What is probably wrong where modifier_ is not defined and no type follows it, as the end of a message.
+  std::string whyNoPrimitive(Place place) const {
+    const Description& description = builder_.description();
+    const bool first =
+        description.primitives.empty() || description.primitives.back().place.file != place.file;
+    if (first && isWordOfObj(modifier_))
+      return "; this seems to be a Wavefront .obj file, which obj2rad converts to a scene file";
+    if (!first && parseReal(modifier_)) {
+      const Primitive& before = description.primitives.back();
+      return fmt::format("; a number follows the {} numbers of {} \"{}\" (line {}): is that count too small?",
+                         before.reals, typeName(before.type), printable(description.name(before)),
+                         before.place.line);
+    }
+    return builder_.nearestModifier(modifier_);
+  }
+
   void alias(TextSource& text, Primitive& p, bool inherits) {
     std::string_view word;
     if (!text.word(word)) throw ends(p);
     const PrimitiveId reference = builder_.modifier(word);
     if (reference == kVoid)
-      throw builder_.error(text.place(),
-                           fmt::format("alias \"{}\": undefined modifier \"{}\"",
-                                       printable(builder_.description().name(p)), printable(word)));
+      throw builder_.error(text.place(), fmt::format("alias \"{}\": undefined modifier \"{}\"{}",
+                                                     printable(builder_.description().name(p)),
+                                                     printable(word), builder_.nearestModifier(word)));
     builder_.addString(p, word);
     builder_.resolveAlias(p, reference, inherits);
   }

@@ -80,8 +80,11 @@ std::string ShellCommand::finish() {
   constexpr int kNotFound = 127;  // sh(1)
   return WEXITSTATUS(status) == 0
              ? ""
-             : fmt::format("exit status {}{}", WEXITSTATUS(status),
-                           WEXITSTATUS(status) == kNotFound ? " (command not found)" : "");
+             : fmt::format(
+                   "exit status {}{}", WEXITSTATUS(status),
+                   WEXITSTATUS(status) == kNotFound
+                       ? " (command not found; if it is one of RADIANCE's programs, add their folder to PATH)"
+                       : "");
 }
 
 }  // namespace rad

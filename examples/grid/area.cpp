@@ -9,6 +9,7 @@
 #include <set>
 
 #include "rad_parser/error.h"
+#include "rad_parser/nearest_name.h"
 #include "scene/shape.h"
 
 namespace grid {
@@ -94,27 +95,12 @@ bool hasModifier(const Description& scene, const Primitive& p, std::string_view 
          (modifier.type == rad::Type::alias && scene.name(scene.primitives[modifier.aliased]) == name);
 }
 
-// How many letters must be changed, added or removed to turn a into b.
-size_t editDistance(std::string_view a, std::string_view b) {
-  std::vector<size_t> row(b.size() + 1);
-  for (size_t k = 0; k <= b.size(); ++k) row[k] = k;
-  for (size_t i = 0; i < a.size(); ++i) {
-    size_t corner = row[0]++;
-    for (size_t k = 0; k < b.size(); ++k) {
-      const size_t changed = corner + (a[i] != b[k]);
-      corner = row[k + 1];
-      row[k + 1] = std::min({changed, row[k] + 1, corner + 1});
-    }
-  }
-  return row.back();
-}
-
 // Up to five names of polygons and of their modifiers that resemble this one; if none does, the horizontal polygons
 // that are largest.
 std::string namesLike(const Description& scene, std::string_view wanted) {
   std::set<std::pair<double, std::string_view>> near, largest;
   const auto consider = [&](std::string_view name) {
-    const size_t changes = editDistance(wanted, name);
+    const size_t changes = rad::editDistance(wanted, name);
     const bool part = name.find(wanted) != name.npos || (name.size() > 2 && wanted.find(name) != wanted.npos);
     if (part || changes <= 1 + wanted.size() / 4)
       near.emplace(part ? .5 : static_cast<double>(changes), name);

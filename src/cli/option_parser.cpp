@@ -14,6 +14,7 @@
 #include "cli/option_table.h"
 #include "cli/option_words.h"
 #include "rad_parser/error.h"
+#include "rad_parser/nearest_name.h"
 #include "rad_parser/number.h"
 
 namespace rsphere {
@@ -164,7 +165,11 @@ std::string whyUnknown(std::span<const OptionEntry> own, std::string_view word) 
   if (startsWith(word, "--") &&
       (findOption(own, word.substr(1)) != nullptr || findOption(optionTable(), word.substr(1)) != nullptr))
     return fmt::format("options begin with one hyphen: {}", word.substr(1));
-  return "there is no such option";
+  rad::NearestName nearest(word);
+  for (const std::span<const OptionEntry> table : {own, optionTable()})
+    for (const OptionEntry& entry : table)
+      if (entry.support != Support::refused) nearest.consider(entry.name);
+  return "there is no such option" + nearest.hint();
 }
 
 void apply(const Use& use, Options& options) {

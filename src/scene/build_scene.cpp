@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "base/overloaded.h"
+#include "rad_parser/nearest_name.h"
 #include "scene/modifier_builder.h"
 #include "scene/nesting.h"
 #include "scene/scene.h"
@@ -271,7 +272,11 @@ Scene buildScene(rad::Description description, const rad::ReadOptions& options,
     for (Surface& surface : scene.surfaces)
       if (scene.modifierName(surface) == goal && !std::holds_alternative<Distant>(surface.shape))
         found = surface.goal = true;
-    if (!found) throw rad::Error(fmt::format("no surface has the goal's modifier \"{}\"", goal));
+    if (!found) {
+      rad::NearestName nearest(goal);
+      for (const Surface& surface : scene.surfaces) nearest.consider(scene.modifierName(surface));
+      throw rad::Error(fmt::format("no surface has the goal's modifier \"{}\"{}", goal, nearest.hint()));
+    }
   }
   scene.importance = !goals.empty();
   return scene;

@@ -76,7 +76,8 @@ ModifierId ModifierBuilder::named(PrimitiveId i, std::string_view name) {
   if (name == "void") return kNone;
   const PrimitiveArguments arguments(scene_.description, i);
   const PrimitiveId described = definedBefore(i, name);
-  if (described == rad::kVoid) arguments.fail(fmt::format("undefined modifier \"{}\"", printable(name)));
+  if (described == rad::kVoid)
+    arguments.fail(fmt::format("undefined modifier \"{}\"{}", printable(name), index_->nearest(name, i)));
   // A ray that hits nested modifiers recurses as deeply, and splits into up to 2^depth evaluations.
   if (depth_ == kDeepest) arguments.fail(fmt::format("modifiers are nested more than {} deep", kDeepest));
   ++depth_;
@@ -238,7 +239,7 @@ Material ModifierBuilder::antimatter(PrimitiveId i, const AntimatterArguments& a
     if (name == "void") continue;
     const PrimitiveId described = definedBefore(i, name);
     if (described == rad::kVoid) {
-      own.warn(warn_, fmt::format("unknown modifier \"{}\"", printable(name)));
+      own.warn(warn_, fmt::format("unknown modifier \"{}\"{}", printable(name), index_->nearest(name, i)));
       continue;
     }
     const auto [clip, added] = clipOf_.try_emplace(described, uint64_t{1} << (clipOf_.size() % 64));

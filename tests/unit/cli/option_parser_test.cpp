@@ -101,6 +101,12 @@ TEST(ParseOptions, ErrorsOfTheCommandLineSayWhy) {
       "command line error at 's.oct': the scene begins here, but '-ab' follows; options come before the "
       "scene");
   EXPECT_EQ(why({"rtrace", "-q", "s.oct"}), "command line error at '-q': there is no such option");
+  // The nearest option, if one alone is near.
+  EXPECT_EQ(why({"rtrace", "-abb", "s.oct"}),
+            "command line error at '-abb': there is no such option; the nearest is \"-ab\"");
+  EXPECT_EQ(why({"rsphere", "-Ab", "s.oct"}),
+            "command line error at '-Ab': there is no such option; the nearest is \"-ab\"");
+  EXPECT_EQ(why({"rtrace", "-aq", "s.oct"}), "command line error at '-aq': there is no such option");
   EXPECT_EQ(why({"rtrace", "--ab", "1", "s.oct"}),
             "command line error at '--ab': options begin with one hyphen: -ab");
   EXPECT_EQ(why({"rtrace", "-h", "-features"}),

@@ -1,5 +1,6 @@
 #include "rad_parser/scene_file.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -119,11 +120,54 @@ wall6 sphere s 0 0 4 0 0 0 1
   EXPECT_EQ(d.string(d.primitives.at(6), 0), "wall4");
 }
 
+TEST(SceneFile, MisspeltModifiersHaveTheNearestName) {
+  const std::string defined =
+      "void plastic window_frame 0 0 5 0 0 0 0 0\nvoid glass window_glass 0 0 3 1 1 1\n"
+      "window_glass polygon window_glaz 0 0 0\n";
+  const auto messageOf = [&](std::string_view text) { return errorOfText(defined + std::string(text)); };
+  EXPECT_EQ(messageOf("window_glas sphere s 0 0 0"),
+            "room.rad:4: undefined modifier \"window_glas\"; the nearest is \"window_glass\"");
+  EXPECT_EQ(
+      messageOf("void alias pane window_glas"),
+      "room.rad:4: alias \"pane\": undefined modifier \"window_glas\"; the nearest is \"window_glass\"");
+  EXPECT_EQ(messageOf("viod sphere s 0 0 0"), "room.rad:4: undefined modifier \"viod\"");
+  EXPECT_EQ(messageOf("Void sphere s 0 0 0"),
+            "room.rad:4: undefined modifier \"Void\"; the nearest is \"void\"");
+  EXPECT_EQ(messageOf("plaster sphere s 0 0 0"), "room.rad:4: undefined modifier \"plaster\"");
+}
+
+// A count of arguments that is too small leaves numbers over, of which the first would be a modifier.
+TEST(SceneFile, NumbersThatAreLeftOverNameThePrimitiveBefore) {
+  EXPECT_EQ(
+      errorOfText("\nvoid polygon wall\n0 0 11\n0 0 0 4 0 0 4 0 2.8\n0 0 2.8\n"),
+      "room.rad:5: undefined modifier \"2.8\"; a number follows the 11 numbers of polygon \"wall\" (line 2): "
+      "is that count too small?");
+  EXPECT_EQ(errorOfText("0 0 0"), "room.rad:1: undefined modifier \"0\"");
+}
+
+TEST(SceneFile, AWavefrontFileIsRecognized) {
+  constexpr std::string_view kRemedy =
+      "; this seems to be a Wavefront .obj file, which obj2rad converts to a scene file";
+  for (const auto& [text, word] :
+       {std::pair("# Blender\no Chair\nv 0 0 0\n", "o"), std::pair("mtllib chair.mtl\n", "mtllib"),
+        std::pair("\nv 1.5 0 0\nv 0 1 0\n", "v")}) {
+    const std::string message = errorOfText(text);
+    EXPECT_NE(message.find(fmt::format(": undefined modifier \"{}\"{}", word, kRemedy)), std::string::npos)
+        << message;
+  }
+  // Not where a scene has begun, nor where a primitive follows.
+  EXPECT_EQ(errorOfText("void sphere s 0 0 0\no Chair\n"), "room.rad:2: undefined modifier \"o\"");
+  EXPECT_EQ(errorOfText("o sphere s 0 0 0\n"), "room.rad:1: undefined modifier \"o\"");
+}
+
 TEST(SceneFile, FaultsAndTheirPlaces) {
   EXPECT_EQ(errorOfText("\n\nwall sphere s 0 0 4 0 0 0 1"), "room.rad:3: undefined modifier \"wall\"");
   EXPECT_EQ(errorOfText("s sphere s 0 0 4 0 0 0 1"), "room.rad:1: undefined modifier \"s\"");
-  EXPECT_EQ(errorOfText("void\nspere s 0 0 0"), "room.rad:2: unknown type \"spere\"");
-  EXPECT_EQ(errorOfText("void Sphere s 0 0 0"), "room.rad:1: unknown type \"Sphere\"");
+  EXPECT_EQ(errorOfText("void\nspere s 0 0 0"),
+            "room.rad:2: unknown type \"spere\"; the nearest is \"sphere\"");
+  EXPECT_EQ(errorOfText("void Sphere s 0 0 0"),
+            "room.rad:1: unknown type \"Sphere\"; the nearest is \"sphere\"");
+  EXPECT_EQ(errorOfText("void teapot s 0 0 0"), "room.rad:1: unknown type \"teapot\"");
   EXPECT_EQ(errorOfText("inherit plastic s 0 0 0"), "room.rad:1: \"inherit\" is for aliases only");
   EXPECT_EQ(errorOfText("void plastic inherit 0 0 0"), "room.rad:1: no modifier can be named \"inherit\"");
   EXPECT_EQ(errorOfText("void plastic void 0 0 0"), "room.rad:1: no modifier can be named \"void\"");
@@ -380,7 +424,7 @@ TEST(SceneFile, ACommandThatFailsIsAnErrorWithItsPlace) {
   EXPECT_EQ(
       errorOfText("!no-such-command-anywhere 2>/dev/null\n"),
       fmt::format("room.rad:1: bad status from \"!no-such-command-anywhere 2>/dev/null\": exit status 127 "
-                  "(command not found){}",
+                  "(command not found; if it is one of RADIANCE's programs, add their folder to PATH){}",
                   kMissing));
   EXPECT_EQ(errorOfText("void sphere s 0 0 0\n!kill -9 $$\n"),
             fmt::format("room.rad:2: bad status from \"!kill -9 $$\": signal 9{}", kMissing));

@@ -1,0 +1,40 @@
+#pragma once
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <string_view>
+
+namespace rad {
+
+// How many letters must be changed, added or removed to turn a into b. Takes time in proportion to the product of the
+// lengths.
+size_t editDistance(std::string_view a, std::string_view b);
+
+// The name that a misspelt one most probably stands for, among those given to consider(). Only a few letters
+// may differ: one in names of three to five letters, two in longer ones. Names of one or two letters resemble too
+// many others to be guessed, and those of more than kLongest letters are not compared.
+class NearestName {
+ public:
+  static constexpr size_t kLongest = 64;
+
+  explicit NearestName(std::string_view wanted);
+
+  // The misspelt name itself is ignored. `name` must live as long as this object.
+  void consider(std::string_view name);
+
+  // The nearest name, empty if none is near or if several are equally near. A difference in upper and lower case counts
+  // less than any other.
+  std::string_view name() const { return tied_ ? std::string_view() : nearest_; }
+
+  // The name as the end of a message, '; the nearest is "plastic"', or nothing.
+  std::string hint() const;
+
+ private:
+  std::string_view wanted_, nearest_;
+  std::string lowercase_;
+  size_t most_ = 0;  // letters that may differ
+  size_t cost_ = std::numeric_limits<size_t>::max();
+  bool tied_ = false;
+};
+
+}  // namespace rad
