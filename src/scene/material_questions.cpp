@@ -1,5 +1,8 @@
 #include "scene/material_questions.h"
 
+#include <cmath>
+#include <span>
+
 #include "base/overloaded.h"
 
 namespace rsphere {
@@ -186,6 +189,61 @@ std::optional<DiffuseReflection> diffuseReflection(const Material& material) {
           [](const OneOf<Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
                          BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist> auto&)
               -> Answer { return {}; },
+          [](const OneOf<Light, Illum, Glow, Spotlight> auto&) -> Answer { return {}; },
+      },
+      material);
+}
+
+namespace {
+
+// The transmissivity (of one passage) at which a pane transmits all light at normal incidence, the reflections between its
+// two sides included. From the transmittance (1-r)^2 t / (1 - r^2 t^2) = 1, with Fresnel's reflectance r of one side.
+// 1.089 for the usual glass, and 1 for a refractive index of 1.
+double mostTransmissivity(double refraction) {
+  const double r = std::pow((refraction - 1) / (refraction + 1), 2);
+  const double passed = (1 - r) * (1 - r);
+  return 2 / (passed + std::sqrt(passed * passed + 4 * r * r));
+}
+
+std::optional<Excess> firstAbove(std::initializer_list<Excess> arguments) {
+  for (const Excess& a : arguments)
+    if (a.value > a.most + kRoundedArgument) return a;
+  return {};
+}
+
+Excess reflectance(const Color& c) { return {"reflectance", maxChannel(c)}; }
+Excess transmissivity(const Color& c) { return {"transmissivity", maxChannel(c)}; }
+
+}  // namespace
+
+std::optional<Excess> excessOf(const Material& material) {
+  using Answer = std::optional<Excess>;
+  return std::visit(
+      Overloaded{
+          [](const Opaque& m) -> Answer {
+            return firstAbove({reflectance(m.color), {"specularity", m.specularity}});
+          },
+          [](const OneOf<Trans, Anisotropic, FunctionScatterer> auto& m) -> Answer {
+            return firstAbove(
+                {reflectance(m.color), {"specularity", m.specularity}, {"transmissivity", m.transmissivity}});
+          },
+          [](const Ashikhmin& m) -> Answer {
+            return firstAbove({reflectance(m.diffuse), reflectance(m.specular)});
+          },
+          [](const OneOf<BrtdFunction, WgmdFunction, BsdfMaterial> auto& m) -> Answer {
+            return firstAbove({reflectance(m.diffuseFront), reflectance(m.diffuseBack),
+                               transmissivity(m.diffuseTransmitted)});
+          },
+          [](const Dielectric& m) -> Answer { return firstAbove({transmissivity(m.transmission)}); },
+          [](const Interface& m) -> Answer {
+            return firstAbove({transmissivity(m.innerTransmission), transmissivity(m.outerTransmission)});
+          },
+          [](const Glass& m) -> Answer {
+            return firstAbove(
+                {{"transmissivity", maxChannel(m.transmissivity), mostTransmissivity(m.refraction)}});
+          },
+          [](const Mirror& m) -> Answer { return firstAbove({reflectance(m.reflectance)}); },
+          [](const OneOf<Prism, Antimatter, Mist> auto&) -> Answer { return {}; },
           [](const OneOf<Light, Illum, Glow, Spotlight> auto&) -> Answer { return {}; },
       },
       material);

@@ -3,6 +3,7 @@
 // each type of material: a new type that answers nowhere does not compile.
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "base/radiometry.h"
 #include "scene/material.h"
@@ -80,5 +81,18 @@ struct DiffuseReflection {
   double share = 0;
 };
 std::optional<DiffuseReflection> diffuseReflection(const Material& material);
+
+// An argument by which more light leaves a surface of the material than arrives there: `value`, in the channel where it is
+// largest, is above `most` by more than kRoundedArgument. Nothing in nature is so, and with several bounces light grows
+// without limit. Empty if there is none. Functions and data of a material are not looked at, nor are light sources,
+// volumes and prisms.
+struct Excess {
+  std::string_view argument;  // "reflectance", "specularity", "transmissivity" (also that of a length)
+  double value = 0, most = 1;
+};
+std::optional<Excess> excessOf(const Material& material);
+
+// Programs write arguments with three digits or more.
+inline constexpr double kRoundedArgument = .001;
 
 }  // namespace rsphere

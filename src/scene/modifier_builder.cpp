@@ -50,7 +50,10 @@ ModifierId ModifierBuilder::modifier(PrimitiveId described) {
     if (target != rad::kVoid) {  // an alias without a target is its modifier
       Content made = content(target);
       const ModifierId index(scene_.modifiers.size());
-      if (auto* material = std::get_if<Material>(&made)) setFunctions(*material, index);
+      if (auto* material = std::get_if<Material>(&made)) {
+        setFunctions(*material, index);
+        warnOfExcess(target, *material, converted);
+      }
       scene_.modifiers.push_back({std::move(made), converted, target});
       converted = index;
     }
@@ -248,6 +251,22 @@ Material ModifierBuilder::antimatter(PrimitiveId i, const AntimatterArguments& a
     if (k == 0) made.cut = {Alternate::Kind::modifier, named(i, name)};
   }
   return made;
+}
+
+// Warns of a material that sends on more light than arrives, once for equal definitions. A pattern among its modifiers may
+// multiply its color by less than 1, so that nothing is said then.
+void ModifierBuilder::warnOfExcess(PrimitiveId i, const Material& material, ModifierId next) {
+  const std::optional<Excess> excess = excessOf(material);
+  if (!excess) return;
+  for (; next != kNone; next = scene_.modifiers[next].next)
+    if (std::holds_alternative<Pattern>(scene_.modifiers[next].content)) return;
+  const std::string text =
+      fmt::format("{} {:g} is above {:.3g}, so that more light leaves the surface than arrives",
+                  excess->argument, excess->value, excess->most);
+  const rad::Primitive& p = primitive(i);
+  if (excesses_.insert(fmt::format("{} {} {}", static_cast<int>(p.type), scene_.description.name(p), text))
+          .second)
+    PrimitiveArguments(scene_.description, i).warn(warn_, text);
 }
 
 Material ModifierBuilder::mist(Mist read) {

@@ -1,6 +1,8 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <set>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
@@ -45,14 +47,16 @@ class ModifierBuilder {
   Material wgmd(PrimitiveId i, const WgmdArguments& arguments);
   Material antimatter(PrimitiveId i, const AntimatterArguments& arguments);
   Material mist(Mist read);
+  void warnOfExcess(PrimitiveId i, const Material& material, ModifierId next);
 
   Scene& scene_;
   const rad::Warn& warn_;
-  uint32_t firstPrimitive_ = 0;                   // of the file that is being converted
-  std::optional<rad::ModifierIndex> index_;       // made when a string argument first names a modifier
-  int depth_ = 0;                                 // of nested conversions by such names
+  uint32_t firstPrimitive_ = 0;              // of the file that is being converted
+  std::optional<rad::ModifierIndex> index_;  // made when a string argument first names a modifier
+  int depth_ = 0;                            // of nested conversions by such names
   std::unordered_map<PrimitiveId, uint64_t> clipOf_;
   uint32_t mists_ = 0;
+  std::set<std::string> excesses_;  // that were warned of, so that the copies of an array give one warning
   ById<PrimitiveId, ModifierId> modifierOf_;
 };
 

@@ -158,6 +158,46 @@ Material materialOf(const Row& row) {
   return *scene.materialOf(scene.surfaces.at(0));
 }
 
+// The rows above have arguments of at most 1: none has an excess.
+TEST(MaterialQuestions, ExcessIsTheFirstArgumentThatIsTooLarge) {
+  struct Case {
+    std::string type, arguments;
+    std::string_view argument;
+    double value = 0, most = 1;
+  };
+  const std::vector<Case> cases = {
+      {"plastic", "0 0 5 .5 1.1 .7 0 0", "reflectance", 1.1},
+      {"metal", "0 0 5 .5 .5 .5 1.2 0", "specularity", 1.2},
+      {"trans", "0 0 7 .5 .5 1.5 0 0 .5 .5", "reflectance", 1.5},
+      {"trans", "0 0 7 .5 .5 .5 0 0 2 .5", "transmissivity", 2},
+      {"plastic2", "4 1 0 0 . 0 6 9 .5 .5 .1 .1 .1", "reflectance", 9},
+      {"trans2", "4 1 0 0 . 0 8 .5 .6 .7 .1 .1 .2 3 .5", "transmissivity", 3},
+      {"ashik2", "4 1 0 0 . 0 8 .5 .6 .7 .1 .1 4 50 60", "reflectance", 4},
+      {"metfunc", "2 f . 0 4 .5 .6 5 .1", "reflectance", 5},
+      {"transdata", "4 f d . x 0 6 .5 .6 .7 .1 6 .5", "transmissivity", 6},
+      {"BRTDfunc", "10 .1 .1 .1 0 0 0 0 0 0 . 0 9 1 1 1 1 7 1 0 0 0", "reflectance", 7},
+      {"BRTDfunc", "10 .1 .1 .1 0 0 0 0 0 0 . 0 9 1 1 1 1 1 1 0 0 8", "transmissivity", 8},
+      {"BSDF", "6 0 a.xml 0 0 1 . 0 3 2 2 2", "reflectance", 2},
+      {"dielectric", "0 0 5 .5 .6 1.7 1.5 0", "transmissivity", 1.7},
+      {"interface", "0 0 8 .5 .6 .7 1.5 1 1 1.3 1", "transmissivity", 1.3},
+      {"glass", "0 0 3 .9 .9 1.2", "transmissivity", 1.2, 1.089},
+      {"glass", "0 0 4 1.05 1 1 1", "transmissivity", 1.05, 1},
+      {"mirror", "0 0 3 .5 .6 1.7", "reflectance", 1.7},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.type + " " + c.arguments);
+    const auto excess = excessOf(materialOf({.type = c.type, .arguments = c.arguments}));
+    ASSERT_TRUE(excess);
+    EXPECT_EQ(excess->argument, c.argument);
+    EXPECT_EQ(excess->value, c.value);
+    EXPECT_NEAR(excess->most, c.most, .001);
+  }
+  for (const Row& row : rows()) EXPECT_FALSE(excessOf(materialOf(row))) << row.type;
+  // A pane that transmits all light, and a rounded number.
+  EXPECT_FALSE(excessOf(materialOf({.type = "glass", .arguments = "0 0 3 1.089 1.089 1.089"})));
+  EXPECT_FALSE(excessOf(materialOf({.type = "plastic", .arguments = "0 0 5 1.0005 1 1 0 0"})));
+}
+
 TEST(MaterialQuestions, HaveTheseAnswers) {
   for (const Row& row : rows()) {
     const Material material = materialOf(row);

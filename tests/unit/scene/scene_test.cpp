@@ -1,5 +1,6 @@
 #include "scene/scene.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -125,6 +126,47 @@ TEST(Scene, RefusesWhatItCannotAnswerRightly) {
        "room.rad:9: polygon \"s\": cannot hit source center"},
   };
   for (const Fault& f : faults) EXPECT_EQ(errorOf(kGray + f.text), f.message);
+}
+
+// A reflectance of 60 is one in percent, and light grows with each bounce.
+TEST(Scene, WarnsOfMaterialsThatSendOnMoreLightThanArrives) {
+  const auto warningsOf = [](const std::string& text) {
+    std::vector<std::string> warnings;
+    sceneOf(text, &warnings);
+    return warnings;
+  };
+  const auto used = [&](const std::string& material) {
+    return warningsOf("void " + material + "\nm sphere s 0 0 4 0 0 0 1\nm sphere t 0 0 4 3 0 0 1\n");
+  };
+  using List = std::vector<std::string>;
+  constexpr std::string_view kWhy = ", so that more light leaves the surface than arrives";
+  EXPECT_EQ(used("plastic m 0 0 5 60 50 40 0 0"),
+            List{fmt::format("room.rad:1: plastic \"m\": reflectance 60 is above 1{}", kWhy)});
+  EXPECT_EQ(used("glass m 0 0 3 .9 1.2 .9"),
+            List{fmt::format("room.rad:1: glass \"m\": transmissivity 1.2 is above 1.09{}", kWhy)});
+  EXPECT_EQ(used("plastic m 0 0 5 1 1 1 0 0"), List());
+  EXPECT_EQ(used("light m 0 0 3 60 60 60"), List());
+  EXPECT_EQ(warningsOf("void plastic m 0 0 5 60 60 60 0 0\n"), List()) << "no surface uses it";
+  // A pattern may make it less.
+  EXPECT_EQ(
+      warningsOf("void brightfunc p 2 .1 . 0 0\np texfunc t 4 0 0 0 . 0 0\nt plastic m 0 0 5 2 2 2 0 0\n"
+                 "m sphere s 0 0 4 0 0 0 1\n"),
+      List());
+  EXPECT_EQ(
+      warningsOf("void texfunc t 4 0 0 0 . 0 0\nt plastic m 0 0 5 2 2 2 0 0\nm sphere s 0 0 4 0 0 0 1\n")
+          .size(),
+      1u);
+  // Copies of one definition are one warning, another definition is another.
+  const std::string paint = "void plastic m 0 0 5 2 2 2 0 0\nm sphere s 0 0 4 0 0 0 1\n";
+  EXPECT_EQ(warningsOf(paint + paint).size(), 1u);
+  EXPECT_EQ(warningsOf(paint + "void plastic m 0 0 5 3 3 3 0 0\nm sphere s 0 0 4 0 0 0 1\n").size(), 2u);
+}
+
+TEST(Scene, NamesTheNearestModifier) {
+  EXPECT_EQ(
+      errorOf(
+          "void plastic paint 0 0 5 0 0 0 0 0\nvoid mirror m 1 paimt 0 3 1 1 1\nm sphere s 0 0 4 0 0 0 1\n"),
+      "room.rad:2: mirror \"m\": undefined modifier \"paimt\"; the nearest is \"paint\"");
 }
 
 TEST(Scene, LooksAtUsedModifiersOnly) {
