@@ -391,12 +391,14 @@ void addRayOptions(const Add& add) {
        .value = +[](O& o) -> bool& { return o.ray.uncorrelated; },
        .remark = "uncorrelated Monte Carlo sampling|correlated quasi-Monte Carlo sampling",
        .paragraph =
-           "Toggles independent samples for repeated rays. With -u+, the random numbers of a ray depend "
-           "on its number in the input as well as on the ray itself, so that the mean of the answers to a "
-           "repeated ray has less variance than a single answer. With -u-, they depend on the ray alone, "
-           "so that a repeated ray has the same answer each time; in rtrace it never has. In both cases "
-           "the answers do not depend on -n, and interpolated indirect light (-aa above 0) is the same "
-           "for repeated rays. All samples are random; quasi-random sequences are not used. Ray mode only."});
+           "Toggles other random numbers for a ray that is repeated. With -u+, the random numbers of a ray "
+           "depend on its number in the input as well as on the ray itself, so that the mean of the answers to "
+           "a repeated ray has less variance than a single answer. Otherwise they depend on the ray alone, so "
+           "that a repeated ray has the same answer each time; in rtrace it never has. -defaults prints -u+ "
+           "even so, as rtrace does, because programs read it. In both cases the answers do not depend on -n, "
+           "and interpolated indirect light (-aa above 0) is the same for repeated rays. All samples are "
+           "random; quasi-random sequences are not used. Ray mode only.",
+       .inEffect = +[](const O& o) { return o.numberedRays; }});
   add({.name = "-bv",
        .group = Group::program,
        .value = +[](O& o) -> bool& { return o.ray.backFacesVisible; },
@@ -642,8 +644,9 @@ void addSpectrumOptions(const Add& add) {
        .range = kNotNegative,
        .unit = "nm",
        .remark = "wavelength limits (nm)",
-       .paragraph = "Limits of the spectrum that -cs divides, at least 50 nm apart. Light beyond them is left out. Default: 380 "
-                    "and 780.",
+       .paragraph =
+           "Limits of the spectrum that -cs divides, at least 50 nm apart. Light beyond them is left out. Default: 380 "
+           "and 780.",
        .line = wavelengthsLine});
 }
 

@@ -139,6 +139,7 @@ constexpr std::array kGroups = {Group::records,  Group::sphere, Group::direct, G
 
 // The value alone, in its shortest form; empty if the option has none.
 std::string valueOf(const OptionEntry& entry, Options& options) {
+  if (entry.inEffect != nullptr) return entry.inEffect(options) ? "on" : "off";
   if (entry.support == Support::refused) return "";
   if (const auto* value = std::get_if<SwitchValue>(&entry.value)) return (*value)(options) ? "on" : "off";
   if (const auto* value = std::get_if<IntegerValue>(&entry.value))

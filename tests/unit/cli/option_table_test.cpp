@@ -255,6 +255,21 @@ TEST(Defaults, RaysOfPatchesFollowDirections) {
   EXPECT_EQ(rays({"rsphere", "-S-", "-defaults"}), 0);
 }
 
+// -defaults prints what rtrace prints, but a repeated ray is a new sample only where -u+ is given.
+TEST(Help, StatesWhetherRepeatedRaysAreNewSamples) {
+  const auto stated = [](std::initializer_list<const char*> words) {
+    const std::string text = helpText(parse(words));
+    const size_t at = text.find("  -u[+|-]");
+    return at == text.npos
+               ? text
+               : text.substr(text.find('[', at + 10), text.find('\n', at) - text.find('[', at + 10));
+  };
+  EXPECT_EQ(stated({"rtrace", "-help"}), "[off]");
+  EXPECT_EQ(stated({"rtrace", "-u+", "-help"}), "[on]");
+  EXPECT_EQ(stated({"rtrace", "-u-", "-help"}), "[off]");
+  EXPECT_NE(defaultsText(parse({"rtrace", "-defaults"})).find("-u+\t"), std::string::npos);
+}
+
 TEST(Help, HasALineForEveryOptionThatWorks) {
   const std::string text = helpText(parse({"rsphere", "-help"}));
   for (const OptionEntry& entry : optionTable())
