@@ -191,6 +191,8 @@ std::string comparePage(const Answers& ours, const Answers& original, const Comp
   Page page(fmt::format("rsphere beside rtrace: {}", subject.scene),
             fmt::format("rsphere-compare {}, {}", kVersion, dateAndTime(when)));
   page.banner(toneOf(comparison.verdict), fmt::format("{}.", conclusion(comparison.verdict)));
+  for (const std::string& warning : subject.warnings)
+    page.banner(Tone::open, fmt::format("Warning: {}", warning));
   page.table(figuresTable(comparison, subject));
   page.note("Differences are relative to the original's mean, or for a record to the mean of both programs.");
   std::vector<std::pair<std::string, std::string>> verdicts;

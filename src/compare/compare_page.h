@@ -15,8 +15,9 @@ struct CompareSubject {
   bool points = false;                    // records are points, not rays
   bool irradiance = false;                // answers are W/m2, not W/sr/m2
   double tolerance = 0;
-  int64_t width = 0, height = 0;  // of the picture that the records form; both 0 if they form none
-  std::string worst, times;       // worst records; CPU times and the like: lines
+  int64_t width = 0, height = 0;      // of the picture that the records form; both 0 if they form none
+  std::string worst, times;           // worst records; CPU times and the like: lines
+  std::vector<std::string> warnings;  // those written to standard error
 };
 
 // An SVG plot of the brightness of our answers against the original's (means of the repeats), with logarithmic
@@ -26,7 +27,7 @@ std::string comparePlot(const Answers& ours, const Answers& original, const Comp
                         const CompareSubject& subject);
 inline constexpr size_t kMostMarks = 2000;
 
-// An HTML page with the verdict, the figures, comparePlot(), a histogram, the pictures, and the rest of the
+// An HTML page with the verdict, the warnings, the figures, comparePlot(), a histogram, the pictures, and the rest of the
 // report. REQUIRES: comparison is that of the answers. Throws rad::Error (Status::system) if OpenImageIO,
 // which encodes the pictures, cannot be loaded.
 std::string comparePage(const Answers& ours, const Answers& original, const Comparison& comparison,

@@ -222,20 +222,25 @@ CompareStatus runCompare(CompareOptions options, std::span<const UsedOption> use
   const bool points = options.sphereMode;
   if (points) refuseWhatPointsHave(options);
   const OriginalProgram program = findOriginal();
+  CompareSubject subject;
+  const rad::Warn warn = [&](std::string_view text) {
+    messages.warning(text);
+    if (options.messages.warnings) subject.warnings.emplace_back(text);
+  };
+  if (options.messages.warnings) subject.warnings = options.messages.remarks;
   const std::string recordsName = options.scene.back();
   options.scene.pop_back();
   const std::vector<double> numbers = recordsToCompare(options, recordsName);
   if (options.ray.ambientBounces > 0 && options.ray.ambientAccuracy > 0)
-    messages.warning(
+    warn(
         "the original keeps indirect light in a cache, whose error shows as bias, and repeats use it again: "
         "use -aa 0 to compare without it");
 
   const double start = processSeconds();
-  const rad::Warn warn = [&](std::string_view text) { messages.warning(text); };
   const Scene scene = loadScene(options, warn);
   const bool isOctree = scene.description.cube.has_value();
   const Transport transport(scene, options.ray, options.irradiance, options.sphere.basicRadiance, warn);
-  if (transport.isDark()) messages.warning("no light sources found");
+  if (transport.isDark()) warn("no light sources found");
   const Answers ours =
       points ? answerPoints(transport, options, numbers) : answerRays(transport, options, numbers);
   const double ourSeconds = processSeconds() - start;
@@ -249,9 +254,9 @@ CompareStatus runCompare(CompareOptions options, std::span<const UsedOption> use
   RecordWriter out(1);
   out.write(fmt::format("{} {}, {} repeats, beside {} ({})\n", ours.records, points ? "points" : "rays",
                         options.repeats, program.path, program.version));
+  out.write(warningsText(subject.warnings));
   out.write(figuresText(comparison, options.tolerance));
   out.write(histogramText(comparison.records, options.tolerance));
-  CompareSubject subject;
   subject.worst = worstText(options, comparison, ours, theirs, numbers, transport, original);
   out.write(subject.worst);
   subject.times =

@@ -26,8 +26,10 @@ std::string verdictText(const ChannelComparison& c) {
     case Verdict::undecided:
       return "noise could hide more than the tolerance";
     case Verdict::differs:
-      return c.beyond > 0 ? fmt::format("differs: {} records whatever the noise", c.beyond)
-                          : "differs: a bias above the tolerance";
+      return c.beyond > 0
+                 ? fmt::format("differs: {} by more than the tolerance, even after allowing for noise",
+                               c.beyond == 1 ? "1 record" : fmt::format("{} records", c.beyond))
+                 : "differs: a bias above the tolerance";
   }
   return "";
 }
@@ -45,6 +47,12 @@ std::string_view conclusion(Verdict verdict) {
       return "They differ";
   }
   return "";
+}
+
+std::string warningsText(std::span<const std::string> warnings) {
+  std::string text;
+  for (const std::string& warning : warnings) text += fmt::format("Warning: {}\n", warning);
+  return text;
 }
 
 std::string figuresText(const Comparison& comparison, double tolerance) {

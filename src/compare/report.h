@@ -9,6 +9,9 @@
 
 namespace rsphere {
 
+// The warnings, a line for each.
+std::string warningsText(std::span<const std::string> warnings);
+
 // A table of the figures, a line for each channel or band; then the verdicts and the conclusion.
 std::string figuresText(const Comparison& comparison, double tolerance);
 

@@ -64,6 +64,18 @@ TEST(ComparePage, SaysIfThereIsNoDifference) {
   EXPECT_EQ(page.select_nodes("//svg//circle[@r='3']").size(), 0u);
 }
 
+// Who is handed the page does not see the standard error of the program.
+TEST(ComparePage, HasTheWarnings) {
+  const Answers ours = answersOf(6, 1, .0001);
+  CompareSubject subject = subjectOf();
+  subject.warnings = {"a <cache>", "no light"};
+  const Comparison comparison = compare(ours, ours, subject.tolerance, .001, true);
+  const auto page = parsed(comparePage(ours, ours, comparison, subject, 0));
+  EXPECT_EQ(texts(page, "//p[@class='banner open']"),
+            (std::vector<std::string>{"Warning: a <cache>", "Warning: no light"}));
+  EXPECT_EQ(warningsText(subject.warnings), "Warning: a <cache>\nWarning: no light\n");
+}
+
 TEST(ComparePage, HasPicturesOfRecordsThatFormOne) {
   const Answers ours = answersOf(6, 1.05, 0), original = answersOf(6, 1, 0);
   CompareSubject subject = subjectOf();
