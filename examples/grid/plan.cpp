@@ -17,6 +17,7 @@
 #include "layout.h"
 #include "rad_parser/scene_file.h"
 #include "report/page.h"
+#include "report/plot.h"
 #include "rtrace.h"
 
 namespace grid {
@@ -127,6 +128,7 @@ Settings settingsOf(const std::vector<std::string>& words) {
   }
   if (s.surfaces.empty()) throw rad::Error("no polygon is named; -s NAME names one");
   if (s.files.empty()) throw rad::Error("no scene file is named");
+  rsphere::requireSvgName("-o", s.picture, "the plan");
   return s;
 }
 

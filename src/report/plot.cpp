@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 
+#include "rad_parser/error.h"
 #include "report/markup.h"
 
 namespace rsphere {
@@ -176,6 +178,18 @@ std::string barsSvg(const std::string& title, std::span<const Bar> bars) {
     y += kBarRow;
   }
   return svg + "</svg>\n";
+}
+
+void requireSvgName(std::string_view option, const std::string& name, std::string_view what) {
+  constexpr std::array<std::string_view, 12> kOthers = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".gif",
+                                                        ".bmp", ".hdr", ".exr",  ".pdf", ".eps",  ".ps"};
+  const size_t dot = std::min(name.rfind('.'), name.size());
+  std::string ending = name.substr(dot);
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (std::find(kOthers.begin(), kOthers.end(), ending) != kOthers.end())
+    throw rad::Error(fmt::format("{} \"{}\": {} is an SVG file; use the name {}.svg", option, name, what,
+                                 name.substr(0, dot)));
 }
 
 }  // namespace rsphere

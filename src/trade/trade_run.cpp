@@ -4,8 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <chrono>
 #include <ctime>
 #include <exception>
@@ -17,6 +15,7 @@
 #include "measure/records_file.h"
 #include "report/markup.h"
 #include "report/page.h"
+#include "report/plot.h"
 #include "trade/ladder.h"
 #include "trade/schedule.h"
 #include "trade/trade_report.h"
@@ -201,20 +200,6 @@ std::string Trade::givenLine() const {
   return shellLine(words);
 }
 
-// Throws rad::Error if the name of the plot, which is an SVG file, has the extension of another format:
-// programs would open it as a file of that format.
-void checkPlotName(const std::string& name) {
-  constexpr std::array<std::string_view, 12> kOthers = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".gif",
-                                                        ".bmp", ".hdr", ".exr",  ".pdf", ".eps",  ".ps"};
-  const size_t dot = std::min(name.rfind('.'), name.size());
-  std::string ending = name.substr(dot);
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (std::find(kOthers.begin(), kOthers.end(), ending) != kOthers.end())
-    throw rad::Error(
-        fmt::format("-Tp \"{}\": the plot is an SVG file; use the name {}.svg", name, name.substr(0, dot)));
-}
-
 // repeatsOfLast: the number of repeats of the last setting if a signal ended it early; else 0.
 void Trade::report(const std::vector<Figures>& all, size_t repeatsOfLast, const Reference& reference,
                    double accuracy) const {
@@ -327,7 +312,7 @@ void runTrade(const TradeOptions& options, std::span<const UsedOption> used, con
   if (options.scene.size() < 2)
     throw rad::Error("missing argument: a scene and a file of points are needed; see -help");
   if (!options.sphereMode) throw rad::Error("-S-: only settings of sphere mode can be measured");
-  checkPlotName(options.plot);
+  requireSvgName("-Tp", options.plot, "the plot");
   Trade(options, used, messages, signals).run();
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "rad_parser/error.h"
 #include "tests/unit/support/markup_of.h"
 
 namespace rsphere {
@@ -83,6 +84,19 @@ TEST(Bars, AreAsLongAsTheirValues) {
   EXPECT_NEAR(width("//rect[@fill='#222222']"), 4 * width("//rect[@fill='#111111']"), .3);
   EXPECT_EQ(width("//rect[@fill='#333333']"), 0);
   EXPECT_EQ(parsed(barsSvg("nothing", {})).select_nodes("//rect").size(), 1u);
+}
+
+TEST(SvgName, HasNoExtensionOfAnotherFormat) {
+  EXPECT_NO_THROW(requireSvgName("-o", "", "the plan"));
+  EXPECT_NO_THROW(requireSvgName("-o", "plan", "the plan"));
+  EXPECT_NO_THROW(requireSvgName("-o", "plan.SVG", "the plan"));
+  try {
+    requireSvgName("-o", "a.b/plan.PNG", "the plan");
+    FAIL();
+  } catch (const rad::Error& error) {
+    EXPECT_EQ(error.status(), rad::Status::input);
+    EXPECT_STREQ(error.what(), "-o \"a.b/plan.PNG\": the plan is an SVG file; use the name a.b/plan.svg");
+  }
 }
 
 }  // namespace
