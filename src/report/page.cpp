@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 
@@ -36,6 +37,8 @@ table { border-collapse: collapse; font-size: .87rem; font-variant-numeric: tabu
 th, td { padding: .3rem .5rem; border-bottom: 1px solid var(--line); text-align: right; white-space: nowrap; }
 th { color: var(--soft); font-weight: 600; vertical-align: bottom; white-space: normal; }
 th.text, td.text { text-align: left; }
+td.text { white-space: normal; }
+td.text span { white-space: nowrap; }
 tr.chosen td { background: var(--tint); font-weight: 600; }
 tr.chosen td:first-child { color: var(--mark); }
 table.facts td { white-space: normal; overflow-wrap: anywhere; text-align: left; vertical-align: top; }
@@ -53,19 +56,35 @@ figcaption { color: var(--soft); font-size: .87rem; }
 .pictures { display: flex; flex-wrap: wrap; gap: 1rem; }
 .pictures figure { flex: 1 1 16rem; max-width: 30rem; margin: 0; }
 .pictures img { display: block; width: 100%; border: 1px solid var(--line); image-rendering: pixelated; }
-@media (max-width: 40rem) { td.text { white-space: normal; } }
 @media print { body { max-width: none; padding: 0; font-size: 11px; } h2 { break-after: avoid; }
   figure, tr, pre { break-inside: avoid; } pre { white-space: pre-wrap; } .wide, .plot { overflow: visible; }
   .plot svg { min-width: 0; max-width: 17cm; } table { font-size: 8.5px; } th, td { padding: 1px 4px; }
   * { print-color-adjust: exact; } }
 )";
 
+// Text whose lines may break between an option and the next one, but neither within an option nor before its value.
+std::string withOptionsWhole(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const size_t next = std::min(text.find(" -", 1), text.size());
+    const std::string_view part = text.substr(0, next);
+    const bool isOption = part.starts_with('-') || part.starts_with(" -");
+    const std::string_view blank = part.starts_with(' ') ? " " : "";
+    out += isOption ? fmt::format("{}<span>{}</span>", blank, escaped(part.substr(blank.size())))
+                    : escaped(part);
+    text.remove_prefix(next);
+  }
+  return out;
+}
+
 std::string markupOf(const PageTable& table) {
   std::string out = "<div class=\"wide\"><table>\n";
   const auto row = [&](const std::vector<std::string>& cells, std::string_view tag) {
-    for (size_t i = 0; i < cells.size(); ++i)
-      out += fmt::format("<{0}{1}>{2}</{0}>", tag, i < table.textColumns ? " class=\"text\"" : "",
-                         escaped(cells[i]));
+    for (size_t i = 0; i < cells.size(); ++i) {
+      const bool isText = i < table.textColumns || (table.lastIsText && i + 1 == cells.size());
+      out += fmt::format("<{0}{1}>{2}</{0}>", tag, isText ? " class=\"text\"" : "",
+                         isText ? withOptionsWhole(cells[i]) : escaped(cells[i]));
+    }
     out += "</tr>\n";
   };
   out += "<thead><tr>";

@@ -17,7 +17,8 @@ struct PageTable {
   };
   std::vector<std::string> head;
   std::vector<Row> rows;
-  size_t textColumns = 1;  // at the left; the other columns are numbers, which are aligned at the right
+  size_t textColumns = 1;   // at the left; the other columns are numbers, which are aligned at the right
+  bool lastIsText = false;  // so is the last column
 };
 
 struct PagePicture {

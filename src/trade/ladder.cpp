@@ -41,9 +41,6 @@ std::vector<std::string> usualLines(const TradeOptions& options) {
     for (const int base : {512, 2048, 8192}) lines.push_back(directions('c', base) + " -ad 1 -Ss 2 -lw .5");
   for (const double accuracy : {.02, .005})
     lines.push_back(fmt::format("-Sw c -Sn 256 -Sx 65536 -Sa {}", accuracy));
-  if (options.bounces)
-    for (int bounces = 0; bounces < options.ray.ambientBounces; ++bounces)
-      lines.push_back(fmt::format("{} -ab {}", directions('c', 1024), bounces));
   return lines;
 }
 
@@ -63,6 +60,9 @@ std::vector<std::vector<std::string>> ladder(const TradeOptions& options) {
   for (const std::string& line : options.ladder.empty() ? usualLines(options) : linesOf(options.ladder))
     if (auto words = wordsOf(line); !words.empty()) settings.push_back(std::move(words));
   if (settings.empty()) throw rad::Error(fmt::format("{}: no settings", options.ladder));
+  if (options.bounces)
+    for (int bounces = 0; bounces < options.ray.ambientBounces; ++bounces)
+      settings.push_back(wordsOf(fmt::format("{} -ab {}", directions('c', 1024), bounces)));
   return settings;
 }
 

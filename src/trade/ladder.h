@@ -7,7 +7,8 @@
 namespace rsphere {
 
 // The settings to measure, each a list of rsphere's options: those in the file of -Tl, or else a default
-// selection. Throws rad::Error if the file cannot be read (Status::system) or contains no setting.
+// selection; with -Tb, also settings with fewer bounces. Throws rad::Error if the file cannot be read
+// (Status::system) or contains no setting.
 std::vector<std::vector<std::string>> ladder(const TradeOptions& options);
 
 // The setting of the reference.

@@ -57,18 +57,21 @@ std::string recommendedText(const TradeSubject& subject) {
 }  // namespace
 
 std::string tradeTable(std::span<const Figures> all) {
-  std::string text = fmt::format("  {:>9}{:>9}{:>9}{:>9}{:>10}{:>9}{:>10}{:>6}  {}\n", "ms/point", "rms",
-                                 "largest", "bias", "+-", "says", "true/says", "", "setting");
+  std::string text =
+      fmt::format("  {:>9}{:>9}{:>10}{:>9}{:>9}{:>10}{:>9}{:>10}{:>6}  {}\n", "ms/point", "rms", "95% sure",
+                  "largest", "bias", "+-", "says", "true/says", "", "setting");
   for (const Figures& f : all) {
     const bool honest = dishonesty(f) < kDishonest;
-    text += fmt::format("{} {:>9}{:>9}{:>9}{:>9}{:>10}{:>9}{:>10}{:>6}  {}\n", f.best ? '*' : ' ',
-                        milliseconds(f.seconds), percent(f.rms), percent(f.largest), percent(f.bias),
-                        percent(f.biasError), f.estimated > 0 ? percent(f.estimated) : "-",
+    text += fmt::format("{} {:>9}{:>9}{:>10}{:>9}{:>9}{:>10}{:>9}{:>10}{:>6}  {}\n", f.best ? '*' : ' ',
+                        milliseconds(f.seconds), percent(f.rms), percent(f.rmsAtMost), percent(f.largest),
+                        percent(f.bias), percent(f.biasError), f.estimated > 0 ? percent(f.estimated) : "-",
                         f.estimated > 0 ? fmt::format("{:.2f}", dishonesty(f)) : "-",
                         fmt::format("{}{}{}", f.limited ? "~" : "", f.biased ? "b" : "", honest ? "" : "!"),
                         joined(f.words));
   }
-  text += "* nothing is as fast and as accurate   says: the error that the setting estimates itself\n";
+  text +=
+      "* nothing is as fast and as accurate   95% sure: the rms error is below this   says: the error that "
+      "the setting estimates itself\n";
   if (std::any_of(all.begin(), all.end(), [](const Figures& f) { return f.limited; }))
     text += "~ the reference is not good enough to tell (-Te)\n";
   if (std::any_of(all.begin(), all.end(), [](const Figures& f) { return f.biased; }))
@@ -87,6 +90,13 @@ std::string tradeCsv(std::span<const Figures> all, const Reference& reference) {
                         joined(f.words), f.seconds, f.setupSeconds, f.directions, f.rms, f.rmsAtMost,
                         f.largest, f.bias, f.biasError, f.estimated, f.best ? 1 : 0, reference.error());
   return text;
+}
+
+std::string bouncesText(int bounces) {
+  return fmt::format(
+      "These errors hold for -ab {}. The light that further bounces would add is not in them; -Tb with a larger "
+      "-ab measures it.",
+      bounces);
 }
 
 std::string tradePlot(std::span<const Figures> all, const TradeSubject& subject) {
@@ -131,6 +141,7 @@ namespace {
 PageTable settingsTable(std::span<const Figures> all, const TradeSubject& subject) {
   PageTable table;
   table.textColumns = 2;
+  table.lastIsText = true;
   table.head = {"",     "Setting",      "Time a point, ms", "rms error", "95% sure below", "Largest error",
                 "Bias", "Own estimate", "Directions",       "Remarks"};
   for (size_t i = 0; i < all.size(); ++i) {
@@ -185,6 +196,7 @@ std::string tradePage(std::span<const Figures> all, const Reference& reference, 
                                         100 * subject.accuracy, percent(chosen.rms),
                                         percent(chosen.rmsAtMost), milliseconds(chosen.seconds)));
   page.command(subject.command);
+  page.note(bouncesText(subject.bounces));
   page.heading("Error against time");
   page.figure(
       tradePlot(all, subject),

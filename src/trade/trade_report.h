@@ -12,6 +12,9 @@ namespace rsphere {
 std::string tradeTable(std::span<const Figures> all);
 std::string tradeCsv(std::span<const Figures> all, const Reference& reference);
 
+// States that errors do not include the light of further bounces, which the reference leaves out as well, and how to measure it.
+std::string bouncesText(int bounces);
+
 // What a report is about, beside the settings.
 struct TradeSubject {
   std::string scene;       // its files
@@ -19,6 +22,7 @@ struct TradeSubject {
   size_t pointsInFile = 0;
   std::vector<double> points;  // those measured, three numbers each
   double accuracy = 0;         // the one asked for
+  int bounces = 0;             // of the reference (-ab)
   Recommendation recommended;
   std::string command;         // of the recommended setting
   std::string given;           // the command line of rsphere-trade

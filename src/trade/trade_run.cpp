@@ -211,7 +211,9 @@ void Trade::report(const std::vector<Figures>& all, size_t repeatsOfLast, const 
   text += tradeTable(all);
   if (repeatsOfLast > 0)
     text += fmt::format("The last setting has {} of {} repeats.\n", repeatsOfLast, options_.repeats);
+  text += bouncesText(options_.ray.ambientBounces) + '\n';
   TradeSubject subject;
+  subject.bounces = options_.ray.ambientBounces;
   subject.scene =
       fmt::format("{}", fmt::join(std::span(options_.scene).first(options_.scene.size() - 1), " "));
   subject.pointsFile = options_.scene.back();
@@ -227,7 +229,7 @@ void Trade::report(const std::vector<Figures>& all, size_t repeatsOfLast, const 
   subject.repeatsOfLast = repeatsOfLast;
   text +=
       subject.recommended.sure
-          ? fmt::format("\nThe fastest for an rms error of {:g}% (95% sure: {:.3f}%):\n  {}\n",
+          ? fmt::format("\nThe fastest for an rms error of {:g}% (95% sure: below {:.3f}%):\n  {}\n",
                         100 * accuracy, 100 * chosen.rmsAtMost, subject.command)
           : fmt::format("\nNone is sure to have an rms error of {:g}%; the nearest, with {:.3f}%:\n  {}\n",
                         100 * accuracy, 100 * chosen.rms, subject.command);

@@ -43,6 +43,23 @@ TEST(Page, ShowsAllTextAsGiven) {
   expectSelfContained(html);
 }
 
+// A line of the table may break between options, not between an option and its value.
+TEST(Page, OptionsInATableStayWhole) {
+  Page page("title", "above");
+  PageTable table;
+  table.head = {"", "n", ""};
+  table.rows = {{{"-Sw c -Sn 512 <x>", "-1", "not -1"}, false}};
+  page.table(table);
+  table.lastIsText = true;
+  page.table(table);
+  const auto html = parsed(page.html());
+  EXPECT_EQ(texts(html, "//div[1]//td"), (std::vector<std::string>{"-Sw c -Sn 512 <x>", "-1", "not -1"}));
+  EXPECT_EQ(texts(html, "//div[1]//span"), (std::vector<std::string>{"-Sw c", "-Sn 512 <x>"}));
+  EXPECT_EQ(texts(html, "//div[1]//td[@class='text']").size(), 1u);
+  EXPECT_EQ(texts(html, "//div[2]//td[@class='text']"),
+            (std::vector<std::string>{"-Sw c -Sn 512 <x>", "not -1"}));
+}
+
 TEST(TextFile, SaysWhatCannotBeWritten) {
   try {
     writeTextFile("/nowhere/page.html", "text");

@@ -11,16 +11,16 @@ namespace rsphere {
 inline pugi::xml_document parsed(const std::string& markup) {
   pugi::xml_document document;
   const pugi::xml_parse_result result = document.load_buffer(
-      markup.data(), markup.size(), pugi::parse_default | pugi::parse_doctype | pugi::parse_ws_pcdata_single);
+      markup.data(), markup.size(), pugi::parse_default | pugi::parse_doctype | pugi::parse_ws_pcdata);
   EXPECT_TRUE(result) << result.description() << " at " << markup.substr(size_t(result.offset), 80);
   return document;
 }
 
-// The text of the elements that an XPath expression finds.
+// The text of the elements that an XPath expression finds, with that of the elements in them.
 inline std::vector<std::string> texts(const pugi::xml_document& document, const char* path) {
   std::vector<std::string> found;
   for (const pugi::xpath_node& node : document.select_nodes(path))
-    found.emplace_back(node.node().text().get());
+    found.push_back(pugi::xpath_query("string(.)").evaluate_string(node));
   return found;
 }
 

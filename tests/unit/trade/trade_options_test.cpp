@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "rad_parser/error.h"
 #include "tests/unit/support/manual_of.h"
 #include "trade/ladder.h"
@@ -47,6 +49,20 @@ TEST(Ladder, IsMadeOfOptions) {
 TEST(Ladder, LeavesIndirectLightAloneWhereThereIsNone) {
   for (const auto& words : ladder(parse({"scene", "points"})))
     for (const std::string& word : words) EXPECT_TRUE(word != "-ad" && word != "-ab");
+}
+
+TEST(Ladder, HasFewerBouncesBesidesThoseOfAFile) {
+  const std::string file = testing::TempDir() + "ladder";
+  std::ofstream(file) << "-Sn 100\n# a comment\n-Sn 200 -ab 1\n";
+  using Settings = std::vector<std::vector<std::string>>;
+  EXPECT_EQ(ladder(parse({"-Tl", file, "-ab", "2", "scene", "points"})),
+            (Settings{{"-Sn", "100"}, {"-Sn", "200", "-ab", "1"}}));
+  const Settings with = ladder(parse({"-Tl", file, "-Tb", "-ab", "2", "scene", "points"}));
+  ASSERT_EQ(with.size(), 4u);
+  for (size_t bounces = 0; bounces < 2; ++bounces) {
+    EXPECT_EQ(with[2 + bounces].end()[-2], "-ab");
+    EXPECT_EQ(with[2 + bounces].back(), std::to_string(bounces));
+  }
 }
 
 TEST(Ladder, SaysWhatIsWrongWithAFile) {

@@ -37,6 +37,7 @@ Case threeSettings() {
   c.subject.recommended = recommend(c.all, c.subject.accuracy);
   c.subject.command = "rsphere -Sn 200 'a<b&\"c\".rad' < 'p & q'";
   c.subject.repeats = 4;
+  c.subject.bounces = 3;
   return c;
 }
 
@@ -56,7 +57,17 @@ TEST(TradePage, HasEveryFigureOfTheTable) {
   EXPECT_EQ(texts(page, "//pre[@class='command']"), std::vector<std::string>{c.subject.command});
   EXPECT_EQ(texts(page, "//h1"), std::vector<std::string>{"Speed and accuracy: " + c.subject.scene});
   EXPECT_EQ(page.select_nodes("//svg//circle/title").size(), 3u);
+  EXPECT_EQ(texts(page, "//p[@class='note']").at(0), bouncesText(3));
   expectSelfContained(page);
+}
+
+TEST(TradeTable, ExplainsTheRecommendation) {
+  const Case c = threeSettings();
+  const std::string table = tradeTable(c.all);
+  EXPECT_NE(table.find("2.46   0.615%    0.725%    1.67%"), std::string::npos) << table;
+  EXPECT_EQ(bouncesText(3).find(
+                "These errors hold for -ab 3. The light that further bounces would add is not in them"),
+            0u);
 }
 
 // The ring is around the mark of the recommended setting.
