@@ -9,6 +9,19 @@ namespace rsphere::v1 {
 
 const char* version() { return kVersion; }
 
+namespace {
+
+// The file of a message "FILE: cannot open scene file: ..." or "FILE (from OTHER:12): cannot open ...", which names no
+// line of it; empty for any other message.
+std::string fileNotOpened(const std::string& text) {
+  const size_t end = text.find(": cannot open ");
+  if (end == std::string::npos) return "";
+  const std::string place = text.substr(0, end), file = place.substr(0, place.find(" (from "));
+  return file.find(": ") == std::string::npos ? file : "";
+}
+
+}  // namespace
+
 Error::Error(const std::string& text, Cause cause) : std::runtime_error(text), cause_(cause) {
   // The place is "FILE:LINE: ". A name of a file may itself contain colons.
   for (size_t colon = text.find(':'); colon != std::string::npos; colon = text.find(':', colon + 1)) {
@@ -20,6 +33,7 @@ Error::Error(const std::string& text, Cause cause) : std::runtime_error(text), c
     line_ = line;
     return;
   }
+  file_ = fileNotOpened(text);
 }
 
 Error::~Error() = default;

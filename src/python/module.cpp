@@ -139,13 +139,21 @@ py::object photometricOf(const py::object& color) {
   return numpy.attr("dot")(color, numpy.attr("array")(kBrightnessWeights)) * py::float_(kLumensPerWatt);
 }
 
+// The text of an error, which refers to the help of Python instead of that of the command.
+std::string forPython(std::string text) {
+  constexpr std::string_view kHelp = "see -help";
+  if (std::string_view(text).ends_with(kHelp))
+    text.replace(text.size() - kHelp.size(), kHelp.size(), "see help(rsphere.Scene)");
+  return text;
+}
+
 // Makes the exception rsphere.Error, with the members of the library's.
 void addError(py::module_& m) {
   static PyObject* type = nullptr;  // lives as long as the interpreter
   type = PyErr_NewExceptionWithDoc(
       "rsphere.Error",
       "A fault in the scene, the options or the records. Its text begins with the place: room.rad:12: ...\n\n"
-      "file, line: that place; None and None if the fault has none.\n"
+      "file, line: that place; line is None for a file that cannot be opened, and both if the fault has no place.\n"
       "cause: 'input', or 'system' if a file cannot be opened or memory or threads are short.",
       PyExc_Exception, nullptr);
   m.attr("Error") = py::handle(type);
@@ -153,7 +161,7 @@ void addError(py::module_& m) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const Error& error) {
-      const py::object instance = py::handle(type)(error.what());
+      const py::object instance = py::handle(type)(forPython(error.what()));
       instance.attr("file") = error.file().empty() ? py::object(py::none()) : py::str(error.file());
       instance.attr("line") = error.line() == 0 ? py::object(py::none()) : py::int_(error.line());
       instance.attr("cause") = error.cause() == Error::Cause::input ? "input" : "system";

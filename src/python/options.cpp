@@ -28,6 +28,12 @@ struct Keyword {
   }
 };
 
+// Whether the name cannot be that of an option of the command, of which none has an underscore within.
+bool isNoOption(std::string_view name) {
+  const size_t at = name.find('_');
+  return at != name.npos && at + 1 < name.size();
+}
+
 bool isSequence(const py::handle& value) {
   return py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value) || py::hasattr(value, "tolist");
 }
@@ -75,6 +81,8 @@ Options optionsOf(const py::kwargs& keywords) {
     keyword.set("outputs", options.outputs);
     keyword.set("threads", options.threads);
     keyword.set("arguments", options.arguments);
+    if (!keyword.known && isNoOption(text))
+      throw py::type_error("'" + text + "' is not an option; help(rsphere.Scene) lists the options");
     if (!keyword.known) addWords(further, text, py::reinterpret_borrow<py::object>(value));
   }
   options.arguments.insert(options.arguments.begin(), further.begin(), further.end());

@@ -143,17 +143,20 @@ class Faults(unittest.TestCase):
         with self.assertRaises(rsphere.Error) as caught:
             rsphere.Scene("/no/such/room.rad")
         error = caught.exception
-        self.assertEqual((error.file, error.line, error.cause), (None, None, "system"))
+        self.assertEqual((error.file, error.line, error.cause), ("/no/such/room.rad", None, "system"))
 
     def test_options(self):
         scene = rsphere.Scene(FURNACE)
         for options, text in [
-            ({"zz": 3}, "command line error at '-zz': there is no such option"),
+            ({"zz": 3}, r"command line error at '-zz': there is no such option; see help\(rsphere.Scene\)$"),
+            ({"abb": 3}, "command line error at '-abb': there is no such option; the nearest is \"-ab\"; see help"),
             ({"ab": "x"}, "command line error at '-ab': \"x\" is not a whole number"),
             ({"arguments": ["-Sg", "goal"]}, "option '-Sg': "),
         ]:
             with self.assertRaisesRegex(rsphere.Error, "^" + text):
                 scene.trace([[0, 0, 0, 1, 0, 0]], **options)
+        with self.assertRaisesRegex(TypeError, r"^'ambient_bounce' is not an option; help\(rsphere.Scene\) lists"):
+            scene.sphere([[0, 0, 0]], ambient_bounce=3)
         with self.assertRaisesRegex(TypeError, "^threads has a value of the wrong type: 'x'"):
             scene.sphere([[0, 0, 0]], threads="x")
 

@@ -296,6 +296,14 @@ TEST(Error, HasFileAndLine) {
     EXPECT_EQ(error.line(), 3);
     EXPECT_EQ(std::string(error.what()).find(file + ":3: undefined modifier \"wall\""), 0u) << error.what();
   }
+  for (const auto& [text, name] :
+       {std::pair("room.rad: cannot open scene file: No such file", "room.rad"),
+        std::pair("in.rad (from room.rad:3): cannot open scene file: No such file", "in.rad"),
+        std::pair("room.oct: object 3: texfunc \"t\": cannot open function file", "")}) {
+    const Error notOpened(text, Error::Cause::system);
+    EXPECT_EQ(notOpened.file(), name);
+    EXPECT_EQ(notOpened.line(), 0);
+  }
   const Error without("cannot do it at 12:30", Error::Cause::system);
   EXPECT_EQ(without.file(), "");
   EXPECT_EQ(without.line(), 0);
