@@ -45,7 +45,7 @@ constexpr const char* kUsage =
 Scene files are scene text or one octree. rtrace is run with)";
 
 // Diffuse light between surfaces, interpolated: the setting of examples/daylight.
-const std::vector<std::string> kDefaults{"-ab", "5",   "-aa",  ".1",  "-ad", "1024", "-as", "512", "-ar",
+const std::vector<std::string> kDefaults{"-ab", "8",   "-aa",  ".1",  "-ad", "1024", "-as", "512", "-ar",
                                          "64",  "-lw", "1e-4", "-dj", "1",   "-dt",  "0",   "-st", "1"};
 
 struct Settings {

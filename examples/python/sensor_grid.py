@@ -20,7 +20,7 @@ arguments.add_argument("--corners", nargs=4, type=float, required=True, metavar=
 arguments.add_argument("--height", type=float, default=0.75, help="of the sensors (0.75)")
 arguments.add_argument("--eyes", type=float, default=1.2, help="height of eyes (1.2)")
 arguments.add_argument("--spacing", type=float, default=0.5, help="of the sensors (0.5)")
-arguments.add_argument("--bounces", type=int, default=5, help="diffuse reflections (5)")
+arguments.add_argument("--bounces", type=int, default=8, help="diffuse reflections (8)")
 arguments.add_argument("--output", default="grid.npz")
 given = arguments.parse_args()
 
