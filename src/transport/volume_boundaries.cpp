@@ -40,9 +40,7 @@ Ray beyondMist(const Transport& transport, const CrossesMist& boundary, Ray& ray
   if (removed < sources.size()) addTo(ray);
   const Medium around = transport.medium();
   const Medium& before = ray.mist ? ray.mist->medium : around;
-  for (int i = 0; i < 3; ++i)
-    child.medium.extinction[i] =
-        without(ray.medium.extinction[i], boundary.extinction[i], around.extinction[i]);
+  child.medium.extinction = combined(ray.medium.extinction, boundary.extinction, around.extinction, without);
   if (mist.hasAlbedo) child.medium.albedo = before.albedo;
   if (mist.hasEccentricity) child.medium.eccentricity = before.eccentricity;
   child.mist = ray.mist ? ray.mist->mist : nullptr;

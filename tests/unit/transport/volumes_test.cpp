@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "base/constants.h"
+#include "base/spectral_sampling.h"
 #include "tests/unit/transport/original_room.h"
 
 namespace rsphere {
@@ -55,6 +57,19 @@ TEST(Medium, AbsorbsAsBeerAndLambertSay) {
                  "void ring a 0 0 8 .5 0 0 1 0 0 0 1\n"
                  "void ring b 0 0 8 .7 0 0 1 0 0 0 1\n");
   expectColor(divided.color(kEye, kAhead), exponential(-2. * k));
+}
+
+// Beyond a mist that absorbs in some bands, they are absorbed no more.
+TEST(Medium, EndsInAllBands) {
+  RayOptions options;
+  options.sampling = &spectralSampling(4, 380, 780);
+  Traced ball("void spectrum tint 0 0 6 730 430 .1 .2 0 .4\n" + kWall +
+                  "tint mist fog 0 0 3 1 1 1\nfog sphere ball 0 0 4 0 0 0 1\n" +
+                  mist("gray", "0 0 3 1 1 1", 3, .5),
+              options);
+  const Bands seen = ball.color(kEye, kAhead).bands();
+  for (size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(seen.values()[i], std::exp(-1 - 2 * std::array{.1, .2, 0., .4}[i]), 1e-9) << i;
 }
 
 TEST(Medium, VolumesWithinEachOtherAdd) {
