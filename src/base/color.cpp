@@ -88,6 +88,11 @@ Bands Color::bandsIn(const SpectralSampling& sampling) const {
   return expanded;
 }
 
+std::pair<double, double> Color::extremesOfBands() const {
+  const auto [least, most] = std::ranges::minmax(bands_.values());
+  return {least, most};
+}
+
 void Color::addBands(const Color& other, double sign) {
   if (!bands_) {
     if (!other.bands_) return;

@@ -2,6 +2,7 @@
 // Colors: red, green and blue, and in a spectral run (-cs above 3) the bands of a spectrum besides them.
 #include <Imath/ImathVec.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -78,6 +79,8 @@ class Color {
   const Bands& bands() const { return bands_; }
   // Those of the color, or of its channels. REQUIRES that its bands, if it has any, have this sampling.
   Bands bandsIn(const SpectralSampling& sampling) const;
+  // The smallest and the largest value of its bands. REQUIRES bands.
+  std::pair<double, double> extremesOfBands() const;
   // Replaces the value in each channel and band by f(value).
   template <class F>
   void transform(const F& f) {
@@ -230,9 +233,19 @@ inline double brightness(const Color& c) { return kRedWeight * c.x + kGreenWeigh
 inline double brightnessOfProduct(const Color& a, const Color& b) {
   return kRedWeight * (a.x * b.x) + kGreenWeight * (a.y * b.y) + kBlueWeight * (a.z * b.z);
 }
+// The largest and the smallest value of the bands, or of red, green and blue where there are no bands: a mean that is
+// dark may hide a bright band.
 inline double maxChannel(const Color& c) {
+  if (c.bands()) [[unlikely]]
+    return c.extremesOfBands().second;
   return c.x > c.y ? (c.x > c.z ? c.x : c.z) : (c.y > c.z ? c.y : c.z);
 }
+inline double minChannel(const Color& c) {
+  if (c.bands()) [[unlikely]]
+    return c.extremesOfBands().first;
+  return std::min({c.x, c.y, c.z});
+}
+// Whether all bands, or red, green and blue, are 0 or less.
 inline bool isBlack(const Color& c) { return !(maxChannel(c) > 0); }
 
 }  // namespace rsphere

@@ -25,8 +25,7 @@ bool continueRay(const Transport& transport, Random& random, Ray& child, RayKind
   }
   child.contribution *= coefficient;
   child.weight = parent.weight * std::min(1., maxChannel(coefficient));
-  const Color& extinction = parent.medium.extinction;
-  const double depth = std::min({extinction.x, extinction.y, extinction.z}) * parent.length;
+  const double depth = minChannel(parent.medium.extinction) * parent.length;
   // RADIANCE's own limit: a thinner medium does not reduce the weight.
   if (depth > .1) child.weight *= std::exp(-depth);
   if (!(child.weight > 0)) return false;

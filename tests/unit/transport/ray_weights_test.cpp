@@ -7,7 +7,9 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
+#include "base/spectral_sampling.h"
 #include "tests/unit/transport/transport_fixture.h"
 
 namespace rsphere {
@@ -123,6 +125,52 @@ TEST(RayWeights, GathersFollowWeakSharpPathsByRoulette) {
   // Light is missing where paths end after a few reflections.
   const GlazedGather cut = gatherThroughBalls(-3);
   EXPECT_LT(cut.mean, kExpected - 4 * cut.standardError);
+}
+
+// In a spectral run, weights follow the band that is absorbed least. In these materials it is one band of 20, and
+// the means of the channels are much darker. The rays are those of a scene where all bands are like that one.
+struct Weighed {
+  std::vector<double> weights;  // of the rays, in their order
+  double seen = 0;              // radiance in the band that is absorbed least
+};
+constexpr size_t kClearBand = 12;
+Weighed weighed(const std::string& material, const Limits& limits, double others, double atClear) {
+  std::string spectrum = "void spectrum tint 0 0 22 770 390";
+  for (size_t band = 0; band < 20; ++band)
+    spectrum += fmt::format(" {}", band == kClearBand ? atClear : others);
+  RayOptions options = unbiased();
+  options.sampling = &spectralSampling(20, 380, 780);
+  options.reflectionLimit = limits.reflections;
+  options.weightLimit = limits.weight;
+  Traced traced(spectrum + "\ntint " + material + "\nM sphere ball 0 0 4 0 0 0 1\n" +
+                    "void glow g 0 0 4 1 1 1 0\ng sphere around 0 0 4 0 0 0 -4\n",
+                options);
+  Weighed w;
+  traced.tracer().observe([&](const Ray& ray) { w.weights.push_back(ray.weight); });
+  const Color seen = traced.color(V3d(.3, .2, 3), V3d(0, 0, -1));
+  w.seen = seen.bandsIn(*options.sampling).values()[kClearBand];
+  traced.tracer().observe({});
+  return w;
+}
+
+TEST(RayWeights, FollowTheBrightestBand) {
+  struct Case {
+    const char* material;
+    double others, clear;  // the pattern in 19 bands, and in one
+  };
+  for (const auto& [material, others, clear] :
+       {Case{"interface M 0 0 8 .99 .98 .97 1.4 .9 .96 .98 1.1", .05, 1},
+        Case{"dielectric M 0 0 5 1 1 1 1.3 0", .05, 1}, Case{"glass M 0 0 3 .9 .9 .9", .05, 1},
+        Case{"metal M 0 0 5 .9 .9 .9 .9 0", .05, 1}, Case{"mist M 0 0 3 1 1 1", 9, .2}})
+    for (const Limits& limits : {Limits{8, .01}, Limits{-8, .01}}) {
+      const Weighed all = weighed(material, limits, clear, clear);
+      const Weighed one = weighed(material, limits, others, clear);
+      ASSERT_EQ(one.weights.size(), all.weights.size()) << material;
+      for (size_t i = 0; i < all.weights.size(); ++i)
+        EXPECT_NEAR(one.weights[i], all.weights[i], 1e-12) << material << ", ray " << i;
+      EXPECT_NEAR(one.seen, all.seen, 1e-12) << material;
+      EXPECT_GT(one.seen, .3) << material;
+    }
 }
 
 }  // namespace
