@@ -32,6 +32,8 @@ class DataFile {
     bool even = true;
   };
   Divisions divisions(size_t axis) const;
+  // The divisions of an axis that are not evenly spaced; empty if they are.
+  std::span<const float> unevenDivisions(size_t axis) const { return axes_[axis].points; }
 
   // The value at a point with dimensions() coordinates. It is interpolated linearly along each axis, and
   // extrapolated linearly by up to one division beyond its ends. Further out it falls towards 0 with the

@@ -99,6 +99,29 @@ Bands bandsOf(const Spectrum& spectrum, const SpectralSampling& sampling) {
   return bands;
 }
 
+// A linear curve has its mean over an interval in the middle of it.
+Bands bandsOf(const SpectralCurve& curve, const SpectralSampling& sampling) {
+  Bands bands(sampling);
+  const std::span<double> means = bands.values();
+  const double width = sampling.width();
+  const auto [wavelengths, values] = curve;
+  for (size_t i = 1; i < values.size(); ++i) {
+    const double from = std::max(std::min(wavelengths[i - 1], wavelengths[i]), sampling.shortest);
+    const double to = std::min(std::max(wavelengths[i - 1], wavelengths[i]), sampling.longest);
+    if (!(from < to)) continue;
+    const double slope = (values[i] - values[i - 1]) / (wavelengths[i] - wavelengths[i - 1]);
+    for (auto band = static_cast<size_t>((sampling.longest - to) / width); band < means.size(); ++band) {
+      const double end = sampling.longest - static_cast<double>(band) * width;
+      const double high = std::min(to, end), low = std::max(from, end - width);
+      if (low < high)
+        means[band] +=
+            (values[i - 1] + slope * ((low + high) / 2 - wavelengths[i - 1])) * (high - low) / width;
+      if (end - width <= from) break;
+    }
+  }
+  return bands;
+}
+
 V3d standardRgb(const V3d& xyz) {
   static const Matrix rgbFromXyz = inverse(xyzFromRgb(kStandardPrimaries));
   return intoGamut(product(rgbFromXyz, xyz), xyz.y);

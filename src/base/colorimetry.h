@@ -19,6 +19,11 @@ struct Spectrum {
   double first = 780, last = 380;  // nm
 };
 
+// A spectrum given at single wavelengths (nm, strictly rising or falling, at least two): linear between them, 0 beyond.
+struct SpectralCurve {
+  std::span<const double> wavelengths, values;  // of the same length
+};
+
 // X, Y, Z, photopic (= Y), scotopic and melanopic integrals.
 V3d tristimulus(const Spectrum& spectrum);
 double photopic(const Spectrum& spectrum);
@@ -29,6 +34,7 @@ double melanopic(const Spectrum& spectrum);
 Spectrum spectrumOf(const Bands& bands);
 // The means of a spectrum in each band.
 Bands bandsOf(const Spectrum& spectrum, const SpectralSampling& sampling);
+Bands bandsOf(const SpectralCurve& curve, const SpectralSampling& sampling);
 
 // Red, green and blue of RADIANCE's primaries (white 1/3, 1/3). Colors outside the gamut are mixed with just
 // enough gray of the same Y that no channel is negative.

@@ -58,6 +58,12 @@ Color threeChannels(const Spectrum& spectrum) {
   return Color(standardRgb(tristimulusInRadiance(spectrum)));
 }
 
+// The wavelengths (nm) of data along an axis if they are not evenly spaced, otherwise none.
+std::vector<double> unevenWavelengths(const rad::DataFile& data, size_t axis) {
+  const auto divisions = data.unevenDivisions(axis);
+  return {divisions.begin(), divisions.end()};
+}
+
 std::vector<std::string> linesOf(std::string_view text) {
   std::vector<std::string> lines;
   while (!text.empty()) {
@@ -268,11 +274,14 @@ class SurfaceFunctions::Maker {
 
   // ---- spectra
 
-  std::unique_ptr<Function> constant(std::span<const double> values, double first, double last) const {
+  std::unique_ptr<Function> constant(Color color) const {
     auto f = std::make_unique<Function>();
     f->results = 0;
-    f->what = ConstantSpectrum{functions_.colorOf(betweenMiddles(values, first, last))};
+    f->what = ConstantSpectrum{std::move(color)};
     return f;
+  }
+  std::unique_ptr<Function> constant(std::span<const double> values, double first, double last) const {
+    return constant(functions_.colorOf(betweenMiddles(values, first, last)));
   }
 
   std::unique_ptr<Function> spectrum(const SpectrumArguments& read) const {
@@ -284,13 +293,14 @@ class SurfaceFunctions::Maker {
     if (data->dimensions() != 1)
       fail(fmt::format("expected data of 1 dimension, the wavelength, got {}", data->dimensions()));
     const rad::DataFile::Divisions d = data->divisions(0);
-    // Unevenly spaced data are resampled, as in RADIANCE at twice as many wavelengths.
-    std::vector<double> values(d.even ? d.count : 2 * d.count);
+    const std::vector<double> wavelengths = unevenWavelengths(*data, 0);
+    std::vector<double> values(d.count);
     for (size_t i = 0; i < values.size(); ++i) {
-      const double wavelength = between(d.first, d.last, i, values.size());
+      const double wavelength = d.even ? between(d.first, d.last, i, d.count) : wavelengths[i];
       values[i] = data->value({&wavelength, 1});
     }
-    return constant(values, d.first, d.last);
+    if (d.even) return constant(values, d.first, d.last);
+    return constant(functions_.colorOf(SpectralCurve{wavelengths, values}));
   }
 
   std::unique_ptr<Function> spectralFunction(const SpectralFunctionArguments& read) const {
@@ -325,6 +335,7 @@ class SurfaceFunctions::Maker {
     s.count = d.count;
     s.firstWavelength = d.first;
     s.lastWavelength = d.last;
+    s.unevenWavelengths = unevenWavelengths(*s.table, coordinates);
     if (read.rest.size() < coordinates) fail("too few string arguments");
     const auto rest = std::span(read.rest);
     return corrected(std::move(s), read.file, rest.first(coordinates), read.corrections[0],
@@ -632,6 +643,8 @@ Color SurfaceFunctions::spectralPattern(ModifierId modifier, const Function& f, 
   const auto& data = std::get<SpectralData>(f.what);
   evaluateSpectrum(data, point, scratch);
   if (!computed(modifier, scratch)) return Color(1, 1, 1);
+  if (!data.unevenWavelengths.empty())
+    return colorOf(SpectralCurve{data.unevenWavelengths, scratch.spectrum});
   return colorOf(betweenMiddles(scratch.spectrum, data.firstWavelength, data.lastWavelength));
 }
 
@@ -662,7 +675,9 @@ void SurfaceFunctions::evaluateSpectrum(const SpectralData& data, calc::Point& p
   if (data.picture) data.picture->value(place[0], place[1], scratch.spectrum);
   for (size_t i = 0; i < data.count && state.faults == 0; ++i) {
     double& value = scratch.spectrum[i];
-    const double wavelength = between(data.firstWavelength, data.lastWavelength, i, data.count);
+    const double wavelength = data.unevenWavelengths.empty()
+                                  ? between(data.firstWavelength, data.lastWavelength, i, data.count)
+                                  : data.unevenWavelengths[i];
     if (data.table) {
       place[coordinates] = wavelength;
       value = data.table->value(std::span(place).first(coordinates + 1));
@@ -685,6 +700,14 @@ Color SurfaceFunctions::colorOf(const Spectrum& spectrum) const {
   const int resampled = static_cast<int>(std::clamp(bands, 3., double{kMostBands}));
   return threeChannels(
       spectrumOf(bandsOf(spectrum, spectralSampling(resampled, limits_.shortest, limits_.longest))));
+}
+
+// RADIANCE samples data of unevenly spaced wavelengths at even ones, so that it misses lines. Here the means over bands
+// are exact.
+Color SurfaceFunctions::colorOf(const SpectralCurve& curve) const {
+  if (sampling_) return Color(bandsOf(curve, *sampling_));
+  return threeChannels(
+      spectrumOf(bandsOf(curve, spectralSampling(kMostBands, limits_.shortest, limits_.longest))));
 }
 
 V3d SurfaceFunctions::texture(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const {

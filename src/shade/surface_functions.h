@@ -164,6 +164,7 @@ class SurfaceFunctions {
     std::shared_ptr<const SpectralPicture> picture;  // of specpict
     size_t count = 0;                                // of wavelengths
     double firstWavelength = 0, lastWavelength = 0;  // nm, of the middles of their bins
+    std::vector<double> unevenWavelengths;           // nm; empty if they are evenly spaced
   };
 
   // The functions of a material; null if its type has no such function.
@@ -224,6 +225,7 @@ class SurfaceFunctions {
   void evaluateSpectrum(const SpectralFunction& f, rad::calc::Point& point, FunctionScratch& scratch) const;
   void evaluateSpectrum(const SpectralData& data, rad::calc::Point& point, FunctionScratch& scratch) const;
   Color colorOf(const Spectrum& spectrum) const;
+  Color colorOf(const SpectralCurve& curve) const;
 
   class Maker;
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -95,6 +96,20 @@ std::string errorOf(const std::string& pattern, const SpectralSampling* sampling
   return "no error";
 }
 
+// The mean of a function of the wavelength in each band, by many steps.
+template <class F>
+Bands meansOf(const F& f, const SpectralSampling& sampling, double shortest, double longest) {
+  Bands means(sampling);
+  for (size_t i = 0; i < sampling.count(); ++i) {
+    constexpr int kSteps = 2000;
+    for (int k = 0; k < kSteps; ++k) {
+      const double nm = sampling.longest - (static_cast<double>(i) + (k + .5) / kSteps) * sampling.width();
+      if (nm > shortest && nm < longest) means.values()[i] += f(nm) / kSteps;
+    }
+  }
+  return means;
+}
+
 const SpectralSampling& twenty() { return spectralSampling(20, 380, 780); }
 
 TEST(SpectralPattern, UnusedOnesAreNotRead) {
@@ -171,14 +186,39 @@ TEST(SpecfilePattern, EvenDataAreASpectrum) {
   expectBands(inBands(pattern, twenty()), bandsOf(bins, twenty()), 1e-7);
 }
 
-// As in RADIANCE, at twice as many wavelengths. Its rtrace then takes the first half of them for the whole range.
-TEST(SpecfilePattern, UnevenDataAreResampled) {
-  const File file("1\n0 0 4\n400 420 500 600\n4 4.2 5 6\n");  // linear in the wavelength
-  constexpr double kStep = 200. / 7;
-  std::array<double, 8> values{};
-  for (size_t i = 0; i < values.size(); ++i) values[i] = 4 + static_cast<double>(i) * kStep / 100;
-  expectBands(inBands("void specfile P 1 " + file.path() + " 0 0", twenty()),
-              bandsOf({values, 400 - kStep / 2, 600 + kStep / 2}, twenty()), 1e-6);
+// The means in bands of a curve that is linear between its points, which need not be evenly spaced. rtrace evaluates it
+// at evenly spaced wavelengths and misses the line.
+TEST(SpecfilePattern, UnevenDataHaveTheirMeans) {
+  const std::vector<std::pair<double, double>> curve{{380, .1}, {420, .3}, {500, .8},
+                                                     {560, .2}, {650, .9}, {780, .4}};
+  const std::vector<std::pair<double, double>> line{{450, .1}, {545, .1}, {546, 20}, {547, .1}, {700, .1}};
+  for (auto points : {curve, line}) {
+    const auto f = [sorted = points](double nm) {
+      size_t i = 1;
+      while (i + 1 < sorted.size() && sorted[i].first < nm) ++i;
+      const auto [a, va] = sorted[i - 1];
+      const auto [b, vb] = sorted[i];
+      return va + (vb - va) * (nm - a) / (b - a);
+    };
+    for (const bool falling : {false, true}) {
+      if (falling) std::ranges::reverse(points);
+      std::string wavelengths, values;
+      for (const auto& [nm, value] : points) {
+        wavelengths += fmt::format(" {}", nm);
+        values += fmt::format(" {}", value);
+      }
+      const File file(fmt::format("1\n0 0 {}\n{}\n{}\n", points.size(), wavelengths, values));
+      const std::string pattern = "void specfile P 1 " + file.path() + " 0 0";
+      const double shortest = std::min(points.front().first, points.back().first),
+                   longest = std::max(points.front().first, points.back().first);
+      for (const int bands : {8, 20, 24}) {
+        const SpectralSampling& sampling = spectralSampling(bands, 380, 780);
+        expectBands(inBands(pattern, sampling), meansOf(f, sampling, shortest, longest), 2e-4);
+      }
+      const Bands most = meansOf(f, spectralSampling(24, 380, 780), shortest, longest);
+      expectColor(inChannels(pattern), standardRgb(tristimulus({most.values(), 781.5, 381.5})), 2e-4);
+    }
+  }
 }
 
 TEST(SpecfilePattern, NeedsOneDimension) {
@@ -195,20 +235,6 @@ TEST(SpecfilePattern, NeedsOneDimension) {
 }
 
 // ---- specfunc
-
-// The mean of a function of the wavelength in each band, by many steps.
-template <class F>
-Bands meansOf(const F& f, const SpectralSampling& sampling, double shortest, double longest) {
-  Bands means(sampling);
-  for (size_t i = 0; i < sampling.count(); ++i) {
-    constexpr int kSteps = 2000;
-    for (int k = 0; k < kSteps; ++k) {
-      const double nm = sampling.longest - (static_cast<double>(i) + (k + .5) / kSteps) * sampling.width();
-      if (nm > shortest && nm < longest) means.values()[i] += f(nm) / kSteps;
-    }
-  }
-  return means;
-}
 
 TEST(SpecfuncPattern, IsAFunctionOfPlaceAndWavelength) {
   const File file("f(nm) = A3*nm/1000 + Px;\n", "cal");
@@ -303,14 +329,18 @@ TEST(SpecdataPattern, IsATableByPlaceAndWavelength) {
   expectBands(inBands(pattern, twenty(), place), bandsOf({values, 350, 750}, twenty()), 1e-5);
 }
 
-TEST(SpecdataPattern, UnevenWavelengthsAreResampled) {
-  const File data("2\n0 1 2\n0 0 3\n400 430 700\n4 4.3 7\n4 4.3 7\n");
-  const SpectralSampling& sampling = spectralSampling(3, 250, 850);
-  const Color color =
-      Evaluated("void specdata P 4 noop " + data.path() + " . Px 0 0", &sampling).at(V3d(.3, 0, 0));
-  const Bands bands = color.bandsIn(sampling);  // of 150 nm about 400, 550 and 700, shifted by 25 nm
-  const std::array<double, 3> values{4, 5.5, 7};
-  expectBands(bands, bandsOf({values, 325, 775}, sampling), 1e-6);
+// Correction functions are evaluated at the wavelengths of the table.
+TEST(SpecdataPattern, UnevenWavelengthsHaveTheirMeans) {
+  const File data("2\n0 1 2\n0 0 3\n400 430 700\n1 2 3\n3 2 1\n"), cal("f(v, nm) = v*v + nm/100;\n", "cal");
+  const SpectralSampling& sampling = spectralSampling(16, 380, 780);
+  const Bands bands =
+      inBands("void specdata P 4 f " + data.path() + " " + cal.path() + " Px 0 0", sampling, V3d(.25, 0, 0));
+  const std::array<double, 3> values{1.5 * 1.5 + 4, 2 * 2 + 4.3, 2.5 * 2.5 + 7};
+  const auto f = [&](double nm) {
+    return nm < 430 ? values[0] + (values[1] - values[0]) * (nm - 400) / 30
+                    : values[1] + (values[2] - values[1]) * (nm - 430) / 270;
+  };
+  expectBands(bands, meansOf(f, sampling, 400, 700), 1e-2);
 }
 
 TEST(SpecdataPattern, NeedsAtLeastTwoDimensions) {
