@@ -245,7 +245,10 @@ inline double minChannel(const Color& c) {
     return c.extremesOfBands().first;
   return std::min({c.x, c.y, c.z});
 }
-// Whether all bands, or red, green and blue, are 0 or less.
-inline bool isBlack(const Color& c) { return !(maxChannel(c) > 0); }
+// Whether red, green, blue and all bands are 0 or less. The bands are looked at last, since few colors are black: a band
+// may be bright where the mean of its channel is not, if others are negative.
+inline bool isBlack(const Color& c) {
+  return !(c.x > 0 || c.y > 0 || c.z > 0) && (!c.bands() || !(c.extremesOfBands().second > 0));
+}
 
 }  // namespace rsphere

@@ -6,6 +6,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/spectral_sampling.h"
+
 namespace rsphere {
 namespace {
 
@@ -76,6 +78,23 @@ TEST(Radiometry, ArithmeticIsThatOfTheChannels) {
   EXPECT_EQ(sum.color, (a + b - Color(1, 1, 1)) * b * 2.);
   EXPECT_EQ(brightness(Radiance(a)), brightness(a));
   EXPECT_EQ(maxChannel(Coefficient(b)), 4);
+}
+
+// A band may be bright where the means of all channels are not.
+TEST(Radiometry, ExtremesAreThoseOfTheBands) {
+  Bands bands(spectralSampling(6, 380, 780));
+  bands.values()[3] = -2;
+  bands.values()[4] = .5;
+  const Color color(bands), dark(V3d(0, 0, 0), bands);
+  for (const Color& c : {color, dark}) {
+    EXPECT_EQ(maxChannel(c), .5);
+    EXPECT_EQ(minChannel(c), -2);
+    EXPECT_FALSE(isBlack(c));
+  }
+  EXPECT_TRUE(isBlack(Color(Bands(spectralSampling(6, 380, 780)))));
+  EXPECT_EQ(maxChannel(Color(1, 3, 2)), 3);
+  EXPECT_EQ(minChannel(Color(2, 3, 1)), 1);
+  EXPECT_TRUE(isBlack(Color(0, -1, 0)));
 }
 
 TEST(Radiometry, MeanRadianceIsThatOfTheIrradianceFromTheSameSolidAngle) {
