@@ -94,6 +94,12 @@ class Expander {
                                        : input_.place;
   }
 
+  // The primitive, which lacks something, and the definition that asks for it.
+  std::string placeInPrimitive(const Syntax& tree, const Scope& scope) const {
+    return scope.definition != nullptr ? fmt::format("{}: {}", input_.place, place(tree, scope))
+                                       : input_.place;
+  }
+
   uint32_t message(std::string text) {
     out_.messages.push_back(std::move(text));
     return static_cast<uint32_t>(out_.messages.size() - 1);
@@ -417,14 +423,16 @@ class Expander {
       const double x = graph[index].value + .5;
       if (!(x >= 1)) return graph.constant(static_cast<double>(count));
       if (x >= static_cast<double>(count) + 1) {
-        return fail(tree, scope, fmt::format("missing real argument {:.0f}", std::floor(x)));
+        return scope.frame->graph.leaf(
+            Op::fail, message(fmt::format("{}: missing real argument {:.0f}", placeInPrimitive(tree, scope),
+                                          std::floor(x))));
       }
       return graph.constant((*input_.reals)[static_cast<size_t>(x) - 1]);
     }
     Node n;
     n.op = Op::realArgument;
     n.a = index;
-    n.b = realArgumentMessage(place(tree, scope));
+    n.b = realArgumentMessage(placeInPrimitive(tree, scope));
     return graph.add(std::move(n));
   }
 

@@ -247,7 +247,7 @@ TEST(CalcValue, RealArguments) {
   EXPECT_EQ(files.value("c.cal", "late(1.6)"), 8);
   EXPECT_EQ(files.value("c.cal", "arg(-5)+arg(y*6)"), 12);
   EXPECT_EQ(files.error("c.cal", "A1+arg(4)"), "room.rad:3: missing real argument 4");
-  EXPECT_EQ(files.error("c.cal", "late(9)"), "c.cal:1: missing real argument 9");
+  EXPECT_EQ(files.error("c.cal", "late(9)"), "room.rad:3: c.cal:1: missing real argument 9");
   // They are constants if they are given in advance.
   const std::vector<double> reals = {2, 5};
   const std::vector<std::string> texts = {"A1*n+late(2)"};
