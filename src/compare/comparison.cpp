@@ -121,11 +121,12 @@ ChannelComparison compareChannel(const Values& ours, const Values& original, siz
   double squares = 0, noise = 0, ourNoise = 0, originalNoise = 0;
   for (const Pair& pair : pairs) {
     const double by = scaleOf(pair, c.originalMean), size = std::abs(pair.difference()) / by;
+    // Divided twice: the square of the scale of answers that are all 0 is 0.
     sizes.push_back(size);
     squares += size * size;
-    noise += pair.variance() / (by * by);
-    ourNoise += pair.ours.variance() / (by * by);
-    originalNoise += pair.original.variance() / (by * by);
+    noise += pair.variance() / by / by;
+    ourNoise += pair.ours.variance() / by / by;
+    originalNoise += pair.original.variance() / by / by;
     const size_t degrees = 2 * (pair.ours.count() - 1);
     c.beyond += certain(size - tolerance, std::sqrt(pair.variance()) / by, degrees, tests * n);
   }

@@ -140,6 +140,14 @@ TEST(Compare, DarkRecordsHaveAScale) {
   EXPECT_EQ(comparison.channels[1].verdict, Verdict::same);
 }
 
+TEST(Compare, BlackAnswersAreTheSame) {
+  const Answers black{2, 2, std::vector<Color>(4)};
+  const ChannelComparison c = compare(black, black, .05, 0, true).channels[0];
+  for (const double figure : {c.bias, c.biasError, c.rms, c.noiseRms, c.ourNoise, c.originalNoise})
+    EXPECT_EQ(figure, 0);
+  EXPECT_EQ(c.verdict, Verdict::same);
+}
+
 // In a spectral run each band is compared, and records by their photopic sums: a fault in one band is found.
 TEST(Compare, BandsOfASpectralRun) {
   const SpectralSampling& sampling = spectralSampling(4, 380, 780);
