@@ -168,8 +168,14 @@ std::string_view OutputColors::pixelFormat() const {
 }
 
 void checkColors(const ColorOptions& options) {
-  if (options.bands < 3 || options.longest - options.shortest < kLeastRange)
-    throw rad::Error("unsupported spectral sampling");
+  if (options.bands < 3)
+    throw rad::Error(fmt::format("-cs {}: expected 3 to {} bands", options.bands, kMostBands));
+  if (options.shortest < 0)
+    throw rad::Error(
+        fmt::format("-cw {} {}: expected wavelengths (nm) of 0 or more", options.shortest, options.longest));
+  if (!(options.longest - options.shortest >= kLeastRange))
+    throw rad::Error(fmt::format("-cw {} {}: expected wavelengths at least {} nm apart", options.shortest,
+                                 options.longest, kLeastRange));
   if (options.space == ColorSpace::primaries && !primariesSpan(options.primaries))
     throw rad::Error("illegal primary chromaticities");
   constexpr double kShortest = 380, kLongest = 780;

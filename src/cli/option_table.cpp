@@ -191,7 +191,12 @@ void setBands(Options& options, const OptionEntry& entry, std::span<const std::s
               std::string_view) {
   const auto n = rad::parseInteger(words[0]);
   if (!n) notInteger(entry.name, words[0], fmt::format(" from 3 to {}", kMostBands));
-  options.color.bands = static_cast<int>(std::clamp<int64_t>(*n, 0, kMostBands));
+  // As in rtrace, more bands are not an error.
+  if (*n > kMostBands)
+    options.messages.remarks.push_back(
+        fmt::format("{0} {1}: the range is 3 to {2}; {2} bands are used", entry.name, *n, kMostBands));
+  options.color.bands =
+      static_cast<int>(std::clamp<int64_t>(*n, std::numeric_limits<int>::min(), kMostBands));
 }
 
 void setWavelengths(Options& options, const OptionEntry& entry, std::span<const std::string> words,
@@ -645,7 +650,7 @@ void addSpectrumOptions(const Add& add) {
        .unit = "nm",
        .remark = "wavelength limits (nm)",
        .paragraph =
-           "Limits of the spectrum that -cs divides, at least 50 nm apart. Light beyond them is left out. Default: 380 "
+           "Limits of the spectrum that -cs divides, at least 0 and 50 nm apart. Light beyond them is left out. Default: 380 "
            "and 780.",
        .line = wavelengthsLine});
 }

@@ -209,11 +209,18 @@ TEST(OutputColors, ARunIsSpectralAboveThreeBands) {
   EXPECT_EQ(parse({"rtrace", "-cs", "9", "-cw", "700", "400", "s"}).ray.sampling,
             &spectralSampling(9, 400, 700));
   EXPECT_EQ(parse({"rsphere", "-cs", "99", "s"}).ray.sampling, &spectralSampling(kMostBands, 380, 780));
+  EXPECT_EQ(parse({"rsphere", "-cs", "99", "s"}).messages.remarks,
+            std::vector<std::string>{"-cs 99: the range is 3 to 24; 24 bands are used"});
+  EXPECT_TRUE(parse({"rsphere", "-cs", "24", "s"}).messages.remarks.empty());
 }
 
 TEST(OutputColors, WhatCannotBeIsSaidAsInRtrace) {
-  EXPECT_EQ(faultOfOptions({"rtrace", "-cs", "2", "s"}), "unsupported spectral sampling");
-  EXPECT_EQ(faultOfOptions({"rtrace", "-cw", "500", "530", "s"}), "unsupported spectral sampling");
+  EXPECT_EQ(faultOfOptions({"rtrace", "-cs", "2", "s"}), "-cs 2: expected 3 to 24 bands");
+  EXPECT_EQ(faultOfOptions({"rtrace", "-cs", "-7", "s"}), "-cs -7: expected 3 to 24 bands");
+  EXPECT_EQ(faultOfOptions({"rtrace", "-cw", "530", "500", "s"}),
+            "-cw 500 530: expected wavelengths at least 50 nm apart");
+  EXPECT_EQ(faultOfOptions({"rtrace", "-cw", "-100", "500", "s"}),
+            "-cw -100 500: expected wavelengths (nm) of 0 or more");
   EXPECT_EQ(faultOfOptions({"rtrace", "-pc", "1", "0", "0", "1", "0", "0", "0", ".3333", "s"}),
             "illegal primary chromaticities");
   EXPECT_EQ(faultOfOptions({"rtrace", "-pc", ".1", ".1", ".2", ".2", ".3", ".3", ".3", ".4", "s"}),
