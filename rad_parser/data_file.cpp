@@ -40,7 +40,13 @@ DataFile DataFile::parse(std::string_view text, std::string_view name) {
       numbers.fail("expected divisions in ascending or descending order");
     }
   }
-  if (size > numbers.left()) numbers.fail("fewer values in the file than its grid has points");
+  if (size > numbers.left()) {
+    const bool divided =
+        std::ranges::any_of(data.axes_, [](const Axis& axis) { return axis.span == 0 && axis.first != 0; });
+    numbers.fail(
+        fmt::format("fewer values in the file than its grid has points{}",
+                    divided ? ": the limits of an axis are equal, so that its divisions come first" : ""));
+  }
   data.values_.reserve(size);
   for (size_t i = 0; i < size; ++i) data.values_.push_back(finite("a value"));
   return data;

@@ -19,7 +19,7 @@ bool beginsTransform(std::string_view word) {
 }  // namespace
 
 std::string_view PrimitiveArguments::string(size_t i) const {
-  if (i >= strings()) fail("too few string arguments");
+  if (i >= strings()) fail(fmt::format("expected at least {} string arguments, got {}", i + 1, strings()));
   return description_.string(primitive(), i);
 }
 

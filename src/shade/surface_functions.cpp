@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <span>
+#include <system_error>
 
 #include "rad_parser/file_path.h"
 #include "rad_parser/open_file.h"
@@ -148,9 +150,21 @@ class SurfaceFunctions::Maker {
     arguments_.fail(what, status);
   }
 
+  // rest: the arguments among which there should be so many coordinates.
+  [[noreturn]] void tooFewCoordinates(std::span<const std::string_view> rest, size_t coordinates,
+                                      std::string_view exception) const {
+    const size_t given = arguments_.strings();
+    fail(fmt::format("expected at least {} string arguments, with a coordinate for each dimension{}, got {}",
+                     given - rest.size() + coordinates, exception, given));
+  }
+
   // find: the path of a file, searched for along RAYPATH. contentsOf: the text of the file at a path.
   std::string find(std::string_view name, std::string_view kind) const {
     const auto path = rad::findFile(name, rad::libraryPath(), {}, scene_.files);
+    const std::string folder = path.value_or(std::string(name));
+    if (std::error_code none; scene_.files.allows(folder) && std::filesystem::is_directory(folder, none))
+      fail(fmt::format("\"{}\" is a folder, expected a {} file", rad::printable(name), kind),
+           rad::Status::system);
     if (!path)
       fail(fmt::format("cannot find {} file \"{}\"{}", kind, rad::printable(name), scene_.files.remark(name)),
            rad::Status::system);
@@ -174,7 +188,12 @@ class SurfaceFunctions::Maker {
   std::shared_ptr<const rad::DataFile> table(std::string_view name) const {
     return shared(functions_.data_, name, [&] {
       const std::string path = find(name, "data");
-      return rad::DataFile::parse(contentsOf(path, "data"), path);
+      const std::string text = contentsOf(path, "data");
+      try {
+        return rad::DataFile::parse(text, path);
+      } catch (const rad::Error& error) {
+        fail(error.what(), error.status());
+      }
     });
   }
 
@@ -247,7 +266,7 @@ class SurfaceFunctions::Maker {
     const size_t dimensions = d.tables[0]->dimensions();
     for (const auto& t : d.tables)
       if (t->dimensions() != dimensions) fail("the data files differ in their number of dimensions");
-    if (read.rest.size() < dimensions) fail("too few string arguments");
+    if (read.rest.size() < dimensions) tooFewCoordinates(read.rest, dimensions, "");
     const auto rest = std::span(read.rest);
     d.coordinates = compiled(*f, read.file, rest.first(dimensions));
     d.corrections = corrections(*f, read.file, read.corrections, passed);
@@ -336,7 +355,7 @@ class SurfaceFunctions::Maker {
     s.firstWavelength = d.first;
     s.lastWavelength = d.last;
     s.unevenWavelengths = unevenWavelengths(*s.table, coordinates);
-    if (read.rest.size() < coordinates) fail("too few string arguments");
+    if (read.rest.size() < coordinates) tooFewCoordinates(read.rest, coordinates, " but the wavelength");
     const auto rest = std::span(read.rest);
     return corrected(std::move(s), read.file, rest.first(coordinates), read.corrections[0],
                      transformAmong(rest.subspan(coordinates)));
@@ -426,7 +445,7 @@ class SurfaceFunctions::Maker {
     Scatterer s;
     s.table = table(read.table);
     for (size_t i = 0; i < s.table->dimensions(); ++i) {
-      if (i >= read.rest.size()) fail("too few string arguments");
+      if (i >= read.rest.size()) tooFewCoordinates(read.rest, s.table->dimensions(), "");
       s.coordinates.push_back(called(*f, read.file.name, read.rest[i], 0));
     }
     s.distribution[0] = called(*f, read.file.name, read.correction, 1);

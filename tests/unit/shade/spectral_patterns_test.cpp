@@ -232,6 +232,19 @@ TEST(SpecfilePattern, NeedsOneDimension) {
   EXPECT_EQ(errorOf("void specfile P 1 none.dat 0 0"),
             "room.rad:1: specfile \"P\": cannot find data file \"none.dat\"" +
                 rad::FileAccess().remark("none.dat"));
+  EXPECT_EQ(errorOf("void specfile P 1 /tmp 0 0"),
+            "room.rad:1: specfile \"P\": \"/tmp\" is a folder, expected a data file");
+}
+
+TEST(SpecfilePattern, SaysWhatIsWrongWithTheData) {
+  const File few("1\n400 700 5\n1 2 3\n"), equal("1\n700 700 3\n1 2 3\n", "equal");
+  EXPECT_EQ(errorOf("void specfile P 1 " + few.path() + " 0 0"),
+            "room.rad:1: specfile \"P\": " + few.path() + ":4: expected a value, got the end of the file");
+  EXPECT_EQ(
+      errorOf("void specfile P 1 " + equal.path() + " 0 0"),
+      "room.rad:1: specfile \"P\": " + equal.path() +
+          ":3: fewer values in the file than its grid has points: the limits of an axis are equal, so that "
+          "its divisions come first");
 }
 
 // ---- specfunc
@@ -301,6 +314,14 @@ TEST(SpecfuncPattern, NeedsItsArguments) {
             "room.rad:1: specfunc \"P\": the limits of the wavelength must differ");
 }
 
+TEST(SpecfuncPattern, SaysWhoLacksARealArgument) {
+  const File file("f(nm) = arg(3)*nm;\n", "cal");
+  const std::string use = "void specfunc P 2 f " + file.path();
+  EXPECT_EQ(errorOf(use + " 0 2 400 700"),
+            "room.rad:1: specfunc \"P\": " + file.path() + ":1: missing real argument 3");
+  EXPECT_EQ(errorOf(use + " 0 3 400 700 1"), "no error");
+}
+
 TEST(SpecfuncPattern, MovesWithItsTransform) {
   const File file("f(nm) = Px;\n", "cal");
   const std::string pattern = "void specfunc P 5 f " + file.path() + " -t 2 0 0 2 380 780";
@@ -348,8 +369,10 @@ TEST(SpecdataPattern, NeedsAtLeastTwoDimensions) {
   EXPECT_EQ(
       errorOf("void specdata P 4 noop " + line.path() + " . Px 0 0"),
       "room.rad:1: specdata \"P\": expected data of at least 2 dimensions, the last of them the wavelength");
-  EXPECT_EQ(errorOf("void specdata P 4 noop " + plane.path() + " . Px 0 0"),
-            "room.rad:1: specdata \"P\": too few string arguments");
+  EXPECT_EQ(
+      errorOf("void specdata P 4 noop " + plane.path() + " . Px 0 0"),
+      "room.rad:1: specdata \"P\": expected at least 5 string arguments, with a coordinate for each dimension "
+      "but the wavelength, got 4");
   EXPECT_EQ(errorOf("void specdata P 3 noop " + plane.path() + " . 0 0"),
             "room.rad:1: specdata \"P\": expected at least 4 string arguments, got 3");
   EXPECT_EQ(errorOf("void specdata P 5 noop " + plane.path() + " . Px Py 0 0"), "no error");

@@ -472,7 +472,7 @@ TEST_F(FunctionMaterials, NameTheirFaultsWithTheirPlace) {
   expectError("void metdata M 4 noop nowhere.dat . height 0 4 1 1 1 1",
               "cannot find data file \"nowhere.dat\"");
   expectError("void metdata M 4 noop plane.dat scattering.cal height 0 4 1 1 1 1",
-              "too few string arguments");
+              "expected at least 5 string arguments, with a coordinate for each dimension, got 4");
   expectError("void BRTDfunc M 9 0 0 0 0 0 0 0 0 0 0 9 0 0 0 0 0 0 0 0 0",
               "expected at least 10 string arguments");
   expectError("void BRTDfunc M 10 0 0 0 0 0 0 f f f . 0 9 0 0 0 0 0 0 0 0 0", "f");

@@ -595,7 +595,9 @@ TEST_F(Patterns, WhatIsMissingIsSaidWithThePlaceWhenARayMeetsIt) {
       {"void brighttext P\n2 two.fnt lines.txt\n0\n11 0 0 0 1 0 0 2 0 0 1 2\nP glow M\n0\n0\n4 1 1 1 0\n",
        "room.rad:1: brighttext \"P\": illegal motion vector", rad::Status::input},
       {"void brightdata P\n4 noop d2.dat . Px\n0\n0\nP glow M\n0\n0\n4 1 1 1 0\n",
-       "room.rad:1: brightdata \"P\": too few string arguments", rad::Status::input},
+       "room.rad:1: brightdata \"P\": expected at least 5 string arguments, with a coordinate for each dimension, "
+       "got 4",
+       rad::Status::input},
       {"void brightfunc P\n4 Px . -t 1\n0\n0\nP glow M\n0\n0\n4 1 1 1 0\n",
        "room.rad:1: brightfunc \"P\": bad transform", rad::Status::input},
       {"void colordata P\n10 red green blue d2.dat d1.dat d2.dat . Px Py -i\n0\n0\nP glow M\n0\n0\n4 1 1 1 "
