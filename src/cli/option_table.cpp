@@ -650,7 +650,7 @@ void addSpectrumOptions(const Add& add) {
        .unit = "nm",
        .remark = "wavelength limits (nm)",
        .paragraph =
-           "Limits of the spectrum that -cs divides, at least 0 and 50 nm apart. Light beyond them is left out. Default: 380 "
+           "Limits of the spectrum that -cs divides: at least 0, and at least 50 nm apart. Light beyond them is left out. Default: 380 "
            "and 780.",
        .line = wavelengthsLine});
 }
