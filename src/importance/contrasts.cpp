@@ -90,6 +90,7 @@ Contrasts measureContrasts(const Transport& transport, std::span<const SpecialOb
     alike[scene.surfaces[object.surface].modifier].push_back(object);
   PathTracer tracer(transport, aims);
   tracer.useCoarseSolutionAtFirst(true);
+  tracer.shareHighlights(true);
   contrasts.surroundings = measureSurroundings(scene, sources, tracer);
   const size_t rays = std::clamp<size_t>(Tuning::kMostRays / alike.size(), 2, Tuning::kRaysPerModifier);
   for (const auto& [modifier, same] : alike) {

@@ -239,6 +239,13 @@ double sampleReflection(const EllipticLobe& lobe, const Interaction& at, double 
   return 2 / (1 + lobe.cosine / out);
 }
 
+double reflectedDensity(const EllipticLobe& lobe, const Interaction& at, const V3d& direction) {
+  const double cosine = lobe.normal.dot(direction);
+  if (cosine <= kNegligible || direction.dot(at.normal) <= kNegligible) return 0;
+  const double density = reflectedLobe(lobe, at.direction, direction, 0);
+  return density > kNegligible ? density * cosine : 0;
+}
+
 double sampleTransmission(const EllipticLobe& lobe, const Interaction& at, double spread, double u1,
                           double u2, V3d& direction) {
   direction = lobe.transmitted + offset(lobe, spread, u1, u2);

@@ -75,6 +75,7 @@ Coefficient directCoefficient(const AnisotropicScattering& scattering, const V3d
                               const V3d& toSource, double solidAngle, double sourceJitter);
 double sampleReflection(const EllipticLobe& lobe, const Interaction& at, double spread, double u1, double u2,
                         V3d& direction);
+double reflectedDensity(const EllipticLobe& lobe, const Interaction& at, const V3d& direction);
 double sampleTransmission(const EllipticLobe& lobe, const Interaction& at, double spread, double u1,
                           double u2, V3d& direction);
 

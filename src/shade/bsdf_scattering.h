@@ -49,6 +49,8 @@ class BsdfScattering {
   bool takesDirect(Component component) const { return component == Component::reflected || thick_; }
   const V3d& front() const { return kNoFront; }
   Coefficient coefficient(Component component, const V3d& toSource, double solidAngle, Random& random) const;
+  double lobeDensity(Component, const V3d&) const { return 0; }
+  Color lobeShare(Component) const { return {}; }
   bool isEven() const { return false; }
 
  private:

@@ -251,6 +251,15 @@ Scattering scatter(const Mirror& material, const Interaction& at) {
 }
 
 namespace {
+// The reflected lobe towards a source, per sr and share, without the cosine.
+double reflectedLobe(const Scattering& s, const Interaction& at, const V3d& toSource, double alpha2) {
+  const V3d half = toSource - at.direction;
+  const double along = half.dot(s.normal);
+  const double along2 = along * along, length2 = half.length2();
+  const double tangent2 = (length2 - along2) / along2;
+  return std::exp(-tangent2 / alpha2) * length2 / (kPi * along2 * along2 * alpha2);
+}
+
 // The two halves of directCoefficient(), by the side of the surface that the source is on;
 // enters: the part of the light that is left to diffuse scattering.
 Coefficient reflectedCoefficient(const Scattering& s, const Interaction& at, const V3d& toSource,
@@ -259,11 +268,7 @@ Coefficient reflectedCoefficient(const Scattering& s, const Interaction& at, con
   if (maxChannel(s.specularReflection) > 0) {
     double alpha2 = s.alpha2;
     if (s.widenReflection) alpha2 += (1 - sourceJitter) * solidAngle * .25 / kPi;
-    const V3d half = toSource - at.direction;
-    const double along = half.dot(s.normal);
-    const double along2 = along * along, length2 = half.length2();
-    const double tangent2 = (length2 - along2) / along2;
-    const double lobe = std::exp(-tangent2 / alpha2) * length2 / (kPi * along2 * along2 * alpha2);
+    const double lobe = reflectedLobe(s, at, toSource, alpha2);
     if (lobe > kNegligible) sum.color.addScaled(s.specularReflection, lobe * cosine * solidAngle);
   }
   return sum;
@@ -311,6 +316,13 @@ double sampleReflection(const Scattering& s, const Interaction& at, double sprea
   const double out = direction.dot(s.normal);
   if (out <= kNegligible || direction.dot(at.normal) <= kNegligible) return 0;
   return 2 / (1 + s.cosine / out);
+}
+
+double reflectedDensity(const Scattering& s, const Interaction& at, const V3d& direction) {
+  const double cosine = s.normal.dot(direction);
+  if (!(s.alpha2 > 0) || cosine <= kNegligible || direction.dot(at.normal) <= kNegligible) return 0;
+  const double density = reflectedLobe(s, at, direction, s.alpha2);
+  return density > kNegligible ? density * cosine : 0;
 }
 
 double sampleTransmission(const Scattering& s, const Interaction& at, double spread, double u1, double u2,

@@ -68,6 +68,11 @@ concept ScattersLight = requires(S s, const S& c, Component component, Random& r
   // The share of a source's radiance that is scattered towards the ray's origin, for a source that fills a
   // solid angle (sr) in a direction (unit). component: one that takes direct light.
   { c.coefficient(component, v, 1., random) } -> std::same_as<Coefficient>;
+  // The density (per sr) with which a lobe's samples choose a direction (unit), and by which they represent the light
+  // that coefficient() gives to the lobe there. 0 if its samples do not reproduce that light exactly.
+  { c.lobeDensity(component, v) } -> std::same_as<double>;
+  // The share of light (of each channel and band) that the component's lobe scatters.
+  { c.lobeShare(component) } -> std::convertible_to<Color>;
   // Whether the scattered light has no strong peak.
   { c.isEven() } -> std::same_as<bool>;
 };
@@ -103,6 +108,15 @@ class RoundScattering {
   const V3d& front() const { return transmits_ ? kNoFront : scattering_.normal; }
   Coefficient coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
     return directCoefficient(scattering_, at_, toSource, solidAngle, sourceJitter_);
+  }
+  double lobeDensity(Component component, const V3d& direction) const {
+    return component == Component::reflected && spread_ >= 1 && sourceJitter_ >= 1
+               ? reflectedDensity(scattering_, at_, direction)
+               : 0;
+  }
+  const Color& lobeShare(Component component) const {
+    return component == Component::reflected ? scattering_.specularReflection
+                                             : scattering_.specularTransmission;
   }
   bool isEven() const;
 
@@ -157,6 +171,12 @@ class EllipticScattering {
   Coefficient coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
     return directCoefficient(scattering_, at_.direction, toSource, solidAngle, sourceJitter_);
   }
+  double lobeDensity(Component component, const V3d& direction) const {
+    return component == Component::reflected && spread_ >= 1 && sourceJitter_ >= 1
+               ? reflectedDensity(scattering_.reflected, at_, direction)
+               : 0;
+  }
+  const Color& lobeShare(Component component) const { return lobeOf(component).share; }
   bool isEven() const { return false; }
 
  private:
@@ -191,6 +211,8 @@ class AshikhminLobeScattering {
   Coefficient coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
     return directCoefficient(scattering_, at_.direction, toSource, solidAngle);
   }
+  double lobeDensity(Component, const V3d&) const { return 0; }
+  Color lobeShare(Component) const { return {}; }
   bool isEven() const { return false; }
 
  private:
@@ -231,6 +253,8 @@ class ProgrammedScattering {
       return functions_->distribution(material_, point_, toSource, solidAngle, *scratch_);
     });
   }
+  double lobeDensity(Component, const V3d&) const { return 0; }
+  Color lobeShare(Component) const { return {}; }
   bool isEven() const { return false; }
 
  private:

@@ -72,8 +72,9 @@ bool DirectLight::isWhole(const SourceSample& sample) const {
 }
 
 // Sets value to the radiance of a sample that arrives at the ray's end; false if none arrives. to.value: its
-// radiance without occlusion.
-bool DirectLight::arrives(const Ray& ray, const Contribution& to, Radiance& value) {
+// radiance without occlusion. to.coefficient: becomes whole if samples of a lobe do not meet the source as its shadow
+// ray does.
+bool DirectLight::arrives(const Ray& ray, Contribution& to, Radiance& value) {
   const SourceSample& sample = *to.sample;
   const LightSource& light = t_.lights().all()[sample.source];
   const bool toSurface = !light.distant || light.isVirtual();
@@ -86,6 +87,10 @@ bool DirectLight::arrives(const Ray& ray, const Contribution& to, Radiance& valu
                  ? Shadow::blocked
                  : Shadow::unsure;
   const bool follow = shadow == Shadow::unsure || (shadow == Shadow::clear && light.isVirtual());
+  if (follow && maxChannel(to.ofLobe) > 0) {
+    to.coefficient += to.ofLobe;
+    to.ofLobe = {};
+  }
   if (follow || settings_.observesAllShadowRays)
     value = valueFromSource(ray, to);  // even if blocked when all shadow rays are shown to the observer
   if (shadow == Shadow::blocked) return false;
@@ -144,7 +149,8 @@ void DirectLight::rankByBrightness(uint32_t count) {
 
 // Fills contributions_ and brightness_ with the unoccluded contributions of all source samples that are not
 // black. Returns their number.
-uint32_t DirectLight::findContributions(const Ray& ray, DirectCoefficient coefficientOf, const V3d& front) {
+uint32_t DirectLight::findContributions(const Ray& ray, DirectCoefficient coefficientOf, const V3d& front,
+                                        const PartOfLobe* partOfLobe) {
   const RayOptions& o = t_.options();
   samples_.clear();
   const bool divides =
@@ -172,6 +178,8 @@ uint32_t DirectLight::findContributions(const Ray& ray, DirectCoefficient coeffi
     if (!(bright > 0)) continue;
     c.sample = &sample;
     c.coefficient = std::move(coefficient);
+    c.ofLobe = partOfLobe ? (*partOfLobe)(sample) : Coefficient();
+    if (maxChannel(c.ofLobe) > 0) c.coefficient -= c.ofLobe;
     brightness_[count++] = bright;
   }
   return count;
@@ -183,14 +191,15 @@ void DirectLight::addOneOf(Ray& ray, size_t first, uint32_t count) {
   double rest = state_.random.uniform() * remaining_[first];
   size_t chosen = first;
   while (chosen + 1 < count && (rest -= brightness_[order_[chosen]]) >= 0) ++chosen;
-  const Contribution& c = contributions_[order_[chosen]];
+  Contribution& c = contributions_[order_[chosen]];
   Radiance value;
   if (arrives(ray, c, value))
     ray.value += value * c.coefficient * (remaining_[first] / brightness_[order_[chosen]]);
 }
 
-void DirectLight::add(Ray& ray, DirectCoefficient coefficientOf, const V3d& front) {
-  const uint32_t count = findContributions(ray, coefficientOf, front);
+void DirectLight::add(Ray& ray, DirectCoefficient coefficientOf, const V3d& front,
+                      const PartOfLobe* partOfLobe) {
+  const uint32_t count = findContributions(ray, coefficientOf, front, partOfLobe);
   if (count == 0) return;
   const double threshold = t_.options().directThreshold / ray.weight;
 
@@ -205,7 +214,7 @@ void DirectLight::add(Ray& ray, DirectCoefficient coefficientOf, const V3d& fron
     std::iota(order_.begin(), order_.begin() + count, 0);
   }
   Tests ofKind[kSourceKinds];
-  const auto test = [&](const Contribution& c, Tests& tests) {
+  const auto test = [&](Contribution& c, Tests& tests) {
     Radiance value;
     const bool visible = arrives(ray, c, value);
     tests.add(visible);
@@ -217,7 +226,7 @@ void DirectLight::add(Ray& ray, DirectCoefficient coefficientOf, const V3d& fron
       const double ahead = remaining_[tested] - remaining_[std::min<size_t>(tested + lookAhead, count)];
       if (ahead < threshold * brightness(ray.value)) break;
     }
-    const Contribution& c = contributions_[order_[tested]];
+    Contribution& c = contributions_[order_[tested]];
     test(c, ofKind[kindOf(t_.lights().all()[c.sample->source])]);
   }
   // After an indirect bounce, an unbiased estimate is better: its noise averages out, and a bias would not.
@@ -226,7 +235,7 @@ void DirectLight::add(Ray& ray, DirectCoefficient coefficientOf, const V3d& fron
   // the same kind, because the visibility of lamps does not predict that of the sun, or the reverse. The
   // brightest source of each kind is therefore always tested.
   for (; tested < count; ++tested) {
-    const Contribution& c = contributions_[order_[tested]];
+    Contribution& c = contributions_[order_[tested]];
     Tests& tests = ofKind[kindOf(t_.lights().all()[c.sample->source])];
     if (tests.tested == 0)
       test(c, tests);
@@ -249,7 +258,7 @@ void DirectLight::addOfChosen(Ray& ray, DirectCoefficient coefficientOf, const V
       for (const SourceSample& sample : samples_) {
         const Coefficient coefficient = coefficientOf(sample.direction, sample.solidAngle);
         if (isBlack(coefficient)) continue;
-        const Contribution c{&sample, coefficient, sourceValue(ray, sample)};
+        Contribution c{&sample, coefficient, sourceValue(ray, sample)};
         Radiance value;
         if (maxChannel(c.value) > 0 && arrives(ray, c, value))
           ray.value += value * coefficient * (step / sourceWeights_[i]);
@@ -263,8 +272,7 @@ void DirectLight::addFromSource(const Ray& at, LightId source, DirectCoefficient
   samples_.clear();
   t_.lights().sample(source, at.point, {0, t_.options().directJitter}, state_.random, samples_);
   for (const SourceSample& sample : samples_) {
-    const Contribution c{&sample, coefficientOf(sample.direction, sample.solidAngle),
-                         sourceValue(at, sample)};
+    Contribution c{&sample, coefficientOf(sample.direction, sample.solidAngle), sourceValue(at, sample)};
     Radiance value;
     if (!isBlack(c.value) && arrives(at, c, value)) sum += value * c.coefficient;
   }

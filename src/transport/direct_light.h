@@ -17,6 +17,10 @@ namespace rsphere {
 // source (unit) and the solid angle (sr) of a sample of it.
 using DirectCoefficient = FunctionRef<Coefficient(const V3d& toSource, double solidAngle)>;
 
+// The part of that coefficient that samples of a highlight's lobe estimate instead, if nothing is in the sample's way
+// (shared_highlights.h).
+using PartOfLobe = FunctionRef<Coefficient(const SourceSample& sample)>;
+
 class DirectLight {
  public:
   // Keeps references. follower: follows shadow rays through surfaces that may transmit light.
@@ -30,7 +34,9 @@ class DirectLight {
 
   // Adds the direct light at the ray's hit to its value (W/sr/m2). front: for a surface that transmits no
   // light its normal, behind which all coefficients are 0; otherwise the null vector.
-  void add(Ray& ray, DirectCoefficient coefficientOf, const V3d& front = V3d(0, 0, 0));
+  // partOfLobe: null if samples of a lobe estimate nothing of it.
+  void add(Ray& ray, DirectCoefficient coefficientOf, const V3d& front = V3d(0, 0, 0),
+           const PartOfLobe* partOfLobe = nullptr);
 
   // The same, but estimated from -Ss sources drawn at random.
   void addOfChosen(Ray& ray, DirectCoefficient coefficientOf, const V3d& front);
@@ -43,15 +49,18 @@ class DirectLight {
     const SourceSample* sample;
     Coefficient coefficient;
     Radiance value;
+    Coefficient
+        ofLobe{};  // left out of the coefficient, except for light that a shadow ray meets behind a pane
   };
 
   size_t lookAheadOf(size_t count);
   void rankByBrightness(uint32_t count);
   Radiance sourceValue(const Ray& ray, const SourceSample& sample);
   Radiance valueFromSource(const Ray& ray, const Contribution& to);
-  uint32_t findContributions(const Ray& ray, DirectCoefficient coefficientOf, const V3d& front);
+  uint32_t findContributions(const Ray& ray, DirectCoefficient coefficientOf, const V3d& front,
+                             const PartOfLobe* partOfLobe);
   void addOneOf(Ray& ray, size_t first, uint32_t count);
-  bool arrives(const Ray& ray, const Contribution& to, Radiance& value);
+  bool arrives(const Ray& ray, Contribution& to, Radiance& value);
   bool isWhole(const SourceSample& sample) const;
   uint32_t& blockerOf(SurfaceId surface, LightId source) {
     const uint64_t both =

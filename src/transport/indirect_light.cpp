@@ -29,8 +29,7 @@ void IndirectLight::add(Ray& ray, const V3d& normal, const V3d& trueNormal, RayK
 // The number of guessed rays for each ray that is followed. It is 0 if -lr ends the descendants of the ray
 // for certain instead of by Russian roulette: the guess would then include light that followed rays lack.
 int IndirectLight::raysToGuess(const Ray& ray) const {
-  const int limit = t_.options().reflectionLimit;
-  if (!settings_.guess || limit > 0 || (limit < 0 && ray.level + 1 > -limit)) return 0;
+  if (!settings_.guess || !goesOn(t_, ray)) return 0;
   return settings_.guess->raysToGuess(ray.ambientLevel);
 }
 

@@ -16,7 +16,8 @@ struct PathSettings {
   const LocalGuess* guess = nullptr;  // control variate of indirect rays; null: none
   RayObserver observer;
   bool observesAllShadowRays = false;
-  bool coarseAtFirst = false;  // PathTracer::useCoarseSolutionAtFirst()
+  bool sharesHighlights = false;  // PathTracer::shareHighlights()
+  bool coarseAtFirst = false;     // PathTracer::useCoarseSolutionAtFirst()
 };
 
 // Each path begins with a new state, and so does each gather: no answer can depend on an earlier path.

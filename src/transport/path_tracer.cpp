@@ -60,7 +60,7 @@ class PathTracer::Path final : public RayFollower, public SiteGatherer {
         interpolated_(transport, settings_, state_, *this),
         indirect_(transport, settings_, state_, *this, interpolated_),
         media_(transport, state_, direct_),
-        shading_(transport, state_, *this, direct_, specular_, indirect_) {
+        shading_(transport, settings_, state_, *this, direct_, specular_, indirect_) {
     settings_.aims = aims;
   }
 
@@ -276,6 +276,7 @@ void PathTracer::observe(RayObserver observer, bool allShadowRays) {
   path_->settings().observesAllShadowRays = allShadowRays;
 }
 void PathTracer::guessWith(const LocalGuess* guess) { path_->settings().guess = guess; }
+void PathTracer::shareHighlights(bool share) { path_->settings().sharesHighlights = share; }
 void PathTracer::useCoarseSolutionAtFirst(bool use) { path_->settings().coarseAtFirst = use; }
 
 }  // namespace rsphere

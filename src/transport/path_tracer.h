@@ -60,6 +60,10 @@ class PathTracer {
   // value of one ray may be negative. Null: nothing is guessed.
   void guessWith(const LocalGuess* guess);
 
+  // Whether the light of sources in rough highlights is divided between shadow rays and samples of the lobes
+  // (shared_highlights.h). The mean stays the same.
+  void shareHighlights(bool share);
+
   // Whether, with -aa above 0, the coarse solution gives the indirect light of the first diffuse surface as it
   // does that of later ones: if thousands of directions are averaged, the errors of single patches matter less than
   // what a gather at each surface costs. In a picture patches would be visible.

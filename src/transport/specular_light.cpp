@@ -76,7 +76,8 @@ void SpecularLight::relay(Ray& ray, const SharpPath& path) {
   ray.value += child.value * coefficient;
 }
 
-void SpecularLight::sampleLobe(Ray& ray, RayKind kind, const Lobe& lobe, LobeSampler draw) {
+void SpecularLight::sampleLobe(Ray& ray, RayKind kind, const Lobe& lobe, LobeSampler draw,
+                               const LobeShare* share) {
   const RayOptions& o = t_.options();
   const double spread = o.specularSampling;
   int samples = samplesOf(t_, ray, std::max<double>(spread > 1.5 ? spread : 1, lobe.leastSamples));
@@ -91,6 +92,7 @@ void SpecularLight::sampleLobe(Ray& ray, RayKind kind, const Lobe& lobe, LobeSam
     child.direction = sample.direction;
     child.origin += lobe.offset;
     follower_.follow(child);
+    if (share && child.surface != kNone) child.value += (*share)(child);
     ray.value += child.value * coefficient;
   }
 }

@@ -11,6 +11,10 @@ namespace rsphere {
 // Draws sample i of n of a lobe.
 using LobeSampler = FunctionRef<LobeSample(int i, int n)>;
 
+// The light of a source that a lobe's sample has hit, as far as the lobe's samples are to estimate it
+// (shared_highlights.h).
+using LobeShare = FunctionRef<Radiance(const Ray& sample)>;
+
 class SpecularLight {
  public:
   // Keeps references.
@@ -27,8 +31,9 @@ class SpecularLight {
   // is relayed there.
   void relay(Ray& ray, const SharpPath& path);
 
-  // Adds the light of one lobe, estimated by samples. kind: of their rays.
-  void sampleLobe(Ray& ray, RayKind kind, const Lobe& lobe, LobeSampler draw);
+  // Adds the light of one lobe, estimated by samples. kind: of their rays. share: see LobeShare; null: none.
+  void sampleLobe(Ray& ray, RayKind kind, const Lobe& lobe, LobeSampler draw,
+                  const LobeShare* share = nullptr);
 
  private:
   const Transport& t_;

@@ -4,6 +4,7 @@
 #include "transport/ray_functions.h"
 #include "transport/ray_interaction.h"
 #include "transport/ray_limits.h"
+#include "transport/shared_highlights.h"
 #include "transport/volume_boundaries.h"
 
 namespace rsphere {
@@ -22,9 +23,11 @@ MaterialOptions materialOptions(const Transport& transport) {
 
 }  // namespace
 
-SurfaceShading::SurfaceShading(const Transport& transport, PathState& state, RayFollower& follower,
-                               DirectLight& direct, SpecularLight& specular, IndirectLight& indirect)
+SurfaceShading::SurfaceShading(const Transport& transport, const PathSettings& settings, PathState& state,
+                               RayFollower& follower, DirectLight& direct, SpecularLight& specular,
+                               IndirectLight& indirect)
     : t_(transport),
+      settings_(settings),
       state_(state),
       follower_(follower),
       direct_(direct),
@@ -184,6 +187,24 @@ bool SurfaceShading::follow(Ray& ray, std::variant<Outcomes...>& response) {
   return std::visit([&](auto& outcome) { return follow(ray, outcome); }, response);
 }
 
+// The light of a source that a sample of the reflected lobe has hit, and the coefficient that shadow rays leave to it.
+template <ScattersLight S>
+Radiance SurfaceShading::lobesPart(const S& scattering, const Ray& sample) const {
+  const Radiance seen = sourceSeenBy(t_, sample);
+  if (isBlack(seen)) return {};
+  const LightSource& light = t_.lights().all()[t_.lightOf(sample.surface)];
+  return seen * shareOfLobe(light, sample.length, std::abs(sample.cosine),
+                            scattering.lobeDensity(Component::reflected, sample.direction));
+}
+
+template <ScattersLight S>
+Coefficient SurfaceShading::lobesCoefficient(const S& scattering, const SourceSample& sample) const {
+  const double density = scattering.lobeDensity(Component::reflected, sample.direction);
+  if (!(density > 0) || !sharesHighlights(t_, sample.source)) return {};
+  const double share = shareOfLobe(t_.lights().all()[sample.source], sample.distance, sample.cosine, density);
+  return Coefficient(scattering.lobeShare(Component::reflected) * (share * density * sample.solidAngle));
+}
+
 // The light that a surface scatters towards the ray's origin: sharp paths, lobes, and on each side indirect
 // and direct light.
 template <ScattersLight S>
@@ -192,10 +213,21 @@ bool SurfaceShading::follow(Ray& ray, S& scattering) {
   specular_.follow(ray, scattering.sharp());
   if (ray.kinds & kShadow) return true;
   const auto components = scattering.components();
+  bool shares = false;
   for (const Component c : components)
-    if (const std::optional<Lobe> lobe = scattering.lobe(c, random))
-      specular_.sampleLobe(ray, c == Component::reflected ? kReflectedSpecular : kTransmittedSpecular, *lobe,
-                           [&](int i, int n) { return scattering.draw(c, i, n, random); });
+    if (const std::optional<Lobe> lobe = scattering.lobe(c, random)) {
+      const auto draw = [&](int i, int n) { return scattering.draw(c, i, n, random); };
+      if (c == Component::transmitted) {
+        specular_.sampleLobe(ray, kTransmittedSpecular, *lobe, draw);
+        continue;
+      }
+      shares = settings_.sharesHighlights && goesOn(t_, ray);
+      const auto ofSource = [&](const Ray& sample) { return lobesPart(scattering, sample); };
+      const LobeShare share(ofSource);
+      specular_.sampleLobe(ray, kReflectedSpecular, *lobe, draw, shares ? &share : nullptr);
+    }
+  const auto partOfLobe = [&](const SourceSample& sample) { return lobesCoefficient(scattering, sample); };
+  const PartOfLobe part(partOfLobe);
   const V3d hit = ray.point;
   for (const Component c : components) {
     ray.point = hit + scattering.offset(c);
@@ -213,7 +245,7 @@ bool SurfaceShading::follow(Ray& ray, S& scattering) {
     if (t_.options().chosenSources > 0 && scattering.isEven())
       direct_.addOfChosen(ray, coefficient, scattering.front());
     else
-      direct_.add(ray, coefficient, scattering.front());
+      direct_.add(ray, coefficient, scattering.front(), shares ? &part : nullptr);
   }
   ray.point = hit;
   return true;

@@ -14,8 +14,9 @@ namespace rsphere {
 class SurfaceShading {
  public:
   // Keeps references.
-  SurfaceShading(const Transport& transport, PathState& state, RayFollower& follower, DirectLight& direct,
-                 SpecularLight& specular, IndirectLight& indirect);
+  SurfaceShading(const Transport& transport, const PathSettings& settings, PathState& state,
+                 RayFollower& follower, DirectLight& direct, SpecularLight& specular,
+                 IndirectLight& indirect);
 
   // Sets the radiance of a ray that hit a surface (W/sr/m2). The ray passes a surface that is cut away by
   // antimatter or has no material.
@@ -57,8 +58,13 @@ class SurfaceShading {
   bool follow(Ray& ray, const CrossesAntimatter& boundary);
   template <ScattersLight S>
   bool follow(Ray& ray, S& scattering);
+  template <ScattersLight S>
+  Radiance lobesPart(const S& scattering, const Ray& sample) const;
+  template <ScattersLight S>
+  Coefficient lobesCoefficient(const S& scattering, const SourceSample& sample) const;
 
   const Transport& t_;
+  const PathSettings& settings_;
   PathState& state_;
   RayFollower& follower_;
   DirectLight& direct_;

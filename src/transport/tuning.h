@@ -169,6 +169,22 @@ struct DirectLight {
   RSPHERE_TUNED(DirectLight, int, kBlockerBits, 12);
 };
 
+// Where surfaces send light from (light_patches.cpp).
+struct LightPatches {
+  // Particles from the sources: chosen by experiment.
+  RSPHERE_TUNED(LightPatches, double, kParticles, 8192);
+  // Largest roughness (rms slope) of a mirror; rougher surfaces send light to all sides: as for glints.
+  static constexpr double kSmooth = .005;
+};
+
+// Light of sources in rough highlights, by shadow rays or by samples of the lobe (shared_highlights.cpp).
+struct SharedHighlights {
+  // Shadow rays alone estimate the light from directions in which a source holds less than this share of the lobe's
+  // samples, had all of it this direction's density: chosen by experiment. Shadow rays then bring at most this multiple
+  // of the lobe's share in one sample.
+  RSPHERE_TUNED(SharedHighlights, double, kLeast, .25);
+};
+
 // Which directions of gathers are aimed (gather_directions.cpp): shares of them in proportion to the light that
 // probably comes from openings, from spots and from elsewhere. The figures are the work, variance times time, of
 // paths without interpolation in four daylit rooms: a narrow and a wide one, by an overcast sky and by the sun.

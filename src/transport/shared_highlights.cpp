@@ -1,0 +1,45 @@
+#include "transport/shared_highlights.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "transport/ray_functions.h"
+#include "transport/tuning.h"
+
+namespace rsphere {
+namespace {
+
+// The solid angle (sr) that the source would fill if all of it were seen as it is in this direction.
+double apparentSize(const LightSource& source, double distance, double cosine) {
+  if (source.distant) return 2 * kPi * (1 - source.cosHalfAngle);
+  if (source.isPlane()) return std::min(2 * kPi, source.area * cosine / (distance * distance));
+  const double r = source.radius, toCenter2 = distance * distance + r * r + 2 * distance * r * cosine;
+  return 2 * kPi * (1 - std::sqrt(std::max(0., 1 - r * r / toCenter2)));
+}
+
+}  // namespace
+
+bool sharesHighlights(const Transport& transport, LightId source) {
+  const LightSource& light = transport.lights().all()[source];
+  if (light.isVirtual() || light.reach > 0 || light.spot || light.map == LightSource::Map::tube ||
+      !transport.constantRadiance(source))
+    return false;
+  const Surface& surface = transport.scene().surfaces[light.surface];
+  return surface.goal || !std::holds_alternative<Illum>(*transport.scene().materialOf(surface));
+}
+
+double shareOfLobe(const LightSource& source, double distance, double cosine, double density) {
+  const double within = density * apparentSize(source, distance, cosine);
+  return within > tuning::SharedHighlights::kLeast ? within / (1 + within) : 0;
+}
+
+Radiance sourceSeenBy(const Transport& transport, const Ray& sample) {
+  if (sample.surface == kNone || !hitFront(sample)) return {};
+  const LightId source = transport.lightOf(sample.surface);
+  if (source == kNone || !sharesHighlights(transport, source)) return {};
+  const Medium& medium = sample.medium;  // attenuates as it does shadow rays
+  return *transport.constantRadiance(source) *
+         passing(medium.extinction * (Color(1, 1, 1) - medium.albedo), sample.length);
+}
+
+}  // namespace rsphere
