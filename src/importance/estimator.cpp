@@ -113,6 +113,11 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
   if (options.weights == Weights::silhouettes && options.densityFactor > 0) {
     aims_ = transport.aims();
     if (!aims_.spots) aims_.spots = (spots_ = findSpots(transport)).get();
+    // Bright spots show that light is uneven. Openings have other means.
+    if (aims_.spots && !aims_.openings && !transport.coarse()) {
+      auto patches = std::make_unique<LightPatches>(transport);
+      if (!patches->all().empty()) patches_ = std::move(patches);
+    }
   }
   strategy_ = makeStrategy();
 }
@@ -126,7 +131,8 @@ std::unique_ptr<const SamplingStrategy> SphereEstimator::makeStrategy() const {
     case Weights::silhouettes:
       break;
   }
-  return std::make_unique<SilhouetteWeights>(transport_, options_, base_, special_, sources_, aims_);
+  return std::make_unique<SilhouetteWeights>(transport_, options_, base_, special_, sources_, aims_,
+                                             patches_.get());
 }
 
 SphereEstimator::Workspace::Workspace(const SphereEstimator& estimator)
@@ -134,6 +140,7 @@ SphereEstimator::Workspace::Workspace(const SphereEstimator& estimator)
 
 PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) const {
   workspace.tracer.useCoarseSolutionAtFirst(true);
+  workspace.tracer.shareHighlights(true);
   // -Sa may send a million directions. They are kept only if they are to be printed.
   const bool keep = options_.everyDirection || options_.accuracy <= 0;
   const auto most = static_cast<size_t>(options_.mostOfAllSets());

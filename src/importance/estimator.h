@@ -19,6 +19,7 @@
 #include "importance/sphere_options.h"
 #include "sphere/voronoi.h"
 #include "transport/bright_spots.h"
+#include "transport/light_patches.h"
 #include "transport/path_tracer.h"
 #include "transport/ray_answer.h"
 
@@ -68,9 +69,10 @@ class SphereEstimator {
   SphereOptions options_;
   BaseSet base_;
   SeenSources sources_;
-  std::vector<SpecialObject> special_;        // none with -Sw h
-  std::unique_ptr<const BrightSpots> spots_;  // those that only this estimator uses, or null
-  Aims aims_;                                 // of indirect rays
+  std::vector<SpecialObject> special_;           // none with -Sw h
+  std::unique_ptr<const BrightSpots> spots_;     // those that only this estimator uses, or null
+  std::unique_ptr<const LightPatches> patches_;  // null where light is even
+  Aims aims_;                                    // of indirect rays
   std::unique_ptr<const SamplingStrategy> strategy_;
 };
 

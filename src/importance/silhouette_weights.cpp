@@ -22,6 +22,8 @@ enum class Stream : uint64_t {
   surroundings = 2,
   dynamicDirections = 3,
   guess = 4,
+  guide = 5,
+  guidedGlances = 6,
   firstRay = 16,  // of the base and dynamic directions; those after it belong to the next rays
 };
 
@@ -65,12 +67,14 @@ std::vector<V3d> glancesFor(const SphereOptions& options) {
 
 SilhouetteWeights::SilhouetteWeights(const Transport& transport, const SphereOptions& options,
                                      const BaseSet& base, std::span<const SpecialObject> special,
-                                     const SeenSources& sources, const Aims& aims)
+                                     const SeenSources& sources, const Aims& aims,
+                                     const LightPatches* patches)
     : options_(options), base_(base), sources_(sources) {
   if (!(options.densityFactor > 0)) return;
   guidance_.emplace(Guidance{TargetChoice(transport, special, sources, aims, options.densityFactor),
                              RadianceGuess(transport, unguessedSurfaces(sources)), glancesFor(options),
-                             baseDirections(tuning::RadianceGuess::kFitGlances)});
+                             baseDirections(tuning::RadianceGuess::kFitGlances), transport.tracer(),
+                             patches});
 }
 
 SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace&) const {
@@ -83,15 +87,28 @@ SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, 
   const GuessingTracer guessing(tracer, guess ? &*guess : nullptr);
   const std::vector<SeenSources::Sample> toImages =
       sources_.sample(set.point(), images, seedOf(set, Stream::imagesOfSources), tracer);
-  const size_t used = base + toImages.size(), left = most > used ? most - used : 0;
+  const std::optional<DirectionGuide> guide =
+      guidance_ && guidance_->patches
+          ? std::optional(DirectionGuide(*guidance_->patches, guidance_->tracer, set.point()))
+          : std::nullopt;
+  const size_t used = base + toImages.size();
+  size_t left = most > used ? most - used : 0;
+  const size_t guided =
+      guide ? std::min(left, static_cast<size_t>(Tuning::kGuided * static_cast<double>(base))) : 0;
+  left -= guided;
   const Targets targets =
       guidance_ ? guidance_->targets.at(set.point(), around.meanBrightness, base, left) : Targets({});
   const double besideImages = std::max(0., 4 * pi - solidAngleOf(toImages));
-  const Others others = sampleOthers(set, images, targets, besideImages, guess ? &*guess : nullptr, tracer);
+  const Others others = sampleOthers(set, images, targets, besideImages, guess ? &*guess : nullptr,
+                                     guided > 0 ? &*guide : nullptr, guided, tracer);
 
   SampledSet sampled;
-  if (guess) sampled.excess = excessOfGlances(set, others, *guess);
   if (base_.neighbours) sampled.variance = varianceOf(others, toImages);
+  if (guess) {
+    const Excess excess = excessOfGlances(set, others, *guess, guided > 0 ? &*guide : nullptr);
+    sampled.excess = excess.moments;
+    if (base_.neighbours) sampled.variance += excess.ofGuided;
+  }
   sampled.samples.reserve(toImages.size() + others.samples.size());
   for (const SeenSources::Sample& s : toImages) {
     sampled.samples.push_back(s.direction);
@@ -130,13 +147,16 @@ LocalGuess SilhouetteWeights::fitGuess(const SetAtPoint& set, const Surroundings
 
 SilhouetteWeights::Others SilhouetteWeights::sampleOthers(const SetAtPoint& set, const Images& images,
                                                           const Targets& targets, double solidAngle,
-                                                          const LocalGuess* guess, PathTracer& tracer) const {
+                                                          const LocalGuess* guess,
+                                                          const DirectionGuide* guide, size_t guided,
+                                                          PathTracer& tracer) const {
   Others others;
   double sum = 0;
+  const auto guidedDensity = static_cast<double>(guided);
   // The solid angle of each is the inverse of the density of all directions around it.
   const auto send = [&](const V3d& d, double baseCell) {
     const Targets::Region region = targets.regionAt(d);
-    const double cell = 1 / (1 / baseCell + region.density);
+    const double cell = 1 / (1 / baseCell + region.density + (guide ? guidedDensity * guide->density(d) : 0));
     const Ray ray = tracer.trace(set.point(), d, 0, seedOf(set, Stream::firstRay, others.samples.size()));
     const bool enters = !sources_.shown(tracer, images);
     others.regions.push_back(enters ? region.id : kNoRegion);
@@ -165,23 +185,43 @@ SilhouetteWeights::Others SilhouetteWeights::sampleOthers(const SetAtPoint& set,
     }
   }
   others.runs.push_back(others.samples.size());
+  if (guide) {
+    Random own(seedOf(set, Stream::guide));
+    for (const V3d& d : guide->directions(guided, own)) send(d, averageCell);
+  }
   const double scale = sum > 0 ? solidAngle / sum : 0;
   for (DirectionSample& s : others.samples) s.solidAngle *= scale;
   return others;
 }
 
-Moments SilhouetteWeights::excessOfGlances(const SetAtPoint& set, const Others& others,
-                                           const LocalGuess& guess) const {
-  Moments excess;
+SilhouetteWeights::Excess SilhouetteWeights::excessOfGlances(const SetAtPoint& set, const Others& others,
+                                                             const LocalGuess& guess,
+                                                             const DirectionGuide* guide) const {
+  Excess result;
+  Moments& excess = result.moments;
   for (size_t i = 0; i < others.samples.size(); ++i)
     if (others.regions[i] != kNoRegion)
       excess.add(others.samples[i].direction,
                  irradianceFrom(others.guesses[i], -others.samples[i].solidAngle), base_.sampling);
   const std::vector<V3d> glances = set.turned(guidance_->glances);
-  const double solidAngle = 4 * pi / static_cast<double>(glances.size());
-  for (const V3d& direction : glances)
-    excess.add(direction, irradianceFrom(guess.along(set.point(), direction), solidAngle), base_.sampling);
-  return excess;
+  const double even = static_cast<double>(glances.size()) / (4 * pi);  // per sr
+  const auto guided = guide ? static_cast<size_t>(Tuning::kGuided * static_cast<double>(glances.size())) : 0;
+  const auto look = [&](const V3d& direction) {
+    const double density = even + (guide ? static_cast<double>(guided) * guide->density(direction) : 0);
+    const Irradiance part = irradianceFrom(guess.along(set.point(), direction), 1 / density);
+    excess.add(direction, part, base_.sampling);
+    return part;
+  };
+  for (const V3d& direction : glances) look(direction);
+  if (!guide) return result;
+  Random random(seedOf(set, Stream::guidedGlances));
+  std::optional<Irradiance> last;
+  for (const V3d& direction : guide->directions(guided, random)) {
+    const Irradiance part = look(direction);
+    if (last) result.ofGuided += Variance::of(part - *last, base_.sampling) * .5;
+    last = part;
+  }
+  return result;
 }
 
 Variance SilhouetteWeights::varianceOf(const Others& others,
@@ -204,6 +244,12 @@ Variance SilhouetteWeights::varianceOf(const Others& others,
   for (size_t i = 1; i < others.runs.size(); ++i)
     variance += spreadVariance(samples.subspan(others.runs[i - 1], others.runs[i] - others.runs[i - 1]),
                                base_.sampling);
+  // Successive directions of the guide are near to each other: their differences are errors.
+  for (size_t i = others.runs.back() + 1; i < samples.size(); ++i)
+    variance += Variance::of(irradianceFrom(samples[i].value, samples[i].solidAngle) -
+                                 irradianceFrom(samples[i - 1].value, samples[i - 1].solidAngle),
+                             base_.sampling) *
+                .5;
   for (size_t i = 0, next = 0; i < toImages.size(); i = next) {
     while (next < toImages.size() && toImages[next].image == toImages[i].image) ++next;
     variance += partsVariance(toImages.subspan(i, next - i), base_.sampling);

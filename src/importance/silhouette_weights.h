@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "importance/base_set.h"
+#include "importance/direction_guide.h"
 #include "importance/sampling_strategy.h"
 #include "importance/seen_sources.h"
 #include "importance/targets.h"
@@ -21,6 +22,7 @@ namespace rsphere {
 // - How many directions a special object gets follows from how much the radiance on it varies, compared with
 //   the surroundings. That is measured by separate rays, so that the mean stays unbiased (targets.h). Spots of
 //   sunlight that enters through openings also get directions of their own.
+// - Where light is uneven, as around a goal, more directions follow it (direction_guide.h).
 // - Indirect rays are aimed at openings that daylight enters through (transport/openings.h), and at diffuse
 //   surfaces that receive much direct light (transport/bright_spots.h).
 // - A control variate reduces the variance of diffuse surfaces (transport/radiance_guess.h). Many glances,
@@ -29,9 +31,10 @@ namespace rsphere {
 // With -Sk 0 only the first of these is left.
 class SilhouetteWeights : public SamplingStrategy {
  public:
-  // Keeps references to all of them. aims: of indirect rays.
+  // Keeps references to all of them. aims: of indirect rays. patches: null where light is even.
   SilhouetteWeights(const Transport& transport, const SphereOptions& options, const BaseSet& base,
-                    std::span<const SpecialObject> special, const SeenSources& sources, const Aims& aims);
+                    std::span<const SpecialObject> special, const SeenSources& sources, const Aims& aims,
+                    const LightPatches* patches);
 
   SampledSet sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace& memory) const override;
 
@@ -43,6 +46,8 @@ class SilhouetteWeights : public SamplingStrategy {
     TargetChoice targets;
     RadianceGuess guess;
     std::vector<V3d> glances, fitGlances;
+    const Tracer& tracer;
+    const LightPatches* patches;  // null where light is even
   };
 
   // Findings of separate rays around a point that show no image of a light source.
@@ -59,7 +64,7 @@ class SilhouetteWeights : public SamplingStrategy {
     // kNoRegion: the sample shows an image of a light source, which has its own samples; its solid angle, radiance
     // and guess are then 0.
     std::vector<RegionId> regions;
-    // The first sample of each target, or of all parts of one image; then the number of all samples.
+    // The first sample of each target, or of all parts of one image; then the first that the guide has sent.
     std::vector<size_t> runs;
   };
 
@@ -67,10 +72,17 @@ class SilhouetteWeights : public SamplingStrategy {
   Surroundings lookAround(const SetAtPoint& set, const Images& images, PathTracer& tracer) const;
   LocalGuess fitGuess(const SetAtPoint& set, const Surroundings& around) const;
   // solidAngle: that all of them represent together, sr. guess: null if nothing is guessed.
+  // guided: directions that the guide sends; null: none.
   Others sampleOthers(const SetAtPoint& set, const Images& images, const Targets& targets, double solidAngle,
-                      const LocalGuess* guess, PathTracer& tracer) const;
+                      const LocalGuess* guess, const DirectionGuide* guide, size_t guided,
+                      PathTracer& tracer) const;
   // The moments of the guess by glances, minus those by the directions.
-  Moments excessOfGlances(const SetAtPoint& set, const Others& others, const LocalGuess& guess) const;
+  struct Excess {
+    Moments moments;
+    Variance ofGuided;  // of glances that the guide has sent
+  };
+  Excess excessOfGlances(const SetAtPoint& set, const Others& others, const LocalGuess& guess,
+                         const DirectionGuide* guide) const;
   Variance varianceOf(const Others& others, std::span<const SeenSources::Sample> toImages) const;
 
   const SphereOptions& options_;

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "base/constants.h"
-#include "light/surface_point.h"
 #include "shade/scattering.h"
+#include "transport/light_particles.h"
 #include "transport/panes.h"
 #include "transport/tuning.h"
 
@@ -30,12 +30,6 @@ V3d onDisk(const V3d& normal, double radius, double angle) {
   V3d x, y;
   frame(normal, x, y);
   return radius * std::cos(angle) * x + radius * std::sin(angle) * y;
-}
-
-// A random direction on the front side, distributed like the light that a diffuse surface reflects.
-V3d sentFrom(const V3d& normal, Random& random) {
-  const double u1 = random.uniform(), u2 = random.uniform();
-  return diffuseDirection(normal, u1, u2);
 }
 
 // 1 - cos, without loss of precision for small angles.
@@ -137,46 +131,12 @@ std::vector<BrightSpots::Particle> BrightSpots::particlesThrough(const Openings&
 
 std::vector<BrightSpots::Particle> BrightSpots::particles(const Scene& scene, const Tracer& tracer,
                                                           const LightSources& lights) const {
-  const V3d middle = tracer.bounds().center();
-  const double reach = tracer.bounds().size().length() / 2;
-  struct Sender {
-    const Shape* shape;
-    double power;
-  };
-  std::vector<Sender> senders;
-  double all = 0;
-  for (const LightSource& light : lights.all()) {
-    if (light.isVirtual()) continue;
-    const Surface& surface = scene.surfaces[light.surface];
-    const auto* distant = std::get_if<Distant>(&surface.shape);
-    const double power = brightness(sourceRadiance(scene, surface)) * kPi *
-                         (distant ? distant->solidAngle * reach * reach : areaOf(surface.shape));
-    if (!(power > 0)) continue;
-    senders.push_back({&surface.shape, power});
-    all += power;
-  }
   std::vector<Particle> found;
-  Random random(mixBits(senders.size()));
-  const auto follow = [&](const V3d& origin, const V3d& direction, double power) {
-    if (const auto particle = arrived(scene, tracer, origin, direction, power, random))
-      found.push_back(*particle);
-  };
-  const double each = all / Tuning::kParticles;
-  double due = random.uniform();
-  for (const Sender& sender : senders)
-    for (due += sender.power / each; due >= 1; --due) {
-      V3d origin, direction;
-      if (const auto* distant = std::get_if<Distant>(sender.shape)) {
-        const double radius = reach * std::sqrt(random.uniform()), angle = 2 * kPi * random.uniform();
-        direction = -distant->direction;
-        origin = middle + onDisk(direction, radius, angle) - 2 * reach * direction;
-      } else {
-        const SurfacePoint at = samplePoint(*sender.shape, scene.vertices, random);
-        direction = sentFrom(at.normal, random);
-        origin = at.point + 2 * kSamePlace * at.normal;
-      }
-      follow(origin, direction, each);
-    }
+  sendParticles(scene, tracer, lights, Tuning::kParticles,
+                [&](const V3d& origin, const V3d& direction, double power, const Surface&, Random& random) {
+                  if (const auto particle = arrived(scene, tracer, origin, direction, power, random))
+                    found.push_back(*particle);
+                });
   return found;
 }
 

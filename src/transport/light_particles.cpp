@@ -1,0 +1,58 @@
+#include "transport/light_particles.h"
+
+#include <cmath>
+#include <vector>
+
+#include "base/constants.h"
+#include "light/surface_point.h"
+#include "shade/scattering.h"
+
+namespace rsphere {
+
+V3d sentFrom(const V3d& normal, Random& random) {
+  const double u1 = random.uniform(), u2 = random.uniform();
+  return diffuseDirection(normal, u1, u2);
+}
+
+void sendParticles(const Scene& scene, const Tracer& tracer, const LightSources& lights, double count,
+                   SentParticle each) {
+  const V3d middle = tracer.bounds().center();
+  const double reach = tracer.bounds().size().length() / 2;
+  struct Sender {
+    const Surface* surface;
+    double power;
+  };
+  std::vector<Sender> senders;
+  double all = 0;
+  for (const LightSource& light : lights.all()) {
+    if (light.isVirtual()) continue;
+    const Surface& surface = scene.surfaces[light.surface];
+    const auto* distant = std::get_if<Distant>(&surface.shape);
+    const double power = brightness(sourceRadiance(scene, surface)) * kPi *
+                         (distant ? distant->solidAngle * reach * reach : areaOf(surface.shape));
+    if (!(power > 0)) continue;
+    senders.push_back({&surface, power});
+    all += power;
+  }
+  Random random(mixBits(senders.size()));
+  const double one = all / count;
+  double due = random.uniform();
+  for (const Sender& sender : senders)
+    for (due += sender.power / one; due >= 1; --due) {
+      V3d origin, direction;
+      if (const auto* distant = std::get_if<Distant>(&sender.surface->shape)) {
+        const double radius = reach * std::sqrt(random.uniform()), angle = 2 * kPi * random.uniform();
+        direction = -distant->direction;
+        V3d x, y;
+        frame(direction, x, y);
+        origin = middle + radius * std::cos(angle) * x + radius * std::sin(angle) * y - 2 * reach * direction;
+      } else {
+        const SurfacePoint at = samplePoint(sender.surface->shape, scene.vertices, random);
+        direction = sentFrom(at.normal, random);
+        origin = at.point + 2 * kSamePlace * at.normal;
+      }
+      each(origin, direction, one, *sender.surface, random);
+    }
+}
+
+}  // namespace rsphere

@@ -1,0 +1,23 @@
+#pragma once
+// Particles of light from the sources of a scene, each with the same power.
+#include "light/sources.h"
+#include "scene/random.h"
+#include "trace/tracer.h"
+#include "transport/function_ref.h"
+
+namespace rsphere {
+
+// Gets a particle that leaves a source: where it starts (world), its direction (unit), its power (W, of brightness),
+// the source's surface, and the random numbers for what becomes of it.
+using SentParticle = FunctionRef<void(const V3d& origin, const V3d& direction, double power,
+                                      const Surface& source, Random& random)>;
+
+// Sends about `count` particles from all real sources, in proportion to their power. Those of distant sources start
+// outside the scene. The same scene gives the same particles.
+void sendParticles(const Scene& scene, const Tracer& tracer, const LightSources& lights, double count,
+                   SentParticle each);
+
+// A random direction (unit) on the front side, distributed like the light that a diffuse surface reflects.
+V3d sentFrom(const V3d& normal, Random& random);
+
+}  // namespace rsphere
