@@ -87,10 +87,7 @@ bool DirectLight::arrives(const Ray& ray, Contribution& to, Radiance& value) {
                  ? Shadow::blocked
                  : Shadow::unsure;
   const bool follow = shadow == Shadow::unsure || (shadow == Shadow::clear && light.isVirtual());
-  if (follow && maxChannel(to.ofLobe) > 0) {
-    to.coefficient += to.ofLobe;
-    to.ofLobe = {};
-  }
+  if (follow && !ofLobe_.empty()) to.coefficient += ofLobe_[static_cast<size_t>(&to - contributions_.data())];
   if (follow || settings_.observesAllShadowRays)
     value = valueFromSource(ray, to);  // even if blocked when all shadow rays are shown to the observer
   if (shadow == Shadow::blocked) return false;
@@ -164,6 +161,7 @@ uint32_t DirectLight::findContributions(const Ray& ray, DirectCoefficient coeffi
     order_.resize(samples_.size());
     remaining_.resize(samples_.size() + 1);
   }
+  ofLobe_.clear();
   const bool clear = !isMedium(ray.medium.extinction);
   uint32_t count = 0;
   for (const SourceSample& sample : samples_) {
@@ -178,8 +176,10 @@ uint32_t DirectLight::findContributions(const Ray& ray, DirectCoefficient coeffi
     if (!(bright > 0)) continue;
     c.sample = &sample;
     c.coefficient = std::move(coefficient);
-    c.ofLobe = partOfLobe ? (*partOfLobe)(sample) : Coefficient();
-    if (maxChannel(c.ofLobe) > 0) c.coefficient -= c.ofLobe;
+    if (partOfLobe) {
+      ofLobe_.push_back((*partOfLobe)(sample));
+      c.coefficient -= ofLobe_.back();
+    }
     brightness_[count++] = bright;
   }
   return count;
@@ -246,6 +246,7 @@ void DirectLight::add(Ray& ray, DirectCoefficient coefficientOf, const V3d& fron
 
 // Estimates the sum over all sources from -Ss sources, drawn in proportion to their weights.
 void DirectLight::addOfChosen(Ray& ray, DirectCoefficient coefficientOf, const V3d& front) {
+  ofLobe_.clear();
   const double sum = t_.choice().weigh(ray.point, front, sourceWeights_);
   if (!(sum > 0)) return;
   const int draws = std::max(1, static_cast<int>(t_.options().chosenSources * ray.weight + .5));
@@ -270,6 +271,7 @@ void DirectLight::addOfChosen(Ray& ray, DirectCoefficient coefficientOf, const V
 void DirectLight::addFromSource(const Ray& at, LightId source, DirectCoefficient coefficientOf,
                                 Radiance& sum) {
   samples_.clear();
+  ofLobe_.clear();
   t_.lights().sample(source, at.point, {0, t_.options().directJitter}, state_.random, samples_);
   for (const SourceSample& sample : samples_) {
     Contribution c{&sample, coefficientOf(sample.direction, sample.solidAngle), sourceValue(at, sample)};

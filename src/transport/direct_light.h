@@ -49,8 +49,6 @@ class DirectLight {
     const SourceSample* sample;
     Coefficient coefficient;
     Radiance value;
-    Coefficient
-        ofLobe{};  // left out of the coefficient, except for light that a shadow ray meets behind a pane
   };
 
   size_t lookAheadOf(size_t count);
@@ -78,7 +76,9 @@ class DirectLight {
   std::vector<SourceSample> samples_;
   std::vector<Contribution> contributions_;
   std::vector<double> brightness_;  // of the contributions
-  std::vector<uint32_t> order_;     // of the contributions, brightest first where not all are tested
+  // What PartOfLobe has taken from the coefficient of each contribution; empty if nothing is taken.
+  std::vector<Coefficient> ofLobe_;
+  std::vector<uint32_t> order_;  // of the contributions, brightest first where not all are tested
   std::vector<double> remaining_;
   ById<LightId, double> sourceWeights_;
   // The surface that blocked the last shadow ray from a surface to a source, at a hash of the two.
