@@ -864,8 +864,8 @@ void addDirectionOptions(const Add& add) {
        .unit = "directions",
        .remark = "most directions",
        .paragraph =
-           "Largest number of directions for one point: base directions, directions to special objects "
-           "and directions to light sources. Directions to light sources are at most a quarter of -Sn "
+           "Largest number of directions for one point: base directions, directions to special objects, "
+           "directions to light sources and, where light is uneven, directions that follow the light. Directions to light sources are at most a quarter of -Sn "
            "unless there are more sources than that; they are sent even if they exceed the limit. Shadow "
            "rays, and the rays that find the surfaces for the control variate of -Sw c, do not count. If "
            "-Sx is not given, it is twice -Sn where that is more than the default; see -Sa."});
@@ -881,7 +881,8 @@ void addWeightOptions(const Add& add) {
        .paragraph =
            "Factor on the density of directions (1/sr) towards special objects. With 0 and -Sw c, all "
            "directions have equal weights except those to light sources that are seen directly, diffuse "
-           "surfaces have no control variate, and no indirect rays are aimed at small bright patches."});
+           "surfaces have no control variate, no directions follow the light, and no indirect rays are aimed at small "
+           "bright patches."});
   add({.name = "-Sa",
        .arguments = "acc",
        .group = Group::sphere,

@@ -84,7 +84,8 @@ int run(int argc, char** argv) {
       for (const DirectionSample& sample : workspace.samples) {
         if (sample.toSource) continue;
         const double share = sample.solidAngle / (4 * kPi) / mean;
-        // Light arrives where a ray sees a source: its value is then what the source emits.
+        // Light arrives where a ray sees a source: its value is then what the source emits. What samples of a lobe
+        // estimate of near sources (shared_highlights.h) is not among it.
         again.tracer.observe(
             [&](const Ray& ray) {
               if (ray.surface == kNone || !ray.parent) return;
