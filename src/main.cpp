@@ -33,13 +33,13 @@ void answer(const Options& options, const Messages& messages, StopSignals& signa
   writeHeader(writer, options, scene.description.header, std::time(nullptr));
   writer.flush();  // a program that talks to this one may read the header before it sends a record
   if (options.sphereMode) {
-    Unreached unreached;
+    PointSummary summary;
     const auto summarize = [&] {
-      if (const std::string text = unreached.summary(options.sphere); !text.empty()) warn(text);
+      for (const std::string& text : summary.warnings(options.sphere)) warn(text);
     };
     try {
       runRecords(reader, writer, options, messages, &signals,
-                 answerPoints(transport, options, answers, warn, unreached, [&] { signals.check(); }));
+                 answerPoints(transport, options, answers, warn, summary, [&] { signals.check(); }));
     } catch (...) {
       summarize();
       throw;

@@ -40,30 +40,46 @@ PointWorkers::PointWorkers(const Transport& transport, const AnswerOptions& opti
   }
 }
 
-void Unreached::add(uint64_t record, const PointAnswer& answer, const SpectralSampling* sampling) {
-  const std::lock_guard lock(mutex_);
-  ++points_;
-  if (answer.reached) return;
-  ++missed_;
-  const double mean = photopicOf(answer.mean.color, sampling),
-               error = mean > 0 ? answer.brightnessError / mean : 1e30;
-  // Of equal errors the first record in the input is kept, whichever thread computed it.
-  if (error < worstError_ || (error == worstError_ && record > worst_)) return;
-  worst_ = record;
-  worstError_ = error;
+void PointSummary::Some::add(uint64_t record, double value) {
+  ++points;
+  if (value < most || (value == most && record > worst)) return;
+  worst = record;
+  most = value;
 }
 
-std::string Unreached::summary(const SphereOptions& options) const {
+void PointSummary::add(uint64_t record, const PointAnswer& answer, const SpectralSampling* sampling) {
   const std::lock_guard lock(mutex_);
-  if (missed_ == 0) return "";
-  return fmt::format(
-      "-Sa {:g} was not reached at {} of {} points with at most {} directions; the worst is record {}: "
-      "{:.3g}%",
-      options.accuracy, missed_, points_, options.mostOfAllSets(), worst_ + 1, 100 * worstError_);
+  ++points_;
+  const double mean = photopicOf(answer.mean.color, sampling);
+  if (!answer.reached) missed_.add(record, mean > 0 ? answer.brightnessError / mean : 1e30);
+  if (answer.clamped > 0) {
+    const double share = mean > 0 ? answer.clamped / (mean + answer.clamped) : 1;
+    clamped_.add(record, share);
+    billionths_ += static_cast<uint64_t>(1e9 * share);
+  }
+}
+
+std::vector<std::string> PointSummary::warnings(const SphereOptions& options) const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> texts;
+  if (missed_.points > 0)
+    texts.push_back(fmt::format(
+        "-Sa {:g} was not reached at {} of {} points with at most {} directions; the worst is record {}: "
+        "{:.3g}%",
+        options.accuracy, missed_.points, points_, options.mostOfAllSets(), missed_.worst + 1,
+        100 * missed_.most));
+  if (clamped_.points > 0)
+    texts.push_back(fmt::format(
+        "-Sf {:g} clamped {} of {} points and took {:.3g}% of their light on average; the most is record {}: "
+        "{:.3g}%",
+        options.clamp, clamped_.points, points_,
+        1e-7 * static_cast<double>(billionths_) / static_cast<double>(clamped_.points), clamped_.worst + 1,
+        100 * clamped_.most));
+  return texts;
 }
 
 AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& options,
-                          const AnswerWriter& writer, const rad::Warn& warn, Unreached& unreached,
+                          const AnswerWriter& writer, const rad::Warn& warn, PointSummary& summary,
                           const std::function<void()>& checkStop) {
   const bool standardError = options.outputs.find('e') != std::string::npos;
   const auto workers = std::make_shared<PointWorkers>(transport, options, standardError, checkStop);
@@ -71,7 +87,7 @@ AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& optio
   return [&, workers](const Record& record, unsigned worker, std::string& bytes) {
     const V3d point(record.numbers[0], record.numbers[1], record.numbers[2]);
     const PointAnswer answer = workers->answer(point, worker);
-    unreached.add(record.index, answer, options.ray.sampling);
+    summary.add(record.index, answer, options.ray.sampling);
     SphereEstimator::Workspace& workspace = workers->workspace(worker);
     if (!options.picture.empty())
       writePicture(pictureName(options.picture, record.index), point, transport, options,

@@ -37,21 +37,32 @@ class PointWorkers {
   std::vector<SphereEstimator::Workspace> workspaces_;
 };
 
-// Collects the points at which the accuracy of -Sa was not reached, for one line at the end. May be called
-// from several threads at once.
-class Unreached {
+// Collects from the answers of a run what the warnings at its end say. May be called from several threads at once; the
+// warnings do not depend on the order of the answers.
+class PointSummary {
  public:
   // sampling: RayOptions::sampling.
   void add(uint64_t record, const PointAnswer& answer, const SpectralSampling* sampling = nullptr);
 
-  // "-Sa 0.01 was not reached at 3 of 20 points with at most 8192 directions; the worst is record 7: 1.25%".
-  // Empty if the accuracy was reached at all points.
-  std::string summary(const SphereOptions& options) const;
+  // Where the accuracy of -Sa was not reached:
+  //   "-Sa 0.01 was not reached at 3 of 20 points with at most 8192 directions; the worst is record 7: 1.25%"
+  // Where -Sf took light:
+  //   "-Sf 0.01 clamped 3 of 20 points and took 1.4% of their light on average; the most is record 7: 2.5%"
+  std::vector<std::string> warnings(const SphereOptions& options) const;
 
  private:
+  // Points that something is to be said of. The first record is kept of equal ones.
+  struct Some {
+    uint64_t points = 0, worst = 0;
+    double most = -1;
+    void add(uint64_t record, double value);
+  };
   mutable std::mutex mutex_;
-  uint64_t points_ = 0, missed_ = 0, worst_ = 0;
-  double worstError_ = -1;  // relative standard error of the mean brightness
+  uint64_t points_ = 0;
+  Some missed_;   // -Sa: relative standard errors of the mean brightness
+  Some clamped_;  // -Sf: shares of the light that they had without the clamp
+  uint64_t billionths_ =
+      0;  // the sum of these shares, as a whole number, which no order of summation changes
 };
 
 // The function that answers points in sphere mode: appends the spherical mean, or a record of every
@@ -59,7 +70,7 @@ class Unreached {
 // checkStop: see PointWorkers; it is copied. The other arguments must live as long as the result. Throws
 // what PointWorkers throws.
 AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& options,
-                          const AnswerWriter& writer, const rad::Warn& warn, Unreached& unreached,
+                          const AnswerWriter& writer, const rad::Warn& warn, PointSummary& summary,
                           const std::function<void()>& checkStop);
 
 }  // namespace rsphere

@@ -100,7 +100,7 @@ struct Answerer {
       if (stop) throw Stopped();
     };
     answer = options.sphereMode
-                 ? answerPoints(scene->transport, options, writer, warn, unreached.emplace(), checkStop)
+                 ? answerPoints(scene->transport, options, writer, warn, summary.emplace(), checkStop)
                  : answerRays(scene->transport, options, writer, warn);
   }
   Answerer(const Answerer&) = delete;
@@ -110,7 +110,7 @@ struct Answerer {
   const std::shared_ptr<PreparedScene> scene;
   const AnswerWriter writer;
   const rad::Warn warn;
-  std::optional<Unreached> unreached;
+  std::optional<PointSummary> summary;
   std::atomic<bool> stop = false;
   AnswerRecord answer;
 };
@@ -393,10 +393,10 @@ Answers Scene::Implementation::answer(std::span<const double> numbers, const Opt
 
     std::unique_ptr<Answerer> answerer = take(given);
     prepared = answerer->scene;
-    if (answerer->unreached) answerer->unreached.emplace();
+    if (answerer->summary) answerer->summary.emplace();
     Call(*answerer, numbers, keep).run(options.stop);
-    if (answerer->unreached)
-      if (const std::string text = answerer->unreached->summary(parsed.sphere); !text.empty()) warn(text);
+    if (answerer->summary)
+      for (const std::string& text : answerer->summary->warnings(parsed.sphere)) warn(text);
     giveBack(given.key, std::move(answerer));
     return answers;
   });

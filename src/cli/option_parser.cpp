@@ -289,6 +289,8 @@ void checkTogether(Options& options, bool mostGiven) {
   if (!options.sphereMode) return;
   if (options.limitDistance) throw rad::Error("-ld needs ray mode (-S-): points have no direction vector");
   SphereOptions& sphere = options.sphere;
+  if (sphere.clamp > 0 && sphere.weights != Weights::silhouettes)
+    commandLineError("-Sf", "needs -Sw c, which integrates light sources separately");
   options.ray.leastForPatches = sphere.raysForPatches();
   if (!mostGiven) {
     sphere.mostDirections = std::max(sphere.mostDirections, 2 * sphere.baseDirections);

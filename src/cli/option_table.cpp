@@ -897,6 +897,20 @@ void addWeightOptions(const Add& add) {
            "decides on the number of sets in the other half, so that stopping causes hardly any bias. At "
            "the end, a warning gives the number of points that did not reach the accuracy, and the "
            "largest error. 0 uses one set."});
+  add({.name = "-Sf",
+       .arguments = "share",
+       .group = Group::sphere,
+       .value = +[](O& o) -> double& { return o.sphere.clamp; },
+       .range = kFraction,
+       .remark = "clamp: largest share of one direction",
+       .paragraph =
+           "Clamp of single directions, against outliers (fireflies): what a direction contributes to the "
+           "mean beyond its share of the control variate is limited to this fraction of the mean. "
+           "Directions to light sources that are integrated separately are not limited. The clamp makes "
+           "the mean too small wherever it takes effect; at the end, a warning gives the number of points "
+           "where it did and how much light it took. Standard errors are those of the clamped mean and do "
+           "not contain this bias. A direction contributes 1/N of the mean on average (-Sn N), so that values "
+           "below 20/N take more than outliers. Only with -Sw c. 0 does not clamp."});
   add({.name = "-Sw",
        .arguments = "letter",
        .group = Group::sphere,

@@ -57,7 +57,7 @@ void keepPositive(std::vector<DirectionSample>& samples) {
 // Sums over the sets of one half (two_halves.h).
 struct Half {
   Moments moments;
-  Irradiance excess;
+  Irradiance excess, clamped;
   Variance variance;
 };
 
@@ -157,6 +157,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
     Half& half = halves[*next];
     half.moments.add(moments, 1);
     half.excess += set.excess.total;
+    half.clamped += set.clamped;
     half.variance += set.variance;
     decision.add(*next, photopicOf(moments.total.color, transport_.options().sampling),
                  set.variance.brightness);
@@ -165,13 +166,14 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
     if (keep) kept.push_back({*next, std::move(set)});
   }
   Moments moments;
-  Irradiance excess;
+  Irradiance excess, clamped;
   Variance variance;
   for (size_t k = 0; k < halves.size(); ++k) {
     const double share = decision.share(k);
     if (!(share > 0)) continue;
     moments.add(halves[k].moments, share);
     excess += halves[k].excess * share;
+    clamped += halves[k].clamped * share;
     variance += halves[k].variance * (share * share);
   }
   SampledSet all = joined(std::move(kept), decision, excess);
@@ -183,6 +185,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
   answer.standardError.color = variance.channels;
   answer.standardError.color.transform(standardError);
   answer.brightnessError = standardError(variance.brightness);
+  answer.clamped = photopicOf(clamped.color, transport_.options().sampling) / (4 * std::numbers::pi);
   answer.reached = options_.accuracy <= 0 || decision.isReached();
   return answer;
 }

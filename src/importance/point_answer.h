@@ -16,6 +16,7 @@ struct PointAnswer {
   Irradiance cylindricalIrradiance;  // C  (1/pi) integral of L sin(angle to z)
   Irradiance facing[6];              // H  irradiances of the six faces, +x -x +y -y +z -z
   V3d lightVector{0, 0, 0};          // u  integral of L d, of brightness
+  double clamped = 0;                // what -Sf took from the brightness of mean, W/sr/m2
   size_t directions = 0;             // k
   bool reached = true;               // whether the standard error that -Sa asks for was reached
 };

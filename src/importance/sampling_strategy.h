@@ -40,8 +40,9 @@ struct SampledSet {
   std::vector<DirectionSample> samples;
   std::vector<Ray> rays;          // of the samples, in the same order; kept with -Sd only
   std::vector<Radiance> guesses;  // of the samples' radiances (radiance_guess.h); empty: none
-  Moments excess;     // of the guesses along glances over those along the samples; 0 without guesses
-  Variance variance;  // of moments().total; 0 unless standard errors are wanted
+  Moments excess;      // of the guesses along glances over those along the samples; 0 without guesses
+  Irradiance clamped;  // what -Sf took from moments().total
+  Variance variance;   // of moments().total; 0 unless standard errors are wanted
 
   // The set's estimate of the integrals over all directions.
   Moments moments(const SpectralSampling* sampling = nullptr) const;  // RayOptions::sampling

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "importance/clamp.h"
 #include "importance/tuning.h"
 #include "scene/even_sequence.h"
 #include "sphere/directions.h"
@@ -99,16 +100,24 @@ SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, 
   const Targets targets =
       guidance_ ? guidance_->targets.at(set.point(), around.meanBrightness, base, left) : Targets({});
   const double besideImages = std::max(0., 4 * pi - solidAngleOf(toImages));
-  const Others others = sampleOthers(set, images, targets, besideImages, guess ? &*guess : nullptr,
-                                     guided > 0 ? &*guide : nullptr, guided, tracer);
+  Others others = sampleOthers(set, images, targets, besideImages, guess ? &*guess : nullptr,
+                               guided > 0 ? &*guide : nullptr, guided, tracer);
 
   SampledSet sampled;
-  if (base_.neighbours) sampled.variance = varianceOf(others, toImages);
   if (guess) {
     const Excess excess = excessOfGlances(set, others, *guess, guided > 0 ? &*guide : nullptr);
     sampled.excess = excess.moments;
-    if (base_.neighbours) sampled.variance += excess.ofGuided;
+    if (base_.neighbours) sampled.variance = excess.ofGuided;
   }
+  if (options_.clamp > 0) {
+    Irradiance total = sampled.excess.total;
+    for (const SeenSources::Sample& s : toImages)
+      total += irradianceFrom(s.direction.value, s.direction.solidAngle);
+    for (const DirectionSample& s : others.samples) total += irradianceFrom(s.value, s.solidAngle);
+    sampled.clamped =
+        clampContributions(others.samples, others.guesses, total, options_.clamp, base_.sampling);
+  }
+  if (base_.neighbours) sampled.variance += varianceOf(others, toImages);
   sampled.samples.reserve(toImages.size() + others.samples.size());
   for (const SeenSources::Sample& s : toImages) {
     sampled.samples.push_back(s.direction);

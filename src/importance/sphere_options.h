@@ -15,6 +15,7 @@ struct SphereOptions {
   int mostForAccuracy = 0;                 // of all sets that -Sa averages, where this is more than -Sx
   double densityFactor = 1;                // -Sk
   double accuracy = 0;                     // -Sa  0: off
+  double clamp = 0;                        // -Sf  largest share of one direction; 0: off
   Weights weights = Weights::silhouettes;  // -Sw
   bool basicRadiance = false;              // -Sb
   bool everyDirection = false;             // -Sd
