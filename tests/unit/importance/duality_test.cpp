@@ -109,6 +109,66 @@ TEST(Duality, IrradianceFromALampIsWhatImportancePredicts) {
   EXPECT_LT(irradianceOnGoal(2, 0).mean(), .98 * light.mean());
 }
 
+// Importance with a desk as the goal is the radiance with a lamp in place of the desk: of the same geometry, and of
+// radiance 1. The desk is black, because a lamp does not reflect. The two runs take different ways through the program,
+// so that their random numbers differ.
+Sample aroundDesk(const std::string& desk, bool asGoal) {
+  const std::string text = R"(
+void plastic wall 0 0 5 .6 .5 .4 0 0
+wall polygon floor 0 0 12 0 0 0 4 0 0 4 3 0 0 3 0
+wall polygon ceiling 0 0 12 0 0 2.5 0 3 2.5 4 3 2.5 4 0 2.5
+wall polygon south 0 0 12 0 0 0 0 0 2.5 4 0 2.5 4 0 0
+wall polygon east 0 0 12 4 0 0 4 0 2.5 4 3 2.5 4 3 0
+wall polygon north 0 0 12 4 3 0 4 3 2.5 0 3 2.5 0 3 0
+wall polygon west 0 0 12 0 3 0 0 3 2.5 0 0 2.5 0 0 0
+void glass pane 0 0 3 .9 .8 .7
+pane polygon window 0 0 12 1.6 .2 .2 1.6 2 .2 1.6 2 2.2 1.6 .2 2.2
+void metal chrome 0 0 5 .9 .9 .9 1 0
+chrome sphere ball1 0 0 4 2.9 1.2 1.3 .15
+chrome sphere ball2 0 0 4 1.8 2.4 1 .2
+void dielectric crystal 0 0 5 .9 .95 .98 1.5 0
+crystal sphere ball3 0 0 4 1.2 1.7 1.6 .15
+void mirror silver 0 0 3 .9 .85 .8
+silver polygon mirror 0 0 12 3.98 1 .75 3.98 1 2.2 3.98 2.6 2.2 3.98 2.6 .75
+)";
+  const std::string names[] = {"desk"};
+  const Scene scene = buildScene(
+      rad::readSceneText(text + desk + "desk polygon top 0 0 12 2.2 1.6 .7 3 1.6 .7 3 2.1 .7 2.2 2.1 .7\n",
+                         "room.rad"),
+      {}, asGoal ? std::span<const std::string>(names) : std::span<const std::string>());
+  RayOptions options = finely(2);
+  options.ambientDivisions = 1;
+  const Transport transport(scene, options, IrradianceAt::none);
+  const V3d points[] = {V3d(1, 1.2, 1.9), V3d(2.4, .8, 1.2), V3d(1.9, 1.3, .5)};
+  Sample sample;
+  for (uint64_t rotation = 1; rotation <= 32; ++rotation) {
+    SphereOptions sphere;
+    sphere.baseDirections = 512;
+    // Different rotations, so that equal random numbers do not hide a difference.
+    sphere.rotation = asGoal ? rotation : rotation + 1000;
+    const SphereEstimator estimator(transport, sphere);
+    SphereEstimator::Workspace workspace(estimator);
+    double sum = 0;
+    for (const V3d& point : points) sum += estimator.estimate(point, workspace).mean.color.y;
+    sample.add(sum);
+  }
+  return sample;
+}
+
+TEST(Duality, ImportanceOfADeskIsTheRadianceOfALampInItsPlace) {
+  const Sample importance = aroundDesk("void plastic desk 0 0 5 0 0 0 0 0\n", true);
+  const auto differs = [&](const Sample& lamp) {
+    const double error = std::hypot(lamp.standardError(), importance.standardError());
+    RecordProperty("error", std::to_string(error / importance.mean()));
+    return std::abs(lamp.mean() / importance.mean() - 1) > std::max(.005, 3 * error / importance.mean());
+  };
+  const Sample lamp = aroundDesk("void light desk 0 0 3 1 1 1\n", false);
+  EXPECT_FALSE(differs(lamp)) << importance.mean() << " +- " << importance.standardError() << ", with a lamp "
+                              << lamp.mean() << " +- " << lamp.standardError();
+  // A lamp that is 1% too bright is noticed.
+  EXPECT_TRUE(differs(aroundDesk("void light desk 0 0 3 1.01 1.01 1.01\n", false)));
+}
+
 TEST(Duality, BasicRadianceIsTheSameOutsideOfGlass) {
   const Sample radiance = irradianceByImportance(1, false), basic = irradianceByImportance(1, true);
   EXPECT_NEAR(radiance.mean(), basic.mean(), 4 * std::hypot(radiance.standardError(), basic.standardError()));
