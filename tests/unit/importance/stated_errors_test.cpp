@@ -1,0 +1,94 @@
+// Whether the errors that answers state hold in the tails: where few paths bring much of the light, an answer that has
+// missed them must not be sure of itself.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "rad_parser/scene_file.h"
+#include "tests/unit/support/sphere_setting.h"
+#include "tests/unit/support/statistics.h"
+
+namespace rsphere {
+namespace {
+
+// Importance around a desk, at a point above it, at one beside it and at one in its shadow; few directions, and one ray
+// for each bounce, so that the contributions of single paths vary most.
+struct Desk : SphereSetting {
+  static Scene read() {
+    const std::string goals[] = {"goal"};
+    return buildScene(
+        rad::readScene(std::vector<std::string>{RSPHERE_TESTS "/bench/importance/scenes/goal_desk.rad"}, {}),
+        {}, goals);
+  }
+  Desk()
+      : SphereSetting(read(), [](RayOptions& o) {
+          o.ambientBounces = 2;
+          o.ambientDivisions = 1;
+          o.directJitter = 1;
+          o.directThreshold = 0;
+          o.sourceSubstructuring = .05;
+        }) {}
+};
+
+struct Honesty {
+  double trueOverStated = 0;  // of root mean squares
+  double beyondThree = 0;     // share of the answers that are further from the mean than three stated errors
+  double beyondSix = 0;
+};
+
+// spoiled: factor on the stated errors.
+Honesty honestyOf(const std::vector<std::vector<PointAnswer>>& points, double spoiled) {
+  Honesty o;
+  double square = 0, stated = 0, all = 0;
+  for (const auto& answers : points) {
+    Sample values;
+    for (const PointAnswer& a : answers) values.add(brightness(a.mean));
+    for (const PointAnswer& a : answers) {
+      const double off = std::abs(brightness(a.mean) - values.mean()), error = spoiled * a.brightnessError;
+      square += std::pow(off / values.mean(), 2);
+      stated += std::pow(error / values.mean(), 2);
+      o.beyondThree += off > 3 * error;
+      o.beyondSix += off > 6 * error;
+      ++all;
+    }
+  }
+  o.trueOverStated = std::sqrt(square / stated);
+  o.beyondThree /= all;
+  o.beyondSix /= all;
+  return o;
+}
+
+TEST(StatedErrors, HoldInTheTails) {
+  const Desk desk;
+  const V3d points[] = {V3d(2.8, 1.2, 1.2), V3d(3.9, 1.9, 1.1), V3d(2.2, .8, .4)};
+  std::vector<std::vector<PointAnswer>> answers(std::size(points));
+  for (uint64_t rotation = 1; rotation <= 20; ++rotation) {
+    SphereOptions o = desk.options.sphere;
+    o.baseDirections = 64;
+    o.rotation = rotation;
+    const SphereEstimator estimator(*desk.transport, o, true);
+    SphereEstimator::Workspace workspace(estimator);
+    // Points that differ by less than a micrometre have other random numbers.
+    for (size_t i = 0; i < std::size(points); ++i)
+      for (int k = 0; k < 50; ++k)
+        answers[i].push_back(estimator.estimate(points[i] + V3d(1e-8 * k, 0, 0), workspace));
+  }
+  const Honesty outcome = honestyOf(answers, 1);
+  RecordProperty("true/stated", std::to_string(outcome.trueOverStated));
+  RecordProperty("beyond 3", std::to_string(outcome.beyondThree));
+  RecordProperty("beyond 6", std::to_string(outcome.beyondSix));
+  EXPECT_GT(outcome.trueOverStated, .8);
+  EXPECT_LT(outcome.trueOverStated, 1.25);
+  EXPECT_LT(outcome.beyondThree, .02);
+  EXPECT_LE(outcome.beyondSix, .001);
+  // Stated errors that are too small by a factor of two would be noticed by each of them.
+  const Honesty spoiled = honestyOf(answers, .5);
+  EXPECT_GT(spoiled.trueOverStated, 1.25);
+  EXPECT_GT(spoiled.beyondThree, .02);
+  EXPECT_GT(spoiled.beyondSix, .001);
+}
+
+}  // namespace
+}  // namespace rsphere
