@@ -48,7 +48,7 @@ Variance baseVariance(std::span<const DirectionSample> base, const Neighbours& n
 
 // The same for a run of dynamic directions, which are evenly spread over a region in this order,
 // but successive ones are not neighbours: the variance of independent directions, reduced because
-// the directions are even.
+// the directions are even, but not where few of them find much, such as a lamp that is mirrored twice.
 Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling = nullptr);
 
 // The same for the samples of one image of a light source, in the order of its grid: from differences between

@@ -45,7 +45,7 @@ TEST(ErrorEstimate, LongRunsOfDirectionsAreTakenForEven) {
   Random random(1);
   for (const size_t n : {4, 64, 1024}) {
     Sample ratio;
-    for (int i = 0; i < 400; ++i) {
+    for (int i = 0; i < 800; ++i) {
       std::vector<DirectionSample> samples(n);
       for (DirectionSample& s : samples) {
         const double value = random.uniform();
@@ -56,6 +56,29 @@ TEST(ErrorEstimate, LongRunsOfDirectionsAreTakenForEven) {
     }
     expectMean(ratio, 1 / (1 + std::sqrt(static_cast<double>(n)) / 8), 1.15);
   }
+}
+
+// Something that is smaller than the distance of directions is found by some of them by chance, however even they are.
+TEST(ErrorEstimate, WhatFewDirectionsFindIsNotTakenForEven) {
+  constexpr size_t kDirections = 3000;
+  constexpr double kFound = 3;  // on average
+  Random random(1);
+  Sample stated, found;
+  for (int i = 0; i < 400; ++i) {
+    std::vector<DirectionSample> samples(kDirections);
+    double sum = 0;
+    for (DirectionSample& s : samples) {
+      const bool hit = random.uniform() < kFound / kDirections;
+      s.value = Radiance(hit ? 1 : 0);
+      s.solidAngle = 1;
+      sum += hit;
+    }
+    stated.add(spreadVariance(samples).brightness);
+    found.add(sum);
+  }
+  // By the number of all directions, the variance would be taken for 1 / (1 + 3000^1/2 / 8) = .13 of what it is.
+  EXPECT_GT(stated.mean(), .7 * found.variance());
+  EXPECT_LT(stated.mean(), 1 * found.variance());
 }
 
 // Four directions in a row, two of which see a window that is brighter than the wall beside it.
