@@ -50,6 +50,7 @@ END {
   print ""
   print "Made by `examples/paper/run FOLDER` in " seconds " s on " date ": " machine ";"
   print version ", " compiler "."
+  if (remark) print remark
   print ""
   print "- equal weights: their previous technique, 4096 directions (`-Sw h -Sn 4096`)"
   print "- the paper's: 2048 fixed directions, and up to 2048 to special objects, weighted by plain Voronoi cells"
