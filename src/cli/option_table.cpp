@@ -285,7 +285,9 @@ void addRecordOptions(const Add& add) {
        .remark = "number of rendering processes",
        .paragraph =
            "Answers records on N threads; 0 starts one for each core. If the system refuses to start so "
-           "many, there is a warning and the program uses fewer. The answers do not depend on N.",
+           "many, there is a warning and the program uses fewer. The answers do not depend on N. On a machine of "
+           "several NUMA nodes, the scene lies in the memory of one of them; a process for each node, bound to it by "
+           "numactl(8) and given a part of the records, can be faster.",
        .line = +[](const O& o) { return fmt::format("-n {:<2}\t\t\t\t", o.threads); }});
   add({.name = "-x",
        .arguments = "res",
