@@ -5,17 +5,13 @@
 #include <numbers>
 
 #include "importance/tuning.h"
+#include "transport/ball_reflection.h"
 
 namespace rsphere {
 namespace {
 
 using std::numbers::pi;
 using Tuning = tuning::Glints;
-
-// Steps of regula falsi to the reflecting point, and the error at which they end, relative to the angle
-// between the directions to both places.
-constexpr int kSteps = 20;
-constexpr double kExact = 1e-4;
 
 // The fraction of the brightness that a ball mirrors at normal incidence, and only by its outer boundary.
 // Images in balls of trans are ignored.
@@ -25,55 +21,6 @@ double reflectanceOf(const Material& material) {
   if (mirrored->boundaries > 0) return Tuning::kFresnel;
   if (isTransparent(material) || mirrored->roughness > Tuning::kSmooth) return 0;
   return mirrored->brightness;
-}
-
-// The normal of the sphere at the point where it mirrors one place to another. It lies in the plane of
-// both places and the center, and halves the angle between the directions to both. to: a place, or a
-// direction (unit) if distant.
-V3d mirrors(const Sphere& ball, const V3d& point, const V3d& to, bool distant) {
-  const V3d fromCenter = point - ball.center, a = fromCenter.normalized();
-  const V3d b = distant ? to : (to - ball.center).normalized(), across = b - a.dot(b) * a;
-  if (!(across.length2() > 1e-20)) return a;
-  const V3d side = across.normalized();
-  // An angle from a. Cosines and sines of differences of angles then need no trigonometric functions.
-  struct Turn {
-    double cosine, sine;
-  };
-  const Turn whole{a.dot(b), side.dot(b)};
-  const double between = std::atan2(whole.sine, whole.cosine);
-  const double away = fromCenter.length() / ball.radius,
-               inverse = distant ? 0 : ball.radius / (to - ball.center).length();
-  // For the normal at an angle from a: the sine of the difference between its angles to the two places, times
-  // a positive factor. Its root is the reflecting point.
-  const auto excess = [&](const Turn& turn) {
-    const double inX = turn.cosine * away - 1, inY = turn.sine * away;
-    const double outX = whole.cosine * turn.cosine + whole.sine * turn.sine - inverse,
-                 outY = whole.sine * turn.cosine - whole.cosine * turn.sine;
-    return inY * outX - inX * outY;
-  };
-  Turn turn{1, 0};
-  double low = 0, high = between, atLow = excess(turn), atHigh = excess(whole);
-  int last = 0;
-  for (int step = 0; step < kSteps && (step == 0 || high - low > kExact * between); ++step) {
-    const double angle =
-        atLow < 0 && atHigh > 0 ? (low * atHigh - high * atLow) / (atHigh - atLow) : (low + high) / 2;
-    turn = {std::cos(angle), std::sin(angle)};
-    const double at = excess(turn);
-    if (std::abs(at) <= kExact * kExact * (atHigh - atLow)) break;
-    // The Illinois rule: the value at an end that stays twice is halved.
-    if (at < 0) {
-      low = angle;
-      atLow = at;
-      if (last < 0) atHigh /= 2;
-      last = -1;
-    } else {
-      high = angle;
-      atHigh = at;
-      if (last > 0) atLow /= 2;
-      last = 1;
-    }
-  }
-  return turn.cosine * a + turn.sine * side;
 }
 
 // A part of a source as seen from a ball, so small that its image is hardly curved. Places, or directions
@@ -188,7 +135,7 @@ std::vector<Glint> Glints::find(const V3d& point, double least) const {
         continue;
       const size_t first = found.size();
       for (const Part& part : partsOf(transport_.scene(), source, ball)) {
-        const V3d normal = mirrors(ball, point, part.middle, source.distant);
+        const V3d normal = mirroringNormal(ball, point, part.middle, source.distant);
         const V3d at = ball.center + (ball.radius + 2 * kSamePlace) * normal, in = point - at;
         const V3d out = source.distant ? source.center : (part.middle - at).normalized();
         if (!(normal.dot(in) > 0) || (source.isPlane() && source.normal.dot(out) >= 0)) continue;
@@ -201,7 +148,7 @@ std::vector<Glint> Glints::find(const V3d& point, double least) const {
           for (const double share : {0., .5}) {
             const V3d place =
                 part.middle + Tuning::kEnlarged * (corner + share * (next - corner) - part.middle);
-            around.push_back(ball.center + ball.radius * mirrors(ball, point, place, source.distant));
+            around.push_back(ball.center + ball.radius * mirroringNormal(ball, point, place, source.distant));
           }
         }
         Silhouette region = hullOf(around, point);
