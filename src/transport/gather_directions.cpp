@@ -14,10 +14,10 @@ namespace {
 
 using Tuning = tuning::GatherDirections;
 
-// The mean radiance (W/sr/m2) from directions that are not aimed. Both estimates are made near to the openings,
+// The mean radiance (W/sr/m2) from directions that are not aimed. Both estimates with openings are made near to them,
 // where rooms are brighter than elsewhere.
 double usualRadiance(const Aims& aims) {
-  if (!aims.openings) return aims.spots->usual();
+  if (!aims.openings) return aims.spots ? aims.spots->usual() : aims.highlights->usual();
   const double least =
       aims.spots ? std::min(aims.openings->inside(), aims.spots->usual()) : aims.openings->inside();
   return Tuning::kFartherInside * least;
@@ -33,8 +33,14 @@ GatherDirections::GatherDirections(const Aims& aims, const V3d& point, const V3d
   if (aims.openings) aims.openings->aim(point, normal, openings_);
   if (aims.spots) aims.spots->aim(point, normal, spots_);
   const double aimedAt = openings_.mean + spots_.mean;
-  if (!(aimedAt > 0)) return;
+  if (!(aimedAt > 0) && !aims.highlights) return;
   const double all = aimedAt + usualRadiance(aims);
+  if (aims.highlights) {
+    aims.highlights->aim(point, normal, Tuning::kLeastHighlight * all * all, highlights_);
+    if (highlights_.mean > 0)
+      toHighlights_ = std::min(Tuning::kMostToHighlights, Tuning::kToHighlights * highlights_.mean / all);
+  }
+  if (!(aimedAt > 0)) return;
   const double unseen = std::max(0., 1 - Tuning::kSeenAnyway * openings_.seen);
   toOpenings_ =
       paying(std::min(Tuning::kMostToOpenings, Tuning::kToOpenings * openings_.mean / all * unseen));
@@ -46,7 +52,8 @@ double GatherDirections::density(const V3d& direction) const {
   double aimed = 0;
   if (toOpenings_ > 0) aimed += toOpenings_ * aims_.openings->density(openings_, point_, direction);
   if (toSpots_ > 0) aimed += toSpots_ * aims_.spots->density(spots_, direction);
-  return 1 - toOpenings_ - toSpots_ + aimed * kPi / direction.dot(normal_);
+  if (toHighlights_ > 0) aimed += toHighlights_ * aims_.highlights->density(highlights_, direction);
+  return unaimed() + aimed * kPi / direction.dot(normal_);
 }
 
 void GatherDirections::draw(int count, Random& random, Each each) const {
@@ -62,11 +69,13 @@ void GatherDirections::draw(int count, Random& random, Each each) const {
       direction = aims_.openings->sample(openings_, point_, u / toOpenings_, even.x, even.y);
     } else if ((u -= toOpenings_) < toSpots_) {
       direction = aims_.spots->sample(spots_, u / toSpots_, even.x, even.y);
+    } else if ((u -= toSpots_) < toHighlights_) {
+      direction = aims_.highlights->sample(highlights_, u / toHighlights_, even.x, even.y);
     } else {
       // A Fibonacci lattice over the projected hemisphere, shifted at random. It is as evenly distributed as a
       // jittered grid, for any number of rays.
       const double around = shift2 + i * kGolden;
-      direction = diffuseDirection(normal_, std::min(1., (u - toSpots_) / (1 - toOpenings_ - toSpots_)),
+      direction = diffuseDirection(normal_, std::min(1., (u - toHighlights_) / unaimed()),
                                    around - std::floor(around));
     }
     if (direction.dot(normal_) <= 0 || direction.dot(trueNormal_) <= 0) continue;

@@ -1,10 +1,11 @@
 #pragma once
 // The directions of a gather: most of them distributed by projected solid angle, the others aimed at openings
-// that daylight enters through and at bright spots. Each is weighted by the density with which all of these
-// together choose its direction (multiple importance sampling with the balance heuristic).
+// that daylight enters through, at bright spots and at highlights on balls. Each is weighted by the density with
+// which all of these together choose its direction (multiple importance sampling with the balance heuristic).
 #include <array>
 
 #include "scene/random.h"
+#include "transport/ball_highlights.h"
 #include "transport/bright_spots.h"
 #include "transport/function_ref.h"
 #include "transport/openings.h"
@@ -23,17 +24,19 @@ class GatherDirections {
   using Each = FunctionRef<void(const V3d& direction, double part)>;
 
   // Draws `count` directions, whose parts sum to 1 on average over a hemisphere that lies in front of the
-  // surface. Those behind the surface are left out.
+  // surface. Those behind the surface are left out, and those that miss the highlight that they were aimed at.
   void draw(int count, Random& random, Each each) const;
 
  private:
   double density(const V3d& direction) const;
+  double unaimed() const { return 1 - toOpenings_ - toSpots_ - toHighlights_; }
 
   Aims aims_;
   V3d point_, normal_, trueNormal_;
   Openings::Aim openings_;
   BrightSpots::Aim spots_;
-  double toOpenings_ = 0, toSpots_ = 0;  // shares of the directions that are aimed
+  BallHighlights::Aim highlights_;
+  double toOpenings_ = 0, toSpots_ = 0, toHighlights_ = 0;  // shares of the directions that are aimed
 };
 
 // Gets a child that is ready to be traced, and the factor of its radiance in the result.

@@ -8,6 +8,7 @@
 #include "field/coarse_solution.h"
 #include "field/irradiance_field.h"
 #include "scene/fingerprint.h"
+#include "transport/ball_highlights.h"
 #include "transport/bright_spots.h"
 #include "transport/openings.h"
 #include "transport/path_tracer.h"
@@ -20,7 +21,7 @@ namespace {
 uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAccess& access) {
   Fingerprint print;
   print.add(kVersion);
-  print.add(uint64_t{5});  // changes with the method of gathering between two versions
+  print.add(uint64_t{6});  // changes with the method of gathering between two versions
   for (const double x :
        {o.directThreshold, o.directCertainty, o.directJitter, o.sourceSubstructuring, o.specularSampling,
         o.specularThreshold, o.ambientAccuracy, o.weightLimit, o.mediumEccentricity, o.mediumSampling})
@@ -109,6 +110,8 @@ void Transport::findAims() {
     auto spots = std::make_unique<BrightSpots>(scene_, tracer_, lights_, openings_.get());
     if (!spots->empty()) spots_ = std::move(spots);
   }
+  auto highlights = std::make_unique<BallHighlights>(scene_, tracer_, lights_);
+  if (!highlights->empty()) highlights_ = std::move(highlights);
 }
 
 void Transport::prepareInterpolation(const rad::Warn& warn) {

@@ -19,6 +19,7 @@
 
 namespace rsphere {
 
+class BallHighlights;
 class BrightSpots;
 class CoarseSolution;
 class IrradianceField;
@@ -34,6 +35,7 @@ inline uint64_t rotationBits(const RayOptions& options) {
 struct Aims {
   const Openings* openings = nullptr;
   const BrightSpots* spots = nullptr;
+  const BallHighlights* highlights = nullptr;
 };
 
 // The options of the fields of interpolated light.
@@ -96,8 +98,8 @@ class Transport {
     return options_.ambientBounces - (options_.leastForPatches > 0 ? 0 : 1);
   }
   // The openings that daylight enters through, and patches of strong direct light, which are looked for where light
-  // is interpolated (-aa above 0) or daylight enters.
-  Aims aims() const { return {openings_.get(), spots_.get()}; }
+  // is interpolated (-aa above 0) or daylight enters; and highlights on balls.
+  Aims aims() const { return {openings_.get(), spots_.get(), highlights_.get()}; }
   bool looksForSpots() const { return options_.ambientAccuracy > 0 || openings_; }
 
  private:
@@ -126,6 +128,7 @@ class Transport {
   std::unique_ptr<IrradianceField> field_;
   std::unique_ptr<CoarseSolution> coarse_;
   std::unique_ptr<const BrightSpots> spots_;
+  std::unique_ptr<const BallHighlights> highlights_;
 };
 
 }  // namespace rsphere
