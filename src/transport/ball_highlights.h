@@ -13,6 +13,8 @@
 
 #include "light/sources.h"
 #include "trace/tracer.h"
+#include "transport/highlight_lobe.h"
+#include "transport/reach_grid.h"
 #include "transport/tuning.h"
 
 namespace rsphere {
@@ -20,13 +22,12 @@ namespace rsphere {
 class BallHighlights {
  public:
   // Uses the spheres of plastic or metal that belong to the scene itself, not to octrees in it. Shadow rays find which
-  // sources each of them sees. Keeps no references.
-  BallHighlights(const Scene& scene, const Tracer& tracer, const LightSources& lights);
+  // sources each of them sees. Keeps no references. least: nothing is aimed at where a ball's highlights add less than this
+  // to the variance, as for aim(); above 0.
+  BallHighlights(const Scene& scene, const Tracer& tracer, const LightSources& lights, double least);
 
-  bool empty() const { return count_ == 0; }
-  // An estimate of the mean brightness (W/sr/m2) of all surfaces that are lit by the sources.
-  double usual() const { return usual_; }
-  static constexpr size_t kRoom = tuning::BallHighlights::kMostRoom;
+  bool empty() const { return balls_.empty(); }
+  static constexpr size_t kRoom = tuning::BallHighlights::kMostAimedRoom;
 
   // The sampling distribution for a point of a diffuse surface.
   struct Aim {
@@ -34,9 +35,10 @@ class BallHighlights {
     size_t count = 0;  // of balls that are aimed at; below, their numbers
     V3d point{0, 0, 0};
     std::array<uint32_t, kRoom> ball;
-    std::array<float, kRoom> x, y, z;  // vectors to the centers of the balls (world units)
-    std::array<float, kRoom> beside2;  // squared distance from the center up to which a ray may meet the ball
-    std::array<float, kRoom> sum;      // cumulative contributions of the balls
+    std::array<V3d, kRoom> way;  // to their centers (world units)
+    std::array<double, kRoom>
+        tangent2;                   // square of the distance along a tangent, at most (square world units)
+    std::array<double, kRoom> sum;  // cumulative contributions
   };
 
   // front: unit normal. least: balls are left out whose highlights are estimated to add less than this to the variance
@@ -51,16 +53,9 @@ class BallHighlights {
   double density(const Aim& aim, const V3d& direction) const;
 
  private:
-  // A light source, or a part of one, as seen from a ball.
   struct Part {
-    bool distant = false;
-    V3d center{0, 0, 0};         // a direction (unit) if distant
-    V3d u{0, 0, 0}, v{0, 0, 0};  // half its extent (world units; sines if distant)
-    double variance = 1. / 3;    // along u and v, relative to the squares of their lengths
-    double radius = 0;           // up to which it extends from the center
-    double upTo = 0;             // cumulative share of the ball's intensity
-
-    V3d towards(const V3d& from) const { return distant ? center : center - from; }
+    SourcePart source;
+    double upTo = 0;  // cumulative share of the ball's intensity
   };
   struct Ball {
     Sphere sphere;
@@ -69,24 +64,15 @@ class BallHighlights {
     double hot = 0;        // mean square of its radiance, as a factor of cosine / distance^2
     std::vector<Part> parts;
   };
-  class Lobe;
 
-  static std::vector<Part> partsOf(const LightSource& source, const Sphere& ball);
-  static bool sees(const Tracer& tracer, SurfaceId source, const Part& part, const V3d& at);
   static Ball lit(const Sphere& sphere, const Opaque& material, const Scene& scene, const Tracer& tracer,
                   const LightSources& lights);
-  double densityOf(const Aim& aim, const V3d& direction, const std::array<bool, kRoom>& in) const;
+  static HighlightLobe lobeOf(const Ball& ball, const SourcePart& part, const V3d& point);
   static bool meets(const Ball& ball, const V3d& point, const V3d& direction, V3d& normal);
-  static bool isNear(const Ball& ball, const Part& part, const V3d& direction, const V3d& normal);
+  static bool isNear(const Ball& ball, const SourcePart& part, const V3d& direction, const V3d& normal);
 
   std::vector<Ball> balls_;
-  // The balls, as a structure of arrays.
-  using Numbers = std::array<float, kRoom>;
-  size_t count_ = 0;
-  double usual_ = 0;
-  V3d origin_{0, 0, 0};  // origin of the coordinates of the centers
-  float rounding_ = 0;   // of the square of a distance (square world units)
-  Numbers x_{}, y_{}, z_{}, radius_{}, intensity_{}, hot_{};
+  ReachGrid near_;
 };
 
 }  // namespace rsphere

@@ -34,7 +34,7 @@ GatheredLight gatherLight(const Transport& transport, PathState& state, const Ai
   const HemisphereCells cells(count);
   std::vector<Radiance> radiance(cells.count());
   std::vector<double> distance(cells.count(), kFarAway);
-  const GatherDirections directions(aims, site.point, site.normal, site.normal);
+  const GatherDirections directions(aims, site.point, site.normal, site.normal, count);
   sendOverHemisphere(transport, directions, state.random, root, kReflectedAmbient, count, Coefficient(1),
                      Coefficient(kMeanReflectance), [&](Ray& child, const Coefficient& factor) {
                        follower.follow(child);
@@ -49,7 +49,7 @@ void linkPatch(const Transport& transport, PathState& state, const Aims& aims, R
                const GatherSite& site, int rays, int depth) {
   const Ray root = rootOf(transport, site, depth);
   Radiance sum;
-  const GatherDirections directions(aims, site.point, site.normal, site.normal);
+  const GatherDirections directions(aims, site.point, site.normal, site.normal, rays);
   sendOverHemisphere(transport, directions, state.random, root, kReflectedAmbient, rays, Coefficient(1),
                      Coefficient(kMeanReflectance), [&](Ray& child, const Coefficient& factor) {
                        follower.follow(child);

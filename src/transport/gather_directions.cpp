@@ -28,7 +28,7 @@ double paying(double share) { return share >= Tuning::kTooFew ? share : 0; }
 }  // namespace
 
 GatherDirections::GatherDirections(const Aims& aims, const V3d& point, const V3d& normal,
-                                   const V3d& trueNormal)
+                                   const V3d& trueNormal, int rays)
     : aims_(aims), point_(point), normal_(normal), trueNormal_(trueNormal) {
   if (aims.openings) aims.openings->aim(point, normal, openings_);
   if (aims.spots) aims.spots->aim(point, normal, spots_);
@@ -36,7 +36,7 @@ GatherDirections::GatherDirections(const Aims& aims, const V3d& point, const V3d
   if (!(aimedAt > 0) && !aims.highlights) return;
   const double all = aimedAt + usualRadiance(aims);
   if (aims.highlights) {
-    aims.highlights->aim(point, normal, Tuning::kLeastHighlight * all * all, highlights_);
+    aims.highlights->aim(point, normal, all, rays, highlights_);
     if (highlights_.mean > 0)
       toHighlights_ = std::min(Tuning::kMostToHighlights, Tuning::kToHighlights * highlights_.mean / all);
   }

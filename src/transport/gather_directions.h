@@ -1,13 +1,13 @@
 #pragma once
 // The directions of a gather: most of them distributed by projected solid angle, the others aimed at openings
-// that daylight enters through, at bright spots and at highlights on balls. Each is weighted by the density with
+// that daylight enters through, at bright spots and at highlights on rough balls and cylinders. Each is weighted by the density with
 // which all of these together choose its direction (multiple importance sampling with the balance heuristic).
 #include <array>
 
 #include "scene/random.h"
-#include "transport/ball_highlights.h"
 #include "transport/bright_spots.h"
 #include "transport/function_ref.h"
+#include "transport/highlights.h"
 #include "transport/openings.h"
 #include "transport/ray.h"
 #include "transport/transport.h"
@@ -17,8 +17,8 @@ namespace rsphere {
 class GatherDirections {
  public:
   // Around a normal (unit) at a point (world). No directions lie behind trueNormal (unit), as if it were dark
-  // there. Keeps references to what the aims refer to.
-  GatherDirections(const Aims& aims, const V3d& point, const V3d& normal, const V3d& trueNormal);
+  // there. rays: about how many directions will be drawn. Keeps references to what the aims refer to.
+  GatherDirections(const Aims& aims, const V3d& point, const V3d& normal, const V3d& trueNormal, int rays);
 
   // Gets a direction (unit), and its share of the mean over the hemisphere.
   using Each = FunctionRef<void(const V3d& direction, double part)>;
@@ -35,7 +35,7 @@ class GatherDirections {
   V3d point_, normal_, trueNormal_;
   Openings::Aim openings_;
   BrightSpots::Aim spots_;
-  BallHighlights::Aim highlights_;
+  Highlights::Aim highlights_;
   double toOpenings_ = 0, toSpots_ = 0, toHighlights_ = 0;  // shares of the directions that are aimed
 };
 

@@ -52,8 +52,8 @@ int IndirectLight::raysOf(const Ray& ray, const Coefficient& coefficient) const 
 // Every ray that is followed may be corrected by a control variate: the guess of its radiance is subtracted,
 // and the mean of many guesses added.
 void IndirectLight::gather(Ray& ray, const Surroundings& at) {
-  const GatherDirections directions(settings_.aims, ray.point, at.normal, at.trueNormal);
   const int rays = raysOf(ray, at.coefficient), guesses = raysToGuess(ray);
+  const GatherDirections directions(settings_.aims, ray.point, at.normal, at.trueNormal, rays);
   if (guesses > 0)
     directions.draw(rays * guesses, state_.random, [&](const V3d& direction, double part) {
       ray.value += at.coefficient * part * settings_.guess->indirect(ray.point, direction, ray.surface);

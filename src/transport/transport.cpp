@@ -8,8 +8,8 @@
 #include "field/coarse_solution.h"
 #include "field/irradiance_field.h"
 #include "scene/fingerprint.h"
-#include "transport/ball_highlights.h"
 #include "transport/bright_spots.h"
+#include "transport/highlights.h"
 #include "transport/openings.h"
 #include "transport/path_tracer.h"
 #include "transport/ray_functions.h"
@@ -110,7 +110,7 @@ void Transport::findAims() {
     auto spots = std::make_unique<BrightSpots>(scene_, tracer_, lights_, openings_.get());
     if (!spots->empty()) spots_ = std::move(spots);
   }
-  auto highlights = std::make_unique<BallHighlights>(scene_, tracer_, lights_);
+  auto highlights = std::make_unique<Highlights>(scene_, tracer_, lights_);
   if (!highlights->empty()) highlights_ = std::move(highlights);
 }
 

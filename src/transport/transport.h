@@ -19,7 +19,7 @@
 
 namespace rsphere {
 
-class BallHighlights;
+class Highlights;
 class BrightSpots;
 class CoarseSolution;
 class IrradianceField;
@@ -35,7 +35,7 @@ inline uint64_t rotationBits(const RayOptions& options) {
 struct Aims {
   const Openings* openings = nullptr;
   const BrightSpots* spots = nullptr;
-  const BallHighlights* highlights = nullptr;
+  const Highlights* highlights = nullptr;
 };
 
 // The options of the fields of interpolated light.
@@ -98,7 +98,7 @@ class Transport {
     return options_.ambientBounces - (options_.leastForPatches > 0 ? 0 : 1);
   }
   // The openings that daylight enters through, and patches of strong direct light, which are looked for where light
-  // is interpolated (-aa above 0) or daylight enters; and highlights on balls.
+  // is interpolated (-aa above 0) or daylight enters; and highlights on rough balls and cylinders.
   Aims aims() const { return {openings_.get(), spots_.get(), highlights_.get()}; }
   bool looksForSpots() const { return options_.ambientAccuracy > 0 || openings_; }
 
@@ -128,7 +128,7 @@ class Transport {
   std::unique_ptr<IrradianceField> field_;
   std::unique_ptr<CoarseSolution> coarse_;
   std::unique_ptr<const BrightSpots> spots_;
-  std::unique_ptr<const BallHighlights> highlights_;
+  std::unique_ptr<const Highlights> highlights_;
 };
 
 }  // namespace rsphere

@@ -20,7 +20,7 @@ const std::string kBulb = "lamp sphere bulb 0 0 4 3 2.5 2.5 .05\n";
 const std::string kFloor = "matt polygon floor 0 0 12 0 0 0 4 0 0 4 4 0 0 4 0\n";
 
 BallHighlights highlightsOf(const Traced& t) {
-  return BallHighlights(t.scene(), t.transport().tracer(), t.transport().lights());
+  return BallHighlights(t.scene(), t.transport().tracer(), t.transport().lights(), 1e-9);
 }
 
 // A ball with a source of each kind, at different distances.
@@ -174,9 +174,9 @@ TEST(BallHighlights, LeaveNoDirectionsOut) {
   const Traced t(kMaterials + kBall + kBulb + kFloor, unbiased(1));
   const V3d point(2.2, 2.1, 0), up(0, 0, 1);
   const Aims aims = t.transport().aims();
-  const GatherDirections directions(aims, point, up, up);
-  BallHighlights::Aim aim;
-  aims.highlights->aim(point, up, 0, aim);
+  const GatherDirections directions(aims, point, up, up, 64);
+  Highlights::Aim aim;
+  aims.highlights->aim(point, up, 0, 64, aim);
   for (const int count : {1, 8, 64}) {
     Random random(1);
     Sample sum, aimed;

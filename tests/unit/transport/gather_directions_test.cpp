@@ -21,7 +21,7 @@ TEST(GatherDirections, FewLeaveNoneOut) {
   aims.spots->aim(point, normal, spots);
   ASSERT_GT(openings.mean, 0);
   ASSERT_GT(spots.mean, 0);
-  const GatherDirections directions(aims, point, normal, normal);
+  const GatherDirections directions(aims, point, normal, normal, 64);
   for (const int count : {1, 2, 3, 8, 64}) {
     Random random(1);
     Sample sum;
@@ -48,11 +48,12 @@ TEST(GatherDirections, AreAimedWhereThatPays) {
   const Traced room(kSunlitRoom, unbiased(2));
   const Aims openings{room.transport().aims().openings, nullptr};
   const V3d down(0, 0, -1), south(0, -1, 0);
-  EXPECT_TRUE(areAimed({openings, V3d(2, 2, 3), down, down}));
-  EXPECT_FALSE(areAimed({Aims{}, V3d(2, 2, 3), down, down})) << "nothing to aim at";
-  EXPECT_FALSE(areAimed({openings, V3d(2, 2, 3), V3d(0, 0, 1), V3d(0, 0, 1)})) << "outdoors";
-  EXPECT_TRUE(areAimed({openings, V3d(2, 2, 1.5), south, south}));
-  EXPECT_FALSE(areAimed({openings, V3d(2, .3, 1.5), south, south})) << "the window fills half of the view";
+  EXPECT_TRUE(areAimed({openings, V3d(2, 2, 3), down, down, 64}));
+  EXPECT_FALSE(areAimed({Aims{}, V3d(2, 2, 3), down, down, 64})) << "nothing to aim at";
+  EXPECT_FALSE(areAimed({openings, V3d(2, 2, 3), V3d(0, 0, 1), V3d(0, 0, 1), 64})) << "outdoors";
+  EXPECT_TRUE(areAimed({openings, V3d(2, 2, 1.5), south, south, 64}));
+  EXPECT_FALSE(areAimed({openings, V3d(2, .3, 1.5), south, south, 64}))
+      << "the window fills half of the view";
 }
 
 // Three bounces, each aimed at the window and at the sunlit floor. The ray ends on the north wall, where no ground

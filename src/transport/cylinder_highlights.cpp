@@ -1,0 +1,198 @@
+#include "transport/cylinder_highlights.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+#include "transport/ball_reflection.h"
+
+namespace rsphere {
+namespace {
+
+using Tuning = tuning::CylinderHighlights;
+
+// Where along a cylinder it is tested whether it sees a source, as shares of its length.
+constexpr double kPlaces[] = {.5, .1, .9};
+
+V3d across(const Cone& cylinder, const V3d& way) { return way - way.dot(cylinder.axis) * cylinder.axis; }
+
+V3d nearestOnAxis(const Cone& cylinder, const V3d& place) {
+  return cylinder.base +
+         std::clamp((place - cylinder.base).dot(cylinder.axis), 0., cylinder.length) * cylinder.axis;
+}
+
+// The share of a normal distribution in an interval.
+double shareWithin(double low, double high, double mean, double variance) {
+  const double scale = 1 / std::sqrt(2 * variance);
+  return (std::erf((high - mean) * scale) - std::erf((low - mean) * scale)) / 2;
+}
+
+}  // namespace
+
+CylinderHighlights::CylinderHighlights(const Scene& scene, const Tracer& tracer, const LightSources& lights,
+                                       double least) {
+  struct Asked {
+    const Cone* shape;
+    const Opaque* material;
+  };
+  std::vector<Asked> asked;
+  for (const Surface& surface : scene.outermost()) {
+    const auto* shape = std::get_if<Cone>(&surface.shape);
+    if (!shape || shape->radius0 != shape->radius1 || !(shape->length > 0)) continue;
+    if (const Opaque* material = roughReflector(scene, surface)) asked.push_back({shape, material});
+  }
+  std::stable_sort(asked.begin(), asked.end(), [](const Asked& a, const Asked& b) {
+    return a.shape->radius0 * a.shape->length > b.shape->radius0 * b.shape->length;
+  });
+  if (asked.size() > Tuning::kMostAsked) asked.resize(Tuning::kMostAsked);
+  for (const Asked& a : asked)
+    if (Cylinder cylinder = lit(*a.shape, *a.material, scene, tracer, lights); !cylinder.parts.empty())
+      cylinders_.push_back(std::move(cylinder));
+  std::stable_sort(cylinders_.begin(), cylinders_.end(),
+                   [](const Cylinder& a, const Cylinder& b) { return a.hot > b.hot; });
+  std::vector<ReachGrid::Reach> reaches;
+  for (const Cylinder& c : cylinders_) {
+    // From farther away, a highlight is longer than the cylinder.
+    const double whole = c.shape.length / (2 * std::sqrt(kPi) * c.roughness), reach = c.hot / least;
+    reaches.push_back({c.shape.base, c.shape.base + c.shape.length * c.shape.axis,
+                       reach > whole ? std::sqrt(reach * whole) : reach});
+  }
+  if (!reaches.empty()) near_ = ReachGrid(reaches, tracer.bounds());
+}
+
+// The sources that light a cylinder. The image of a distant source fills its solid angle as seen from the cylinder, times
+// half the radius over the distance from the cylinder where the plane of reflection is across the axis; elsewhere, as much
+// within a factor of the cosines.
+CylinderHighlights::Cylinder CylinderHighlights::lit(const Cone& shape, const Opaque& material,
+                                                     const Scene& scene, const Tracer& tracer,
+                                                     const LightSources& lights) {
+  Cylinder cylinder{shape, material.roughness, 0, {}};
+  const double reflectance = reflectanceOf(material), radius = shape.radius0;
+  struct Candidate {
+    Part part;
+    double bright;
+  };
+  std::vector<Candidate> candidates;
+  for (const LightSource& source : lights.all()) {
+    const V3d from =
+        source.distant ? shape.base + shape.length / 2 * shape.axis : nearestOnAxis(shape, source.center);
+    for (const LightingPart& part : partsThatLight(source, from, radius, scene)) {
+      const double solidAngle = part.solidAngle(from), radiance = reflectance * part.radiance;
+      const double spread = cylinder.roughness * cylinder.roughness + solidAngle / (8 * kPi);
+      const double bright = radiance * solidAngle * radius / 2;
+      const double hot = bright * bright / (4 * kPi * kPi * radius * spread);
+      if (hot > 0) candidates.push_back({{part, radiance, hot}, bright});
+    }
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.bright > b.bright; });
+  if (candidates.size() > Tuning::kMostOfCylinder) candidates.resize(Tuning::kMostOfCylinder);
+  for (const Candidate& c : candidates) {
+    const bool seen = std::any_of(std::begin(kPlaces), std::end(kPlaces), [&](double share) {
+      const V3d place = shape.base + share * shape.length * shape.axis;
+      const V3d out = across(shape, c.part.lighting.part.towards(place));
+      const double length = out.length();
+      return length > (c.part.lighting.part.distant ? 0 : radius) &&
+             seesPart(tracer, c.part.lighting, place + (radius + 2 * kSamePlace) / length * out);
+    });
+    if (!seen) continue;
+    cylinder.hot += c.part.hot;
+    cylinder.parts.push_back(c.part);
+  }
+  return cylinder;
+}
+
+// The path by way of the mirroring place is the shortest. Across the axis, it is therefore that of a circle, whatever the
+// heights of its ends are; and along the axis, it is straight where the circle is unrolled.
+void CylinderHighlights::aim(const V3d& point, const V3d& front, double least, Aim& aim) const {
+  aim.count = 0;
+  aim.mean = 0;
+  double variance = 0, sum = 0;
+  for (const uint32_t number : near_.at(point)) {
+    const Cylinder& cylinder = cylinders_[number];
+    const Cone& shape = cylinder.shape;
+    const double radius = shape.radius0;
+    const V3d way = shape.base - point;
+    if (!(way.dot(front) + std::max(0., shape.length * shape.axis.dot(front)) > -radius)) continue;
+    const V3d at = across(shape, -way);
+    const double height = -way.dot(shape.axis);
+    if (!(at.length2() > Tuning::kApart * Tuning::kApart * radius * radius)) continue;
+    const double enough = Tuning::kLeastShare * least * (point - nearestOnAxis(shape, point)).length();
+    for (const Part& p : cylinder.parts) {
+      if (aim.count == Tuning::kMostAimed) break;
+      if (!(p.hot > enough)) continue;
+      const SourcePart& part = p.lighting.part;
+      const V3d to = part.distant ? part.center : part.center - shape.base, side = across(shape, to);
+      const double beside = side.length();
+      if (!(beside > (part.distant ? Tuning::kLengthwise : Tuning::kApart * radius))) continue;
+      const V3d normal = mirroringNormal({.center = V3d(0, 0, 0), .radius = radius}, at,
+                                         part.distant ? side / beside : side, part.distant);
+      const double near = (at - radius * normal).length(), far = (side - radius * normal).length();
+      const double place = height + near * (part.distant ? to.dot(shape.axis) / beside
+                                                         : (to.dot(shape.axis) - height) / (near + far));
+      if (place < -Tuning::kBeyond * shape.length || place > (1 + Tuning::kBeyond) * shape.length) continue;
+      const V3d mirror = shape.base + place * shape.axis + radius * normal;
+      const V3d out = (mirror - point).normalized();
+      const double cosine = out.dot(front);
+      if (!(cosine > 0 && out.dot(normal) < 0)) continue;
+      const Highlight highlight(mirror, normal, {.radius = radius, .straight = shape.axis},
+                                cylinder.roughness, part, point);
+      const double share = shareWithin(0, shape.length, place, highlight.lengthwise);
+      const double whole = p.radiance * p.lighting.solidAngle(mirror) * highlight.magnified,
+                   bright = whole * share;
+      const double adds = whole * bright * cosine / (4 * kPi * kPi * highlight.spread);
+      if (!(adds > Tuning::kLeastShare * least)) continue;
+      aim.cylinder[aim.count] = number;
+      aim.lobe[aim.count] = highlight.lobe;
+      aim.sum[aim.count++] = sum += bright * cosine;
+      variance += adds;
+    }
+  }
+  if (variance > least) {
+    aim.point = point;
+    aim.mean = sum / kPi;
+  } else {
+    aim.count = 0;
+  }
+}
+
+// Whether a ray meets the outside of a cylinder.
+bool CylinderHighlights::meets(const Cone& cylinder, const V3d& point, const V3d& direction) {
+  const V3d way = point - cylinder.base, at = across(cylinder, way), ahead = across(cylinder, direction);
+  const double square = ahead.length2(), along = at.dot(ahead), radius = cylinder.radius0;
+  const double rest = along * along - square * (at.length2() - radius * radius);
+  if (!(along < 0 && rest > 0)) return false;
+  const double distance = (-along - std::sqrt(rest)) / square;
+  const double height = (way + distance * direction).dot(cylinder.axis);
+  return distance > 0 && height >= 0 && height <= cylinder.length;
+}
+
+V3d CylinderHighlights::sample(const Aim& aim, double u1, double u2, double u3) const {
+  const double due = u1 * aim.sum[aim.count - 1];
+  size_t i = 0;
+  while (i + 1 < aim.count && !(due < aim.sum[i])) ++i;
+  const V3d direction = aim.lobe[i].sample(u2, u3);
+  const bool counts = aim.lobe[i].density(direction, Tuning::kReach) > 0 &&
+                      meets(cylinders_[aim.cylinder[i]].shape, aim.point, direction);
+  return counts ? direction : V3d(0, 0, 0);
+}
+
+double CylinderHighlights::density(const Aim& aim, const V3d& direction) const {
+  double sum = 0, before = 0;
+  uint32_t last = ~0u;
+  bool met = false;
+  for (size_t i = 0; i < aim.count; ++i) {
+    const double share = aim.sum[i] - before;
+    before = aim.sum[i];
+    const double density = aim.lobe[i].density(direction, Tuning::kReach);
+    if (!(density > 0)) continue;
+    if (aim.cylinder[i] != last) {
+      last = aim.cylinder[i];
+      met = meets(cylinders_[last].shape, aim.point, direction);
+    }
+    if (met) sum += share * density;
+  }
+  return aim.count > 0 ? sum / before : 0;
+}
+
+}  // namespace rsphere

@@ -1,0 +1,72 @@
+#pragma once
+// Highlights of light sources on rough cylinders: chrome legs of chairs, rails and pipes. As on balls (ball_highlights.h),
+// they are far smaller and brighter than the cylinder, but a cylinder does not send the light of a source in all
+// directions: as seen from a point, the highlight lies where the directions to both make equal angles with the axis, or
+// beyond the ends. Each highlight is therefore found for each point.
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "light/sources.h"
+#include "trace/tracer.h"
+#include "transport/highlight_lobe.h"
+#include "transport/reach_grid.h"
+#include "transport/tuning.h"
+
+namespace rsphere {
+
+class CylinderHighlights {
+ public:
+  // Uses the cylinders and tubes of plastic or metal, seen from outside, that belong to the scene itself, not to octrees in
+  // it. Shadow rays find which sources each of them sees. Keeps a reference to lights. least: nothing is aimed at where a
+  // cylinder's highlights add less than this to the variance, as for aim(); above 0.
+  CylinderHighlights(const Scene& scene, const Tracer& tracer, const LightSources& lights, double least);
+
+  bool empty() const { return cylinders_.empty(); }
+  static constexpr size_t kRoom = tuning::CylinderHighlights::kMostAimedRoom;
+
+  // The sampling distribution for a point of a diffuse surface: highlights of parts of sources on cylinders.
+  struct Aim {
+    double mean = 0;   // radiance over the hemisphere from these highlights, W/sr/m2, without occlusion
+    size_t count = 0;  // of the highlights
+    V3d point{0, 0, 0};
+    std::array<uint32_t, kRoom> cylinder;
+    std::array<HighlightLobe, kRoom> lobe;
+    std::array<double, kRoom> sum;  // cumulative contributions
+  };
+
+  // front: unit normal. least: nothing is aimed at if all highlights are estimated to add less than this to the variance
+  // of the radiance from a direction that is chosen by projected solid angle (square of W/sr/m2).
+  void aim(const V3d& point, const V3d& front, double least, Aim& aim) const;
+
+  // One of the aimed directions (unit), for uniform u1, u2, u3 in [0, 1); 0 if the one that was drawn misses the
+  // cylinder. REQUIRES aim.mean > 0.
+  V3d sample(const Aim& aim, double u1, double u2, double u3) const;
+
+  // The density of aimed directions, per sr. It integrates to less than 1 by those that miss.
+  double density(const Aim& aim, const V3d& direction) const;
+
+ private:
+  struct Part {
+    LightingPart lighting;
+    double radiance;  // of its image, W/sr/m2, of brightness
+    double hot;       // a bound, as of the whole cylinder
+  };
+  struct Cylinder {
+    Cone shape;
+    double roughness = 0;
+    // A bound of what its highlights add to the variance of the radiance from a direction that is chosen by projected solid
+    // angle, times the distance from the cylinder (W2/sr2/m4 * world units).
+    double hot = 0;
+    std::vector<Part> parts;
+  };
+
+  static Cylinder lit(const Cone& shape, const Opaque& material, const Scene& scene, const Tracer& tracer,
+                      const LightSources& lights);
+  static bool meets(const Cone& cylinder, const V3d& point, const V3d& direction);
+
+  std::vector<Cylinder> cylinders_;
+  ReachGrid near_;
+};
+
+}  // namespace rsphere

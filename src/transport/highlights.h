@@ -1,0 +1,70 @@
+#pragma once
+// Highlights of light sources on rough balls and cylinders (ball_highlights.h, cylinder_highlights.h), which indirect rays
+// are aimed at.
+#include <algorithm>
+
+#include "transport/ball_highlights.h"
+#include "transport/cylinder_highlights.h"
+
+namespace rsphere {
+
+class Highlights {
+ public:
+  // Keeps a reference to lights.
+  Highlights(const Scene& scene, const Tracer& tracer, const LightSources& lights)
+      : usual_(anyOn(scene) ? usualRadiance(scene, tracer, lights) : 0),
+        balls_(scene, tracer, lights, least(usual_)),
+        cylinders_(scene, tracer, lights, least(usual_)) {}
+
+  bool empty() const { return balls_.empty() && cylinders_.empty(); }
+  // An estimate of the mean brightness (W/sr/m2) of all surfaces that are lit by the sources.
+  double usual() const { return usual_; }
+
+  // The sampling distribution for a point of a diffuse surface.
+  struct Aim {
+    double mean = 0;  // radiance over the hemisphere from these highlights, W/sr/m2, without occlusion
+    BallHighlights::Aim balls;
+    CylinderHighlights::Aim cylinders;
+  };
+
+  // front: unit normal. all: the mean radiance over the hemisphere (W/sr/m2), beside which highlights are left out that add
+  // little to the variance. rays: of the gather; if they are few, only the brightest balls are aimed at, because to find
+  // highlights takes as long as some rays.
+  void aim(const V3d& point, const V3d& front, double all, int rays, Aim& aim) const {
+    const bool few = rays < tuning::Highlights::kMany;
+    balls_.aim(point, front, (few ? tuning::Highlights::kLeastOfFew : 1) * least(all), aim.balls);
+    if (!few) cylinders_.aim(point, front, least(all), aim.cylinders);
+    aim.mean = aim.balls.mean + aim.cylinders.mean;
+  }
+
+  // One of the aimed directions (unit), for uniform u1, u2, u3 in [0, 1); 0 if the one that was drawn misses the
+  // highlight. REQUIRES aim.mean > 0.
+  V3d sample(const Aim& aim, double u1, double u2, double u3) const {
+    const double toBalls = aim.balls.mean / aim.mean;
+    if (u1 < toBalls) return balls_.sample(aim.balls, u1 / toBalls, u2, u3);
+    return cylinders_.sample(aim.cylinders, (u1 - toBalls) / (1 - toBalls), u2, u3);
+  }
+
+  // The density of aimed directions, per sr. It integrates to less than 1 by those that miss.
+  double density(const Aim& aim, const V3d& direction) const {
+    double sum = 0;
+    if (aim.balls.mean > 0) sum += aim.balls.mean * balls_.density(aim.balls, direction);
+    if (aim.cylinders.mean > 0) sum += aim.cylinders.mean * cylinders_.density(aim.cylinders, direction);
+    return sum / aim.mean;
+  }
+
+ private:
+  static bool anyOn(const Scene& scene) {
+    return std::ranges::any_of(scene.outermost(), [&](const Surface& surface) {
+      return (std::holds_alternative<Sphere>(surface.shape) || std::holds_alternative<Cone>(surface.shape)) &&
+             roughReflector(scene, surface);
+    });
+  }
+  static double least(double radiance) { return tuning::Highlights::kLeast * radiance * radiance; }
+
+  double usual_;
+  BallHighlights balls_;
+  CylinderHighlights cylinders_;
+};
+
+}  // namespace rsphere

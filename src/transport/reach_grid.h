@@ -1,0 +1,45 @@
+#pragma once
+// Finds which of many objects with limited reach matter at a point, in a time that does not grow with their number.
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "scene/shape.h"
+
+namespace rsphere {
+
+class ReachGrid {
+ public:
+  // What lies within a distance of a segment (world units).
+  struct Reach {
+    V3d begin{0, 0, 0}, end{0, 0, 0};
+    double distance = 0;
+  };
+
+  // bounds: not empty, of the points that are asked about.
+  ReachGrid(const std::vector<Reach>& reaches, const Box3d& bounds);
+  ReachGrid() = default;  // nothing reaches anywhere
+
+  // In ascending order, the numbers of all objects that reach the point, and of some that almost do.
+  std::span<const uint32_t> at(const V3d& point) const {
+    if (begin_.empty()) return {};
+    const V3d cell = (point - low_) * perLength_;
+    const size_t i = (inner(cell.z, counts_[2]) * counts_[1] + inner(cell.y, counts_[1])) * counts_[0] +
+                     inner(cell.x, counts_[0]);
+    return {numbers_.data() + begin_[i], numbers_.data() + begin_[i + 1]};
+  }
+
+ private:
+  // Which of `count` cells; the first or last one for what is outside.
+  static size_t inner(double at, size_t count) {
+    return at > 0 ? (at < static_cast<double>(count) ? static_cast<size_t>(at) : count - 1) : 0;
+  }
+
+  V3d low_{0, 0, 0};
+  double perLength_ = 0;  // cells per world unit
+  std::array<size_t, 3> counts_{};
+  std::vector<uint32_t> begin_, numbers_;  // where each cell's numbers begin
+};
+
+}  // namespace rsphere

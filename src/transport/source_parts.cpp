@@ -1,0 +1,114 @@
+#include "transport/source_parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+#include "scene/frame.h"
+#include "transport/tuning.h"
+
+namespace rsphere {
+namespace {
+
+using Tuning = tuning::HighlightParts;
+
+// The light that all sources send out (W, of brightness). reach: of the scene (world units), within which distant
+// sources shine.
+double powerOf(const Scene& scene, const LightSources& lights, double reach) {
+  double power = 0;
+  for (const LightSource& light : lights.all()) {
+    if (light.isVirtual()) continue;
+    const Surface& surface = scene.surfaces[light.surface];
+    const auto* distant = std::get_if<Distant>(&surface.shape);
+    power += brightness(sourceRadiance(scene, surface)) * kPi *
+             (distant ? distant->solidAngle * reach * reach : areaOf(surface.shape));
+  }
+  return power;
+}
+
+std::vector<SourcePart> partsOf(const LightSource& source, const V3d& from) {
+  const V3d way = source.distant ? source.center : source.center - from;
+  const double distance = way.length();
+  const bool isRound = source.map == LightSource::Map::disk || source.map == LightSource::Map::ball ||
+                       source.map == LightSource::Map::cone;
+  SourcePart whole{.distant = source.distant, .center = source.center, .u = source.u, .v = source.v};
+  if (isRound) whole.variance = 1. / 4;
+  if (source.map == LightSource::Map::tube)
+    whole.v = source.u.cross(way).normalized() * (source.area / (4 * source.u.length()));
+  if (isRound && !source.isPlane()) {
+    const double radius = source.distant ? source.outermost : source.radius;
+    frame(way / distance, whole.u, whole.v);
+    whole.u *= radius;
+    whole.v *= radius;
+  }
+  const auto divided = [&](const V3d& half) {
+    if (isRound) return 1.;
+    return std::clamp(std::ceil(half.length() / (Tuning::kHalf * distance)), 1., Tuning::kMost);
+  };
+  const double columns = divided(whole.u), rows = divided(whole.v);
+  whole.u /= columns;
+  whole.v /= rows;
+  whole.radius = std::hypot(whole.u.length(), whole.v.length());
+  std::vector<SourcePart> parts;
+  for (double row = 0; row < rows; ++row)
+    for (double column = 0; column < columns; ++column) {
+      parts.push_back(whole);
+      parts.back().center += (2 * column + 1 - columns) * whole.u + (2 * row + 1 - rows) * whole.v;
+    }
+  return parts;
+}
+
+}  // namespace
+
+double LightingPart::solidAngle(const V3d& from) const {
+  if (source->distant) return share * 2 * kPi * (1 - source->cosHalfAngle);
+  const V3d way = part.towards(from);
+  const double squared = way.length2(), distance = std::sqrt(squared);
+  double area = kPi * source->radius * source->radius;
+  if (source->isPlane()) area = source->area * std::max(0., -source->normal.dot(way)) / distance;
+  if (source->map == LightSource::Map::tube)
+    area = source->area * source->u.cross(way).length() / (source->u.length() * distance);
+  return share * std::min(2 * kPi, area / squared);
+}
+
+std::vector<LightingPart> partsThatLight(const LightSource& source, const V3d& from, double radius,
+                                         const Scene& scene) {
+  if (source.isVirtual()) return {};
+  if (!source.distant) {
+    const V3d way = source.center - from;
+    const double apart = way.length() - radius;
+    if (!(apart > 0) || (source.reach > 0 && apart - source.radius > source.reach)) return {};
+    if (source.spot && outsideSpot(*source.spot, way.normalized())) return {};
+  }
+  const double radiance = brightness(sourceRadiance(scene, scene.surfaces[source.surface]));
+  if (!(radiance > 0)) return {};
+  const std::vector<SourcePart> parts = partsOf(source, from);
+  std::vector<LightingPart> lighting;
+  for (const SourcePart& part : parts)
+    lighting.push_back({part, &source, radiance, 1 / static_cast<double>(parts.size())});
+  return lighting;
+}
+
+bool seesPart(const Tracer& tracer, const LightingPart& lighting, const V3d& from) {
+  const SourcePart& part = lighting.part;
+  const V3d middle = part.towards(from);
+  for (const auto& [a, b] :
+       {std::pair(0., 0.), std::pair(.5, .5), std::pair(-.5, .5), std::pair(-.5, -.5), std::pair(.5, -.5)}) {
+    const V3d way = middle + a * part.u + b * part.v;
+    const double distance = part.distant ? kFarAway : way.length();
+    if (tracer.shadow(from, way.normalized(), distance, lighting.source->surface) != Shadow::blocked)
+      return true;
+  }
+  return false;
+}
+
+double usualRadiance(const Scene& scene, const Tracer& tracer, const LightSources& lights) {
+  const V3d size = tracer.bounds().size();
+  double area = 0;
+  for (const Surface& s : scene.outermost()) area += areaOf(s.shape);
+  // Surfaces in octrees and meshes are not looked at.
+  area = std::max(area, 2 * (size.x * size.y + size.y * size.z + size.z * size.x));
+  return Tuning::kMeanReflectance * powerOf(scene, lights, size.length() / 2) / (kPi * area);
+}
+
+}  // namespace rsphere
