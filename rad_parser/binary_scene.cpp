@@ -36,7 +36,7 @@ void readAlias(BinaryReader& input, Primitive& p, PrimitiveId modifier, Descript
   const Description& d = builder.description();
   if (p.strings == 0) {
     if (modifier == kVoid) throw input.fault("an alias of nothing");
-    builder.addString(p, d.name(d.primitives[modifier]));
+    builder.addString(p, d.primitives[modifier].name);
     return builder.resolveAlias(p, modifier, true);
   }
   const PrimitiveId reference = builder.modifier(d.string(p, 0));
@@ -86,15 +86,14 @@ int64_t readPrimitives(BinaryReader& input, int width, uint32_t file, Descriptio
     const int64_t number = input.integer(width);  // -1: void
     if (number < -1 || number >= n) throw damaged(fmt::format("modifier {} does not precede it", number + 1));
     const PrimitiveId modifier(number);
-    if (modifier != kVoid && isSurface(d.primitives[modifier].type))
+    if (modifier != kVoid && d.primitives.isSurface(modifier))
       throw damaged(fmt::format("object {} is not a modifier", number + 1));
     const std::string_view name = input.string();
     if (!isSurface(type) && (name == "void" || name == "inherit"))
       throw damaged(fmt::format("no modifier can be named \"{}\"", name));
-    Primitive p = builder.begin(type, place, builder.internName(type, name), modifier);
+    Primitive p = builder.begin(type, place, name, modifier);
     for (uint32_t strings = input.count16(); strings > 0; --strings) builder.addString(p, input.string());
-    p.reals = input.count16();
-    for (uint32_t i = 0; i < p.reals; ++i) d.realArgs.push_back(input.real());
+    for (uint32_t reals = input.count16(); reals > 0; --reals) builder.addReal(p, input.real());
     if (type == Type::alias) readAlias(input, p, modifier, builder);
     builder.add(p);
   }

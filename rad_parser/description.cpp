@@ -3,64 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 #include "rad_parser/error.h"
 #include "rad_parser/nearest_name.h"
 
 namespace rad {
-namespace {
-
-constexpr std::array<std::string_view, kTypes> kNames = {
-    "source",     "sphere",     "bubble",   "polygon",   "cone",       "cup",        "cylinder",
-    "tube",       "ring",       "instance", "mesh",      "light",      "illum",      "glow",
-    "spotlight",  "mirror",     "prism1",   "prism2",    "mist",       "plastic",    "metal",
-    "trans",      "plastic2",   "metal2",   "trans2",    "ashik2",     "dielectric", "interface",
-    "glass",      "plasfunc",   "metfunc",  "transfunc", "BRTDfunc",   "plasdata",   "metdata",
-    "transdata",  "BSDF",       "aBSDF",    "WGMDfunc",  "antimatter", "texfunc",    "texdata",
-    "colorfunc",  "brightfunc", "specfunc", "colordata", "brightdata", "specdata",   "colorpict",
-    "brighttext", "colortext",  "spectrum", "specfile",  "specpict",   "mixfunc",    "mixdata",
-    "mixpict",    "mixtext",    "alias"};
-
-struct NamedType {
-  std::string_view name;
-  Type type = Type::alias;
-};
-
-constexpr auto kByName = [] {
-  std::array<NamedType, kTypes> sorted;
-  for (int i = 0; i < kTypes; ++i) sorted[i] = {kNames[i], static_cast<Type>(i)};
-  std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
-  return sorted;
-}();
-
-bool within(Type type, Type first, Type last) { return first <= type && type <= last; }
-
-}  // namespace
-
-std::string_view typeName(Type type) { return kNames[static_cast<size_t>(type)]; }
-
-bool findType(std::string_view name, Type& type) {
-  const auto at = std::lower_bound(kByName.begin(), kByName.end(), name,
-                                   [](const NamedType& t, std::string_view n) { return t.name < n; });
-  if (at == kByName.end() || at->name != name) return false;
-  type = at->type;
-  return true;
-}
-
-std::string nearestType(std::string_view name) {
-  NearestName nearest(name);
-  for (const std::string_view type : kNames) nearest.consider(type);
-  return nearest.hint();
-}
-
-bool isSurface(Type type) { return within(type, Type::source, Type::mesh); }
-bool isMaterial(Type type) { return within(type, Type::light, Type::antimatter); }
-bool isTexture(Type type) { return within(type, Type::texfunc, Type::texdata); }
-bool isPattern(Type type) { return within(type, Type::colorfunc, Type::specpict); }
-bool isMixture(Type type) { return within(type, Type::mixfunc, Type::mixtext); }
 
 std::string printable(std::string_view text, size_t longest) {
   std::string line(text.substr(0, longest));
@@ -94,6 +44,17 @@ std::string Description::at(Place place) const {
   return text;
 }
 
+std::span<const double> Description::reals(const Primitive& p) const {
+  if (p.type != Type::polygon) return std::span(realArgs).subspan(p.firstReal, p.reals);
+  if (p.reals == 0 || vertices.empty()) return {};
+  return {&vertices[p.firstReal].x, p.reals};
+}
+
+std::span<double> Description::reals(const Primitive& p) {
+  const auto values = std::as_const(*this).reals(p);
+  return {const_cast<double*>(values.data()), values.size()};
+}
+
 void append(Description& to, Description&& more, Place from) {
   const auto check = [](size_t have, size_t added, size_t most) {
     if (added > most - have) throw Error("too many primitives or arguments in all files");
@@ -105,7 +66,7 @@ void append(Description& to, Description&& more, Place from) {
   const auto files = static_cast<uint32_t>(to.files.size()), words = static_cast<uint32_t>(to.words.size());
   const auto strings = static_cast<uint32_t>(to.stringArgs.size());
   const size_t primitives = to.primitives.size();
-  const uint64_t reals = to.realArgs.size();
+  const uint64_t reals = to.realArgs.size(), vertices = to.vertices.size();
 
   for (SourceFile& file : more.files) {
     if (file.from.file == SourceFile::kNoFile)
@@ -118,23 +79,22 @@ void append(Description& to, Description&& more, Place from) {
                   std::make_move_iterator(more.words.end()));
   for (uint32_t word : more.stringArgs) to.stringArgs.push_back(word + words);
   to.realArgs.insert(to.realArgs.end(), more.realArgs.begin(), more.realArgs.end());
+  to.vertices.insert(to.vertices.end(), more.vertices.begin(), more.vertices.end());
   for (Primitive p : more.primitives) {
     if (p.modifier != kVoid) p.modifier = PrimitiveId(p.modifier.index() + primitives);
     if (p.aliased != kVoid) p.aliased = PrimitiveId(p.aliased.index() + primitives);
     p.place.file += files;
-    p.name += words;
     p.firstString += strings;
-    p.firstReal += reals;
+    p.firstReal += p.type == Type::polygon ? vertices : reals;
     to.primitives.push_back(p);
   }
   more = Description();
 }
 
 ModifierIndex::ModifierIndex(const Description& description, size_t first) {
-  for (const PrimitiveId i : IdRange<PrimitiveId>(first, description.primitives.size() - first)) {
-    const Primitive& p = description.primitives[i];
-    if (!isSurface(p.type)) definitions_[description.name(p)].push_back(i);
-  }
+  const auto end = description.primitives.end();
+  for (auto p = description.primitives.from(first); p != end; ++p)
+    if (!isSurface(p->type)) definitions_[p->name].push_back(p.id());
 }
 
 PrimitiveId ModifierIndex::before(std::string_view name, PrimitiveId index) const {

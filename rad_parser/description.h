@@ -1,89 +1,21 @@
 #pragma once
+#include <Imath/ImathVec.h>
+
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
-#include "rad_parser/id.h"
+#include "rad_parser/primitive.h"
+#include "rad_parser/primitive_list.h"
 
 namespace rad {
-
-// A place in the scene files: an index of Description::files and a line, from 1; line 0 means the file as a
-// whole. The output of a command has lines of its own. In a numbered file, which has no lines, `line` is the
-// number of a primitive, from 1.
-struct Place {
-  uint32_t file = 0;
-  uint32_t line = 0;
-};
-
-// The primitive types of the scene language (RADIANCE reference manual, "Scene description"), grouped for
-// isSurface() and the functions after it.
-// clang-format off
-enum class Type : uint8_t {
-  // surfaces
-  source, sphere, bubble, polygon, cone, cup, cylinder, tube, ring, instance, mesh,
-  // materials
-  light, illum, glow, spotlight, mirror, prism1, prism2, mist, plastic, metal, trans, plastic2, metal2, trans2,
-  ashik2, dielectric, interface, glass, plasfunc, metfunc, transfunc, brtdfunc, plasdata, metdata, transdata, bsdf,
-  absdf, wgmdfunc, antimatter,
-  // textures
-  texfunc, texdata,
-  // patterns
-  colorfunc, brightfunc, specfunc, colordata, brightdata, specdata, colorpict, brighttext, colortext, spectrum,
-  specfile, specpict,
-  // mixtures
-  mixfunc, mixdata, mixpict, mixtext,
-  // another name for a modifier
-  alias,
-};
-// clang-format on
-inline constexpr int kTypes = static_cast<int>(Type::alias) + 1;
-
-// The name of a type as scene files spell it ("BRTDfunc").
-std::string_view typeName(Type type);
-
-// Finds the type of this name, which must be spelled exactly. Returns false, and leaves `type`
-// unchanged, if there is none.
-bool findType(std::string_view name, Type& type);
-
-// The nearest type of a misspelt name, as the end of a message (see NearestName::hint()).
-std::string nearestType(std::string_view name);
-
-bool isSurface(Type type);   // source .. mesh; all other types are modifiers, which others can name
-bool isMaterial(Type type);  // light .. antimatter
-bool isTexture(Type type);
-bool isPattern(Type type);
-bool isMixture(Type type);
-
-using PrimitiveId = Id<struct PrimitiveTag>;  // index in Description::primitives
-
-inline constexpr None kVoid;  // in place of a modifier: none
-
-// One primitive as the file describes it. Arguments are kept as written. Whoever uses the primitive checks
-// their number and meaning; a primitive that no surface uses is never checked.
-//
-// An alias is a copy of primitives[aliased] with a different modifier: its type and arguments are those of
-// `aliased`, and its modifier is the alias's own `modifier`, never that of `aliased`. All forms of aliases
-// are reduced to this when they are read:
-//   M alias a b        `modifier` is the index of M (kVoid for void)
-//   inherit alias a b  `modifier` is that of b
-// If b is an alias itself, `aliased` is that of b, so it is never the index of an alias. An alias has one
-// string argument: the name b as written.
-struct Primitive {
-  Type type = Type::alias;
-  PrimitiveId modifier;                   // always before this primitive; kVoid for void
-  PrimitiveId aliased;                    // of type alias only
-  Place place;                            // of the primitive's first word
-  uint32_t name = 0;                      // index in Description::words
-  uint32_t firstString = 0, strings = 0;  // range in Description::stringArgs
-  uint32_t reals = 0;                     // number of real arguments
-  uint64_t firstReal = 0;                 // index of the first one in Description::realArgs
-};
 
 // A file or command that was read. name: for messages ("room.rad", "!genbox w b 1 2 3"). from: the place in
 // another file that named it; from.file is kNoFile if no file did.
@@ -105,22 +37,21 @@ struct Cube {
 // this process have been applied to the arguments.
 struct Description {
   std::vector<SourceFile> files;
-  ById<PrimitiveId, Primitive> primitives;
-  // Names and string arguments. Each distinct word occurs once, except names of
-  // surfaces, which may occur again.
-  std::vector<std::string> words;
+  PrimitiveList primitives;
+  std::vector<std::string> words;    // string arguments and names of modifiers, each distinct word once
   std::vector<uint32_t> stringArgs;  // indices in words
-  std::vector<double> realArgs;
+  std::vector<double> realArgs;      // of all primitives but polygons
+  std::vector<Imath::V3d> vertices;  // the real arguments of polygons, in threes; a last incomplete three
+                                     // is filled with zeros
 
   // Of an octree: the lines of its information header, except those that name the format.
   std::vector<std::string> header;
   std::optional<Cube> cube;  // of an octree: its bounds, which should contain all surfaces except sources
 
-  std::string_view name(const Primitive& p) const { return words[p.name]; }
   std::string_view string(const Primitive& p, size_t i) const { return words[stringArgs[p.firstString + i]]; }
-  std::span<const double> reals(const Primitive& p) const {
-    return std::span<const double>(realArgs).subspan(p.firstReal, p.reals);
-  }
+  // Empty for a polygon whose vertices have been moved elsewhere.
+  std::span<const double> reals(const Primitive& p) const;
+  std::span<double> reals(const Primitive& p);
 
   // The place as text for messages, "room.rad:12", or "scene.oct: object 12" in a numbered file. It is
   // followed by the files that led there, if any, the nearest first: "leg.rad:3 (from desk.rad:7,
@@ -134,7 +65,7 @@ struct Description {
 void append(Description& to, Description&& more, Place from);
 
 // Finds the modifiers that string arguments name (of mixtures, mirror, illum, antimatter). The description
-// must outlive the index, and must keep its words and primitives.
+// may change afterwards.
 class ModifierIndex {
  public:
   // Indexes the primitives from primitives[first] on.
@@ -150,7 +81,7 @@ class ModifierIndex {
   std::string nearest(std::string_view name, PrimitiveId index) const;
 
  private:
-  std::unordered_map<std::string_view, std::vector<PrimitiveId>> definitions_;
+  std::map<std::string, std::vector<PrimitiveId>, std::less<>> definitions_;
 };
 
 // The text on one line, for messages: control characters are replaced, and text beyond `longest`

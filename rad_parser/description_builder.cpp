@@ -20,18 +20,19 @@ std::string DescriptionBuilder::nearestModifier(std::string_view name) const {
   NearestName nearest(name);
   nearest.consider("void");
   for (const Primitive& p : description_.primitives)
-    if (!isSurface(p.type)) nearest.consider(description_.name(p));
+    if (!isSurface(p.type)) nearest.consider(p.name);
   return nearest.hint();
 }
 
-Primitive DescriptionBuilder::begin(Type type, Place place, uint32_t name, PrimitiveId modifier) const {
+Primitive DescriptionBuilder::begin(Type type, Place place, std::string_view name,
+                                    PrimitiveId modifier) const {
   Primitive p;
   p.type = type;
   p.modifier = modifier;
   p.place = place;
   p.name = name;
   p.firstString = static_cast<uint32_t>(description_.stringArgs.size());
-  p.firstReal = description_.realArgs.size();
+  p.firstReal = type == Type::polygon ? description_.vertices.size() : description_.realArgs.size();
   return p;
 }
 
@@ -43,7 +44,7 @@ void DescriptionBuilder::addString(Primitive& p, std::string_view word) {
 }
 
 void DescriptionBuilder::resolveAlias(Primitive& p, PrimitiveId reference, bool inherit) const {
-  const Primitive& r = description_.primitives[reference];
+  const Primitive r = description_.primitives[reference];
   p.aliased = r.type == Type::alias ? r.aliased : reference;
   if (inherit) p.modifier = r.modifier;
 }
@@ -53,8 +54,9 @@ void DescriptionBuilder::add(const Primitive& p) {
     throw error(p.place, "too many primitives");
   description_.primitives.push_back(p);
   if (isSurface(p.type)) return;
-  if (p.name >= inForce_.size()) inForce_.resize(std::max<size_t>(p.name + 1, 2 * inForce_.size()));
-  inForce_[p.name] = description_.primitives.last();
+  const uint32_t word = words_.intern(p.name);
+  if (word >= inForce_.size()) inForce_.resize(std::max<size_t>(word + 1, 2 * inForce_.size()));
+  inForce_[word] = description_.primitives.last();
 }
 
 Error DescriptionBuilder::error(Place place, std::string_view text, Status status) const {

@@ -25,12 +25,6 @@ class DescriptionBuilder {
 
   uint32_t intern(std::string_view word) { return words_.intern(word); }
 
-  // The index of a primitive's name in Description::words. Names of surfaces are never looked up, so they are
-  // not entered into the table of words.
-  uint32_t internName(Type type, std::string_view word) {
-    return isSurface(type) ? words_.append(word) : words_.intern(word);
-  }
-
   // The definition of this modifier that is in force now, or kVoid if there is none.
   PrimitiveId modifier(std::string_view name) const;
 
@@ -39,12 +33,17 @@ class DescriptionBuilder {
   std::string nearestModifier(std::string_view name) const;
 
   // A primitive without arguments. Its arguments will be the next ones of description().
-  Primitive begin(Type type, Place place, uint32_t name, PrimitiveId modifier) const;
+  Primitive begin(Type type, Place place, std::string_view name, PrimitiveId modifier) const;
 
   // Append an argument of the primitive that was begun last.
   void addString(Primitive& p, std::string_view word);
   void addReal(Primitive& p, double value) {
-    description_.realArgs.push_back(value);
+    if (p.type == Type::polygon) {
+      if (p.reals % 3 == 0) description_.vertices.emplace_back(0, 0, 0);
+      description_.vertices.back()[static_cast<int>(p.reals % 3)] = value;
+    } else {
+      description_.realArgs.push_back(value);
+    }
     ++p.reals;
   }
 

@@ -19,19 +19,19 @@ class NearestName {
 
   explicit NearestName(std::string_view wanted);
 
-  // The misspelt name itself is ignored. `name` must live as long as this object.
+  // The misspelt name itself is ignored.
   void consider(std::string_view name);
 
   // The nearest name, empty if none is near or if several are equally near. A difference in upper and lower case counts
   // less than any other.
-  std::string_view name() const { return tied_ ? std::string_view() : nearest_; }
+  std::string_view name() const { return tied_ ? std::string_view() : std::string_view(nearest_); }
 
   // The name as the end of a message, '; the nearest is "plastic"', or nothing.
   std::string hint() const;
 
  private:
-  std::string_view wanted_, nearest_;
-  std::string lowercase_;
+  std::string_view wanted_;
+  std::string nearest_, lowercase_;
   size_t most_ = 0;  // letters that may differ
   size_t cost_ = std::numeric_limits<size_t>::max();
   bool tied_ = false;

@@ -24,15 +24,13 @@ size_t headerEnd(std::string_view data) {
   return unix < dos ? unix + 2 : dos + 3;
 }
 
-// Reserves memory for as much as the rest of a regular file can contain, so that the arrays of a large scene
-// are not moved repeatedly. Pages of it that are never written cost no memory.
+// Reserves memory for as much as the rest of a regular file can contain, so that the vertices of a large
+// scene are not moved repeatedly. Pages of it that are never written cost no memory.
 void reserve(Description& d, int64_t objects, int width, uint64_t bytes) {
   // In bytes: type, modifier, empty name, two counts.
   const uint64_t shortest = 6 + static_cast<uint64_t>(width);
-  const uint64_t most = std::min(static_cast<uint64_t>(objects), bytes / shortest);
-  d.primitives.reserve(most);
-  d.words.reserve(most);
-  d.realArgs.reserve((bytes - std::min(bytes, static_cast<uint64_t>(objects) * shortest)) / 5);
+  // Most of the numbers of a large scene are coordinates of polygons, at 5 bytes.
+  d.vertices.reserve((bytes - std::min(bytes, static_cast<uint64_t>(objects) * shortest)) / 15);
 }
 
 }  // namespace
@@ -99,7 +97,7 @@ void readOctree(BinaryReader& input, uint32_t file, DescriptionBuilder& builder,
   passOverCells(input, width, [&](int64_t object) {
     if (object < 0 || object >= objects)
       throw input.fault(fmt::format("damaged octree: object {} of {}", object + 1, objects));
-    if (object < present && !isSurface(d.primitives[PrimitiveId(object)].type)) modifierInTree = true;
+    if (object < present && !d.primitives.isSurface(PrimitiveId(object))) modifierInTree = true;
   });
 
   const auto stale = [&](std::string_view text) {

@@ -278,7 +278,7 @@ class Reader {
       word = transform->nameOf(type, word, name_);
       type = transform->typeOf(type);
     }
-    Primitive p = builder_.begin(type, place, builder_.internName(type, word), modifier);
+    Primitive p = builder_.begin(type, place, word, modifier);
     if (type == Type::alias)
       alias(text, p, inherits);
     else
@@ -295,10 +295,9 @@ class Reader {
     if (first && isWordOfObj(modifier_))
       return "; this seems to be a Wavefront .obj file, which obj2rad converts to a scene file";
     if (!first && parseReal(modifier_)) {
-      const Primitive& before = description.primitives.back();
+      const Primitive before = description.primitives.back();
       return fmt::format("; a number follows the {} numbers of {} \"{}\" (line {}): is that count too small?",
-                         before.reals, typeName(before.type), printable(description.name(before)),
-                         before.place.line);
+                         before.reals, typeName(before.type), printable(before.name), before.place.line);
     }
     return builder_.nearestModifier(modifier_);
   }
@@ -308,9 +307,9 @@ class Reader {
     if (!text.word(word)) throw ends(p);
     const PrimitiveId reference = builder_.modifier(word);
     if (reference == kVoid)
-      throw builder_.error(text.place(), fmt::format("alias \"{}\": undefined modifier \"{}\"{}",
-                                                     printable(builder_.description().name(p)),
-                                                     printable(word), builder_.nearestModifier(word)));
+      throw builder_.error(text.place(),
+                           fmt::format("alias \"{}\": undefined modifier \"{}\"{}", printable(p.name),
+                                       printable(word), builder_.nearestModifier(word)));
     builder_.addString(p, word);
     builder_.resolveAlias(p, reference, inherits);
   }
@@ -350,11 +349,11 @@ class Reader {
   }
 
   Error fault(const TextSource& text, const Primitive& p, std::string_view why) const {
-    return builder_.error(text.place(), fmt::format("{} \"{}\": {}", typeName(p.type),
-                                                    printable(builder_.description().name(p)), why));
+    return builder_.error(text.place(),
+                          fmt::format("{} \"{}\": {}", typeName(p.type), printable(p.name), why));
   }
 
-  Error ends(const Primitive& p) const { return ends(p.place, p.type, builder_.description().name(p)); }
+  Error ends(const Primitive& p) const { return ends(p.place, p.type, p.name); }
 
   Error ends(Place place, Type type, std::string_view name) const {
     return builder_.error(place, fmt::format("text ends within {} \"{}\"", typeName(type), printable(name)));

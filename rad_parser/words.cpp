@@ -39,11 +39,6 @@ uint32_t WordTable::intern(std::string_view word) {
   return slots_[at].word;
 }
 
-uint32_t WordTable::append(std::string_view word) {
-  if (appended_ == kNone || words_[appended_] != word) appended_ = add(word);
-  return appended_;
-}
-
 uint32_t WordTable::add(std::string_view word) {
   if (words_.size() >= kNone) throw Error("too many different words");
   words_.emplace_back(word);

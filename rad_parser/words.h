@@ -18,11 +18,6 @@ class WordTable {
   // The index of the word in the list, to which it is appended if it is new.
   uint32_t intern(std::string_view word);
 
-  // Appends a word that will never be searched for, without entering it into the table. It is meant for the
-  // names of surfaces: in most scenes they are all different, and a cache miss in the table for each of them
-  // would be a sixth of the time to load. Equal words in succession become one entry.
-  uint32_t append(std::string_view word);
-
   // The index of the word, or kNone.
   uint32_t find(std::string_view word) const;
 
@@ -37,9 +32,8 @@ class WordTable {
   void grow();
 
   std::vector<std::string>& words_;
-  std::vector<Slot> slots_;    // the number of slots is a power of two; at most half are used
-  size_t interned_ = 0;        // number of slots in use
-  uint32_t appended_ = kNone;  // the word that append() added last
+  std::vector<Slot> slots_;  // the number of slots is a power of two; at most half are used
+  size_t interned_ = 0;      // number of slots in use
 };
 
 }  // namespace rad

@@ -123,7 +123,7 @@ class ArgumentTransform {
         p_(p),
         builder_(builder),
         length_(std::abs(transform.similarity.scale)),
-        reals_(std::span(builder.description().realArgs).subspan(p.firstReal, p.reals)) {}
+        reals_(builder.description().reals(p)) {}
 
   void apply() {
     if (carriesTransform(p_.type)) {
@@ -256,8 +256,7 @@ class ArgumentTransform {
   }
 
   Error error(std::string_view why) const {
-    return builder_.error(p_.place, fmt::format("{} \"{}\": {}", typeName(p_.type),
-                                                printable(builder_.description().name(p_)), why));
+    return builder_.error(p_.place, fmt::format("{} \"{}\": {}", typeName(p_.type), printable(p_.name), why));
   }
 
   const Transform& transform_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include "rad_parser/error.h"
@@ -90,16 +91,16 @@ rsphere::Polygon faceOf(const std::vector<V3d>& vertices) {
 
 bool hasModifier(const Description& scene, const Primitive& p, std::string_view name) {
   if (p.modifier == rad::PrimitiveId(rad::kVoid)) return false;
-  const Primitive& modifier = scene.primitives[p.modifier];
-  return scene.name(modifier) == name ||
-         (modifier.type == rad::Type::alias && scene.name(scene.primitives[modifier.aliased]) == name);
+  const Primitive modifier = scene.primitives[p.modifier];
+  return modifier.name == name ||
+         (modifier.type == rad::Type::alias && scene.primitives[modifier.aliased].name == name);
 }
 
 // Up to five names of polygons and of their modifiers that resemble this one; if none does, the horizontal polygons
 // that are largest.
 std::string namesLike(const Description& scene, std::string_view wanted) {
-  std::set<std::pair<double, std::string_view>> near, largest;
-  const auto consider = [&](std::string_view name) {
+  std::set<std::pair<double, std::string>> near, largest;
+  const auto consider = [&](const std::string& name) {
     const size_t changes = rad::editDistance(wanted, name);
     const bool part = name.find(wanted) != name.npos || (name.size() > 2 && wanted.find(name) != wanted.npos);
     if (part || changes <= 1 + wanted.size() / 4)
@@ -107,10 +108,12 @@ std::string namesLike(const Description& scene, std::string_view wanted) {
   };
   for (const Primitive& p : scene.primitives) {
     if (p.type != rad::Type::polygon) continue;
-    consider(scene.name(p));
-    if (p.modifier != rad::PrimitiveId(rad::kVoid)) consider(scene.name(scene.primitives[p.modifier]));
-    const rsphere::Polygon face = faceOf(verticesOf(scene, p));
-    if (face.area > 0 && std::abs(face.normal.z) > .9999) largest.emplace(-face.area, scene.name(p));
+    consider(p.name);
+    if (p.modifier != rad::PrimitiveId(rad::kVoid)) consider(scene.primitives[p.modifier].name);
+    const std::vector<V3d> vertices = verticesOf(scene, p);
+    const rsphere::Polygon face = faceOf(vertices);
+    const double area = areaOf(face, vertices);
+    if (area > 0 && std::abs(face.normal.z) > .9999) largest.emplace(-area, p.name);
   }
   const auto& chosen = near.empty() ? largest : near;
   if (chosen.empty()) return "the scene has no horizontal polygon";
@@ -123,22 +126,22 @@ std::string namesLike(const Description& scene, std::string_view wanted) {
                      fmt::join(words, ", "));
 }
 
-std::vector<const Primitive*> polygonsNamed(const Description& scene, const std::string& name) {
-  std::vector<const Primitive*> named, modified;
-  const Primitive* other = nullptr;
+std::vector<Primitive> polygonsNamed(const Description& scene, const std::string& name) {
+  std::vector<Primitive> named, modified;
+  std::optional<rad::Type> other;
   for (const Primitive& p : scene.primitives) {
     if (p.type == rad::Type::polygon) {
-      if (scene.name(p) == name) named.push_back(&p);
-      if (hasModifier(scene, p, name)) modified.push_back(&p);
-    } else if (rad::isSurface(p.type) && scene.name(p) == name) {
-      other = &p;
+      if (p.name == name) named.push_back(p);
+      if (hasModifier(scene, p, name)) modified.push_back(p);
+    } else if (rad::isSurface(p.type) && p.name == name) {
+      other = p.type;
     }
   }
   if (!named.empty()) return named;
   if (!modified.empty()) return modified;
   if (other)
     throw rad::Error(fmt::format("\"{}\" is a {}; only polygons can have a grid", rad::printable(name),
-                                 rad::typeName(other->type)));
+                                 rad::typeName(*other)));
   throw rad::Error(fmt::format("no polygon and no modifier of a polygon is named \"{}\"; {}",
                                rad::printable(name), namesLike(scene, name)));
 }
@@ -197,23 +200,24 @@ double Area::distanceToEdge(const V2d& p) const {
 }
 
 Area findArea(const Description& scene, std::span<const std::string> names, bool reversed) {
-  std::vector<const Primitive*> polygons;
+  std::vector<Primitive> polygons;
   for (const std::string& name : names)
-    for (const Primitive* p : polygonsNamed(scene, name)) polygons.push_back(p);
+    for (Primitive& p : polygonsNamed(scene, name)) polygons.push_back(std::move(p));
 
   // The largest polygon decides which side is the front.
   std::vector<std::vector<V3d>> vertices;
-  const Primitive* largest = nullptr;
-  rsphere::Polygon face;
-  for (const Primitive* p : polygons) {
-    vertices.push_back(verticesOf(scene, *p));
-    const rsphere::Polygon candidate = faceOf(vertices.back());
-    if (!largest || candidate.area > face.area) face = candidate, largest = p;
+  std::optional<size_t> largest;
+  double area = 0;
+  for (const Primitive& p : polygons) {
+    vertices.push_back(verticesOf(scene, p));
+    const double here = areaOf(faceOf(vertices.back()), vertices.back());
+    if (!largest || here > area) area = here, largest = vertices.size() - 1;
   }
-  if (!(face.area > 0)) throw rad::Error(fmt::format("polygon \"{}\" has no area", rad::printable(names[0])));
+  if (!(area > 0)) throw rad::Error(fmt::format("polygon \"{}\" has no area", rad::printable(names[0])));
 
+  const rsphere::Polygon face = faceOf(vertices[*largest]);
   Plane plane = planeOf(face);
-  const double tolerance = std::max(1e-4 * std::sqrt(face.area), face.thickness * 1.01);
+  const double tolerance = std::max(1e-4 * std::sqrt(area), thicknessOf(face, vertices[*largest]) * 1.01);
   std::vector<Ring> rings;
   for (size_t i = 0; i < polygons.size(); ++i) {
     Ring& ring = rings.emplace_back();
@@ -221,7 +225,7 @@ Area findArea(const Description& scene, std::span<const std::string> names, bool
       if (std::abs(face.normal.dot(p) - face.offset) > tolerance)
         throw rad::Error(fmt::format(
             "the {} polygons of {} are not all in one plane, \"{}\" and \"{}\" for instance", polygons.size(),
-            quoted(names), rad::printable(scene.name(*largest)), rad::printable(scene.name(*polygons[i]))));
+            quoted(names), rad::printable(polygons[*largest].name), rad::printable(polygons[i].name)));
       ring.push_back(plane.project(p));
     }
   }
@@ -241,9 +245,9 @@ std::vector<Ring> findOutlines(const Description& scene, std::span<const std::st
                                const Plane& plane) {
   std::vector<Ring> outlines;
   for (const std::string& name : names)
-    for (const Primitive* p : polygonsNamed(scene, name)) {
+    for (const Primitive& p : polygonsNamed(scene, name)) {
       Ring& ring = outlines.emplace_back();
-      for (const V3d& vertex : verticesOf(scene, *p)) ring.push_back(plane.project(vertex));
+      for (const V3d& vertex : verticesOf(scene, p)) ring.push_back(plane.project(vertex));
     }
   return outlines;
 }

@@ -45,7 +45,7 @@ void writeLetter(RecordText& text, char letter, const RayAnswer& answer, const O
     case 'N':
       return text.vector(answer.unperturbedNormal);
     case 's':
-      return text.name(answer.surface);
+      return text.name(answer.surface.text());
     case 'm':
       return text.name(answer.modifier);
     case 'M':
@@ -116,7 +116,7 @@ void AnswerWriter::writeBranch(std::string& bytes, const RayAnswer& answer, int 
   const auto named = [&](const std::vector<std::string>& list) {
     return std::find(list.begin(), list.end(), answer.modifier) != list.end();
   };
-  const bool hit = answer.surface != "*";
+  const bool hit = !answer.surface.isNone();
   if (!options_.treeIncluded.empty() && !(hit && named(options_.treeIncluded))) return;
   if (hit && named(options_.treeExcluded)) return;
   bytes.append(static_cast<size_t>(ancestors), '\t');

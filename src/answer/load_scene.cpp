@@ -1,5 +1,9 @@
 #include "answer/load_scene.h"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include "rad_parser/scene_file.h"
 
 namespace rsphere {
@@ -12,7 +16,12 @@ Scene loadScene(const AnswerOptions& options, const rad::Warn& warn) {
       if (shared.isFile) named.push_back(shared.text);
     read.files = rad::FileAccess::foldersOf(named);
   }
-  return buildScene(rad::readScene(options.scene, read), read, options.goals);
+  Scene scene = buildScene(rad::readScene(options.scene, read), read, options.goals);
+#ifdef __GLIBC__
+  // The lists of a large scene have grown by moving, which leaves holes of megabytes.
+  malloc_trim(0);
+#endif
+  return scene;
 }
 
 }  // namespace rsphere

@@ -164,9 +164,9 @@ std::string worstText(const CompareOptions& options, const Comparison& compariso
     if (hits) {
       const InputRay in = inputRay(&rays[per * k], options.irradiance);
       const Ray hit = tracer.cast(in.origin, in.direction, options.limitDistance ? in.length : 0);
-      const RayAnswer answer = answerOf(transport.scene(), hit);
-      text += answer.surface == names[k] ? fmt::format("  hits {}", names[k])
-                                         : fmt::format("  hits {}, original {}", answer.surface, names[k]);
+      const std::string name = answerOf(transport.scene(), hit).surface.text();
+      text += name == names[k] ? fmt::format("  hits {}", names[k])
+                               : fmt::format("  hits {}, original {}", name, names[k]);
     }
     text += '\n';
   }

@@ -69,15 +69,15 @@ std::optional<SurfaceChart> SurfaceChart::of(const Scene& scene, const CellGrid&
   chart.emplace();
   chart->scene_ = &scene;
   chart->surface_ = place.surface;
-  const bool has = std::visit(Overloaded{
-                                  [&](const Sphere& ball) { return chart->setBall(ball, place); },
-                                  [&](const Cone& cone) { return chart->setCone(cone, place); },
-                                  [&](const Polygon& polygon) { return chart->setPolygon(polygon, place); },
-                                  [&](const Ring& ring) { return chart->setRing(ring, place); },
-                                  [](const Distant&) { return false; },
-                                  [](const NestedShape auto&) { return false; },
-                              },
-                              scene.surfaces[place.surface].shape);
+  const bool has = visit(Overloaded{
+                             [&](const Sphere& ball) { return chart->setBall(ball, place); },
+                             [&](const Cone& cone) { return chart->setCone(cone, place); },
+                             [&](const Polygon& polygon) { return chart->setPolygon(polygon, place); },
+                             [&](const Ring& ring) { return chart->setRing(ring, place); },
+                             [](const Distant&) { return false; },
+                             [](const NestedShape auto&) { return false; },
+                         },
+                         scene.surfaces[place.surface].shape);
   if (!has) chart.reset();
   return chart;
 }
@@ -226,16 +226,16 @@ CellKey SurfaceChart::cellAt(const CellGrid& grid, int level, double u, double v
 bool SurfaceChart::holds(const V3d& point) const {
   if (surface_ == kPlane) return true;
   const V3d local = placement_ ? placement_->toInner.point(point) : point;
-  return std::visit(Overloaded{
-                        [&](const Polygon& polygon) { return inside(polygon, scene_->vertices, local); },
-                        [&](const Ring& ring) {
-                          const double radius = (local - ring.center).length();
-                          return radius >= ring.inner && radius <= ring.outer;
-                        },
-                        [](const OneOf<Sphere, Cone, Distant> auto&) { return true; },  // not plane
-                        [](const NestedShape auto&) { return true; },
-                    },
-                    scene_->surfaces[surface_].shape);
+  return visit(Overloaded{
+                   [&](const Polygon& polygon) { return inside(polygon, scene_->vertices, local); },
+                   [&](const Ring& ring) {
+                     const double radius = (local - ring.center).length();
+                     return radius >= ring.inner && radius <= ring.outer;
+                   },
+                   [](const OneOf<Sphere, Cone, Distant> auto&) { return true; },  // not plane
+                   [](const NestedShape auto&) { return true; },
+               },
+               scene_->surfaces[surface_].shape);
 }
 
 std::optional<GatherSite> SurfaceChart::siteAt(const CellGrid& grid, double u, double v) const {

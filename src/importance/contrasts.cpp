@@ -40,7 +40,7 @@ double measureSurroundings(const Scene& scene, const SeenSources& sources, PathT
   for (size_t k = 0; k < Tuning::kDirectionsAround; ++k) {
     const auto surfaces = static_cast<double>(scene.outermost().size());
     const SurfaceId i(static_cast<size_t>(random.uniform() * surfaces));
-    if (std::holds_alternative<Distant>(scene.surfaces[i].shape)) continue;
+    if (scene.surfaces[i].shape.as<Distant>()) continue;
     const SurfacePoint at = samplePoint(scene, scene.surfaces[i], random);
     if (!(at.clearance > 0)) continue;
     const V3d away = diffuseDirection(at.normal, random.uniform(), random.uniform());

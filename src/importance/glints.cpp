@@ -31,7 +31,7 @@ struct Part {
 };
 
 std::vector<Part> partsOf(const Scene& scene, const LightSource& source, const Sphere& ball) {
-  const auto* polygon = std::get_if<Polygon>(&scene.surfaces[source.surface].shape);
+  const auto* polygon = scene.surfaces[source.surface].shape.as<Polygon>();
   const bool outlined = polygon && source.map != LightSource::Map::parallelogram;
   if (outlined && polygon->vertices <= Tuning::kMostCorners) {
     const auto first = scene.vertices.begin() + polygon->firstVertex;
@@ -89,9 +89,9 @@ double solidAngleFrom(const LightSource& source, const Sphere& ball, double dist
 Glints::Glints(const Transport& transport, std::span<const SpecialObject> objects) : transport_(transport) {
   const Scene& scene = transport.scene();
   for (const SpecialObject& object : objects) {
-    const auto* sphere = std::get_if<Sphere>(&shapeOf(scene, object));
+    const auto* sphere = shapeOf(scene, object).as<Sphere>();
     const Surface& surface = scene.surfaces[object.surface];
-    if (!sphere || object.several || !std::holds_alternative<Sphere>(surface.shape)) continue;
+    if (!sphere || object.several || !surface.shape.as<Sphere>()) continue;
     const Material* material = scene.materialOf(surface);
     const double reflectance = material ? reflectanceOf(*material) : 0;
     if (reflectance > 0) balls_.push_back({*sphere, reflectance});

@@ -15,7 +15,7 @@ struct PlacedShape {
 };
 
 // Such a shape from an octree in world coordinates, exact to rounding.
-PlacedShape placed(const Shape& shape, std::span<const V3d> vertices, const Placement& placement);
+PlacedShape placed(ShapeRef shape, std::span<const V3d> vertices, const Placement& placement);
 
 // A point of a surface, in world coordinates: samplePoint()'s for shapes other than instances and
 // meshes. Of an instance every surface is equally probable, of a mesh every triangle. clearance

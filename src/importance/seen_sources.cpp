@@ -28,35 +28,35 @@ double sharpReflectance(const Material& material, double cosine = 1) {
 }
 
 // The area within the outline of a plane shape, of a ring with its hole.
-double outlinedArea(const Shape& shape) {
-  return std::visit(Overloaded{
-                        [](const Polygon& polygon) { return polygon.area; },
-                        [](const Ring& ring) { return pi * std::pow(ring.outer, 2); },
-                        [](const OneOf<Sphere, Cone, Distant> auto&) { return 0.; },
-                        [](const NestedShape auto&) { return 0.; },
-                    },
-                    shape);
+double outlinedArea(ShapeRef shape, std::span<const V3d> vertices) {
+  return visit(Overloaded{
+                   [&](const Polygon& polygon) { return areaOf(polygon, vertices); },
+                   [](const Ring& ring) { return pi * std::pow(ring.outer, 2); },
+                   [](const OneOf<Sphere, Cone, Distant> auto&) { return 0.; },
+                   [](const NestedShape auto&) { return 0.; },
+               },
+               shape);
 }
 
-bool emitsBehind(const Shape& shape, const V3d& point) {
+bool emitsBehind(ShapeRef shape, const V3d& point) {
   const V3d* normal = planeNormal(shape);
   return normal && normal->dot(point) <= planeOffset(shape);
 }
 
 // Whether the shape fills its region.
-bool fills(const Shape& shape, const Silhouette& s) {
-  return std::visit(Overloaded{
-                        [](const OneOf<Sphere, Distant> auto&) { return true; },
-                        [&](const Polygon&) {
-                          return std::abs(s.regionSolidAngle() - s.solidAngle()) <= 1e-9 * s.solidAngle();
-                        },
-                        [](const OneOf<Cone, Ring> auto&) { return false; },
-                        [](const NestedShape auto&) { return false; },
-                    },
-                    shape);
+bool fills(ShapeRef shape, const Silhouette& s) {
+  return visit(Overloaded{
+                   [](const OneOf<Sphere, Distant> auto&) { return true; },
+                   [&](const Polygon&) {
+                     return std::abs(s.regionSolidAngle() - s.solidAngle()) <= 1e-9 * s.solidAngle();
+                   },
+                   [](const OneOf<Cone, Ring> auto&) { return false; },
+                   [](const NestedShape auto&) { return false; },
+               },
+               shape);
 }
 
-bool hits(const Scene& scene, const Shape& shape, const V3d& point, const V3d& direction, ShapeHit& hit) {
+bool hits(const Scene& scene, ShapeRef shape, const V3d& point, const V3d& direction, ShapeHit& hit) {
   if (isPlain(shape)) return intersect(shape, scene.vertices, point, direction, kFarAway, hit);
   // A distant source. All directions that are tested are within its cone.
   hit = {kFarAway, -direction, 1};
@@ -67,7 +67,7 @@ struct Plane {
   V3d normal{0, 0, 1};
   double offset = 0;
 
-  explicit Plane(const Shape& flat) : normal(*planeNormal(flat)), offset(planeOffset(flat)) {}
+  explicit Plane(ShapeRef flat) : normal(*planeNormal(flat)), offset(planeOffset(flat)) {}
   double height(const V3d& p) const { return normal.dot(p) - offset; }
   V3d mirrored(const V3d& p) const { return p - 2 * height(p) * normal; }
   V3d mirroredDirection(const V3d& d) const { return d - 2 * normal.dot(d) * normal; }
@@ -93,7 +93,7 @@ SeenSources::SeenSources(const Transport& transport) : transport_(transport) {
     const Surface& surface = scene.surfaces[i];
     const Material* material = scene.materialOf(surface);
     if (!material || !planeNormal(surface.shape) || !(sharpReflectance(*material) > 0)) continue;
-    mirrors.push_back({-outlinedArea(surface.shape), i});
+    mirrors.push_back({-outlinedArea(surface.shape, scene.vertices), i});
   }
   std::sort(mirrors.begin(), mirrors.end());
   for (const auto& [area, surface] : mirrors)
@@ -219,11 +219,11 @@ void SeenSources::sampleImage(const V3d& point, const Image& image, size_t rays,
                               uint64_t seed, PathTracer& tracer, std::vector<Sample>& samples) const {
   const Scene& scene = transport_.scene();
   const LightSource& light = transport_.lights().all()[image.source];
-  const Shape& shape = scene.surfaces[light.surface].shape;
+  const ShapeRef shape = scene.surfaces[light.surface].shape;
   Random random(seed);
   const bool mirrored = image.mirror != kNone;
-  const Shape* mirror = mirrored ? &scene.surfaces[image.mirror].shape : nullptr;
-  const V3d eye = mirrored ? Plane(*mirror).mirrored(point) : point;
+  const ShapeRef mirror = mirrored ? scene.surfaces[image.mirror].shape : shape;
+  const V3d eye = mirrored ? Plane(mirror).mirrored(point) : point;
   double share = 1;
   ShapeHit on;
   if (!image.filled) {
@@ -251,7 +251,7 @@ void SeenSources::sampleImage(const V3d& point, const Image& image, size_t rays,
       direction = image.region.sample((row + random.uniform()) / rows, (column + random.uniform()) / columns);
       const uint64_t raySeed = random.bits();
       if (!hits(scene, shape, eye, direction, on) || !(on.cosine > 0)) continue;
-      direction = Plane(*mirror).mirroredDirection(direction);
+      direction = Plane(mirror).mirroredDirection(direction);
       s.ray = tracer.trace(point, direction, 0, raySeed);
       s.direction.toSource = true;
       s.direction.value = {};
@@ -276,7 +276,7 @@ void SeenSources::sampleImage(const V3d& point, const Image& image, size_t rays,
 void SeenSources::sampleCell(const V3d& point, const Image& image, const Cell& cell, Random& random,
                              PathTracer& tracer, std::vector<Sample>& samples) const {
   const LightSource& light = transport_.lights().all()[image.source];
-  const Shape& shape = transport_.scene().surfaces[light.surface].shape;
+  const ShapeRef shape = transport_.scene().surfaces[light.surface].shape;
   Sample s;
   s.row = cell.row;
   s.aimed = s.clear = 0;

@@ -226,7 +226,7 @@ V3d Silhouette::sample(double u1, double u2) const {
   return sampleTriangle(corners_[0], corners_[i + 1], corners_[i + 2], whole, within, u2);
 }
 
-Silhouette silhouetteOf(const Shape& shape, std::span<const V3d> vertices, const V3d& point) {
+Silhouette silhouetteOf(ShapeRef shape, std::span<const V3d> vertices, const V3d& point) {
   Silhouette s;
   const auto ofSphere = [&](const Sphere& sphere) { s.setBall(sphere.center, sphere.radius, point); };
   const auto ofDistant = [&](const Distant& distant) {
@@ -256,7 +256,7 @@ Silhouette silhouetteOf(const Shape& shape, std::span<const V3d> vertices, const
   };
   const auto ofPolygon = [&](const Polygon& polygon) {
     const auto around = vertices.subspan(polygon.firstVertex, polygon.vertices);
-    if (polygon.thickness <= kSamePlace) {
+    if (thicknessOf(polygon, vertices) <= kSamePlace) {
       s.setPolygon(polygon, around, point);
     } else {
       // Rays hit the polygon in its mean plane, with the vertices moved there along the axis.
@@ -267,7 +267,7 @@ Silhouette silhouetteOf(const Shape& shape, std::span<const V3d> vertices, const
     }
   };
   const auto ofNested = [](const NestedShape auto&) {};  // represented by balls
-  std::visit(Overloaded{ofSphere, ofDistant, ofCone, ofRing, ofPolygon, ofNested}, shape);
+  visit(Overloaded{ofSphere, ofDistant, ofCone, ofRing, ofPolygon, ofNested}, shape);
   return s;
 }
 

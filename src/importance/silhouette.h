@@ -45,7 +45,7 @@ class Silhouette {
   // The intersection of the two regions if both are polygons, otherwise the smaller of them.
   Silhouette within(const Silhouette& other) const;
 
-  friend Silhouette silhouetteOf(const Shape& shape, std::span<const V3d> vertices, const V3d& point);
+  friend Silhouette silhouetteOf(ShapeRef shape, std::span<const V3d> vertices, const V3d& point);
   friend Silhouette hullOf(std::span<const V3d> around, const V3d& point);
 
  private:
@@ -66,7 +66,7 @@ class Silhouette {
 };
 
 // The silhouette of a shape as seen from a point (world). vertices: Scene::vertices.
-Silhouette silhouetteOf(const Shape& shape, std::span<const V3d> vertices, const V3d& point);
+Silhouette silhouetteOf(ShapeRef shape, std::span<const V3d> vertices, const V3d& point);
 
 // The convex hull of places (world) as seen from a point. Empty if they span no area, or reach beyond a cone
 // of half angle tuning::Silhouettes::kWidestHull.

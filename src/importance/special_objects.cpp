@@ -175,7 +175,7 @@ class Finder {
 
   Contents contentsOf(const Surface& s) {
     if (scene_.hasOwnModifier(s)) return {};
-    return std::visit(
+    return visit(
         Overloaded{
             [&](const Instance& instance) { return contentsOfGroup(instance.group); },
             [&](const MeshInstance& mesh) { return contentsOfMesh(scene_.meshes[mesh.mesh]); },
@@ -224,17 +224,17 @@ class Finder {
   // surface belongs to; null: the world.
   void add(SurfaceId index, const Placement* at) {
     const Surface& s = scene_.surfaces[index];
-    std::visit(Overloaded{
-                   [&](const OneOf<Instance, MeshInstance> auto& nested) { addNested(index, nested, at); },
-                   [](const Distant&) {},
-                   [&](const OneOf<Polygon, Sphere, Cone, Ring, MeshFaces> auto&) {
-                     const double value = irregularityOf(index);
-                     if (value < kSpecialIrregularity) return;
-                     addObject(index, value,
-                               at ? std::optional(placed(s.shape, scene_.vertices, *at)) : std::nullopt);
-                   },
-               },
-               s.shape);
+    visit(Overloaded{
+              [&](const OneOf<Instance, MeshInstance> auto& nested) { addNested(index, nested, at); },
+              [](const Distant&) {},
+              [&](const OneOf<Polygon, Sphere, Cone, Ring, MeshFaces> auto&) {
+                const double value = irregularityOf(index);
+                if (value < kSpecialIrregularity) return;
+                addObject(index, value,
+                          at ? std::optional(placed(s.shape, scene_.vertices, *at)) : std::nullopt);
+              },
+          },
+          s.shape);
   }
 
   void addNested(SurfaceId index, const auto& nested, const Placement* at) {
@@ -265,14 +265,14 @@ class Finder {
   void addAround(SurfaceId index) {
     const Surface& s = scene_.surfaces[index];
     const Contents contents = contentsOf(s);
-    std::visit(Overloaded{
-                   [&](const OneOf<Instance, MeshInstance> auto& nested) {
-                     addBall(contents.mostIrregular, contents.irregularity, ballOf(nested),
-                             scene_.placements[nested.placement], true);
-                   },
-                   [](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) {},  // no contents
-               },
-               s.shape);
+    visit(Overloaded{
+              [&](const OneOf<Instance, MeshInstance> auto& nested) {
+                addBall(contents.mostIrregular, contents.irregularity, ballOf(nested),
+                        scene_.placements[nested.placement], true);
+              },
+              [](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) {},  // no contents
+          },
+          s.shape);
   }
 
   const Scene& scene_;
@@ -290,8 +290,8 @@ std::vector<SpecialObject> findSpecialObjects(const Scene& scene, double factor)
   return Finder(scene, factor).find();
 }
 
-const Shape& shapeOf(const Scene& scene, const SpecialObject& object) {
-  return object.placed ? object.placed->shape : scene.surfaces[object.surface].shape;
+ShapeRef shapeOf(const Scene& scene, const SpecialObject& object) {
+  return object.placed ? ShapeRef(object.placed->shape) : scene.surfaces[object.surface].shape;
 }
 
 bool shows(const Scene& scene, const SpecialObject& object, SurfaceId surface) {
@@ -314,9 +314,9 @@ std::string specialObjectsText(const Scene& scene, const std::vector<SpecialObje
   for (const SpecialObject& o : objects) {
     const Surface& s = scene.surfaces[o.surface];
     const Modifier& m = *mostIrregular(scene, s.modifier).modifier;
-    const rad::Primitive& p = scene.description.primitives[m.primitive];
-    fmt::format_to(std::back_inserter(text), "{}\t{} \"{}\"\t{:.6g} per sr\t{}\n", scene.place(s.primitive),
-                   rad::typeName(p.type), scene.description.name(p), o.density,
+    const rad::Primitive& p = m.described;
+    fmt::format_to(std::back_inserter(text), "{}\t{} \"{}\"\t{:.6g} per sr\t{}\n", scene.place(s),
+                   rad::typeName(p.type), p.name, o.density,
                    why(std::get<Material>(m.content), o.irregularity));
   }
   return text;

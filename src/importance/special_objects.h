@@ -70,7 +70,7 @@ RSPHERE_TUNED(SpecialObjects, size_t, kMostPlacedObjects, 4096);
 std::vector<SpecialObject> findSpecialObjects(const Scene& scene, double factor);
 
 // The shape of the object, or the ball around it (world).
-const Shape& shapeOf(const Scene& scene, const SpecialObject& object);
+ShapeRef shapeOf(const Scene& scene, const SpecialObject& object);
 
 // Whether a hit on the surface (index in Scene::surfaces, or kNone) is a hit on the object.
 bool shows(const Scene& scene, const SpecialObject& object, SurfaceId surface);

@@ -106,34 +106,33 @@ class Images {
     const V3d* normal = planeNormal(surface.shape);
     if (!normal) {
       if (warn)
-        warn(scene_.place(surface.primitive) +
-             ": only plane surfaces make virtual sources; this one makes none");
+        warn(scene_.place(surface) + ": only plane surfaces make virtual sources; this one makes none");
       return;
     }
     relay.normal = *normal;
     relay.offset = planeOffset(surface.shape);
-    std::visit(Overloaded{
-                   [&](const Polygon& polygon) {
-                     const auto vertices =
-                         std::span(scene_.vertices).subspan(polygon.firstVertex, polygon.vertices);
-                     relay.corners.assign(vertices.begin(), vertices.end());
-                     relay.center = centerOf(polygon, scene_.vertices);
-                     for (const V3d& v : vertices)
-                       relay.radius = std::max(relay.radius, (v - relay.center).length());
-                   },
-                   [&](const Ring& ring) {
-                     relay.center = ring.center;
-                     relay.radius = ring.outer;
-                     V3d x, y;
-                     frame(relay.normal, x, y);
-                     for (const double a : {-relay.radius, relay.radius})
-                       for (const double b : {-relay.radius, relay.radius})
-                         relay.corners.push_back(relay.center + a * x + b * y);
-                   },
-                   [](const OneOf<Sphere, Cone, Distant> auto&) {},  // not plane
-                   [](const NestedShape auto&) {},
-               },
-               surface.shape);
+    visit(Overloaded{
+              [&](const Polygon& polygon) {
+                const auto vertices =
+                    std::span(scene_.vertices).subspan(polygon.firstVertex, polygon.vertices);
+                relay.corners.assign(vertices.begin(), vertices.end());
+                relay.center = centerOf(polygon, scene_.vertices);
+                for (const V3d& v : vertices)
+                  relay.radius = std::max(relay.radius, (v - relay.center).length());
+              },
+              [&](const Ring& ring) {
+                relay.center = ring.center;
+                relay.radius = ring.outer;
+                V3d x, y;
+                frame(relay.normal, x, y);
+                for (const double a : {-relay.radius, relay.radius})
+                  for (const double b : {-relay.radius, relay.radius})
+                    relay.corners.push_back(relay.center + a * x + b * y);
+              },
+              [](const OneOf<Sphere, Cone, Distant> auto&) {},  // not plane
+              [](const NestedShape auto&) {},
+          },
+          surface.shape);
     relays_.push_back(relay);
   }
 

@@ -36,15 +36,17 @@ void setSquare(LightSource& source) {
 
 // If vertices deviate from the polygon's mean plane by more than rounding, the points that the unit square is
 // mapped to lie outside that plane.
-bool isFlat(const Polygon& polygon) { return polygon.thickness <= 1e-9 * std::sqrt(polygon.area); }
+bool isFlat(const Polygon& polygon, std::span<const V3d> vertices) {
+  return thicknessOf(polygon, vertices) <= 1e-9 * std::sqrt(areaOf(polygon, vertices));
+}
 
 void setShape(LightSource& source, const Polygon& polygon, const Scene& scene) {
   const auto v = std::span(scene.vertices).subspan(polygon.firstVertex, polygon.vertices);
   source.normal = polygon.normal;
-  source.area = polygon.area;
+  source.area = areaOf(polygon, scene.vertices);
   for (const V3d& p : v) source.center += p / static_cast<double>(v.size());
   for (const V3d& p : v) source.radius = std::max(source.radius, (p - source.center).length());
-  source.hitsWhereAimed = isFlat(polygon);
+  source.hitsWhereAimed = isFlat(polygon, scene.vertices);
   if (isParallelogram(v)) {
     source.map = LightSource::Map::parallelogram;
     source.u = (v[1] - v[0]) / 2;
@@ -104,20 +106,19 @@ void setShape(LightSource& source, const Distant& distant, const Scene&) {
 
 // Whether every ray that is aimed at a part of the shape hits it. A goal may have any shape; one that cannot
 // be aimed at is only hit by chance.
-bool canBeAimedAt(const Shape& shape, const Scene& scene) {
-  return std::visit(Overloaded{
-                        [&](const Polygon& polygon) {
-                          return isConvex(
-                              std::span(scene.vertices).subspan(polygon.firstVertex, polygon.vertices),
-                              polygon.normal);
-                        },
-                        [](const Ring& ring) { return ring.inner == 0; },
-                        [](const Sphere& sphere) { return !sphere.inward; },
-                        [](const Cone& cone) { return !cone.inward && cone.radius0 == cone.radius1; },
-                        [](const Distant&) { return false; },
-                        [](const NestedShape auto&) { return false; },
-                    },
-                    shape);
+bool canBeAimedAt(ShapeRef shape, const Scene& scene) {
+  return visit(Overloaded{
+                   [&](const Polygon& polygon) {
+                     return isConvex(std::span(scene.vertices).subspan(polygon.firstVertex, polygon.vertices),
+                                     polygon.normal);
+                   },
+                   [](const Ring& ring) { return ring.inner == 0; },
+                   [](const Sphere& sphere) { return !sphere.inward; },
+                   [](const Cone& cone) { return !cone.inward && cone.radius0 == cone.radius1; },
+                   [](const Distant&) { return false; },
+                   [](const NestedShape auto&) { return false; },
+               },
+               shape);
 }
 
 }  // namespace
@@ -149,12 +150,12 @@ void LightSources::findSources() {
   const auto add = [&](SurfaceId surface) -> LightSource& {
     LightSource& source = sources_.emplace_back();
     source.surface = surface;
-    std::visit(Overloaded{
-                   [&](const PlainShape auto& shape) { setShape(source, shape, scene_); },
-                   [&](const Distant& distant) { setShape(source, distant, scene_); },
-                   [](const NestedShape auto&) {},
-               },
-               scene_.surfaces[surface].shape);
+    visit(Overloaded{
+              [&](const PlainShape auto& shape) { setShape(source, shape, scene_); },
+              [&](const Distant& distant) { setShape(source, distant, scene_); },
+              [](const NestedShape auto&) {},
+          },
+          scene_.surfaces[surface].shape);
     return source;
   };
   // As in rtrace, luminous surfaces in octrees and meshes are visible but are not light sources.
@@ -168,7 +169,7 @@ void LightSources::findSources() {
     const Material* material = scene_.materialOf(surface);
     if (!material || !isSampled(*material)) continue;
     const double reach = reachOf(*material);
-    if (reach != 0 && std::holds_alternative<Distant>(surface.shape)) continue;
+    if (reach != 0 && surface.shape.as<Distant>()) continue;
     LightSource& source = add(i);
     source.reach = reach;
     if (const auto* spot = std::get_if<Spotlight>(material)) source.spot = *spot;

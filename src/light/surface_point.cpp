@@ -18,7 +18,8 @@ double clearanceOf(double size) { return std::max(size * 1e-3, 4 * kSamePlace); 
 
 SurfacePoint pointOn(const Polygon& polygon, std::span<const V3d> all, Random& random) {
   const auto v = all.subspan(polygon.firstVertex, polygon.vertices);
-  double left = random.uniform() * 2 * polygon.area;
+  const double area = areaOf(polygon, all);
+  double left = random.uniform() * 2 * area;
   size_t i = 2;
   for (; i + 1 < v.size(); ++i) {
     left -= (v[i - 1] - v[0]).cross(v[i] - v[0]).length();
@@ -26,7 +27,7 @@ SurfacePoint pointOn(const Polygon& polygon, std::span<const V3d> all, Random& r
   }
   const double root = std::sqrt(random.uniform()), t = random.uniform();
   return {(1 - root) * v[0] + root * (1 - t) * v[i - 1] + root * t * v[i], polygon.normal,
-          clearanceOf(std::sqrt(polygon.area))};
+          clearanceOf(std::sqrt(area))};
 }
 
 SurfacePoint pointOn(const Sphere& sphere, std::span<const V3d>, Random& random) {
@@ -58,13 +59,13 @@ SurfacePoint pointOn(const Ring& ring, std::span<const V3d>, Random& random) {
 
 }  // namespace
 
-SurfacePoint samplePoint(const Shape& shape, std::span<const V3d> vertices, Random& random) {
-  return std::visit(Overloaded{
-                        [&](const PlainShape auto& form) { return pointOn(form, vertices, random); },
-                        [](const Distant&) { return SurfacePoint{}; },
-                        [](const NestedShape auto&) { return SurfacePoint{}; },
-                    },
-                    shape);
+SurfacePoint samplePoint(ShapeRef shape, std::span<const V3d> vertices, Random& random) {
+  return visit(Overloaded{
+                   [&](const PlainShape auto& form) { return pointOn(form, vertices, random); },
+                   [](const Distant&) { return SurfacePoint{}; },
+                   [](const NestedShape auto&) { return SurfacePoint{}; },
+               },
+               shape);
 }
 
 }  // namespace rsphere

@@ -17,6 +17,6 @@ struct SurfacePoint {
 // A random point, uniform by area on spheres, cylinders, rings and convex polygons. On cones it is uniform
 // along the axis instead. For a concave polygon it may lie outside the polygon. REQUIRES that the shape is
 // not Distant. vertices: Scene::vertices.
-SurfacePoint samplePoint(const Shape& shape, std::span<const V3d> vertices, Random& random);
+SurfacePoint samplePoint(ShapeRef shape, std::span<const V3d> vertices, Random& random);
 
 }  // namespace rsphere

@@ -20,7 +20,7 @@ bool beginsTransform(std::string_view word) {
 
 std::string_view PrimitiveArguments::string(size_t i) const {
   if (i >= strings()) fail(fmt::format("expected at least {} string arguments, got {}", i + 1, strings()));
-  return description_.string(primitive(), i);
+  return description_.string(primitive_, i);
 }
 
 Words PrimitiveArguments::strings(size_t first, size_t count) const {
@@ -66,9 +66,12 @@ void PrimitiveArguments::warn(const rad::Warn& receiver, std::string_view what) 
   if (receiver) receiver(fmt::format("{}: {}", placeOf(description_, primitive_), what));
 }
 
+std::string placeOf(const rad::Description& description, const rad::Primitive& p) {
+  return fmt::format("{}: {} \"{}\"", description.at(p.place), rad::typeName(p.type), p.name);
+}
+
 std::string placeOf(const rad::Description& description, rad::PrimitiveId primitive) {
-  const rad::Primitive& p = description.primitives[primitive];
-  return fmt::format("{}: {} \"{}\"", description.at(p.place), rad::typeName(p.type), description.name(p));
+  return placeOf(description, description.primitives[primitive]);
 }
 
 Words transformAmong(std::span<const std::string_view> words) {

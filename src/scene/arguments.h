@@ -20,11 +20,16 @@ using Words = std::vector<std::string_view>;
 class PrimitiveArguments {
  public:
   PrimitiveArguments(const rad::Description& description, rad::PrimitiveId primitive)
-      : description_(description), primitive_(primitive) {}
+      : PrimitiveArguments(description, description.primitives[primitive]) {}
+  PrimitiveArguments(const rad::Description& description, rad::Primitive primitive)
+      : description_(description), primitive_(std::move(primitive)) {}
 
-  rad::Type type() const { return primitive().type; }
-  size_t strings() const { return primitive().strings; }
-  std::span<const double> reals() const { return description_.reals(primitive()); }
+  rad::Type type() const { return primitive_.type; }
+  size_t strings() const { return primitive_.strings; }
+  std::span<const double> reals() const { return description_.reals(primitive_); }
+
+  // Of a polygon: the index of its first vertex in the vertices of the description.
+  uint32_t firstVertex() const { return static_cast<uint32_t>(primitive_.firstReal); }
 
   // The string argument at an index. Throws rad::Error if there is none.
   std::string_view string(size_t i) const;
@@ -48,14 +53,13 @@ class PrimitiveArguments {
   void warn(const rad::Warn& receiver, std::string_view what) const;
 
  private:
-  const rad::Primitive& primitive() const { return description_.primitives[primitive_]; }
-
   const rad::Description& description_;
-  rad::PrimitiveId primitive_;
+  rad::Primitive primitive_;
 };
 
 // 'room.rad:12: plastic "wall"', for messages.
 std::string placeOf(const rad::Description& description, rad::PrimitiveId primitive);
+std::string placeOf(const rad::Description& description, const rad::Primitive& primitive);
 
 // The transform among words, from the first word on that can begin one; empty if there is none.
 Words transformAmong(std::span<const std::string_view> words);

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <type_traits>
 #include <unordered_map>
 
@@ -38,9 +37,12 @@ class Builder {
     }
     checkNesting(scene_);
     for (size_t i = 0; i < meshes_.size(); ++i) addMesh(meshes_[i]);
-    for (Surface& surface : scene_.surfaces)
-      surface.clip = modifiers_.clipOf(primitive(surface.primitive).modifier);
-    dropSurfaceNumbers();
+    for (Finish& finish : scene_.surfaces.finishes()) finish.clip = modifiers_.clipOf(finish.described);
+    scene_.vertices = std::move(scene_.description.vertices);
+    scene_.description.primitives.shrink();
+    if (scene_.surfaces.size() <= Scene::kFewSurfaces)
+      for (const SurfaceId i : scene_.surfaces.ids())
+        scene_.names.push_back(scene_.description.primitives.name(scene_.surfaces.primitiveOf(i)));
     return std::move(scene_);
   }
 
@@ -51,8 +53,7 @@ class Builder {
     PrimitiveId namedBy;
   };
 
-  const Primitive& primitive(PrimitiveId i) const { return scene_.description.primitives[i]; }
-  PrimitiveArguments arguments(PrimitiveId i) const { return {scene_.description, i}; }
+  Primitive primitive(PrimitiveId i) const { return scene_.description.primitives[i]; }
 
   // ---- octrees and meshes
 
@@ -80,43 +81,17 @@ class Builder {
     return first;
   }
 
-  // Reserves memory for all surfaces from this primitive on. Growing the lists by doubling would touch
-  // twice the memory.
-  void reserve(uint32_t firstPrimitive) {
-    size_t surfaces = 0, coordinates = 0;
-    for (const Primitive& p : std::span(scene_.description.primitives).subspan(firstPrimitive)) {
-      surfaces += rad::isSurface(p.type);
-      if (p.type == Type::polygon) coordinates += p.reals;
-    }
-    const auto makeRoom = [](auto& list, size_t more) {
-      if (list.size() + more > list.capacity())
-        list.reserve(std::max(list.size() + more, 2 * list.capacity()));
-    };
-    makeRoom(scene_.surfaces, surfaces);
-    makeRoom(scene_.vertices, coordinates / 3);
-  }
-
-  // Removes the numeric arguments of surfaces, which take a fifth of a large scene. Shapes have been made
-  // from them, and only those of modifiers are needed again.
-  void dropSurfaceNumbers() {
-    rad::Description& d = scene_.description;
-    std::vector<double> kept;
-    for (Primitive& p : d.primitives) {
-      if (rad::isSurface(p.type)) p.reals = 0;
-      const auto reals = d.reals(p);
-      p.firstReal = kept.size();
-      kept.insert(kept.end(), reals.begin(), reals.end());
-    }
-    d.realArgs = std::move(kept);
-  }
-
   // Adds a group: the surfaces among the primitives from this one on.
   void addGroup(uint32_t firstPrimitive) {
-    const auto& primitives = scene_.description.primitives;
+    const rad::PrimitiveList& primitives = scene_.description.primitives;
     const size_t firstSurface = scene_.surfaces.size();
-    reserve(firstPrimitive);
-    for (const PrimitiveId i : IdRange<PrimitiveId>(firstPrimitive, primitives.size() - firstPrimitive))
-      if (rad::isSurface(primitives[i].type)) addSurface(i);
+    size_t surfaces = 0;
+    for (size_t i = firstPrimitive; i < primitives.size(); ++i)
+      surfaces += primitives.isSurface(PrimitiveId(i));
+    scene_.surfaces.reserve(surfaces);
+    const auto end = primitives.end();
+    for (auto p = primitives.from(firstPrimitive); p != end; ++p)
+      if (rad::isSurface(p->type)) addSurface(p.id(), *p);
     scene_.groups.push_back({{firstSurface, scene_.surfaces.size() - firstSurface}});
   }
 
@@ -133,13 +108,13 @@ class Builder {
     return static_cast<uint32_t>(scene_.placements.size()) - 1;
   }
 
-  Instance makeInstance(PrimitiveId i) {
-    const PlacedFile placed = readPlacedFile(arguments(i));
+  Instance makeInstance(PrimitiveId i, const PrimitiveArguments& a) {
+    const PlacedFile placed = readPlacedFile(a);
     return {addPlacement(placed.placement), 1 + numberOf(placed.file, i, octrees_, octreeNumbers_)};
   }
 
-  MeshInstance makeMeshInstance(PrimitiveId i) {
-    const PlacedFile placed = readPlacedFile(arguments(i));
+  MeshInstance makeMeshInstance(PrimitiveId i, const PrimitiveArguments& a) {
+    const PlacedFile placed = readPlacedFile(a);
     return {addPlacement(placed.placement), numberOf(placed.file, i, meshes_, meshNumbers_)};
   }
 
@@ -160,48 +135,59 @@ class Builder {
 
   SurfaceId addFaces(PrimitiveId described) {
     rad::Description& d = scene_.description;
-    if (facesName_ == kNoWord) {
-      facesName_ = static_cast<uint32_t>(d.words.size());
-      d.words.emplace_back("M-Tri");  // their name in the output of rtrace -os
-    }
     rad::Primitive p;
     p.type = Type::mesh;
     p.modifier = described;
     p.place = primitive(described).place;
-    p.name = facesName_;
+    p.name = "M-Tri";  // in the output of rtrace -os
     d.primitives.push_back(p);
-    addSurface(d.primitives.last(), MeshFaces{});
+    addSurface(d.primitives.last(), p, MeshFaces{});
     return scene_.surfaces.last();
   }
 
   // ---- surfaces
 
-  void addSurface(PrimitiveId i) {
+  void addSurface(PrimitiveId i, const Primitive& p) {
     // An octree cannot contain distant light sources.
-    if (inOctree() && primitive(i).type == Type::source) return;
-    std::optional<Shape> shape = makeShape(i);
-    if (shape) addSurface(i, std::move(*shape));
+    if (inOctree() && p.type == Type::source) return;
+    const std::optional<Shape> shape = makeShape(i, p);
+    if (shape) addSurface(i, p, *shape);
   }
 
-  void addSurface(PrimitiveId i, Shape shape) {
-    Surface surface{std::move(shape), i, modifiers_.modifier(primitive(i).modifier), kNone};
-    surface.material = scene_.firstMaterial(surface.modifier);
-    surface.smoothed = scene_.modifierName(surface) == "Phong";
+  void addSurface(PrimitiveId i, const Primitive& p, const Shape& shape) {
+    const uint32_t finish = finishOf(p.modifier);
     // Light sources in octrees are visible, but are not sampled as light sources.
-    if (!inOctree()) checkLight(i, surface);
-    scene_.surfaces.push_back(std::move(surface));
+    if (!inOctree()) checkLight(p, shape, scene_.surfaces.finishes()[finish].material);
+    scene_.surfaces.push_back(shape, finish, i);
+  }
+
+  // The number of the finish with this modifier.
+  uint32_t finishOf(PrimitiveId described) {
+    std::vector<Finish>& finishes = scene_.surfaces.finishes();
+    const auto [at, isNew] = finishOf_.try_emplace(described, static_cast<uint32_t>(finishes.size()));
+    if (isNew) {
+      Finish finish;
+      finish.described = described;
+      finish.modifier = modifiers_.modifier(described);
+      finish.material = scene_.firstMaterial(finish.modifier);
+      if (described != rad::kVoid) finish.name = primitive(described).name;
+      finish.smoothed = finish.name == "Phong";
+      finishes.push_back(std::move(finish));
+    }
+    return at->second;
   }
 
   // Rejects shapes that cannot be sampled as light sources, because rays cannot be aimed at their centre.
-  void checkLight(PrimitiveId i, const Surface& surface) const {
-    const Material* material = scene_.materialOf(surface);
+  void checkLight(const Primitive& p, const Shape& shape, ModifierId materialId) const {
+    const Material* material = scene_.materialAt(materialId);
     if (!material || !isSampled(*material)) return;
-    const PrimitiveArguments own = arguments(i);
+    const PrimitiveArguments own(scene_.description, p);
+    const std::span<const V3d> vertices = scene_.description.vertices;
     std::visit(
         Overloaded{
             [&](const Polygon& polygon) {
-              if (polygon.area == 0) own.fail("zero source area");
-              if (!inside(polygon, scene_.vertices, centerOf(polygon, scene_.vertices)))
+              if (areaOf(polygon, vertices) == 0) own.fail("zero source area");
+              if (!inside(polygon, vertices, centerOf(polygon, vertices)))
                 own.fail("cannot hit source center");
             },
             [&](const Ring& ring) {
@@ -218,14 +204,14 @@ class Builder {
             [](const Distant&) {},
             [&](const NestedShape auto&) { own.fail("a surface of this type cannot be a light source"); },
         },
-        surface.shape);
+        shape);
   }
 
-  std::optional<Shape> makeShape(PrimitiveId i) {
-    const PrimitiveArguments a = arguments(i);
+  std::optional<Shape> makeShape(PrimitiveId i, const Primitive& p) {
+    const PrimitiveArguments a(scene_.description, p);
     switch (a.type()) {
       case Type::polygon:
-        return readPolygon(a, warn_, scene_.vertices);
+        return readPolygon(a, warn_, scene_.description.vertices);
       case Type::sphere:
       case Type::bubble:
         return readSphere(a, warn_);
@@ -240,17 +226,15 @@ class Builder {
       case Type::source:
         return readSource(a);
       case Type::instance:
-        return makeInstance(i);
+        return makeInstance(i, a);
       case Type::mesh:
-        return makeMeshInstance(i);
+        return makeMeshInstance(i, a);
       default:
         a.fail("this type is not supported yet");
     }
   }
 
   bool inOctree() const { return firstPrimitive_ > 0; }
-
-  static constexpr uint32_t kNoWord = std::numeric_limits<uint32_t>::max();
 
   const rad::ReadOptions& options_;
   const rad::Warn& warn_;
@@ -259,7 +243,7 @@ class Builder {
   uint32_t firstPrimitive_ = 0;  // of the file that is being converted
   std::vector<NamedFile> octrees_, meshes_;
   std::unordered_map<std::string, uint32_t> octreeNumbers_, meshNumbers_;
-  uint32_t facesName_ = kNoWord;
+  std::unordered_map<PrimitiveId, uint32_t> finishOf_;
 };
 
 }  // namespace
@@ -268,11 +252,10 @@ Scene buildScene(rad::Description description, const rad::ReadOptions& options,
                  std::span<const std::string> goals) {
   Scene scene = Builder(std::move(description), options).build();
   for (const std::string& goal : goals) {
-    bool found = false;
-    for (Surface& surface : scene.surfaces)
-      if (scene.modifierName(surface) == goal && !std::holds_alternative<Distant>(surface.shape))
-        found = surface.goal = true;
-    if (!found) {
+    for (Finish& finish : scene.surfaces.finishes())
+      if (finish.name == goal) finish.goal = true;
+    const auto isOne = [&](const Surface& surface) { return surface.goal && surface.finish.name == goal; };
+    if (std::none_of(scene.surfaces.begin(), scene.surfaces.end(), isOne)) {
       rad::NearestName nearest(goal);
       for (const Surface& surface : scene.surfaces) nearest.consider(scene.modifierName(surface));
       throw rad::Error(fmt::format("no surface has the goal's modifier \"{}\"{}", goal, nearest.hint()));

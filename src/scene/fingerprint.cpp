@@ -32,8 +32,7 @@ void add(Fingerprint& print, const V3d& v) {
   for (int c = 0; c < 3; ++c) print.add(v[c]);
 }
 
-// The defining values of shapes, without derived ones. The description no longer has the numeric
-// arguments of surfaces.
+// The defining values of shapes, without derived ones.
 void add(Fingerprint& print, const Polygon& polygon, const Scene& scene) {
   print.add(uint64_t{polygon.vertices});
   for (uint32_t i = 0; i < polygon.vertices; ++i) add(print, scene.vertices[polygon.firstVertex + i]);
@@ -86,8 +85,9 @@ uint64_t fingerprint(const Scene& scene) {
     print.add(static_cast<uint64_t>(p.type));
     print.add(uint64_t{static_cast<uint32_t>(p.modifier.number())} << 32 |
               static_cast<uint32_t>(p.aliased.number()));
-    print.add(d.name(p));
-    for (const double x : d.reals(p)) print.add(x);
+    print.add(p.name);
+    if (!rad::isSurface(p.type))  // shapes have the numbers of surfaces
+      for (const double x : d.reals(p)) print.add(x);
     for (size_t i = 0; i < p.strings; ++i) {
       print.add(d.string(p, i));
       // The scene already contains the octrees and meshes.
@@ -97,7 +97,7 @@ uint64_t fingerprint(const Scene& scene) {
   }
   for (const Surface& s : scene.surfaces) {
     print.add(uint64_t{static_cast<uint32_t>(s.modifier.number())} << 1 | static_cast<uint64_t>(s.goal));
-    std::visit([&](const auto& shape) { add(print, shape, scene); }, s.shape);
+    visit([&](const auto& shape) { add(print, shape, scene); }, s.shape);
   }
   for (const Mesh& mesh : scene.meshes) add(print, mesh.data);
   addFile(print, "rayinit.cal", scene.files);

@@ -43,10 +43,11 @@ ModifierId ModifierBuilder::modifier(PrimitiveId described) {
     const PrimitiveId i = chain.back();
     chain.pop_back();
     PrimitiveId target = i;
-    while (target != rad::kVoid && primitive(target).type == Type::alias)
-      target = primitive(target).aliased != rad::kVoid ? primitive(target).aliased
-               : target == i                           ? rad::kVoid
-                                                       : primitive(target).modifier;
+    while (target != rad::kVoid) {
+      const rad::Primitive alias = primitive(target);
+      if (alias.type != Type::alias) break;
+      target = alias.aliased != rad::kVoid ? alias.aliased : target == i ? rad::kVoid : alias.modifier;
+    }
     if (target != rad::kVoid) {  // an alias without a target is its modifier
       Content made = content(target);
       const ModifierId index(scene_.modifiers.size());
@@ -54,7 +55,7 @@ ModifierId ModifierBuilder::modifier(PrimitiveId described) {
         setFunctions(*material, index);
         warnOfExcess(target, *material, converted);
       }
-      scene_.modifiers.push_back({std::move(made), converted, target});
+      scene_.modifiers.push_back({std::move(made), converted, target, primitive(target)});
       converted = index;
     }
     modifierOf_[i] = converted;
@@ -263,9 +264,8 @@ void ModifierBuilder::warnOfExcess(PrimitiveId i, const Material& material, Modi
   const std::string text =
       fmt::format("{} {:g} is above {:.3g}, so that more light leaves the surface than arrives",
                   excess->argument, excess->value, excess->most);
-  const rad::Primitive& p = primitive(i);
-  if (excesses_.insert(fmt::format("{} {} {}", static_cast<int>(p.type), scene_.description.name(p), text))
-          .second)
+  const rad::Primitive p = primitive(i);
+  if (excesses_.insert(fmt::format("{} {} {}", static_cast<int>(p.type), p.name, text)).second)
     PrimitiveArguments(scene_.description, i).warn(warn_, text);
 }
 

@@ -37,7 +37,7 @@ class ModifierBuilder {
   static constexpr ModifierId kUnknown{-2};  // not converted yet
   static constexpr int kDeepest = 64;
 
-  const rad::Primitive& primitive(PrimitiveId i) const { return scene_.description.primitives[i]; }
+  rad::Primitive primitive(PrimitiveId i) const { return scene_.description.primitives[i]; }
   PrimitiveId definedBefore(PrimitiveId i, std::string_view name);
   ModifierId named(PrimitiveId i, std::string_view name);
   Content content(PrimitiveId i);

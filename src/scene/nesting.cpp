@@ -25,16 +25,16 @@ class Nesting {
     const SurfaceGroup& g = scene_.groups[group];
     for (const SurfaceId s : g.surfaces) {
       const Surface& surface = scene_.surfaces[s];
-      const int under = std::visit(
-          Overloaded{
-              [&](const Instance& instance) {
-                if (heights_[instance.group] == kOpen) fail(surface, "an octree contains itself");
-                return depth < kMostLevels ? 1 + height(instance.group, depth + 1) : kMostLevels + 1;
-              },
-              [](const MeshInstance&) { return 1; },
-              [](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) { return 0; },
-          },
-          surface.shape);
+      const int under =
+          visit(Overloaded{
+                    [&](const Instance& instance) {
+                      if (heights_[instance.group] == kOpen) fail(surface, "an octree contains itself");
+                      return depth < kMostLevels ? 1 + height(instance.group, depth + 1) : kMostLevels + 1;
+                    },
+                    [](const MeshInstance&) { return 1; },
+                    [](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) { return 0; },
+                },
+                surface.shape);
       if (depth + under > kMostLevels)
         fail(surface, fmt::format("octrees are nested more than {} deep", kMostLevels));
       highest = std::max(highest, under);
@@ -47,7 +47,7 @@ class Nesting {
   static constexpr int kMostLevels = PlacementPath::kDeepest;
 
   [[noreturn]] void fail(const Surface& surface, std::string_view what) const {
-    PrimitiveArguments(scene_.description, surface.primitive).fail(what);
+    PrimitiveArguments(scene_.description, scene_.surfaces.primitiveOf(surface.id)).fail(what);
   }
 
   const Scene& scene_;

@@ -20,14 +20,14 @@ Placement Scene::placementOf(const PlacementPath& path) const {
   return all;
 }
 
-std::string_view Scene::modifierName(const Surface& s) const {
-  const PrimitiveId m = description.primitives[s.primitive].modifier;
-  return m == rad::kVoid ? "void" : description.name(description.primitives[m]);
+std::string_view Scene::modifierName(const Surface& s) const { return s.finish.name; }
+
+std::string Scene::surfaceName(const Surface& s) const {
+  return names.empty() ? description.primitives.name(surfaces.primitiveOf(s.id)) : names[s.id];
 }
 
 std::string_view Scene::materialName(const Surface& s) const {
-  return s.material == kNone ? "void"
-                             : description.name(description.primitives[modifiers[s.material].primitive]);
+  return s.material == kNone ? "void" : std::string_view(modifiers[s.material].described.name);
 }
 
 std::string Scene::place(PrimitiveId i) const { return placeOf(description, i); }

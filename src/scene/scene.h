@@ -16,6 +16,7 @@
 #include "scene/material_questions.h"
 #include "scene/placement.h"
 #include "scene/shape.h"
+#include "scene/surface_list.h"
 
 namespace rsphere {
 
@@ -35,22 +36,8 @@ using Content = std::variant<Material, Pattern, Texture, Mixture>;
 struct Modifier {
   Content content;
   ModifierId next;
-  PrimitiveId primitive;  // in Scene::description; of the target if it was an alias
-};
-
-struct Surface {
-  Shape shape;
-  PrimitiveId primitive;  // in Scene::description, which has its name and place
-  ModifierId modifier;    // kNone: void
-  ModifierId material;    // the first material of the chain that modifier begins, or else the mixture that
-                          // ends it. Decides ties between surfaces, and which are light sources
-  uint64_t clip = 0;      // the bit of its modifier in Antimatter::clips; 0: not clipped by any
-  bool goal = false;      // emits importance 1 from its front, in addition to its material
-  // Whether its modifier is called "Phong", the customary name of textures that smooth a surface by
-  // interpolated normals. As in rtrace, such a texture does not deflect rays that pass straight through a
-  // thin surface (trans, glass and the like). Refraction by dielectric and interface follows the perturbed
-  // normal even so.
-  bool smoothed = false;
+  PrimitiveId primitive;     // in Scene::description; of the target if it was an alias
+  rad::Primitive described;  // the same
 };
 
 // Surfaces that share one coordinate system and are traced together: the scene itself, or an octree, which is
@@ -67,19 +54,21 @@ struct Mesh {
 
 // A scene prepared for tracing. It has only the modifiers that are used and the surfaces that can be hit.
 struct Scene {
-  rad::FileAccess files;              // the files that its modifiers may name
-  rad::Description description;       // the scene's, then those of octrees and meshes; the numeric
-                                      // arguments of surfaces are removed
-  ById<SurfaceId, Surface> surfaces;  // those of each group in turn, then the MeshFaces
-  std::vector<SurfaceGroup> groups;   // [0]: the scene itself
+  rad::FileAccess files;             // the files that its modifiers may name
+  rad::Description description;      // the scene's, then those of octrees and meshes; the vertices are moved
+  SurfaceList surfaces;              // those of each group in turn, then the MeshFaces
+  std::vector<SurfaceGroup> groups;  // [0]: the scene itself
   std::vector<Mesh> meshes;
   std::vector<Placement> placements;
-  std::vector<V3d> vertices;  // of the polygons
+  std::vector<V3d> vertices;  // of the polygons, also of those that have no area
   ById<ModifierId, Modifier> modifiers;
+  // Of the surfaces, if they are few: decoding a name would take a quarter of the time of a ray there.
+  ById<SurfaceId, std::string> names;
+  static constexpr size_t kFewSurfaces = 20000;
   bool importance = false;  // there are goals: importance is traced, and all other sources are dark
 
   // The surfaces that belong to the world itself rather than to an octree or a mesh. They are the first ones.
-  std::span<const Surface> outermost() const { return std::span(surfaces).first(outermostIds().size()); }
+  SurfaceList::Beginning outermost() const { return surfaces.first(outermostIds().size()); }
   IdRange<SurfaceId> outermostIds() const {
     return groups.empty() ? IdRange<SurfaceId>() : groups[0].surfaces;
   }
@@ -87,13 +76,10 @@ struct Scene {
   Placement placementOf(const PlacementPath& path) const;
   // Whether the surface has a modifier. An instance or a mesh with a modifier applies it to all
   // of its contents.
-  bool hasOwnModifier(const Surface& s) const {
-    return description.primitives[s.primitive].modifier != rad::kVoid;
-  }
-  std::string_view surfaceName(const Surface& s) const {
-    return description.name(description.primitives[s.primitive]);
-  }
-  // Surface::material of the chain that a modifier begins.
+  bool hasOwnModifier(const Surface& s) const { return s.finish.described != rad::kVoid; }
+  // In scenes of more than kFewSurfaces it is decoded, which takes a tenth of a microsecond.
+  std::string surfaceName(const Surface& s) const;
+  // Finish::material of the chain that a modifier begins.
   ModifierId firstMaterial(ModifierId modifier) const;
   // Null for kNone, and if the modifier is not a material.
   const Material* materialAt(ModifierId modifier) const {
@@ -106,6 +92,7 @@ struct Scene {
   std::string_view materialName(const Surface& s) const;
   // 'room.rad:12: plastic "wall"', for messages.
   std::string place(PrimitiveId primitive) const;
+  std::string place(const Surface& s) const { return place(surfaces.primitiveOf(s.id)); }
 };
 
 // The emitted radiance of a surface before patterns, W/sr/m2: 1 for a goal, black if it is not a source.

@@ -19,35 +19,64 @@ bool within(double t, double farthest) { return t > kSamePlace && t <= farthest;
 
 }  // namespace
 
+namespace {
+
+// The normal times twice the area. Relative to the first vertex, so that the sum keeps its accuracy far from
+// the origin.
+V3d normalByTwiceTheArea(std::span<const V3d> vertices) {
+  V3d sum(0, 0, 0);
+  for (size_t i = 2; i < vertices.size(); ++i)
+    sum += (vertices[i - 1] - vertices[0]).cross(vertices[i] - vertices[0]);
+  return sum;
+}
+
+// The sum over the vertices of the distances from the plane through the first one.
+double offsetsFromFirst(const V3d& normal, std::span<const V3d> vertices) {
+  double offsets = 0;
+  for (const V3d& v : vertices) offsets += normal.dot(v - vertices[0]);
+  return offsets;
+}
+
+std::span<const V3d> verticesOf(const Polygon& polygon, std::span<const V3d> all) {
+  return all.subspan(polygon.firstVertex, polygon.vertices);
+}
+
+}  // namespace
+
 Polygon makePolygon(std::span<const V3d> all, uint32_t first, uint32_t count) {
   Polygon polygon;
   polygon.firstVertex = first;
   polygon.vertices = count;
-  const auto vertices = all.subspan(first, count);
-  // Relative to the first vertex, so that the sum keeps its accuracy far from the origin.
-  V3d sum(0, 0, 0);
-  for (size_t i = 2; i < vertices.size(); ++i)
-    sum += (vertices[i - 1] - vertices[0]).cross(vertices[i] - vertices[0]);
+  const auto vertices = verticesOf(polygon, all);
+  const V3d sum = normalByTwiceTheArea(vertices);
   const double length = sum.length();
   if (!(length > 0)) return polygon;
-  polygon.area = length / 2;
   polygon.normal = sum / length;
-  double offsets = 0;
-  for (const V3d& v : vertices) offsets += polygon.normal.dot(v - vertices[0]);
-  polygon.offset = polygon.normal.dot(vertices[0]) + offsets / count;
-  for (const V3d& v : vertices)
-    polygon.thickness =
-        std::max(polygon.thickness, std::abs(polygon.normal.dot(v - vertices[0]) - offsets / count));
+  polygon.offset = polygon.normal.dot(vertices[0]) + offsetsFromFirst(polygon.normal, vertices) / count;
   const V3d n(std::abs(polygon.normal.x), std::abs(polygon.normal.y), std::abs(polygon.normal.z));
   polygon.axis = n.y > n.x ? 1 : 0;
   if (n.z > n[polygon.axis]) polygon.axis = 2;
-  polygon.hasArea = true;
+  polygon.hasArea = 1;
   Box3d box;
   for (const V3d& v : vertices) box.extendBy(v);
   // Rounded up, by more than rounding to single precision (2^-24) and rounding of the sum can reduce it.
   polygon.extent = static_cast<float>(
       (box.size().x + box.size().y + box.size().z - box.size()[polygon.axis]) * (1 + 1e-6));
   return polygon;
+}
+
+double areaOf(const Polygon& polygon, std::span<const V3d> all) {
+  return polygon.hasArea ? normalByTwiceTheArea(verticesOf(polygon, all)).length() / 2 : 0;
+}
+
+double thicknessOf(const Polygon& polygon, std::span<const V3d> all) {
+  if (!polygon.hasArea) return 0;
+  const auto vertices = verticesOf(polygon, all);
+  const double mean = offsetsFromFirst(polygon.normal, vertices) / static_cast<uint32_t>(vertices.size());
+  double thickness = 0;
+  for (const V3d& v : vertices)
+    thickness = std::max(thickness, std::abs(polygon.normal.dot(v - vertices[0]) - mean));
+  return thickness;
 }
 
 namespace {
@@ -83,7 +112,7 @@ bool insideClosely(std::span<const V3d> vertices, int xi, int yi, double x, doub
 }  // namespace
 
 // Has no branches that depend on the position of the point: half of them would be mispredicted.
-bool inside(const PolygonFace& polygon, std::span<const V3d> all, const V3d& point, double tolerance) {
+bool inside(const Polygon& polygon, std::span<const V3d> all, const V3d& point, double tolerance) {
   const int xi = polygon.axis == 2 ? 0 : polygon.axis + 1;
   const int yi = xi == 2 ? 0 : xi + 1;
   const double x = point[xi], y = point[yi];
@@ -106,7 +135,7 @@ bool inside(const PolygonFace& polygon, std::span<const V3d> all, const V3d& poi
   return nearest <= near ? insideClosely(vertices, xi, yi, x, y, tolerance) : odd >> 63 != 0;
 }
 
-bool meetsInside(const PolygonFace& polygon, std::span<const V3d> vertices, const V3d& origin,
+bool meetsInside(const Polygon& polygon, std::span<const V3d> vertices, const V3d& origin,
                  const V3d& direction, double distance, double cosine) {
   if (!polygon.hasArea) return false;
   // The distance between the points at which two polygons that share an edge meet one ray: each rounds
@@ -208,10 +237,10 @@ bool intersect(const Ring& ring, const V3d& origin, const V3d& direction, double
 Box3d bounds(const Polygon& polygon, std::span<const V3d> vertices) {
   Box3d box;
   for (const V3d& v : vertices.subspan(polygon.firstVertex, polygon.vertices)) box.extendBy(v);
-  if (polygon.area > 0) {
+  if (polygon.hasArea) {
     // Hits lie on the mean plane. If the vertices are not coplanar, it extends beyond their box along the
     // projection axis.
-    const double out = polygon.thickness / std::abs(polygon.normal[polygon.axis]);
+    const double out = thicknessOf(polygon, vertices) / std::abs(polygon.normal[polygon.axis]);
     box.min[polygon.axis] -= out;
     box.max[polygon.axis] += out;
   }
@@ -246,60 +275,60 @@ Box3d bounds(const Ring& ring) {
   return Box3d(ring.center - extent, ring.center + extent);
 }
 
-bool intersect(const Shape& shape, std::span<const V3d> vertices, const V3d& origin, const V3d& direction,
+bool intersect(ShapeRef shape, std::span<const V3d> vertices, const V3d& origin, const V3d& direction,
                double farthest, ShapeHit& hit) {
-  return std::visit(Overloaded{
-                        [&](const Polygon& polygon) {
-                          return intersect(polygon, vertices, origin, direction, farthest, hit);
-                        },
-                        [&](const OneOf<Sphere, Cone, Ring> auto& form) {
-                          return intersect(form, origin, direction, farthest, hit);
-                        },
-                        [](const Distant&) { return false; },
-                        [](const NestedShape auto&) { return false; },
-                    },
-                    shape);
+  return visit(Overloaded{
+                   [&](const Polygon& polygon) {
+                     return intersect(polygon, vertices, origin, direction, farthest, hit);
+                   },
+                   [&](const OneOf<Sphere, Cone, Ring> auto& form) {
+                     return intersect(form, origin, direction, farthest, hit);
+                   },
+                   [](const Distant&) { return false; },
+                   [](const NestedShape auto&) { return false; },
+               },
+               shape);
 }
 
-Box3d bounds(const Shape& shape, std::span<const V3d> vertices) {
-  return std::visit(Overloaded{
-                        [&](const Polygon& polygon) { return bounds(polygon, vertices); },
-                        [](const OneOf<Sphere, Cone, Ring> auto& form) { return bounds(form); },
-                        [](const Distant&) { return Box3d(); },
-                        [](const NestedShape auto&) { return Box3d(); },
-                    },
-                    shape);
+Box3d bounds(ShapeRef shape, std::span<const V3d> vertices) {
+  return visit(Overloaded{
+                   [&](const Polygon& polygon) { return bounds(polygon, vertices); },
+                   [](const OneOf<Sphere, Cone, Ring> auto& form) { return bounds(form); },
+                   [](const Distant&) { return Box3d(); },
+                   [](const NestedShape auto&) { return Box3d(); },
+               },
+               shape);
 }
 
-double planeOffset(const Shape& shape) {
-  return std::visit(Overloaded{
-                        [](const Polygon& polygon) { return polygon.offset; },
-                        [](const Ring& ring) { return ring.normal.dot(ring.center); },
-                        [](const OneOf<Sphere, Cone, Distant> auto&) { return 0.; },
-                        [](const NestedShape auto&) { return 0.; },
-                    },
-                    shape);
+double planeOffset(ShapeRef shape) {
+  return visit(Overloaded{
+                   [](const Polygon& polygon) { return polygon.offset; },
+                   [](const Ring& ring) { return ring.normal.dot(ring.center); },
+                   [](const OneOf<Sphere, Cone, Distant> auto&) { return 0.; },
+                   [](const NestedShape auto&) { return 0.; },
+               },
+               shape);
 }
 
-bool isClosed(const Shape& shape) {
-  return std::visit(Overloaded{
-                        [](const Sphere&) { return true; },
-                        [](const OneOf<Polygon, Cone, Ring, Distant> auto&) { return false; },
-                        [](const NestedShape auto&) { return false; },
-                    },
-                    shape);
+bool isClosed(ShapeRef shape) {
+  return visit(Overloaded{
+                   [](const Sphere&) { return true; },
+                   [](const OneOf<Polygon, Cone, Ring, Distant> auto&) { return false; },
+                   [](const NestedShape auto&) { return false; },
+               },
+               shape);
 }
 
-double areaOf(const Shape& shape) {
-  return std::visit(Overloaded{
-                        [](const Polygon& p) { return p.area; },
-                        [](const Sphere& s) { return 4 * kPi * s.radius * s.radius; },
-                        [](const Cone& c) { return kPi * (c.radius0 + c.radius1) * c.length; },
-                        [](const Ring& r) { return kPi * (r.outer * r.outer - r.inner * r.inner); },
-                        [](const Distant&) { return 0.; },
-                        [](const NestedShape auto&) { return 0.; },
-                    },
-                    shape);
+double areaOf(ShapeRef shape, std::span<const V3d> vertices) {
+  return visit(Overloaded{
+                   [&](const Polygon& p) { return areaOf(p, vertices); },
+                   [](const Sphere& s) { return 4 * kPi * s.radius * s.radius; },
+                   [](const Cone& c) { return kPi * (c.radius0 + c.radius1) * c.length; },
+                   [](const Ring& r) { return kPi * (r.outer * r.outer - r.inner * r.inner); },
+                   [](const Distant&) { return 0.; },
+                   [](const NestedShape auto&) { return 0.; },
+               },
+               shape);
 }
 
 V3d centerOf(const Polygon& polygon, std::span<const V3d> all) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numbers>
 #include <span>
+#include <type_traits>
 #include <variant>
 
 #include "base/overloaded.h"
@@ -31,22 +32,19 @@ struct ShapeHit {
   double cosine;
 };
 
-// The part of a polygon that intersection tests need.
-struct PolygonFace {
-  V3d normal{0, 0, 1};                     // unit, by the right-hand rule; Newell's sum over the vertices
-  double offset = 0;                       // normal . p for the points p of the plane
-  uint32_t firstVertex = 0, vertices = 0;  // range in Scene::vertices
-  float extent = 0;                        // sum of the box's sizes along the two other axes, rounded up
-  uint8_t axis = 2;                        // the axis of the largest component of normal
-  bool hasArea = false;                    // if false, it is never hit
-};
-
 // A plane polygon, which may be concave or have holes that are connected by a seam. A point is inside if a
 // line from it to infinity crosses the boundary an odd number of times. If the vertices are not coplanar, the
-// polygon lies in their mean plane (RADIANCE reference manual, "polygon").
-struct Polygon : PolygonFace {
-  double area = 0;
-  double thickness = 0;  // largest distance of a vertex from the plane
+// polygon lies in their mean plane (RADIANCE reference manual, "polygon"). It has only what intersection tests
+// need, because large scenes consist of polygons; areaOf() and thicknessOf() compute the rest.
+struct Polygon {
+  static constexpr uint32_t kMostVertices = (1u << 29) - 1;
+  V3d normal{0, 0, 1};       // unit, by the right-hand rule; Newell's sum over the vertices
+  double offset = 0;         // normal . p for the points p of the plane
+  uint32_t firstVertex = 0;  // range in Scene::vertices
+  uint32_t vertices : 29 = 0;
+  uint32_t axis : 2 = 2;     // the axis of the largest component of normal
+  uint32_t hasArea : 1 = 0;  // if 0, it is never hit
+  float extent = 0;          // sum of the box's sizes along the two other axes, rounded up
 };
 
 // inward: the front is inside (bubble).
@@ -116,30 +114,59 @@ concept PlainShape = OneOf<S, Polygon, Sphere, Cone, Ring>;
 template <class S>
 concept NestedShape = OneOf<S, Instance, MeshInstance, MeshFaces>;
 
-inline bool isPlain(const Shape& shape) {
-  return std::visit(
-      Overloaded{[](const PlainShape auto&) { return true; }, [](const Distant&) { return false; },
-                 [](const NestedShape auto&) { return false; }},
-      shape);
+// A shape that is stored elsewhere, either as a Shape or as a bare Polygon.
+class ShapeRef {
+ public:
+  ShapeRef(const Shape& shape) : polygon_(std::get_if<Polygon>(&shape)), shape_(&shape) {}
+  ShapeRef(const Polygon& polygon) : polygon_(&polygon) {}
+
+  // The shape if it is of this type, otherwise null.
+  template <class S>
+  const S* as() const {
+    if constexpr (std::is_same_v<S, Polygon>)
+      return polygon_;
+    else
+      return shape_ ? std::get_if<S>(shape_) : nullptr;
+  }
+
+  // Calls a visitor with the shape itself, as std::visit() does.
+  template <class Visitor>
+  friend decltype(auto) visit(Visitor&& visitor, ShapeRef shape) {
+    return shape.polygon_ ? visitor(*shape.polygon_) : std::visit(visitor, *shape.shape_);
+  }
+
+ private:
+  const Polygon* polygon_ = nullptr;
+  const Shape* shape_ = nullptr;  // null for a bare polygon
+};
+
+inline bool isPlain(ShapeRef shape) {
+  return visit(Overloaded{[](const PlainShape auto&) { return true; }, [](const Distant&) { return false; },
+                          [](const NestedShape auto&) { return false; }},
+               shape);
 }
 
 // The normal of polygons and rings; null for shapes that are not plane.
-inline const V3d* planeNormal(const Shape& shape) {
+inline const V3d* planeNormal(ShapeRef shape) {
   using Answer = const V3d*;
-  return std::visit(Overloaded{[](const OneOf<Polygon, Ring> auto& flat) -> Answer { return &flat.normal; },
-                               [](const OneOf<Sphere, Cone, Distant> auto&) -> Answer { return nullptr; },
-                               [](const NestedShape auto&) -> Answer { return nullptr; }},
-                    shape);
+  return visit(Overloaded{[](const OneOf<Polygon, Ring> auto& flat) -> Answer { return &flat.normal; },
+                          [](const OneOf<Sphere, Cone, Distant> auto&) -> Answer { return nullptr; },
+                          [](const NestedShape auto&) -> Answer { return nullptr; }},
+               shape);
 }
 // normal . p for the points p of the plane. REQUIRES planeNormal(); 0 for shapes that are not plane.
-double planeOffset(const Shape& shape);
+double planeOffset(ShapeRef shape);
 
 // Whether the shape surrounds a volume, so that it is seen from one side only. The ends of cones are open.
-bool isClosed(const Shape& shape);
+bool isClosed(ShapeRef shape);
 
 // The area of one side (world units). Of a cone: as if its sides had the length of its axis. 0 for shapes that
 // are not plain.
-double areaOf(const Shape& shape);
+double areaOf(ShapeRef shape, std::span<const V3d> vertices);
+double areaOf(const Polygon& polygon, std::span<const V3d> vertices);
+
+// The largest distance of a vertex from the plane.
+double thicknessOf(const Polygon& polygon, std::span<const V3d> vertices);
 
 // The mean of the vertices.
 V3d centerOf(const Polygon& polygon, std::span<const V3d> vertices);
@@ -148,7 +175,7 @@ V3d centerOf(const Polygon& polygon, std::span<const V3d> vertices);
 // kSamePlace and not beyond farthest; hit is then the first such point, and otherwise unchanged. Rounding:
 // distances are accurate to a few ulp of the largest coordinate involved. A ray whose cosine to a plane's
 // normal is at most kSamePlace misses the plane (as in RADIANCE).
-inline bool intersect(const PolygonFace& polygon, std::span<const V3d> vertices, const V3d& origin,
+inline bool intersect(const Polygon& polygon, std::span<const V3d> vertices, const V3d& origin,
                       const V3d& direction, double farthest, ShapeHit& hit);
 bool intersect(const Sphere& sphere, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit);
 bool intersect(const Cone& cone, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit);
@@ -161,25 +188,23 @@ Box3d bounds(const Cone& cone);
 Box3d bounds(const Ring& ring);
 
 // The two above for any shape: no hit and an empty box if the shape is not plain.
-bool intersect(const Shape& shape, std::span<const V3d> vertices, const V3d& origin, const V3d& direction,
+bool intersect(ShapeRef shape, std::span<const V3d> vertices, const V3d& origin, const V3d& direction,
                double farthest, ShapeHit& hit);
-Box3d bounds(const Shape& shape, std::span<const V3d> vertices);
+Box3d bounds(ShapeRef shape, std::span<const V3d> vertices);
 
-// Computes the polygon's plane, area and axis from its vertices (at least 3). The area is 0 if
-// they are collinear.
+// Computes the polygon's plane and axis from its vertices (at least 3). It has no area if they are collinear.
 Polygon makePolygon(std::span<const V3d> vertices, uint32_t first, uint32_t count);
 
 // Whether a point of the polygon's plane lies inside. Points on the boundary, or within tolerance (world
 // units) and rounding of it, are inside.
-bool inside(const PolygonFace& polygon, std::span<const V3d> vertices, const V3d& point,
-            double tolerance = 0);
+bool inside(const Polygon& polygon, std::span<const V3d> vertices, const V3d& point, double tolerance = 0);
 
 // Whether a ray that meets the polygon's plane at this distance and cosine (see ShapeHit) meets it inside.
-bool meetsInside(const PolygonFace& polygon, std::span<const V3d> vertices, const V3d& origin,
+bool meetsInside(const Polygon& polygon, std::span<const V3d> vertices, const V3d& origin,
                  const V3d& direction, double distance, double cosine);
 
 // The plane test is inline, because most polygons that are tested are missed by their plane.
-inline bool intersect(const PolygonFace& polygon, std::span<const V3d> vertices, const V3d& origin,
+inline bool intersect(const Polygon& polygon, std::span<const V3d> vertices, const V3d& origin,
                       const V3d& direction, double farthest, ShapeHit& hit) {
   const double cosine = -polygon.normal.dot(direction);
   if (std::abs(cosine) <= kSamePlace) return false;

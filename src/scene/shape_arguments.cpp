@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/angles.h"
@@ -34,22 +35,22 @@ std::optional<Shape> finishCone(const PrimitiveArguments& a, const Warn& warn, C
 
 }  // namespace
 
-std::optional<Shape> readPolygon(const PrimitiveArguments& a, const Warn& warn, std::vector<V3d>& vertices) {
+std::optional<Polygon> readPolygon(const PrimitiveArguments& a, const Warn& warn,
+                                   std::span<const V3d> vertices) {
   const size_t reals = a.reals().size();
   if (reals < 9 || reals % 3) a.fail(fmt::format("expected at least 9 coordinates in threes, got {}", reals));
   size_t count = reals / 3;
   if (count > 3 && (a.vector(0) - a.vector(reals - 3)).length() <= kSamePlace) --count;
-  const auto first = static_cast<uint32_t>(vertices.size());
-  for (size_t k = 0; k < count; ++k) vertices.push_back(a.vector(3 * k));
-  const Polygon polygon = makePolygon(vertices, first, static_cast<uint32_t>(count));
-  if (polygon.area == 0) {
+  if (vertices.size() > std::numeric_limits<uint32_t>::max() || count >= Polygon::kMostVertices)
+    a.fail("more vertices than can be numbered");
+  const Polygon polygon = makePolygon(vertices, a.firstVertex(), static_cast<uint32_t>(count));
+  const double area = areaOf(polygon, vertices);
+  if (area == 0) {
     a.warn(warn, "zero area");
-    vertices.resize(first);
     return std::nullopt;
   }
-  const double size = std::sqrt(polygon.area);
   // A thousandth of the size is visibly bent; the rounding of single-precision files stays far below.
-  if (polygon.thickness > 1e-3 * size) a.warn(warn, "non-planar vertex");
+  if (thicknessOf(polygon, vertices) > 1e-3 * std::sqrt(area)) a.warn(warn, "non-planar vertex");
   return polygon;
 }
 

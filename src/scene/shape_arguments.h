@@ -13,9 +13,9 @@
 
 namespace rsphere {
 
-// Appends the vertices to those of the scene.
-std::optional<Shape> readPolygon(const PrimitiveArguments& arguments, const rad::Warn& warn,
-                                 std::vector<V3d>& vertices);
+// vertices: those of the description.
+std::optional<Polygon> readPolygon(const PrimitiveArguments& arguments, const rad::Warn& warn,
+                                   std::span<const V3d> vertices);
 std::optional<Shape> readSphere(const PrimitiveArguments& arguments, const rad::Warn& warn);    // and bubble
 std::optional<Shape> readCone(const PrimitiveArguments& arguments, const rad::Warn& warn);      // and cup
 std::optional<Shape> readCylinder(const PrimitiveArguments& arguments, const rad::Warn& warn);  // and tube

@@ -542,7 +542,7 @@ const SurfaceFunctions::Function& SurfaceFunctions::prepare(ModifierId modifier)
 }
 
 std::span<const double> SurfaceFunctions::realsOf(ModifierId modifier) const {
-  return scene_.description.reals(scene_.description.primitives[scene_.modifiers[modifier].primitive]);
+  return scene_.description.reals(scene_.modifiers[modifier].described);
 }
 
 const Placement* SurfaceFunctions::placementOf(const Function& f, const FunctionPoint& at,

@@ -14,18 +14,18 @@ class Refracting {
 
   bool surface(const Surface& s) {
     if (scene_.hasOwnModifier(s)) return modifier(s.modifier);
-    return std::visit(Overloaded{
-                          [&](const Instance& instance) { return group(instance.group); },
-                          [&](const MeshInstance& mesh) {
-                            for (const SurfaceId faces : scene_.meshes[mesh.mesh].facesOf)
-                              if (faces != kNone && modifier(scene_.surfaces[faces].modifier)) return true;
-                            return false;
-                          },
-                          [&](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) {
-                            return modifier(s.modifier);
-                          },
-                      },
-                      s.shape);
+    return visit(Overloaded{
+                     [&](const Instance& instance) { return group(instance.group); },
+                     [&](const MeshInstance& mesh) {
+                       for (const SurfaceId faces : scene_.meshes[mesh.mesh].facesOf)
+                         if (faces != kNone && modifier(scene_.surfaces[faces].modifier)) return true;
+                       return false;
+                     },
+                     [&](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) {
+                       return modifier(s.modifier);
+                     },
+                 },
+                 s.shape);
   }
 
  private:

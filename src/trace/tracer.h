@@ -103,7 +103,6 @@ class Tracer {
   struct Embree;
 
   const Scene& scene_;
-  bool backFacesVisible_;
   std::unique_ptr<Embree> embree_;
   Box3d bounds_;
 };

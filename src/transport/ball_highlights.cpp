@@ -28,7 +28,7 @@ BallHighlights::BallHighlights(const Scene& scene, const Tracer& tracer, const L
   };
   std::vector<Asked> asked;
   for (const Surface& surface : scene.outermost()) {
-    const auto* sphere = std::get_if<Sphere>(&surface.shape);
+    const auto* sphere = surface.shape.as<Sphere>();
     if (!sphere || sphere->inward) continue;
     if (const Opaque* material = roughReflector(scene, surface)) asked.push_back({sphere, material});
   }

@@ -111,7 +111,7 @@ std::vector<BrightSpots::Particle> BrightSpots::particlesThrough(const Openings&
   for (const LightSource& light : lights.all()) {
     if (light.isVirtual()) continue;
     const Surface& surface = scene.surfaces[light.surface];
-    const auto* distant = std::get_if<Distant>(&surface.shape);
+    const auto* distant = surface.shape.as<Distant>();
     const double radiance = brightness(sourceRadiance(scene, surface));
     if (!distant || !(radiance > 0)) continue;
     const V3d direction = -distant->direction;
@@ -157,7 +157,7 @@ BrightSpots::BrightSpots(const Scene& scene, const Tracer& tracer, const LightSo
     }
   }
   double area = 0;
-  for (const Surface& s : scene.outermost()) area += areaOf(s.shape);
+  for (const Surface& s : scene.outermost()) area += areaOf(s.shape, scene.vertices);
   std::vector<Particle> everywhere = particles(scene, tracer, lights);
   find(everywhere, area, Tuning::kMost, Tuning::kBrighter, Tuning::kLeastWorth);
 }

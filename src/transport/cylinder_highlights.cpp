@@ -37,7 +37,7 @@ CylinderHighlights::CylinderHighlights(const Scene& scene, const Tracer& tracer,
   };
   std::vector<Asked> asked;
   for (const Surface& surface : scene.outermost()) {
-    const auto* shape = std::get_if<Cone>(&surface.shape);
+    const auto* shape = surface.shape.as<Cone>();
     if (!shape || shape->radius0 != shape->radius1 || !(shape->length > 0)) continue;
     if (const Opaque* material = roughReflector(scene, surface)) asked.push_back({shape, material});
   }

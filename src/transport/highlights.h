@@ -55,10 +55,10 @@ class Highlights {
 
  private:
   static bool anyOn(const Scene& scene) {
-    return std::ranges::any_of(scene.outermost(), [&](const Surface& surface) {
-      return (std::holds_alternative<Sphere>(surface.shape) || std::holds_alternative<Cone>(surface.shape)) &&
-             roughReflector(scene, surface);
-    });
+    for (const Surface& surface : scene.outermost())
+      if ((surface.shape.as<Sphere>() || surface.shape.as<Cone>()) && roughReflector(scene, surface))
+        return true;
+    return false;
   }
   static double least(double radiance) { return tuning::Highlights::kLeast * radiance * radiance; }
 

@@ -37,8 +37,8 @@ std::vector<Wall> wallsOf(const Scene& scene, const Box3d& bounds, double leastA
   const double size = std::max({bounds.size().x, bounds.size().y, bounds.size().z, kSamePlace});
   std::vector<std::pair<PlaneKey, const Polygon*>> polygons;
   for (const Surface& surface : scene.outermost())
-    if (const auto* polygon = std::get_if<Polygon>(&surface.shape))
-      if (polygon->area >= leastArea && isWall(surface))
+    if (const auto* polygon = surface.shape.as<Polygon>())
+      if (areaOf(*polygon, scene.vertices) >= leastArea && isWall(surface))
         polygons.emplace_back(planeOf(*polygon, scene.vertices[polygon->firstVertex] - bounds.min, size),
                               polygon);
   std::stable_sort(polygons.begin(), polygons.end(),
@@ -47,13 +47,14 @@ std::vector<Wall> wallsOf(const Scene& scene, const Box3d& bounds, double leastA
   for (size_t i = 0; i < polygons.size(); ++i) {
     if (i == 0 || polygons[i].first != polygons[i - 1].first) walls.emplace_back();
     walls.back().polygons.push_back(polygons[i].second);
-    walls.back().area += polygons[i].second->area;
+    walls.back().area += areaOf(*polygons[i].second, scene.vertices);
   }
   std::stable_sort(walls.begin(), walls.end(), [](const Wall& a, const Wall& b) { return a.area > b.area; });
   if (walls.size() > Tuning::kMostWalls) walls.resize(Tuning::kMostWalls);
   for (Wall& wall : walls)
-    std::stable_sort(wall.polygons.begin(), wall.polygons.end(),
-                     [](const Polygon* a, const Polygon* b) { return a->area > b->area; });
+    std::stable_sort(wall.polygons.begin(), wall.polygons.end(), [&](const Polygon* a, const Polygon* b) {
+      return areaOf(*a, scene.vertices) > areaOf(*b, scene.vertices);
+    });
   return walls;
 }
 

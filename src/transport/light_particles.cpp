@@ -19,7 +19,7 @@ void sendParticles(const Scene& scene, const Tracer& tracer, const LightSources&
   const V3d middle = tracer.bounds().center();
   const double reach = tracer.bounds().size().length() / 2;
   struct Sender {
-    const Surface* surface;
+    SurfaceId surface;
     double power;
   };
   std::vector<Sender> senders;
@@ -27,11 +27,12 @@ void sendParticles(const Scene& scene, const Tracer& tracer, const LightSources&
   for (const LightSource& light : lights.all()) {
     if (light.isVirtual()) continue;
     const Surface& surface = scene.surfaces[light.surface];
-    const auto* distant = std::get_if<Distant>(&surface.shape);
-    const double power = brightness(sourceRadiance(scene, surface)) * kPi *
-                         (distant ? distant->solidAngle * reach * reach : areaOf(surface.shape));
+    const auto* distant = surface.shape.as<Distant>();
+    const double power =
+        brightness(sourceRadiance(scene, surface)) * kPi *
+        (distant ? distant->solidAngle * reach * reach : areaOf(surface.shape, scene.vertices));
     if (!(power > 0)) continue;
-    senders.push_back({&surface, power});
+    senders.push_back({light.surface, power});
     all += power;
   }
   Random random(mixBits(senders.size()));
@@ -40,18 +41,18 @@ void sendParticles(const Scene& scene, const Tracer& tracer, const LightSources&
   for (const Sender& sender : senders)
     for (due += sender.power / one; due >= 1; --due) {
       V3d origin, direction;
-      if (const auto* distant = std::get_if<Distant>(&sender.surface->shape)) {
+      if (const auto* distant = scene.surfaces[sender.surface].shape.as<Distant>()) {
         const double radius = reach * std::sqrt(random.uniform()), angle = 2 * kPi * random.uniform();
         direction = -distant->direction;
         V3d x, y;
         frame(direction, x, y);
         origin = middle + radius * std::cos(angle) * x + radius * std::sin(angle) * y - 2 * reach * direction;
       } else {
-        const SurfacePoint at = samplePoint(sender.surface->shape, scene.vertices, random);
+        const SurfacePoint at = samplePoint(scene.surfaces[sender.surface].shape, scene.vertices, random);
         direction = sentFrom(at.normal, random);
         origin = at.point + 2 * kSamePlace * at.normal;
       }
-      each(origin, direction, one, *sender.surface, random);
+      each(origin, direction, one, scene.surfaces[sender.surface], random);
     }
 }
 

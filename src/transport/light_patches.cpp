@@ -59,7 +59,7 @@ LightPatches::LightPatches(const Transport& transport) {
                   follow(origin, direction, power, random);
                 });
   double surfaces = 0;
-  for (const Surface& surface : scene.outermost()) surfaces += areaOf(surface.shape);
+  for (const Surface& surface : scene.outermost()) surfaces += areaOf(surface.shape, scene.vertices);
   if (!patches_.empty()) area_ = surfaces / static_cast<double>(patches_.size());
 }
 

@@ -108,9 +108,10 @@ std::vector<Openings::Opening> Openings::panesOf(const Transport& transport, dou
   const Scene& scene = transport.scene();
   std::vector<Opening> panes;
   for (const Surface& surface : scene.outermost()) {
-    const auto* polygon = std::get_if<Polygon>(&surface.shape);
-    if (!polygon || polygon->area < leastArea || !lightPasses(transport, surface)) continue;
-    panes.push_back({rectangleAround(scene, {&polygon, 1}), polygon->area});
+    const auto* polygon = surface.shape.as<Polygon>();
+    const double area = polygon ? areaOf(*polygon, scene.vertices) : 0;
+    if (!polygon || area < leastArea || !lightPasses(transport, surface)) continue;
+    panes.push_back({rectangleAround(scene, {&polygon, 1}), area});
   }
   return panes;
 }

@@ -43,14 +43,14 @@ double middleOf(std::vector<double>& values) {
 }  // namespace
 
 RadianceGuess::RadianceGuess(const Transport& transport, const ById<SurfaceId, bool>& unguessed)
-    : transport_(transport) {
+    : transport_(transport), unguessed_(unguessed) {
   const Scene& scene = transport.scene();
-  reflectance_.resize(scene.surfaces.size());
-  for (const SurfaceId i : scene.surfaces.ids()) {
-    const Material* material = scene.materialOf(scene.surfaces[i]);
-    if (!material || unguessed[i]) continue;
+  for (const Finish& finish : scene.surfaces.finishes()) {
+    Coefficient& reflectance = reflectance_.emplace_back();
+    const Material* material = scene.materialAt(finish.material);
+    if (!material) continue;
     if (const auto diffuse = diffuseReflection(*material))
-      reflectance_[i] = Coefficient(diffuse->color * diffuse->share);
+      reflectance = Coefficient(diffuse->color * diffuse->share);
   }
   const auto& lights = transport.lights().all();
   for (const LightId i : lights.ids()) {
@@ -68,7 +68,9 @@ RadianceGuess::Place RadianceGuess::placeAlong(const V3d& point, const V3d& dire
 RadianceGuess::Place RadianceGuess::placeOf(SurfaceId surface, const V3d& point, const V3d& normal,
                                             const V3d& direction) const {
   if (surface == kNone) return {};
-  return {point, normal.dot(direction) > 0 ? -normal : normal, reflectance_[surface]};
+  const uint32_t finish = transport_.scene().surfaces.face(surface).finish;
+  return {point, normal.dot(direction) > 0 ? -normal : normal,
+          unguessed_[surface] ? Coefficient() : reflectance_[finish]};
 }
 
 RadianceGuess::Place RadianceGuess::placeOf(const V3d& point, const V3d& direction, const Hit& hit) const {

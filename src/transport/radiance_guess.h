@@ -107,8 +107,9 @@ class RadianceGuess {
                           Random& random) const;
 
   const Transport& transport_;
-  ById<SurfaceId, Coefficient> reflectance_;  // diffuse, by surface
-  std::vector<Light> lights_;                 // share not set
+  std::vector<Coefficient> reflectance_;  // diffuse, by number of finish
+  ById<SurfaceId, bool> unguessed_;       // surfaces that are black here
+  std::vector<Light> lights_;             // share not set
 };
 
 }  // namespace rsphere

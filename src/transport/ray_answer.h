@@ -1,32 +1,54 @@
 #pragma once
+#include <string>
 #include <string_view>
 
 #include "base/radiometry.h"
+#include "scene/scene.h"
 
 namespace rsphere {
 
 // The length that rtrace writes where a ray hits nothing or a distant source.
 inline constexpr double kInfiniteLength = 1e10;
 
+// The name of the surface that a ray hit. It is decoded when it is written.
+class SurfaceName {
+ public:
+  SurfaceName() = default;
+  SurfaceName(const char* text) : text_(text) {}
+  // Both must outlive this object.
+  SurfaceName(const Scene& scene, SurfaceId surface) : scene_(&scene), surface_(surface) {}
+
+  bool isNone() const { return !scene_ && text_ == "*"; }
+  std::string text() const {
+    return scene_ ? scene_->surfaceName(scene_->surfaces[surface_]) : std::string(text_);
+  }
+
+ private:
+  const Scene* scene_ = nullptr;
+  SurfaceId surface_;
+  std::string_view text_ = "*";
+};
+
 // The quantities of one ray that the -o letters of ray mode and of -Sd report. A field may keep its default
 // if its letter was not chosen. Names are "*" if nothing was hit; they must live as long as the scene. Under
 // -i and -I the radiances are those of a diffuse surface of reflectance pi, whose values are those of its
 // irradiance (W/m2).
 struct RayAnswer {
-  V3d origin{0, 0, 0}, direction{0, 0, 0};    // o d
-  Radiance value;                             // v  under -i -I the value of the irradiance
-  Radiance mirroredContribution;              // r
-  Radiance unmirroredContribution;            // x
-  double mirroredLength = kInfiniteLength;    // R
-  double unmirroredLength = kInfiniteLength;  // X
-  double effectiveLength = kInfiniteLength;   // l
-  double firstLength = kInfiniteLength;       // L
-  double u = 0, v = 0;                        // c  local surface coordinates
-  V3d point{0, 0, 0};                         // p
-  V3d normal{0, 0, 0};                        // n  perturbed, facing the ray
-  V3d unperturbedNormal{0, 0, 0};             // N  as the surface has it
-  std::string_view surface = "*", modifier = "*", material = "*";  // s m M
-  double rayWeight = 1;                                            // w
+  V3d origin{0, 0, 0}, direction{0, 0, 0};          // o d
+  Radiance value;                                   // v  under -i -I the value of the irradiance
+  Radiance mirroredContribution;                    // r
+  Radiance unmirroredContribution;                  // x
+  double mirroredLength = kInfiniteLength;          // R
+  double unmirroredLength = kInfiniteLength;        // X
+  double effectiveLength = kInfiniteLength;         // l
+  double firstLength = kInfiniteLength;             // L
+  double u = 0, v = 0;                              // c  local surface coordinates
+  V3d point{0, 0, 0};                               // p
+  V3d normal{0, 0, 0};                              // n  perturbed, facing the ray
+  V3d unperturbedNormal{0, 0, 0};                   // N  as the surface has it
+  SurfaceName surface;                              // s
+  std::string_view modifier = "*", material = "*";  // m M
+  double rayWeight = 1;                             // w
   Coefficient contribution{1};  // W  share of its value in that of the primary ray; times value: V
   double solidAngle = 0;        // w under -Sd, sr
 };

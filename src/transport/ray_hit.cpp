@@ -19,7 +19,7 @@ V3d along(const V3d& origin, double distance, const V3d& direction) {
 void findDistant(const Transport& transport, Ray& ray) {
   const Scene& scene = transport.scene();
   const auto sees = [&](SurfaceId surface) {
-    return std::get<Distant>(scene.surfaces[surface].shape).isSeenAlong(ray.direction);
+    return scene.surfaces[surface].shape.as<Distant>()->isSeenAlong(ray.direction);
   };
   if (ray.aimedAt != kNone) {
     const LightSource& light = transport.lights().all()[ray.aimedAt];

@@ -27,7 +27,7 @@ void noteShown(const Transport& t, const Ray& ray, PathState& state) {
   if (t.lightOf(ray.surface) == kNone) return;
   // The ray shows this source only if it came straight or was mirrored once. Behind a slab, such as thick glass, refraction
   // displaces the ray, which makes no difference to a distant source.
-  const bool isDistant = std::holds_alternative<Distant>(t.scene().surfaces[ray.surface].shape);
+  const bool isDistant = t.scene().surfaces[ray.surface].shape.as<Distant>();
   const unsigned others = ray.kinds & ~(kPrimary | kTransmitted | (isDistant ? kRefracted : 0u));
   if (others != (ray.mirror == kNone ? 0u : kReflected)) return;
   if (state.shown.source != kNone && (state.shown.mirror == kNone || ray.mirror != kNone)) return;

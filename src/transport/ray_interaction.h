@@ -39,8 +39,7 @@ inline Interaction interactionOf(const Scene& scene, const Ray& ray) {
   at.kinds = ray.kinds;
   if (ray.surface != kNone) {
     const Surface& surface = scene.surfaces[ray.surface];
-    at.flat = std::holds_alternative<Polygon>(surface.shape) || std::holds_alternative<Ring>(surface.shape) ||
-              std::holds_alternative<MeshFaces>(surface.shape);
+    at.flat = surface.shape.as<Polygon>() || surface.shape.as<Ring>() || surface.shape.as<MeshFaces>();
     at.smoothed = surface.smoothed;
   }
   return at;

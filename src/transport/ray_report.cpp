@@ -34,7 +34,7 @@ RayAnswer answerOf(const Scene& scene, const Ray& ray) {
     double cosine = 0;
     a.normal = side * perturbedNormal(at, cosine);
   }
-  a.surface = scene.surfaceName(surface);
+  a.surface = {scene, surface.id};
   a.modifier = scene.modifierName(surface);
   a.material = scene.materialName(surface);
   return a;

@@ -19,9 +19,9 @@ double powerOf(const Scene& scene, const LightSources& lights, double reach) {
   for (const LightSource& light : lights.all()) {
     if (light.isVirtual()) continue;
     const Surface& surface = scene.surfaces[light.surface];
-    const auto* distant = std::get_if<Distant>(&surface.shape);
+    const auto* distant = surface.shape.as<Distant>();
     power += brightness(sourceRadiance(scene, surface)) * kPi *
-             (distant ? distant->solidAngle * reach * reach : areaOf(surface.shape));
+             (distant ? distant->solidAngle * reach * reach : areaOf(surface.shape, scene.vertices));
   }
   return power;
 }
@@ -105,7 +105,7 @@ bool seesPart(const Tracer& tracer, const LightingPart& lighting, const V3d& fro
 double usualRadiance(const Scene& scene, const Tracer& tracer, const LightSources& lights) {
   const V3d size = tracer.bounds().size();
   double area = 0;
-  for (const Surface& s : scene.outermost()) area += areaOf(s.shape);
+  for (const Surface& s : scene.outermost()) area += areaOf(s.shape, scene.vertices);
   // Surfaces in octrees and meshes are not looked at.
   area = std::max(area, 2 * (size.x * size.y + size.y * size.z + size.z * size.x));
   return Tuning::kMeanReflectance * powerOf(scene, lights, size.length() / 2) / (kPi * area);

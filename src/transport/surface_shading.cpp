@@ -71,7 +71,7 @@ void SurfaceShading::shadeHit(Ray& ray) {
   ray.unmirroredLength = ray.length;
   const bool clipped = (t_.scene().surfaces[ray.surface].clip & ray.clips) != 0;
   if (!clipped && shadeSurface(ray)) return;
-  if (std::holds_alternative<Distant>(t_.scene().surfaces[ray.surface].shape)) return;
+  if (t_.scene().surfaces[ray.surface].shape.as<Distant>()) return;
   follower_.pass(ray);
 }
 

@@ -68,11 +68,11 @@ Transport::Transport(const Scene& scene, const RayOptions& options, IrradianceAt
       lights_(scene, options.directRelays, functions_, warn),
       presumedShadows_(scene, tracer_, lights_),
       choice_(scene, lights_),
-      lightOf_(scene.surfaces.size()) {
+      luminous_(scene.surfaces.size()) {
   constantRadiance_.resize(lights_.all().size());
   for (const LightId i : lights_.all().ids()) {
     if (lights_.all()[i].isVirtual()) continue;
-    lightOf_[lights_.all()[i].surface] = i;
+    luminous_.add(lights_.all()[i].surface);
     const Surface& surface = scene.surfaces[lights_.all()[i].surface];
     if (surface.goal ||
         (surface.modifier == surface.material && scene.modifiers[surface.material].next == kNone))
@@ -81,7 +81,7 @@ Transport::Transport(const Scene& scene, const RayOptions& options, IrradianceAt
   for (const SurfaceId i : scene.surfaces.ids()) {
     const Surface& s = scene.surfaces[i];
     const Material* material = scene.materialOf(s);
-    if (scene.importance || !std::holds_alternative<Distant>(s.shape) || !material) continue;
+    if (scene.importance || !s.shape.as<Distant>() || !material) continue;
     const auto radiance = sourceRadiance(*material);
     if (radiance && maxChannel(*radiance) > kNegligible) distant_.push_back(i);
   }
@@ -127,7 +127,7 @@ void Transport::prepareInterpolation(const rad::Warn& warn) {
                                            fingerprint(options_, basicRadiance_, scene_.files), warn));
 }
 
-bool Transport::glows(std::span<const Surface> surfaces) const {
+bool Transport::glows(SurfaceList::Beginning surfaces) const {
   return std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& surface) {
     const Material* material = scene_.materialOf(surface);
     const auto* glow = material ? std::get_if<Glow>(material) : nullptr;
@@ -137,7 +137,7 @@ bool Transport::glows(std::span<const Surface> surfaces) const {
 
 bool Transport::isDark() const {
   return !scene_.importance && lights_.all().empty() && isBlack(options_.ambientValue) &&
-         !glows(scene_.surfaces);
+         !glows(scene_.surfaces.first(scene_.surfaces.size()));
 }
 
 bool Transport::lacksSources() const {

@@ -9,6 +9,7 @@
 #include "field/field_options.h"
 #include "light/source_choice.h"
 #include "light/sources.h"
+#include "scene/chosen_surfaces.h"
 #include "scene/random.h"
 #include "scene/scene.h"
 #include "shade/surface_functions.h"
@@ -62,7 +63,10 @@ class Transport {
   IrradianceAt irradiance() const { return irradiance_; }
   bool basicRadiance() const { return basicRadiance_; }
   // A surface's own light, or kNone.
-  LightId lightOf(SurfaceId surface) const { return lightOf_[surface]; }
+  LightId lightOf(SurfaceId surface) const {
+    const auto number = luminous_.numberOf(surface);
+    return number ? LightId(*number) : kNone;
+  }
   // The radiance of a light source if it is the same from all points and directions;
   // null if it has to be computed for each ray.
   const Radiance* constantRadiance(LightId source) const {
@@ -105,7 +109,7 @@ class Transport {
  private:
   void findAims();
   void prepareInterpolation(const rad::Warn& warn);
-  bool glows(std::span<const Surface> surfaces) const;
+  bool glows(SurfaceList::Beginning surfaces) const;
   void findScatterers(const rad::Warn& warn);
   LightId sourceNamed(std::string_view name) const;
 
@@ -118,7 +122,7 @@ class Transport {
   LightSources lights_;
   PresumedShadows presumedShadows_;
   SourceChoice choice_;
-  ById<SurfaceId, LightId> lightOf_;
+  ChosenSurfaces luminous_;  // those that are light sources: the first lights, in their order
   ById<LightId, std::optional<Radiance>> constantRadiance_;
   std::vector<SurfaceId> distant_;
   std::vector<LightId> scatterers_;

@@ -5,6 +5,12 @@
 #include "memory_file.h"
 #include "rad_parser/octree_file.h"
 
+// Whether the real arguments are there.
+static bool isWithin(const rad::Description& d, const rad::Primitive& p) {
+  if (p.type == rad::Type::polygon) return p.firstReal + (p.reals + 2) / 3 <= d.vertices.size();
+  return p.firstReal + p.reals <= d.realArgs.size();
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const MemoryFile file(data, size);
   rad::DescriptionBuilder builder;
@@ -19,9 +25,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   }
   const rad::Description d = builder.take();
   for (const rad::PrimitiveId i : d.primitives.ids()) {
-    const rad::Primitive& p = d.primitives[i];
-    const bool whole = p.modifier < i && p.firstReal + p.reals <= d.realArgs.size() &&
-                       p.firstString + p.strings <= d.stringArgs.size() &&
+    const rad::Primitive p = d.primitives[i];
+    const bool whole = p.modifier < i && isWithin(d, p) && p.firstString + p.strings <= d.stringArgs.size() &&
                        (p.type == rad::Type::alias) == (p.aliased != rad::kVoid);
     if (!whole) std::abort();
   }

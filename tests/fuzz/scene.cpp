@@ -19,8 +19,8 @@ void check(const rsphere::Scene& scene) {
     if (!within(surface.modifier, scene.modifiers.size()) ||
         !within(surface.material, scene.modifiers.size()))
       std::abort();
-    if (surface.primitive.index() >= scene.description.primitives.size()) std::abort();
-    static_cast<void>(scene.place(surface.primitive));
+    if (scene.surfaces.primitiveOf(surface.id).index() >= scene.description.primitives.size()) std::abort();
+    static_cast<void>(scene.place(surface));
     static_cast<void>(scene.modifierName(surface));
     static_cast<void>(scene.materialName(surface));
   }

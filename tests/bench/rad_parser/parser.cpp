@@ -61,7 +61,7 @@ void readFile(benchmark::State& state) {
   for (auto _ : state) {
     const rad::Description d = rad::readScene(names);
     if (d.primitives.size() != kPolygons + 1) state.SkipWithError("primitives are missing");
-    benchmark::DoNotOptimize(d.realArgs.data());
+    benchmark::DoNotOptimize(d.vertices.data());
   }
   count(state);
 }
@@ -70,7 +70,7 @@ void readTransformed(benchmark::State& state) {
   const std::string names[] = {"!xform -rz 30 -t 1 2 3 " + scene().path};
   for (auto _ : state) {
     const rad::Description d = rad::readScene(names);
-    benchmark::DoNotOptimize(d.realArgs.data());
+    benchmark::DoNotOptimize(d.vertices.data());
   }
   count(state);
 }

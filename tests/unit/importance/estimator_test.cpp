@@ -119,7 +119,7 @@ TEST(Estimator, ScattersFarLessThanEqualWeights) {
 TEST(Estimator, SolidAnglesSumToTheSphere) {
   const Setting setting(room(20));
   // In the room, on a wall, in the middle of a sphere and on a luminaire.
-  const auto& sphere = std::get<Sphere>(setting.scene.surfaces.back().shape);
+  const auto& sphere = *setting.scene.surfaces[setting.scene.surfaces.last()].shape.as<Sphere>();
   for (const Weights weights : kAllWeights) {
     const SphereEstimator estimator(*setting.transport, setting.with(weights, 500));
     SphereEstimator::Workspace workspace(estimator);

@@ -38,7 +38,7 @@ Found compare(const Setting& setting, const V3d& point) {
   const auto glints = setting.seenFrom(point);
   Found found;
   found.images = static_cast<int>(glints.size());
-  const Silhouette whole = silhouetteOf(Sphere{V3d(1, 2, 3), .1}, {}, point);
+  const Silhouette whole = silhouetteOf(Shape(Sphere{V3d(1, 2, 3), .1}), {}, point);
   PathTracer tracer(*setting.transport);
   int inRegions = 0, dark = 0;
   constexpr int kSide = 300;

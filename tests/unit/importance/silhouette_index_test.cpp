@@ -18,7 +18,7 @@ std::vector<Silhouette> regions(int count) {
     const double size = std::exp(between(random, -12, 2));
     const V3d center = randomDirection(random) * between(random, .5, 3);
     if (i % 2) {
-      all.push_back(silhouetteOf(Sphere{center, size}, {}, V3d(0, 0, 0)));
+      all.push_back(silhouetteOf(Shape(Sphere{center, size}), {}, V3d(0, 0, 0)));
     } else {
       const std::vector<V3d> v{center, center + size * randomDirection(random),
                                center + size * randomDirection(random)};

@@ -213,7 +213,7 @@ TEST(Silhouette, PolygonContainsWhatRaysHitAndNothingElse) {
 // A warped quadrangle is hit in its mean plane.
 TEST(Silhouette, WarpedPolygonIsSeenWhereRaysMeetIt) {
   const Plane plane({V3d(-1, -1, .1), V3d(1, -1, -.1), V3d(1, 1, .1), V3d(-1, 1, -.1)});
-  ASSERT_GT(plane.polygon.thickness, .05);
+  ASSERT_GT(thicknessOf(plane.polygon, plane.vertices), .05);
   const V3d point(.2, .1, .9);
   const Silhouette s = plane.seenFrom(point);
   Random random(4);
@@ -301,7 +301,7 @@ TEST(Silhouette, RandomConvexPolygons) {
       vertices.push_back(center + size * (std::cos(angle) * x + flat * std::sin(angle) * y));
     }
     const Plane plane(std::move(vertices));
-    if (plane.polygon.area == 0) continue;
+    if (areaOf(plane.polygon, plane.vertices) == 0) continue;
     const Silhouette s = plane.seenFrom(V3d(0, 0, 0));
     ASSERT_GE(s.solidAngle(), 0);
     ASSERT_LE(s.solidAngle(), 2 * kPi * (1 + 1e-12));

@@ -17,7 +17,7 @@ namespace {
 using std::numbers::pi;
 
 Target ballAt(const V3d& center, double density) {
-  return {silhouetteOf(Sphere{center, .5}, {}, V3d(0, 0, 0)), density, 0, false};
+  return {silhouetteOf(Shape(Sphere{center, .5}), {}, V3d(0, 0, 0)), density, 0, false};
 }
 
 TEST(Targets, DensitiesAddWhereTargetsOverlap) {

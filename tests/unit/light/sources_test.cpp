@@ -296,17 +296,17 @@ TEST(Source, SamplesHitTheSourceWhereTheySay) {
         EXPECT_GT(s.solidAngle, 0);
         EXPECT_NEAR(s.cosine, -s.normal.dot(s.direction), 1e-12);
         const V3d hit = point + s.distance * s.direction;
-        const auto& shape = scene.surfaces.at(0).shape;
-        if (const auto* p = std::get_if<Polygon>(&shape)) {
+        const ShapeRef shape = scene.surfaces.at(0).shape;
+        if (const auto* p = shape.as<Polygon>()) {
           EXPECT_TRUE(inside(*p, scene.vertices, hit, 1e-12));
         }
-        if (const auto* p = std::get_if<Ring>(&shape)) {
+        if (const auto* p = shape.as<Ring>()) {
           EXPECT_LE((hit - p->center).length(), 1 + 1e-12);
         }
-        if (std::holds_alternative<Sphere>(shape)) {
+        if (shape.as<Sphere>()) {
           EXPECT_NEAR(hit.length(), 1, 1e-12);
         }
-        if (std::holds_alternative<Cone>(shape)) {
+        if (shape.as<Cone>()) {
           EXPECT_NEAR(std::hypot(hit.y, hit.z), .1, 1e-12);
         }
       }

@@ -24,8 +24,8 @@ Description both() {
 TEST(Append, NumbersOnFromWhatThereIs) {
   const Description d = both();
   ASSERT_EQ(d.primitives.size(), 5u);
-  EXPECT_EQ(d.name(d.primitives.at(1)), "s");
-  EXPECT_EQ(d.name(d.primitives.at(2)), "m");
+  EXPECT_EQ(d.primitives.at(1).name, "s");
+  EXPECT_EQ(d.primitives.at(2).name, "m");
   EXPECT_EQ(d.string(d.primitives.at(2), 3), "y.cal");
   EXPECT_EQ(d.primitives.at(2).modifier, kVoid);
   EXPECT_EQ(d.primitives.at(3).aliased, PrimitiveId(2));
@@ -60,7 +60,7 @@ TEST(Description, SurfacesAndModifiersMayHaveOneName) {
   const Description d = readText(
       "void plastic a\n0\n0\n5 1 1 1 0 0\na sphere b\n0\n0\n4 0 0 0 1\na sphere b\n0\n0\n4 0 0 0 1\n"
       "void plastic b\n0\n0\n5 1 1 1 0 0\nb sphere a\n0\n0\n4 0 0 0 1\na sphere a\n0\n0\n4 0 0 0 1\n");
-  EXPECT_EQ(d.name(d.primitives.at(2)), "b");
+  EXPECT_EQ(d.primitives.at(2).name, "b");
   EXPECT_EQ(d.primitives.at(4).modifier, PrimitiveId(3));
   EXPECT_EQ(d.primitives.at(5).modifier, PrimitiveId(0));
   EXPECT_EQ(d.primitives.at(1).name, d.primitives.at(2).name);

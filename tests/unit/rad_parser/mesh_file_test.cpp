@@ -78,7 +78,7 @@ std::string errorOfBytes(std::string_view bytes) {
 TEST(MeshFile, APyramidOfTwoMaterials) {
   const Mesh mesh = rad::readMesh(fixture("box.rtm"));
   ASSERT_EQ(mesh.materials.primitives.size(), 2u);
-  EXPECT_EQ(mesh.materials.name(mesh.materials.primitives.at(0)), "brick");
+  EXPECT_EQ(mesh.materials.primitives.at(0).name, "brick");
   EXPECT_EQ(mesh.materials.at(mesh.materials.primitives.at(1).place), fixture("box.rtm") + ": object 2");
   EXPECT_EQ(mesh.materials.header[1], "obj2mesh -a box.mat box.obj");
   ASSERT_EQ(mesh.triangles.size(), 6u);
@@ -119,7 +119,7 @@ TEST(MeshFile, APyramidOfTwoMaterials) {
           continue;
         }
         found = true;
-        EXPECT_EQ(mesh.materials.name(mesh.materials.primitives.at(t.material)), facet->material);
+        EXPECT_EQ(mesh.materials.primitives.at(t.material).name, facet->material);
         const bool smooth = facet->material == "brick";
         for (int i = 0; i < 3; ++i) {
           const uint32_t v = t.vertices[(i + turned) % 3];
@@ -168,7 +168,7 @@ TEST(MeshFile, PatchesAreJoined) {
     const int a = grid[0], b = a + 18;
     EXPECT_TRUE(grid == std::vector({a, b, b + 1}) || grid == std::vector({a, b + 1, a + 1})) << a;
     EXPECT_TRUE(seen.insert(grid).second);
-    EXPECT_EQ(mesh.materials.name(mesh.materials.primitives.at(t.material)), a / 18 % 3 ? "tile" : "brick");
+    EXPECT_EQ(mesh.materials.primitives.at(t.material).name, a / 18 % 3 ? "tile" : "brick");
   }
 }
 

@@ -32,7 +32,7 @@ TEST(SceneFile, EveryTypeIsKept) {
   for (int i = 0; i + 1 < rad::kTypes; ++i) {
     const Primitive& p = d.primitives.at(i + 1);
     EXPECT_EQ(p.type, static_cast<Type>(i));
-    EXPECT_EQ(d.name(p), fmt::format("n{}", i));
+    EXPECT_EQ(p.name, fmt::format("n{}", i));
     EXPECT_EQ(p.modifier, PrimitiveId(0));
     EXPECT_EQ(p.place.line, static_cast<uint32_t>(i + 2));
     ASSERT_EQ(p.strings, 2u);
@@ -62,7 +62,7 @@ TEST(SceneFile, QuotedWords) {
   const Description d =
       readText("void brighttext \"my sign\" 4 a\"b c\"d 'say \"x\"' \"\" 'two\nlines' 0 0\n");
   const Primitive& p = d.primitives.at(0);
-  EXPECT_EQ(d.name(p), "my sign");
+  EXPECT_EQ(p.name, "my sign");
   EXPECT_EQ(d.string(p, 0), "ab cd");
   EXPECT_EQ(d.string(p, 1), "say \"x\"");
   EXPECT_EQ(d.string(p, 2), "");
@@ -280,7 +280,7 @@ TEST(SceneFile, WordsAcrossBlocks) {
   EXPECT_EQ(printScene(file), printScene(memory));
   ASSERT_EQ(file.primitives.size(), names.size());
   for (size_t i = 0; i < names.size(); ++i) {
-    ASSERT_EQ(file.name(file.primitives.at(i)), names[i]);
+    ASSERT_EQ(file.primitives.at(i).name, names[i]);
     ASSERT_EQ(file.primitives.at(i).place.line, 2 * i + 2);
   }
 }
@@ -320,13 +320,14 @@ TEST(SceneFile, PrintedScenesReadBackTheSame) {
     }
     const Description once = readText(text), twice = readText(printScene(once));
     EXPECT_EQ(once.realArgs, twice.realArgs);
+    EXPECT_EQ(once.vertices, twice.vertices);
     ASSERT_EQ(once.primitives.size(), twice.primitives.size());
     for (size_t i = 0; i < once.primitives.size(); ++i) {
       const Primitive &a = once.primitives.at(i), &b = twice.primitives.at(i);
       EXPECT_EQ(a.type, b.type);
       EXPECT_EQ(a.modifier, b.modifier);
       EXPECT_EQ(a.aliased, b.aliased);
-      EXPECT_EQ(once.name(a), twice.name(b));
+      EXPECT_EQ(a.name, b.name);
       ASSERT_EQ(a.strings, b.strings);
       for (uint32_t k = 0; k < a.strings; ++k) EXPECT_EQ(once.string(a, k), twice.string(b, k));
       EXPECT_EQ(a.reals, b.reals);

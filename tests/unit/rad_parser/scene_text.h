@@ -78,8 +78,8 @@ inline std::string sceneWord(std::string_view word) {
 inline std::string printScene(const rad::Description& d) {
   std::string text;
   for (const rad::Primitive& p : d.primitives) {
-    const std::string_view modifier = p.modifier == rad::kVoid ? "void" : d.name(d.primitives[p.modifier]);
-    text += fmt::format("{} {} {}\n", sceneWord(modifier), rad::typeName(p.type), sceneWord(d.name(p)));
+    const std::string modifier = p.modifier == rad::kVoid ? "void" : d.primitives[p.modifier].name;
+    text += fmt::format("{} {} {}\n", sceneWord(modifier), rad::typeName(p.type), sceneWord(p.name));
     if (p.type == rad::Type::alias) {
       text += fmt::format("\t{}\n", sceneWord(d.string(p, 0)));
       continue;

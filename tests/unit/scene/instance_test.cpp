@@ -139,7 +139,7 @@ TEST(Meshes, TrianglesOfEachMaterialAreASurface) {
   EXPECT_EQ(scene.modifierName(brick), "brick");
   EXPECT_EQ(scene.materialName(brick), "brick");
   EXPECT_EQ(scene.modifierName(scene.surfaces.at(1)), "gray");
-  EXPECT_EQ(scene.place(brick.primitive), file + ": object 1 (from room.rad:5): mesh \"M-Tri\"");
+  EXPECT_EQ(scene.place(brick), file + ": object 1 (from room.rad:5): mesh \"M-Tri\"");
 }
 
 // A material of a mesh that no triangle has is not looked at: it may be of a type that is not supported.

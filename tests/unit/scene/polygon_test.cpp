@@ -30,24 +30,24 @@ struct Patchwork {
 TEST(Polygon, KnowsItsPlaneAndArea) {
   const std::vector<V3d> v = {V3d(1, 2, 3), V3d(4, 2, 3), V3d(4, 2, 5), V3d(1, 2, 5)};
   const Polygon p = makePolygon(v, 0, 4);
-  EXPECT_NEAR(p.area, 6, 1e-14);
+  EXPECT_NEAR(areaOf(p, v), 6, 1e-14);
   EXPECT_NEAR((p.normal - V3d(0, -1, 0)).length(), 0, 1e-15);
   EXPECT_NEAR(p.offset, -2, 1e-15);
-  EXPECT_EQ(p.axis, 1);
-  EXPECT_EQ(p.thickness, 0);
+  EXPECT_EQ(p.axis, 1u);
+  EXPECT_EQ(thicknessOf(p, v), 0);
 }
 
 TEST(Polygon, KeepsItsAreaFarFromTheOrigin) {
   const V3d place(5e6, -5e6, 5e6);
   const std::vector<V3d> v = {place, place + V3d(1, 0, 0), place + V3d(1, 1, 0), place + V3d(0, 1, 0)};
-  EXPECT_NEAR(makePolygon(v, 0, 4).area, 1, 1e-12);
+  EXPECT_NEAR(areaOf(makePolygon(v, 0, 4), v), 1, 1e-12);
   EXPECT_EQ(makePolygon(v, 0, 4).normal, V3d(0, 0, 1));
 }
 
 TEST(Polygon, OnALineHasNoAreaAndIsNeverHit) {
   const std::vector<V3d> v = {V3d(0, 0, 0), V3d(1, 0, 0), V3d(2, 0, 0)};
   const Polygon p = makePolygon(v, 0, 3);
-  EXPECT_EQ(p.area, 0);
+  EXPECT_EQ(areaOf(p, v), 0);
   ShapeHit hit;
   EXPECT_FALSE(intersect(p, v, V3d(1, 0, 1), V3d(0, 0, -1), 10, hit));
 }
@@ -60,7 +60,7 @@ TEST(Polygon, OfBentVerticesLiesInTheirMeanPlane) {
   ShapeHit hit;
   ASSERT_TRUE(intersect(p, v, V3d(.5, .5, 1), V3d(0, 0, -1), 10, hit));
   EXPECT_NEAR(hit.distance, 1 - h / 4, 1e-12);
-  EXPECT_NEAR(p.thickness, h / 4, h * h);
+  EXPECT_NEAR(thicknessOf(p, v), h / 4, h * h);
 }
 
 // Rays aimed at a shared edge as closely as doubles allow. Where the polygons are folded, each sees the ray

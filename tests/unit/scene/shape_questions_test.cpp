@@ -38,7 +38,7 @@ TEST(ShapeQuestions, HaveTheseAnswers) {
     alternatives.insert(row.shape.index());
     EXPECT_EQ(isPlain(row.shape), row.plain);
     EXPECT_EQ(isClosed(row.shape), row.closed);
-    EXPECT_DOUBLE_EQ(areaOf(row.shape), row.area);
+    EXPECT_DOUBLE_EQ(areaOf(row.shape, vertices), row.area);
     const V3d* normal = planeNormal(row.shape);
     ASSERT_EQ(normal != nullptr, row.plane != nullptr);
     if (normal) {

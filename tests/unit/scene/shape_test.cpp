@@ -370,7 +370,7 @@ TEST(Bounds, ContainWhereBentPolygonsAreHit) {
     for (const auto& [x, y] : {std::pair(-1., -1.), {1., -1.}, {1., 1.}, {-1., 1.}})
       vertices.push_back(place + turned(x, y, i % 3) + randomPoint(random, bend));
     const Polygon polygon = makePolygon(vertices, 0, 4);
-    EXPECT_LT(polygon.thickness, 2 * bend);
+    EXPECT_LT(thicknessOf(polygon, vertices), 2 * bend);
     const Box3d box = bounds(polygon, vertices);
     for (int k = 0; k < 100; ++k) {
       const V3d origin = place + 5. * randomDirection(random);

@@ -124,7 +124,7 @@ TEST(Instances, PathsLeadToTheOctreesCoordinates) {
     if (hit.surface == kNone) continue;
     ASSERT_EQ(hit.path.count, 2);
     const V3d at = both.placed.placementOf(hit.path).toInner.point(from + hit.distance * d);
-    const auto* sphere = std::get_if<Sphere>(&both.placed.surfaces[hit.surface].shape);
+    const auto* sphere = both.placed.surfaces[hit.surface].shape.as<Sphere>();
     if (!sphere) continue;
     ++spheres;
     EXPECT_NEAR((at - sphere->center).length(), sphere->radius, 1e-12);

@@ -59,13 +59,13 @@ std::string clutter(const V3d& place, int count) {
 
 bool meets(const Scene& scene, const Surface& surface, const V3d& origin, const V3d& direction,
            double farthest, ShapeHit& hit) {
-  if (const auto* s = std::get_if<Polygon>(&surface.shape))
+  if (const auto* s = surface.shape.as<Polygon>())
     return intersect(*s, scene.vertices, origin, direction, farthest, hit);
-  if (const auto* s = std::get_if<Sphere>(&surface.shape))
+  if (const auto* s = surface.shape.as<Sphere>())
     return intersect(*s, origin, direction, farthest, hit);
-  if (const auto* s = std::get_if<Cone>(&surface.shape))
+  if (const auto* s = surface.shape.as<Cone>())
     return intersect(*s, origin, direction, farthest, hit);
-  if (const auto* s = std::get_if<Ring>(&surface.shape))
+  if (const auto* s = surface.shape.as<Ring>())
     return intersect(*s, origin, direction, farthest, hit);
   return false;
 }

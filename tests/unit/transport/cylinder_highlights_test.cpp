@@ -45,7 +45,7 @@ const V3d kCenter(2, 2, .5);  // of all cylinders
 
 const Cone& cylinderIn(const Traced& t) {
   for (const Surface& surface : t.scene().outermost())
-    if (t.scene().surfaceName(surface) == "leg") return std::get<Cone>(surface.shape);
+    if (t.scene().surfaceName(surface) == "leg") return *surface.shape.as<Cone>();
   throw std::logic_error("no leg");
 }
 

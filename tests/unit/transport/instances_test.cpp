@@ -58,7 +58,7 @@ TEST(Instances, LookAsToTheOriginal) {
     ASSERT_EQ(expected.size(), 21u);
     const RayAnswer a = answerOf(scene, tracer.trace(rays[n].origin, rays[n].towards.normalized(), 0,
                                                      seedOf(std::initializer_list<double>{1})));
-    EXPECT_EQ(a.surface, expected[3]);
+    EXPECT_EQ(a.surface.text(), expected[3]);
     EXPECT_EQ(a.modifier, expected[7]);
     EXPECT_EQ(a.material, expected[8]);
     const auto near = [&](double value, size_t at, double within) {

@@ -31,7 +31,7 @@ std::vector<Shown> treeOf(Traced& room, const V3d& origin, const V3d& direction,
   room.tracer().observe(
       [&](const Ray& ray) {
         const RayAnswer a = branchAnswer(transport, ray);
-        tree.push_back({std::string(a.surface), ray.depth, ray.value.color, a.contribution.color,
+        tree.push_back({a.surface.text(), ray.depth, ray.value.color, a.contribution.color,
                         (ray.kinds & kShadow) != 0});
       },
       shadows);

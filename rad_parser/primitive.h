@@ -1,0 +1,84 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "rad_parser/id.h"
+
+namespace rad {
+
+// A place in the scene files: an index of Description::files and a line, from 1; line 0 means the file as a
+// whole. The output of a command has lines of its own. In a numbered file, which has no lines, `line` is the
+// number of a primitive, from 1.
+struct Place {
+  uint32_t file = 0;
+  uint32_t line = 0;
+};
+
+// The primitive types of the scene language (RADIANCE reference manual, "Scene description"), grouped for
+// isSurface() and the functions after it.
+// clang-format off
+enum class Type : uint8_t {
+  // surfaces
+  source, sphere, bubble, polygon, cone, cup, cylinder, tube, ring, instance, mesh,
+  // materials
+  light, illum, glow, spotlight, mirror, prism1, prism2, mist, plastic, metal, trans, plastic2, metal2, trans2,
+  ashik2, dielectric, interface, glass, plasfunc, metfunc, transfunc, brtdfunc, plasdata, metdata, transdata, bsdf,
+  absdf, wgmdfunc, antimatter,
+  // textures
+  texfunc, texdata,
+  // patterns
+  colorfunc, brightfunc, specfunc, colordata, brightdata, specdata, colorpict, brighttext, colortext, spectrum,
+  specfile, specpict,
+  // mixtures
+  mixfunc, mixdata, mixpict, mixtext,
+  // another name for a modifier
+  alias,
+};
+// clang-format on
+inline constexpr int kTypes = static_cast<int>(Type::alias) + 1;
+
+// The name of a type as scene files spell it ("BRTDfunc").
+std::string_view typeName(Type type);
+
+// Finds the type of this name, which must be spelled exactly. Returns false, and leaves `type`
+// unchanged, if there is none.
+bool findType(std::string_view name, Type& type);
+
+// The nearest type of a misspelt name, as the end of a message (see NearestName::hint()).
+std::string nearestType(std::string_view name);
+
+// source .. mesh; all other types are modifiers, which others can name
+inline bool isSurface(Type type) { return type <= Type::mesh; }
+bool isMaterial(Type type);  // light .. antimatter
+bool isTexture(Type type);
+bool isPattern(Type type);
+bool isMixture(Type type);
+
+using PrimitiveId = Id<struct PrimitiveTag>;  // index in Description::primitives
+
+inline constexpr None kVoid;  // in place of a modifier: none
+
+// One primitive as the file describes it. Arguments are kept as written. Whoever uses the primitive checks
+// their number and meaning; a primitive that no surface uses is never checked.
+//
+// An alias is a copy of primitives[aliased] with a different modifier: its type and arguments are those of
+// `aliased`, and its modifier is the alias's own `modifier`, never that of `aliased`. All forms of aliases
+// are reduced to this when they are read:
+//   M alias a b        `modifier` is the index of M (kVoid for void)
+//   inherit alias a b  `modifier` is that of b
+// If b is an alias itself, `aliased` is that of b, so it is never the index of an alias. An alias has one
+// string argument: the name b as written.
+struct Primitive {
+  Type type = Type::alias;
+  PrimitiveId modifier;                   // always before this primitive; kVoid for void
+  PrimitiveId aliased;                    // of type alias only
+  Place place;                            // of the primitive's first word
+  uint32_t firstString = 0, strings = 0;  // range in Description::stringArgs
+  uint32_t reals = 0;                     // number of real arguments
+  uint64_t firstReal = 0;                 // index of the first one in Description::realArgs; of a
+                                          // polygon's first vertex in Description::vertices
+  std::string name;
+};
+
+}  // namespace rad

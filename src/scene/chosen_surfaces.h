@@ -1,0 +1,44 @@
+#pragma once
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "scene/ids.h"
+
+namespace rsphere {
+
+// A few surfaces out of many, numbered in their order: 2 bits a surface, and constant time.
+class ChosenSurfaces {
+ public:
+  explicit ChosenSurfaces(size_t surfaces) : words_(surfaces / 64 + 1) {}
+
+  // Chooses one more. REQUIRES: it follows those that have been chosen.
+  void add(SurfaceId surface) {
+    const size_t word = surface.index() / 64;
+    for (; last_ < word; ++last_) words_[last_ + 1].before = count_;
+    words_[word].bits |= uint64_t{1} << surface.index() % 64;
+    ++count_;
+  }
+
+  // The number of surfaces that were chosen before this one; empty if it was not chosen.
+  std::optional<uint32_t> numberOf(SurfaceId surface) const {
+    const Word& word = words_[surface.index() / 64];
+    const uint64_t bit = uint64_t{1} << surface.index() % 64;
+    if (!(word.bits & bit)) return std::nullopt;
+    return word.before + static_cast<uint32_t>(std::popcount(word.bits & (bit - 1)));
+  }
+
+ private:
+  struct Word {
+    uint64_t bits = 0;
+    uint32_t before = 0;  // the number of surfaces in the words before; set up to last_
+  };
+
+  std::vector<Word> words_;
+  size_t last_ = 0;
+  uint32_t count_ = 0;
+};
+
+}  // namespace rsphere
