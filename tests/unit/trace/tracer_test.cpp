@@ -61,12 +61,9 @@ bool meets(const Scene& scene, const Surface& surface, const V3d& origin, const 
            double farthest, ShapeHit& hit) {
   if (const auto* s = surface.shape.as<Polygon>())
     return intersect(*s, scene.vertices, origin, direction, farthest, hit);
-  if (const auto* s = surface.shape.as<Sphere>())
-    return intersect(*s, origin, direction, farthest, hit);
-  if (const auto* s = surface.shape.as<Cone>())
-    return intersect(*s, origin, direction, farthest, hit);
-  if (const auto* s = surface.shape.as<Ring>())
-    return intersect(*s, origin, direction, farthest, hit);
+  if (const auto* s = surface.shape.as<Sphere>()) return intersect(*s, origin, direction, farthest, hit);
+  if (const auto* s = surface.shape.as<Cone>()) return intersect(*s, origin, direction, farthest, hit);
+  if (const auto* s = surface.shape.as<Ring>()) return intersect(*s, origin, direction, farthest, hit);
   return false;
 }
 

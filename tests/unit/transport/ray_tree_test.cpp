@@ -31,8 +31,8 @@ std::vector<Shown> treeOf(Traced& room, const V3d& origin, const V3d& direction,
   room.tracer().observe(
       [&](const Ray& ray) {
         const RayAnswer a = branchAnswer(transport, ray);
-        tree.push_back({a.surface.text(), ray.depth, ray.value.color, a.contribution.color,
-                        (ray.kinds & kShadow) != 0});
+        tree.push_back(
+            {a.surface.text(), ray.depth, ray.value.color, a.contribution.color, (ray.kinds & kShadow) != 0});
       },
       shadows);
   room.value(origin, direction);
