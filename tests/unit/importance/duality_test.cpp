@@ -17,10 +17,8 @@ const V3d kLamp(1, 1.2, 1.9);
 constexpr double kLampRadius = .01, kLampRadiance = 1000;
 constexpr double kGoalHeight = .7, kGoalX = 2.2, kGoalY = 1.6, kGoalWidth = .8, kGoalDepth = .5;
 
-// A room of 4 x 3 x 2.5 m with a pane of glass and a glass ball between the lamp and the goal, and a mirror
-// on the wall behind the goal.
-std::string room(bool lit) {
-  std::string text = R"(
+// A room of 4 x 3 x 2.5 m, divided in part by a pane of glass.
+const std::string kRoomWithPane = R"(
 void plastic wall 0 0 5 .6 .5 .4 0 0
 wall polygon floor 0 0 12 0 0 0 4 0 0 4 3 0 0 3 0
 wall polygon ceiling 0 0 12 0 0 2.5 0 3 2.5 4 3 2.5 4 0 2.5
@@ -30,6 +28,12 @@ wall polygon north 0 0 12 4 3 0 4 3 2.5 0 3 2.5 0 3 0
 wall polygon west 0 0 12 0 3 0 0 3 2.5 0 0 2.5 0 0 0
 void glass pane 0 0 3 .9 .8 .7
 pane polygon window 0 0 12 1.6 .2 .2 1.6 2 .2 1.6 2 2.2 1.6 .2 2.2
+)";
+
+// A room of 4 x 3 x 2.5 m with a pane of glass and a glass ball between the lamp and the goal, and a mirror
+// on the wall behind the goal.
+std::string room(bool lit) {
+  std::string text = kRoomWithPane + R"(
 void dielectric crystal 0 0 5 .9 .95 .98 1.5 0
 crystal sphere ball 0 0 4 2.9 1.2 1.3 .15
 void mirror silver 0 0 3 .9 .85 .8
@@ -112,20 +116,11 @@ TEST(Duality, IrradianceFromALampIsWhatImportancePredicts) {
   EXPECT_LT(irradianceOnGoal(2, 0).mean(), .98 * light.mean());
 }
 
-// Importance with a desk as the goal is the radiance with a lamp in place of the desk: of the same geometry, and of
-// radiance 1. The desk is black, because a lamp does not reflect. The two runs take different ways through the program,
-// so that their random numbers differ.
+// Importance with a desk as the goal is the radiance with a lamp in place of the desk: of the same geometry,
+// and of radiance 1. The desk is black, because a lamp does not reflect. The two runs take different ways
+// through the program, so that their random numbers differ.
 Sample aroundDesk(const std::string& desk, bool asGoal) {
-  const std::string text = R"(
-void plastic wall 0 0 5 .6 .5 .4 0 0
-wall polygon floor 0 0 12 0 0 0 4 0 0 4 3 0 0 3 0
-wall polygon ceiling 0 0 12 0 0 2.5 0 3 2.5 4 3 2.5 4 0 2.5
-wall polygon south 0 0 12 0 0 0 0 0 2.5 4 0 2.5 4 0 0
-wall polygon east 0 0 12 4 0 0 4 0 2.5 4 3 2.5 4 3 0
-wall polygon north 0 0 12 4 3 0 4 3 2.5 0 3 2.5 0 3 0
-wall polygon west 0 0 12 0 3 0 0 3 2.5 0 0 2.5 0 0 0
-void glass pane 0 0 3 .9 .8 .7
-pane polygon window 0 0 12 1.6 .2 .2 1.6 2 .2 1.6 2 2.2 1.6 .2 2.2
+  const std::string text = kRoomWithPane + R"(
 void metal chrome 0 0 5 .9 .9 .9 1 0
 chrome sphere ball1 0 0 4 2.9 1.2 1.3 .15
 chrome sphere ball2 0 0 4 1.8 2.4 1 .2

@@ -5,19 +5,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/unit/transport/highlight_scene.h"
 #include "tests/unit/transport/transport_fixture.h"
 #include "transport/gather_directions.h"
 
 namespace rsphere {
 namespace {
 
-const std::string kMaterials =
-    "void metal chrome 0 0 5 .9 .9 .9 1 .05\nvoid metal mirroring 0 0 5 .9 .9 .9 1 0\n"
-    "void plastic matt 0 0 5 .5 .5 .5 0 0\nvoid plastic glossy 0 0 5 .5 .5 .5 .05 .05\n"
-    "void light lamp 0 0 3 100 100 100\n";
+using namespace highlight_scene;
+
 const std::string kBall = "chrome sphere ball 0 0 4 2 2 .5 .1\n";
-const std::string kBulb = "lamp sphere bulb 0 0 4 3 2.5 2.5 .05\n";
-const std::string kFloor = "matt polygon floor 0 0 12 0 0 0 4 0 0 4 4 0 0 4 0\n";
 
 BallHighlights highlightsOf(const Traced& t) {
   return BallHighlights(t.scene(), t.transport().tracer(), t.transport().lights(), 1e-9);
@@ -60,8 +57,8 @@ class ToDisk {
   double versine_ = 0;
 };
 
-// The density of aimed directions is density(): the integral of a function over the ball's disk, weighted with this
-// density, agrees with the mean over sampled directions.
+// The density of aimed directions is density(): the integral of a function over the ball's disk, weighted
+// with this density, agrees with the mean over sampled directions.
 TEST(BallHighlights, AreAimedAtAsDensitySays) {
   for (const std::string& text : lit()) {
     const Traced t(text);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "scene/frame.h"
+#include "tests/unit/transport/highlight_scene.h"
 #include "tests/unit/transport/transport_fixture.h"
 #include "transport/gather_directions.h"
 
@@ -13,13 +14,9 @@ namespace rsphere {
 namespace {
 namespace on_cylinders {
 
-const std::string kMaterials =
-    "void metal chrome 0 0 5 .9 .9 .9 1 .05\nvoid metal mirroring 0 0 5 .9 .9 .9 1 0\n"
-    "void plastic matt 0 0 5 .5 .5 .5 0 0\nvoid plastic glossy 0 0 5 .5 .5 .5 .05 .05\n"
-    "void light lamp 0 0 3 100 100 100\n";
+using namespace highlight_scene;
+
 const std::string kLeg = "chrome cylinder leg 0 0 7 2 2 .1 2 2 .9 .02\n";
-const std::string kBulb = "lamp sphere bulb 0 0 4 3 2.5 2.5 .05\n";
-const std::string kFloor = "matt polygon floor 0 0 12 0 0 0 4 0 0 4 4 0 0 4 0\n";
 
 CylinderHighlights highlightsOf(const Traced& t) {
   return CylinderHighlights(t.scene(), t.transport().tracer(), t.transport().lights(), 1e-9);
@@ -67,8 +64,8 @@ struct Place {
   }
 };
 
-// The density of aimed directions is density(): the integral of a function over the cylinder, weighted with this density,
-// agrees with the mean over sampled directions.
+// The density of aimed directions is density(): the integral of a function over the cylinder, weighted with
+// this density, agrees with the mean over sampled directions.
 TEST(CylinderHighlights, AreAimedAtAsDensitySays) {
   int aimedAt = 0;
   double differences = 0, squares = 0, total = 0;
@@ -116,7 +113,8 @@ TEST(CylinderHighlights, AreAimedAtAsDensitySays) {
   EXPECT_GT(std::abs(.05 * total + differences), kMostSigmas * std::sqrt(squares)) << "the spoiled twin";
 }
 
-// Aimed directions find nearly all light that the cylinder sends to the point, and about as much as is expected.
+// Aimed directions find nearly all light that the cylinder sends to the point, and about as much as is
+// expected.
 TEST(CylinderHighlights, AreWhereTheCylinderShowsTheSource) {
   int seen = 0;
   for (const std::string& text : lit()) {
