@@ -37,8 +37,8 @@ class PointWorkers {
   std::vector<SphereEstimator::Workspace> workspaces_;
 };
 
-// Collects from the answers of a run what the warnings at its end say. May be called from several threads at once; the
-// warnings do not depend on the order of the answers.
+// Collects from the answers of a run what the warnings at its end say. May be called from several threads at
+// once; the warnings do not depend on the order of the answers.
 class PointSummary {
  public:
   // sampling: RayOptions::sampling.
@@ -61,8 +61,8 @@ class PointSummary {
   uint64_t points_ = 0;
   Some missed_;   // -Sa: relative standard errors of the mean brightness
   Some clamped_;  // -Sf: shares of the light that they had without the clamp
-  uint64_t billionths_ =
-      0;  // the sum of these shares, as a whole number, which no order of summation changes
+  // The sum of these shares, as a whole number, which no order of summation changes.
+  uint64_t billionths_ = 0;
 };
 
 // The function that answers points in sphere mode: appends the spherical mean, or a record of every

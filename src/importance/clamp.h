@@ -7,13 +7,16 @@
 
 namespace rsphere {
 
-// Limits the brightness that each sample contributes beyond its guess. The limit is `share` of the integral over all
-// directions, without what the same share of the whole integral would take: otherwise one very bright direction would
-// raise its own limit. The color of what is left is kept. Contributions below the guess are not changed.
-// total: the integral that the samples belong to, with all that is not among them (W/m2). guesses: of the samples;
-// empty: 0. Returns what the integral lost, which is a bias.
-// Rejected alternatives: a limit of radiance, which is different in each scene; and a share of exactly what is left, which
-// takes everything where many directions contribute more than their share.
+// Limits the brightness that each sample contributes beyond its guess. The limit is `share` of the integral
+// over all directions, without what the same share of the whole integral would take: otherwise one very
+// bright direction would raise its own limit. The color of what is left is kept. Contributions below the
+// guess are not changed. Returns what the integral lost, which is a bias (W/m2).
+//
+// total: the integral that the samples belong to, with all that is not among them (W/m2). guesses: of the
+// samples; empty: 0.
+//
+// Rejected alternatives: a limit of radiance, which is different in each scene; and a share of exactly what
+// is left, which takes everything where many directions contribute more than their share.
 Irradiance clampContributions(std::span<DirectionSample> samples, std::span<const Radiance> guesses,
                               const Irradiance& total, double share,
                               const SpectralSampling* sampling = nullptr);

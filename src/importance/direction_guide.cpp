@@ -12,7 +12,8 @@ namespace {
 
 using std::numbers::pi;
 
-// Cells of equal area: rows of equal height along z, divided evenly about it. A cell of 32 x 64 is 4.5 degrees wide.
+// Cells of equal area: rows of equal height along z, divided evenly about it. A cell of 32 x 64 is 4.5
+// degrees wide.
 constexpr size_t kRows = 32, kColumns = 64, kCells = kRows * kColumns;
 constexpr double kCell = 4 * pi / kCells;  // sr
 
@@ -38,8 +39,8 @@ DirectionGuide::DirectionGuide(const LightPatches& light, const Tracer& tracer, 
     if (facing > 0) all += patch.power * facing / (std::sqrt(distance2) * (distance2 + light.area()));
     upTo.push_back(all);
   }
-  // Some of the patches, in proportion to the light that arrives from them if nothing is in the way; those that are
-  // hidden are left out.
+  // Some of the patches, in proportion to the light that arrives from them if nothing is in the way; those
+  // that are hidden are left out.
   std::vector<size_t> seen(kCells, 0);
   size_t count = 0;
   const double step = all / Tuning::kPatches;
@@ -56,7 +57,8 @@ DirectionGuide::DirectionGuide(const LightPatches& light, const Tracer& tracer, 
       }
   }
   if (count == 0) return;
-  // The light of a cell is spread over its neighbours, because patches are few, and larger than a cell if near.
+  // The light of a cell is spread over its neighbours, because patches are few, and larger than a cell if
+  // near.
   share_.assign(kCells, 0);
   for (size_t row = 0; row < kRows; ++row)
     for (size_t column = 0; column < kColumns; ++column) {

@@ -1,9 +1,10 @@
 #pragma once
-// Where around a point the light comes from, roughly: a density of directions that follows the radiance of the
-// surfaces that the point sees (transport/light_patches.h). Directions that are distributed by it, besides even ones,
-// reduce the variance where a small part of the view brings most of the light.
+// Where around a point the light comes from, roughly: a density of directions that follows the radiance of
+// the surfaces that the point sees (transport/light_patches.h). Directions that are distributed by it,
+// besides even ones, reduce the variance where a small part of the view brings most of the light.
 //
-// Source: Jensen, "Importance driven path tracing using the photon map" (EGWR 1995), with shadow rays to the particles.
+// Source: Jensen, "Importance driven path tracing using the photon map" (EGWR 1995), with shadow rays to the
+// particles.
 #include <vector>
 
 #include "scene/random.h"

@@ -10,8 +10,8 @@ namespace {
 
 using Tuning = tuning::ErrorEstimate;
 
-// The number of directions that share in the variance, n for values that are evenly distributed between two bounds: by
-// their fourth moment, of brightness. If k of n directions find something small, it is 1.8 k.
+// The number of directions that share in the variance, n for values that are evenly distributed between two
+// bounds: by their fourth moment, of brightness. If k of n directions find something small, it is 1.8 k.
 double sharing(std::span<const DirectionSample> samples, const SpectralSampling* sampling) {
   const auto partOf = [&](const DirectionSample& s) {
     return photopicOf(irradianceFrom(s.value, s.solidAngle).color, sampling);
@@ -70,8 +70,8 @@ Variance spreadVariance(std::span<const DirectionSample> samples, const Spectral
     squares += Variance::of(part, sampling);
   }
   if (samples.size() < 2) return squares;
-  // If an edge crosses the region, only the cells on the edge contribute, about n^1/2 of n. What few directions find is
-  // smaller than that: directions that are even in the whole region are independent in it.
+  // If an edge crosses the region, only the cells on the edge contribute, about n^1/2 of n. What few
+  // directions find is smaller than that: directions that are even in the whole region are independent in it.
   const double even = 1 / (1 + std::sqrt(sharing(samples, sampling)) / Tuning::kEvenRun);
   squares += Variance::of(sum, sampling) * (-1 / n);
   return squares * (n / (n - 1) * even);

@@ -52,9 +52,9 @@ struct SilhouetteWeights {
   // Cap on the glances, but never fewer than base directions: chosen by experiment. It applies from 16384
   // base directions on. 30% less or more: the same answers in all cases.
   RSPHERE_TUNED(SilhouetteWeights, size_t, kMostGlances, 65536);
-  // Where light is uneven: directions, and glances, that follow the light (direction_guide.h), for each even one: by
-  // measurement. Around a goal in the open-plan office, 0 .25 .5 1 2 leave errors of 4.0 3.0 2.9 2.4 2.1% in 16 22 26 35
-  // 52 ms a point.
+  // Where light is uneven: directions, and glances, that follow the light (direction_guide.h), for each even
+  // one: by measurement. Around a goal in the open-plan office, 0 .25 .5 1 2 leave errors of 4.0 3.0 2.9 2.4
+  // 2.1% in 16 22 26 35 52 ms a point.
   RSPHERE_TUNED(SilhouetteWeights, double, kGuided, .5);
   // Directions to images of light sources are one per so many base directions, and at least the second
   // number: both chosen by experiment. 30% less or more: within noise (points in office; error 8%, time 6%).
@@ -178,10 +178,11 @@ struct ErrorEstimate {
   // 30% less or more: the same answers in all cases.
   RSPHERE_TUNED(ErrorEstimate, double, kEvenParts, .5);
   // The fraction for n dynamic directions to a target is 1 / (1 + n^1/2 / this): the root because an edge
-  // crosses about n^1/2 of the n cells; the number chosen by experiment. n are those that share in the variance. With
-  // all directions of the target instead, at a point beside a chrome ball where 1 to 5 of 3400 find lamps that are
-  // mirrored twice, the actual deviation was 1.6 times the predicted standard error, and 2% of the answers were further
-  // off than six; now it is .9 times, and none is. 30% less or more: the same answers in all cases.
+  // crosses about n^1/2 of the n cells; the number chosen by experiment. n are those that share in the
+  // variance. With all directions of the target instead, at a point beside a chrome ball where 1 to 5 of 3400
+  // find lamps that are mirrored twice, the actual deviation was 1.6 times the predicted standard error, and
+  // 2% of the answers were further off than six; now it is .9 times, and none is. 30% less or more: the same
+  // answers in all cases.
   RSPHERE_TUNED(ErrorEstimate, double, kEvenRun, 8);
 };
 

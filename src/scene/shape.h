@@ -34,8 +34,8 @@ struct ShapeHit {
 
 // A plane polygon, which may be concave or have holes that are connected by a seam. A point is inside if a
 // line from it to infinity crosses the boundary an odd number of times. If the vertices are not coplanar, the
-// polygon lies in their mean plane (RADIANCE reference manual, "polygon"). It has only what intersection tests
-// need, because large scenes consist of polygons; areaOf() and thicknessOf() compute the rest.
+// polygon lies in their mean plane (RADIANCE reference manual, "polygon"). It has only what intersection
+// tests need, because large scenes consist of polygons; areaOf() and thicknessOf() compute the rest.
 struct Polygon {
   static constexpr uint32_t kMostVertices = (1u << 29) - 1;
   V3d normal{0, 0, 1};       // unit, by the right-hand rule; Newell's sum over the vertices

@@ -112,8 +112,8 @@ Coefficient directCoefficient(const Scattering& scattering, const Interaction& a
 // textured highlight equally bright. spread: -ss; 0 gives the middle of the lobe, 1 and more the whole lobe.
 double sampleReflection(const Scattering& scattering, const Interaction& at, double spread, double u1,
                         double u2, V3d& direction);
-// The reflected lobe of directCoefficient() for a source that does not widen it, per sr and share of light; 0 where
-// sampleReflection() with a spread of 1 never samples.
+// The reflected lobe of directCoefficient() for a source that does not widen it, per sr and share of light; 0
+// where sampleReflection() with a spread of 1 never samples.
 double reflectedDensity(const Scattering& scattering, const Interaction& at, const V3d& direction);
 // sampleReflection() for the transmitted lobe. The weight is 1, or 0 if the sample lies above the surface.
 double sampleTransmission(const Scattering& scattering, const Interaction& at, double spread, double u1,

@@ -68,8 +68,9 @@ concept ScattersLight = requires(S s, const S& c, Component component, Random& r
   // The share of a source's radiance that is scattered towards the ray's origin, for a source that fills a
   // solid angle (sr) in a direction (unit). component: one that takes direct light.
   { c.coefficient(component, v, 1., random) } -> std::same_as<Coefficient>;
-  // The density (per sr) with which a lobe's samples choose a direction (unit), and by which they represent the light
-  // that coefficient() gives to the lobe there. 0 if its samples do not reproduce that light exactly.
+  // The density (per sr) with which a lobe's samples choose a direction (unit), and by which they represent
+  // the light that coefficient() gives to the lobe there. 0 if its samples do not reproduce that light
+  // exactly.
   { c.lobeDensity(component, v) } -> std::same_as<double>;
   // The share of light (of each channel and band) that the component's lobe scatters.
   { c.lobeShare(component) } -> std::convertible_to<Color>;

@@ -47,8 +47,9 @@ BallHighlights::BallHighlights(const Scene& scene, const Tracer& tracer, const L
   if (!reaches.empty()) near_ = ReachGrid(reaches, tracer.bounds());
 }
 
-// The sources that light a ball. A ball sends distant light on evenly in all directions: the image of a source fills
-// its solid angle as seen from the ball, times the square of the ball's radius over twice the distance to it.
+// The sources that light a ball. A ball sends distant light on evenly in all directions: the image of a
+// source fills its solid angle as seen from the ball, times the square of the ball's radius over twice the
+// distance to it.
 BallHighlights::Ball BallHighlights::lit(const Sphere& sphere, const Opaque& material, const Scene& scene,
                                          const Tracer& tracer, const LightSources& lights) {
   Ball ball{sphere, material.roughness, 0, 0, {}};
@@ -72,7 +73,8 @@ BallHighlights::Ball BallHighlights::lit(const Sphere& sphere, const Opaque& mat
     if (!seesPart(tracer, c.part, sphere.center + (sphere.radius + 2 * kSamePlace) * out)) continue;
     ball.intensity += c.intensity;
     ball.parts.push_back({c.part.part, ball.intensity});
-    // By the mean square of a normal distribution, whose variance is that of a disk of the source's solid angle.
+    // By the mean square of a normal distribution, whose variance is that of a disk of the source's solid
+    // angle.
     const double spread =
         sphere.radius * sphere.radius * (ball.roughness * ball.roughness + c.solidAngle / (8 * kPi));
     ball.hot += c.intensity * c.intensity / (2 * kPi * kPi * spread);
@@ -81,7 +83,8 @@ BallHighlights::Ball BallHighlights::lit(const Sphere& sphere, const Opaque& mat
   return ball;
 }
 
-// As from a small source. From nearby, an image is as far behind the ball's surface as the focus, half its radius.
+// As from a small source. From nearby, an image is as far behind the ball's surface as the focus, half its
+// radius.
 void BallHighlights::aim(const V3d& point, const V3d& front, double least, Aim& aim) const {
   aim.count = 0;
   aim.mean = 0;
@@ -117,8 +120,8 @@ bool BallHighlights::meets(const Ball& ball, const V3d& point, const V3d& direct
   return true;
 }
 
-// Whether a ray meets a ball where it shows more than a negligible part of a source's highlight. It saves most
-// evaluations of lobes.
+// Whether a ray meets a ball where it shows more than a negligible part of a source's highlight. It saves
+// most evaluations of lobes.
 bool BallHighlights::isNear(const Ball& ball, const SourcePart& part, const V3d& direction,
                             const V3d& normal) {
   const V3d way = part.towards(ball.sphere.center + ball.sphere.radius * normal);

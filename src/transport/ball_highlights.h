@@ -1,12 +1,14 @@
 #pragma once
-// Highlights of light sources on rough balls: chrome knobs, feet and handles. A ball sends the light of a source in all
-// directions, from a highlight that is far smaller and brighter than the ball. If rays of a gather meet highlights only
-// by chance, they cause much of the variance of indirect light beside the ball. Some rays are therefore aimed at them
-// and combined with the others by multiple importance sampling (balance heuristic: Veach and Guibas 1995). The law of
-// reflection gives the place of a highlight; curvature, roughness and the source give its extent. Highlights that are
-// hidden or misplaced change the variance, not the mean.
+// Highlights of light sources on rough balls: chrome knobs, feet and handles. A ball sends the light of a
+// source in all directions, from a highlight that is far smaller and brighter than the ball. If rays of a
+// gather meet highlights only by chance, they cause much of the variance of indirect light beside the ball.
+// Some rays are therefore aimed at them and combined with the others by multiple importance sampling (balance
+// heuristic: Veach and Guibas 1995). The law of reflection gives the place of a highlight; curvature,
+// roughness and the source give its extent. Highlights that are hidden or misplaced change the variance, not
+// the mean.
 //
-// Smooth balls have none: an indirect ray that a smooth surface mirrors to a light source adds nothing, as in rtrace.
+// Smooth balls have none: an indirect ray that a smooth surface mirrors to a light source adds nothing, as in
+// rtrace.
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -21,9 +23,9 @@ namespace rsphere {
 
 class BallHighlights {
  public:
-  // Uses the spheres of plastic or metal that belong to the scene itself, not to octrees in it. Shadow rays find which
-  // sources each of them sees. Keeps no references. least: nothing is aimed at where a ball's highlights add less than this
-  // to the variance, as for aim(); above 0.
+  // Uses the spheres of plastic or metal that belong to the scene itself, not to octrees in it. Shadow rays
+  // find which sources each of them sees. Keeps no references. least: nothing is aimed at where a ball's
+  // highlights add less than this to the variance, as for aim(); above 0.
   BallHighlights(const Scene& scene, const Tracer& tracer, const LightSources& lights, double least);
 
   bool empty() const { return balls_.empty(); }
@@ -36,17 +38,17 @@ class BallHighlights {
     V3d point{0, 0, 0};
     std::array<uint32_t, kRoom> ball;
     std::array<V3d, kRoom> way;  // to their centers (world units)
-    std::array<double, kRoom>
-        tangent2;                   // square of the distance along a tangent, at most (square world units)
+    // The square of the distance along a tangent, at most (square world units).
+    std::array<double, kRoom> tangent2;
     std::array<double, kRoom> sum;  // cumulative contributions
   };
 
-  // front: unit normal. least: balls are left out whose highlights are estimated to add less than this to the variance
-  // of the radiance from a direction that is chosen by projected solid angle (square of W/sr/m2).
+  // front: unit normal. least: balls are left out whose highlights are estimated to add less than this to the
+  // variance of the radiance from a direction that is chosen by projected solid angle (square of W/sr/m2).
   void aim(const V3d& point, const V3d& front, double least, Aim& aim) const;
 
-  // One of the aimed directions (unit), for uniform u1, u2, u3 in [0, 1); 0 if the one that was drawn misses the
-  // highlight. REQUIRES aim.mean > 0.
+  // One of the aimed directions (unit), for uniform u1, u2, u3 in [0, 1); 0 if the one that was drawn misses
+  // the highlight. REQUIRES aim.mean > 0.
   V3d sample(const Aim& aim, double u1, double u2, double u3) const;
 
   // The density of aimed directions, per sr. It integrates to less than 1 by those that miss.

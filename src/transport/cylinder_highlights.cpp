@@ -60,9 +60,9 @@ CylinderHighlights::CylinderHighlights(const Scene& scene, const Tracer& tracer,
   if (!reaches.empty()) near_ = ReachGrid(reaches, tracer.bounds());
 }
 
-// The sources that light a cylinder. The image of a distant source fills its solid angle as seen from the cylinder, times
-// half the radius over the distance from the cylinder where the plane of reflection is across the axis; elsewhere, as much
-// within a factor of the cosines.
+// The sources that light a cylinder. The image of a distant source fills its solid angle as seen from the
+// cylinder, times half the radius over the distance from the cylinder where the plane of reflection is across
+// the axis; elsewhere, as much within a factor of the cosines.
 CylinderHighlights::Cylinder CylinderHighlights::lit(const Cone& shape, const Opaque& material,
                                                      const Scene& scene, const Tracer& tracer,
                                                      const LightSources& lights) {
@@ -102,8 +102,8 @@ CylinderHighlights::Cylinder CylinderHighlights::lit(const Cone& shape, const Op
   return cylinder;
 }
 
-// The path by way of the mirroring place is the shortest. Across the axis, it is therefore that of a circle, whatever the
-// heights of its ends are; and along the axis, it is straight where the circle is unrolled.
+// The path by way of the mirroring place is the shortest. Across the axis, it is therefore that of a circle,
+// whatever the heights of its ends are; and along the axis, it is straight where the circle is unrolled.
 void CylinderHighlights::aim(const V3d& point, const V3d& front, double least, Aim& aim) const {
   aim.count = 0;
   aim.mean = 0;

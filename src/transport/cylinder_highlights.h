@@ -1,8 +1,8 @@
 #pragma once
-// Highlights of light sources on rough cylinders: chrome legs of chairs, rails and pipes. As on balls (ball_highlights.h),
-// they are far smaller and brighter than the cylinder, but a cylinder does not send the light of a source in all
-// directions: as seen from a point, the highlight lies where the directions to both make equal angles with the axis, or
-// beyond the ends. Each highlight is therefore found for each point.
+// Highlights of light sources on rough cylinders: chrome legs of chairs, rails and pipes. As on balls
+// (ball_highlights.h), they are far smaller and brighter than the cylinder, but a cylinder does not send the
+// light of a source in all directions: as seen from a point, the highlight lies where the directions to both
+// make equal angles with the axis, or beyond the ends. Each highlight is therefore found for each point.
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -17,9 +17,10 @@ namespace rsphere {
 
 class CylinderHighlights {
  public:
-  // Uses the cylinders and tubes of plastic or metal, seen from outside, that belong to the scene itself, not to octrees in
-  // it. Shadow rays find which sources each of them sees. Keeps a reference to lights. least: nothing is aimed at where a
-  // cylinder's highlights add less than this to the variance, as for aim(); above 0.
+  // Uses the cylinders and tubes of plastic or metal, seen from outside, that belong to the scene itself, not
+  // to octrees in it. Shadow rays find which sources each of them sees. Keeps a reference to lights. least:
+  // nothing is aimed at where a cylinder's highlights add less than this to the variance, as for aim(); above
+  // 0.
   CylinderHighlights(const Scene& scene, const Tracer& tracer, const LightSources& lights, double least);
 
   bool empty() const { return cylinders_.empty(); }
@@ -35,12 +36,13 @@ class CylinderHighlights {
     std::array<double, kRoom> sum;  // cumulative contributions
   };
 
-  // front: unit normal. least: nothing is aimed at if all highlights are estimated to add less than this to the variance
-  // of the radiance from a direction that is chosen by projected solid angle (square of W/sr/m2).
+  // front: unit normal. least: nothing is aimed at if all highlights are estimated to add less than this to
+  // the variance of the radiance from a direction that is chosen by projected solid angle (square of
+  // W/sr/m2).
   void aim(const V3d& point, const V3d& front, double least, Aim& aim) const;
 
-  // One of the aimed directions (unit), for uniform u1, u2, u3 in [0, 1); 0 if the one that was drawn misses the
-  // cylinder. REQUIRES aim.mean > 0.
+  // One of the aimed directions (unit), for uniform u1, u2, u3 in [0, 1); 0 if the one that was drawn misses
+  // the cylinder. REQUIRES aim.mean > 0.
   V3d sample(const Aim& aim, double u1, double u2, double u3) const;
 
   // The density of aimed directions, per sr. It integrates to less than 1 by those that miss.
@@ -55,8 +57,8 @@ class CylinderHighlights {
   struct Cylinder {
     Cone shape;
     double roughness = 0;
-    // A bound of what its highlights add to the variance of the radiance from a direction that is chosen by projected solid
-    // angle, times the distance from the cylinder (W2/sr2/m4 * world units).
+    // A bound of what its highlights add to the variance of the radiance from a direction that is chosen by
+    // projected solid angle, times the distance from the cylinder (W2/sr2/m4 * world units).
     double hot = 0;
     std::vector<Part> parts;
   };

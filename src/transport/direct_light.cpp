@@ -72,8 +72,8 @@ bool DirectLight::isWhole(const SourceSample& sample) const {
 }
 
 // Sets value to the radiance of a sample that arrives at the ray's end; false if none arrives. to.value: its
-// radiance without occlusion. to.coefficient: becomes whole if samples of a lobe do not meet the source as its shadow
-// ray does.
+// radiance without occlusion. to.coefficient: becomes whole if samples of a lobe do not meet the source as
+// its shadow ray does.
 bool DirectLight::arrives(const Ray& ray, Contribution& to, Radiance& value) {
   const SourceSample& sample = *to.sample;
   const LightSource& light = t_.lights().all()[sample.source];

@@ -17,8 +17,8 @@ namespace rsphere {
 // source (unit) and the solid angle (sr) of a sample of it.
 using DirectCoefficient = FunctionRef<Coefficient(const V3d& toSource, double solidAngle)>;
 
-// The part of that coefficient that samples of a highlight's lobe estimate instead, if nothing is in the sample's way
-// (shared_highlights.h).
+// The part of that coefficient that samples of a highlight's lobe estimate instead, if nothing is in the
+// sample's way (shared_highlights.h).
 using PartOfLobe = FunctionRef<Coefficient(const SourceSample& sample)>;
 
 class DirectLight {

@@ -14,8 +14,8 @@ namespace {
 
 using Tuning = tuning::GatherDirections;
 
-// The mean radiance (W/sr/m2) from directions that are not aimed. Both estimates with openings are made near to them,
-// where rooms are brighter than elsewhere.
+// The mean radiance (W/sr/m2) from directions that are not aimed. Both estimates with openings are made near
+// to them, where rooms are brighter than elsewhere.
 double usualRadiance(const Aims& aims) {
   if (!aims.openings) return aims.spots ? aims.spots->usual() : aims.highlights->usual();
   const double least =

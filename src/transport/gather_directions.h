@@ -1,7 +1,8 @@
 #pragma once
 // The directions of a gather: most of them distributed by projected solid angle, the others aimed at openings
-// that daylight enters through, at bright spots and at highlights on rough balls and cylinders. Each is weighted by the density with
-// which all of these together choose its direction (multiple importance sampling with the balance heuristic).
+// that daylight enters through, at bright spots and at highlights on rough balls and cylinders. Each is
+// weighted by the density with which all of these together choose its direction (multiple importance sampling
+// with the balance heuristic).
 #include <array>
 
 #include "scene/random.h"
@@ -24,7 +25,8 @@ class GatherDirections {
   using Each = FunctionRef<void(const V3d& direction, double part)>;
 
   // Draws `count` directions, whose parts sum to 1 on average over a hemisphere that lies in front of the
-  // surface. Those behind the surface are left out, and those that miss the highlight that they were aimed at.
+  // surface. Those behind the surface are left out, and those that miss the highlight that they were aimed
+  // at.
   void draw(int count, Random& random, Each each) const;
 
  private:

@@ -45,18 +45,19 @@ class HighlightLobe {
 // How a surface bends where it mirrors.
 struct Bend {
   double radius;  // of curvature (world units)
-  V3d straight{0, 0,
-               0};  // the direction (unit) in which it does not bend, as a cylinder along its axis; 0: none
+  // The direction (unit) in which it does not bend, as a cylinder along its axis; 0: none.
+  V3d straight{0, 0, 0};
 };
 
-// The highlight of a part of a source on a rough curved surface, as seen from a point. Directions, and the vector between
-// the normal and the bisector of the directions to the point and to the source, by which the roughness is defined, are
-// taken for linear functions of the place on the surface.
+// The highlight of a part of a source on a rough curved surface, as seen from a point. Directions, and the
+// vector between the normal and the bisector of the directions to the point and to the source, by which the
+// roughness is defined, are taken for linear functions of the place on the surface.
 struct Highlight {
   HighlightLobe lobe;  // tuning::HighlightLobe::kWider times as wide as the highlight
   // The ratio of the solid angle of the image that a smooth surface would show to that of the part.
   double magnified;
-  // The variance of the place on the surface along the direction in which it does not bend (square world units).
+  // The variance of the place on the surface along the direction in which it does not bend (square world
+  // units).
   double lengthwise;
   // The root of the determinant of the covariance of directions (sr).
   double spread;

@@ -1,6 +1,6 @@
 #pragma once
-// Highlights of light sources on rough balls and cylinders (ball_highlights.h, cylinder_highlights.h), which indirect rays
-// are aimed at.
+// Highlights of light sources on rough balls and cylinders (ball_highlights.h, cylinder_highlights.h), which
+// indirect rays are aimed at.
 #include <algorithm>
 
 #include "transport/ball_highlights.h"
@@ -27,9 +27,9 @@ class Highlights {
     CylinderHighlights::Aim cylinders;
   };
 
-  // front: unit normal. all: the mean radiance over the hemisphere (W/sr/m2), beside which highlights are left out that add
-  // little to the variance. rays: of the gather; if they are few, only the brightest balls are aimed at, because to find
-  // highlights takes as long as some rays.
+  // front: unit normal. all: the mean radiance over the hemisphere (W/sr/m2), beside which highlights are
+  // left out that add little to the variance. rays: of the gather; if they are few, only the brightest balls
+  // are aimed at, because to find highlights takes as long as some rays.
   void aim(const V3d& point, const V3d& front, double all, int rays, Aim& aim) const {
     const bool few = rays < tuning::Highlights::kMany;
     balls_.aim(point, front, (few ? tuning::Highlights::kLeastOfFew : 1) * least(all), aim.balls);
@@ -37,8 +37,8 @@ class Highlights {
     aim.mean = aim.balls.mean + aim.cylinders.mean;
   }
 
-  // One of the aimed directions (unit), for uniform u1, u2, u3 in [0, 1); 0 if the one that was drawn misses the
-  // highlight. REQUIRES aim.mean > 0.
+  // One of the aimed directions (unit), for uniform u1, u2, u3 in [0, 1); 0 if the one that was drawn misses
+  // the highlight. REQUIRES aim.mean > 0.
   V3d sample(const Aim& aim, double u1, double u2, double u3) const {
     const double toBalls = aim.balls.mean / aim.mean;
     if (u1 < toBalls) return balls_.sample(aim.balls, u1 / toBalls, u2, u3);

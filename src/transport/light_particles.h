@@ -7,13 +7,13 @@
 
 namespace rsphere {
 
-// Gets a particle that leaves a source: where it starts (world), its direction (unit), its power (W, of brightness),
-// the source's surface, and the random numbers for what becomes of it.
+// Gets a particle that leaves a source: where it starts (world), its direction (unit), its power (W, of
+// brightness), the source's surface, and the random numbers for what becomes of it.
 using SentParticle = FunctionRef<void(const V3d& origin, const V3d& direction, double power,
                                       const Surface& source, Random& random)>;
 
-// Sends about `count` particles from all real sources, in proportion to their power. Those of distant sources start
-// outside the scene. The same scene gives the same particles.
+// Sends about `count` particles from all real sources, in proportion to their power. Those of distant sources
+// start outside the scene. The same scene gives the same particles.
 void sendParticles(const Scene& scene, const Tracer& tracer, const LightSources& lights, double count,
                    SentParticle each);
 

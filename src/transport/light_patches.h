@@ -1,7 +1,7 @@
 #pragma once
-// Where surfaces send light from, roughly: particles from the sources are followed through some reflections, and each
-// place that they hit is a patch that sends on what it reflects. Densities of directions that are made of it change the
-// variance of light, not its mean.
+// Where surfaces send light from, roughly: particles from the sources are followed through some reflections,
+// and each place that they hit is a patch that sends on what it reflects. Densities of directions that are
+// made of it change the variance of light, not its mean.
 //
 // Source: Jensen, "Importance driven path tracing using the photon map" (EGWR 1995).
 #include <vector>
@@ -17,8 +17,8 @@ class LightPatches {
     double power = 0;                     // that it sends, W of brightness
   };
 
-  // Follows tuning::LightPatches::kParticles particles of the transport's sources through up to -ab diffuse reflections.
-  // Keeps no reference. The same scene gives the same patches.
+  // Follows tuning::LightPatches::kParticles particles of the transport's sources through up to -ab diffuse
+  // reflections. Keeps no reference. The same scene gives the same patches.
   explicit LightPatches(const Transport& transport);
 
   const std::vector<Patch>& all() const { return patches_; }

@@ -17,8 +17,8 @@ inline constexpr double kMeanReflectance = .5;
 bool continueRay(const Transport& transport, Random& random, Ray& child, RayKind kind, const Ray& parent,
                  Coefficient& coefficient);
 
-// Whether rays reflected at the ray's hit are followed, except those that Russian roulette ends, whose light the others
-// make up for. Otherwise -lr ends them for certain.
+// Whether rays reflected at the ray's hit are followed, except those that Russian roulette ends, whose light
+// the others make up for. Otherwise -lr ends them for certain.
 inline bool goesOn(const Transport& transport, const Ray& ray) {
   const int limit = transport.options().reflectionLimit;
   return limit == 0 || (limit < 0 && ray.level + 1 <= -limit);

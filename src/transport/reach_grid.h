@@ -1,5 +1,6 @@
 #pragma once
-// Finds which of many objects with limited reach matter at a point, in a time that does not grow with their number.
+// Finds which of many objects with limited reach matter at a point, in a time that does not grow with their
+// number.
 #include <array>
 #include <cstdint>
 #include <span>

@@ -12,8 +12,8 @@ namespace {
 
 using Tuning = tuning::HighlightParts;
 
-// The light that all sources send out (W, of brightness). reach: of the scene (world units), within which distant
-// sources shine.
+// The light that all sources send out (W, of brightness). reach: of the scene (world units), within which
+// distant sources shine.
 double powerOf(const Scene& scene, const LightSources& lights, double reach) {
   double power = 0;
   for (const LightSource& light : lights.all()) {

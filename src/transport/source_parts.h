@@ -1,6 +1,6 @@
 #pragma once
-// Light sources as curved surfaces show them: divided into parts that are so small that the highlight of each is hardly
-// curved.
+// Light sources as curved surfaces show them: divided into parts that are so small that the highlight of each
+// is hardly curved.
 #include <vector>
 
 #include "light/sources.h"
@@ -30,8 +30,8 @@ struct LightingPart {
   double solidAngle(const V3d& from) const;
 };
 
-// The parts of a source that may light what is around a place up to a radius (world units); none if the source is
-// virtual, black, or too far away. They refer to the source.
+// The parts of a source that may light what is around a place up to a radius (world units); none if the
+// source is virtual, black, or too far away. They refer to the source.
 std::vector<LightingPart> partsThatLight(const LightSource& source, const V3d& from, double radius,
                                          const Scene& scene);
 

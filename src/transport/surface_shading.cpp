@@ -187,7 +187,8 @@ bool SurfaceShading::follow(Ray& ray, std::variant<Outcomes...>& response) {
   return std::visit([&](auto& outcome) { return follow(ray, outcome); }, response);
 }
 
-// The light of a source that a sample of the reflected lobe has hit, and the coefficient that shadow rays leave to it.
+// The light of a source that a sample of the reflected lobe has hit, and the coefficient that shadow rays
+// leave to it.
 template <ScattersLight S>
 Radiance SurfaceShading::lobesPart(const S& scattering, const Ray& sample) const {
   const Radiance seen = sourceSeenBy(t_, sample);

@@ -179,9 +179,9 @@ struct LightPatches {
 
 // Light of sources in rough highlights, by shadow rays or by samples of the lobe (shared_highlights.cpp).
 struct SharedHighlights {
-  // Shadow rays alone estimate the light from directions in which a source holds less than this share of the lobe's
-  // samples, had all of it this direction's density: chosen by experiment. Shadow rays then bring at most this multiple
-  // of the lobe's share in one sample.
+  // Shadow rays alone estimate the light from directions in which a source holds less than this share of the
+  // lobe's samples, had all of it this direction's density: chosen by experiment. Shadow rays then bring at
+  // most this multiple of the lobe's share in one sample.
   RSPHERE_TUNED(SharedHighlights, double, kLeast, .25);
 };
 
@@ -205,7 +205,8 @@ struct GatherDirections {
   // sun; error 6%, time 5%).
   RSPHERE_TUNED(GatherDirections, double, kSeenAnyway, 2);
   // The share of directions at highlights, for each share of the light that they probably bring: by
-  // measurement in a room with a chrome ball. From 1 to 8 the noise beside the ball is the same within a fifth.
+  // measurement in a room with a chrome ball. From 1 to 8 the noise beside the ball is the same within a
+  // fifth.
   RSPHERE_TUNED(GatherDirections, double, kToHighlights, 2);
   // Cap on that share, as others then have at most a third more weight: chosen by experiment.
   RSPHERE_TUNED(GatherDirections, double, kMostToHighlights, .25);
@@ -214,10 +215,14 @@ struct GatherDirections {
   RSPHERE_TUNED(GatherDirections, double, kTooFew, .02);
 };
 
+// Highlights on curved surfaces: this and the five groups below. Values without an origin are estimates that
+// have not been varied. All of them change the variance and the time of answers, not their mean.
+//
 // Light sources as curved surfaces show them (source_parts.cpp).
 struct HighlightParts {
-  // A source is divided so that half the width of a part is at most this, relative to its distance from the surface,
-  // because the highlight of a wider part is noticeably curved; and into this many parts along each side at most.
+  // A source is divided so that half the width of a part is at most this, relative to its distance from the
+  // surface, because the highlight of a wider part is noticeably curved; and into this many parts along each
+  // side at most.
   RSPHERE_TUNED(HighlightParts, double, kHalf, .25);
   RSPHERE_TUNED(HighlightParts, double, kMost, 8);
   // The reflectance of all surfaces, by which their mean brightness is estimated: the usual one of rooms.
@@ -226,28 +231,31 @@ struct HighlightParts {
 
 // Highlights that indirect rays are aimed at (highlights.h).
 struct Highlights {
-  // They are aimed at if they would add this multiple of the squared mean radiance to the variance of a direction that meets
-  // them by chance: by measurement in an open-plan office with 50 rough balls and 51 rough legs (-ab 1 -ad 64), at a desk,
-  // above one and at the ceiling. At .2, only the desk gains.
+  // They are aimed at if they would add this multiple of the squared mean radiance to the variance of a
+  // direction that meets them by chance: by measurement in an open-plan office with 50 rough balls and 51
+  // rough legs (-ab 1 -ad 64), at a desk, above one and at the ceiling. At .2, only the desk gains.
   //          noise                   work relative to none
   //     none  2.61%  .92%  2.84%     1     1     1
   //     .1     .44%  .49%  2.84%     1.12  1.03  1.00
   //     .05    .44%  .20%  2.71%     1.13  1.04  1.01
   //     .02    .23%  .28%  2.58%     1.16  1.07  1.02
   RSPHERE_TUNED(Highlights, double, kLeast, .05);
-  // Gathers of this many rays look for highlights on cylinders: by measurement in the same office, where that takes as long
-  // as two rays. If single rays did so too, spherical means would take half as long again for the same noise.
+  // Gathers of this many rays look for highlights on cylinders: by measurement in the same office, where that
+  // takes as long as two rays. If single rays did so too, spherical means would take half as long again for
+  // the same noise.
   RSPHERE_TUNED(Highlights, int, kMany, 16);
-  // The multiple of kLeast for balls in other gathers, whose noise is larger: by measurement of spherical means in the same
-  // office, for the same noise. They take 3% more work than without balls; at 1, 6%.
+  // The multiple of kLeast for balls in other gathers, whose noise is larger: by measurement of spherical
+  // means in the same office, for the same noise. They take 3% more work than without balls; at 1, 6%.
   RSPHERE_TUNED(Highlights, double, kLeastOfFew, 10);
 };
 
 // Highlights on curved surfaces (highlight_lobe.cpp).
 struct HighlightLobe {
-  // Ratio of the extent of the aimed directions to that of the highlight, so that its edge is not met too seldom.
+  // Ratio of the extent of the aimed directions to that of the highlight, so that its edge is not met too
+  // seldom.
   RSPHERE_TUNED(HighlightLobe, double, kWider, 1.3);
-  // The least cosine of the angle of reflection by which the extent of a highlight is computed: edge-on, it has none.
+  // The least cosine of the angle of reflection by which the extent of a highlight is computed: edge-on, it
+  // has none.
   RSPHERE_TUNED(HighlightLobe, double, kGrazing, .05);
 };
 
@@ -255,14 +263,16 @@ struct HighlightLobe {
 struct BallHighlights {
   // Cap on the balls that are looked at, of which the largest are chosen, to limit the time at start.
   static constexpr size_t kMostAsked = 1024;
-  // Cap on the balls that are aimed at from one point, of which the brightest are chosen, to limit the time of each gather.
+  // Cap on the balls that are aimed at from one point, of which the brightest are chosen, to limit the time
+  // of each gather.
   RSPHERE_TUNED_ROOM(BallHighlights, size_t, kMostAimed, 64);
   // Cap on the parts of all sources for one ball, of which the brightest as seen from the ball are chosen.
   RSPHERE_TUNED(BallHighlights, size_t, kMostOfBall, 64);
   // No rays are aimed at a ball whose center is nearer than this, in radii: on its surface, formulas fail.
   RSPHERE_TUNED(BallHighlights, double, kApart, 1.02);
-  // No direction is aimed where the angle between the normal and the bisector of the directions to point and source
-  // exceeds this multiple of the roughness, apart from the source's extent: Ward's formula gives 1e-4 of the peak there.
+  // No direction is aimed where the angle between the normal and the bisector of the directions to point and
+  // source exceeds this multiple of the roughness, apart from the source's extent: Ward's formula gives 1e-4
+  // of the peak there.
   RSPHERE_TUNED(BallHighlights, double, kReach, 3);
 };
 
@@ -273,23 +283,25 @@ struct CylinderHighlights {
   RSPHERE_TUNED(CylinderHighlights, size_t, kMostOfCylinder, 32);
   // Cap on the highlights that are aimed at from one point, to limit the time of each gather.
   RSPHERE_TUNED_ROOM(CylinderHighlights, size_t, kMostAimed, 32);
-  // A highlight is aimed at if it adds this share of what all together must add at least (Highlights::kLeast).
+  // A highlight is aimed at if it adds this share of what all together must add at least
+  // (Highlights::kLeast).
   RSPHERE_TUNED(CylinderHighlights, double, kLeastShare, .1);
   // No rays are aimed at a cylinder whose axis is nearer than this, in radii: on its surface, formulas fail.
   RSPHERE_TUNED(CylinderHighlights, double, kApart, 1.02);
   // The least sine of the angle between a distant source and the axis: lengthwise, it lights nothing.
   RSPHERE_TUNED(CylinderHighlights, double, kLengthwise, .02);
-  // The distance, in lengths of the cylinder, beyond its ends up to which the middle of a highlight may lie whose edge is
-  // on it.
+  // The distance, in lengths of the cylinder, beyond its ends up to which the middle of a highlight may lie
+  // whose edge is on it.
   RSPHERE_TUNED(CylinderHighlights, double, kBeyond, 1);
-  // No direction is aimed where the density of a highlight is below exp(-kReach) of its peak: 1e-4, as for balls.
+  // No direction is aimed where the density of a highlight is below exp(-kReach) of its peak: 1e-4, as for
+  // balls.
   RSPHERE_TUNED(CylinderHighlights, double, kReach, 9);
 };
 
 // Which balls and cylinders matter where (reach_grid.cpp).
 struct ReachGrid {
-  // Cells along the longest side of the scene. More need more memory (half a megabyte), fewer more time at points where
-  // nothing matters.
+  // Cells along the longest side of the scene. More need more memory (half a megabyte), fewer more time at
+  // points where nothing matters.
   static constexpr int kCells = 32;
 };
 

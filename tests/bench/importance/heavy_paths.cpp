@@ -1,12 +1,13 @@
-// Which paths make the tails of spherical means: the directions that sphere mode chooses at some points are traced
-// many times, and what each path brings to the mean is summed by what the path hits.
+// Which paths make the tails of spherical means: the directions that sphere mode chooses at some points are
+// traced many times, and what each path brings to the mean is summed by what the path hits.
 //
 //   bench_heavy_paths REPEATS POINTS [options] scene     POINTS: a file
 //
-// First a line for each kind of path, those that cause most of the variance first: its share of the sum of squared
-// contributions, its share of the mean, the largest single contribution (relative to the mean of its point), and the
-// modifiers that its rays hit, from the point on ("*": mirrored or refracted sharply there, "~": by a rough
-// highlight, nothing: diffusely). Then the largest single contributions, with the places that were hit.
+// First a line for each kind of path, those that cause most of the variance first: its share of the sum of
+// squared contributions, its share of the mean, the largest single contribution (relative to the mean of its
+// point), and the modifiers that its rays hit, from the point on ("*": mirrored or refracted sharply there,
+// "~": by a rough highlight, nothing: diffusely). Then the largest single contributions, with the places that
+// were hit.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -84,8 +85,8 @@ int run(int argc, char** argv) {
       for (const DirectionSample& sample : workspace.samples) {
         if (sample.toSource) continue;
         const double share = sample.solidAngle / (4 * kPi) / mean;
-        // Light arrives where a ray sees a source: its value is then what the source emits. What samples of a lobe
-        // estimate of near sources (shared_highlights.h) is not among it.
+        // Light arrives where a ray sees a source: its value is then what the source emits. What samples of a
+        // lobe estimate of near sources (shared_highlights.h) is not among it.
         again.tracer.observe(
             [&](const Ray& ray) {
               if (ray.surface == kNone || !ray.parent) return;

@@ -62,7 +62,8 @@ TEST(DirectionGuide, DirectionsFollowTheDensity) {
   EXPECT_LT(sum / last, .4) << "successive directions are near to each other";
 }
 
-// In a closed room of reflectance r that nothing darkens, patches send r + r^2 + ... = r / (1 - r) of the lamp's power.
+// In a closed room of reflectance r that nothing darkens, patches send r + r^2 + ... = r / (1 - r) of the
+// lamp's power.
 TEST(LightPatches, SendWhatSurfacesReflect) {
   const Traced room(kRoom, unbiased(20));
   const LightPatches patches(room.transport());

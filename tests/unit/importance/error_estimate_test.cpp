@@ -58,7 +58,8 @@ TEST(ErrorEstimate, LongRunsOfDirectionsAreTakenForEven) {
   }
 }
 
-// Something that is smaller than the distance of directions is found by some of them by chance, however even they are.
+// Something that is smaller than the distance of directions is found by some of them by chance, however even
+// they are.
 TEST(ErrorEstimate, WhatFewDirectionsFindIsNotTakenForEven) {
   constexpr size_t kDirections = 3000;
   constexpr double kFound = 3;  // on average
@@ -76,7 +77,8 @@ TEST(ErrorEstimate, WhatFewDirectionsFindIsNotTakenForEven) {
     stated.add(spreadVariance(samples).brightness);
     found.add(sum);
   }
-  // By the number of all directions, the variance would be taken for 1 / (1 + 3000^1/2 / 8) = .13 of what it is.
+  // By the number of all directions, the variance would be taken for 1 / (1 + 3000^1/2 / 8) = .13 of what it
+  // is.
   EXPECT_GT(stated.mean(), .7 * found.variance());
   EXPECT_LT(stated.mean(), 1 * found.variance());
 }

@@ -1,5 +1,5 @@
-// Whether the errors that answers state hold in the tails: where few paths bring much of the light, an answer that has
-// missed them must not be sure of itself.
+// Whether the errors that answers state hold in the tails: where few paths bring much of the light, an answer
+// that has missed them must not be sure of itself.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,8 +13,8 @@
 namespace rsphere {
 namespace {
 
-// Importance around a desk, at a point above it, at one beside it and at one in its shadow; few directions, and one ray
-// for each bounce, so that the contributions of single paths vary most.
+// Importance around a desk, at a point above it, at one beside it and at one in its shadow; few directions,
+// and one ray for each bounce, so that the contributions of single paths vary most.
 struct Desk : SphereSetting {
   static Scene read() {
     const std::string goals[] = {"goal"};
