@@ -90,16 +90,6 @@ SampledSet joined(std::vector<KeptSet> sets, const TwoHalves& halves, const Irra
   return all;
 }
 
-// Patches of strong direct light, where the transport has not looked for them; null if there are none, or no
-// indirect light.
-std::unique_ptr<const BrightSpots> findSpots(const Transport& transport) {
-  const RayOptions& rays = transport.options();
-  if (rays.ambientBounces <= 0 || rays.ambientDivisions <= 0) return nullptr;
-  if (transport.looksForSpots()) return nullptr;
-  auto spots = std::make_unique<BrightSpots>(transport.scene(), transport.tracer(), transport.lights());
-  return spots->empty() ? nullptr : std::move(spots);
-}
-
 }  // namespace
 
 SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions& options, bool standardError)
@@ -111,15 +101,29 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
   if (options.weights != Weights::homogeneous)
     special_ = findSpecialObjects(transport.scene(), options.densityFactor);
   if (options.weights == Weights::silhouettes && options.densityFactor > 0) {
-    aims_ = transport.aims();
-    if (!aims_.spots) aims_.spots = (spots_ = findSpots(transport)).get();
+    findAims();
     // Bright spots show that light is uneven. Openings have other means.
-    if (aims_.spots && !aims_.openings && !transport.coarse()) {
+    if (aims_.spots && !aims_.openings) {
       auto patches = std::make_unique<LightPatches>(transport);
       if (!patches->all().empty()) patches_ = std::move(patches);
     }
   }
   strategy_ = makeStrategy();
+}
+
+// Where light comes from, as far as the transport has not looked for it. Spots show whether it is uneven.
+void SphereEstimator::findAims() {
+  const Scene& scene = transport_.scene();
+  const RayOptions& rays = transport_.options();
+  aims_ = transport_.aims();
+  const bool indirect = rays.ambientBounces > 0 && rays.ambientDivisions > 0;
+  if (indirect && transport_.looksForSpots()) return;
+  if (!indirect && !scene.importance) {
+    openings_ = std::make_unique<Openings>(transport_);
+    if (!openings_->empty()) aims_.openings = openings_.get();
+  }
+  spots_ = std::make_unique<BrightSpots>(scene, transport_.tracer(), transport_.lights(), aims_.openings);
+  if (!spots_->empty()) aims_.spots = spots_.get();
 }
 
 std::unique_ptr<const SamplingStrategy> SphereEstimator::makeStrategy() const {

@@ -20,6 +20,7 @@
 #include "sphere/voronoi.h"
 #include "transport/bright_spots.h"
 #include "transport/light_patches.h"
+#include "transport/openings.h"
 #include "transport/path_tracer.h"
 #include "transport/ray_answer.h"
 
@@ -63,6 +64,7 @@ class SphereEstimator {
   const SeenSources& sources() const { return sources_; }
 
  private:
+  void findAims();
   std::unique_ptr<const SamplingStrategy> makeStrategy() const;
 
   const Transport& transport_;
@@ -70,7 +72,8 @@ class SphereEstimator {
   BaseSet base_;
   SeenSources sources_;
   std::vector<SpecialObject> special_;           // none with -Sw h
-  std::unique_ptr<const BrightSpots> spots_;     // those that only this estimator uses, or null
+  std::unique_ptr<const Openings> openings_;     // those that only this estimator uses, or null
+  std::unique_ptr<const BrightSpots> spots_;     // likewise
   std::unique_ptr<const LightPatches> patches_;  // null where light is even
   Aims aims_;                                    // of indirect rays
   std::unique_ptr<const SamplingStrategy> strategy_;

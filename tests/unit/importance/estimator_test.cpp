@@ -389,5 +389,30 @@ TEST(Estimator, PatchesGiveTheMeanOfPathsWithLessNoise) {
   EXPECT_LT(trueToStated, 1.6);
 }
 
+// The sun lights a patch of the floor, and nothing else is bright. Where no light is reflected twice, directions
+// are sent to the patch as they are for paths.
+TEST(Estimator, FindsSunlitPatchesWithoutBounces) {
+  const SphereSetting room(
+      sceneOf(daylitRoom() + "void light glare 0 0 3 1e5 1e5 1e5\nglare source sun 0 0 4 0 -1 1 .53\n"));
+  const auto means = [&](Weights weights) {
+    SphereOptions options = room.options.sphere;
+    options.baseDirections = 128;
+    options.weights = weights;
+    Sample sample;
+    for (uint64_t rotation = 1; rotation <= 40; ++rotation) {
+      options.rotation = rotation;
+      const SphereEstimator estimator(*room.transport, options, true);
+      SphereEstimator::Workspace workspace(estimator);
+      sample.add(brightness(estimator.estimate(V3d(2.5, 4, 1.2), workspace).mean));
+    }
+    return sample;
+  };
+  const Sample aimed = means(Weights::silhouettes), even = means(Weights::homogeneous);
+  EXPECT_LT(std::abs(aimed.mean() - even.mean()), 4 * even.standardError());
+  const auto spread = [](const Sample& s) { return s.standardError() * std::sqrt(40.) / s.mean(); };
+  EXPECT_LT(spread(aimed), .1);
+  EXPECT_GT(spread(even), .3) << "would not see that nothing was aimed";
+}
+
 }  // namespace
 }  // namespace rsphere
