@@ -40,9 +40,7 @@ class Builder {
     for (Finish& finish : scene_.surfaces.finishes()) finish.clip = modifiers_.clipOf(finish.described);
     scene_.vertices = std::move(scene_.description.vertices);
     scene_.description.primitives.shrink();
-    if (scene_.surfaces.size() <= Scene::kFewSurfaces)
-      for (const SurfaceId i : scene_.surfaces.ids())
-        scene_.names.push_back(scene_.description.primitives.name(scene_.surfaces.primitiveOf(i)));
+    if (scene_.surfaces.size() > Scene::kFewSurfaces) scene_.names = {};
     return std::move(scene_);
   }
 
@@ -159,6 +157,7 @@ class Builder {
     // Light sources in octrees are visible, but are not sampled as light sources.
     if (!inOctree()) checkLight(p, shape, scene_.surfaces.finishes()[finish].material);
     scene_.surfaces.push_back(shape, finish, i);
+    if (scene_.surfaces.size() <= Scene::kFewSurfaces) scene_.names.push_back(p.name);
   }
 
   // The number of the finish with this modifier.

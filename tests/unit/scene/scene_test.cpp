@@ -203,6 +203,19 @@ TEST(Scene, FollowsAliasesAndRedefinitions) {
   EXPECT_EQ(scene.materialName(scene.surfaces.at(2)), "void");
 }
 
+TEST(Scene, NamesSurfacesInSmallAndLargeScenes) {
+  for (const size_t count : {size_t{3}, Scene::kFewSurfaces, Scene::kFewSurfaces + 1}) {
+    std::string text = std::string(kGray) + "gray ring leftOut\n0\n0\n8 0 0 0 0 0 1 1 1\n";
+    for (size_t i = 0; i < count; ++i) text += fmt::format("gray sphere s{}\n0\n0\n4 {} 0 0 1\n", i, i);
+    std::vector<std::string> warnings;
+    const Scene scene = sceneOf(text, &warnings);
+    ASSERT_EQ(scene.surfaces.size(), count);
+    EXPECT_EQ(scene.names.size(), count <= Scene::kFewSurfaces ? count : 0);
+    for (const size_t i : {size_t{0}, count / 2, count - 1})
+      EXPECT_EQ(scene.surfaceName(scene.surfaces.at(i)), fmt::format("s{}", i));
+  }
+}
+
 TEST(Scene, ReadsAlternatesOfMirrorAndIllum) {
   const Scene scene = sceneOf(
       "void glass pane\n0\n0\n3 .9 .9 .9\n"
