@@ -6,7 +6,8 @@
 // traverses one tree. Embree's single-precision arithmetic only finds candidates: the scene is recentred,
 // bounds are padded by more than its rounding can move a ray, and rays start where they enter the scene.
 // Single-precision triangles were rejected: they miss the right primitive on 17% of rays once a scene
-// lies 1e5 units from the origin.
+// lies 1e5 units from the origin. As candidates, with the test in double precision behind them, they take longer
+// than callbacks in all interiors (tests/bench/rtrace/runs/2026-11-23-rays.txt).
 //
 // Each octree and each mesh has its own tree, in its own coordinates. An instance is a primitive whose
 // callback queries that tree with the ray transformed in double precision; instances may be nested. Embree's
