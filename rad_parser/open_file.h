@@ -27,6 +27,8 @@ class OpenFile {
   int descriptor() const { return descriptor_; }
   // False for folders, pipes and devices.
   bool isRegular() const { return S_ISREG(begin_.st_mode); }
+  // The number of bytes of a regular file when it was opened.
+  size_t size() const { return static_cast<size_t>(begin_.st_size); }
 
   // The contents from the current position on. name: for messages. Throws Error if they cannot be
   // read, as those of a folder.

@@ -7,9 +7,11 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <string_view>
 
+#include "rad_parser/block.h"
 #include "rad_parser/error.h"
 #include "rad_parser/open_file.h"
 
@@ -26,17 +28,85 @@ struct Layout {
 struct Header {
   Layout layout;
   double aspect = 1;
-  std::string_view format;  // empty: not given
+  std::string format;  // empty: not given
   int components = 3;
   std::array<double, 2> wavelengths{};  // nm, limits of the spectra; 0: not given
-  size_t size = 0;                      // bytes up to the pixels
 };
-
-using Rgbe = std::array<uint8_t, 4>;
 
 [[noreturn]] void bad(const std::string& path, std::string_view why) {
   throw rad::Error(fmt::format("{}: bad picture file: {}", path, why));
 }
+
+// The bytes of a file one after the other. Regular files are read in blocks, because the largest pictures
+// have gigabytes; others, whose size is unknown beforehand, are read as a whole.
+class Bytes {
+ public:
+  explicit Bytes(const std::string& path) : path_(path), file_(path), descriptor_(file_.descriptor()) {
+    if (descriptor_ < 0)
+      throw rad::Error(fmt::format("{}: cannot open picture file", path), rad::Status::system);
+    if (file_.isRegular()) {
+      block_.resize(kBlock);
+      unread_ = file_.size();
+    } else {
+      block_ = file_.contents(path);
+      descriptor_ = -1;
+    }
+    next_ = block_.data();
+    end_ = next_ + (descriptor_ < 0 ? block_.size() : 0);
+  }
+  Bytes(const Bytes&) = delete;
+  Bytes& operator=(const Bytes&) = delete;
+
+  const std::string& path() const { return path_; }
+  // The number of bytes that are left.
+  size_t left() const { return static_cast<size_t>(end_ - next_) + unread_; }
+
+  uint8_t next() { return static_cast<uint8_t>(take(1)[0]); }
+  // The next bytes, at most this many and at least one. They last until more are asked for.
+  std::string_view take(size_t most) {
+    if (next_ == end_ && !readOn()) bad(path_, "it ends too early");
+    const std::string_view taken(next_, std::min(static_cast<size_t>(end_ - next_), most));
+    next_ += taken.size();
+    return taken;
+  }
+  // The next bytes, which are left to be read; fewer than this many only at the end of the file.
+  std::string_view ahead(size_t count) {
+    while (static_cast<size_t>(end_ - next_) < count && readOn()) {
+    }
+    return {next_, std::min(static_cast<size_t>(end_ - next_), count)};
+  }
+  // The next line without its end; empty if the file ends before the line.
+  std::optional<std::string> line() {
+    std::string text;
+    while (!ahead(1).empty()) {
+      const auto c = static_cast<char>(next());
+      if (c == '\n') return text;
+      text += c;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  static constexpr size_t kBlock = 1 << 18;
+
+  bool readOn() {
+    if (descriptor_ < 0) return false;
+    const char* keep = next_;
+    const auto kept = end_ - keep;
+    const bool more = rad::readOn(descriptor_, block_.data(), kBlock, keep, next_, end_,
+                                  [&] { return rad::printable(path_, 4096); });
+    unread_ -= std::min(unread_, static_cast<size_t>(end_ - keep - kept));
+    return more;
+  }
+
+  const std::string& path_;
+  rad::OpenFile file_;
+  int descriptor_;  // -1 at the end of the file
+  std::string block_;
+  const char* next_;
+  const char* end_;
+  size_t unread_ = 0;  // bytes of the file behind the block
+};
 
 // "-Y 480 +X 640": the axis that changes slowest comes first.
 std::optional<Layout> readLayout(std::string_view line) {
@@ -82,18 +152,11 @@ std::optional<std::string_view> after(std::string_view name, std::string_view li
   return line.substr(name.size());
 }
 
-Header readHeader(std::string_view bytes, const std::string& path) {
+Header readHeader(Bytes& bytes) {
+  const std::string& path = bytes.path();
   Header header;
-  size_t at = 0;
-  const auto line = [&]() -> std::optional<std::string_view> {
-    const size_t end = bytes.find('\n', at);
-    if (end == std::string_view::npos) return std::nullopt;
-    const std::string_view text = bytes.substr(at, end - at);
-    at = end + 1;
-    return text;
-  };
   while (true) {
-    const auto text = line();
+    const auto text = bytes.line();
     if (!text) bad(path, "its header does not end");
     if (text->empty()) break;
     if (const auto format = after("FORMAT=", *text)) {
@@ -109,19 +172,11 @@ Header readHeader(std::string_view bytes, const std::string& path) {
     }
   }
   if (!(header.aspect > 1e-6 && header.aspect < 1e6)) bad(path, "pixel aspect ratio out of range");
-  const auto resolution = line();
+  const auto resolution = bytes.line();
   const auto layout = resolution ? readLayout(*resolution) : std::nullopt;
   if (!layout) bad(path, "no resolution");
   header.layout = *layout;
-  header.size = at;
   return header;
-}
-
-std::string readBytes(const std::string& path) {
-  const rad::OpenFile file(path);
-  if (file.descriptor() < 0)
-    throw rad::Error(fmt::format("{}: cannot open picture file", path), rad::Status::system);
-  return file.contents(path);
 }
 
 // The size of a picture whose shorter side is 1.
@@ -144,14 +199,16 @@ size_t placeOf(const Layout& layout, size_t row, size_t column) {
 // Reads the pixels of a file, of four bytes each: three mantissas and their shared exponent.
 class PixelReader {
  public:
-  PixelReader(std::string_view coded, const std::string& path) : left_(coded), path_(path) {}
+  explicit PixelReader(Bytes& bytes) : bytes_(bytes) {}
 
   // Reads the next row: either by channel, with run-length coding, or by pixel, with runs of the old code.
   void read(std::vector<Rgbe>& row) {
     const size_t count = row.size();
-    if (count >= 8 && count < 32768 && left_.size() >= 4 && left_.starts_with("\2\2") && byteAt(2) < 128) {
-      if ((static_cast<size_t>(byteAt(2)) << 8 | byteAt(3)) != count) bad(path_, "a row has another length");
-      left_.remove_prefix(4);
+    const std::string_view mark = count >= 8 && count < 32768 ? bytes_.ahead(4) : std::string_view();
+    if (mark.size() == 4 && mark.starts_with("\2\2") && static_cast<uint8_t>(mark[2]) < 128) {
+      if ((static_cast<size_t>(mark[2]) << 8 | static_cast<uint8_t>(mark[3])) != count)
+        bad(bytes_.path(), "a row has another length");
+      bytes_.take(mark.size());
       for (size_t channel = 0; channel < 4; ++channel) readChannel(row, channel);
     } else {
       readPixels(row);
@@ -159,21 +216,18 @@ class PixelReader {
   }
 
  private:
-  uint8_t byteAt(size_t i) const { return static_cast<uint8_t>(left_[i]); }
-  uint8_t next() {
-    if (left_.empty()) bad(path_, "it ends too early");
-    const uint8_t byte = byteAt(0);
-    left_.remove_prefix(1);
-    return byte;
-  }
-
   void readChannel(std::vector<Rgbe>& row, size_t channel) {
     for (size_t at = 0; at < row.size();) {
-      const uint8_t code = next();
+      const uint8_t code = bytes_.next();
       const size_t count = code > 128 ? code - 128u : code;
-      if (count > row.size() - at) bad(path_, "a run is too long");
-      const uint8_t repeated = code > 128 ? next() : 0;
-      for (const size_t end = at + count; at < end; ++at) row[at][channel] = code > 128 ? repeated : next();
+      if (count > row.size() - at) bad(bytes_.path(), "a run is too long");
+      const size_t end = at + count;
+      if (code > 128) {
+        for (const uint8_t repeated = bytes_.next(); at < end; ++at) row[at][channel] = repeated;
+      } else {
+        while (at < end)
+          for (const char byte : bytes_.take(end - at)) row[at++][channel] = static_cast<uint8_t>(byte);
+      }
     }
   }
 
@@ -183,28 +237,32 @@ class PixelReader {
     int shift = 0;
     for (size_t at = 0; at < row.size();) {
       Rgbe pixel;
-      for (uint8_t& byte : pixel) byte = next();
+      const std::string_view coded = bytes_.ahead(pixel.size());
+      if (coded.size() < pixel.size()) bad(bytes_.path(), "it ends too early");
+      std::memcpy(pixel.data(), coded.data(), pixel.size());
+      bytes_.take(pixel.size());
       if (pixel[0] != 1 || pixel[1] != 1 || pixel[2] != 1) {
         row[at++] = pixel;
         shift = 0;
         continue;
       }
       const size_t count = shift > 16 ? row.size() + 1 : static_cast<size_t>(pixel[3]) << shift;
-      if (at == 0 || count > row.size() - at) bad(path_, "a run is too long");
+      if (at == 0 || count > row.size() - at) bad(bytes_.path(), "a run is too long");
       for (const size_t end = at + count; at < end; ++at) row[at] = row[at - 1];
       shift += 8;
     }
   }
 
-  std::string_view left_;
-  const std::string& path_;
+  Bytes& bytes_;
 };
 
 // The step of the mantissas with an exponent.
 float stepOf(uint8_t exponent) {
-  static const std::array<float, 256> steps = [] {
-    std::array<float, 256> s{};
-    for (int e = 1; e < 256; ++e) s[e] = std::ldexp(1.f, e - 136);
+  static constexpr std::array<float, 256> steps = [] {
+    std::array<float, 256> s{};  // 2^(exponent - 136), but 0 for 0
+    s[136] = 1;
+    for (size_t e = 137; e < 256; ++e) s[e] = 2 * s[e - 1];
+    for (size_t e = 135; e > 0; --e) s[e] = s[e + 1] / 2;
     return s;
   }();
   return steps[exponent];
@@ -255,34 +313,27 @@ constexpr size_t kMostPixels = 65536;  // in a row or a column
 }  // namespace
 
 Picture Picture::read(const std::string& path) {
-  const std::string bytes = readBytes(path);
-  const Header header = readHeader(bytes, path);
-  const bool xyz = header.format == "32-bit_rle_xyze";
+  Bytes bytes(path);
+  const Header header = readHeader(bytes);
+  Picture picture;
+  picture.isXyz_ = header.format == "32-bit_rle_xyze";
   if (header.format == kSpectra) bad(path, "it has spectra, which only specpict reads");
-  if (!xyz && !header.format.empty() && header.format != "32-bit_rle_rgbe")
+  if (!picture.isXyz_ && !header.format.empty() && header.format != "32-bit_rle_rgbe")
     bad(path, "neither RGBE nor XYZE");
   const Layout& layout = header.layout;
   // Rejects sizes that the file is too short for. The new code packs at most 127 values of a channel into two
   // bytes, which is 16 pixels per byte. The old code could be denser, but no such files are known.
-  const size_t coded = bytes.size() - header.size;
   if (layout.rows > kMostPixels || layout.columns > kMostPixels ||
-      layout.rows * layout.columns > 32 * coded + 64)
+      layout.rows * layout.columns > 32 * bytes.left() + 64)
     bad(path, "it ends too early");
-  PixelReader reader(std::string_view(bytes).substr(header.size), path);
-  std::vector<Rgbe> pixels(layout.columns);
-
-  Picture picture;
+  PixelReader reader(bytes);
+  std::vector<Rgbe> row(layout.columns);
   picture.width_ = layout.columnsAlongX ? layout.columns : layout.rows;
   picture.height_ = layout.columnsAlongX ? layout.rows : layout.columns;
   picture.pixels_.resize(picture.width_ * picture.height_);
-  for (size_t row = 0; row < layout.rows; ++row) {
-    reader.read(pixels);
-    for (size_t column = 0; column < layout.columns; ++column) {
-      float rgb[3];
-      decode(pixels[column], rgb);
-      if (xyz) rgbOfXyz(rgb);
-      picture.pixels_[placeOf(layout, row, column)] = {rgb[0], rgb[1], rgb[2]};
-    }
+  for (size_t i = 0; i < layout.rows; ++i) {
+    reader.read(row);
+    for (size_t j = 0; j < layout.columns; ++j) picture.pixels_[placeOf(layout, i, j)] = row[j];
   }
   const Size size = sizeOf(picture.width_, picture.height_, header.aspect);
   picture.sizeX_ = size.x;
@@ -294,12 +345,17 @@ Color Picture::value(double x, double y) const {
   const Weights along = weightsAt(x / sizeX_ * static_cast<double>(width_ - 1), width_);
   const Weights up = weightsAt(y / sizeY_ * static_cast<double>(height_ - 1), height_);
   Color sum(0, 0, 0);
+  const auto addPixel = [&](size_t i, double weight) {
+    float rgb[3];
+    decode(pixels_[i], rgb);
+    if (isXyz_) rgbOfXyz(rgb);
+    sum += Color(weight * rgb[0], weight * rgb[1], weight * rgb[2]);
+  };
   const auto add = [&](size_t row, double weight) {
     if (std::abs(weight) <= 1e-6) return;
-    const Pixel* p = &pixels_[row * width_ + along.index];
-    const double a = weight * along.first, b = weight * along.second;
-    sum += Color(a * p[0].r, a * p[0].g, a * p[0].b);
-    if (width_ > 1) sum += Color(b * p[1].r, b * p[1].g, b * p[1].b);
+    const size_t first = row * width_ + along.index;
+    addPixel(first, weight * along.first);
+    if (width_ > 1) addPixel(first + 1, weight * along.second);
   };
   add(up.index, up.first);
   if (height_ > 1) add(up.index + 1, up.second);
@@ -307,8 +363,8 @@ Color Picture::value(double x, double y) const {
 }
 
 SpectralPicture SpectralPicture::read(const std::string& path) {
-  const std::string bytes = readBytes(path);
-  const Header header = readHeader(bytes, path);
+  Bytes bytes(path);
+  const Header header = readHeader(bytes);
   const auto [first, last] = header.wavelengths;
   if (!header.format.empty() && header.format != kSpectra)
     bad(path, fmt::format("expected spectra (FORMAT={})", kSpectra));
@@ -318,10 +374,9 @@ SpectralPicture SpectralPicture::read(const std::string& path) {
   if (!(isWavelength(first) && isWavelength(last) && first != last))
     bad(path, "expected four wavelengths (WAVELENGTH_SPLITS=)");
   const Layout& layout = header.layout;
-  const std::string_view coded = std::string_view(bytes).substr(header.size);
   const auto components = static_cast<size_t>(header.components), stride = components + 1;
   if (layout.rows > kMostPixels || layout.columns > kMostPixels ||
-      layout.rows * layout.columns > coded.size() / stride)
+      layout.rows * layout.columns > bytes.left() / stride)
     bad(path, "it ends too early");
 
   SpectralPicture picture;
@@ -332,9 +387,11 @@ SpectralPicture SpectralPicture::read(const std::string& path) {
   picture.last_ = last;
   picture.pixels_.resize(layout.rows * layout.columns * stride);
   for (size_t row = 0; row < layout.rows; ++row)
-    for (size_t column = 0; column < layout.columns; ++column)
-      std::copy_n(coded.begin() + static_cast<ptrdiff_t>((row * layout.columns + column) * stride), stride,
-                  picture.pixels_.begin() + static_cast<ptrdiff_t>(placeOf(layout, row, column) * stride));
+    for (size_t column = 0; column < layout.columns; ++column) {
+      uint8_t* const pixel = &picture.pixels_[placeOf(layout, row, column) * stride];
+      for (size_t i = 0; i < stride;)
+        for (const char byte : bytes.take(stride - i)) pixel[i++] = static_cast<uint8_t>(byte);
+    }
   const Size size = sizeOf(picture.width_, picture.height_, header.aspect);
   picture.sizeX_ = size.x;
   picture.sizeY_ = size.y;

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -8,6 +9,9 @@
 #include "base/color.h"
 
 namespace rsphere {
+
+// A pixel as RADIANCE's pictures have it: three mantissas and their shared exponent.
+using Rgbe = std::array<uint8_t, 4>;
 
 // A picture as patterns and mixtures use it: radiances over a rectangle whose shorter side is 1. Immutable.
 class Picture {
@@ -27,12 +31,10 @@ class Picture {
   Color value(double x, double y) const;
 
  private:
-  struct Pixel {
-    float r, g, b;
-  };
   size_t width_ = 0, height_ = 0;
   double sizeX_ = 1, sizeY_ = 1;
-  std::vector<Pixel> pixels_;  // the lowest row first, each from left to right
+  bool isXyz_ = false;
+  std::vector<Rgbe> pixels_;  // the lowest row first, each from left to right
 };
 
 // A picture with a spectrum in each pixel, as specpict uses it. Immutable.

@@ -1,6 +1,7 @@
 #include "shade/picture.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -9,6 +10,7 @@
 #include <cstdio>
 #include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "rad_parser/error.h"
@@ -55,7 +57,7 @@ std::string runLengthCoded(const std::vector<Code>& row) {
   for (size_t c = 0; c < 4; ++c)
     for (size_t i = 0; i < row.size();) {
       size_t n = 1;
-      while (i + n < row.size() && row[i + n][c] == row[i][c]) ++n;
+      while (n < 127 && i + n < row.size() && row[i + n][c] == row[i][c]) ++n;
       bytes += static_cast<char>(n > 1 ? 128 + n : 1);
       bytes += static_cast<char>(row[i][c]);
       i += n;
@@ -105,6 +107,45 @@ TEST(Picture, EveryOrderOfPixelsInEveryCode) {
       const PictureFile file(coded(order, runs));
       expectPixels(Picture::read(file.path()), std::string(order.slow) + order.fast);
     }
+}
+
+// Files are read in blocks of 256 kB, whose ends may be anywhere in a row.
+TEST(Picture, FilesOfManyBlocks) {
+  constexpr int kSize = 701;
+  const auto code = [](int x, int y) {
+    return Code{static_cast<uint8_t>(128 + (x * y) % 127), static_cast<uint8_t>(x),
+                static_cast<uint8_t>(y / 9), static_cast<uint8_t>(120 + (x ^ y) % 16)};
+  };
+  for (bool runs : {false, true}) {
+    std::string bytes = "#?RADIANCE\n\n+Y 701 +X 701\n";
+    for (int y = 0; y < kSize; ++y) {
+      std::vector<Code> row;
+      for (int x = 0; x < kSize; ++x) row.push_back(code(x, y));
+      bytes += runs ? runLengthCoded(row) : append(row);
+    }
+    const PictureFile file(bytes);
+    const Picture picture = Picture::read(file.path());
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x)
+        ASSERT_NEAR(picture.value(x / (kSize - 1.), y / (kSize - 1.)).z, channel(code(x, y), 2), 1e-6)
+            << "pixel " << x << ' ' << y << (runs ? " in runs" : "");
+  }
+}
+
+// The size of what comes through a pipe is unknown before it has been read.
+TEST(Picture, ComesThroughPipes) {
+  for (const size_t length : {size_t{20}, std::string::npos}) {
+    const PictureFile pipe("");
+    std::remove(pipe.path().c_str());
+    ASSERT_EQ(mkfifo(pipe.path().c_str(), 0600), 0);
+    std::thread writer(
+        [&] { std::ofstream(pipe.path(), std::ios::binary) << coded(kOrders[0], true).substr(0, length); });
+    if (length == std::string::npos)
+      expectPixels(Picture::read(pipe.path()), "pipe");
+    else
+      EXPECT_THROW(Picture::read(pipe.path()), rad::Error);
+    writer.join();
+  }
 }
 
 // Pictures of the first years have neither magic number nor format, and end in ".pic" as others do.
