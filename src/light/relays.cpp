@@ -5,12 +5,15 @@
 
 #include "base/constants.h"
 #include "base/overloaded.h"
+#include "light/relay_tree.h"
 #include "shade/scattering.h"
 
 namespace rsphere {
 namespace {
 
 constexpr double kTiny = 1e-6;  // world units, cosines: RADIANCE's own figure for "in the plane"
+// Bounds of relays are enlarged by this share of their distance, so that rounding loses no relay in them.
+constexpr double kRounding = 1e-9;
 
 // An affine map that leaves the points of a relay's plane fixed: p goes to p + height(p) * shift. It
 // preserves volume if shift . normal is 0 (a shear) or -2 (a shear combined with a reflection).
@@ -25,13 +28,17 @@ struct Projection {
   V3d vector(const V3d& v) const { return v + v.dot(normal) * shift; }
 };
 
+struct Ball {
+  V3d center{0, 0, 0};
+  double radius = 0;
+};
+
 struct Relay {
   SurfaceId surface;
   ModifierId modifier;  // of the material
   V3d normal;
-  double offset = 0;    // normal . p for the points p of the plane
-  V3d center{0, 0, 0};  // of a sphere around it
-  double radius = 0;
+  double offset = 0;         // normal . p for the points p of the plane
+  Ball ball;                 // around it
   std::vector<V3d> corners;  // of the polygon, or of the square around the ring
 };
 
@@ -74,12 +81,22 @@ class Images {
          ById<LightId, LightSource>& sources)
       : scene_(scene), functions_(functions), sources_(sources) {
     for (const SurfaceId i : scene.outermostIds()) addRelay(i, warn);
+    std::vector<RelayTree::Bounds> bounds;
+    for (const Relay& relay : relays_) {
+      RelayTree::Bounds& b = bounds.emplace_back();
+      for (const V3d& corner : relay.corners) b.corners.extendBy(corner);
+      b.centers.extendBy(relay.ball.center);
+      b.radius = relay.ball.radius;
+    }
+    tree_ = RelayTree(bounds);
   }
 
   // Adds the images of one source, and recursively their images, in sequences of up to `relays` relays.
   void addImages(LightId source, int relays) {
     if (relays <= 0) return;
-    for (size_t r = 0; r < relays_.size(); ++r) {
+    std::vector<uint32_t> reached;
+    tree_.find([&](const RelayTree::Bounds& bounds) { return mayLight(source, bounds); }, reached);
+    for (const uint32_t r : reached) {
       // A relay makes no image of its own images, nor of light that its own surface emits.
       if (relays_[r].surface == sources_[source].surface) continue;
       if (!lights(source, relays_[r])) continue;
@@ -116,18 +133,18 @@ class Images {
                 const auto vertices =
                     std::span(scene_.vertices).subspan(polygon.firstVertex, polygon.vertices);
                 relay.corners.assign(vertices.begin(), vertices.end());
-                relay.center = centerOf(polygon, scene_.vertices);
+                relay.ball.center = centerOf(polygon, scene_.vertices);
                 for (const V3d& v : vertices)
-                  relay.radius = std::max(relay.radius, (v - relay.center).length());
+                  relay.ball.radius = std::max(relay.ball.radius, (v - relay.ball.center).length());
               },
               [&](const Ring& ring) {
-                relay.center = ring.center;
-                relay.radius = ring.outer;
+                relay.ball.center = ring.center;
+                relay.ball.radius = ring.outer;
                 V3d x, y;
                 frame(relay.normal, x, y);
-                for (const double a : {-relay.radius, relay.radius})
-                  for (const double b : {-relay.radius, relay.radius})
-                    relay.corners.push_back(relay.center + a * x + b * y);
+                for (const double a : {-relay.ball.radius, relay.ball.radius})
+                  for (const double b : {-relay.ball.radius, relay.ball.radius})
+                    relay.corners.push_back(relay.ball.center + a * x + b * y);
               },
               [](const OneOf<Sphere, Cone, Distant> auto&) {},  // not plane
               [](const NestedShape auto&) {},
@@ -160,7 +177,7 @@ class Images {
   // then appears to come from the center of the image.
   std::optional<Projection> projectByPrism(const LightSource& source, const Relay& relay, int image) {
     FunctionPoint at;
-    at.point = relay.center + (relay.offset - relay.center.dot(relay.normal)) * relay.normal;
+    at.point = relay.ball.center + (relay.offset - relay.ball.center.dot(relay.normal)) * relay.normal;
     const V3d way = source.distant ? -source.center : at.point - source.center;
     at.distance = at.shadowDistance = way.length();
     if (!(at.distance > 0)) return std::nullopt;
@@ -179,46 +196,72 @@ class Images {
                       false};
   }
 
+  // The side of its last relay on which the light of a virtual source leaves: the points with
+  // away . p > offset.
+  struct Side {
+    V3d away;
+    double offset;
+  };
+  static Side sideLit(const LightSource& source, const Relay& last) {
+    // It is opposite to the image.
+    double side = source.center.dot(last.normal);
+    if (!source.distant) side -= last.offset;
+    return side > 0 ? Side{-last.normal, -last.offset} : Side{last.normal, last.offset};
+  }
+
   // Whether light of a source can reach the relay at all.
   bool lights(LightId index, const Relay& relay) const {
     const LightSource& source = sources_[index];
     if (source.isVirtual()) {
-      // Its light leaves the preceding relay on the side opposite to the image.
       const Relay& last = relays_[relayOf_[index]];
-      double side = source.center.dot(last.normal);
-      if (!source.distant) side -= last.offset;
-      const V3d away = side > 0 ? -last.normal : last.normal;
-      const double offset = side > 0 ? -last.offset : last.offset;
+      const auto [away, offset] = sideLit(source, last);
       if (mostOver(relay, [&](const V3d& p) { return p.dot(away) - offset; }) <= kTiny) return false;
-      if (!meetsBeam(source, last, relay)) return false;
+      if (!meetsBeam(source, last, relay.ball)) return false;
     }
     if (source.distant) return true;
     // As in RADIANCE, the reach is compared with the distance to the relay's center.
-    if (source.reach > 0 && (relay.center - source.center).length() > source.reach) return false;
-    if (source.spot && !meetsCone(source, source.spot->aim, 1 - source.spot->solidAngle / (2 * kPi), relay))
+    if (source.reach > 0 && (relay.ball.center - source.center).length() > source.reach) return false;
+    if (source.spot &&
+        !meetsCone(source, source.spot->aim, 1 - source.spot->solidAngle / (2 * kPi), relay.ball))
       return false;
     if (!source.isPlane()) return true;
     return mostOver(relay, [&](const V3d& p) { return (p - source.center).dot(source.normal); }) > kTiny;
   }
 
-  static bool meetsBeam(const LightSource& source, const Relay& last, const Relay& relay) {
-    if (source.distant) {
-      const V3d between = relay.center - last.center;
-      // A source as wide as 120 degrees is taken to light every relay. That costs tests, but no light.
-      if (source.cosHalfAngle <= .5) return true;
-      const double distance = between.length() + last.radius + relay.radius;
-      const double spread = distance * source.sinHalfAngle / source.cosHalfAngle;
-      const V3d aside = between - between.dot(source.center) * source.center;
-      return aside.length() <= last.radius + relay.radius + spread;
-    }
-    return meetsCone(source, source.beam, source.cosBeam, relay);
+  // False only if lights() is false of every relay within the bounds.
+  bool mayLight(LightId index, const RelayTree::Bounds& bounds) const {
+    const LightSource& source = sources_[index];
+    if (!source.isVirtual()) return true;
+    const Relay& last = relays_[relayOf_[index]];
+    const auto [away, offset] = sideLit(source, last);
+    const V3d middle = bounds.corners.center(), half = bounds.corners.size() / 2;
+    const V3d span(std::abs(away.x), std::abs(away.y), std::abs(away.z));
+    const double rounding = kRounding * (middle.length() + half.length() + std::abs(offset));
+    if (middle.dot(away) + half.dot(span) - offset + rounding <= kTiny) return false;
+    Ball ball{bounds.centers.center(), bounds.centers.size().length() / 2 + bounds.radius};
+    ball.radius += kRounding * (ball.center.length() + ball.radius + last.ball.center.length() +
+                                (source.distant ? 0 : source.center.length()));
+    return meetsBeam(source, last, ball);
   }
 
-  // Whether the relay can be hit by rays in a cone around the axis. The cone starts at the source's center;
-  // for rays from the rest of the source, the relay is enlarged by the source's radius.
-  static bool meetsCone(const LightSource& source, const V3d& axis, double cosHalf, const Relay& relay) {
-    const V3d towards = relay.center - source.center;
-    const double distance = towards.length(), radius = relay.radius + source.radius;
+  static bool meetsBeam(const LightSource& source, const Relay& last, const Ball& ball) {
+    if (source.distant) {
+      const V3d between = ball.center - last.ball.center;
+      // A source as wide as 120 degrees is taken to light every relay. That costs tests, but no light.
+      if (source.cosHalfAngle <= .5) return true;
+      const double distance = between.length() + last.ball.radius + ball.radius;
+      const double spread = distance * source.sinHalfAngle / source.cosHalfAngle;
+      const V3d aside = between - between.dot(source.center) * source.center;
+      return aside.length() <= last.ball.radius + ball.radius + spread;
+    }
+    return meetsCone(source, source.beam, source.cosBeam, ball);
+  }
+
+  // Whether the ball can be hit by rays in a cone around the axis. The cone starts at the source's center;
+  // for rays from the rest of the source, the ball is enlarged by the source's radius.
+  static bool meetsCone(const LightSource& source, const V3d& axis, double cosHalf, const Ball& ball) {
+    const V3d towards = ball.center - source.center;
+    const double distance = towards.length(), radius = ball.radius + source.radius;
     if (cosHalf <= 0 || distance <= radius) return true;
     const double angle = std::acos(std::clamp(towards.dot(axis) / distance, -1., 1.));
     return angle <= std::acos(cosHalf) + std::asin(radius / distance) + kTiny;
@@ -243,11 +286,11 @@ class Images {
       return image;
     }
     image.center = projection.point(source.center);
-    const V3d towards = relay.center - image.center;
+    const V3d towards = relay.ball.center - image.center;
     const double distance = towards.length();
     // As seen from the image's center, every point on a ray from the image through the relay lies within this
     // angle of the relay's center, however far the ray goes on.
-    const double sine = (relay.radius + source.radius) / distance;
+    const double sine = (relay.ball.radius + source.radius) / distance;
     image.cosBeam = -1;
     if (distance > 0 && sine < 1) {
       image.beam = towards / distance;
@@ -261,6 +304,7 @@ class Images {
   FunctionScratch scratch_;
   ById<LightId, LightSource>& sources_;
   std::vector<Relay> relays_;
+  RelayTree tree_{{}};
   ById<LightId, size_t> relayOf_;  // for a virtual one, the index in relays_ of its last relay
 };
 

@@ -1,0 +1,62 @@
+#pragma once
+// Finds the relays (relays.h) that a beam of light may reach, in a time that grows with the logarithm of
+// their number.
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "scene/shape.h"
+
+namespace rsphere {
+
+class RelayTree {
+ public:
+  // Bounds of a relay, or of several: of their corners, of the centers of the spheres around each, and the
+  // largest radius of these spheres (world units).
+  struct Bounds {
+    Box3d corners, centers;
+    double radius = 0;
+
+    void extendBy(const Bounds& other);
+  };
+
+  explicit RelayTree(const std::vector<Bounds>& relays);
+
+  // Sets found to the numbers of some relays, in ascending order: all those whose bounds may be reached, and
+  // some others. mayReach(Bounds): whether light may reach something within the bounds; it must be true of
+  // bounds that contain others of which it is true.
+  template <class MayReach>
+  void find(const MayReach& mayReach, std::vector<uint32_t>& found) const {
+    found.clear();
+    if (!nodes_.empty()) find(0, mayReach, found);
+    std::ranges::sort(found);
+  }
+
+ private:
+  static constexpr uint32_t kFewest = 4;  // relays that are not divided further
+
+  struct Node {
+    Bounds bounds;
+    uint32_t begin = 0, end = 0;  // in numbers_
+    uint32_t second = 0;          // the second of its two parts, the first of which follows it; 0: none
+  };
+
+  uint32_t build(const std::vector<Bounds>& relays, uint32_t begin, uint32_t end);
+
+  template <class MayReach>
+  void find(uint32_t at, const MayReach& mayReach, std::vector<uint32_t>& found) const {
+    const Node& node = nodes_[at];
+    if (!mayReach(node.bounds)) return;
+    if (node.second == 0) {
+      found.insert(found.end(), numbers_.begin() + node.begin, numbers_.begin() + node.end);
+      return;
+    }
+    find(at + 1, mayReach, found);
+    find(node.second, mayReach, found);
+  }
+
+  std::vector<Node> nodes_;
+  std::vector<uint32_t> numbers_;
+};
+
+}  // namespace rsphere
