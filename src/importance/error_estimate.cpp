@@ -107,4 +107,24 @@ Variance partsVariance(std::span<const SeenSources::Sample> samples, const Spect
   return edges;
 }
 
+Variance choiceVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling) {
+  struct Chosen {
+    Irradiance found;  // of the image, with the weight of those that were not chosen
+    double chance;
+  };
+  std::vector<Chosen> chosen;
+  for (size_t i = 0; i < samples.size(); ++i) {
+    if (!(samples[i].chance < 1)) continue;
+    if (i == 0 || samples[i].image != samples[i - 1].image) chosen.push_back({{}, samples[i].chance});
+    chosen.back().found += irradianceFrom(samples[i].direction.value, samples[i].direction.solidAngle);
+  }
+  Variance sum;
+  // An image that is nearly always chosen varies little.
+  for (size_t i = 1; i < chosen.size(); ++i)
+    sum += Variance::of(chosen[i].found - chosen[i - 1].found, sampling) *
+           (.5 - .25 * (chosen[i].chance + chosen[i - 1].chance));
+  const auto n = static_cast<double>(chosen.size());
+  return chosen.size() > 1 ? sum * (n / (n - 1)) : sum;
+}
+
 }  // namespace rsphere

@@ -56,4 +56,9 @@ Variance spreadVariance(std::span<const DirectionSample> samples, const Spectral
 Variance partsVariance(std::span<const SeenSources::Sample> samples,
                        const SpectralSampling* sampling = nullptr);
 
+// The same for the choice of images that are sampled by chance, because there are more images than samples:
+// from differences between images that are chosen in succession. samples: of all images.
+Variance choiceVariance(std::span<const SeenSources::Sample> samples,
+                        const SpectralSampling* sampling = nullptr);
+
 }  // namespace rsphere

@@ -210,7 +210,10 @@ std::vector<SeenSources::Sample> SeenSources::sample(const V3d& point, const std
     }
     const size_t first = samples.size();
     sampleImage(point, image, rays, solidAngle, random.bits(), tracer, samples);
-    for (size_t k = first; k < samples.size(); ++k) samples[k].image = i;
+    for (size_t k = first; k < samples.size(); ++k) {
+      samples[k].image = i;
+      samples[k].chance = std::min(image.rays, 1.);
+    }
   }
   return samples;
 }

@@ -56,8 +56,9 @@ class SeenSources {
     double part = 0;            // its solid angle if nothing hid the source, sr
     int aimed = 1, clear = 1;   // shadow rays to its cell, and those that reached the source
     Ray ray;
-    size_t image = 0;  // index in images
-    size_t row = 0;    // of the image's grid
+    size_t image = 0;   // index in images
+    size_t row = 0;     // of the image's grid
+    double chance = 1;  // that the image is sampled; below 1 for some of many
   };
 
   // Directions to the images, each with the solid angle that it represents and the radiance along it; one in

@@ -263,6 +263,7 @@ Variance SilhouetteWeights::varianceOf(const Others& others,
     while (next < toImages.size() && toImages[next].image == toImages[i].image) ++next;
     variance += partsVariance(toImages.subspan(i, next - i), base_.sampling);
   }
+  variance += choiceVariance(toImages, base_.sampling);
   return variance;
 }
 

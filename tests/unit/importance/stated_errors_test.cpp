@@ -1,5 +1,6 @@
 // Whether the errors that answers state hold in the tails: where few paths bring much of the light, an answer
 // that has missed them must not be sure of itself.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +8,8 @@
 #include <vector>
 
 #include "rad_parser/scene_file.h"
+#include "scene/random.h"
+#include "tests/unit/support/scene_of.h"
 #include "tests/unit/support/sphere_setting.h"
 #include "tests/unit/support/statistics.h"
 
@@ -88,6 +91,32 @@ TEST(StatedErrors, HoldInTheTails) {
   EXPECT_GT(spoiled.trueOverStated, 1.25);
   EXPECT_GT(spoiled.beyondThree, .02);
   EXPECT_GT(spoiled.beyondSix, .001);
+}
+
+// More lamps than directions to them: some are chosen by chance, and what the choice changes is an error.
+TEST(StatedErrors, OfLampsThatAreChosenByChance) {
+  std::string text = "void light lamp 0 0 3 20 20 20\n";
+  Random random(3);
+  for (int i = 0; i < 600; ++i) {
+    const double x = 6 * random.uniform(), y = 5 * random.uniform(), z = 2 + random.uniform();
+    text += fmt::format("lamp sphere l 0 0 4 {:.4f} {:.4f} {:.4f} .005\n", x, y, z);
+  }
+  const SphereSetting lamps(sceneOf(text));
+  SphereOptions o = lamps.options.sphere;
+  o.baseDirections = 512;
+  const V3d points[] = {V3d(2, 2, 1.2), V3d(4, 3, 1), V3d(1, 1, .5), V3d(3, 2.5, 1.5), V3d(5, 4, 0)};
+  std::vector<std::vector<PointAnswer>> answers(std::size(points));
+  for (o.rotation = 1; o.rotation <= 40; ++o.rotation) {
+    const SphereEstimator estimator(*lamps.transport, o, true);
+    SphereEstimator::Workspace workspace(estimator);
+    for (size_t i = 0; i < std::size(points); ++i)
+      answers[i].push_back(estimator.estimate(points[i], workspace));
+  }
+  const Honesty honest = honestyOf(answers, 1), spoiled = honestyOf(answers, .5);
+  EXPECT_GT(honest.trueOverStated, .7);
+  EXPECT_LT(honest.trueOverStated, 1.35);
+  EXPECT_LT(honest.beyondThree, .05);
+  EXPECT_GT(spoiled.trueOverStated, 1.35) << "would not see half the error";
 }
 
 }  // namespace
