@@ -17,10 +17,6 @@ constexpr double kRounding = 4.5e-16;
 // Whether a root is neither at the origin nor too far. Callers test roots in ascending order.
 bool within(double t, double farthest) { return t > kSamePlace && t <= farthest; }
 
-}  // namespace
-
-namespace {
-
 // The normal times twice the area. Relative to the first vertex, so that the sum keeps its accuracy far from
 // the origin.
 V3d normalByTwiceTheArea(std::span<const V3d> vertices) {
