@@ -20,6 +20,12 @@ Placement Scene::placementOf(const PlacementPath& path) const {
   return all;
 }
 
+double Scene::area() const {
+  double area = 0;
+  for (const Surface& surface : outermost()) area += areaOf(surface.shape, vertices);
+  return area;
+}
+
 std::string_view Scene::modifierName(const Surface& s) const { return s.finish.name; }
 
 std::string Scene::surfaceName(const Surface& s) const {

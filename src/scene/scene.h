@@ -37,7 +37,7 @@ struct Modifier {
   Content content;
   ModifierId next;
   PrimitiveId primitive;     // in Scene::description; of the target if it was an alias
-  rad::Primitive described;  // the same
+  rad::Primitive described;  // that primitive, so that no ray has to decode it
 };
 
 // Surfaces that share one coordinate system and are traced together: the scene itself, or an octree, which is
@@ -72,6 +72,8 @@ struct Scene {
   IdRange<SurfaceId> outermostIds() const {
     return groups.empty() ? IdRange<SurfaceId>() : groups[0].surfaces;
   }
+  // Of one side of each of these (square world units). Instances and meshes count as 0.
+  double area() const;
   // The composition of all placements on the path; the identity for an empty path.
   Placement placementOf(const PlacementPath& path) const;
   // Whether the surface has a modifier. An instance or a mesh with a modifier applies it to all

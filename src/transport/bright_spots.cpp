@@ -156,10 +156,8 @@ BrightSpots::BrightSpots(const Scene& scene, const Tracer& tracer, const LightSo
         sunlit_.push_back(node.sunlit());
     }
   }
-  double area = 0;
-  for (const Surface& s : scene.outermost()) area += areaOf(s.shape, scene.vertices);
   std::vector<Particle> everywhere = particles(scene, tracer, lights);
-  find(everywhere, area, Tuning::kMost, Tuning::kBrighter, Tuning::kLeastWorth);
+  find(everywhere, scene.area(), Tuning::kMost, Tuning::kBrighter, Tuning::kLeastWorth);
 }
 
 std::vector<BrightSpots::Node> BrightSpots::find(std::span<Particle> all, double area, size_t most,

@@ -14,6 +14,13 @@ V3d sentFrom(const V3d& normal, Random& random) {
   return diffuseDirection(normal, u1, u2);
 }
 
+double powerOf(const Scene& scene, const LightSource& light, double reach) {
+  const Surface& surface = scene.surfaces[light.surface];
+  const auto* distant = surface.shape.as<Distant>();
+  return brightness(sourceRadiance(scene, surface)) * kPi *
+         (distant ? distant->solidAngle * reach * reach : areaOf(surface.shape, scene.vertices));
+}
+
 void sendParticles(const Scene& scene, const Tracer& tracer, const LightSources& lights, double count,
                    SentParticle each) {
   const V3d middle = tracer.bounds().center();
@@ -26,11 +33,7 @@ void sendParticles(const Scene& scene, const Tracer& tracer, const LightSources&
   double all = 0;
   for (const LightSource& light : lights.all()) {
     if (light.isVirtual()) continue;
-    const Surface& surface = scene.surfaces[light.surface];
-    const auto* distant = surface.shape.as<Distant>();
-    const double power =
-        brightness(sourceRadiance(scene, surface)) * kPi *
-        (distant ? distant->solidAngle * reach * reach : areaOf(surface.shape, scene.vertices));
+    const double power = powerOf(scene, light, reach);
     if (!(power > 0)) continue;
     senders.push_back({light.surface, power});
     all += power;

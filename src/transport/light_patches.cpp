@@ -58,9 +58,7 @@ LightPatches::LightPatches(const Transport& transport) {
                 [&](const V3d& origin, const V3d& direction, double power, const Surface&, Random& random) {
                   follow(origin, direction, power, random);
                 });
-  double surfaces = 0;
-  for (const Surface& surface : scene.outermost()) surfaces += areaOf(surface.shape, scene.vertices);
-  if (!patches_.empty()) area_ = surfaces / static_cast<double>(patches_.size());
+  if (!patches_.empty()) area_ = scene.area() / static_cast<double>(patches_.size());
 }
 
 }  // namespace rsphere

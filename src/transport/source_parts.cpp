@@ -5,26 +5,13 @@
 
 #include "base/constants.h"
 #include "scene/frame.h"
+#include "transport/light_particles.h"
 #include "transport/tuning.h"
 
 namespace rsphere {
 namespace {
 
 using Tuning = tuning::HighlightParts;
-
-// The light that all sources send out (W, of brightness). reach: of the scene (world units), within which
-// distant sources shine.
-double powerOf(const Scene& scene, const LightSources& lights, double reach) {
-  double power = 0;
-  for (const LightSource& light : lights.all()) {
-    if (light.isVirtual()) continue;
-    const Surface& surface = scene.surfaces[light.surface];
-    const auto* distant = surface.shape.as<Distant>();
-    power += brightness(sourceRadiance(scene, surface)) * kPi *
-             (distant ? distant->solidAngle * reach * reach : areaOf(surface.shape, scene.vertices));
-  }
-  return power;
-}
 
 std::vector<SourcePart> partsOf(const LightSource& source, const V3d& from) {
   const V3d way = source.distant ? source.center : source.center - from;
@@ -104,11 +91,12 @@ bool seesPart(const Tracer& tracer, const LightingPart& lighting, const V3d& fro
 
 double usualRadiance(const Scene& scene, const Tracer& tracer, const LightSources& lights) {
   const V3d size = tracer.bounds().size();
-  double area = 0;
-  for (const Surface& s : scene.outermost()) area += areaOf(s.shape, scene.vertices);
   // Surfaces in octrees and meshes are not looked at.
-  area = std::max(area, 2 * (size.x * size.y + size.y * size.z + size.z * size.x));
-  return Tuning::kMeanReflectance * powerOf(scene, lights, size.length() / 2) / (kPi * area);
+  const double area = std::max(scene.area(), 2 * (size.x * size.y + size.y * size.z + size.z * size.x));
+  double power = 0;
+  for (const LightSource& light : lights.all())
+    if (!light.isVirtual()) power += powerOf(scene, light, size.length() / 2);
+  return Tuning::kMeanReflectance * power / (kPi * area);
 }
 
 }  // namespace rsphere
