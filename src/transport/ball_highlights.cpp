@@ -22,24 +22,11 @@ HighlightLobe BallHighlights::lobeOf(const Ball& ball, const SourcePart& part, c
 
 BallHighlights::BallHighlights(const Scene& scene, const Tracer& tracer, const LightSources& lights,
                                double least) {
-  struct Asked {
-    const Sphere* sphere;
-    const Opaque* material;
-  };
-  std::vector<Asked> asked;
-  for (const Surface& surface : scene.outermost()) {
-    const auto* sphere = surface.shape.as<Sphere>();
-    if (!sphere || sphere->inward) continue;
-    if (const Opaque* material = roughReflector(scene, surface)) asked.push_back({sphere, material});
-  }
-  std::stable_sort(asked.begin(), asked.end(),
-                   [](const Asked& a, const Asked& b) { return a.sphere->radius > b.sphere->radius; });
-  if (asked.size() > Tuning::kMostAsked) asked.resize(Tuning::kMostAsked);
-  for (const Asked& a : asked)
-    if (Ball ball = lit(*a.sphere, *a.material, scene, tracer, lights); ball.intensity > 0)
+  const auto size = [](const Sphere& sphere) { return sphere.inward ? 0 : sphere.radius; };
+  for (const auto& r : largestReflectors<Sphere>(scene, Tuning::kMostAsked, size))
+    if (Ball ball = lit(*r.shape, *r.material, scene, tracer, lights); ball.intensity > 0)
       balls_.push_back(std::move(ball));
-  std::stable_sort(balls_.begin(), balls_.end(),
-                   [](const Ball& a, const Ball& b) { return a.intensity > b.intensity; });
+  keepLargest(balls_, balls_.size(), [](const Ball& ball) { return ball.intensity; });
   std::vector<ReachGrid::Reach> reaches;
   for (const Ball& ball : balls_)
     reaches.push_back(
@@ -65,9 +52,7 @@ BallHighlights::Ball BallHighlights::lit(const Sphere& sphere, const Opaque& mat
       const double intensity = part.radiance * reflectance * solidAngle * sphere.radius * sphere.radius / 4;
       if (intensity > 0) candidates.push_back({part, solidAngle, intensity});
     }
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.intensity > b.intensity; });
-  if (candidates.size() > Tuning::kMostOfBall) candidates.resize(Tuning::kMostOfBall);
+  keepLargest(candidates, Tuning::kMostOfBall, [](const Candidate& c) { return c.intensity; });
   for (const Candidate& c : candidates) {
     const V3d out = c.part.part.towards(sphere.center).normalized();
     if (!seesPart(tracer, c.part, sphere.center + (sphere.radius + 2 * kSamePlace) * out)) continue;
@@ -86,9 +71,7 @@ BallHighlights::Ball BallHighlights::lit(const Sphere& sphere, const Opaque& mat
 // As from a small source. From nearby, an image is as far behind the ball's surface as the focus, half its
 // radius.
 void BallHighlights::aim(const V3d& point, const V3d& front, double least, Aim& aim) const {
-  aim.count = 0;
-  aim.mean = 0;
-  double sum = 0;
+  aim.clear();
   for (const uint32_t number : near_.at(point)) {
     const Ball& ball = balls_[number];
     const V3d way = ball.sphere.center - point;
@@ -97,16 +80,14 @@ void BallHighlights::aim(const V3d& point, const V3d& front, double least, Aim& 
     const double cosine = std::clamp((way.dot(front) + ball.sphere.radius) / distance, 0., 1.);
     const double toImage = distance - ball.sphere.radius / 2, falloff = cosine / (toImage * toImage);
     if (!(ball.hot * falloff > least)) continue;
-    aim.ball[aim.count] = number;
     aim.way[aim.count] = way;
     // Less than it is, by more than rounding.
     aim.tangent2[aim.count] =
         (1 - 1e-12) * distance * distance - 1.0001 * ball.sphere.radius * ball.sphere.radius;
-    aim.sum[aim.count++] = sum += ball.intensity * falloff;
+    aim.add(number, ball.intensity * falloff);
     if (aim.count == Tuning::kMostAimed) break;
   }
-  aim.point = point;
-  aim.mean = sum / kPi;
+  aim.finish(point);
 }
 
 // Whether a ray meets a ball, and the normal there.
@@ -136,11 +117,9 @@ bool BallHighlights::isNear(const Ball& ball, const SourcePart& part, const V3d&
 }
 
 V3d BallHighlights::sample(const Aim& aim, double u1, double u2, double u3) const {
-  const double due = u1 * aim.sum[aim.count - 1];
-  size_t i = 0;
-  while (i + 1 < aim.count && !(due < aim.sum[i])) ++i;
-  const Ball& ball = balls_[aim.ball[i]];
-  const double before = i > 0 ? aim.sum[i - 1] : 0, share = (due - before) / (aim.sum[i] - before);
+  const size_t i = aim.chosen(u1);
+  const Ball& ball = balls_[aim.surface[i]];
+  const double share = (u1 * aim.before(aim.count) - aim.before(i)) / (aim.upTo[i] - aim.before(i));
   size_t k = 0;
   while (k + 1 < ball.parts.size() && !(share < ball.parts[k].upTo)) ++k;
   const SourcePart& part = ball.parts[k].source;
@@ -151,14 +130,14 @@ V3d BallHighlights::sample(const Aim& aim, double u1, double u2, double u3) cons
 }
 
 double BallHighlights::density(const Aim& aim, const V3d& direction) const {
-  double sum = 0, upTo = 0;
+  double sum = 0;
   for (size_t i = 0; i < aim.count; ++i) {
-    const double chance = aim.sum[i] - upTo, along = aim.way[i].dot(direction);
-    upTo = aim.sum[i];
+    const double along = aim.way[i].dot(direction);
     if (!(along > 0 && along * along > aim.tangent2[i])) continue;  // saves most of the work
-    const Ball& ball = balls_[aim.ball[i]];
+    const Ball& ball = balls_[aim.surface[i]];
     V3d normal;
     if (!meets(ball, aim.point, direction, normal)) continue;
+    const double chance = aim.upTo[i] - aim.before(i);
     double before = 0;
     for (const Part& part : ball.parts) {
       const double share = part.upTo - before;
@@ -167,7 +146,7 @@ double BallHighlights::density(const Aim& aim, const V3d& direction) const {
       sum += chance * share * lobeOf(ball, part.source, aim.point).density(direction);
     }
   }
-  return aim.count > 0 ? sum / upTo : 0;
+  return aim.count > 0 ? sum / aim.before(aim.count) : 0;
 }
 
 }  // namespace rsphere

@@ -9,13 +9,7 @@
 //
 // Smooth balls have none: an indirect ray that a smooth surface mirrors to a light source adds nothing, as in
 // rtrace.
-#include <array>
-#include <cstdint>
-#include <vector>
-
-#include "light/sources.h"
-#include "trace/tracer.h"
-#include "transport/highlight_lobe.h"
+#include "transport/highlight_choice.h"
 #include "transport/reach_grid.h"
 #include "transport/tuning.h"
 
@@ -23,35 +17,27 @@ namespace rsphere {
 
 class BallHighlights {
  public:
-  // Uses the spheres of plastic or metal that belong to the scene itself, not to octrees in it. Shadow rays
-  // find which sources each of them sees. Keeps no references. least: nothing is aimed at where a ball's
-  // highlights add less than this to the variance, as for aim(); above 0.
+  // Uses spheres of plastic or metal. Shadow rays find which sources each of them sees. Keeps no references.
+  // least: nothing is aimed at where a ball's highlights add less than this to the variance, as for aim();
+  // above 0.
   BallHighlights(const Scene& scene, const Tracer& tracer, const LightSources& lights, double least);
 
   bool empty() const { return balls_.empty(); }
   static constexpr size_t kRoom = tuning::BallHighlights::kMostAimedRoom;
 
-  // The sampling distribution for a point of a diffuse surface.
-  struct Aim {
-    double mean = 0;   // radiance over the hemisphere from these highlights, W/sr/m2, without occlusion
-    size_t count = 0;  // of balls that are aimed at; below, their numbers
-    V3d point{0, 0, 0};
-    std::array<uint32_t, kRoom> ball;
+  // By balls.
+  struct Aim : HighlightAim<kRoom> {
     std::array<V3d, kRoom> way;  // to their centers (world units)
     // The square of the distance along a tangent, at most (square world units).
     std::array<double, kRoom> tangent2;
-    std::array<double, kRoom> sum;  // cumulative contributions
   };
 
   // front: unit normal. least: balls are left out whose highlights are estimated to add less than this to the
   // variance of the radiance from a direction that is chosen by projected solid angle (square of W/sr/m2).
   void aim(const V3d& point, const V3d& front, double least, Aim& aim) const;
 
-  // One of the aimed directions (unit), for uniform u1, u2, u3 in [0, 1); 0 if the one that was drawn misses
-  // the highlight. REQUIRES aim.mean > 0.
+  // As in Highlights (highlights.h).
   V3d sample(const Aim& aim, double u1, double u2, double u3) const;
-
-  // The density of aimed directions, per sr. It integrates to less than 1 by those that miss.
   double density(const Aim& aim, const V3d& direction) const;
 
  private:

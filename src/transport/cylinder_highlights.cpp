@@ -31,25 +31,13 @@ double shareWithin(double low, double high, double mean, double variance) {
 
 CylinderHighlights::CylinderHighlights(const Scene& scene, const Tracer& tracer, const LightSources& lights,
                                        double least) {
-  struct Asked {
-    const Cone* shape;
-    const Opaque* material;
+  const auto size = [](const Cone& cone) {
+    return cone.radius0 == cone.radius1 ? cone.radius0 * cone.length : 0;
   };
-  std::vector<Asked> asked;
-  for (const Surface& surface : scene.outermost()) {
-    const auto* shape = surface.shape.as<Cone>();
-    if (!shape || shape->radius0 != shape->radius1 || !(shape->length > 0)) continue;
-    if (const Opaque* material = roughReflector(scene, surface)) asked.push_back({shape, material});
-  }
-  std::stable_sort(asked.begin(), asked.end(), [](const Asked& a, const Asked& b) {
-    return a.shape->radius0 * a.shape->length > b.shape->radius0 * b.shape->length;
-  });
-  if (asked.size() > Tuning::kMostAsked) asked.resize(Tuning::kMostAsked);
-  for (const Asked& a : asked)
-    if (Cylinder cylinder = lit(*a.shape, *a.material, scene, tracer, lights); !cylinder.parts.empty())
+  for (const auto& r : largestReflectors<Cone>(scene, Tuning::kMostAsked, size))
+    if (Cylinder cylinder = lit(*r.shape, *r.material, scene, tracer, lights); !cylinder.parts.empty())
       cylinders_.push_back(std::move(cylinder));
-  std::stable_sort(cylinders_.begin(), cylinders_.end(),
-                   [](const Cylinder& a, const Cylinder& b) { return a.hot > b.hot; });
+  keepLargest(cylinders_, cylinders_.size(), [](const Cylinder& cylinder) { return cylinder.hot; });
   std::vector<ReachGrid::Reach> reaches;
   for (const Cylinder& c : cylinders_) {
     // From farther away, a highlight is longer than the cylinder.
@@ -84,9 +72,7 @@ CylinderHighlights::Cylinder CylinderHighlights::lit(const Cone& shape, const Op
       if (hot > 0) candidates.push_back({{part, radiance, hot}, bright});
     }
   }
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.bright > b.bright; });
-  if (candidates.size() > Tuning::kMostOfCylinder) candidates.resize(Tuning::kMostOfCylinder);
+  keepLargest(candidates, Tuning::kMostOfCylinder, [](const Candidate& c) { return c.bright; });
   for (const Candidate& c : candidates) {
     const bool seen = std::any_of(std::begin(kPlaces), std::end(kPlaces), [&](double share) {
       const V3d place = shape.base + share * shape.length * shape.axis;
@@ -105,9 +91,8 @@ CylinderHighlights::Cylinder CylinderHighlights::lit(const Cone& shape, const Op
 // The path by way of the mirroring place is the shortest. Across the axis, it is therefore that of a circle,
 // whatever the heights of its ends are; and along the axis, it is straight where the circle is unrolled.
 void CylinderHighlights::aim(const V3d& point, const V3d& front, double least, Aim& aim) const {
-  aim.count = 0;
-  aim.mean = 0;
-  double variance = 0, sum = 0;
+  aim.clear();
+  double variance = 0;
   for (const uint32_t number : near_.at(point)) {
     const Cylinder& cylinder = cylinders_[number];
     const Cone& shape = cylinder.shape;
@@ -142,18 +127,15 @@ void CylinderHighlights::aim(const V3d& point, const V3d& front, double least, A
                    bright = whole * share;
       const double adds = whole * bright * cosine / (4 * kPi * kPi * highlight.spread);
       if (!(adds > Tuning::kLeastShare * least)) continue;
-      aim.cylinder[aim.count] = number;
       aim.lobe[aim.count] = highlight.lobe;
-      aim.sum[aim.count++] = sum += bright * cosine;
+      aim.add(number, bright * cosine);
       variance += adds;
     }
   }
-  if (variance > least) {
-    aim.point = point;
-    aim.mean = sum / kPi;
-  } else {
-    aim.count = 0;
-  }
+  if (variance > least)
+    aim.finish(point);
+  else
+    aim.clear();
 }
 
 // Whether a ray meets the outside of a cylinder.
@@ -168,31 +150,27 @@ bool CylinderHighlights::meets(const Cone& cylinder, const V3d& point, const V3d
 }
 
 V3d CylinderHighlights::sample(const Aim& aim, double u1, double u2, double u3) const {
-  const double due = u1 * aim.sum[aim.count - 1];
-  size_t i = 0;
-  while (i + 1 < aim.count && !(due < aim.sum[i])) ++i;
+  const size_t i = aim.chosen(u1);
   const V3d direction = aim.lobe[i].sample(u2, u3);
   const bool counts = aim.lobe[i].density(direction, Tuning::kReach) > 0 &&
-                      meets(cylinders_[aim.cylinder[i]].shape, aim.point, direction);
+                      meets(cylinders_[aim.surface[i]].shape, aim.point, direction);
   return counts ? direction : V3d(0, 0, 0);
 }
 
 double CylinderHighlights::density(const Aim& aim, const V3d& direction) const {
-  double sum = 0, before = 0;
+  double sum = 0;
   uint32_t last = ~0u;
   bool met = false;
   for (size_t i = 0; i < aim.count; ++i) {
-    const double share = aim.sum[i] - before;
-    before = aim.sum[i];
     const double density = aim.lobe[i].density(direction, Tuning::kReach);
     if (!(density > 0)) continue;
-    if (aim.cylinder[i] != last) {
-      last = aim.cylinder[i];
+    if (aim.surface[i] != last) {
+      last = aim.surface[i];
       met = meets(cylinders_[last].shape, aim.point, direction);
     }
-    if (met) sum += share * density;
+    if (met) sum += (aim.upTo[i] - aim.before(i)) * density;
   }
-  return aim.count > 0 ? sum / before : 0;
+  return aim.count > 0 ? sum / aim.before(aim.count) : 0;
 }
 
 }  // namespace rsphere

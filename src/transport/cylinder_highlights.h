@@ -3,13 +3,7 @@
 // (ball_highlights.h), they are far smaller and brighter than the cylinder, but a cylinder does not send the
 // light of a source in all directions: as seen from a point, the highlight lies where the directions to both
 // make equal angles with the axis, or beyond the ends. Each highlight is therefore found for each point.
-#include <array>
-#include <cstdint>
-#include <vector>
-
-#include "light/sources.h"
-#include "trace/tracer.h"
-#include "transport/highlight_lobe.h"
+#include "transport/highlight_choice.h"
 #include "transport/reach_grid.h"
 #include "transport/tuning.h"
 
@@ -17,23 +11,17 @@ namespace rsphere {
 
 class CylinderHighlights {
  public:
-  // Uses the cylinders and tubes of plastic or metal, seen from outside, that belong to the scene itself, not
-  // to octrees in it. Shadow rays find which sources each of them sees. Keeps a reference to lights. least:
-  // nothing is aimed at where a cylinder's highlights add less than this to the variance, as for aim(); above
-  // 0.
+  // Uses cylinders and tubes of plastic or metal, seen from outside. Shadow rays find which sources each of
+  // them sees. Keeps a reference to lights. least: nothing is aimed at where a cylinder's highlights add less
+  // than this to the variance, as for aim(); above 0.
   CylinderHighlights(const Scene& scene, const Tracer& tracer, const LightSources& lights, double least);
 
   bool empty() const { return cylinders_.empty(); }
   static constexpr size_t kRoom = tuning::CylinderHighlights::kMostAimedRoom;
 
-  // The sampling distribution for a point of a diffuse surface: highlights of parts of sources on cylinders.
-  struct Aim {
-    double mean = 0;   // radiance over the hemisphere from these highlights, W/sr/m2, without occlusion
-    size_t count = 0;  // of the highlights
-    V3d point{0, 0, 0};
-    std::array<uint32_t, kRoom> cylinder;
+  // By highlights of parts of sources on cylinders.
+  struct Aim : HighlightAim<kRoom> {
     std::array<HighlightLobe, kRoom> lobe;
-    std::array<double, kRoom> sum;  // cumulative contributions
   };
 
   // front: unit normal. least: nothing is aimed at if all highlights are estimated to add less than this to
@@ -41,11 +29,8 @@ class CylinderHighlights {
   // W/sr/m2).
   void aim(const V3d& point, const V3d& front, double least, Aim& aim) const;
 
-  // One of the aimed directions (unit), for uniform u1, u2, u3 in [0, 1); 0 if the one that was drawn misses
-  // the cylinder. REQUIRES aim.mean > 0.
+  // As in Highlights (highlights.h).
   V3d sample(const Aim& aim, double u1, double u2, double u3) const;
-
-  // The density of aimed directions, per sr. It integrates to less than 1 by those that miss.
   double density(const Aim& aim, const V3d& direction) const;
 
  private:

@@ -52,6 +52,9 @@ struct Bend {
 // The highlight of a part of a source on a rough curved surface, as seen from a point. Directions, and the
 // vector between the normal and the bisector of the directions to the point and to the source, by which the
 // roughness is defined, are taken for linear functions of the place on the surface.
+//
+// Source of the model that defines the roughness: Ward, "Measuring and modeling anisotropic reflection"
+// (SIGGRAPH 1992).
 struct Highlight {
   HighlightLobe lobe;  // tuning::HighlightLobe::kWider times as wide as the highlight
   // The ratio of the solid angle of the image that a smooth surface would show to that of the part.

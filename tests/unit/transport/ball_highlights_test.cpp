@@ -16,10 +16,6 @@ using namespace highlight_scene;
 
 const std::string kBall = "chrome sphere ball 0 0 4 2 2 .5 .1\n";
 
-BallHighlights highlightsOf(const Traced& t) {
-  return BallHighlights(t.scene(), t.transport().tracer(), t.transport().lights(), 1e-9);
-}
-
 // A ball with a source of each kind, at different distances.
 std::vector<std::string> lit() {
   std::vector<std::string> texts;
@@ -62,7 +58,7 @@ class ToDisk {
 TEST(BallHighlights, AreAimedAtAsDensitySays) {
   for (const std::string& text : lit()) {
     const Traced t(text);
-    const BallHighlights highlights = highlightsOf(t);
+    const BallHighlights highlights = highlightsOf<BallHighlights>(t);
     Sample sampled, weighted;
     for (const V3d& point : kPoints) {
       const ToDisk disk(point, kCenter, .1);
@@ -100,7 +96,7 @@ TEST(BallHighlights, AreWhereTheBallShowsTheSource) {
   int seen = 0;
   for (const std::string& text : lit()) {
     Traced t(text, unbiased());
-    const BallHighlights highlights = highlightsOf(t);
+    const BallHighlights highlights = highlightsOf<BallHighlights>(t);
     for (const V3d& point : kPoints) {
       const ToDisk disk(point, kCenter, .1);
       BallHighlights::Aim aim;
@@ -128,7 +124,9 @@ TEST(BallHighlights, AreWhereTheBallShowsTheSource) {
 }
 
 TEST(BallHighlights, AreOnRoughBallsThatSeeSources) {
-  const auto none = [](const std::string& text) { return highlightsOf(Traced(kMaterials + text)).empty(); };
+  const auto none = [](const std::string& text) {
+    return highlightsOf<BallHighlights>(Traced(kMaterials + text)).empty();
+  };
   EXPECT_FALSE(none(kBall + kBulb));
   EXPECT_FALSE(none("glossy sphere ball 0 0 4 2 2 .5 .1\n" + kBulb));
   EXPECT_TRUE(none("mirroring sphere ball 0 0 4 2 2 .5 .1\n" + kBulb)) << "smooth";
@@ -141,22 +139,9 @@ TEST(BallHighlights, AreOnRoughBallsThatSeeSources) {
   EXPECT_TRUE(none(""));
 }
 
-// Those that are too weak are left out, and those that are hidden behind the surface.
 TEST(BallHighlights, AreAimedAtWhereTheyMatter) {
-  const Traced t(kMaterials + kBall + kBulb);
-  const BallHighlights highlights = highlightsOf(t);
-  BallHighlights::Aim aim;
-  highlights.aim(V3d(2.5, 2, 0), V3d(0, 0, 1), 0, aim);
-  EXPECT_EQ(aim.count, 1u);
-  const double mean = aim.mean;
-  highlights.aim(V3d(2.5, 2, 0), V3d(0, 0, -1), 0, aim);
-  EXPECT_EQ(aim.count, 0u);
-  // Met by chance, the highlight is seen in less than one of 1000 directions.
-  highlights.aim(V3d(2.5, 2, 0), V3d(0, 0, 1), 1000 * mean * mean, aim);
-  EXPECT_EQ(aim.count, 1u);
-  highlights.aim(V3d(2.5, 2, 0), V3d(0, 0, 1), 1e6 * mean * mean, aim);
-  EXPECT_EQ(aim.count, 0u);
-  EXPECT_EQ(aim.mean, 0);
+  expectAimedWhereTheyMatter(highlightsOf<BallHighlights>(Traced(kMaterials + kBall + kBulb)),
+                             V3d(2.5, 2, 0));
 }
 
 TEST(BallHighlights, AreLookedForWithIndirectLightAlone) {
@@ -192,22 +177,7 @@ TEST(BallHighlights, LeaveNoDirectionsOut) {
   }
 }
 
-// A gather on the floor of a room, beside a ball.
-TEST(BallHighlights, LeaveTheMeanOfPathsAsItIs) {
-  RayOptions options = unbiased(1);
-  options.ambientDivisions = 64;
-  Traced t(kMaterials + kBall + kBulb + roomOf("matt", V3d(4, 4, 3)), options);
-  PathTracer aimed(t.transport(), t.transport().aims());
-  const V3d origin(1.5, 2, .2), down(0, 0, -1);
-  Sample with, without;
-  constexpr int kMore = 8;  // times as many without
-  for (uint64_t i = 0; i < 2000; ++i) with.add(aimed.trace(origin, down, 0, mixBits(i)).value.color.x);
-  for (uint64_t i = 0; i < kMore * 2000; ++i) without.add(t.value(origin, down, mixBits(i + 1000000)));
-  const double error = std::hypot(with.standardError(), without.standardError());
-  EXPECT_LT(std::abs(with.mean() - without.mean()), kMostSigmas * error);
-  EXPECT_GT(std::abs(1.01 * with.mean() - without.mean()), kMostSigmas * error) << "the spoiled twin";
-  EXPECT_LT(with.standardError(), without.standardError() * std::sqrt(kMore) / 3);
-}
+TEST(BallHighlights, LeaveTheMeanOfPathsAsItIs) { expectMeanOfPathsKept(kBall, V3d(1.5, 2, .2), 2000); }
 
 }  // namespace
 }  // namespace rsphere

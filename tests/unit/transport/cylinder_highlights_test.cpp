@@ -18,10 +18,6 @@ using namespace highlight_scene;
 
 const std::string kLeg = "chrome cylinder leg 0 0 7 2 2 .1 2 2 .9 .02\n";
 
-CylinderHighlights highlightsOf(const Traced& t) {
-  return CylinderHighlights(t.scene(), t.transport().tracer(), t.transport().lights(), 1e-9);
-}
-
 // A cylinder upright, askew or lying, with sources of several kinds.
 std::vector<std::string> lit() {
   std::vector<std::string> texts;
@@ -71,7 +67,7 @@ TEST(CylinderHighlights, AreAimedAtAsDensitySays) {
   double differences = 0, squares = 0, total = 0;
   for (const std::string& text : lit()) {
     const Traced t(text);
-    const CylinderHighlights highlights = highlightsOf(t);
+    const CylinderHighlights highlights = highlightsOf<CylinderHighlights>(t);
     Sample sampled, weighted;
     for (const V3d& point : kPoints) {
       const V3d middle = (kCenter - point).normalized();
@@ -119,7 +115,7 @@ TEST(CylinderHighlights, AreWhereTheCylinderShowsTheSource) {
   int seen = 0;
   for (const std::string& text : lit()) {
     Traced t(text, unbiased());
-    const CylinderHighlights highlights = highlightsOf(t);
+    const CylinderHighlights highlights = highlightsOf<CylinderHighlights>(t);
     for (const V3d& point : kPoints) {
       const V3d middle = (kCenter - point).normalized();
       CylinderHighlights::Aim aim;
@@ -155,7 +151,9 @@ TEST(CylinderHighlights, AreWhereTheCylinderShowsTheSource) {
 }
 
 TEST(CylinderHighlights, AreOnRoughCylindersThatSeeSources) {
-  const auto none = [](const std::string& text) { return highlightsOf(Traced(kMaterials + text)).empty(); };
+  const auto none = [](const std::string& text) {
+    return highlightsOf<CylinderHighlights>(Traced(kMaterials + text)).empty();
+  };
   EXPECT_FALSE(none(kLeg + kBulb));
   EXPECT_FALSE(none("chrome tube leg 0 0 7 2 2 .1 2 2 .9 .02\n" + kBulb));
   EXPECT_FALSE(none("glossy cylinder leg 0 0 7 2 2 .1 2 2 .9 .02\n" + kBulb));
@@ -169,43 +167,15 @@ TEST(CylinderHighlights, AreOnRoughCylindersThatSeeSources) {
   EXPECT_TRUE(none(""));
 }
 
-// Those that are too weak are left out, and those that are hidden behind the surface.
 TEST(CylinderHighlights, AreAimedAtWhereTheyMatter) {
-  const Traced t(kMaterials + kLeg + kBulb);
-  const CylinderHighlights highlights = highlightsOf(t);
-  const V3d point(2.3, 2.2, 0), up(0, 0, 1);
-  CylinderHighlights::Aim aim;
-  highlights.aim(point, up, 0, aim);
-  EXPECT_EQ(aim.count, 1u);
-  const double mean = aim.mean;
-  highlights.aim(point, -up, 0, aim);
-  EXPECT_EQ(aim.count, 0u);
-  // Met by chance, the highlight is seen in less than one of 1000 directions.
-  highlights.aim(point, up, 1000 * mean * mean, aim);
-  EXPECT_EQ(aim.count, 1u);
-  highlights.aim(point, up, 1e6 * mean * mean, aim);
-  EXPECT_EQ(aim.count, 0u);
-  EXPECT_EQ(aim.mean, 0);
+  expectAimedWhereTheyMatter(highlightsOf<CylinderHighlights>(Traced(kMaterials + kLeg + kBulb)),
+                             V3d(2.3, 2.2, 0));
 }
 
-// A gather on the floor of a room, beside a cylinder, and beside a cylinder and a ball.
+// Beside a cylinder, and beside a cylinder and a ball.
 TEST(CylinderHighlights, LeaveTheMeanOfPathsAsItIs) {
-  for (const std::string ball : {"", "chrome sphere ball 0 0 4 1.9 2.3 .1 .03\n"}) {
-    RayOptions options = unbiased(1);
-    options.ambientDivisions = 64;
-    Traced t(kMaterials + kLeg + ball + kBulb + roomOf("matt", V3d(4, 4, 3)), options);
-    PathTracer aimed(t.transport(), t.transport().aims());
-    const V3d origin(2.3, 2.2, .2), down(0, 0, -1);
-    Sample with, without;
-    constexpr int kMore = 8;  // times as many without
-    for (uint64_t i = 0; i < 3000; ++i) with.add(aimed.trace(origin, down, 0, mixBits(i)).value.color.x);
-    for (uint64_t i = 0; i < kMore * 3000; ++i) without.add(t.value(origin, down, mixBits(i + 1000000)));
-    const double error = std::hypot(with.standardError(), without.standardError());
-    EXPECT_LT(std::abs(with.mean() - without.mean()), kMostSigmas * error) << ball;
-    EXPECT_GT(std::abs(1.01 * with.mean() - without.mean()), kMostSigmas * error)
-        << "the spoiled twin" << ball;
-    EXPECT_LT(with.standardError(), without.standardError() * std::sqrt(kMore) / 3) << ball;
-  }
+  for (const std::string ball : {"", "chrome sphere ball 0 0 4 1.9 2.3 .1 .03\n"})
+    expectMeanOfPathsKept(kLeg + ball, V3d(2.3, 2.2, .2), 3000);
 }
 
 }  // namespace on_cylinders
