@@ -337,7 +337,7 @@ void PartSampler::addPlane(const Position& at) {
 void PartSampler::sample(const V3d& towards) {
   const double distance = source_.distant ? 1e10 : towards.length();
   if (source_.reach > 0 && distance > source_.reach + source_.radius) return;
-  if (source_.isVirtual() && -towards.dot(source_.beam) < source_.cosBeam * distance) return;
+  if (source_.isVirtual() && -towards.dot(source_.beam.axis) < source_.beam.cosine * distance) return;
   if (jitter_ <= 0 && source_.map <= LightSource::Map::square) return addMiddles(towards);
   switch (source_.map) {
     case LightSource::Map::cone:

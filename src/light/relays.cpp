@@ -28,11 +28,6 @@ struct Projection {
   V3d vector(const V3d& v) const { return v + v.dot(normal) * shift; }
 };
 
-struct Ball {
-  V3d center{0, 0, 0};
-  double radius = 0;
-};
-
 struct Relay {
   SurfaceId surface;
   ModifierId modifier;  // of the material
@@ -41,6 +36,15 @@ struct Relay {
   Ball ball;                 // around it
   std::vector<V3d> corners;  // of the polygon, or of the square around the ring
 };
+
+// What the light of an image has left or come through, in a straight line as seen from behind the last relay:
+// first the source, unless it is distant, then the relays, the last of them where it is, the others and the
+// source as the relays that follow show them.
+struct Passage {
+  Ball ball;  // around it
+  Beam beam;  // holds all that light from it reaches behind the last relay, as seen from the ball's center
+};
+using Way = std::vector<Passage>;
 
 // The modifier of the mirror or prism that makes the surface a relay, which may be the alternative material
 // of an illum; kNone if the surface is no relay.
@@ -91,29 +95,37 @@ class Images {
     tree_ = RelayTree(bounds);
   }
 
-  // Adds the images of one source, and recursively their images, in sequences of up to `relays` relays.
-  void addImages(LightId source, int relays) {
+  // Adds the images of a real source, and recursively their images, in sequences of up to `relays` relays.
+  void addImages(LightId real, int relays) {
+    Way way;
+    if (!sources_[real].distant) way.push_back({{sources_[real].center, sources_[real].radius}, {}});
+    addImages(real, way, relays);
+  }
+
+ private:
+  void addImages(LightId source, const Way& way, int relays) {
     if (relays <= 0) return;
     std::vector<uint32_t> reached;
-    tree_.find([&](const RelayTree::Bounds& bounds) { return mayLight(source, bounds); }, reached);
+    tree_.find([&](const RelayTree::Bounds& bounds) { return mayLight(source, way, bounds); }, reached);
     for (const uint32_t r : reached) {
       // A relay makes no image of its own images, nor of light that its own surface emits.
       if (relays_[r].surface == sources_[source].surface) continue;
-      if (!lights(source, relays_[r])) continue;
+      if (!lights(source, way, relays_[r])) continue;
       for (int image = 0; image < imagesBy(relays_[r]); ++image) {
         const auto projection = project(sources_[source], relays_[r], image);
         if (!projection) continue;
         relayOf_.resize(sources_.size());
         relayOf_.push_back(r);
         sources_.push_back(imageOf(sources_[source], relays_[r], *projection));
+        const Way through = wayThrough(sources_.back(), way, relays_[r], *projection);
+        if (!sources_.back().distant) sources_.back().beam = through.front().beam;
         sources_.back().relayed = source;
         sources_.back().image = image;
-        addImages(sources_.last(), relays - 1);
+        addImages(sources_.last(), through, relays - 1);
       }
     }
   }
 
- private:
   void addRelay(SurfaceId index, const rad::Warn& warn) {
     const Surface& surface = scene_.surfaces[index];
     Relay relay;
@@ -202,69 +214,89 @@ class Images {
     V3d away;
     double offset;
   };
-  static Side sideLit(const LightSource& source, const Relay& last) {
+  Side sideLit(LightId index) const {
+    const LightSource& source = sources_[index];
+    const Relay& last = relays_[relayOf_[index]];
     // It is opposite to the image.
     double side = source.center.dot(last.normal);
     if (!source.distant) side -= last.offset;
     return side > 0 ? Side{-last.normal, -last.offset} : Side{last.normal, last.offset};
   }
 
-  // Whether light of a source can reach the relay at all.
-  bool lights(LightId index, const Relay& relay) const {
+  // Whether light of a source that has come this way can reach the relay at all.
+  bool lights(LightId index, const Way& way, const Relay& relay) const {
     const LightSource& source = sources_[index];
     if (source.isVirtual()) {
-      const Relay& last = relays_[relayOf_[index]];
-      const auto [away, offset] = sideLit(source, last);
+      const auto [away, offset] = sideLit(index);
       if (mostOver(relay, [&](const V3d& p) { return p.dot(away) - offset; }) <= kTiny) return false;
-      if (!meetsBeam(source, last, relay.ball)) return false;
+      if (!meetsBeams(source, way, relay.ball)) return false;
     }
     if (source.distant) return true;
     // As in RADIANCE, the reach is compared with the distance to the relay's center.
     if (source.reach > 0 && (relay.ball.center - source.center).length() > source.reach) return false;
-    if (source.spot &&
-        !meetsCone(source, source.spot->aim, 1 - source.spot->solidAngle / (2 * kPi), relay.ball))
-      return false;
+    if (source.spot) {
+      // The spot's cone starts at the source's center. For rays from the rest of the source, the relay's ball
+      // is enlarged by the source's radius.
+      const Beam cone{source.spot->aim, 1 - source.spot->solidAngle / (2 * kPi)};
+      const Ball enlarged{relay.ball.center, relay.ball.radius + source.radius};
+      if (cone.cosine > 0 && !cone.meets(source.center, enlarged)) return false;
+    }
     if (!source.isPlane()) return true;
     return mostOver(relay, [&](const V3d& p) { return (p - source.center).dot(source.normal); }) > kTiny;
   }
 
   // False only if lights() is false of every relay within the bounds.
-  bool mayLight(LightId index, const RelayTree::Bounds& bounds) const {
+  bool mayLight(LightId index, const Way& way, const RelayTree::Bounds& bounds) const {
     const LightSource& source = sources_[index];
     if (!source.isVirtual()) return true;
-    const Relay& last = relays_[relayOf_[index]];
-    const auto [away, offset] = sideLit(source, last);
+    const auto [away, offset] = sideLit(index);
     const V3d middle = bounds.corners.center(), half = bounds.corners.size() / 2;
     const V3d span(std::abs(away.x), std::abs(away.y), std::abs(away.z));
     const double rounding = kRounding * (middle.length() + half.length() + std::abs(offset));
     if (middle.dot(away) + half.dot(span) - offset + rounding <= kTiny) return false;
     Ball ball{bounds.centers.center(), bounds.centers.size().length() / 2 + bounds.radius};
-    ball.radius += kRounding * (ball.center.length() + ball.radius + last.ball.center.length() +
-                                (source.distant ? 0 : source.center.length()));
-    return meetsBeam(source, last, ball);
+    double sizes = ball.center.length() + ball.radius;
+    for (const Passage& passage : way) sizes += passage.ball.center.length();
+    ball.radius += kRounding * sizes;
+    return meetsBeams(source, way, ball);
   }
 
-  static bool meetsBeam(const LightSource& source, const Relay& last, const Ball& ball) {
-    if (source.distant) {
-      const V3d between = ball.center - last.ball.center;
-      // A source as wide as 120 degrees is taken to light every relay. That costs tests, but no light.
-      if (source.cosHalfAngle <= .5) return true;
-      const double distance = between.length() + last.ball.radius + ball.radius;
-      const double spread = distance * source.sinHalfAngle / source.cosHalfAngle;
-      const V3d aside = between - between.dot(source.center) * source.center;
-      return aside.length() <= last.ball.radius + ball.radius + spread;
+  // Whether the light that has come this way can reach anything in the ball.
+  static bool meetsBeams(const LightSource& source, const Way& way, const Ball& ball) {
+    return std::ranges::all_of(way, [&](const Passage& passage) {
+      return passage.beam.meets(passage.ball.center, ball) &&
+             (!source.distant || meetsDistantLight(source, passage.ball, ball));
+    });
+  }
+
+  // Whether light of a distant source that has come through a relay's ball can reach anything in another.
+  static bool meetsDistantLight(const LightSource& source, const Ball& relay, const Ball& ball) {
+    // A source as wide as 120 degrees is taken to light every relay. That costs tests, but no light.
+    if (source.cosHalfAngle <= .5) return true;
+    const V3d between = ball.center - relay.center;
+    const double radius = relay.radius + ball.radius, distance = between.length() + radius;
+    const double spread = distance * source.sinHalfAngle / source.cosHalfAngle;
+    const V3d aside = between - between.dot(source.center) * source.center;
+    return aside.length() <= radius + spread;
+  }
+
+  // The way of an image's light: that of its source's light, as the relay shows it, and the relay.
+  static Way wayThrough(const LightSource& image, const Way& before, const Relay& relay,
+                        const Projection& projection) {
+    Way way;
+    if (projection.isMirror) {
+      for (const Passage& passage : before)
+        way.push_back({{projection.point(passage.ball.center), passage.ball.radius},
+                       {projection.vector(passage.beam.axis), passage.beam.cosine}});
+    } else if (!image.distant) {
+      // A prism's light seems to come from the image, but not from images of earlier relays. A shear makes the
+      // source longer by its shift at most.
+      way.push_back({{image.center, image.radius * (1 + projection.shift.length())}, {}});
     }
-    return meetsCone(source, source.beam, source.cosBeam, ball);
-  }
-
-  // Whether the ball can be hit by rays in a cone around the axis. The cone starts at the source's center;
-  // for rays from the rest of the source, the ball is enlarged by the source's radius.
-  static bool meetsCone(const LightSource& source, const V3d& axis, double cosHalf, const Ball& ball) {
-    const V3d towards = ball.center - source.center;
-    const double distance = towards.length(), radius = ball.radius + source.radius;
-    if (cosHalf <= 0 || distance <= radius) return true;
-    const double angle = std::acos(std::clamp(towards.dot(axis) / distance, -1., 1.));
-    return angle <= std::acos(cosHalf) + std::asin(radius / distance) + kTiny;
+    for (Passage& passage : way)
+      passage.beam = sharedBeam(passage.beam, beamThrough(passage.ball, relay.ball));
+    way.push_back({relay.ball, {}});
+    return way;
   }
 
   static LightSource imageOf(const LightSource& source, const Relay& relay, const Projection& projection) {
@@ -286,16 +318,6 @@ class Images {
       return image;
     }
     image.center = projection.point(source.center);
-    const V3d towards = relay.ball.center - image.center;
-    const double distance = towards.length();
-    // As seen from the image's center, every point on a ray from the image through the relay lies within this
-    // angle of the relay's center, however far the ray goes on.
-    const double sine = (relay.ball.radius + source.radius) / distance;
-    image.cosBeam = -1;
-    if (distance > 0 && sine < 1) {
-      image.beam = towards / distance;
-      image.cosBeam = std::sqrt(1 - sine * sine);
-    }
     return image;
   }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "light/beam.h"
 #include "scene/random.h"
 #include "scene/scene.h"
 #include "shade/spot_cone.h"
@@ -28,10 +29,8 @@ struct LightSource {
   bool distant = false;
   double sinHalfAngle = 0, cosHalfAngle = 1;  // distant only
   std::optional<Spotlight> spot;
-  // The beam of a virtual source that is not distant: every point that it lights lies, as seen from the
-  // image's center, in this cone around beam (unit).
-  V3d beam{0, 0, 1};
-  double cosBeam = -1;
+  // Holds every point that a virtual source lights, as seen from the image's center. A distant one's holds all.
+  Beam beam;
 
   bool isVirtual() const { return relayed != kNone; }
   bool isPlane() const { return map <= Map::fan; }
@@ -101,15 +100,15 @@ class LightSources {
     const V3d towards = light.distant ? light.center : light.center - point;
     if (light.isPlane() && towards.dot(light.normal) >= 0) return;
     if (towards.dot(how.front) < -light.outermost) return;
-    if (light.cosBeam > 0 && surelyBeside(light, towards)) return;
+    if (light.beam.cosine > 0 && surelyBeside(light, towards)) return;
     sampleParts(source, point, towards, how, random, samples);
   }
 
  private:
   // Whether a point lies outside a virtual source's beam by more than rounding. Needs no square root.
   static bool surelyBeside(const LightSource& light, const V3d& towards) {
-    const double along = -towards.dot(light.beam);
-    return along < 0 || along * along < (1 - 1e-12) * light.cosBeam * light.cosBeam * towards.length2();
+    const double along = -towards.dot(light.beam.axis), cosine = light.beam.cosine;
+    return along < 0 || along * along < (1 - 1e-12) * cosine * cosine * towards.length2();
   }
   void sampleParts(LightId source, const V3d& point, const V3d& towards, const SourceSampling& how,
                    Random& random, std::vector<SourceSample>& samples) const;

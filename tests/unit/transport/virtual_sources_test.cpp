@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -219,6 +220,104 @@ TEST(VirtualSource, IsLeftOutWhereGeometryShowsItNeverLights) {
       "silver polygon first 0 0 12 0 -.1 0 0 .1 0 0 .1 .2 0 -.1 .2\n"
       "silver polygon second 0 0 12 3 5.1 0 3 4.9 0 3 4.9 .2 3 5.1 .2\n";
   EXPECT_EQ(count(lamp(V3d(1, 0, .1)) + small, 2), 3u);
+}
+
+// Mirrors that stand in a ring of radius 1 and face inward.
+std::string ringOfMirrors(int count) {
+  std::string text = "void mirror silver 0 0 3 .9 .9 .9\n";
+  const auto corner = [&](int i, double z) {
+    return fmt::format(" {} {} {}", std::cos(2 * kPi * i / count), std::sin(2 * kPi * i / count), z);
+  };
+  for (int i = 0; i < count; ++i)
+    text += fmt::format("silver polygon pane_{} 0 0 12{}{}{}{}\n", i, corner(i, 0), corner(i, .5),
+                        corner(i + 1, .5), corner(i + 1, 0));
+  return text;
+}
+
+// Light is followed from points of a lamp by way of up to four mirrors. Wherever it arrives, there is an image
+// in these mirrors, whose beam holds the place.
+TEST(VirtualSource, BeamsHoldAllThatTheyLight) {
+  const int mirrors = 24;
+  for (const char* source : {"bright sphere lamp 0 0 4 .1 .2 .6 .1",
+                             "bright polygon lamp 0 0 12 -.2 -.2 .8 "
+                             "-.2 .2 .8 .2 .2 .8 .2 -.2 .8",
+                             "bright source sun 0 0 4 .3 -.2 1 .5"}) {
+    const Scene scene =
+        sceneOf("void light bright 0 0 3 1 1 1\n" + std::string(source) + "\n" + ringOfMirrors(mirrors));
+    const Transport transport(scene, relaying(4), IrradianceAt::none);
+    const auto& lights = transport.lights().all();
+    std::map<std::vector<SurfaceId>, LightId> imageIn;  // by the mirrors from the lamp on
+    for (const LightId id : lights.ids()) {
+      std::vector<SurfaceId> way;
+      for (LightId at = id; lights[at].isVirtual(); at = lights[at].relayed)
+        way.insert(way.begin(), lights[at].surface);
+      imageIn[way] = id;
+    }
+    const LightSource& lamp = lights[imageIn.at({})];
+    Random random(5);
+    size_t arrivals = 0;
+    for (int i = 0; i < 20000; ++i) {
+      const auto signedUniform = [&] { return 2 * random.uniform() - 1; };
+      const double around = 2 * kPi * random.uniform();
+      V3d at(std::cos(around), std::sin(around), .5 * random.uniform()), way;  // about on a mirror
+      if (lamp.distant) {
+        V3d x, y;
+        frame(lamp.center, x, y);
+        const double off = lamp.sinHalfAngle * std::sqrt(random.uniform()), turn = 2 * kPi * random.uniform();
+        way = -(std::sqrt(1 - off * off) * lamp.center + off * std::cos(turn) * x + off * std::sin(turn) * y);
+        at -= way;
+      } else {
+        const V3d start =
+            lamp.isPlane()
+                ? lamp.center + signedUniform() * lamp.u + signedUniform() * lamp.v
+                : lamp.center + .999 * lamp.radius * std::cbrt(random.uniform()) *
+                                    V3d(signedUniform(), signedUniform(), signedUniform()).normalized();
+        way = (at - start).normalized();
+        at = start;
+      }
+      std::vector<SurfaceId> mirrorsHit;
+      while (mirrorsHit.size() < 4) {
+        // The nearest mirror whose front the light meets.
+        double nearest = 1e9;
+        SurfaceId hit = kNone;
+        V3d normal;
+        for (const SurfaceId s : scene.outermostIds()) {
+          const V3d* n = planeNormal(scene.surfaces[s].shape);
+          ShapeHit found;
+          if (s == lamp.surface || way.dot(*n) >= 0 ||
+              !intersect(scene.surfaces[s].shape, scene.vertices, at + 1e-6 * way, way, nearest, found))
+            continue;
+          nearest = found.distance;
+          hit = s;
+          normal = *n;
+        }
+        if (hit == kNone) break;
+        at += (nearest + 1e-6) * way;
+        way -= 2 * way.dot(normal) * normal;
+        mirrorsHit.push_back(hit);
+        ASSERT_TRUE(imageIn.contains(mirrorsHit)) << source << ": an image in a mirror is missing";
+        const LightSource& image = lights[imageIn.at(mirrorsHit)];
+        for (const double distance : {0., .5, 100.}) {
+          if (image.distant) continue;
+          const V3d from = at + distance * way - image.center;
+          EXPECT_GE(from.dot(image.beam.axis), image.beam.cosine * from.length() - 1e-9) << source;
+        }
+        ++arrivals;
+      }
+    }
+    EXPECT_GT(arrivals, 9000u) << source;
+  }
+}
+
+// A beam is narrowed by every mirror on its way, not by the last alone.
+TEST(VirtualSource, BeamsAreAsNarrowAsAllTheirMirrorsLeaveThem) {
+  const auto images = [](const std::string& source, int relays) {
+    const Scene scene = sceneOf("void light bright 0 0 3 1 1 1\n" + source + "\n" + ringOfMirrors(60));
+    return Transport(scene, relaying(relays), IrradianceAt::none).lights().all().size();
+  };
+  // By the last mirror alone, there would be 72,000 and 28,000.
+  EXPECT_LT(images("bright polygon lamp 0 0 12 -.3 -.3 2 -.3 .3 2 .3 .3 2 .3 -.3 2", 3), 6000u);
+  EXPECT_LT(images("bright sphere lamp 0 0 4 .1 .2 .6 .05", 3), 24000u);
 }
 
 }  // namespace
