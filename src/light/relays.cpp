@@ -112,7 +112,7 @@ class Images {
       if (relays_[r].surface == sources_[source].surface) continue;
       if (!lights(source, way, relays_[r])) continue;
       for (int image = 0; image < imagesBy(relays_[r]); ++image) {
-        const auto projection = project(sources_[source], relays_[r], image);
+        const auto projection = project(sources_[source], way, relays_[r], image);
         if (!projection) continue;
         relayOf_.resize(sources_.size());
         relayOf_.push_back(r);
@@ -175,12 +175,21 @@ class Images {
 
   int imagesBy(const Relay& relay) const { return imagesMadeBy(*scene_.materialAt(relay.modifier)); }
 
-  std::optional<Projection> project(const LightSource& source, const Relay& relay, int image) {
-    if (std::holds_alternative<Prism>(*scene_.materialAt(relay.modifier)))
-      return projectByPrism(source, relay, image);
+  bool isPrism(const Relay& relay) const {
+    return std::holds_alternative<Prism>(*scene_.materialAt(relay.modifier));
+  }
+
+  std::optional<Projection> project(const LightSource& source, const Way& way, const Relay& relay,
+                                    int image) {
+    if (isPrism(relay)) return projectByPrism(source, relay, image);
     const double before =
         source.center.dot(relay.normal) - (source.distant ? 0 : relay.offset) + extent(source, relay.normal);
     if (before <= kTiny) return std::nullopt;  // behind the mirror
+    // Of a source that the plane divides, the part in front may be hidden by an earlier relay.
+    const auto reachesFront = [&](const Passage& passage) {
+      return passage.ball.center.dot(relay.normal) - relay.offset + passage.ball.radius > kTiny;
+    };
+    if (!std::ranges::all_of(way, reachesFront)) return std::nullopt;
     return Projection{relay.normal, relay.offset, -2. * relay.normal, true};
   }
 
@@ -217,9 +226,10 @@ class Images {
   Side sideLit(LightId index) const {
     const LightSource& source = sources_[index];
     const Relay& last = relays_[relayOf_[index]];
-    // It is opposite to the image.
-    double side = source.center.dot(last.normal);
-    if (!source.distant) side -= last.offset;
+    // A mirror reflects on its front, even where its plane divides the source; a prism's light leaves on the
+    // side opposite to the image.
+    const double side =
+        isPrism(last) ? source.center.dot(last.normal) - (source.distant ? 0 : last.offset) : -1;
     return side > 0 ? Side{-last.normal, -last.offset} : Side{last.normal, last.offset};
   }
 

@@ -241,7 +241,7 @@ TEST(VirtualSource, BeamsHoldAllThatTheyLight) {
   for (const char* source : {"bright sphere lamp 0 0 4 .1 .2 .6 .1",
                              "bright polygon lamp 0 0 12 -.2 -.2 .8 "
                              "-.2 .2 .8 .2 .2 .8 .2 -.2 .8",
-                             "bright source sun 0 0 4 .3 -.2 1 .5"}) {
+                             "bright source sun 0 0 4 .3 -.2 1 20"}) {
     const Scene scene =
         sceneOf("void light bright 0 0 3 1 1 1\n" + std::string(source) + "\n" + ringOfMirrors(mirrors));
     const Transport transport(scene, relaying(4), IrradianceAt::none);
