@@ -161,10 +161,8 @@ std::shared_ptr<const Program> Library::compileCall(const Request& request, std:
   return writeProgram(expandCall(tables_->compileInput(request), symbol, count));
 }
 
-int Library::functionArity(std::string_view file, std::string_view name) {
+int Library::functionArity(const Request& request, std::string_view name) {
   const std::lock_guard lock(tables_->mutex);
-  Request request;
-  request.file = file;
   const std::string context = tables_->enter(request);
   if (name.find_first_not_of(kContextMark) == std::string_view::npos) return 0;
   for (const std::string& qualified : candidates(name, context)) {

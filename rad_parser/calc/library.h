@@ -80,9 +80,10 @@ class Library {
   // Throws as compile() does.
   std::shared_ptr<const Program> compileCall(const Request& request, std::string_view function, int count);
 
-  // The number of arguments that a function of this name needs, as a primitive that uses `file` sees it. 0 if
-  // there is no such function.
-  int functionArity(std::string_view file, std::string_view name);
+  // The number of arguments that a function of this name needs, as the primitive of the request sees it. 0 if
+  // there is no such function. Ignores all of the request but place and file. Throws Error if the file cannot
+  // be found or is wrong.
+  int functionArity(const Request& request, std::string_view name);
 
  private:
   struct Tables;

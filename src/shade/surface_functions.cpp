@@ -235,7 +235,7 @@ class SurfaceFunctions::Maker {
   std::vector<int> colorsPassed(std::string_view file, const Words& names) const {
     std::vector<int> passed{3};
     for (size_t i = 1; i < names.size(); ++i)
-      passed.push_back(functions_.library_.functionArity(file, names[i]) < 3 ? 1 : 3);
+      passed.push_back(functions_.library_.functionArity(request(file), names[i]) < 3 ? 1 : 3);
     return passed;
   }
 

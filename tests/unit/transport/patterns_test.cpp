@@ -584,6 +584,12 @@ TEST_F(Patterns, WhatIsMissingIsSaidWithThePlaceWhenARayMeetsIt) {
   const Fault faults[] = {
       {"void brightfunc P\n2 x none.cal\n0\n0\nP glow M\n0\n0\n4 1 1 1 0\n",
        "room.rad:1: brightfunc \"P\": cannot find function file \"none.cal\"", rad::Status::system},
+      {"void colorfunc P\n4 x x x none.cal\n0\n0\nP glow M\n0\n0\n4 1 1 1 0\n",
+       "room.rad:1: colorfunc \"P\": cannot find function file \"none.cal\"", rad::Status::system},
+      {"void colordata P\n8 f f f d1.dat d1.dat d1.dat none.cal Px\n0\n0\nP glow M\n0\n0\n4 1 1 1 0\n",
+       "room.rad:1: colordata \"P\": cannot find function file \"none.cal\"", rad::Status::system},
+      {"void colorpict P\n7 f f f p.hdr none.cal Px Py\n0\n0\nP glow M\n0\n0\n4 1 1 1 0\n",
+       "room.rad:1: colorpict \"P\": cannot find function file \"none.cal\"", rad::Status::system},
       {"void brightdata P\n4 noop none.dat . Px\n0\n0\nP glow M\n0\n0\n4 1 1 1 0\n",
        "room.rad:1: brightdata \"P\": cannot find data file \"none.dat\"", rad::Status::system},
       {"void colorpict P\n7 red green blue none.hdr . Px Py\n0\n0\nP glow M\n0\n0\n4 1 1 1 0\n",

@@ -190,11 +190,11 @@ TEST(CalcScope, CallsByName) {
   EXPECT_THROW(call("nothing", {3}), Error);
   EXPECT_THROW(call("shared", {3}), Error);
   EXPECT_THROW(call("1+1", {3}), Error);
-  EXPECT_EQ(files.library().functionArity("a.cal", "corr"), 1);
-  EXPECT_EQ(files.library().functionArity("a.cal", "shared"), 2);
-  EXPECT_EQ(files.library().functionArity("a.cal", "atan2"), 2);
-  EXPECT_EQ(files.library().functionArity("a.cal", "x"), 0);
-  EXPECT_EQ(files.library().functionArity("a.cal", "none"), 0);
+  EXPECT_EQ(files.library().functionArity(request, "corr"), 1);
+  EXPECT_EQ(files.library().functionArity(request, "shared"), 2);
+  EXPECT_EQ(files.library().functionArity(request, "atan2"), 2);
+  EXPECT_EQ(files.library().functionArity(request, "x"), 0);
+  EXPECT_EQ(files.library().functionArity(request, "none"), 0);
 }
 
 }  // namespace
