@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "rad_parser/block.h"
+#include "rad_parser/description.h"
 #include "rad_parser/error.h"
 #include "rad_parser/open_file.h"
 
@@ -28,7 +29,7 @@ struct Layout {
 struct Header {
   Layout layout;
   double aspect = 1;
-  std::string format;  // empty: not given
+  std::vector<std::string> formats;  // of all FORMAT= lines, usually one
   int components = 3;
   std::array<double, 2> wavelengths{};  // nm, limits of the spectra; 0: not given
 };
@@ -108,38 +109,46 @@ class Bytes {
   size_t unread_ = 0;  // bytes of the file behind the block
 };
 
-// "-Y 480 +X 640": the axis that changes slowest comes first.
-std::optional<Layout> readLayout(std::string_view line) {
-  struct Axis {
-    char name = 0;
-    bool falls = false;
-    size_t length = 0;
-  } axes[2];
-  for (Axis& axis : axes) {
-    while (!line.empty() && line.front() == ' ') line.remove_prefix(1);
-    if (line.size() < 2 || (line[0] != '+' && line[0] != '-')) return std::nullopt;
-    axis = {line[1], line[0] == '-', 0};
-    line.remove_prefix(2);
-    while (!line.empty() && line.front() == ' ') line.remove_prefix(1);
-    const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), axis.length);
-    if (error != std::errc() || axis.length == 0) return std::nullopt;
-    line.remove_prefix(static_cast<size_t>(end - line.data()));
-  }
-  const bool alongX = axes[0].name == 'Y' && axes[1].name == 'X';
-  if (!alongX && !(axes[0].name == 'X' && axes[1].name == 'Y')) return std::nullopt;
-  return Layout{axes[0].length, axes[1].length, alongX, axes[0].falls, axes[1].falls};
-}
+// rtrace reads resolution lines up to this length only. It takes the rest of a longer one for pixels.
+constexpr size_t kLongestResolution = 30;
+constexpr size_t kMostPixels = 65536;  // in a row or a column
+
+constexpr bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\r')) text.remove_suffix(1);
+  while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
   return text;
+}
+
+// The whole number that a text begins with; none if it is below 1, and at most kMostPixels + 1.
+std::optional<size_t> lengthAt(std::string_view text) {
+  text = trimmed(text);
+  if (text.starts_with('+')) text.remove_prefix(1);
+  size_t length = 0;
+  const auto error = std::from_chars(text.data(), text.data() + text.size(), length).ec;
+  if (error == std::errc::result_out_of_range) return kMostPixels + 1;
+  if (error != std::errc() || length == 0) return std::nullopt;
+  return std::min(length, kMostPixels + 1);
+}
+
+// "-Y 480 +X 640": the axis that changes slowest comes first. As in rtrace, an axis without a sign rises, the
+// last X and the last Y count, and what is between and behind the numbers is ignored.
+std::optional<Layout> readLayout(std::string_view line) {
+  const size_t x = line.rfind('X'), y = line.rfind('Y');
+  if (x == line.npos || y == line.npos) return std::nullopt;
+  const auto width = lengthAt(line.substr(x + 1)), height = lengthAt(line.substr(y + 1));
+  if (!width || !height) return std::nullopt;
+  const auto falls = [&](size_t axis) { return axis > 0 && line[axis - 1] == '-'; };
+  if (y < x) return Layout{*height, *width, true, falls(y), falls(x)};
+  return Layout{*width, *height, false, falls(x), falls(y)};
 }
 
 // The next number of a text; 0 if there is none.
 template <class T>
 T nextNumber(std::string_view& text) {
   text = trimmed(text);
+  if (text.starts_with('+')) text.remove_prefix(1);
   T number{};
   const auto end = std::from_chars(text.data(), text.data() + text.size(), number).ptr;
   text.remove_prefix(static_cast<size_t>(end - text.data()));
@@ -158,9 +167,9 @@ Header readHeader(Bytes& bytes) {
   while (true) {
     const auto text = bytes.line();
     if (!text) bad(path, "its header does not end");
-    if (text->empty()) break;
+    if (text->empty() || *text == "\r") break;
     if (const auto format = after("FORMAT=", *text)) {
-      header.format = trimmed(*format);
+      if (!trimmed(*format).empty()) header.formats.emplace_back(trimmed(*format));
     } else if (auto aspect = after("PIXASPECT=", *text)) {
       header.aspect *= nextNumber<double>(*aspect);
     } else if (auto components = after("NCOMP=", *text)) {
@@ -172,10 +181,17 @@ Header readHeader(Bytes& bytes) {
     }
   }
   if (!(header.aspect > 1e-6 && header.aspect < 1e6)) bad(path, "pixel aspect ratio out of range");
-  const auto resolution = bytes.line();
-  const auto layout = resolution ? readLayout(*resolution) : std::nullopt;
-  if (!layout) bad(path, "no resolution");
+  const std::string resolution = bytes.line().value_or("");
+  if (resolution.size() > kLongestResolution)
+    bad(path, fmt::format("its resolution line has more than {} characters: \"{}\"", kLongestResolution,
+                          rad::printable(resolution)));
+  const auto layout = readLayout(resolution);
+  if (!layout)
+    bad(path, fmt::format("expected a resolution such as \"-Y 480 +X 640\", got \"{}\"",
+                          rad::printable(resolution)));
   header.layout = *layout;
+  if (header.layout.rows > kMostPixels || header.layout.columns > kMostPixels)
+    bad(path, fmt::format("it has more than {} rows or columns", kMostPixels));
   return header;
 }
 
@@ -202,11 +218,12 @@ class PixelReader {
   explicit PixelReader(Bytes& bytes) : bytes_(bytes) {}
 
   // Reads the next row: either by channel, with run-length coding, or by pixel, with runs of the old code.
+  // Programs write the new code for 8 to 32767 pixels, but its mark means the new code in rows of any length,
+  // as in rtrace.
   void read(std::vector<Rgbe>& row) {
-    const size_t count = row.size();
-    const std::string_view mark = count >= 8 && count < 32768 ? bytes_.ahead(4) : std::string_view();
+    const std::string_view mark = bytes_.ahead(4);
     if (mark.size() == 4 && mark.starts_with("\2\2") && static_cast<uint8_t>(mark[2]) < 128) {
-      if ((static_cast<size_t>(mark[2]) << 8 | static_cast<uint8_t>(mark[3])) != count)
+      if ((static_cast<size_t>(mark[2]) << 8 | static_cast<uint8_t>(mark[3])) != row.size())
         bad(bytes_.path(), "a row has another length");
       bytes_.take(mark.size());
       for (size_t channel = 0; channel < 4; ++channel) readChannel(row, channel);
@@ -232,7 +249,8 @@ class PixelReader {
   }
 
   // In the old code, (1, 1, 1, n) repeats the preceding pixel n times. In successive ones, n is multiplied by
-  // 1, 256, 256^2 and so on.
+  // 1, 256, 256^2 and so on. As in rtrace, a run ends with the row, and at the beginning of a row the
+  // four bytes are a pixel.
   void readPixels(std::vector<Rgbe>& row) {
     int shift = 0;
     for (size_t at = 0; at < row.size();) {
@@ -241,15 +259,14 @@ class PixelReader {
       if (coded.size() < pixel.size()) bad(bytes_.path(), "it ends too early");
       std::memcpy(pixel.data(), coded.data(), pixel.size());
       bytes_.take(pixel.size());
-      if (pixel[0] != 1 || pixel[1] != 1 || pixel[2] != 1) {
+      if (at == 0 || pixel[0] != 1 || pixel[1] != 1 || pixel[2] != 1) {
         row[at++] = pixel;
         shift = 0;
         continue;
       }
-      const size_t count = shift > 16 ? row.size() + 1 : static_cast<size_t>(pixel[3]) << shift;
-      if (at == 0 || count > row.size() - at) bad(bytes_.path(), "a run is too long");
+      const size_t count = std::min(static_cast<size_t>(pixel[3]) << shift, row.size() - at);
       for (const size_t end = at + count; at < end; ++at) row[at] = row[at - 1];
-      shift += 8;
+      shift = std::min(shift + 8, 24);  // 2^24 is more than any row
     }
   }
 
@@ -274,18 +291,6 @@ void decode(const Rgbe& pixel, float* rgb) {
   for (size_t i = 0; i < 3; ++i) rgb[i] = (static_cast<float>(pixel[i]) + .5f) * step;
 }
 
-// Converts CIE XYZ, which RADIANCE's XYZE pictures give in lumens, to RADIANCE's RGB: primaries (.64,.33),
-// (.29,.60), (.15,.06), equal-energy white, 179 lumens per watt. Source: RADIANCE file formats, "Picture File
-// Format"; ra_xyze(1).
-void rgbOfXyz(float* c) {
-  constexpr double m[3][3] = {{2.5653124, -1.16684962, -.39846279},
-                              {-1.02210817, 1.97828662, .04382155},
-                              {.07472437, -.25193953, 1.17721516}};
-  double rgb[3];
-  for (int i = 0; i < 3; ++i) rgb[i] = std::max(0., (m[i][0] * c[0] + m[i][1] * c[1] + m[i][2] * c[2]) / 179);
-  for (int i = 0; i < 3; ++i) c[i] = static_cast<float>(rgb[i]);
-}
-
 // The two pixels next to a position (in pixels) and their weights, by the rule of rad::DataFile::value().
 struct Weights {
   size_t index;
@@ -307,8 +312,17 @@ Weights weightsAt(double position, size_t count) {
   return {index, i + 1 - position, position - i};
 }
 
-constexpr std::string_view kSpectra = "Radiance_spectra";
-constexpr size_t kMostPixels = 65536;  // in a row or a column
+constexpr std::string_view kColors = "32-bit_rle_rgbe", kSpectra = "Radiance_spectra";
+
+// Refuses a picture whose file is too short for it, before memory is taken. The new code packs at most 127
+// values of a channel into two bytes, which is 16 pixels per byte. The old code has no such bound: a uniform
+// row takes 12 bytes. Up to 64 million pixels (256 MB), only the least length of any row is therefore tested.
+void checkLength(const Layout& layout, const Bytes& bytes) {
+  constexpr size_t kAnyCode = size_t{1} << 26, kLeastRow = 4;
+  const size_t left = bytes.left();
+  if (layout.rows > left / kLeastRow || layout.rows * layout.columns > std::max(kAnyCode, 32 * left + 64))
+    bad(bytes.path(), "it ends too early");
+}
 
 }  // namespace
 
@@ -316,16 +330,13 @@ Picture Picture::read(const std::string& path) {
   Bytes bytes(path);
   const Header header = readHeader(bytes);
   Picture picture;
-  picture.isXyz_ = header.format == "32-bit_rle_xyze";
-  if (header.format == kSpectra) bad(path, "it has spectra, which only specpict reads");
-  if (!picture.isXyz_ && !header.format.empty() && header.format != "32-bit_rle_rgbe")
-    bad(path, "neither RGBE nor XYZE");
+  for (const std::string& format : header.formats) {
+    if (format == kSpectra) bad(path, "it has spectra, which only specpict reads");
+    if (format == "32-bit_rle_xyze") bad(path, "it is in XYZE; \"ra_xyze -r\" converts it to RGBE");
+    if (format != kColors) bad(path, fmt::format("expected RGBE (FORMAT={})", kColors));
+  }
   const Layout& layout = header.layout;
-  // Rejects sizes that the file is too short for. The new code packs at most 127 values of a channel into two
-  // bytes, which is 16 pixels per byte. The old code could be denser, but no such files are known.
-  if (layout.rows > kMostPixels || layout.columns > kMostPixels ||
-      layout.rows * layout.columns > 32 * bytes.left() + 64)
-    bad(path, "it ends too early");
+  checkLength(layout, bytes);
   PixelReader reader(bytes);
   std::vector<Rgbe> row(layout.columns);
   picture.width_ = layout.columnsAlongX ? layout.columns : layout.rows;
@@ -348,7 +359,6 @@ Color Picture::value(double x, double y) const {
   const auto addPixel = [&](size_t i, double weight) {
     float rgb[3];
     decode(pixels_[i], rgb);
-    if (isXyz_) rgbOfXyz(rgb);
     sum += Color(weight * rgb[0], weight * rgb[1], weight * rgb[2]);
   };
   const auto add = [&](size_t row, double weight) {
@@ -366,7 +376,7 @@ SpectralPicture SpectralPicture::read(const std::string& path) {
   Bytes bytes(path);
   const Header header = readHeader(bytes);
   const auto [first, last] = header.wavelengths;
-  if (!header.format.empty() && header.format != kSpectra)
+  if (std::any_of(header.formats.begin(), header.formats.end(), [](auto& f) { return f != kSpectra; }))
     bad(path, fmt::format("expected spectra (FORMAT={})", kSpectra));
   constexpr int kLeastComponents = 4;  // three are red, green and blue, which colorpict reads
   if (header.components < kLeastComponents) bad(path, "expected at least 4 components (NCOMP=)");
@@ -375,13 +385,13 @@ SpectralPicture SpectralPicture::read(const std::string& path) {
     bad(path, "expected four wavelengths (WAVELENGTH_SPLITS=)");
   const Layout& layout = header.layout;
   const auto components = static_cast<size_t>(header.components), stride = components + 1;
-  if (layout.rows > kMostPixels || layout.columns > kMostPixels ||
-      layout.rows * layout.columns > bytes.left() / stride)
-    bad(path, "it ends too early");
+  if (!layout.columnsAlongX || !layout.rowsFall || layout.columnsFall)
+    bad(path, "expected rows from above, each from left to right (-Y ... +X ...)");
+  if (layout.rows * layout.columns > bytes.left() / stride) bad(path, "it ends too early");
 
   SpectralPicture picture;
-  picture.width_ = layout.columnsAlongX ? layout.columns : layout.rows;
-  picture.height_ = layout.columnsAlongX ? layout.rows : layout.columns;
+  picture.width_ = layout.columns;
+  picture.height_ = layout.rows;
   picture.components_ = components;
   picture.first_ = first;
   picture.last_ = last;

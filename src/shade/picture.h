@@ -16,9 +16,10 @@ using Rgbe = std::array<uint8_t, 4>;
 // A picture as patterns and mixtures use it: radiances over a rectangle whose shorter side is 1. Immutable.
 class Picture {
  public:
-  // Reads a RADIANCE picture: RGBE or XYZE, with new, old or no run-length coding, in any of the eight pixel
-  // orders. Its exposure is not undone. Throws rad::Error, which begins with the path: Status::input if the
-  // file is no such picture or is damaged, Status::system if it cannot be read.
+  // Reads a RADIANCE picture: RGBE with new, old or no run-length coding, in any of the eight pixel orders,
+  // of up to 65536 rows and columns. Its exposure is not undone. XYZE is refused, as by rtrace. Throws
+  // rad::Error, which begins with the path: Status::input if the file is no such picture or is damaged,
+  // Status::system if it cannot be read.
   static Picture read(const std::string& path);
 
   size_t width() const { return width_; }
@@ -33,7 +34,6 @@ class Picture {
  private:
   size_t width_ = 0, height_ = 0;
   double sizeX_ = 1, sizeY_ = 1;
-  bool isXyz_ = false;
   std::vector<Rgbe> pixels_;  // the lowest row first, each from left to right
 };
 
@@ -41,8 +41,8 @@ class Picture {
 class SpectralPicture {
  public:
   // Reads a picture as rtrace -co writes it: FORMAT=Radiance_spectra, NCOMP and WAVELENGTH_SPLITS in its
-  // header, and mantissas with a shared exponent without run-length coding. Its exposure is not undone. Throws
-  // as Picture::read() does.
+  // header, and mantissas with a shared exponent without run-length coding, in the order -Y +X. Other orders
+  // are refused, as by rtrace. Its exposure is not undone. Throws as Picture::read() does.
   static SpectralPicture read(const std::string& path);
 
   size_t width() const { return width_; }

@@ -185,15 +185,29 @@ class SurfaceFunctions::Maker {
     return thing;
   }
 
+  // Errors of read(), which begin with the file's path, get the place of the primitive.
+  template <class Read>
+  auto placed(const Read& read) const {
+    try {
+      return read();
+    } catch (const rad::Error& error) {
+      fail(error.what(), error.status());
+    }
+  }
+
   std::shared_ptr<const rad::DataFile> table(std::string_view name) const {
     return shared(functions_.data_, name, [&] {
       const std::string path = find(name, "data");
       const std::string text = contentsOf(path, "data");
-      try {
-        return rad::DataFile::parse(text, path);
-      } catch (const rad::Error& error) {
-        fail(error.what(), error.status());
-      }
+      return placed([&] { return rad::DataFile::parse(text, path); });
+    });
+  }
+
+  template <class T>
+  std::shared_ptr<const T> picture(Cache<T>& cache, std::string_view name) const {
+    return shared(cache, name, [&] {
+      const std::string path = find(name, "picture");
+      return placed([&] { return T::read(path); });
     });
   }
 
@@ -284,8 +298,7 @@ class SurfaceFunctions::Maker {
     Image i;
     i.coordinates = compiled(*f, read.file.name, read.coordinates);
     i.corrections = corrections(*f, read.file.name, read.corrections, passed);
-    i.picture = shared(functions_.pictures_, read.picture,
-                       [&] { return Picture::read(find(read.picture, "picture")); });
+    i.picture = picture(functions_.pictures_, read.picture);
     f->what = std::move(i);
     setTransform(*f, read.file.transform);
     return f;
@@ -363,8 +376,7 @@ class SurfaceFunctions::Maker {
 
   std::unique_ptr<Function> spectralImage(const PictureArguments& read) const {
     SpectralData s;
-    s.picture = shared(functions_.spectralPictures_, read.picture,
-                       [&] { return SpectralPicture::read(find(read.picture, "picture")); });
+    s.picture = picture(functions_.spectralPictures_, read.picture);
     s.count = s.picture->components();
     const double half = (s.picture->last() - s.picture->first()) / static_cast<double>(s.count) / 2;
     s.firstWavelength = s.picture->first() + half;
@@ -398,8 +410,8 @@ class SurfaceFunctions::Maker {
     if (!(n2 * d.length2() > 1e-24)) fail("illegal motion vector");
 
     const auto font = shared(functions_.fonts_, read.font, [&] {
-      const std::string path = find(read.font, "font");
-      return rad::FontFile::parse(contentsOf(path, "font"), path);
+      const std::string path = find(read.font, "font"), contents = contentsOf(path, "font");
+      return placed([&] { return rad::FontFile::parse(contents, path); });
     });
     std::vector<std::string> lines;
     if (!read.words.empty())

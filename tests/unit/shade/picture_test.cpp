@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -166,12 +167,55 @@ TEST(Picture, OldRunLengthCode) {
     for (double y : {0., .5, 1.}) EXPECT_NEAR(picture.value(x, y).y, 150.5 / 256, 1e-6);
 }
 
-TEST(Picture, XyzBecomesRgb) {
-  // Equal-energy white of 179 lumens is 1 in each channel; Y alone is the matrix's second column.
-  const PictureFile file("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n" +
-                         append({{179, 179, 179, 136}}));
-  const Color white = Picture::read(file.path()).value(0, 0);
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(white[c], 179.5 / 179, 1e-5);
+// The red mantissas of a picture of one row, between whose pixels is a distance of 1.
+std::vector<double> redsOf(const std::string& bytes) {
+  const PictureFile file(bytes);
+  const Picture picture = Picture::read(file.path());
+  std::vector<double> reds;
+  for (size_t i = 0; i < picture.width(); ++i) {
+    const auto x = static_cast<double>(i), last = std::max(1., static_cast<double>(picture.width()) - 1);
+    reds.push_back(picture.value(x * static_cast<double>(picture.width()) / last, 0).x * 256 - .5);
+  }
+  return reds;
+}
+
+// rtrace 6.1a reads these rows alike.
+TEST(Picture, NewRunLengthCodeInNarrowRows) {
+  const std::string header = "#?RADIANCE\n\n-Y 1 +X ";
+  EXPECT_EQ(redsOf(header + "1\n" + runLengthCoded({{100, 150, 200, 128}})), std::vector<double>{100});
+  EXPECT_EQ(redsOf(header + "4\n" +
+                   runLengthCoded({{1, 2, 3, 128}, {1, 2, 3, 128}, {7, 2, 3, 128}, {9, 2, 3, 128}})),
+            (std::vector<double>{1, 1, 7, 9}));
+  // A pixel that only begins like the mark of the new code.
+  EXPECT_EQ(redsOf(header + "3\n" + append({{2, 2, 130, 128}, {100, 1, 1, 128}, {90, 1, 1, 128}})),
+            (std::vector<double>{2, 100, 90}));
+}
+
+// rtrace 6.1a reads these rows alike.
+TEST(Picture, OldRunsEndWithTheRow) {
+  const std::string header = "#?RADIANCE\n\n-Y 1 +X 4\n";
+  const std::vector<double> alike(4, 100);
+  EXPECT_EQ(redsOf(header + append({{100, 0, 0, 128}, {1, 1, 1, 9}})), alike);
+  EXPECT_EQ(redsOf(header + append({{100, 0, 0, 128}, {1, 1, 1, 1}, {1, 1, 1, 5}})), alike);
+  EXPECT_EQ(redsOf(header + append({{100, 0, 0, 128},
+                                    {1, 1, 1, 0},
+                                    {1, 1, 1, 0},
+                                    {1, 1, 1, 0},
+                                    {1, 1, 1, 0},
+                                    {1, 1, 1, 0},
+                                    {1, 1, 1, 3}})),
+            alike);
+  // At the beginning of a row there is nothing to repeat, and the bytes are a pixel.
+  EXPECT_EQ(redsOf(header + append({{1, 1, 1, 128}, {70, 1, 1, 128}, {80, 1, 1, 128}, {90, 1, 1, 128}})),
+            (std::vector<double>{1, 70, 80, 90}));
+}
+
+// The file has a thirtieth of the bytes that the new code would need.
+TEST(Picture, OldRunsMayBeLong) {
+  std::string bytes = "#?RADIANCE\n\n-Y 1000 +X 4096\n";
+  for (int row = 0; row < 1000; ++row) bytes += append({{100, 150, 200, 128}, {1, 1, 1, 255}, {1, 1, 1, 15}});
+  const PictureFile file(bytes);
+  EXPECT_NEAR(Picture::read(file.path()).value(2, .7).y, 150.5 / 256, 1e-6);
 }
 
 TEST(Picture, AspectOfPixelsSetsTheSize) {
@@ -192,6 +236,41 @@ TEST(Picture, BetweenAndBeyondPixels) {
   EXPECT_NEAR(picture.value(4, 0).x, 240.5 * 2 / 5 - 140.5 / 5, 1e-4);
 }
 
+// As rtrace 6.1a reads them.
+TEST(Picture, ResolutionLinesOfEveryKind) {
+  const Code lowerLeft = pixel(0, 0), upperRight = pixel(kWidth - 1, kHeight - 1);
+  const auto expectCorners = [&](const char* resolution, const Order& order) {
+    std::string bytes = coded(order, false, "#?RADIANCE\n");
+    const size_t begin = bytes.find("\n\n") + 2;
+    bytes.replace(begin, bytes.find('\n', begin) - begin, resolution);
+    const PictureFile file(bytes);
+    const Picture picture = Picture::read(file.path());
+    EXPECT_NEAR(picture.value(0, 0).x, channel(lowerLeft, 0), 1e-6) << resolution;
+    EXPECT_NEAR(picture.value(static_cast<double>(kWidth) / kHeight, 1).x, channel(upperRight, 0), 1e-6)
+        << resolution;
+  };
+  const Order standard = kOrders[0], rising = kOrders[3];
+  for (const char* resolution :
+       {"-Y5+X11", "  -Y  5  +X  11  ", "-Y\t5\t+X\t11", "-Y +5 +X +11", "-Y 5.9 +X 11.2", "-Y 5e3 +X 11",
+        "-Y 5 +X 11\r", "-Y 5 +X 11 at noon", "view -Y 5 , +X 11", "X 3 Y 3 -Y 5 +X 11"})
+    expectCorners(resolution, standard);
+  for (const char* resolution : {"Y 5 X 11", "*Y 5 *X 11"}) expectCorners(resolution, rising);
+  expectCorners("X 11 -Y 5", kOrders[5]);
+}
+
+TEST(Picture, HeadersOfWindows) {
+  const PictureFile file(
+      coded(kOrders[0], false, "#?RADIANCE\r\nFORMAT=\t32-bit_rle_rgbe \r\nPIXASPECT=\t+1\r\n\r"));
+  expectPixels(Picture::read(file.path()), "\\r\\n");
+}
+
+// A line without a name is none, and the same name may occur twice.
+TEST(Picture, FormatLinesThatAgree) {
+  const PictureFile file(
+      coded(kOrders[0], true, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nFORMAT=\nFORMAT= 32-bit_rle_rgbe\n"));
+  expectPixels(Picture::read(file.path()), "two formats");
+}
+
 std::string errorOf(const std::string& bytes) {
   const PictureFile file(bytes);
   try {
@@ -207,13 +286,34 @@ std::string errorOf(const std::string& bytes) {
 TEST(Picture, BadFilesAreSaidToBe) {
   EXPECT_EQ(errorOf("GIF89a"), ": bad picture file: its header does not end");
   EXPECT_EQ(errorOf("#?RADIANCE\nFORMAT=float\n\n-Y 1 +X 1\n1234"),
-            ": bad picture file: neither RGBE nor XYZE");
+            ": bad picture file: expected RGBE (FORMAT=32-bit_rle_rgbe)");
+  const char* const xyze = ": bad picture file: it is in XYZE; \"ra_xyze -r\" converts it to RGBE";
+  EXPECT_EQ(errorOf("#?RADIANCE\nFORMAT=32-bit_rle_xyze\nEXPOSURE=2\n\n-Y 1 +X 1\n1234"), xyze);
+  EXPECT_EQ(errorOf("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n1234"), xyze);
+  EXPECT_EQ(errorOf("#?RADIANCE\nFORMAT=32-bit_rle_xyze\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n1234"), xyze);
   EXPECT_EQ(errorOf("#?RADIANCE\nFORMAT=Radiance_spectra\n\n-Y 1 +X 1\n1234"),
             ": bad picture file: it has spectra, which only specpict reads");
-  EXPECT_EQ(errorOf("#?RADIANCE\n\n-Y 1 +Y 1\n1234"), ": bad picture file: no resolution");
+  EXPECT_EQ(errorOf("#?RADIANCE\n\n-Y 1 +Y 1\n1234"),
+            ": bad picture file: expected a resolution such as \"-Y 480 +X 640\", got \"-Y 1 +Y 1\"");
+  for (const char* resolution :
+       {"", "-y 1 +x 1", "-Y -1 +X 1", "-Y 0 +X 1", "-Y 0x1 +X 1", "-Y +X 1", "1 1", "X Y"})
+    EXPECT_EQ(errorOf(std::string("#?RADIANCE\n\n") + resolution + "\n1234"),
+              std::string(": bad picture file: expected a resolution such as \"-Y 480 +X 640\", got \"") +
+                  resolution + "\"");
+  EXPECT_EQ(errorOf("#?RADIANCE\n\n-Y            1 +X            1\n1234"),
+            ": bad picture file: its resolution line has more than 30 characters: "
+            "\"-Y            1 +X            1\"");
+  for (const char* resolution : {"-Y 65537 +X 1", "-Y 1 +X 4294967297", "-Y 1 +X 99999999999999999999"})
+    EXPECT_EQ(errorOf(std::string("#?RADIANCE\n\n") + resolution + "\n1234"),
+              ": bad picture file: it has more than 65536 rows or columns");
   EXPECT_EQ(errorOf("#?RADIANCE\n\n-Y 4 +X 4\n1234"), ": bad picture file: it ends too early");
   EXPECT_EQ(errorOf("#?RADIANCE\n\n-Y 60000 +X 60000\n1234"), ": bad picture file: it ends too early");
-  EXPECT_EQ(errorOf("#?RADIANCE\n\n-Y 1 +X 2\n" + append({{1, 1, 1, 2}})),
+  // A row of four in the new code, in pictures of other widths.
+  const std::string four = runLengthCoded({{1, 2, 3, 4}, {5, 6, 7, 8}, {9, 1, 2, 3}, {4, 5, 6, 7}});
+  for (const char* width : {"3", "7", "65000"})
+    EXPECT_EQ(errorOf(std::string("#?RADIANCE\n\n-Y 1 +X ") + width + "\n" + four),
+              ": bad picture file: a row has another length");
+  EXPECT_EQ(errorOf("#?RADIANCE\n\n-Y 1 +X 2\n" + std::string("\2\2\0\2\3\3", 6)),
             ": bad picture file: a run is too long");
   const std::string whole = coded(kOrders[0], true);
   for (size_t cut = 60; cut < whole.size(); cut += 7)

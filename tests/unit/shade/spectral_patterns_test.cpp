@@ -427,7 +427,8 @@ TEST(SpecpictPattern, RefusesWhatHasNoSpectra) {
   const auto errorFor = [&](const std::string& header, const char* resolution = "-Y 1 +X 1") {
     const File file(pictureOf(one, resolution, header), "hsr");
     const std::string error = errorOf("void specpict P 5 noop " + file.path() + " . Px Py 0 0");
-    return error.starts_with(file.path()) ? error.substr(file.path().size()) : error;
+    const std::string place = "room.rad:1: specpict \"P\": " + file.path();
+    return error.starts_with(place) ? error.substr(place.size()) : error;
   };
   EXPECT_EQ(errorFor(kHeader), "no error");
   EXPECT_EQ(errorFor("FORMAT=32-bit_rle_rgbe\n"),
@@ -438,7 +439,14 @@ TEST(SpecpictPattern, RefusesWhatHasNoSpectra) {
             ": bad picture file: expected four wavelengths (WAVELENGTH_SPLITS=)");
   EXPECT_EQ(errorFor("FORMAT=Radiance_spectra\nNCOMP=5\nWAVELENGTH_SPLITS= 780 588 480\n"),
             ": bad picture file: expected four wavelengths (WAVELENGTH_SPLITS=)");
+  EXPECT_EQ(errorFor(std::string("FORMAT=32-bit_rle_rgbe\n") + kHeader),
+            ": bad picture file: expected spectra (FORMAT=Radiance_spectra)");
   EXPECT_EQ(errorFor(kHeader, "-Y 2 +X 1"), ": bad picture file: it ends too early");
+  EXPECT_EQ(errorFor(kHeader, "-Y 70000 +X 1"), ": bad picture file: it has more than 65536 rows or columns");
+  // rtrace reads no other order either.
+  for (const char* resolution : {"+Y 1 +X 1", "-Y 1 -X 1", "+X 1 -Y 1"})
+    EXPECT_EQ(errorFor(kHeader, resolution),
+              ": bad picture file: expected rows from above, each from left to right (-Y ... +X ...)");
   EXPECT_EQ(errorFor("NCOMP=2000000000\nWAVELENGTH_SPLITS= 780 588 480 380\n"),
             ": bad picture file: it ends too early");
 }
@@ -446,7 +454,8 @@ TEST(SpecpictPattern, RefusesWhatHasNoSpectra) {
 TEST(SpecpictPattern, ColorpictRefersToIt) {
   const File file(pictureOf({{1, 2, 3, 4, 5, 128}}, "-Y 1 +X 1", kHeader), "hsr");
   EXPECT_EQ(errorOf("void colorpict P 7 red green blue " + file.path() + " . Px Py 0 0"),
-            file.path() + ": bad picture file: it has spectra, which only specpict reads");
+            "room.rad:1: colorpict \"P\": " + file.path() +
+                ": bad picture file: it has spectra, which only specpict reads");
 }
 
 }  // namespace
