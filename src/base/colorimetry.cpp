@@ -45,16 +45,23 @@ class Cumulative {
   std::vector<double> upTo_;
 };
 
+const Cumulative& cumulativeX() {
+  static const Cumulative curve(colorMatchingX());
+  return curve;
+}
 const Cumulative& cumulativeY() {
   static const Cumulative curve(colorMatchingY());
+  return curve;
+}
+const Cumulative& cumulativeZ() {
+  static const Cumulative curve(colorMatchingZ());
   return curve;
 }
 
 }  // namespace
 
 V3d tristimulus(const Spectrum& spectrum) {
-  static const Cumulative x(colorMatchingX()), z(colorMatchingZ());
-  return V3d(x.of(spectrum), cumulativeY().of(spectrum), z.of(spectrum));
+  return V3d(cumulativeX().of(spectrum), cumulativeY().of(spectrum), cumulativeZ().of(spectrum));
 }
 
 double photopic(const Spectrum& spectrum) { return cumulativeY().of(spectrum); }
@@ -138,8 +145,25 @@ V3d BandWeights::tristimulus(const Bands& bands) const {
 // narrow bands with the CIE's curves.
 constexpr double kColorShift = 1.5, kScotopicShift = -.5, kMelanopicShift = .5;
 
+// The ends of the spectrum are rounded to single precision, so that rounding errors do not move a limit at a
+// whole number to the number below.
 V3d tristimulusInRadiance(const Spectrum& spectrum) {
-  return tristimulus({spectrum.values, spectrum.first + kColorShift, spectrum.last + kColorShift});
+  const size_t count = spectrum.values.size();
+  const bool falls = spectrum.first > spectrum.last;
+  const double shortest = static_cast<float>(std::min(spectrum.first, spectrum.last));
+  const double longest = static_cast<float>(std::max(spectrum.first, spectrum.last));
+  const double width = (longest - shortest) / static_cast<double>(count);
+  const auto upTo = [&](size_t fromShortest) {
+    const double limit = std::floor(shortest + static_cast<double>(fromShortest) * width) + kColorShift;
+    return V3d(cumulativeX().upTo(limit), cumulativeY().upTo(limit), cumulativeZ().upTo(limit));
+  };
+  V3d sum(0, 0, 0), from = upTo(0);
+  for (size_t i = 0; i < count; ++i) {
+    const V3d to = upTo(i + 1);
+    sum += spectrum.values[falls ? count - 1 - i : i] * (to - from);
+    from = to;
+  }
+  return sum;
 }
 
 BandWeights bandWeights(const SpectralSampling& sampling) {

@@ -40,7 +40,7 @@ Bands bandsOf(const SpectralCurve& curve, const SpectralSampling& sampling);
 // enough gray of the same Y that no channel is negative.
 V3d standardRgb(const V3d& tristimulus);
 
-// X, Y, Z by the tables of RADIANCE 6.1: see BandWeights.
+// X, Y, Z as RADIANCE 6.1 has them, with limits of bins rounded down to whole nanometers: see BandWeights.
 V3d tristimulusInRadiance(const Spectrum& spectrum);
 
 // The shares of bands in the integrals of the observers as RADIANCE 6.1 has them, by which all is written, so that

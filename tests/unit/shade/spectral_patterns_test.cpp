@@ -69,14 +69,15 @@ Bands inBands(const std::string& pattern, const SpectralSampling& sampling, cons
   return color.bandsIn(sampling);
 }
 
-// RADIANCE's conversion to red, green and blue: resampled from 780 to 380 nm into this many bins, seen by tables that
-// are displaced by 1.5 nm.
+// RADIANCE's conversion to red, green and blue: resampled from 780 to 380 nm into this many bins, and seen as bands of a
+// spectral run are.
 V3d rgbOf(const Spectrum& spectrum, int bins) {
-  const Bands bands = bandsOf(spectrum, spectralSampling(bins, 380, 780));
-  return standardRgb(tristimulus({bands.values(), 781.5, 381.5}));
+  const SpectralSampling& sampling = spectralSampling(bins, 380, 780);
+  return standardRgb(bandWeights(sampling).tristimulus(bandsOf(spectrum, sampling)));
 }
 V3d rgbOfFalling(const Spectrum& s) {
-  return standardRgb(tristimulus({s.values, s.first + 1.5, s.last + 1.5}));
+  const SpectralSampling& sampling = spectralSampling(static_cast<int>(s.values.size()), s.last, s.first);
+  return standardRgb(bandWeights(sampling).tristimulus(bandsOf(s, sampling)));
 }
 void expectColor(const Color& got, const V3d& rgb, double tolerance = 1e-12) {
   EXPECT_FALSE(got.bands());
@@ -147,7 +148,7 @@ TEST(SpectrumPattern, ThreeValuesAreRedGreenAndBlue) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(rising[i], thirds.values()[static_cast<size_t>(i)], 1e-14);
 }
 
-// rtrace -h -ab 0 of RADIANCE 6.1a for a glow of each, the second as the mean of 400 rays. It rounds wavelengths to nm.
+// rtrace -h -ab 0 of RADIANCE 6.1a for a glow of each, the second as the mean of 400 rays.
 TEST(SpectrumPattern, HasTheColorsOfTheOriginal) {
   const File file("rb(nm) = .5 + .4*sin(nm/42.7652)*cos(Px);\n", "cal");
   const std::pair<std::string, Color> patterns[] = {
@@ -215,8 +216,9 @@ TEST(SpecfilePattern, UnevenDataHaveTheirMeans) {
         const SpectralSampling& sampling = spectralSampling(bands, 380, 780);
         expectBands(inBands(pattern, sampling), meansOf(f, sampling, shortest, longest), 2e-4);
       }
-      const Bands most = meansOf(f, spectralSampling(24, 380, 780), shortest, longest);
-      expectColor(inChannels(pattern), standardRgb(tristimulus({most.values(), 781.5, 381.5})), 2e-4);
+      const SpectralSampling& most = spectralSampling(24, 380, 780);
+      const Bands means = meansOf(f, most, shortest, longest);
+      expectColor(inChannels(pattern), standardRgb(bandWeights(most).tristimulus(means)), 2e-4);
     }
   }
 }
@@ -411,6 +413,30 @@ TEST(SpecpictPattern, HasASpectrumInEachPixel) {
     const Spectrum bins{values, 780, 380};
     expectColor(inChannels(pattern, place), rgbOfFalling(bins));
     expectBands(inBands(pattern, twenty(), place), bandsOf(bins, twenty()));
+  }
+}
+
+// rtrace -h -ab 0 of RADIANCE 6.1a for a glow of each, with -cs 18 -pRGB as well as without. The limits of the bins are no
+// whole numbers of nanometers.
+TEST(SpecpictPattern, HasTheColorsOfTheOriginal) {
+  const std::pair<size_t, V3d> colors[] = {{6, V3d(.6350930, 0, .05460624)},
+                                           {9, V3d(.6091545, .7546815, 0)},
+                                           {12, V3d(0, .4093397, .2229202)},
+                                           {14, V3d(.06000546, 0, .9257315)}};
+  for (const auto& [peak, color] : colors) {
+    std::vector<uint8_t> pixel(19, 2);
+    pixel[peak] = 200;
+    pixel[18] = 130;
+    const File file(pictureOf({pixel}, "-Y 1 +X 1",
+                              "NCOMP=18\nWAVELENGTH_SPLITS= 780 588 480 380\nFORMAT=Radiance_spectra\n"));
+    const std::string pattern = "void specpict P 5 noop " + file.path() + " . Px Py 0 0";
+    const SpectralSampling& sampling = spectralSampling(18, 380, 780);
+    const V3d ofBands = standardRgb(bandWeights(sampling).tristimulus(inBands(pattern, sampling)));
+    const Color ofChannels = inChannels(pattern);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_NEAR(ofChannels[i], color[i], .001) << peak;
+      EXPECT_NEAR(ofChannels[i], ofBands[i], 1e-12) << peak;
+    }
   }
 }
 
