@@ -71,6 +71,7 @@ class Coverage {
                                  (corner - r.corner).dot(r.y) / r.height};
         for (int c = 0; c < 2; ++c) {
           const int cell = std::clamp(static_cast<int>(share[c] * kCells), 0, kCells - 1);
+          corners_[c].push_back(share[c]);
           low[c] = std::min(low[c], cell);
           high[c] = std::max(high[c], cell);
         }
@@ -80,6 +81,7 @@ class Coverage {
           if (at(i, j) != Cell::wall && inside(*polygon, scene.vertices, middle(i, j), 0))
             at(i, j) = Cell::wall;
     }
+    for (std::vector<double>& shares : corners_) std::ranges::sort(shares);
   }
 
   // The rectangles around connected cells that are not covered, if they fill most of it and the wall surrounds them.
@@ -93,10 +95,13 @@ class Coverage {
         const int width = e.high[0] - e.low[0] + 1, height = e.high[1] - e.low[1] + 1;
         if (e.cells < tuning::Openings::kFilled * width * height) continue;
         if (e.outline - e.free < Tuning::kSurrounded * e.outline) continue;
+        const double left = edgeAt(0, e.low[0]), right = edgeAt(0, e.high[0] + 1);
+        const double bottom = edgeAt(1, e.low[1]), top = edgeAt(1, e.high[1] + 1);
+        if (!(left < right) || !(bottom < top)) continue;
         Rectangle hole = r_;
-        hole.corner = r_.at(static_cast<double>(e.low[0]) / kCells, static_cast<double>(e.low[1]) / kCells);
-        hole.width = r_.width * width / kCells;
-        hole.height = r_.height * height / kCells;
+        hole.corner = r_.at(left, bottom);
+        hole.width = r_.width * (right - left);
+        hole.height = r_.height * (top - bottom);
         found.push_back(hole);
       }
     return found;
@@ -111,6 +116,23 @@ class Coverage {
 
   Cell& at(int i, int j) { return cells_[static_cast<size_t>(j * kCells + i)]; }
   V3d middle(int i, int j) const { return r_.at((i + .5) / kCells, (j + .5) / kCells); }
+
+  // Where the edge of a hole is, as a share of the wall's width (axis 0) or height (1), if it is between these cells
+  // of the grid: at the nearest corner of a polygon. Holes are then as exact as their walls.
+  double edgeAt(size_t axis, int cell) const {
+    const double rough = static_cast<double>(cell) / kCells;
+    const std::vector<double>& corners = corners_[axis];
+    const auto above = std::ranges::lower_bound(corners, rough);
+    double nearest = rough, distance = 1. / kCells;
+    const auto consider = [&](double corner) {
+      if (std::abs(corner - rough) >= distance) return;
+      nearest = corner;
+      distance = std::abs(corner - rough);
+    };
+    if (above != corners.begin()) consider(*(above - 1));
+    if (above != corners.end()) consider(*above);
+    return nearest;
+  }
 
   // Counts the connected cells around one.
   Extent fill(int i, int j) {
@@ -140,6 +162,8 @@ class Coverage {
   }
 
   Rectangle r_;
+  std::array<std::vector<double>, 2>
+      corners_;  // of the polygons, as shares of the width and of the height, sorted
   std::array<Cell, static_cast<size_t>(kCells) * kCells> cells_{};
 };
 

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include "base/constants.h"
 #include "tests/unit/transport/transport_fixture.h"
 #include "transport/tuning.h"
 
@@ -28,14 +30,13 @@ std::vector<Rectangle> holesIn(const std::string& text, double leastArea = .01) 
   return holesOf(t.scene(), t.transport().tracer().bounds(), leastArea, any);
 }
 
-// That the rectangle is the one between two corners, within a cell on each side.
-void expectBetween(const Rectangle& hole, const V3d& low, const V3d& high) {
+// That the rectangle is the one between two corners.
+void expectBetween(const Rectangle& hole, const V3d& low, const V3d& high, double tolerance = 1e-9) {
   Box3d bounds;
   for (int c = 0; c < 4; ++c) bounds.extendBy(hole.at(c & 1, c >> 1));
-  const double cell[3] = {kWidth / tuning::Holes::kCells, 1e-9, kHeight / tuning::Holes::kCells};
   for (int c = 0; c < 3; ++c) {
-    EXPECT_NEAR(bounds.min[c], low[c], 1.001 * cell[c]) << c;
-    EXPECT_NEAR(bounds.max[c], high[c], 1.001 * cell[c]) << c;
+    EXPECT_NEAR(bounds.min[c], low[c], tolerance) << c;
+    EXPECT_NEAR(bounds.max[c], high[c], tolerance) << c;
   }
 }
 
@@ -45,6 +46,24 @@ TEST(Holes, AreWithinOnePolygon) {
       "gray polygon wall 0 0 30 0 0 0 6.4 0 0 6.4 0 3.2 0 0 3.2 0 0 0 1 0 1 1 0 2 3 0 2 3 0 1 1 0 1\n");
   ASSERT_EQ(found.size(), 1u);
   expectBetween(found[0], {1, 0, 1}, {3, 0, 2});
+  // Between the lines of the grid.
+  const auto odd = holesIn(
+      "gray polygon wall 0 0 30 0 0 0 6.4 0 0 6.4 0 3.2 0 0 3.2 0 0 0 1.03 0 1.01 1.03 0 2.04 3.07 0 2.04 3.07 0 "
+      "1.01 1.03 0 1.01\n");
+  ASSERT_EQ(odd.size(), 1u);
+  expectBetween(odd[0], {1.03, 0, 1.01}, {3.07, 0, 2.04});
+}
+
+// A round hole has no corner at each of its sides: there, its rectangle ends with cells of the grid.
+TEST(Holes, AreRoundToWithinACell) {
+  std::string wall = "gray polygon wall 0 0 93 0 0 0 6.4 0 0 6.4 0 3.2 0 0 3.2 0 0 0";
+  const int sides = 25;
+  for (int i = 0; i <= sides; ++i)
+    wall += fmt::format(" {} 0 {}", 3 + .8 * std::sin(2 * kPi * i / sides),
+                        1.6 + .8 * std::cos(2 * kPi * i / sides));
+  const auto found = holesIn(wall + "\n");
+  ASSERT_EQ(found.size(), 1u);
+  expectBetween(found[0], {2.2, 0, .8}, {3.8, 0, 2.4}, kWidth / tuning::Holes::kCells);
 }
 
 TEST(Holes, AreBetweenPolygonsLargestFirst) {
