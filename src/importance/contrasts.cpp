@@ -83,7 +83,7 @@ double measureDeviation(const Scene& scene, std::span<const SpecialObject> objec
 Contrasts measureContrasts(const Transport& transport, std::span<const SpecialObject> objects,
                            const SeenSources& sources, const Aims& aims) {
   Contrasts contrasts;
-  if (objects.empty()) return contrasts;
+  if (objects.empty() && !aims.openings) return contrasts;
   const Scene& scene = transport.scene();
   std::map<ModifierId, std::vector<SpecialObject>> alike;  // by modifier
   for (const SpecialObject& object : objects)
@@ -92,6 +92,7 @@ Contrasts measureContrasts(const Transport& transport, std::span<const SpecialOb
   tracer.useCoarseSolutionAtFirst(true);
   tracer.shareHighlights(true);
   contrasts.surroundings = measureSurroundings(scene, sources, tracer);
+  if (alike.empty()) return contrasts;
   const size_t rays = std::clamp<size_t>(Tuning::kMostRays / alike.size(), 2, Tuning::kRaysPerModifier);
   for (const auto& [modifier, same] : alike) {
     const double deviation = measureDeviation(scene, same, rays, sources, tracer);

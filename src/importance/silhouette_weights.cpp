@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "importance/cells_in_targets.h"
 #include "importance/clamp.h"
 #include "importance/tuning.h"
 #include "scene/even_sequence.h"
@@ -160,17 +161,17 @@ SilhouetteWeights::Others SilhouetteWeights::sampleOthers(const SetAtPoint& set,
                                                           const DirectionGuide* guide, size_t guided,
                                                           PathTracer& tracer) const {
   Others others;
-  double sum = 0;
+  CellsInTargets cells;
   const auto guidedDensity = static_cast<double>(guided);
   // The solid angle of each is the inverse of the density of all directions around it.
   const auto send = [&](const V3d& d, double baseCell) {
-    const Targets::Region region = targets.regionAt(d);
+    const Targets::Region region = cells.regionAt(d, targets);
     const double cell = 1 / (1 / baseCell + region.density + (guide ? guidedDensity * guide->density(d) : 0));
     const Ray ray = tracer.trace(set.point(), d, 0, seedOf(set, Stream::firstRay, others.samples.size()));
     const bool enters = !sources_.shown(tracer, images);
     others.regions.push_back(enters ? region.id : kNoRegion);
-    if (enters) sum += cell;
-    others.samples.push_back({d, enters ? cell : 0, enters ? ray.value : Radiance()});
+    cells.add(cell, enters);
+    others.samples.push_back({d, 0, enters ? ray.value : Radiance()});
     if (options_.everyDirection) others.rays.push_back(ray);
     if (guess)
       others.guesses.push_back(
@@ -198,8 +199,9 @@ SilhouetteWeights::Others SilhouetteWeights::sampleOthers(const SetAtPoint& set,
     Random own(seedOf(set, Stream::guide));
     for (const V3d& d : guide->directions(guided, own)) send(d, averageCell);
   }
-  const double scale = sum > 0 ? solidAngle / sum : 0;
-  for (DirectionSample& s : others.samples) s.solidAngle *= scale;
+  cells.fit(targets);
+  cells.scale(solidAngle);
+  for (size_t i = 0; i < others.samples.size(); ++i) others.samples[i].solidAngle = cells.solidAngle(i);
   return others;
 }
 

@@ -16,12 +16,13 @@ namespace rsphere {
 // - Light sources that are seen directly cause nearly all of the variance, so they are integrated
 //   separately (seen_sources.h).
 // - Cells keep to the silhouettes. The cell of a base direction is its Voronoi cell on the sphere; inside a
-//   silhouette it is shared with the dynamic directions that were sent there, in proportion to their numbers,
-//   and outside it is not changed. Plain cells reach over the silhouette's edge from the dense side and bias
-//   the mean by a percent.
+//   silhouette it is shared with the dynamic directions that were sent there, in proportion to their numbers.
+//   All cells in a silhouette add up to its solid angle, and those outside to that of the rest
+//   (cells_in_targets.h). Plain cells reach over the silhouette's edge from the dense side and bias the mean by a
+//   percent.
 // - How many directions a special object gets follows from how much the radiance on it varies, compared with
-//   the surroundings. That is measured by separate rays, so that the mean stays unbiased (targets.h). Spots of
-//   sunlight that enters through openings also get directions of their own.
+//   the surroundings. That is measured by separate rays, so that the mean stays unbiased (targets.h). Openings that
+//   show daylight, and spots of sunlight that enters through them, also get directions of their own.
 // - Where light is uneven, as around a goal, more directions follow it (direction_guide.h).
 // - Indirect rays are aimed at openings that daylight enters through (transport/openings.h), and at diffuse
 //   surfaces that receive much direct light (transport/bright_spots.h).

@@ -1,6 +1,7 @@
 #include "importance/targets.h"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 #include "importance/tuning.h"
@@ -29,6 +30,21 @@ std::vector<V3d> cornersOf(const Box3d& box) {
   return corners;
 }
 
+// Whether the object is a polygon that lies in the rectangle, but for rounding.
+bool fills(const Scene& scene, const SpecialObject& object, const Rectangle& place) {
+  const auto* polygon = shapeOf(scene, object).as<Polygon>();
+  if (!polygon) return false;
+  const double slack = kFlat * (place.width + place.height);
+  const auto corners = std::span(object.placed ? object.placed->vertices : scene.vertices)
+                           .subspan(polygon->firstVertex, polygon->vertices);
+  return std::all_of(corners.begin(), corners.end(), [&](const V3d& corner) {
+    const V3d from = corner - place.corner;
+    const double u = from.dot(place.x), v = from.dot(place.y);
+    return std::abs(from.dot(place.normal)) < slack && u > -slack && u < place.width + slack && v > -slack &&
+           v < place.height + slack;
+  });
+}
+
 bool isVisible(const Tracer& tracer, const BrightSpots::Sunlit& spot, const V3d& point) {
   return std::any_of(spot.places.begin(), spot.places.end(), [&](const V3d& place) {
     const V3d way = place - point;
@@ -44,12 +60,14 @@ Targets::Targets(std::vector<Target> targets) : targets_(std::move(targets)) {
   for (uint32_t i = 0; i < targets_.size(); ++i) index_.add(i, targets_[i].silhouette);
 }
 
-Targets::Region Targets::regionAt(const V3d& direction) const {
+Targets::Region Targets::regionAt(const V3d& direction, std::vector<uint32_t>& numbers) const {
   Region region;
   for (const uint32_t i : index_.near(direction)) {
     if (!targets_[i].silhouette.contains(direction)) continue;
     region.density += targets_[i].density;
+    if (!targets_[i].fitted) continue;
     region.id = mixBits(region.id + i + 1);
+    numbers.push_back(i);
   }
   return region;
 }
@@ -60,7 +78,13 @@ TargetChoice::TargetChoice(const Transport& transport, std::span<const SpecialOb
       sunlit_(aims.spots ? aims.spots->sunlit() : std::span<const BrightSpots::Sunlit>()),
       densityFactor_(densityFactor),
       contrasts_(measureContrasts(transport, objects, sources, aims)),
-      glints_(transport, objects) {}
+      glints_(transport, objects) {
+  if (!aims.openings) return;
+  for (const Openings::View& view : aims.openings->views())
+    openings_.push_back({view, std::any_of(objects.begin(), objects.end(), [&](const SpecialObject& object) {
+                           return fills(transport.scene(), object, view.place);
+                         })});
+}
 
 Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDirections, size_t most) const {
   std::vector<Target> targets;
@@ -68,20 +92,34 @@ Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDir
   const double usual = contrasts_.surroundings * meanBrightness;
   const double baseDensity = static_cast<double>(baseDirections) / kFullSphere;
   double sum = 0;
-  const auto add = [&](Silhouette silhouette, double deviation, bool continues) {
+  const double kFewest = tuning::CellsInTargets::kFewestDirections;
+  // least: directions in the target, all together.
+  const auto add = [&](Silhouette silhouette, double deviation, bool continues, double least = 0) {
     const double solidAngle = silhouette.regionSolidAngle();
-    if (!(deviation > usual) || !(solidAngle > 0)) return;
-    const double contrast =
-        std::min(usual > 0 ? deviation / usual : Tuning::kMostContrast, Tuning::kMostContrast) - 1;
-    const double density = contrast * baseDensity * densityFactor_;
+    if (!(solidAngle > 0)) return;
+    double density = 0;
+    if (deviation > usual)
+      density = (std::min(usual > 0 ? deviation / usual : Tuning::kMostContrast, Tuning::kMostContrast) - 1) *
+                baseDensity * densityFactor_;
+    density = std::max(density, least / solidAngle - baseDensity);
+    if (solidAngle * (baseDensity + density) < kFewest && !(density > 0)) return;
     sum += density * solidAngle;
     targets.push_back({std::move(silhouette), density, density * solidAngle, continues});
   };
   for (const Contrasts::Object& c : contrasts_.objects)
-    if (c.deviation > usual) add(silhouetteOf(transport_.scene(), c.object, point), c.deviation, false);
+    add(silhouetteOf(transport_.scene(), c.object, point), c.deviation, false);
   if (usual > 0)
     for (Glint& g : glints_.find(point, Tuning::kLeastGlint * kFullSphere * usual * usual))
       add(std::move(g.region), Tuning::kGlintDeviation * g.brightness, g.continues);
+  for (const auto& [view, isSpecial] : openings_) {
+    const Rectangle& place = view.place;
+    if (!((point - place.corner).dot(place.normal) > 0)) continue;
+    const std::array corners{place.at(0, 0), place.at(1, 0), place.at(1, 1), place.at(0, 1)};
+    Silhouette silhouette = hullOf(corners, point);
+    const double light = view.radiance * silhouette.regionSolidAngle();
+    const double least = light > Tuning::kLeastOpening * kFullSphere * meanBrightness ? kFewest : 0;
+    add(std::move(silhouette), isSpecial ? 0 : Tuning::kOpeningDeviation * view.radiance, false, least);
+  }
   for (const BrightSpots::Sunlit& spot : sunlit_)
     if (Tuning::kSunlitDeviation * spot.radiance > usual && isVisible(transport_.tracer(), spot, point))
       add(hullOf(cornersOf(spot.box), point), Tuning::kSunlitDeviation * spot.radiance, false);
@@ -92,6 +130,9 @@ Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDir
       target.expected *= scale;
     }
   }
+  for (Target& target : targets)
+    target.fitted =
+        target.silhouette.regionSolidAngle() * (baseDensity + target.density) > kFewest * (1 - 1e-9);
   return Targets(std::move(targets));
 }
 

@@ -8,6 +8,7 @@
 #include "importance/glints.h"
 #include "importance/silhouette_index.h"
 #include "transport/bright_spots.h"
+#include "transport/openings.h"
 
 namespace rsphere {
 
@@ -17,6 +18,8 @@ struct Target {
   double density = 0;      // of its own directions, per sr of its region
   double expected = 0;     // their average number
   bool continues = false;  // it and the target before it are parts of one image
+  // Whether enough directions are expected in it to fit their cells to its solid angle (cells_in_targets.h).
+  bool fitted = false;
 };
 
 // The targets of one point.
@@ -26,12 +29,13 @@ class Targets {
 
   std::span<const Target> all() const { return targets_; }
 
-  // The targets that contain a direction (unit).
+  // The targets that contain a direction (unit). The numbers in all() of those that are fitted are appended to
+  // numbers.
   struct Region {
     double density = 0;  // of their own directions there, per sr
-    RegionId id = 0;
+    RegionId id = 0;     // of those that are fitted
   };
-  Region regionAt(const V3d& direction) const;
+  Region regionAt(const V3d& direction, std::vector<uint32_t>& numbers) const;
 
  private:
   std::vector<Target> targets_;
@@ -46,8 +50,8 @@ class TargetChoice {
   TargetChoice(const Transport& transport, std::span<const SpecialObject> objects, const SeenSources& sources,
                const Aims& aims, double densityFactor);
 
-  // The targets at a point (world): special objects, images of light sources in them, and visible spots of
-  // daylight (transport/bright_spots.h). Their directions are as many as bring the density up to Neyman's
+  // The targets at a point (world): special objects, images of light sources in them, openings that show daylight
+  // (transport/openings.h), and visible spots of daylight (transport/bright_spots.h). Their directions are as many as bring the density up to Neyman's
   // allocation, in proportion to the deviation of radiance on them, where the base directions already have
   // the density that suits the surroundings. If that needs more than `most` directions on average, all
   // densities are reduced by the same factor, so that no target is dropped. meanBrightness: of the view
@@ -57,6 +61,11 @@ class TargetChoice {
  private:
   const Transport& transport_;
   std::span<const BrightSpots::Sunlit> sunlit_;
+  struct Opening {
+    Openings::View view;
+    bool isSpecial;  // a special object fills it
+  };
+  std::vector<Opening> openings_;
   double densityFactor_;
   Contrasts contrasts_;
   Glints glints_;

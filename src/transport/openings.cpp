@@ -214,6 +214,12 @@ Openings::Openings(const Transport& transport) {
   if (openings_.size() > Tuning::kMost) openings_.resize(Tuning::kMost);
 }
 
+std::vector<Openings::View> Openings::views() const {
+  std::vector<View> views;
+  for (const Opening& o : openings_) views.push_back({o, o.power / o.filled});
+  return views;
+}
+
 void Openings::aim(const V3d& point, const V3d& normal, Aim& aim) const {
   aim.count = 0;
   double sum = 0, seen = 0;

@@ -27,6 +27,13 @@ class Openings {
   // How far the surfaces behind them are (world units): a mean for the size of the rooms.
   double depth() const { return depth_; }
 
+  // How they look from their dark sides.
+  struct View {
+    Rectangle place;      // its normal points to the dark side
+    double radiance = 0;  // W/sr/m2, mean
+  };
+  std::vector<View> views() const;
+
   // The sampling distribution for a point of a diffuse surface.
   struct Aim {
     double mean = 0;   // radiance over the hemisphere from the openings, W/sr/m2, without occlusion

@@ -385,8 +385,9 @@ TEST(Estimator, PatchesGiveTheMeanOfPathsWithLessNoise) {
   EXPECT_LT(3 * error, .045 * paths.mean()) << "would not see an error of 5%";
   EXPECT_LT(patches.standardError(), .8 * paths.standardError());
   const double trueToStated = patches.standardError() * std::sqrt(count / statedOfPatches);
-  EXPECT_GT(trueToStated, .6);
-  EXPECT_LT(trueToStated, 1.6);
+  // With few directions and no noise of paths, the stated error takes bends of smooth light for noise.
+  EXPECT_GT(trueToStated, .4);
+  EXPECT_LT(trueToStated, 1.25);
 }
 
 // The sun lights a patch of the floor, and nothing else is bright. Where no light is reflected twice, directions

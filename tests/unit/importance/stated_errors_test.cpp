@@ -7,11 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "base/constants.h"
 #include "rad_parser/scene_file.h"
 #include "scene/random.h"
 #include "tests/unit/support/scene_of.h"
 #include "tests/unit/support/sphere_setting.h"
 #include "tests/unit/support/statistics.h"
+#include "tests/unit/transport/transport_fixture.h"
 
 namespace rsphere {
 namespace {
@@ -39,6 +41,7 @@ struct Honesty {
   double trueOverStated = 0;  // of root mean squares
   double beyondThree = 0;     // share of the answers that are further from the mean than three stated errors
   double beyondSix = 0;
+  double rms = 0;  // true error, relative to the means
 };
 
 // spoiled: factor on the stated errors.
@@ -58,6 +61,7 @@ Honesty honestyOf(const std::vector<std::vector<PointAnswer>>& points, double sp
     }
   }
   o.trueOverStated = std::sqrt(square / stated);
+  o.rms = std::sqrt(square / all);
   o.beyondThree /= all;
   o.beyondSix /= all;
   return o;
@@ -117,6 +121,49 @@ TEST(StatedErrors, OfLampsThatAreChosenByChance) {
   EXPECT_LT(honest.trueOverStated, 1.35);
   EXPECT_LT(honest.beyondThree, .05);
   EXPECT_GT(spoiled.trueOverStated, 1.35) << "would not see half the error";
+}
+
+// A window is much brighter than the room, and its edges would cause most of the error.
+TEST(StatedErrors, OfRoomsWithAWindow) {
+  const SphereSetting rooms[] = {
+      SphereSetting(sceneOf(kRoomWithAWindow), [](RayOptions& o) { o.ambientBounces = 2; }),
+      SphereSetting(
+          sceneOf(kRoomWithAWindow + "void glass clear 0 0 3 .96 .96 .96\n"
+                                     "clear polygon pane 0 0 12 1.1 0 1 1.1 0 1.7 1.9 0 1.7 1.9 0 1\n"),
+          [](RayOptions& o) { o.ambientBounces = 2; })};
+  const V3d points[] = {V3d(1.5, 1, 1.2), V3d(.5, 3, 1.2), V3d(2.5, 4.5, 2), V3d(1, .5, .5)};
+  for (const SphereSetting& room : rooms) {
+    std::vector<std::vector<PointAnswer>> answers(std::size(points));
+    SphereOptions o = room.options.sphere;
+    o.baseDirections = 256;
+    for (o.rotation = 1; o.rotation <= 100; ++o.rotation) {
+      const SphereEstimator estimator(*room.transport, o, true);
+      SphereEstimator::Workspace workspace(estimator);
+      for (size_t i = 0; i < std::size(points); ++i)
+        answers[i].push_back(estimator.estimate(points[i], workspace));
+    }
+    const Honesty honest = honestyOf(answers, 1), spoiled = honestyOf(answers, .5);
+    EXPECT_GT(honest.trueOverStated, .7);
+    EXPECT_LT(honest.trueOverStated, 1.35);
+    EXPECT_LT(honest.beyondThree, .02);
+    EXPECT_GT(spoiled.trueOverStated, 1.35) << "would not see half the error";
+    EXPECT_LT(honest.rms, .02);
+  }
+}
+
+// What is seen through a window under an even sky is known exactly, whichever directions happen to hit it.
+TEST(StatedErrors, OfAnEvenSkyThroughAWindowAreNone) {
+  const SphereSetting room(sceneOf(kRoomWithAWindow));  // without bounces the room is dark
+  SphereOptions o = room.options.sphere;
+  o.baseDirections = 512;
+  for (o.rotation = 1; o.rotation <= 8; ++o.rotation) {
+    const SphereEstimator estimator(*room.transport, o, true);
+    SphereEstimator::Workspace workspace(estimator);
+    const PointAnswer near = estimator.estimate(V3d(1.5, 1, 1.35), workspace);
+    const double solidAngle = 4 * std::atan(.4 * .35 / std::sqrt(1 + .16 + .1225));
+    EXPECT_NEAR(brightness(near.mean), solidAngle / (4 * kPi), 1e-9);
+    EXPECT_LT(near.brightnessError, 1e-9);
+  }
 }
 
 }  // namespace

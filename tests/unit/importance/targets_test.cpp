@@ -17,19 +17,36 @@ namespace {
 using std::numbers::pi;
 
 Target ballAt(const V3d& center, double density) {
-  return {silhouetteOf(Shape(Sphere{center, .5}), {}, V3d(0, 0, 0)), density, 0, false};
+  return {silhouetteOf(Shape(Sphere{center, .5}), {}, V3d(0, 0, 0)), density, 0, false, true};
+}
+
+Targets::Region regionAt(const Targets& targets, const V3d& direction) {
+  std::vector<uint32_t> numbers;
+  return targets.regionAt(direction.normalized(), numbers);
 }
 
 TEST(Targets, DensitiesAddWhereTargetsOverlap) {
   const Targets targets({ballAt(V3d(0, 0, 2), 10), ballAt(V3d(0, 0, 3), 5), ballAt(V3d(4, 0, 0), 1)});
-  EXPECT_EQ(targets.regionAt(V3d(0, 0, 1)).density, 15);
-  EXPECT_EQ(targets.regionAt(V3d(.2, 0, 1).normalized()).density, 10) << "in the wider of the two alone";
-  EXPECT_EQ(targets.regionAt(V3d(1, 0, 0)).density, 1);
-  EXPECT_EQ(targets.regionAt(V3d(0, -1, 0)).density, 0);
-  EXPECT_EQ(Targets({}).regionAt(V3d(0, 0, 1)).density, 0);
-  EXPECT_EQ(targets.regionAt(V3d(0, 0, 1)).id, targets.regionAt(V3d(.01, 0, 1).normalized()).id);
-  EXPECT_NE(targets.regionAt(V3d(0, 0, 1)).id, targets.regionAt(V3d(.2, 0, 1).normalized()).id);
-  EXPECT_EQ(targets.regionAt(V3d(0, -1, 0)).id, Targets({}).regionAt(V3d(0, 0, 1)).id);
+  EXPECT_EQ(regionAt(targets, V3d(0, 0, 1)).density, 15);
+  EXPECT_EQ(regionAt(targets, V3d(.2, 0, 1)).density, 10) << "in the wider of the two alone";
+  EXPECT_EQ(regionAt(targets, V3d(1, 0, 0)).density, 1);
+  EXPECT_EQ(regionAt(targets, V3d(0, -1, 0)).density, 0);
+  EXPECT_EQ(regionAt(Targets({}), V3d(0, 0, 1)).density, 0);
+  EXPECT_EQ(regionAt(targets, V3d(0, 0, 1)).id, regionAt(targets, V3d(.01, 0, 1)).id);
+  EXPECT_NE(regionAt(targets, V3d(0, 0, 1)).id, regionAt(targets, V3d(.2, 0, 1)).id);
+  EXPECT_EQ(regionAt(targets, V3d(0, -1, 0)).id, regionAt(Targets({}), V3d(0, 0, 1)).id);
+}
+
+// The edge of a target whose solid angle is not fitted causes errors, as any other edge.
+TEST(Targets, RegionsAreThoseOfFittedTargets) {
+  std::vector<Target> targets{ballAt(V3d(0, 0, 2), 10), ballAt(V3d(0, 0, 3), 5)};
+  targets[0].fitted = false;
+  const Targets mixed(targets);
+  std::vector<uint32_t> numbers;
+  EXPECT_EQ(mixed.regionAt(V3d(0, 0, 1), numbers).density, 15);
+  EXPECT_EQ(numbers, std::vector<uint32_t>{1});
+  EXPECT_EQ(regionAt(mixed, V3d(.2, 0, 1)).id, regionAt(mixed, V3d(1, 0, 0)).id);
+  EXPECT_NE(regionAt(mixed, V3d(0, 0, 1)).id, regionAt(mixed, V3d(1, 0, 0)).id);
 }
 
 // Chrome balls in a room that is bright on one side: the radiance on them varies more than around.
@@ -72,8 +89,14 @@ TEST(TargetChoice, SendsAsManyAsTheMostToAllAlike) {
   EXPECT_TRUE(choice.at(point, 1e-6, 0).all().empty());
 }
 
-TEST(TargetChoice, NoneWhereAllElseVariesMore) {
-  EXPECT_TRUE(Choice().at(V3d(0, 0, 0), 1e6, 1000).all().empty());
+// Without directions of their own, large objects are targets whose solid angle is fitted: 8 of the 2048 base directions
+// cover .05 sr. The balls have .03 and .13 sr.
+TEST(TargetChoice, SendsNoneWhereAllElseVariesMore) {
+  const Targets targets = Choice().at(V3d(0, 0, 0), 1e6, 1000);
+  ASSERT_EQ(targets.all().size(), 1u);
+  EXPECT_EQ(targets.all()[0].expected, 0);
+  EXPECT_TRUE(targets.all()[0].fitted);
+  EXPECT_NEAR(targets.all()[0].silhouette.solidAngle(), 2 * pi * (1 - std::sqrt(.96)), 1e-9);
 }
 
 TEST(TargetChoice, DensityIsMultiplied) {
@@ -89,9 +112,8 @@ TEST(TargetChoice, SunlitFloorsAreTargets) {
   const SphereSetting setting(sceneOf(kSunlitRoom), [](RayOptions& o) { o.ambientBounces = 1; });
   const SeenSources sources(*setting.transport);
   const auto towards = [&](const Aims& aims, const V3d& point, const V3d& place) {
-    return TargetChoice(*setting.transport, {}, sources, aims, 1)
-        .at(point, 1, 2048, 4096)
-        .regionAt((place - point).normalized())
+    return regionAt(TargetChoice(*setting.transport, {}, sources, aims, 1).at(point, 1, 2048, 4096),
+                    place - point)
         .density;
   };
   const Aims aims = setting.transport->aims();
@@ -103,7 +125,33 @@ TEST(TargetChoice, SunlitFloorsAreTargets) {
   EXPECT_EQ(towards(aims, V3d(2, 1.5, -.005), sunlit), 0) << "below the floor";
 }
 
-// Without special objects nothing is measured.
+// A room whose wall at y = 0 has a window without a pane, at 1.1 <= x <= 1.9 and 1 <= z <= 1.7, under an even sky.
+TEST(TargetChoice, HolesThatShowTheSkyAreTargets) {
+  const SphereSetting setting(sceneOf(kRoomWithAWindow), [](RayOptions& o) { o.ambientBounces = 1; });
+  const SeenSources sources(*setting.transport);
+  const auto at = [&](const Aims& aims, const V3d& point, double meanBrightness) {
+    return TargetChoice(*setting.transport, {}, sources, aims, 1).at(point, meanBrightness, 512, 4096);
+  };
+  const Aims aims = setting.transport->aims();
+  ASSERT_TRUE(aims.openings);
+  const V3d near(1.5, 1, 1.35), far(1.5, 4.9, 1.35);
+  // 41 base directions per sr: 8 cover .2 sr. The window has .42 sr from near by, .02 sr from far away.
+  const Targets even = at(aims, near, 10), bright = at(aims, near, .1), small = at(aims, far, .1);
+  ASSERT_EQ(even.all().size(), 1u);
+  EXPECT_NEAR(even.all()[0].silhouette.regionSolidAngle(),
+              4 * std::atan(.4 * .35 / std::sqrt(1 + .16 + .1225)), 1e-9);
+  EXPECT_EQ(even.all()[0].expected, 0) << "the surroundings are brighter";
+  EXPECT_TRUE(even.all()[0].fitted);
+  ASSERT_EQ(bright.all().size(), 1u);
+  EXPECT_GT(bright.all()[0].expected, 0);
+  ASSERT_EQ(small.all().size(), 1u);
+  EXPECT_TRUE(small.all()[0].fitted) << "enough directions are sent";
+  EXPECT_TRUE(at(aims, far, 10).all().empty()) << "it is dim, and has less than one base direction";
+  EXPECT_TRUE(at(aims, V3d(1.5, -1, 1.35), .1).all().empty()) << "from the bright side";
+  EXPECT_TRUE(at(Aims{}, near, .1).all().empty()) << "nothing is aimed at";
+}
+
+// Without special objects and openings nothing is measured.
 TEST(Contrasts, NoneOfDiffuseScenes) {
   const Setting setting;
   const SeenSources sources(*setting.transport);
