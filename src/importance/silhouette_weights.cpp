@@ -75,8 +75,12 @@ SilhouetteWeights::SilhouetteWeights(const Transport& transport, const SphereOpt
   if (!(options.densityFactor > 0)) return;
   guidance_.emplace(Guidance{TargetChoice(transport, special, sources, aims, options.densityFactor),
                              RadianceGuess(transport, unguessedSurfaces(sources)), glancesFor(options),
-                             baseDirections(tuning::RadianceGuess::kFitGlances), transport.tracer(),
-                             patches});
+                             baseDirections(tuning::RadianceGuess::kFitGlances), std::nullopt,
+                             transport.tracer(), patches});
+  if (!base.neighbours) return;
+  VoronoiWorkspace workspace;
+  cellSolidAngles(guidance_->glances, workspace);
+  guidance_->neighbours = neighboursOf(workspace);
 }
 
 SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace&) const {
@@ -108,7 +112,7 @@ SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, 
   if (guess) {
     const Excess excess = excessOfGlances(set, others, *guess, guided > 0 ? &*guide : nullptr);
     sampled.excess = excess.moments;
-    if (base_.neighbours) sampled.variance = excess.ofGuided;
+    sampled.variance = excess.variance;
   }
   if (options_.clamp > 0) {
     Irradiance total = sampled.excess.total;
@@ -214,22 +218,27 @@ SilhouetteWeights::Excess SilhouetteWeights::excessOfGlances(const SetAtPoint& s
     if (others.regions[i] != kNoRegion)
       excess.add(others.samples[i].direction,
                  irradianceFrom(others.guesses[i], -others.samples[i].solidAngle), base_.sampling);
-  const std::vector<V3d> glances = set.turned(guidance_->glances);
-  const double even = static_cast<double>(glances.size()) / (4 * pi);  // per sr
-  const auto guided = guide ? static_cast<size_t>(Tuning::kGuided * static_cast<double>(glances.size())) : 0;
+  std::vector<DirectionSample> seen;
+  const double even = static_cast<double>(guidance_->glances.size()) / (4 * pi);  // per sr
+  const auto guided =
+      guide ? static_cast<size_t>(Tuning::kGuided * static_cast<double>(guidance_->glances.size())) : 0;
   const auto look = [&](const V3d& direction) {
     const double density = even + (guide ? static_cast<double>(guided) * guide->density(direction) : 0);
-    const Irradiance part = irradianceFrom(guess.along(set.point(), direction), 1 / density);
+    const Radiance radiance = guess.along(set.point(), direction);
+    const Irradiance part = irradianceFrom(radiance, 1 / density);
     excess.add(direction, part, base_.sampling);
+    if (guidance_->neighbours) seen.push_back({direction, 1 / density, radiance});
     return part;
   };
-  for (const V3d& direction : glances) look(direction);
+  for (const V3d& direction : set.turned(guidance_->glances)) look(direction);
+  if (guidance_->neighbours)
+    result.variance = baseVariance(seen, *guidance_->neighbours, {}, base_.sampling) * Tuning::kEvenGlances;
   if (!guide) return result;
   Random random(seedOf(set, Stream::guidedGlances));
   std::optional<Irradiance> last;
   for (const V3d& direction : guide->directions(guided, random)) {
     const Irradiance part = look(direction);
-    if (last) result.ofGuided += Variance::of(part - *last, base_.sampling) * .5;
+    if (last && guidance_->neighbours) result.variance += Variance::of(part - *last, base_.sampling) * .5;
     last = part;
   }
   return result;
@@ -241,14 +250,7 @@ Variance SilhouetteWeights::varianceOf(const Others& others,
   Variance variance;
   std::vector<DirectionSample> unguessed = others.samples;
   if (guidance_) {
-    // The error of the guess is that of the glances, which are more numerous than the directions.
-    std::vector<DirectionSample> guessed(others.samples.begin(),
-                                         others.samples.begin() + static_cast<ptrdiff_t>(base));
-    for (size_t i = 0; i < base; ++i) guessed[i].value = others.guesses[i];
     for (size_t i = 0; i < unguessed.size(); ++i) unguessed[i].value -= others.guesses[i];
-    const double even =
-        std::pow(static_cast<double>(guidance_->glances.size()) / static_cast<double>(base), -1.5);
-    variance += baseVariance(guessed, *base_.neighbours, others.regions, base_.sampling) * even;
   }
   const std::span<const DirectionSample> samples(unguessed);
   variance += baseVariance(samples.first(base), *base_.neighbours, others.regions, base_.sampling);

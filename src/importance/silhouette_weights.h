@@ -47,6 +47,7 @@ class SilhouetteWeights : public SamplingStrategy {
     TargetChoice targets;
     RadianceGuess guess;
     std::vector<V3d> glances, fitGlances;
+    std::optional<Neighbours> neighbours;  // of glances, if standard errors are wanted
     const Tracer& tracer;
     const LightPatches* patches;  // null where light is even
   };
@@ -80,7 +81,7 @@ class SilhouetteWeights : public SamplingStrategy {
   // The moments of the guess by glances, minus those by the directions.
   struct Excess {
     Moments moments;
-    Variance ofGuided;  // of glances that the guide has sent
+    Variance variance;  // of the glances; 0 unless standard errors are wanted
   };
   Excess excessOfGlances(const SetAtPoint& set, const Others& others, const LocalGuess& guess,
                          const DirectionGuide* guide) const;
