@@ -77,6 +77,20 @@ Variance spreadVariance(std::span<const DirectionSample> samples, const Spectral
   return squares * (n / (n - 1) * even);
 }
 
+Variance loneVariance(const DirectionSample& sample, RegionId region, std::span<const DirectionSample> base,
+                      std::span<const RegionId> regions, const SpectralSampling* sampling) {
+  Radiance sum;
+  int count = 0;
+  for (size_t i = 0; i < base.size(); ++i) {
+    if (regions[i] != region) continue;
+    sum += base[i].value;
+    ++count;
+  }
+  if (count == 0) return Variance::of(irradianceFrom(sample.value, sample.solidAngle), sampling);
+  const double own = static_cast<double>(count) / (count + 1);
+  return Variance::of(irradianceFrom(sample.value - sum / count, sample.solidAngle), sampling) * own;
+}
+
 Variance partsVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling) {
   // The samples are in the order of the rows of the grid. Pairs are neighbours in a row, and samples that lie
   // one row of the first row's length apart.

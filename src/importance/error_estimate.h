@@ -51,6 +51,11 @@ Variance baseVariance(std::span<const DirectionSample> base, const Neighbours& n
 // the directions are even, but not where few of them find much, such as a lamp that is mirrored twice.
 Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling = nullptr);
 
+// The same for a run of a single direction in a region: compared with the base directions in the same region. regions:
+// of each of base. If there are none, all of what it found is taken for the error.
+Variance loneVariance(const DirectionSample& sample, RegionId region, std::span<const DirectionSample> base,
+                      std::span<const RegionId> regions, const SpectralSampling* sampling = nullptr);
+
 // The same for the samples of one image of a light source, in the order of its grid: from differences between
 // neighbouring cells, because an occluder hides cells that lie together.
 Variance partsVariance(std::span<const SeenSources::Sample> samples,

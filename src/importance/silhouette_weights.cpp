@@ -254,9 +254,12 @@ Variance SilhouetteWeights::varianceOf(const Others& others,
   }
   const std::span<const DirectionSample> samples(unguessed);
   variance += baseVariance(samples.first(base), *base_.neighbours, others.regions, base_.sampling);
-  for (size_t i = 1; i < others.runs.size(); ++i)
-    variance += spreadVariance(samples.subspan(others.runs[i - 1], others.runs[i] - others.runs[i - 1]),
-                               base_.sampling);
+  for (size_t i = 1; i < others.runs.size(); ++i) {
+    const size_t first = others.runs[i - 1], count = others.runs[i] - first;
+    variance += count == 1 ? loneVariance(samples[first], others.regions[first], samples.first(base),
+                                          others.regions, base_.sampling)
+                           : spreadVariance(samples.subspan(first, count), base_.sampling);
+  }
   // Successive directions of the guide are near to each other: their differences are errors.
   for (size_t i = others.runs.back() + 1; i < samples.size(); ++i)
     variance += Variance::of(irradianceFrom(samples[i].value, samples[i].solidAngle) -

@@ -100,5 +100,16 @@ TEST(ErrorEstimate, EdgesOfRegionsAreNoErrors) {
   EXPECT_EQ(baseVariance(base, row, std::vector<RegionId>{0, 0, kNoRegion, kNoRegion}).brightness, 0);
 }
 
+// One direction that was sent to a window, beside base directions of which two see it.
+TEST(ErrorEstimate, ALoneDirectionIsComparedWithItsRegion) {
+  const std::vector<DirectionSample> base = {
+      {V3d(0, 0, 1), 1, Radiance(1)}, {V3d(0, 0, 1), 1, Radiance(8)}, {V3d(0, 0, 1), 1, Radiance(10)}};
+  const std::vector<RegionId> regions{0, 5, 5};
+  const DirectionSample lone{V3d(0, 0, 1), 2, Radiance(12)};
+  EXPECT_NEAR(loneVariance(lone, 5, base, regions).brightness, 4 * 9 * 2. / 3, 1e-12);
+  EXPECT_NEAR(loneVariance(lone, 0, base, regions).brightness, 4 * 121 / 2., 1e-12);
+  EXPECT_NEAR(loneVariance(lone, 6, base, regions).brightness, 4 * 144, 1e-12);
+}
+
 }  // namespace
 }  // namespace rsphere
