@@ -10,18 +10,11 @@ namespace rsphere {
 
 class CellsInTargets {
  public:
-  // As Targets::regionAt(). Remembers the targets that the next cell lies in.
-  Targets::Region regionAt(const V3d& direction, const Targets& targets) {
-    return targets.regionAt(direction, targets_);
-  }
-  // Adds the cell (sr) of the direction that regionAt() was asked about. enters: whether the direction enters the
-  // mean.
-  void add(double cell, bool enters);
+  // Adds the cell (sr) of a direction. region: of the direction. enters: whether it enters the mean.
+  void add(double cell, const Targets::Region& region, bool enters);
 
   // Scales the cells in each target that is to be fitted, so that they add up to its solid angle. How many directions
-  // happen to lie in a target, and which cells its edge divides, then is no error anymore. Where targets overlap, all
-  // solid angles are met together by iterative proportional fitting (Deming and Stephan 1940, Annals of Mathematical
-  // Statistics 11/4).
+  // happen to lie in a target, and which cells its edge divides, then is no error anymore.
   void fit(const Targets& targets);
 
   // Scales the cells that enter the mean, so that they add up to solidAngle (sr). If that can be met by those
@@ -29,13 +22,15 @@ class CellsInTargets {
   void scale(double solidAngle);
 
   // Of the direction that was added as number i, sr. 0 if it does not enter the mean.
-  double solidAngle(size_t i) const { return enters_[i] ? cells_[i] : 0; }
+  double solidAngle(size_t i) const { return cells_[i].enters ? cells_[i].solidAngle : 0; }
 
  private:
-  std::vector<double> cells_;  // sr
-  std::vector<bool> enters_, fitted_;
-  std::vector<uint32_t> targets_;  // that contain each direction, of all directions in turn
-  std::vector<size_t> ends_;       // in targets_, for each direction
+  struct Cell {
+    double solidAngle;  // sr
+    uint32_t target;    // Targets::Region::fitted
+    bool enters;
+  };
+  std::vector<Cell> cells_;
 };
 
 }  // namespace rsphere

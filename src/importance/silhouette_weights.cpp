@@ -169,12 +169,12 @@ SilhouetteWeights::Others SilhouetteWeights::sampleOthers(const SetAtPoint& set,
   const auto guidedDensity = static_cast<double>(guided);
   // The solid angle of each is the inverse of the density of all directions around it.
   const auto send = [&](const V3d& d, double baseCell) {
-    const Targets::Region region = cells.regionAt(d, targets);
+    const Targets::Region region = targets.regionAt(d);
     const double cell = 1 / (1 / baseCell + region.density + (guide ? guidedDensity * guide->density(d) : 0));
     const Ray ray = tracer.trace(set.point(), d, 0, seedOf(set, Stream::firstRay, others.samples.size()));
     const bool enters = !sources_.shown(tracer, images);
     others.regions.push_back(enters ? region.id : kNoRegion);
-    cells.add(cell, enters);
+    cells.add(cell, region, enters);
     others.samples.push_back({d, 0, enters ? ray.value : Radiance()});
     if (options_.everyDirection) others.rays.push_back(ray);
     if (guess)

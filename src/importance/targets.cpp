@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "importance/tuning.h"
@@ -45,6 +46,37 @@ bool fills(const Scene& scene, const SpecialObject& object, const Rectangle& pla
   });
 }
 
+bool overlap(const Silhouette& a, const Silhouette& b) {
+  const Silhouette::Cap capA = a.surroundingCap(), capB = b.surroundingCap();
+  if (capA.angle + capB.angle < std::numbers::pi &&
+      capA.axis.dot(capB.axis) < std::cos(capA.angle + capB.angle))
+    return false;
+  // Panes side by side share an edge. Of other regions than polygons, within() gives the smaller.
+  constexpr double kEdge = 1e-6;
+  return a.within(b).regionSolidAngle() > kEdge * std::min(a.regionSolidAngle(), b.regionSolidAngle());
+}
+
+// Targets that do not overlap, those with most directions first, among those in which enough directions are expected.
+// That is not decided by the number found, which would bias the mean. Where targets overlap, how many directions find the part that is
+// in one of them alone is uncertain; cells that met both solid angles would have to meet them in the other part.
+void chooseFitted(std::vector<Target>& targets, double baseDensity) {
+  std::vector<Target*> chosen, large;
+  const auto expected = [&](const Target& target) {
+    return target.silhouette.regionSolidAngle() * (baseDensity + target.density);
+  };
+  for (Target& target : targets)
+    if (expected(target) > Tuning::kFewestFitted) large.push_back(&target);
+  std::ranges::stable_sort(large,
+                           [&](const Target* a, const Target* b) { return expected(*a) > expected(*b); });
+  if (large.size() > Tuning::kMostFitted) large.resize(Tuning::kMostFitted);
+  for (Target* target : large) {
+    target->fitted = std::ranges::none_of(
+        chosen, [&](const Target* other) { return overlap(target->silhouette, other->silhouette); });
+    if (target->fitted) chosen.push_back(target);
+  }
+  for (Target& target : targets) target.hasOwnEdge = target.fitted || target.density > baseDensity;
+}
+
 bool isVisible(const Tracer& tracer, const BrightSpots::Sunlit& spot, const V3d& point) {
   return std::any_of(spot.places.begin(), spot.places.end(), [&](const V3d& place) {
     const V3d way = place - point;
@@ -60,14 +92,13 @@ Targets::Targets(std::vector<Target> targets) : targets_(std::move(targets)) {
   for (uint32_t i = 0; i < targets_.size(); ++i) index_.add(i, targets_[i].silhouette);
 }
 
-Targets::Region Targets::regionAt(const V3d& direction, std::vector<uint32_t>& numbers) const {
+Targets::Region Targets::regionAt(const V3d& direction) const {
   Region region;
   for (const uint32_t i : index_.near(direction)) {
     if (!targets_[i].silhouette.contains(direction)) continue;
     region.density += targets_[i].density;
-    if (!targets_[i].fitted) continue;
-    region.id = mixBits(region.id + i + 1);
-    numbers.push_back(i);
+    if (targets_[i].hasOwnEdge) region.id = mixBits(region.id + i + 1);
+    if (targets_[i].fitted && region.fitted == 0) region.fitted = i + 1;
   }
   return region;
 }
@@ -79,11 +110,17 @@ TargetChoice::TargetChoice(const Transport& transport, std::span<const SpecialOb
       densityFactor_(densityFactor),
       contrasts_(measureContrasts(transport, objects, sources, aims)),
       glints_(transport, objects) {
+  radiances_.resize(contrasts_.objects.size());
   if (!aims.openings) return;
-  for (const Openings::View& view : aims.openings->views())
-    openings_.push_back({view, std::any_of(objects.begin(), objects.end(), [&](const SpecialObject& object) {
-                           return fills(transport.scene(), object, view.place);
-                         })});
+  for (const Openings::View& view : aims.openings->views()) {
+    bool isFilled = false;
+    for (size_t i = 0; i < radiances_.size(); ++i) {
+      if (!fills(transport.scene(), contrasts_.objects[i].object, view.place)) continue;
+      radiances_[i] = view.radiance;
+      isFilled = true;
+    }
+    if (!isFilled) openings_.push_back(view);
+  }
 }
 
 Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDirections, size_t most) const {
@@ -92,33 +129,31 @@ Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDir
   const double usual = contrasts_.surroundings * meanBrightness;
   const double baseDensity = static_cast<double>(baseDirections) / kFullSphere;
   double sum = 0;
-  const double kFewest = tuning::CellsInTargets::kFewestDirections;
-  // least: directions in the target, all together.
-  const auto add = [&](Silhouette silhouette, double deviation, bool continues, double least = 0) {
+  // opening: mean radiance of the daylight that it may show, W/sr/m2; 0: it is no opening.
+  const auto add = [&](Silhouette silhouette, double deviation, bool continues, double opening = 0) {
     const double solidAngle = silhouette.regionSolidAngle();
     if (!(solidAngle > 0)) return;
     double density = 0;
     if (deviation > usual)
       density = (std::min(usual > 0 ? deviation / usual : Tuning::kMostContrast, Tuning::kMostContrast) - 1) *
                 baseDensity * densityFactor_;
-    density = std::max(density, least / solidAngle - baseDensity);
-    if (solidAngle * (baseDensity + density) < kFewest && !(density > 0)) return;
+    if (opening * solidAngle > Tuning::kLeastOpening * kFullSphere * meanBrightness)
+      density = std::max(density, Tuning::kDirectionsToOpening / solidAngle - baseDensity);
+    if (!(density > 0) && solidAngle * baseDensity < Tuning::kFewestFitted) return;
     sum += density * solidAngle;
     targets.push_back({std::move(silhouette), density, density * solidAngle, continues});
   };
-  for (const Contrasts::Object& c : contrasts_.objects)
-    add(silhouetteOf(transport_.scene(), c.object, point), c.deviation, false);
+  for (size_t i = 0; i < radiances_.size(); ++i) {
+    const Contrasts::Object& c = contrasts_.objects[i];
+    add(silhouetteOf(transport_.scene(), c.object, point), c.deviation, false, radiances_[i]);
+  }
   if (usual > 0)
     for (Glint& g : glints_.find(point, Tuning::kLeastGlint * kFullSphere * usual * usual))
       add(std::move(g.region), Tuning::kGlintDeviation * g.brightness, g.continues);
-  for (const auto& [view, isSpecial] : openings_) {
-    const Rectangle& place = view.place;
+  for (const auto& [place, radiance] : openings_) {
     if (!((point - place.corner).dot(place.normal) > 0)) continue;
     const std::array corners{place.at(0, 0), place.at(1, 0), place.at(1, 1), place.at(0, 1)};
-    Silhouette silhouette = hullOf(corners, point);
-    const double light = view.radiance * silhouette.regionSolidAngle();
-    const double least = light > Tuning::kLeastOpening * kFullSphere * meanBrightness ? kFewest : 0;
-    add(std::move(silhouette), isSpecial ? 0 : Tuning::kOpeningDeviation * view.radiance, false, least);
+    add(hullOf(corners, point), Tuning::kOpeningDeviation * radiance, false, radiance);
   }
   for (const BrightSpots::Sunlit& spot : sunlit_)
     if (Tuning::kSunlitDeviation * spot.radiance > usual && isVisible(transport_.tracer(), spot, point))
@@ -130,9 +165,7 @@ Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDir
       target.expected *= scale;
     }
   }
-  for (Target& target : targets)
-    target.fitted =
-        target.silhouette.regionSolidAngle() * (baseDensity + target.density) > kFewest * (1 - 1e-9);
+  chooseFitted(targets, baseDensity);
   return Targets(std::move(targets));
 }
 

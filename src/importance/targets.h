@@ -18,8 +18,10 @@ struct Target {
   double density = 0;      // of its own directions, per sr of its region
   double expected = 0;     // their average number
   bool continues = false;  // it and the target before it are parts of one image
-  // Whether enough directions are expected in it to fit their cells to its solid angle (cells_in_targets.h).
+  // Whether cells are fitted to its solid angle (cells_in_targets.h). No two of these targets overlap.
   bool fitted = false;
+  // Whether its edge is no error of the base directions: it is fitted, or has more directions of its own.
+  bool hasOwnEdge = false;
 };
 
 // The targets of one point.
@@ -29,13 +31,14 @@ class Targets {
 
   std::span<const Target> all() const { return targets_; }
 
-  // The targets that contain a direction (unit). The numbers in all() of those that are fitted are appended to
-  // numbers.
+  // The targets that contain a direction (unit).
   struct Region {
     double density = 0;  // of their own directions there, per sr
-    RegionId id = 0;     // of those that are fitted
+    RegionId id =
+        0;  // equal for directions in the same targets of those that have their own edge; 0: in none
+    uint32_t fitted = 0;  // 1 + the position in all() of the one that is fitted; 0: none is
   };
-  Region regionAt(const V3d& direction, std::vector<uint32_t>& numbers) const;
+  Region regionAt(const V3d& direction) const;
 
  private:
   std::vector<Target> targets_;
@@ -61,11 +64,9 @@ class TargetChoice {
  private:
   const Transport& transport_;
   std::span<const BrightSpots::Sunlit> sunlit_;
-  struct Opening {
-    Openings::View view;
-    bool isSpecial;  // a special object fills it
-  };
-  std::vector<Opening> openings_;
+  std::vector<Openings::View> openings_;  // those that no special object fills
+  std::vector<double>
+      radiances_;  // of contrasts_.objects that fill an opening, W/sr/m2, from the dark side; otherwise 0
   double densityFactor_;
   Contrasts contrasts_;
   Glints glints_;

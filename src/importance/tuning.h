@@ -91,10 +91,19 @@ struct Targets {
   // sky, 512 directions have errors of 3.8 2.9 2.7 2.5% (two bounces) and 51 5.9 3.8 2.3% (none) with 0 .1 .25 .5, in
   // times that are the same within noise; without targets at openings 6.9 and 76%.
   RSPHERE_TUNED(Targets, double, kOpeningDeviation, .5);
-  // An opening that would give more than this share of the light at a point, if nothing hid it, gets enough directions
-  // for its cells to be fitted: chosen by experiment. At .1, a far window that happens to be dark in the rays around a
-  // point causes errors of up to 10% instead of 5%.
+  // An opening that would give more than this share of the light at a point, if nothing hid it, gets at least the number
+  // of directions below: chosen by experiment. At .1, a far window that happens to be dark in the rays around a point
+  // causes errors of up to 10% instead of 5%.
   RSPHERE_TUNED(Targets, double, kLeastOpening, .01);
+  // With 8, an opening of which an eighth is hidden often looks open.
+  RSPHERE_TUNED(Targets, double, kDirectionsToOpening, 32);
+  // Expected directions in a target from which on its cells are fitted to its solid angle: chosen by experiment. With 4
+  // or 16 the errors in rooms with a window are the same; with fewer, the fit would bias the mean where the number of
+  // directions and what they see depend on each other. With 8 no bias is found: .02 +- .02% (128 base directions).
+  RSPHERE_TUNED(Targets, double, kFewestFitted, 8);
+  // Cap on the targets that are considered for that, to limit the time of comparing each with each: chosen without
+  // measurement.
+  RSPHERE_TUNED(Targets, size_t, kMostFitted, 256);
   // The same for spots of daylight, which are lit in part: by measurement. With them, the default directions in
   // two sunlit rooms have errors of 1.5 and 1.8% instead of 2.75 and 1.9%. .25 or 1: within noise.
   RSPHERE_TUNED(Targets, double, kSunlitDeviation, .5);
@@ -102,13 +111,6 @@ struct Targets {
 
 // The cells of directions in targets (cells_in_targets.cpp).
 struct CellsInTargets {
-  // Expected directions in a target from which on its cells are fitted to its solid angle: chosen by experiment. With 4
-  // or 16 the errors in rooms with a window are the same; with fewer, the fit would bias the mean where the number of
-  // directions and what they see depend on each other. With 8 no bias is found: .02 +- .02% (128 base directions).
-  RSPHERE_TUNED(CellsInTargets, double, kFewestDirections, 8);
-  // Passes over targets that overlap end when no cell changes by more than this share, or after this number.
-  static constexpr double kSettled = 1e-4;
-  static constexpr int kMostPasses = 8;
   // If the cells outside targets would have to change by more than this share, all cells are scaled: chosen without
   // measurement. It matters only where targets fill nearly all of the sphere.
   RSPHERE_TUNED(CellsInTargets, double, kMostScaled, .25);

@@ -17,12 +17,11 @@ namespace {
 using std::numbers::pi;
 
 Target ballAt(const V3d& center, double density) {
-  return {silhouetteOf(Shape(Sphere{center, .5}), {}, V3d(0, 0, 0)), density, 0, false, true};
+  return {silhouetteOf(Shape(Sphere{center, .5}), {}, V3d(0, 0, 0)), density, 0, false, true, true};
 }
 
 Targets::Region regionAt(const Targets& targets, const V3d& direction) {
-  std::vector<uint32_t> numbers;
-  return targets.regionAt(direction.normalized(), numbers);
+  return targets.regionAt(direction.normalized());
 }
 
 TEST(Targets, DensitiesAddWhereTargetsOverlap) {
@@ -32,21 +31,42 @@ TEST(Targets, DensitiesAddWhereTargetsOverlap) {
   EXPECT_EQ(regionAt(targets, V3d(1, 0, 0)).density, 1);
   EXPECT_EQ(regionAt(targets, V3d(0, -1, 0)).density, 0);
   EXPECT_EQ(regionAt(Targets({}), V3d(0, 0, 1)).density, 0);
-  EXPECT_EQ(regionAt(targets, V3d(0, 0, 1)).id, regionAt(targets, V3d(.01, 0, 1)).id);
-  EXPECT_NE(regionAt(targets, V3d(0, 0, 1)).id, regionAt(targets, V3d(.2, 0, 1)).id);
-  EXPECT_EQ(regionAt(targets, V3d(0, -1, 0)).id, regionAt(Targets({}), V3d(0, 0, 1)).id);
 }
 
-// The edge of a target whose solid angle is not fitted causes errors, as any other edge.
-TEST(Targets, RegionsAreThoseOfFittedTargets) {
-  std::vector<Target> targets{ballAt(V3d(0, 0, 2), 10), ballAt(V3d(0, 0, 3), 5)};
-  targets[0].fitted = false;
-  const Targets mixed(targets);
-  std::vector<uint32_t> numbers;
-  EXPECT_EQ(mixed.regionAt(V3d(0, 0, 1), numbers).density, 15);
-  EXPECT_EQ(numbers, std::vector<uint32_t>{1});
-  EXPECT_EQ(regionAt(mixed, V3d(.2, 0, 1)).id, regionAt(mixed, V3d(1, 0, 0)).id);
-  EXPECT_NE(regionAt(mixed, V3d(0, 0, 1)).id, regionAt(mixed, V3d(1, 0, 0)).id);
+// The edge of a target that has no edge of its own causes errors, as any other edge.
+TEST(Targets, RegionsAreThoseOfTargetsWithTheirOwnEdge) {
+  std::vector<Target> three{ballAt(V3d(0, 0, 2), 10), ballAt(V3d(0, 0, 3), 5), ballAt(V3d(4, 0, 0), 1)};
+  three[0].fitted = three[0].hasOwnEdge = false;
+  three[2].fitted = false;
+  const Targets targets(three);
+  EXPECT_EQ(regionAt(targets, V3d(0, 0, 1)).fitted, 2u);
+  EXPECT_EQ(regionAt(targets, V3d(.2, 0, 1)).fitted, 0u) << "in the wider of the two alone";
+  EXPECT_EQ(regionAt(targets, V3d(1, 0, 0)).fitted, 0u);
+  EXPECT_NE(regionAt(targets, V3d(0, 0, 1)).id, 0u);
+  EXPECT_EQ(regionAt(targets, V3d(.2, 0, 1)).id, 0u);
+  EXPECT_NE(regionAt(targets, V3d(1, 0, 0)).id, 0u);
+  EXPECT_NE(regionAt(targets, V3d(1, 0, 0)).id, regionAt(targets, V3d(0, 0, 1)).id);
+  EXPECT_EQ(regionAt(targets, V3d(0, -1, 0)).id, 0u);
+}
+
+// Two parallel panes, and one beside them that shares an edge with the nearer: of those that overlap, the one with
+// more directions is fitted.
+TEST(TargetChoice, FitsTargetsThatDoNotOverlap) {
+  const std::string scene =
+      "void plastic wall 0 0 5 .5 .5 .5 0 0\nvoid glass clear 0 0 3 .96 .96 .96\nvoid light lamp 0 0 3 20 20 20\n"
+      "wall bubble room 0 0 4 0 0 0 9\nlamp sphere l 0 0 4 0 0 5 .3\n"
+      "clear polygon inner 0 0 12 0 2 0 1 2 0 1 2 1 0 2 1\n"
+      "clear polygon outer 0 0 12 0 2.1 0 1 2.1 0 1 2.1 1 0 2.1 1\n"
+      "clear polygon beside 0 0 12 1 2 0 2 2 0 2 2 1 1 2 1\n";
+  const SphereSetting setting(sceneOf(scene), [](RayOptions& o) { o.ambientBounces = 1; });
+  const std::vector<SpecialObject> objects = findSpecialObjects(setting.scene, 1);
+  const SeenSources sources(*setting.transport);
+  const Targets targets =
+      TargetChoice(*setting.transport, objects, sources, Aims{}, 1).at(V3d(.5, 0, .5), 1e6, 2048, 4096);
+  ASSERT_EQ(targets.all().size(), 3u);
+  EXPECT_TRUE(targets.all()[0].fitted);
+  EXPECT_FALSE(targets.all()[1].fitted);
+  EXPECT_TRUE(targets.all()[2].fitted);
 }
 
 // Chrome balls in a room that is bright on one side: the radiance on them varies more than around.
