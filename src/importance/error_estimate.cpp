@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "importance/tuning.h"
 
@@ -89,6 +90,25 @@ Variance loneVariance(const DirectionSample& sample, RegionId region, std::span<
   if (count == 0) return Variance::of(irradianceFrom(sample.value, sample.solidAngle), sampling);
   const double own = static_cast<double>(count) / (count + 1);
   return Variance::of(irradianceFrom(sample.value - sum / count, sample.solidAngle), sampling) * own;
+}
+
+Variance unseenVariance(std::span<const DirectionSample> samples, std::span<const RegionId> regions,
+                        const SpectralSampling* sampling) {
+  struct Found {
+    Irradiance sum;
+    int count = 0;
+  };
+  std::map<RegionId, Found> found;
+  for (size_t i = 0; i < samples.size(); ++i) {
+    if (regions[i] == 0 || regions[i] == kNoRegion) continue;
+    Found& here = found[regions[i]];
+    here.sum += irradianceFrom(samples[i].value, samples[i].solidAngle);
+    ++here.count;
+  }
+  Variance sum;
+  for (const auto& [region, here] : found)
+    sum += Variance::of(here.sum * (Tuning::kUnseen / (here.count + 1)), sampling);
+  return sum;
 }
 
 Variance partsVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling) {

@@ -56,6 +56,12 @@ Variance spreadVariance(std::span<const DirectionSample> samples, const Spectral
 Variance loneVariance(const DirectionSample& sample, RegionId region, std::span<const DirectionSample> base,
                       std::span<const RegionId> regions, const SpectralSampling* sampling = nullptr);
 
+// The same for what no direction has found in regions other than 0: an obstacle that hides half of what one more
+// direction would represent, in each. Without it, the light of an opening to which few directions were sent
+// would be stated without error whenever all of them see the same sky.
+Variance unseenVariance(std::span<const DirectionSample> samples, std::span<const RegionId> regions,
+                        const SpectralSampling* sampling = nullptr);
+
 // The same for the samples of one image of a light source, in the order of its grid: from differences between
 // neighbouring cells, because an occluder hides cells that lie together.
 Variance partsVariance(std::span<const SeenSources::Sample> samples,

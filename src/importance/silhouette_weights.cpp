@@ -260,6 +260,7 @@ Variance SilhouetteWeights::varianceOf(const Others& others,
                                           others.regions, base_.sampling)
                            : spreadVariance(samples.subspan(first, count), base_.sampling);
   }
+  variance += unseenVariance(others.samples, others.regions, base_.sampling);
   // Successive directions of the guide are near to each other: their differences are errors.
   for (size_t i = others.runs.back() + 1; i < samples.size(); ++i)
     variance += Variance::of(irradianceFrom(samples[i].value, samples[i].solidAngle) -

@@ -212,6 +212,9 @@ struct ErrorEstimate {
   // 2% of the answers were further off than six; now it is .9 times, and none is. 30% less or more: the same
   // answers in all cases.
   RSPHERE_TUNED(ErrorEstimate, double, kEvenRun, 8);
+  // The share of what one more direction in a target would represent that may be hidden unseen: a compromise. An obstacle
+  // of the share s is missed by n directions with the probability (1 - s)^n, a third if s is 1/n.
+  RSPHERE_TUNED(ErrorEstimate, double, kUnseen, .5);
 };
 
 // When -Sa has enough sets (two_halves.cpp).

@@ -111,5 +111,16 @@ TEST(ErrorEstimate, ALoneDirectionIsComparedWithItsRegion) {
   EXPECT_NEAR(loneVariance(lone, 6, base, regions).brightness, 4 * 144, 1e-12);
 }
 
+// Three directions that see the same sky through a window of 6 sr, and one that sees the wall.
+TEST(ErrorEstimate, SomethingMayHaveBeenMissedInARegion) {
+  const std::vector<DirectionSample> samples = {{V3d(0, 0, 1), 2, Radiance(4)},
+                                                {V3d(0, 0, 1), 2, Radiance(4)},
+                                                {V3d(0, 0, 1), 2, Radiance(4)},
+                                                {V3d(0, 0, 1), 2, Radiance(1)}};
+  const double missed = tuning::ErrorEstimate::kUnseen * 24 / 4;
+  EXPECT_NEAR(unseenVariance(samples, std::vector<RegionId>{1, 1, 1, 0}).brightness, missed * missed, 1e-12);
+  EXPECT_EQ(unseenVariance(samples, std::vector<RegionId>{0, 0, kNoRegion, 0}).brightness, 0);
+}
+
 }  // namespace
 }  // namespace rsphere
