@@ -1,6 +1,6 @@
 #pragma once
-// The solid angles of the cells of one point's directions, as -Sw c has them: a direction in a target represents
-// the inverse of the density of all directions there.
+// The solid angles of the cells of one point's directions, as -Sw c has them: a direction in a target
+// represents the inverse of the density of all directions there.
 #include <cstdint>
 #include <vector>
 
@@ -13,8 +13,8 @@ class CellsInTargets {
   // Adds the cell (sr) of a direction. region: of the direction. enters: whether it enters the mean.
   void add(double cell, const Targets::Region& region, bool enters);
 
-  // Scales the cells in each target that is to be fitted, so that they add up to its solid angle. How many directions
-  // happen to lie in a target, and which cells its edge divides, then is no error anymore.
+  // Scales the cells in each target that is to be fitted, so that they add up to its solid angle. How many
+  // directions happen to lie in a target, and which cells its edge divides, then is no error anymore.
   void fit(const Targets& targets);
 
   // Scales the cells that enter the mean, so that they add up to solidAngle (sr). If that can be met by those

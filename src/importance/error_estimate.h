@@ -51,14 +51,14 @@ Variance baseVariance(std::span<const DirectionSample> base, const Neighbours& n
 // the directions are even, but not where few of them find much, such as a lamp that is mirrored twice.
 Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling = nullptr);
 
-// The same for a run of a single direction in a region: compared with the base directions in the same region. regions:
-// of each of base. If there are none, all of what it found is taken for the error.
+// The same for a run of a single direction in a region: compared with the base directions in the same region.
+// regions: of each of base. If there are none, all of what it found is taken for the error.
 Variance loneVariance(const DirectionSample& sample, RegionId region, std::span<const DirectionSample> base,
                       std::span<const RegionId> regions, const SpectralSampling* sampling = nullptr);
 
-// The same for what no direction has found in regions other than 0: an obstacle that hides half of what one more
-// direction would represent, in each. Without it, the light of an opening to which few directions were sent
-// would be stated without error whenever all of them see the same sky.
+// The same for what no direction has found in regions other than 0: an obstacle that hides half of what one
+// more direction would represent, in each. Without it, the light of an opening to which few directions were
+// sent would be stated without error whenever all of them see the same sky.
 Variance unseenVariance(std::span<const DirectionSample> samples, std::span<const RegionId> regions,
                         const SpectralSampling* sampling = nullptr);
 

@@ -17,12 +17,13 @@ namespace rsphere {
 //   separately (seen_sources.h).
 // - Cells keep to the silhouettes. The cell of a base direction is its Voronoi cell on the sphere; inside a
 //   silhouette it is shared with the dynamic directions that were sent there, in proportion to their numbers.
-//   All cells in a silhouette add up to its solid angle, unless others overlap it, and those outside to that of the
-//   rest (cells_in_targets.h). Plain cells reach over the silhouette's edge from the dense side and bias the mean by a
-//   percent.
+//   All cells in a silhouette add up to its solid angle, unless others overlap it, and those outside to that
+//   of the rest (cells_in_targets.h). Plain cells reach over the silhouette's edge from the dense side and
+//   bias the mean by a percent.
 // - How many directions a special object gets follows from how much the radiance on it varies, compared with
-//   the surroundings. That is measured by separate rays, so that the mean stays unbiased (targets.h). Openings that
-//   show daylight, and spots of sunlight that enters through them, also get directions of their own.
+//   the surroundings. That is measured by separate rays, so that the mean stays unbiased (targets.h).
+//   Openings that show daylight, and spots of sunlight that enters through them, also get directions of their
+//   own.
 // - Where light is uneven, as around a goal, more directions follow it (direction_guide.h).
 // - Indirect rays are aimed at openings that daylight enters through (transport/openings.h), and at diffuse
 //   surfaces that receive much direct light (transport/bright_spots.h).

@@ -56,9 +56,10 @@ bool overlap(const Silhouette& a, const Silhouette& b) {
   return a.within(b).regionSolidAngle() > kEdge * std::min(a.regionSolidAngle(), b.regionSolidAngle());
 }
 
-// Targets that do not overlap, those with most directions first, among those in which enough directions are expected.
-// That is not decided by the number found, which would bias the mean. Where targets overlap, how many directions find the part that is
-// in one of them alone is uncertain; cells that met both solid angles would have to meet them in the other part.
+// Targets that do not overlap, those with most directions first, among those in which enough directions are
+// expected. That is not decided by the number found, which would bias the mean. Where targets overlap, how
+// many directions find the part that is in one of them alone is uncertain; cells that met both solid angles
+// would have to meet them in the other part.
 void chooseFitted(std::vector<Target>& targets, double baseDensity) {
   std::vector<Target*> chosen, large;
   const auto expected = [&](const Target& target) {

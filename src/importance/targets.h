@@ -53,12 +53,12 @@ class TargetChoice {
   TargetChoice(const Transport& transport, std::span<const SpecialObject> objects, const SeenSources& sources,
                const Aims& aims, double densityFactor);
 
-  // The targets at a point (world): special objects, images of light sources in them, openings that show daylight
-  // (transport/openings.h), and visible spots of daylight (transport/bright_spots.h). Their directions are as many as bring the density up to Neyman's
-  // allocation, in proportion to the deviation of radiance on them, where the base directions already have
-  // the density that suits the surroundings. If that needs more than `most` directions on average, all
-  // densities are reduced by the same factor, so that no target is dropped. meanBrightness: of the view
-  // from the point, W/sr/m2.
+  // The targets at a point (world): special objects, images of light sources in them, openings that show
+  // daylight (transport/openings.h), and visible spots of daylight (transport/bright_spots.h). Their
+  // directions are as many as bring the density up to Neyman's allocation, in proportion to the deviation of
+  // radiance on them, where the base directions already have the density that suits the surroundings. If that
+  // needs more than `most` directions on average, all densities are reduced by the same factor, so that no
+  // target is dropped. meanBrightness: of the view from the point, W/sr/m2.
   Targets at(const V3d& point, double meanBrightness, size_t baseDirections, size_t most) const;
 
  private:

@@ -52,9 +52,10 @@ struct SilhouetteWeights {
   // Cap on the glances, but never fewer than base directions: chosen by experiment. It applies from 16384
   // base directions on. 30% less or more: the same answers in all cases.
   RSPHERE_TUNED(SilhouetteWeights, size_t, kMostGlances, 65536);
-  // The variance of glances, relative to that of as many directions with the same radiances: their guesses have edges
-  // but no noise of paths, of which an even set leaves half the variance (ErrorEstimate::kEvenSet). Without bounces,
-  // in the open-plan office, the actual deviation is then .92 times the predicted standard error.
+  // The variance of glances, relative to that of as many directions with the same radiances: their guesses
+  // have edges but no noise of paths, of which an even set leaves half the variance
+  // (ErrorEstimate::kEvenSet). Without bounces, in the open-plan office, the actual deviation is then 1.07
+  // times the predicted standard error.
   RSPHERE_TUNED(SilhouetteWeights, double, kEvenGlances, .5);
   // Where light is uneven: directions, and glances, that follow the light (direction_guide.h), for each even
   // one: by measurement. Around a goal in the open-plan office, 0 .25 .5 1 2 leave errors of 4.0 3.0 2.9 2.4
@@ -87,32 +88,34 @@ struct Targets {
   // the image: the most that values between 0 and 1 can have, if half of the region shows the image. 30% less
   // or more: within noise (points beside chrome; error 4%, time 1%).
   RSPHERE_TUNED(Targets, double, kGlintDeviation, .5);
-  // The same for openings that show daylight: by measurement. In a room with a window that shows a house below an uneven
-  // sky, 512 directions have errors of 3.8 2.9 2.7 2.5% (two bounces) and 51 5.9 3.8 2.3% (none) with 0 .1 .25 .5, in
-  // times that are the same within noise; without targets at openings 6.9 and 76%.
+  // The same for openings that show daylight: by measurement. In a room with a window that shows a house
+  // below an uneven sky, 512 directions have errors of 3.8 2.9 2.7 2.5% (two bounces) and 51 5.9 3.8 2.3%
+  // (none) with 0 .1 .25 .5, in times that are the same within noise; without targets at openings 6.9 and
+  // 76%.
   RSPHERE_TUNED(Targets, double, kOpeningDeviation, .5);
-  // An opening that would give more than this share of the light at a point, if nothing hid it, gets at least the number
-  // of directions below: chosen by experiment. At .1, a far window that happens to be dark in the rays around a point
-  // causes errors of up to 10% instead of 5%.
-  RSPHERE_TUNED(Targets, double, kLeastOpening, .01);
-  // With 8, an opening of which an eighth is hidden often looks open.
-  RSPHERE_TUNED(Targets, double, kDirectionsToOpening, 32);
-  // Expected directions in a target from which on its cells are fitted to its solid angle: chosen by experiment. With 4
-  // or 16 the errors in rooms with a window are the same; with fewer, the fit would bias the mean where the number of
-  // directions and what they see depend on each other. With 8 no bias is found: .02 +- .02% (128 base directions).
-  RSPHERE_TUNED(Targets, double, kFewestFitted, 8);
-  // Cap on the targets that are considered for that, to limit the time of comparing each with each: chosen without
-  // measurement.
-  RSPHERE_TUNED(Targets, size_t, kMostFitted, 256);
   // The same for spots of daylight, which are lit in part: by measurement. With them, the default directions in
   // two sunlit rooms have errors of 1.5 and 1.8% instead of 2.75 and 1.9%. .25 or 1: within noise.
   RSPHERE_TUNED(Targets, double, kSunlitDeviation, .5);
+  // An opening that would give more than this share of the light at a point, if nothing hid it, gets at least
+  // the number of directions below: chosen by experiment. At .1, a far window that happens to be dark in the
+  // rays around a point causes errors of up to 10% instead of 5%.
+  RSPHERE_TUNED(Targets, double, kLeastOpening, .01);
+  // With 8, an opening of which an eighth is hidden often looks open.
+  RSPHERE_TUNED(Targets, double, kDirectionsToOpening, 32);
+  // Expected directions in a target from which on its cells are fitted to its solid angle: chosen by
+  // experiment. With 4 or 16 the errors in rooms with a window are the same; with fewer, the fit would bias
+  // the mean where the number of directions and what they see depend on each other. With 8 no bias is found:
+  // .02 +- .02% (128 base directions).
+  RSPHERE_TUNED(Targets, double, kFewestFitted, 8);
+  // Cap on the targets that are considered for that, to limit the time of comparing each with each: chosen
+  // without measurement.
+  RSPHERE_TUNED(Targets, size_t, kMostFitted, 256);
 };
 
 // The cells of directions in targets (cells_in_targets.cpp).
 struct CellsInTargets {
-  // If the cells outside targets would have to change by more than this share, all cells are scaled: chosen without
-  // measurement. It matters only where targets fill nearly all of the sphere.
+  // If the cells outside targets would have to change by more than this share, all cells are scaled: chosen
+  // without measurement. It matters only where targets fill nearly all of the sphere.
   RSPHERE_TUNED(CellsInTargets, double, kMostScaled, .25);
 };
 
@@ -212,8 +215,8 @@ struct ErrorEstimate {
   // 2% of the answers were further off than six; now it is .9 times, and none is. 30% less or more: the same
   // answers in all cases.
   RSPHERE_TUNED(ErrorEstimate, double, kEvenRun, 8);
-  // The share of what one more direction in a target would represent that may be hidden unseen: a compromise. An obstacle
-  // of the share s is missed by n directions with the probability (1 - s)^n, a third if s is 1/n.
+  // The share of what one more direction in a target would represent that may be hidden unseen: a compromise.
+  // An obstacle of the share s is missed by n directions with the probability (1 - s)^n, a third if s is 1/n.
   RSPHERE_TUNED(ErrorEstimate, double, kUnseen, .5);
 };
 

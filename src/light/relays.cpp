@@ -299,8 +299,8 @@ class Images {
         way.push_back({{projection.point(passage.ball.center), passage.ball.radius},
                        {projection.vector(passage.beam.axis), passage.beam.cosine}});
     } else if (!image.distant) {
-      // A prism's light seems to come from the image, but not from images of earlier relays. A shear makes the
-      // source longer by its shift at most.
+      // A prism's light seems to come from the image, but not from images of earlier relays. A shear makes
+      // the source longer by its shift at most.
       way.push_back({{image.center, image.radius * (1 + projection.shift.length())}, {}});
     }
     for (Passage& passage : way)

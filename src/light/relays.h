@@ -7,8 +7,8 @@
 //
 // An image is omitted if geometry alone shows that it lights nothing: the source lies behind the mirror or
 // faces away from the relay, or light that comes from the source by way of all relays before misses it.
-// RADIANCE also sends test rays (-dp): it drops images that none of them reaches, and omits the shadow test for
-// those that all of them reach. Here every image is tested for shadows, as with RADIANCE's -dp 0.
+// RADIANCE also sends test rays (-dp): it drops images that none of them reaches, and omits the shadow test
+// for those that all of them reach. Here every image is tested for shadows, as with RADIANCE's -dp 0.
 #include <vector>
 
 #include "light/sources.h"

@@ -29,7 +29,8 @@ struct LightSource {
   bool distant = false;
   double sinHalfAngle = 0, cosHalfAngle = 1;  // distant only
   std::optional<Spotlight> spot;
-  // Holds every point that a virtual source lights, as seen from the image's center. A distant one's holds all.
+  // Holds every point that a virtual source lights, as seen from the image's center. A distant one's holds
+  // all.
   Beam beam;
 
   bool isVirtual() const { return relayed != kNone; }

@@ -117,8 +117,8 @@ class Coverage {
   Cell& at(int i, int j) { return cells_[static_cast<size_t>(j * kCells + i)]; }
   V3d middle(int i, int j) const { return r_.at((i + .5) / kCells, (j + .5) / kCells); }
 
-  // Where the edge of a hole is, as a share of the wall's width (axis 0) or height (1), if it is between these cells
-  // of the grid: at the nearest corner of a polygon. Holes are then as exact as their walls.
+  // Where the edge of a hole is, as a share of the wall's width (axis 0) or height (1), if it is between
+  // these cells of the grid: at the nearest corner of a polygon. Holes are then as exact as their walls.
   double edgeAt(size_t axis, int cell) const {
     const double rough = static_cast<double>(cell) / kCells;
     const std::vector<double>& corners = corners_[axis];

@@ -20,7 +20,8 @@ Target ballAt(const V3d& center, double radius, bool fitted = true) {
   return {silhouetteOf(Shape(Sphere{center, radius}), {}, V3d(0, 0, 0)), 0, 0, false, fitted, fitted};
 }
 
-// Even directions with cells that are all the same, of which those that enters(direction) is true of enter the mean.
+// Even directions with cells that are all the same, of which those that enters(direction) is true of enter
+// the mean.
 struct Cells {
   std::vector<V3d> directions = baseDirections(kDirections);
   CellsInTargets cells;
@@ -56,7 +57,8 @@ TEST(CellsInTargets, StayWhereATargetIsNotToBeFitted) {
   for (size_t i = 0; i < c.directions.size(); ++i) EXPECT_EQ(c.cells.solidAngle(i), 4 * pi / kDirections);
 }
 
-// Half of a target shows a light source that is integrated separately: its directions are left out after the fit.
+// Half of a target shows a light source that is integrated separately: its directions are left out after the
+// fit.
 TEST(CellsInTargets, LeaveOutWhatDoesNotEnterTheMean) {
   Cells c({ballAt(V3d(0, 0, 2), 1)}, [](const V3d& d) { return d.z < .7 || d.x > 0; });
   const double half = c.targets.all()[0].silhouette.solidAngle() / 2;

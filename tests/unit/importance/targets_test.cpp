@@ -49,8 +49,8 @@ TEST(Targets, RegionsAreThoseOfTargetsWithTheirOwnEdge) {
   EXPECT_EQ(regionAt(targets, V3d(0, -1, 0)).id, 0u);
 }
 
-// Two parallel panes, and one beside them that shares an edge with the nearer: of those that overlap, the one with
-// more directions is fitted.
+// Two parallel panes, and one beside them that shares an edge with the nearer: of those that overlap, the one
+// with more directions is fitted.
 TEST(TargetChoice, FitsTargetsThatDoNotOverlap) {
   const std::string scene =
       "void plastic wall 0 0 5 .5 .5 .5 0 0\nvoid glass clear 0 0 3 .96 .96 .96\nvoid light lamp 0 0 3 20 20 20\n"
@@ -109,8 +109,8 @@ TEST(TargetChoice, SendsAsManyAsTheMostToAllAlike) {
   EXPECT_TRUE(choice.at(point, 1e-6, 0).all().empty());
 }
 
-// Without directions of their own, large objects are targets whose solid angle is fitted: 8 of the 2048 base directions
-// cover .05 sr. The balls have .03 and .13 sr.
+// Without directions of their own, large objects are targets whose solid angle is fitted: 8 of the 2048 base
+// directions cover .05 sr. The balls have .03 and .13 sr.
 TEST(TargetChoice, SendsNoneWhereAllElseVariesMore) {
   const Targets targets = Choice().at(V3d(0, 0, 0), 1e6, 1000);
   ASSERT_EQ(targets.all().size(), 1u);
@@ -145,7 +145,8 @@ TEST(TargetChoice, SunlitFloorsAreTargets) {
   EXPECT_EQ(towards(aims, V3d(2, 1.5, -.005), sunlit), 0) << "below the floor";
 }
 
-// A room whose wall at y = 0 has a window without a pane, at 1.1 <= x <= 1.9 and 1 <= z <= 1.7, under an even sky.
+// A room whose wall at y = 0 has a window without a pane, at 1.1 <= x <= 1.9 and 1 <= z <= 1.7, under an even
+// sky.
 TEST(TargetChoice, HolesThatShowTheSkyAreTargets) {
   const SphereSetting setting(sceneOf(kRoomWithAWindow), [](RayOptions& o) { o.ambientBounces = 1; });
   const SeenSources sources(*setting.transport);

@@ -69,8 +69,8 @@ Bands inBands(const std::string& pattern, const SpectralSampling& sampling, cons
   return color.bandsIn(sampling);
 }
 
-// RADIANCE's conversion to red, green and blue: resampled from 780 to 380 nm into this many bins, and seen as bands of a
-// spectral run are.
+// RADIANCE's conversion to red, green and blue: resampled from 780 to 380 nm into this many bins, and seen as
+// bands of a spectral run are.
 V3d rgbOf(const Spectrum& spectrum, int bins) {
   const SpectralSampling& sampling = spectralSampling(bins, 380, 780);
   return standardRgb(bandWeights(sampling).tristimulus(bandsOf(spectrum, sampling)));
@@ -416,8 +416,8 @@ TEST(SpecpictPattern, HasASpectrumInEachPixel) {
   }
 }
 
-// rtrace -h -ab 0 of RADIANCE 6.1a for a glow of each, with -cs 18 -pRGB as well as without. The limits of the bins are no
-// whole numbers of nanometers.
+// rtrace -h -ab 0 of RADIANCE 6.1a for a glow of each, with -cs 18 -pRGB as well as without. The limits of
+// the bins are no whole numbers of nanometers.
 TEST(SpecpictPattern, HasTheColorsOfTheOriginal) {
   const std::pair<size_t, V3d> colors[] = {{6, V3d(.6350930, 0, .05460624)},
                                            {9, V3d(.6091545, .7546815, 0)},

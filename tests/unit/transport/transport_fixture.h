@@ -71,8 +71,8 @@ inline const std::string kSunlitRoom =
     "white polygon south 0 0 30 0 0 0 4 0 0 4 0 3 0 0 3 0 0 0 1.5 0 1 1.5 0 2 2.5 0 2 2.5 0 1 1.5 0 1\n"
     "clear polygon window 0 0 12 1.5 0 1 2.5 0 1 2.5 0 2 1.5 0 2\n";
 
-// A room of 3 x 5 x 2.7 whose wall at y = 0 has a window without a pane, at 1.1 <= x <= 1.9 and 1 <= z <= 1.7. All around
-// it is a sky of 1 W/sr/m2.
+// A room of 3 x 5 x 2.7 whose wall at y = 0 has a window without a pane, at 1.1 <= x <= 1.9 and 1 <= z <=
+// 1.7. All around it is a sky of 1 W/sr/m2.
 inline const std::string kRoomWithAWindow =
     "void plastic white 0 0 5 .6 .6 .6 0 0\nvoid glow sky 0 0 4 1 1 1 0\nsky source heaven 0 0 4 0 0 1 360\n"
     "white polygon floor 0 0 12 0 0 0 3 0 0 3 5 0 0 5 0\n"

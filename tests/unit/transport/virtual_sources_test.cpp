@@ -234,8 +234,8 @@ std::string ringOfMirrors(int count) {
   return text;
 }
 
-// Light is followed from points of a lamp by way of up to four mirrors. Wherever it arrives, there is an image
-// in these mirrors, whose beam holds the place.
+// Light is followed from points of a lamp by way of up to four mirrors. Wherever it arrives, there is an
+// image in these mirrors, whose beam holds the place.
 TEST(VirtualSource, BeamsHoldAllThatTheyLight) {
   const int mirrors = 24;
   for (const char* source : {"bright sphere lamp 0 0 4 .1 .2 .6 .1",
