@@ -249,9 +249,7 @@ Variance SilhouetteWeights::varianceOf(const Others& others,
   const size_t base = base_.directions.size();
   Variance variance;
   std::vector<DirectionSample> unguessed = others.samples;
-  if (guidance_) {
-    for (size_t i = 0; i < unguessed.size(); ++i) unguessed[i].value -= others.guesses[i];
-  }
+  for (size_t i = 0; i < others.guesses.size(); ++i) unguessed[i].value -= others.guesses[i];
   const std::span<const DirectionSample> samples(unguessed);
   variance += baseVariance(samples.first(base), *base_.neighbours, others.regions, base_.sampling);
   for (size_t i = 1; i < others.runs.size(); ++i) {

@@ -131,10 +131,6 @@ std::string why(const Material& material, double irregularity) {
       material);
 }
 
-std::span<const V3d> verticesOf(const Scene& scene, const SpecialObject& object) {
-  return object.placed ? object.placed->vertices : scene.vertices;
-}
-
 class Finder {
  public:
   Finder(const Scene& scene, double factor) : scene_(scene), factor_(factor), balls_(scene) {}
@@ -292,6 +288,10 @@ std::vector<SpecialObject> findSpecialObjects(const Scene& scene, double factor)
 
 ShapeRef shapeOf(const Scene& scene, const SpecialObject& object) {
   return object.placed ? ShapeRef(object.placed->shape) : scene.surfaces[object.surface].shape;
+}
+
+std::span<const V3d> verticesOf(const Scene& scene, const SpecialObject& object) {
+  return object.placed ? object.placed->vertices : scene.vertices;
 }
 
 bool shows(const Scene& scene, const SpecialObject& object, SurfaceId surface) {

@@ -1,6 +1,7 @@
 #pragma once
 // The special objects, those that get directions of their own, and how many.
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -71,6 +72,9 @@ std::vector<SpecialObject> findSpecialObjects(const Scene& scene, double factor)
 
 // The shape of the object, or the ball around it (world).
 ShapeRef shapeOf(const Scene& scene, const SpecialObject& object);
+
+// The vertices that the shape refers to if it is a polygon (world).
+std::span<const V3d> verticesOf(const Scene& scene, const SpecialObject& object);
 
 // Whether a hit on the surface (index in Scene::surfaces, or kNone) is a hit on the object.
 bool shows(const Scene& scene, const SpecialObject& object, SurfaceId surface);

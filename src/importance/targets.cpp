@@ -32,12 +32,11 @@ std::vector<V3d> cornersOf(const Box3d& box) {
 }
 
 // Whether the object is a polygon that lies in the rectangle, but for rounding.
-bool fills(const Scene& scene, const SpecialObject& object, const Rectangle& place) {
+bool liesIn(const Scene& scene, const SpecialObject& object, const Rectangle& place) {
   const auto* polygon = shapeOf(scene, object).as<Polygon>();
   if (!polygon) return false;
   const double slack = kFlat * (place.width + place.height);
-  const auto corners = std::span(object.placed ? object.placed->vertices : scene.vertices)
-                           .subspan(polygon->firstVertex, polygon->vertices);
+  const auto corners = verticesOf(scene, object).subspan(polygon->firstVertex, polygon->vertices);
   return std::all_of(corners.begin(), corners.end(), [&](const V3d& corner) {
     const V3d from = corner - place.corner;
     const double u = from.dot(place.x), v = from.dot(place.y);
@@ -114,13 +113,13 @@ TargetChoice::TargetChoice(const Transport& transport, std::span<const SpecialOb
   radiances_.resize(contrasts_.objects.size());
   if (!aims.openings) return;
   for (const Openings::View& view : aims.openings->views()) {
-    bool isFilled = false;
+    bool hasSpecial = false;
     for (size_t i = 0; i < radiances_.size(); ++i) {
-      if (!fills(transport.scene(), contrasts_.objects[i].object, view.place)) continue;
+      if (!liesIn(transport.scene(), contrasts_.objects[i].object, view.place)) continue;
       radiances_[i] = view.radiance;
-      isFilled = true;
+      hasSpecial = true;
     }
-    if (!isFilled) openings_.push_back(view);
+    if (!hasSpecial) openings_.push_back(view);
   }
 }
 

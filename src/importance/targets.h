@@ -64,9 +64,10 @@ class TargetChoice {
  private:
   const Transport& transport_;
   std::span<const BrightSpots::Sunlit> sunlit_;
-  std::vector<Openings::View> openings_;  // those that no special object fills
-  std::vector<double>
-      radiances_;  // of contrasts_.objects that fill an opening, W/sr/m2, from the dark side; otherwise 0
+  std::vector<Openings::View> openings_;  // those without special objects in them
+  // For each of contrasts_.objects: the mean radiance of the opening that it lies in, as seen from the dark
+  // side, W/sr/m2; 0 if it lies in none.
+  std::vector<double> radiances_;
   double densityFactor_;
   Contrasts contrasts_;
   Glints glints_;

@@ -29,8 +29,8 @@ struct LightSource {
   bool distant = false;
   double sinHalfAngle = 0, cosHalfAngle = 1;  // distant only
   std::optional<Spotlight> spot;
-  // Holds every point that a virtual source lights, as seen from the image's center. A distant one's holds
-  // all.
+  // Of a virtual source: every point that it lights lies in the beam, as seen from the image's center. A
+  // distant image has no center; its beam holds all directions.
   Beam beam;
 
   bool isVirtual() const { return relayed != kNone; }

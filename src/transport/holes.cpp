@@ -162,8 +162,8 @@ class Coverage {
   }
 
   Rectangle r_;
-  std::array<std::vector<double>, 2>
-      corners_;  // of the polygons, as shares of the width and of the height, sorted
+  // The corners of the polygons, as shares of the wall's width and of its height, each sorted.
+  std::array<std::vector<double>, 2> corners_;
   std::array<Cell, static_cast<size_t>(kCells) * kCells> cells_{};
 };
 
