@@ -23,10 +23,9 @@ void writePicture(const std::string& name, const V3d& point, const Transport& tr
                                                               : Projection::latitudeLongitude);
   const uint64_t seed = seedOf(std::initializer_list<double>{point.x, point.y, point.z},
                                kPictureSeed ^ rotationBits(options.ray));
-  Raster raster =
-      drawPoint(point, map, transport, estimator.sources(), workspace.tracer, seed, workspace.checkStop);
+  Raster raster = drawPoint(point, map, estimator.tracing(), estimator.sources(), seed, workspace.checkStop);
   if (file.format() == PictureFormat::screen) expose(raster, map);
-  file.write(raster, provenance(options, transport.scene().description.header) + viewLine(point));
+  file.write(raster, provenance(options, transport.prepared().scene().description.header) + viewLine(point));
 }
 
 }  // namespace
@@ -83,7 +82,7 @@ AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& optio
                           const std::function<void()>& checkStop) {
   const bool standardError = options.outputs.find('e') != std::string::npos;
   const auto workers = std::make_shared<PointWorkers>(transport, options, standardError, checkStop);
-  if (transport.isDark()) warn("no light sources found");
+  if (transport.prepared().isDark()) warn("no light sources found");
   return [&, workers](const Record& record, unsigned worker, std::string& bytes) {
     const V3d point(record.numbers[0], record.numbers[1], record.numbers[2]);
     const PointAnswer answer = workers->answer(point, worker);
@@ -94,7 +93,7 @@ AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& optio
                    workers->estimator(), workspace);
     if (!options.sphere.everyDirection) return writer.write(bytes, answer);
     for (size_t i = 0; i < workspace.samples.size(); ++i)
-      writer.write(bytes, directionAnswer(transport.scene(), workspace.samples[i], workspace.rays[i]),
+      writer.write(bytes, directionAnswer(transport.prepared().scene(), workspace.samples[i], workspace.rays[i]),
                    record.index);
   };
 }

@@ -16,7 +16,7 @@ uint64_t seedOfRay(std::span<const double> numbers, uint64_t index, const Answer
 std::vector<PathTracer> rayTracers(const Transport& transport, const AnswerOptions& options) {
   std::vector<PathTracer> tracers;
   for (unsigned i = 0; i < threadCount(options.threads); ++i)
-    tracers.emplace_back(transport, transport.aims());
+    tracers.push_back(transport.pathTracer());
   return tracers;
 }
 
@@ -25,20 +25,21 @@ AnswerRecord answerRays(const Transport& transport, const AnswerOptions& options
   const auto tracers = std::make_shared<std::vector<PathTracer>>(rayTracers(transport, options));
   const bool trees = !options.treeOutputs.empty(), value = trees || needsValue(options.outputs);
   const bool valueAlone = options.outputs == "v";
-  if (value && transport.lacksSources()) warn("no light sources found");
+  if (value && transport.prepared().lacksSources()) warn("no light sources found");
   return [&, tracers, trees, value, valueAlone](const Record& record, unsigned worker, std::string& bytes) {
     const InputRay in = inputRay(record.numbers.data(), options.irradiance);
     if (record.bogus) return writer.write(bytes, bogusAnswer(in), record.index);
     PathTracer& tracer = (*tracers)[worker];
     const auto writeBranch = [&](const Ray& ray) {
-      writer.writeBranch(bytes, branchAnswer(transport, ray), ray.depth);
+      writer.writeBranch(bytes, branchAnswer(transport.prepared(), ray), ray.depth);
     };
-    if (trees) tracer.observe(writeBranch, options.treeShadows);
+    const RayObserver observer = trees ? RayObserver(writeBranch) : RayObserver();
+    const PathRequest request{nullptr, trees ? &observer : nullptr, options.treeShadows};
     const double farthest = options.limitDistance ? in.length : 0;
     const uint64_t seed = seedOfRay(record.numbers, record.index, options);
-    const Ray ray = value ? tracer.trace(in.origin, in.direction, farthest, seed)
+    const Ray ray = value ? tracer.trace(in.origin, in.direction, farthest, seed, request)
                           : tracer.cast(in.origin, in.direction, farthest);
-    if (!valueAlone) return writer.write(bytes, answerOf(transport.scene(), ray), record.index);
+    if (!valueAlone) return writer.write(bytes, answerOf(transport.prepared().scene(), ray), record.index);
     RayAnswer answer;
     answer.value = ray.value;
     writer.write(bytes, answer, record.index);

@@ -5,7 +5,7 @@
 
 #include "answer/answer_writer.h"
 #include "answer/batch.h"
-#include "transport/path_tracer.h"
+#include "transport/transport.h"
 
 namespace rsphere {
 
@@ -13,7 +13,7 @@ namespace rsphere {
 // also depends on index, the number of its record from 0, so that a repeated ray is a new sample.
 uint64_t seedOfRay(std::span<const double> numbers, uint64_t index, const AnswerOptions& options);
 
-// A tracer for each thread of -n. Each aims at the bright spots of the transport, which must live as long.
+// A tracer for each thread of -n. The transport must live as long.
 std::vector<PathTracer> rayTracers(const Transport& transport, const AnswerOptions& options);
 
 // The function that answers rays as rtrace does, with their trees (-ot). Warns, as rtrace does, if values are

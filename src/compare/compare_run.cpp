@@ -153,7 +153,7 @@ std::string worstText(const CompareOptions& options, const Comparison& compariso
     rays.insert(rays.end(), record.begin(), record.end());
   }
   const auto names = hits ? program.surfaces(rays) : std::vector<std::string>(count);
-  PathTracer tracer(transport);
+  PathTracer tracer = transport.pathTracer();
   std::string text = "Worst records (brightness, means of the repeats)\n";
   for (size_t k = 0; k < count; ++k) {
     const size_t i = comparison.worst[k];
@@ -164,7 +164,7 @@ std::string worstText(const CompareOptions& options, const Comparison& compariso
     if (hits) {
       const InputRay in = inputRay(&rays[per * k], options.irradiance);
       const Ray hit = tracer.cast(in.origin, in.direction, options.limitDistance ? in.length : 0);
-      const std::string name = answerOf(transport.scene(), hit).surface.text();
+      const std::string name = answerOf(transport.prepared().scene(), hit).surface.text();
       text += name == names[k] ? fmt::format("  hits {}", names[k])
                                : fmt::format("  hits {}, original {}", name, names[k]);
     }
@@ -240,7 +240,7 @@ CompareStatus runCompare(CompareOptions options, std::span<const UsedOption> use
   const Scene scene = loadScene(options, warn);
   const bool isOctree = scene.description.cube.has_value();
   const Transport transport(scene, options.ray, options.irradiance, options.sphere.basicRadiance, warn);
-  if (transport.isDark()) warn("no light sources found");
+  if (transport.prepared().isDark()) warn("no light sources found");
   const Answers ours =
       points ? answerPoints(transport, options, numbers) : answerRays(transport, options, numbers);
   const double ourSeconds = processSeconds() - start;

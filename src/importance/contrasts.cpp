@@ -47,8 +47,9 @@ double measureSurroundings(const Scene& scene, const SeenSources& sources, PathT
     double seen[2];
     bool apart = false;
     for (double& value : seen) {
-      value = brightness(tracer.trace(at.point + at.clearance * away, away, 0, random.bits()).value);
-      apart = apart || sources.shown(tracer);
+      const TracedRay ray = tracer.trace(at.point + at.clearance * away, away, 0, random.bits());
+      value = brightness(ray.value);
+      apart = apart || sources.isApart(ray.shown);
     }
     if (apart) continue;
     values.add((seen[0] + seen[1]) / 2);
@@ -72,25 +73,23 @@ double measureDeviation(const Scene& scene, std::span<const SpecialObject> objec
     // Objects that are not closed are seen from both sides.
     const bool behind = !isClosed(shapeOf(scene, object)) && k % 2;
     const V3d away = diffuseDirection(behind ? -at.normal : at.normal, random.uniform(), random.uniform());
-    const Ray ray = tracer.trace(at.point + at.clearance * away, -away, 0, random.bits());
-    if (shows(scene, object, ray.surface) && !sources.shown(tracer)) values.add(brightness(ray.value));
+    const TracedRay ray = tracer.trace(at.point + at.clearance * away, -away, 0, random.bits());
+    if (shows(scene, object, ray.surface) && !sources.isApart(ray.shown)) values.add(brightness(ray.value));
   }
   return values.deviation();
 }
 
 }  // namespace
 
-Contrasts measureContrasts(const Transport& transport, std::span<const SpecialObject> objects,
-                           const SeenSources& sources, const Aims& aims) {
+Contrasts measureContrasts(const SphereTracing& tracing, std::span<const SpecialObject> objects,
+                           const SeenSources& sources) {
   Contrasts contrasts;
-  if (objects.empty() && !aims.openings) return contrasts;
-  const Scene& scene = transport.scene();
+  if (objects.empty() && !tracing.aims.openings) return contrasts;
+  const Scene& scene = tracing.prepared.scene();
   std::map<ModifierId, std::vector<SpecialObject>> alike;  // by modifier
   for (const SpecialObject& object : objects)
     alike[scene.surfaces[object.surface].modifier].push_back(object);
-  PathTracer tracer(transport, aims);
-  tracer.useCoarseSolutionAtFirst(true);
-  tracer.shareHighlights(true);
+  PathTracer tracer = tracing.tracer();
   contrasts.surroundings = measureSurroundings(scene, sources, tracer);
   if (alike.empty()) return contrasts;
   const size_t rays = std::clamp<size_t>(Tuning::kMostRays / alike.size(), 2, Tuning::kRaysPerModifier);

@@ -7,6 +7,7 @@
 
 #include "importance/seen_sources.h"
 #include "importance/special_objects.h"
+#include "importance/sphere_tracing.h"
 
 namespace rsphere {
 
@@ -22,9 +23,9 @@ struct Contrasts {
 };
 
 // Measures the contrasts of the scene. Objects with the same modifier share one measurement. The result
-// depends on the scene and the options of transport alone. Without objects nothing is traced.
-// sources: those integrated separately; rays that show one are left out. aims: of indirect rays.
-Contrasts measureContrasts(const Transport& transport, std::span<const SpecialObject> objects,
-                           const SeenSources& sources, const Aims& aims);
+// depends on the scene and the options alone. Without objects and openings nothing is traced.
+// sources: those integrated separately; rays that show one are left out.
+Contrasts measureContrasts(const SphereTracing& tracing, std::span<const SpecialObject> objects,
+                           const SeenSources& sources);
 
 }  // namespace rsphere

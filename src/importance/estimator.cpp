@@ -11,6 +11,7 @@
 #include "importance/silhouette_weights.h"
 #include "importance/two_halves.h"
 #include "importance/voronoi_weights.h"
+#include "transport/find_aims.h"
 #include "transport/ray_report.h"
 
 namespace rsphere {
@@ -93,37 +94,24 @@ SampledSet joined(std::vector<KeptSet> sets, const TwoHalves& halves, const Irra
 }  // namespace
 
 SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions& options, bool standardError)
-    : transport_(transport),
-      options_(options),
+    : options_(options),
       base_(makeBaseSet(options, standardError || options.accuracy > 0)),
-      sources_(transport) {
-  base_.sampling = transport.options().sampling;
+      sources_(transport.prepared()),
+      tracing_{transport.prepared(), transport.caches(), {}} {
+  const PreparedScene& prepared = transport.prepared();
+  base_.sampling = prepared.options().sampling;
   if (options.weights != Weights::homogeneous)
-    special_ = findSpecialObjects(transport.scene(), options.densityFactor);
+    special_ = findSpecialObjects(prepared.scene(), options.densityFactor);
   if (options.weights == Weights::silhouettes && options.densityFactor > 0) {
-    findAims();
+    aims_ = findAimsOfPoints(prepared, transport.aims());
+    tracing_.aims = joined(transport.aims(), aims_);
     // Bright spots show that light is uneven. Openings have other means.
-    if (aims_.spots && !aims_.openings) {
-      auto patches = std::make_unique<LightPatches>(transport);
+    if (tracing_.aims.spots && !tracing_.aims.openings) {
+      auto patches = std::make_unique<LightPatches>(prepared);
       if (!patches->all().empty()) patches_ = std::move(patches);
     }
   }
   strategy_ = makeStrategy();
-}
-
-// Where light comes from, as far as the transport has not looked for it. Spots show whether it is uneven.
-void SphereEstimator::findAims() {
-  const Scene& scene = transport_.scene();
-  const RayOptions& rays = transport_.options();
-  aims_ = transport_.aims();
-  const bool indirect = rays.ambientBounces > 0 && rays.ambientDivisions > 0;
-  if (indirect && transport_.looksForSpots()) return;
-  if (!indirect && !scene.importance) {
-    openings_ = std::make_unique<Openings>(transport_);
-    if (!openings_->empty()) aims_.openings = openings_.get();
-  }
-  spots_ = std::make_unique<BrightSpots>(scene, transport_.tracer(), transport_.lights(), aims_.openings);
-  if (!spots_->empty()) aims_.spots = spots_.get();
 }
 
 std::unique_ptr<const SamplingStrategy> SphereEstimator::makeStrategy() const {
@@ -131,20 +119,17 @@ std::unique_ptr<const SamplingStrategy> SphereEstimator::makeStrategy() const {
     case Weights::homogeneous:
       return std::make_unique<EqualWeights>(options_, base_);
     case Weights::voronoi:
-      return std::make_unique<VoronoiWeights>(transport_.scene(), options_, base_, special_);
+      return std::make_unique<VoronoiWeights>(tracing_.prepared.scene(), options_, base_, special_);
     case Weights::silhouettes:
       break;
   }
-  return std::make_unique<SilhouetteWeights>(transport_, options_, base_, special_, sources_, aims_,
-                                             patches_.get());
+  return std::make_unique<SilhouetteWeights>(tracing_, options_, base_, special_, sources_, patches_.get());
 }
 
 SphereEstimator::Workspace::Workspace(const SphereEstimator& estimator)
-    : tracer(estimator.transport_, estimator.aims_) {}
+    : tracer(estimator.tracing_.tracer()) {}
 
 PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) const {
-  workspace.tracer.useCoarseSolutionAtFirst(true);
-  workspace.tracer.shareHighlights(true);
   // -Sa may send a million directions. They are kept only if they are to be printed.
   const bool keep = options_.everyDirection || options_.accuracy <= 0;
   const auto most = static_cast<size_t>(options_.mostOfAllSets());
@@ -157,14 +142,13 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
     if (workspace.checkStop) workspace.checkStop();
     SampledSet set =
         strategy_->sample(SetAtPoint(point, sets++, options_.rotation), workspace.tracer, workspace.voronoi_);
-    const Moments moments = set.moments(transport_.options().sampling);
+    const Moments moments = set.moments(base_.sampling);
     Half& half = halves[*next];
     half.moments.add(moments, 1);
     half.excess += set.excess.total;
     half.clamped += set.clamped;
     half.variance += set.variance;
-    decision.add(*next, photopicOf(moments.total.color, transport_.options().sampling),
-                 set.variance.brightness);
+    decision.add(*next, photopicOf(moments.total.color, base_.sampling), set.variance.brightness);
     directions += set.samples.size();
     largest = std::max(largest, set.samples.size());
     if (keep) kept.push_back({*next, std::move(set)});
@@ -189,7 +173,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
   answer.standardError.color = variance.channels;
   answer.standardError.color.transform(standardError);
   answer.brightnessError = standardError(variance.brightness);
-  answer.clamped = photopicOf(clamped.color, transport_.options().sampling) / (4 * std::numbers::pi);
+  answer.clamped = photopicOf(clamped.color, base_.sampling) / (4 * std::numbers::pi);
   answer.reached = options_.accuracy <= 0 || decision.isReached();
   return answer;
 }

@@ -17,16 +17,15 @@
 #include "importance/seen_sources.h"
 #include "importance/special_objects.h"
 #include "importance/sphere_options.h"
+#include "importance/sphere_tracing.h"
 #include "sphere/voronoi.h"
-#include "transport/bright_spots.h"
 #include "transport/light_patches.h"
-#include "transport/openings.h"
-#include "transport/path_tracer.h"
 #include "transport/ray_answer.h"
+#include "transport/transport.h"
 
 namespace rsphere {
 
-// Shared by all threads. Keeps a reference to transport.
+// Shared by all threads. Keeps references to transport.
 class SphereEstimator {
  public:
   // Finds the special objects and, for -Sw c, measures how much the radiance on them varies. standardError:
@@ -62,20 +61,18 @@ class SphereEstimator {
 
   const std::vector<SpecialObject>& specialObjects() const { return special_; }
   const SeenSources& sources() const { return sources_; }
+  const SphereTracing& tracing() const { return tracing_; }
 
  private:
-  void findAims();
   std::unique_ptr<const SamplingStrategy> makeStrategy() const;
 
-  const Transport& transport_;
   SphereOptions options_;
   BaseSet base_;
   SeenSources sources_;
   std::vector<SpecialObject> special_;           // none with -Sw h
-  std::unique_ptr<const Openings> openings_;     // those that only this estimator uses, or null
-  std::unique_ptr<const BrightSpots> spots_;     // likewise
+  FoundAims aims_;                               // in addition to those of gathers
   std::unique_ptr<const LightPatches> patches_;  // null where light is even
-  Aims aims_;                                    // of indirect rays
+  SphereTracing tracing_;
   std::unique_ptr<const SamplingStrategy> strategy_;
 };
 

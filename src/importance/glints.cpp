@@ -86,8 +86,8 @@ double solidAngleFrom(const LightSource& source, const Sphere& ball, double dist
 
 }  // namespace
 
-Glints::Glints(const Transport& transport, std::span<const SpecialObject> objects) : transport_(transport) {
-  const Scene& scene = transport.scene();
+Glints::Glints(const PreparedScene& prepared, std::span<const SpecialObject> objects) : prepared_(prepared) {
+  const Scene& scene = prepared.scene();
   for (const SpecialObject& object : objects) {
     const auto* sphere = shapeOf(scene, object).as<Sphere>();
     const Surface& surface = scene.surfaces[object.surface];
@@ -96,7 +96,7 @@ Glints::Glints(const Transport& transport, std::span<const SpecialObject> object
     const double reflectance = material ? reflectanceOf(*material) : 0;
     if (reflectance > 0) balls_.push_back({*sphere, reflectance});
   }
-  const auto& all = transport.lights().all();
+  const auto& all = prepared.lights().all();
   for (const LightId i : all.ids()) {
     if (all[i].isVirtual()) continue;
     const double bright = brightness(sourceRadiance(scene, scene.surfaces[all[i].surface]));
@@ -111,7 +111,7 @@ bool Glints::shines(const LightSource& source, std::span<const V3d> corners, con
   const auto seen = [&](const V3d& place) {
     const V3d direction = source.distant ? place : place - at;
     const double far = source.distant ? kFarAway : direction.length();
-    return transport_.tracer().shadow(at, direction.normalized(), far, source.surface) != Shadow::blocked;
+    return prepared_.tracer().shadow(at, direction.normalized(), far, source.surface) != Shadow::blocked;
   };
   return seen(middle) || std::any_of(corners.begin(), corners.end(),
                                      [&](const V3d& corner) { return seen((middle + corner) / 2); });
@@ -124,7 +124,7 @@ std::vector<Glint> Glints::find(const V3d& point, double least) const {
     const double nearest = (point - ball.center).length() - ball.radius;
     if (!(nearest > 1e-4 * ball.radius)) continue;
     for (const Light& light : lights_) {
-      const LightSource& source = transport_.lights().all()[light.source];
+      const LightSource& source = prepared_.lights().all()[light.source];
       const double distance =
           source.distant ? kFarAway : (source.center - ball.center).length() - ball.radius;
       if (!(distance > 0) || (source.reach > 0 && distance - source.radius > source.reach)) continue;
@@ -134,13 +134,13 @@ std::vector<Glint> Glints::find(const V3d& point, double least) const {
       if (!(radiance * radiance * solidAngleFrom(source, ball, distance) * reached * reached / 4 > least))
         continue;
       const size_t first = found.size();
-      for (const Part& part : partsOf(transport_.scene(), source, ball)) {
+      for (const Part& part : partsOf(prepared_.scene(), source, ball)) {
         const V3d normal = mirroringNormal(ball, point, part.middle, source.distant);
         const V3d at = ball.center + (ball.radius + 2 * kSamePlace) * normal, in = point - at;
         const V3d out = source.distant ? source.center : (part.middle - at).normalized();
         if (!(normal.dot(in) > 0) || (source.isPlane() && source.normal.dot(out) >= 0)) continue;
         if (source.spot && outsideSpot(*source.spot, out)) continue;
-        if (transport_.tracer().shadow(at, in.normalized(), in.length(), kNone) == Shadow::blocked) continue;
+        if (prepared_.tracer().shadow(at, in.normalized(), in.length(), kNone) == Shadow::blocked) continue;
         if (!shines(source, part.corners, part.middle, at)) continue;
         around.clear();
         for (size_t i = 0; i < part.corners.size(); ++i) {

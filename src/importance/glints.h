@@ -23,8 +23,8 @@ class Glints {
  public:
   // Uses those objects that are spheres of mirror, of glass or another dielectric, or of metal or
   // plastic that is smoother than tuning::Glints::kSmooth; and all sources that are not virtual. Keeps
-  // a reference to transport.
-  Glints(const Transport& transport, std::span<const SpecialObject> objects);
+  // a reference to the prepared scene.
+  Glints(const PreparedScene& prepared, std::span<const SpecialObject> objects);
 
   // The images that a point (world) sees; parts of one image follow each other. Two kinds are left out: those
   // whose solid angle (sr) times squared brightness is estimated to be below `least`, and those that are
@@ -44,7 +44,7 @@ class Glints {
   bool shines(const LightSource& source, std::span<const V3d> corners, const V3d& middle,
               const V3d& at) const;
 
-  const Transport& transport_;
+  const PreparedScene& prepared_;
   std::vector<Ball> balls_;
   std::vector<Light> lights_;
 };

@@ -98,9 +98,9 @@ struct SmallSources {
   std::map<size_t, Spot> spots;  // by pixel
 };
 
-SmallSources smallSources(const V3d& point, const PixelMap& map, const SeenSources& sources,
-                          PathTracer& tracer, uint64_t seed) {
-  SmallSources small{sources.findImages(point, map.count(), 0), {}};
+SmallSources smallSources(const PathsFrom& paths, const PixelMap& map, const SeenSources& sources,
+                          uint64_t seed) {
+  SmallSources small{sources.findImages(paths.point(), map.count(), 0), {}};
   // Pixels are smaller near the rim and the poles.
   for (SeenSources::Image& image : small.images) {
     const double there = map.solidAngle(map.pixelOf(image.region.sample(.5, .5)));
@@ -111,7 +111,7 @@ SmallSources smallSources(const V3d& point, const PixelMap& map, const SeenSourc
   small.images.erase(std::remove_if(small.images.begin(), small.images.end(),
                                     [](const auto& image) { return image.rays == 0; }),
                      small.images.end());
-  for (const SeenSources::Sample& s : sources.sample(point, small.images, seed, tracer)) {
+  for (const SeenSources::Sample& s : sources.sample(paths, small.images, seed)) {
     if (!(s.direction.solidAngle > 0)) continue;
     Spot& spot = small.spots[map.pixelOf(s.direction.direction)];
     spot.solidAngle += s.direction.solidAngle;
@@ -123,33 +123,28 @@ SmallSources smallSources(const V3d& point, const PixelMap& map, const SeenSourc
 // Traces pixels, and separates the indirect light of the surface that is seen from all other light.
 class PixelTracer {
  public:
-  PixelTracer(const V3d& point, const Transport& transport, PathTracer& tracer)
-      : point_(point), transport_(transport), tracer_(tracer) {
-    tracer_.guessWith(nullptr);
-    tracer_.useCoarseSolutionAtFirst(false);
-    tracer_.observe([this](const Ray& ray) {
-      if (ray.depth == 1 && (ray.kind & kAmbient)) indirect_ += ray.value * ray.contribution;
-    });
-  }
-  ~PixelTracer() { tracer_.observe(nullptr); }
+  PixelTracer(const V3d& point, const PreparedScene& prepared, PathTracer& tracer)
+      : prepared_(prepared), paths_(tracer, point, {.observer = &addIndirect_}) {}
   PixelTracer(const PixelTracer&) = delete;
   PixelTracer& operator=(const PixelTracer&) = delete;
 
   // Returns the radiance (red, green, blue) without the indirect light that it stores in pixel.light, which is to be
-  // multiplied by `pattern` and added.
-  V3d trace(const V3d& direction, uint64_t seed, IndirectPixels::Pixel& pixel, V3d& pattern) {
+  // multiplied by `pattern` and added. shown: the source that the ray showed.
+  V3d trace(const V3d& direction, uint64_t seed, IndirectPixels::Pixel& pixel, V3d& pattern,
+            ShownSource& shown) {
     indirect_ = {};
     pixel = {};
-    const Ray ray = tracer_.trace(point_, direction, 0, seed);
-    const Hit& hit = tracer_.firstHit();
-    const SpectralSampling* const sampling = transport_.options().sampling;
+    const TracedRay ray = paths_.trace(direction, seed);
+    const Hit& hit = ray.firstHit;
+    shown = ray.shown;
+    const SpectralSampling* const sampling = prepared_.options().sampling;
     pattern = shownRgb(ray.pattern, sampling);
     // The indirect light is not separated if a medium attenuates it on its way, or if the pattern is
     // black in a channel and it cannot be divided by the pattern.
-    if (hit.surface == kNone || !isBlack(transport_.medium().extinction) ||
-        !transport_.scatterers().empty() || !(std::min({pattern.x, pattern.y, pattern.z}) > 0))
+    if (hit.surface == kNone || !isBlack(prepared_.medium().extinction) || !prepared_.scatterers().empty() ||
+        !(std::min({pattern.x, pattern.y, pattern.z}) > 0))
       return shownRgb(ray.value.color, sampling);
-    const Scene& scene = transport_.scene();
+    const Scene& scene = prepared_.scene();
     const ModifierId material = scene.surfaces[hit.surface].material;
     if (!scene.materialAt(material)) return shownRgb(ray.value.color, sampling);
     pixel.material = material;
@@ -161,24 +156,26 @@ class PixelTracer {
   }
 
  private:
-  const V3d& point_;
-  const Transport& transport_;
-  PathTracer& tracer_;
+  const PreparedScene& prepared_;
   Radiance indirect_;
+  const RayObserver addIndirect_ = [this](const Ray& ray) {
+    if (ray.depth == 1 && (ray.kind & kAmbient)) indirect_ += ray.value * ray.contribution;
+  };
+  const PathsFrom paths_;
 };
 
 }  // namespace
 
-Raster drawPoint(const V3d& point, const PixelMap& map, const Transport& transport,
-                 const SeenSources& sources, PathTracer& tracer, uint64_t seed,
-                 const std::function<void()>& checkStop) {
+Raster drawPoint(const V3d& point, const PixelMap& map, const SphereTracing& tracing,
+                 const SeenSources& sources, uint64_t seed, const std::function<void()>& checkStop) {
   const PictureStreams streams(seed);
-  const SmallSources small = smallSources(point, map, sources, tracer, streams.smallSources());
+  PathTracer tracer(tracing.prepared, tracing.caches, tracing.aims, {.sharesHighlights = true});
+  const SmallSources small = smallSources(PathsFrom(tracer, point), map, sources, streams.smallSources());
   std::vector<V3d> direct(map.count(), V3d(0, 0, 0));
   std::vector<V3d> patterns(map.count(), V3d(1, 1, 1));
   IndirectPixels indirect{map.width(), map.height(), map.wraps(), {}};
   indirect.pixels.resize(map.count());
-  PixelTracer pixels(point, transport, tracer);
+  PixelTracer pixels(point, tracing.prepared, tracer);
   for (int row = 0; row < map.height(); ++row) {
     if (checkStop) checkStop();
     for (int column = 0; column < map.width(); ++column) {
@@ -189,8 +186,9 @@ Raster drawPoint(const V3d& point, const PixelMap& map, const Transport& transpo
         direct[pixel] = V3d(0, 0, 0);
         indirect.pixels[pixel] = {};
         if (!direction) return true;
-        direct[pixel] = pixels.trace(*direction, raySeed, indirect.pixels[pixel], patterns[pixel]);
-        return small.images.empty() || !sources.shownStraight(tracer, small.images);
+        ShownSource shown;
+        direct[pixel] = pixels.trace(*direction, raySeed, indirect.pixels[pixel], patterns[pixel], shown);
+        return small.images.empty() || !sources.isOneStraight(shown, small.images);
       };
       bool shown = !trace(.5, .5, streams.middle(pixel));
       for (size_t i = 0; shown && i < Tuning::kBeside.size(); ++i)
@@ -208,7 +206,7 @@ Raster drawPoint(const V3d& point, const PixelMap& map, const Transport& transpo
     const double whole = std::max(map.solidAngle(pixel), spot.solidAngle);
     setValue(raster, pixel,
              valueAt(raster, pixel) * (1 - spot.solidAngle / whole) +
-                 shownRgb(meanRadiance(spot.light, whole).color, transport.options().sampling));
+                 shownRgb(meanRadiance(spot.light, whole).color, tracing.prepared.options().sampling));
   }
   return raster;
 }

@@ -8,6 +8,7 @@
 
 #include "image/picture_file.h"
 #include "importance/seen_sources.h"
+#include "importance/sphere_tracing.h"
 #include "importance/tuning.h"
 
 namespace rsphere {
@@ -55,15 +56,14 @@ class PixelMap {
 };
 
 // Draws the radiance (W/sr/m2) that arrives at a point (world). A ray is traced through the middle of each
-// pixel with the options of the tracer; nothing is guessed.
+// pixel; nothing is guessed, and patches do not serve the first diffuse surface.
 // - Sources that are seen directly (SeenSources) and are so small that pixels may miss them are
 //   sampled separately. Their light is added to the pixels that they cover, so that none is lost
 //   and none looks larger.
 // - The indirect light of surfaces that are seen directly is averaged over nearby pixels (smooth_indirect.h).
 // checkStop is called once per row; it may throw to abandon the picture. All random numbers follow from seed.
-Raster drawPoint(const V3d& point, const PixelMap& map, const Transport& transport,
-                 const SeenSources& sources, PathTracer& tracer, uint64_t seed,
-                 const std::function<void()>& checkStop = {});
+Raster drawPoint(const V3d& point, const PixelMap& map, const SphereTracing& tracing,
+                 const SeenSources& sources, uint64_t seed, const std::function<void()>& checkStop = {});
 
 // Converts radiance to screen colours. The median brightness of the pixels that are not black, by solid
 // angle, becomes .5 on the sRGB curve, so that a room is visible however bright the sources in it are.

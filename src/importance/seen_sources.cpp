@@ -75,10 +75,10 @@ struct Plane {
 
 }  // namespace
 
-SeenSources::SeenSources(const Transport& transport) : transport_(transport) {
-  const Scene& scene = transport.scene();
+SeenSources::SeenSources(const PreparedScene& prepared) : prepared_(prepared) {
+  const Scene& scene = prepared.scene();
   apart_.assign(scene.surfaces.size(), false);
-  const auto& lights = transport.lights().all();
+  const auto& lights = prepared.lights().all();
   for (const LightId i : lights.ids()) {
     const Surface& surface = scene.surfaces[lights[i].surface];
     const Material* material = scene.materialOf(surface);
@@ -100,18 +100,16 @@ SeenSources::SeenSources(const Transport& transport) : transport_(transport) {
     if ((mirrors_.size() + 1) * sources_.size() <= Tuning::kMostMirrored) mirrors_.push_back(surface);
 }
 
-bool SeenSources::shown(const PathTracer& tracer, const std::vector<Image>& images) const {
-  const PathTracer::Shown& s = tracer.shown();
+bool SeenSources::isOne(const ShownSource& s, const std::vector<Image>& images) const {
   if (s.source == kNone || !apart_[s.source]) return false;
-  const auto& lights = transport_.lights().all();
+  const auto& lights = prepared_.lights().all();
   return s.mirror == kNone || std::any_of(images.begin(), images.end(), [&](const Image& image) {
            return image.mirror == s.mirror && lights[image.source].surface == s.source;
          });
 }
 
-bool SeenSources::shownStraight(const PathTracer& tracer, const std::vector<Image>& images) const {
-  const PathTracer::Shown& s = tracer.shown();
-  const auto& lights = transport_.lights().all();
+bool SeenSources::isOneStraight(const ShownSource& s, const std::vector<Image>& images) const {
+  const auto& lights = prepared_.lights().all();
   return s.source != kNone && s.mirror == kNone &&
          std::any_of(images.begin(), images.end(), [&](const Image& image) {
            return image.mirror == kNone && lights[image.source].surface == s.source;
@@ -121,9 +119,9 @@ bool SeenSources::shownStraight(const PathTracer& tracer, const std::vector<Imag
 std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t most,
                                                         double mirrorFactor) const {
   std::vector<Image> images;
-  const Scene& scene = transport_.scene();
+  const Scene& scene = prepared_.scene();
   for (const LightId i : sources_) {
-    const Surface& surface = scene.surfaces[transport_.lights().all()[i].surface];
+    const Surface& surface = scene.surfaces[prepared_.lights().all()[i].surface];
     if (emitsBehind(surface.shape, point)) continue;
     Image image;
     image.source = i;
@@ -155,8 +153,8 @@ std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t
 
 // As seen from the mirror image of the point, the mirror is a window through which the source is seen.
 void SeenSources::addMirrored(const V3d& point, std::vector<Image>& images) const {
-  const Scene& scene = transport_.scene();
-  const auto& lights = transport_.lights().all();
+  const Scene& scene = prepared_.scene();
+  const auto& lights = prepared_.lights().all();
   for (const SurfaceId m : mirrors_) {
     const Surface& mirror = scene.surfaces[m];
     const Material& material = *scene.materialOf(mirror);
@@ -191,8 +189,8 @@ void SeenSources::addMirrored(const V3d& point, std::vector<Image>& images) cons
   }
 }
 
-std::vector<SeenSources::Sample> SeenSources::sample(const V3d& point, const std::vector<Image>& images,
-                                                     uint64_t seed, PathTracer& tracer) const {
+std::vector<SeenSources::Sample> SeenSources::sample(const PathsFrom& paths, const std::vector<Image>& images,
+                                                     uint64_t seed) const {
   std::vector<Sample> samples;
   Random random(seed);
   // Of the images with less than one ray, some are sampled, with the weight of the others.
@@ -209,7 +207,7 @@ std::vector<SeenSources::Sample> SeenSources::sample(const V3d& point, const std
       solidAngle /= image.rays;
     }
     const size_t first = samples.size();
-    sampleImage(point, image, rays, solidAngle, random.bits(), tracer, samples);
+    sampleImage(paths, image, rays, solidAngle, random.bits(), samples);
     for (size_t k = first; k < samples.size(); ++k) {
       samples[k].image = i;
       samples[k].chance = std::min(image.rays, 1.);
@@ -218,10 +216,11 @@ std::vector<SeenSources::Sample> SeenSources::sample(const V3d& point, const std
   return samples;
 }
 
-void SeenSources::sampleImage(const V3d& point, const Image& image, size_t rays, double solidAngle,
-                              uint64_t seed, PathTracer& tracer, std::vector<Sample>& samples) const {
-  const Scene& scene = transport_.scene();
-  const LightSource& light = transport_.lights().all()[image.source];
+void SeenSources::sampleImage(const PathsFrom& paths, const Image& image, size_t rays, double solidAngle,
+                              uint64_t seed, std::vector<Sample>& samples) const {
+  const V3d& point = paths.point();
+  const Scene& scene = prepared_.scene();
+  const LightSource& light = prepared_.lights().all()[image.source];
   const ShapeRef shape = scene.surfaces[light.surface].shape;
   Random random(seed);
   const bool mirrored = image.mirror != kNone;
@@ -245,7 +244,7 @@ void SeenSources::sampleImage(const V3d& point, const Image& image, size_t rays,
   for (size_t row = 0; row < rows; ++row)
     for (size_t column = 0; column < columns; ++column) {
       if (!mirrored) {
-        sampleCell(point, image, {row, column, rows, columns}, random, tracer, samples);
+        sampleCell(paths, image, {row, column, rows, columns}, random, samples);
         continue;
       }
       Sample s;
@@ -255,10 +254,11 @@ void SeenSources::sampleImage(const V3d& point, const Image& image, size_t rays,
       const uint64_t raySeed = random.bits();
       if (!hits(scene, shape, eye, direction, on) || !(on.cosine > 0)) continue;
       direction = Plane(mirror).mirroredDirection(direction);
-      s.ray = tracer.trace(point, direction, 0, raySeed);
+      const TracedRay ray = paths.trace(direction, raySeed);
+      s.ray = ray;
       s.direction.toSource = true;
       s.direction.value = {};
-      if (tracer.shown() == PathTracer::Shown{light.surface, image.mirror}) {
+      if (ray.shown == ShownSource{light.surface, image.mirror}) {
         s.direction.value = s.ray.value;
         s.direction.solidAngle = 1;
       }
@@ -276,10 +276,11 @@ void SeenSources::sampleImage(const V3d& point, const Image& image, size_t rays,
 
 // Sends shadow rays to places all over one cell of the image's grid. The sample is one of those that reached
 // the source, or one of all if something opaque stopped each of them.
-void SeenSources::sampleCell(const V3d& point, const Image& image, const Cell& cell, Random& random,
-                             PathTracer& tracer, std::vector<Sample>& samples) const {
-  const LightSource& light = transport_.lights().all()[image.source];
-  const ShapeRef shape = transport_.scene().surfaces[light.surface].shape;
+void SeenSources::sampleCell(const PathsFrom& paths, const Image& image, const Cell& cell, Random& random,
+                             std::vector<Sample>& samples) const {
+  const V3d& point = paths.point();
+  const LightSource& light = prepared_.lights().all()[image.source];
+  const ShapeRef shape = prepared_.scene().surfaces[light.surface].shape;
   Sample s;
   s.row = cell.row;
   s.aimed = s.clear = 0;
@@ -290,10 +291,10 @@ void SeenSources::sampleCell(const V3d& point, const Image& image, const Cell& c
                    v = (cell.column + (k + random.uniform()) / Tuning::kShadowsAcross) / cell.columns;
       const V3d direction = image.region.sample(u, v);
       const double lot = random.uniform();
-      if (!hits(transport_.scene(), shape, point, direction, on) || !(on.cosine > 0)) continue;
+      if (!hits(prepared_.scene(), shape, point, direction, on) || !(on.cosine > 0)) continue;
       ++s.aimed;
       const bool clear =
-          transport_.tracer().shadow(point, direction, on.distance, light.surface) != Shadow::blocked;
+          prepared_.tracer().shadow(point, direction, on.distance, light.surface) != Shadow::blocked;
       s.clear += clear;
       // The nth ray replaces the choice so far with probability 1/n, which makes all n equally probable.
       if (clear ? lot * s.clear < 1 : s.clear == 0 && lot * s.aimed < 1) {
@@ -302,13 +303,13 @@ void SeenSources::sampleCell(const V3d& point, const Image& image, const Cell& c
       }
     }
   if (s.aimed == 0) return;
-  s.ray = tracer.traceToSource(
-      point, {s.direction.direction, 0, chosen.distance, chosen.cosine, chosen.normal, image.source},
-      random.bits());
+  const TracedRay ray = paths.traceToSource(
+      {s.direction.direction, 0, chosen.distance, chosen.cosine, chosen.normal, image.source}, random.bits());
+  s.ray = ray;
   s.direction.toSource = true;
   s.direction.value = {};
   s.direction.solidAngle = 0;
-  if (tracer.shown() == PathTracer::Shown{light.surface, kNone}) {
+  if (ray.shown == ShownSource{light.surface, kNone}) {
     s.direction.value = s.ray.value;
     s.direction.solidAngle = 1;
   }

@@ -14,8 +14,8 @@ namespace rsphere {
 class SeenSources {
  public:
   // Chooses the sources that are integrated separately, and the flat surfaces that may mirror them. The
-  // sources are all that look like sources (not illum). Keeps a reference to transport.
-  explicit SeenSources(const Transport& transport);
+  // sources are all that look like sources (not illum). Keeps a reference to the prepared scene.
+  explicit SeenSources(const PreparedScene& prepared);
 
   // An image of a source as seen from a point.
   struct Image {
@@ -32,16 +32,15 @@ class SeenSources {
   // would get fewer than tuning::SeenSources::kFewestRays are left to the other directions.
   std::vector<Image> findImages(const V3d& point, size_t most, double mirrorFactor) const;
 
-  // Whether the last primary ray of the tracer showed one of a point's images.
-  bool shown(const PathTracer& tracer, const std::vector<Image>& images) const;
+  // Whether what a primary ray showed is one of a point's images.
+  bool isOne(const ShownSource& shown, const std::vector<Image>& images) const;
 
-  // Whether that ray showed the source of one of these images directly.
-  bool shownStraight(const PathTracer& tracer, const std::vector<Image>& images) const;
+  // Whether it is the source of one of these images, seen directly.
+  bool isOneStraight(const ShownSource& shown, const std::vector<Image>& images) const;
 
-  // Whether that ray showed, directly, a source that is integrated separately at all points.
-  bool shown(const PathTracer& tracer) const {
-    const PathTracer::Shown& s = tracer.shown();
-    return s.source != kNone && s.mirror == kNone && apart_[s.source];
+  // Whether it is a source, seen directly, that is integrated separately at all points.
+  bool isApart(const ShownSource& shown) const {
+    return shown.source != kNone && shown.mirror == kNone && apart_[shown.source];
   }
 
   // By index in Scene::surfaces: whether the surface is a source that is integrated separately
@@ -66,20 +65,19 @@ class SeenSources {
   // the visible fraction of the cell, and one of the unobstructed ones is traced. If nothing hides an image,
   // its solid angles sum to its own: exactly for polygons, spheres and distant sources, within 0.1% for
   // others. The estimate is unbiased.
-  std::vector<Sample> sample(const V3d& point, const std::vector<Image>& images, uint64_t seed,
-                             PathTracer& tracer) const;
+  std::vector<Sample> sample(const PathsFrom& paths, const std::vector<Image>& images, uint64_t seed) const;
 
  private:
   struct Cell {
     size_t row = 0, column = 0, rows = 1, columns = 1;
   };
   void addMirrored(const V3d& point, std::vector<Image>& images) const;
-  void sampleImage(const V3d& point, const Image& image, size_t rays, double solidAngle, uint64_t seed,
-                   PathTracer& tracer, std::vector<Sample>& samples) const;
-  void sampleCell(const V3d& point, const Image& image, const Cell& cell, Random& random, PathTracer& tracer,
+  void sampleImage(const PathsFrom& paths, const Image& image, size_t rays, double solidAngle, uint64_t seed,
+                   std::vector<Sample>& samples) const;
+  void sampleCell(const PathsFrom& paths, const Image& image, const Cell& cell, Random& random,
                   std::vector<Sample>& samples) const;
 
-  const Transport& transport_;
+  const PreparedScene& prepared_;
   ById<SurfaceId, bool> apart_;
   std::vector<LightId> sources_;  // those integrated separately
   std::vector<SurfaceId> mirrors_;

@@ -33,18 +33,6 @@ uint64_t seedOf(const SetAtPoint& set, Stream stream, uint64_t number = 0) {
   return mixBits(set.seed() + static_cast<uint64_t>(stream) + number);
 }
 
-// Lets a tracer guess indirect rays for as long as this object lives. Null: nothing is guessed.
-class GuessingTracer {
- public:
-  GuessingTracer(PathTracer& tracer, const LocalGuess* guess) : tracer_(tracer) { tracer_.guessWith(guess); }
-  ~GuessingTracer() { tracer_.guessWith(nullptr); }
-  GuessingTracer(const GuessingTracer&) = delete;
-  GuessingTracer& operator=(const GuessingTracer&) = delete;
-
- private:
-  PathTracer& tracer_;
-};
-
 double solidAngleOf(std::span<const SeenSources::Sample> samples) {
   double sum = 0;
   for (const SeenSources::Sample& s : samples) sum += s.direction.solidAngle;
@@ -67,16 +55,15 @@ std::vector<V3d> glancesFor(const SphereOptions& options) {
 
 }  // namespace
 
-SilhouetteWeights::SilhouetteWeights(const Transport& transport, const SphereOptions& options,
+SilhouetteWeights::SilhouetteWeights(const SphereTracing& tracing, const SphereOptions& options,
                                      const BaseSet& base, std::span<const SpecialObject> special,
-                                     const SeenSources& sources, const Aims& aims,
-                                     const LightPatches* patches)
+                                     const SeenSources& sources, const LightPatches* patches)
     : options_(options), base_(base), sources_(sources) {
   if (!(options.densityFactor > 0)) return;
-  guidance_.emplace(Guidance{TargetChoice(transport, special, sources, aims, options.densityFactor),
-                             RadianceGuess(transport, unguessedSurfaces(sources)), glancesFor(options),
+  guidance_.emplace(Guidance{TargetChoice(tracing, special, sources, options.densityFactor),
+                             RadianceGuess(tracing.prepared, unguessedSurfaces(sources)), glancesFor(options),
                              baseDirections(tuning::RadianceGuess::kFitGlances), std::nullopt,
-                             transport.tracer(), patches});
+                             tracing.prepared.tracer(), patches});
   if (!base.neighbours) return;
   VoronoiWorkspace workspace;
   cellSolidAngles(guidance_->glances, workspace);
@@ -88,11 +75,12 @@ SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, 
   const Images images = sources_.findImages(
       set.point(), std::max(base / Tuning::kBaseDirectionsPerRayToImages, Tuning::kLeastRaysToImages),
       options_.densityFactor);
-  const Surroundings around = guidance_ ? lookAround(set, images, tracer) : Surroundings{};
+  const Surroundings around =
+      guidance_ ? lookAround(set, images, PathsFrom(tracer, set.point())) : Surroundings{};
   const std::optional<LocalGuess> guess = guidance_ ? std::optional(fitGuess(set, around)) : std::nullopt;
-  const GuessingTracer guessing(tracer, guess ? &*guess : nullptr);
+  const PathsFrom paths(tracer, set.point(), {.guess = guess ? &*guess : nullptr});
   const std::vector<SeenSources::Sample> toImages =
-      sources_.sample(set.point(), images, seedOf(set, Stream::imagesOfSources), tracer);
+      sources_.sample(paths, images, seedOf(set, Stream::imagesOfSources));
   const std::optional<DirectionGuide> guide =
       guidance_ && guidance_->patches
           ? std::optional(DirectionGuide(*guidance_->patches, guidance_->tracer, set.point()))
@@ -106,7 +94,7 @@ SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, 
       guidance_ ? guidance_->targets.at(set.point(), around.meanBrightness, base, left) : Targets({});
   const double besideImages = std::max(0., 4 * pi - solidAngleOf(toImages));
   Others others = sampleOthers(set, images, targets, besideImages, guess ? &*guess : nullptr,
-                               guided > 0 ? &*guide : nullptr, guided, tracer);
+                               guided > 0 ? &*guide : nullptr, guided, paths);
 
   SampledSet sampled;
   if (guess) {
@@ -136,7 +124,7 @@ SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, 
 }
 
 SilhouetteWeights::Surroundings SilhouetteWeights::lookAround(const SetAtPoint& set, const Images& images,
-                                                              PathTracer& tracer) const {
+                                                              const PathsFrom& paths) const {
   Surroundings around;
   Random random(mixBits(seedOf(set, Stream::surroundings)));
   for (int i = 0; i < Tuning::kRaysAround; ++i) {
@@ -144,9 +132,9 @@ SilhouetteWeights::Surroundings SilhouetteWeights::lookAround(const SetAtPoint& 
     const double z = 1 - 2 * (i + random.uniform()) / Tuning::kRaysAround, angle = 2 * pi * random.uniform();
     const double r = std::sqrt(std::max(0., 1 - z * z));
     const V3d direction(r * std::cos(angle), r * std::sin(angle), z);
-    const Ray ray = tracer.trace(set.point(), direction, 0, random.bits());
-    if (sources_.shown(tracer, images)) continue;
-    const Hit& hit = tracer.firstHit();
+    const TracedRay ray = paths.trace(direction, random.bits());
+    if (sources_.isOne(ray.shown, images)) continue;
+    const Hit& hit = ray.firstHit;
     around.traced.push_back({guidance_->guess.placeOf(set.point(), direction, hit), hit.surface, ray.value});
     around.meanBrightness += brightness(ray.value) / Tuning::kRaysAround;
   }
@@ -163,7 +151,7 @@ SilhouetteWeights::Others SilhouetteWeights::sampleOthers(const SetAtPoint& set,
                                                           const Targets& targets, double solidAngle,
                                                           const LocalGuess* guess,
                                                           const DirectionGuide* guide, size_t guided,
-                                                          PathTracer& tracer) const {
+                                                          const PathsFrom& paths) const {
   Others others;
   CellsInTargets cells;
   const auto guidedDensity = static_cast<double>(guided);
@@ -171,15 +159,15 @@ SilhouetteWeights::Others SilhouetteWeights::sampleOthers(const SetAtPoint& set,
   const auto send = [&](const V3d& d, double baseCell) {
     const Targets::Region region = targets.regionAt(d);
     const double cell = 1 / (1 / baseCell + region.density + (guide ? guidedDensity * guide->density(d) : 0));
-    const Ray ray = tracer.trace(set.point(), d, 0, seedOf(set, Stream::firstRay, others.samples.size()));
-    const bool enters = !sources_.shown(tracer, images);
+    const TracedRay ray = paths.trace(d, seedOf(set, Stream::firstRay, others.samples.size()));
+    const bool enters = !sources_.isOne(ray.shown, images);
     others.regions.push_back(enters ? region.id : kNoRegion);
     cells.add(cell, region, enters);
     others.samples.push_back({d, 0, enters ? ray.value : Radiance()});
     if (options_.everyDirection) others.rays.push_back(ray);
     if (guess)
-      others.guesses.push_back(
-          enters ? guess->from(guidance_->guess.placeOf(set.point(), d, tracer.firstHit())) : Radiance());
+      others.guesses.push_back(enters ? guess->from(guidance_->guess.placeOf(set.point(), d, ray.firstHit))
+                                      : Radiance());
   };
   const std::vector<V3d> base = set.turned(base_.directions);
   others.samples.reserve(base.size());

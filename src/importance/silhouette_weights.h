@@ -33,9 +33,9 @@ namespace rsphere {
 // With -Sk 0 only the first of these is left.
 class SilhouetteWeights : public SamplingStrategy {
  public:
-  // Keeps references to all of them. aims: of indirect rays. patches: null where light is even.
-  SilhouetteWeights(const Transport& transport, const SphereOptions& options, const BaseSet& base,
-                    std::span<const SpecialObject> special, const SeenSources& sources, const Aims& aims,
+  // Keeps references to all of them. patches: null where light is even.
+  SilhouetteWeights(const SphereTracing& tracing, const SphereOptions& options, const BaseSet& base,
+                    std::span<const SpecialObject> special, const SeenSources& sources,
                     const LightPatches* patches);
 
   SampledSet sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace& memory) const override;
@@ -72,13 +72,13 @@ class SilhouetteWeights : public SamplingStrategy {
   };
 
   // The steps of sample(), in this order. Each takes values of those before it.
-  Surroundings lookAround(const SetAtPoint& set, const Images& images, PathTracer& tracer) const;
+  Surroundings lookAround(const SetAtPoint& set, const Images& images, const PathsFrom& paths) const;
   LocalGuess fitGuess(const SetAtPoint& set, const Surroundings& around) const;
   // solidAngle: that all of them represent together, sr. guess: null if nothing is guessed.
   // guided: directions that the guide sends; null: none.
   Others sampleOthers(const SetAtPoint& set, const Images& images, const Targets& targets, double solidAngle,
                       const LocalGuess* guess, const DirectionGuide* guide, size_t guided,
-                      PathTracer& tracer) const;
+                      const PathsFrom& paths) const;
   // The moments of the guess by glances, minus those by the directions.
   struct Excess {
     Moments moments;

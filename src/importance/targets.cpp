@@ -103,19 +103,20 @@ Targets::Region Targets::regionAt(const V3d& direction) const {
   return region;
 }
 
-TargetChoice::TargetChoice(const Transport& transport, std::span<const SpecialObject> objects,
-                           const SeenSources& sources, const Aims& aims, double densityFactor)
-    : transport_(transport),
-      sunlit_(aims.spots ? aims.spots->sunlit() : std::span<const BrightSpots::Sunlit>()),
+TargetChoice::TargetChoice(const SphereTracing& tracing, std::span<const SpecialObject> objects,
+                           const SeenSources& sources, double densityFactor)
+    : prepared_(tracing.prepared),
+      sunlit_(tracing.aims.spots ? tracing.aims.spots->sunlit() : std::span<const BrightSpots::Sunlit>()),
       densityFactor_(densityFactor),
-      contrasts_(measureContrasts(transport, objects, sources, aims)),
-      glints_(transport, objects) {
+      contrasts_(measureContrasts(tracing, objects, sources)),
+      glints_(tracing.prepared, objects) {
+  const Openings* const openings = tracing.aims.openings;
   radiances_.resize(contrasts_.objects.size());
-  if (!aims.openings) return;
-  for (const Openings::View& view : aims.openings->views()) {
+  if (!openings) return;
+  for (const Openings::View& view : openings->views()) {
     bool hasSpecial = false;
     for (size_t i = 0; i < radiances_.size(); ++i) {
-      if (!liesIn(transport.scene(), contrasts_.objects[i].object, view.place)) continue;
+      if (!liesIn(prepared_.scene(), contrasts_.objects[i].object, view.place)) continue;
       radiances_[i] = view.radiance;
       hasSpecial = true;
     }
@@ -145,7 +146,7 @@ Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDir
   };
   for (size_t i = 0; i < radiances_.size(); ++i) {
     const Contrasts::Object& c = contrasts_.objects[i];
-    add(silhouetteOf(transport_.scene(), c.object, point), c.deviation, false, radiances_[i]);
+    add(silhouetteOf(prepared_.scene(), c.object, point), c.deviation, false, radiances_[i]);
   }
   if (usual > 0)
     for (Glint& g : glints_.find(point, Tuning::kLeastGlint * kFullSphere * usual * usual))
@@ -156,7 +157,7 @@ Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDir
     add(hullOf(corners, point), Tuning::kOpeningDeviation * radiance, false, radiance);
   }
   for (const BrightSpots::Sunlit& spot : sunlit_)
-    if (Tuning::kSunlitDeviation * spot.radiance > usual && isVisible(transport_.tracer(), spot, point))
+    if (Tuning::kSunlitDeviation * spot.radiance > usual && isVisible(prepared_.tracer(), spot, point))
       add(hullOf(cornersOf(spot.box), point), Tuning::kSunlitDeviation * spot.radiance, false);
   if (sum > static_cast<double>(most)) {
     const double scale = static_cast<double>(most) / sum;

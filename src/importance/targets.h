@@ -45,13 +45,13 @@ class Targets {
   SilhouetteIndex index_;  // of targets_, by position
 };
 
-// Chooses the targets at any point. Shared by all threads; keeps references to transport and to the spots of aims.
+// Chooses the targets at any point. Shared by all threads; keeps references to the prepared scene and to bright spots.
 class TargetChoice {
  public:
   // Measures how much radiance varies on the objects (contrasts.h). sources: those integrated separately.
-  // aims: of indirect rays. densityFactor: -Sk.
-  TargetChoice(const Transport& transport, std::span<const SpecialObject> objects, const SeenSources& sources,
-               const Aims& aims, double densityFactor);
+  // densityFactor: -Sk.
+  TargetChoice(const SphereTracing& tracing, std::span<const SpecialObject> objects,
+               const SeenSources& sources, double densityFactor);
 
   // The targets at a point (world): special objects, images of light sources in them, openings that show
   // daylight (transport/openings.h), and visible spots of daylight (transport/bright_spots.h). Their
@@ -62,7 +62,7 @@ class TargetChoice {
   Targets at(const V3d& point, double meanBrightness, size_t baseDirections, size_t most) const;
 
  private:
-  const Transport& transport_;
+  const PreparedScene& prepared_;
   std::span<const BrightSpots::Sunlit> sunlit_;
   std::vector<Openings::View> openings_;  // those without special objects in them
   // For each of contrasts_.objects: the mean radiance of the opening that it lies in, as seen from the dark

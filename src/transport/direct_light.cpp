@@ -88,7 +88,7 @@ bool DirectLight::arrives(const Ray& ray, Contribution& to, Radiance& value) {
                  : Shadow::unsure;
   const bool follow = shadow == Shadow::unsure || (shadow == Shadow::clear && light.isVirtual());
   if (follow && !ofLobe_.empty()) to.coefficient += ofLobe_[static_cast<size_t>(&to - contributions_.data())];
-  if (follow || settings_.observesAllShadowRays)
+  if (follow || state_.request.allShadowRays)
     value = valueFromSource(ray, to);  // even if blocked when all shadow rays are shown to the observer
   if (shadow == Shadow::blocked) return false;
   if (!follow) value = to.value;
@@ -150,8 +150,8 @@ uint32_t DirectLight::findContributions(const Ray& ray, DirectCoefficient coeffi
                                         const PartOfLobe* partOfLobe) {
   const RayOptions& o = t_.options();
   samples_.clear();
-  const bool divides =
-      o.sourceSubstructuring > kNegligible && !(isOfGather(t_, ray) && o.directJitter > Tuning::kWideJitter);
+  const bool divides = o.sourceSubstructuring > kNegligible &&
+                       !(isOfGather(settings_, ray) && o.directJitter > Tuning::kWideJitter);
   const SourceSampling how{divides ? o.sourceSubstructuring / ray.weight : 0, o.directJitter, front};
   for (const LightId i : t_.lights().all().ids())
     t_.lights().sample(i, ray.point, how, state_.random, samples_);

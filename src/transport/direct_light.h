@@ -7,8 +7,8 @@
 
 #include "transport/function_ref.h"
 #include "transport/path_state.h"
+#include "transport/prepared_scene.h"
 #include "transport/ray_follower.h"
-#include "transport/transport.h"
 #include "transport/tuning.h"
 
 namespace rsphere {
@@ -24,9 +24,9 @@ using PartOfLobe = FunctionRef<Coefficient(const SourceSample& sample)>;
 class DirectLight {
  public:
   // Keeps references. follower: follows shadow rays through surfaces that may transmit light.
-  DirectLight(const Transport& transport, const PathSettings& settings, PathState& state,
+  DirectLight(const PreparedScene& prepared, const PathSettings& settings, PathState& state,
               RayFollower& follower)
-      : t_(transport),
+      : t_(prepared),
         settings_(settings),
         state_(state),
         follower_(follower),
@@ -67,7 +67,7 @@ class DirectLight {
     return blockers_[(both * 0x9e3779b97f4a7c15u) >> (64 - tuning::DirectLight::kBlockerBits)];
   }
 
-  const Transport& t_;
+  const PreparedScene& t_;
   const PathSettings& settings_;
   PathState& state_;
   RayFollower& follower_;

@@ -12,9 +12,9 @@ namespace rsphere {
 namespace {
 
 // An imagined ray that has hit the site, the parent of the gather's rays.
-Ray rootOf(const Transport& transport, const GatherSite& site, int depth) {
+Ray rootOf(const PreparedScene& prepared, const GatherSite& site, int depth) {
   Ray root;
-  root.medium = transport.medium();
+  root.medium = prepared.medium();
   root.point = site.point;
   root.normal = site.normal;
   root.length = 0;
@@ -24,33 +24,33 @@ Ray rootOf(const Transport& transport, const GatherSite& site, int depth) {
 
 }  // namespace
 
-GatheredLight gatherLight(const Transport& transport, PathState& state, const Aims& aims,
+GatheredLight gatherLight(const PreparedScene& prepared, PathState& state, const PathSettings& settings,
                           RayFollower& follower, const GatherSite& site, int depth) {
-  const RayOptions& o = transport.options();
-  const Ray root = rootOf(transport, site, depth);
+  const RayOptions& o = prepared.options();
+  const Ray root = rootOf(prepared, site, depth);
   V3d x, y;
   frame(site.normal, x, y);
   const int count = o.ambientDivisions + o.ambientSuperSamples;
   const HemisphereCells cells(count);
   std::vector<Radiance> radiance(cells.count());
   std::vector<double> distance(cells.count(), kFarAway);
-  const GatherDirections directions(aims, site.point, site.normal, site.normal, count);
-  sendOverHemisphere(transport, directions, state.random, root, kReflectedAmbient, count, Coefficient(1),
+  const GatherDirections directions(settings.aims, site.point, site.normal, site.normal, count);
+  sendOverHemisphere(prepared, directions, state.random, root, kReflectedAmbient, count, Coefficient(1),
                      Coefficient(kMeanReflectance), [&](Ray& child, const Coefficient& factor) {
                        follower.follow(child);
                        const int cell = cells.cellOf(child.direction, x, y, site.normal);
                        radiance[cell] += child.value * factor * cells.count();
                        distance[cell] = std::min(distance[cell], apparentLength(child));
                      });
-  return cells.sum(radiance, distance, transport.field()->finestSpacing() / 2, x, y, site.normal);
+  return cells.sum(radiance, distance, settings.caches.field->finestSpacing() / 2, x, y, site.normal);
 }
 
-void linkPatch(const Transport& transport, PathState& state, const Aims& aims, RayFollower& follower,
-               const GatherSite& site, int rays, int depth) {
-  const Ray root = rootOf(transport, site, depth);
+void linkPatch(const PreparedScene& prepared, PathState& state, const PathSettings& settings,
+               RayFollower& follower, const GatherSite& site, int rays, int depth) {
+  const Ray root = rootOf(prepared, site, depth);
   Radiance sum;
-  const GatherDirections directions(aims, site.point, site.normal, site.normal, rays);
-  sendOverHemisphere(transport, directions, state.random, root, kReflectedAmbient, rays, Coefficient(1),
+  const GatherDirections directions(settings.aims, site.point, site.normal, site.normal, rays);
+  sendOverHemisphere(prepared, directions, state.random, root, kReflectedAmbient, rays, Coefficient(1),
                      Coefficient(kMeanReflectance), [&](Ray& child, const Coefficient& factor) {
                        follower.follow(child);
                        sum += child.value * factor;

@@ -2,19 +2,19 @@
 // The rays of sites of the irradiance cache and of patches of the coarse solution.
 #include "field/hemisphere.h"
 #include "transport/path_state.h"
+#include "transport/prepared_scene.h"
 #include "transport/ray_follower.h"
-#include "transport/transport.h"
 
 namespace rsphere {
 
 // The indirect light of a site, estimated with -ad + -as rays. state: of a path that has just begun. depth: of
 // the ray that requests it; only the limit of nesting depends on it.
-GatheredLight gatherLight(const Transport& transport, PathState& state, const Aims& aims,
+GatheredLight gatherLight(const PreparedScene& prepared, PathState& state, const PathSettings& settings,
                           RayFollower& follower, const GatherSite& site, int depth);
 
 // Sends about `rays` rays from a patch of the coarse solution. Adds the light that they find, and links to
 // the patches that they find, to state.links.
-void linkPatch(const Transport& transport, PathState& state, const Aims& aims, RayFollower& follower,
-               const GatherSite& site, int rays, int depth);
+void linkPatch(const PreparedScene& prepared, PathState& state, const PathSettings& settings,
+               RayFollower& follower, const GatherSite& site, int rays, int depth);
 
 }  // namespace rsphere

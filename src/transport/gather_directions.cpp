@@ -83,7 +83,7 @@ void GatherDirections::draw(int count, Random& random, Each each) const {
   }
 }
 
-void sendOverHemisphere(const Transport& transport, const GatherDirections& directions, Random& random,
+void sendOverHemisphere(const PreparedScene& prepared, const GatherDirections& directions, Random& random,
                         const Ray& root, RayKind kind, int rays, const Coefficient& coefficient,
                         const Coefficient& weight, GatherRay each) {
   const Coefficient arriving = root.contribution * passedBy(root);
@@ -91,7 +91,7 @@ void sendOverHemisphere(const Transport& transport, const GatherDirections& dire
     Ray child;
     child.direction = direction;
     Coefficient survived = weight;
-    if (!continueRay(transport, random, child, kind, root, survived)) return;
+    if (!continueRay(prepared, random, child, kind, root, survived)) return;
     ++child.ambientLevel;
     const Coefficient factor = coefficient * (part * maxChannel(survived) / maxChannel(weight));
     child.contribution = arriving * factor;

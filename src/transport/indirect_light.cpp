@@ -18,9 +18,9 @@ void IndirectLight::add(Ray& ray, const V3d& normal, const V3d& trueNormal, RayK
     return;
   }
   const Surroundings at{normal, trueNormal, kind, coefficient};
-  if (ray.ambientLevel > 0 || settings_.coarseAtFirst) {
-    if (t_.coarse() && interpolated_.addFromPatch(ray, normal, trueNormal, coefficient)) return;
-  } else if (t_.field() && interpolated_.add(ray, normal, trueNormal, coefficient)) {
+  if (ray.ambientLevel > 0 || settings_.mode.coarseAtFirst) {
+    if (settings_.caches.coarse && interpolated_.addFromPatch(ray, normal, trueNormal, coefficient)) return;
+  } else if (settings_.caches.field && interpolated_.add(ray, normal, trueNormal, coefficient)) {
     return;
   }
   gather(ray, at);
@@ -29,8 +29,8 @@ void IndirectLight::add(Ray& ray, const V3d& normal, const V3d& trueNormal, RayK
 // The number of guessed rays for each ray that is followed. It is 0 if -lr ends the descendants of the ray
 // for certain instead of by Russian roulette: the guess would then include light that followed rays lack.
 int IndirectLight::raysToGuess(const Ray& ray) const {
-  if (!settings_.guess || !goesOn(t_, ray)) return 0;
-  return settings_.guess->raysToGuess(ray.ambientLevel);
+  if (!state_.request.guess || !goesOn(t_, ray)) return 0;
+  return state_.request.guess->raysToGuess(ray.ambientLevel);
 }
 
 // The number of directions of a gather. Paths that are to be unbiased have as many as RADIANCE gives them at
@@ -40,7 +40,7 @@ int IndirectLight::raysOf(const Ray& ray, const Coefficient& coefficient) const 
   const RayOptions& o = t_.options();
   const double asked = o.ambientDivisions + o.ambientSuperSamples,
                weighted = asked * std::min(ray.weight, 1.);
-  if (t_.field()) return ray.ambientLevel > 0 ? 1 : std::max(1, static_cast<int>(weighted + .5));
+  if (settings_.caches.field) return ray.ambientLevel > 0 ? 1 : std::max(1, static_cast<int>(weighted + .5));
   // More directions than this would each fall below the weight limit, and most of them would end. The factor
   // .8 is RADIANCE's own.
   const double most =
@@ -56,9 +56,9 @@ void IndirectLight::gather(Ray& ray, const Surroundings& at) {
   const GatherDirections directions(settings_.aims, ray.point, at.normal, at.trueNormal, rays);
   if (guesses > 0)
     directions.draw(rays * guesses, state_.random, [&](const V3d& direction, double part) {
-      ray.value += at.coefficient * part * settings_.guess->indirect(ray.point, direction, ray.surface);
+      ray.value += at.coefficient * part * state_.request.guess->indirect(ray.point, direction, ray.surface);
     });
-  const Coefficient weight = t_.field() ? Coefficient(kMeanReflectance) : at.coefficient / rays;
+  const Coefficient weight = settings_.caches.field ? Coefficient(kMeanReflectance) : at.coefficient / rays;
   sendOverHemisphere(t_, directions, state_.random, ray, at.kind, rays, at.coefficient, weight,
                      [&](Ray& child, const Coefficient& factor) {
                        follower_.follow(child);
@@ -66,7 +66,7 @@ void IndirectLight::gather(Ray& ray, const Surroundings& at) {
                          state_.links->addLight(child.ambientLevel - 1, child.value * child.contribution);
                        else
                          ray.value += child.value * factor;
-                       if (guesses > 0) ray.value -= settings_.guess->indirect(child) * factor;
+                       if (guesses > 0) ray.value -= state_.request.guess->indirect(child) * factor;
                      });
 }
 

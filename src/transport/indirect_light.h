@@ -7,17 +7,17 @@
 #include "shade/scattering.h"
 #include "transport/interpolated_light.h"
 #include "transport/path_state.h"
+#include "transport/prepared_scene.h"
 #include "transport/ray_follower.h"
-#include "transport/transport.h"
 
 namespace rsphere {
 
 class IndirectLight {
  public:
   // Keeps references.
-  IndirectLight(const Transport& transport, const PathSettings& settings, PathState& state,
+  IndirectLight(const PreparedScene& prepared, const PathSettings& settings, PathState& state,
                 RayFollower& follower, InterpolatedLight& interpolated)
-      : t_(transport), settings_(settings), state_(state), follower_(follower), interpolated_(interpolated) {}
+      : t_(prepared), settings_(settings), state_(state), follower_(follower), interpolated_(interpolated) {}
 
   // Adds coefficient times the mean radiance over the hemisphere around the normal (unit, perturbed by
   // textures) to the ray's value (W/sr/m2), or times the ambient value (-av) beyond -ab bounces. trueNormal:
@@ -35,7 +35,7 @@ class IndirectLight {
   int raysOf(const Ray& ray, const Coefficient& coefficient) const;
   void gather(Ray& ray, const Surroundings& at);
 
-  const Transport& t_;
+  const PreparedScene& t_;
   const PathSettings& settings_;
   PathState& state_;
   RayFollower& follower_;

@@ -96,7 +96,7 @@ bool InterpolatedLight::add(Ray& ray, const V3d& normal, const V3d& trueNormal,
   if (!isOrdinary(ray, t_.medium()) || normal.dot(trueNormal) < Tuning::kLeastUpright) return false;
   Looker looker(t_.tracer(), gatherer_, ray.depth);
   GatheredLight light;
-  if (!t_.field()->find(placeOf(ray, trueNormal), reader_, looker, light)) return false;
+  if (!settings_.caches.field->find(placeOf(ray, trueNormal), reader_, looker, light)) return false;
   ray.value += coefficient * light.meanOfTilted(trueNormal, normal);
   return true;
 }
@@ -105,12 +105,12 @@ bool InterpolatedLight::addFromPatch(Ray& ray, const V3d& normal, const V3d& tru
                                      const Coefficient& coefficient) {
   Looker looker(t_.tracer(), gatherer_, ray.depth);
   const int beyond = ray.ambientLevel - 1;
-  const bool isLast = state_.links && ray.ambientLevel >= t_.bouncesBeyondPatches();
+  const bool isLast = state_.links && ray.ambientLevel >= bouncesBeyondPatches(t_.options());
   CoarseSolution::Patch* patch = nullptr;
   if (!isLast) {
     const double u1 = state_.random.uniform(), u2 = state_.random.uniform();
     if (isOrdinary(ray, t_.medium()) && normal.dot(trueNormal) >= Tuning::kLeastUpright)
-      patch = t_.coarse()->find(placeOf(ray, trueNormal), u1, u2, looker);
+      patch = settings_.caches.coarse->find(placeOf(ray, trueNormal), u1, u2, looker);
   }
   if (state_.links) {
     const Coefficient whole = coefficient * ray.contribution * passedBy(ray);
@@ -120,13 +120,14 @@ bool InterpolatedLight::addFromPatch(Ray& ray, const V3d& normal, const V3d& tru
       state_.links->addEnd(beyond, whole);
     if (isLast) return true;
   } else if (patch) {
-    ray.value += coefficient * Radiance(t_.coarse()->light(*patch, bouncesLeft(t_.options(), ray), looker));
+    ray.value += coefficient *
+                 Radiance(settings_.caches.coarse->light(*patch, bouncesLeft(t_.options(), ray), looker));
   }
   return patch;
 }
 
 void InterpolatedLight::endPath() {
-  if (t_.field()) t_.field()->leave(reader_);
+  if (settings_.caches.field) settings_.caches.field->leave(reader_);
 }
 
 }  // namespace rsphere

@@ -15,10 +15,10 @@ constexpr int kMostSharp = 16;
 
 }  // namespace
 
-LightPatches::LightPatches(const Transport& transport) {
-  const Scene& scene = transport.scene();
-  const Tracer& tracer = transport.tracer();
-  const int bounces = transport.options().ambientBounces;
+LightPatches::LightPatches(const PreparedScene& prepared) {
+  const Scene& scene = prepared.scene();
+  const Tracer& tracer = prepared.tracer();
+  const int bounces = prepared.options().ambientBounces;
   const auto follow = [&](V3d origin, V3d direction, double power, Random& random) {
     int scattered = 0;
     for (int sharp = 0; scattered <= bounces && sharp < kMostSharp;) {
@@ -54,7 +54,7 @@ LightPatches::LightPatches(const Transport& transport) {
       origin = point + 2 * kSamePlace * front;
     }
   };
-  sendParticles(scene, tracer, transport.lights(), Tuning::kParticles,
+  sendParticles(scene, tracer, prepared.lights(), Tuning::kParticles,
                 [&](const V3d& origin, const V3d& direction, double power, const Surface&, Random& random) {
                   follow(origin, direction, power, random);
                 });

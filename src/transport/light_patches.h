@@ -6,7 +6,7 @@
 // Source: Jensen, "Importance driven path tracing using the photon map" (EGWR 1995).
 #include <vector>
 
-#include "transport/transport.h"
+#include "transport/prepared_scene.h"
 
 namespace rsphere {
 
@@ -19,7 +19,7 @@ class LightPatches {
 
   // Follows tuning::LightPatches::kParticles particles of the transport's sources through up to -ab diffuse
   // reflections. Keeps no reference. The same scene gives the same patches.
-  explicit LightPatches(const Transport& transport);
+  explicit LightPatches(const PreparedScene& prepared);
 
   const std::vector<Patch>& all() const { return patches_; }
   // The mean area (square world units) of surfaces for each patch.

@@ -7,6 +7,7 @@
 // Source: Bitterli, Novák, Jarosz, "Portal-masked environment map sampling" (Computer Graphics Forum 34,
 // 2015). Differences: portals are found automatically, and sampled by area.
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "transport/rectangle.h"
@@ -14,12 +15,18 @@
 
 namespace rsphere {
 
-class Transport;
+// One or more panes, or a hole, in a rectangle whose normal points to the dark side.
+struct Opening : Rectangle {
+  double filled = 0;  // area of the panes in it, or of the hole (square world units)
+  bool isHole = false;
+  double power = 0;  // mean radiance towards the dark side times filled
+};
 
 class Openings {
  public:
-  // Finds the panes and the holes in walls (holes.h), and looks around from both sides of each.
-  explicit Openings(const Transport& transport);
+  // See find_openings.h. inside: mean brightness (W/sr/m2) on their dark sides; depth: world units.
+  Openings(std::vector<Opening> openings, double inside, double depth)
+      : openings_(std::move(openings)), inside_(inside), depth_(depth) {}
 
   bool empty() const { return openings_.empty(); }
   // The mean brightness (W/sr/m2) behind the openings, on their dark sides.
@@ -60,19 +67,8 @@ class Openings {
   V3d pointTowards(const V3d& direction, double u1, double u2, double u3) const;
 
  private:
-  // The rectangle around one or more panes, or a hole; its normal points to the dark side.
-  struct Opening : Rectangle {
-    double filled = 0;  // area of the panes in it, or of the hole (square world units)
-    bool isHole = false;
-    double power = 0;  // mean radiance towards the dark side times filled
-  };
-  static std::vector<Opening> panesOf(const Transport& transport, double leastArea);
-  static std::vector<Opening> doorsOf(const Transport& transport, double leastArea);
-  bool isNewPlace(const Opening& hole) const;
-  static void merge(std::vector<Opening>& panes);
-
   std::vector<Opening> openings_;
-  double inside_ = 0, depth_ = 0;
+  double inside_, depth_;
 };
 
 }  // namespace rsphere

@@ -1,20 +1,20 @@
 #include "transport/panes.h"
 
-#include "transport/transport.h"
+#include "transport/prepared_scene.h"
 
 namespace rsphere {
 
 // No building has as many in a row; tracing ends even where rounding keeps a ray from leaving a pane.
 constexpr int kMostPanes = 1000;
 
-bool lightPasses(const Transport& transport, const Surface& surface) {
-  const Material* material = transport.scene().materialOf(surface);
+bool lightPasses(const PreparedScene& prepared, const Surface& surface) {
+  const Material* material = prepared.scene().materialOf(surface);
   if (!material || enclosesVolume(*material) || isLightSource(*material)) return false;
   if (const auto* scatterer = std::get_if<FunctionScatterer>(material)) return scatterer->transmissivity > 0;
   if (const auto* bsdf = std::get_if<BsdfMaterial>(material)) {
     if (!isBlack(bsdf->diffuseTransmitted)) return true;
     try {
-      const BsdfData& data = transport.functions().bsdf(surface.material);
+      const BsdfData& data = prepared.functions().bsdf(surface.material);
       return data.transmission(true) || !isBlack(data.diffuseTransmittance(true)) ||
              !isBlack(data.diffuseTransmittance(false));
     } catch (const rad::Error&) {

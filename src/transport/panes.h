@@ -8,11 +8,11 @@
 
 namespace rsphere {
 
-class Transport;
+class PreparedScene;
 
 // Whether light from behind may come through a surface: of a transparent or diffusing material, a BSDF or a prism.
 // False for volumes, light sources, surfaces without a material, and BSDFs whose files cannot be read.
-bool lightPasses(const Transport& transport, const Surface& surface);
+bool lightPasses(const PreparedScene& prepared, const Surface& surface);
 
 // The last part of a straight line: from the last pane, or from its origin, to what it hits (surface kNone: nothing).
 struct LastPart {

@@ -2,16 +2,16 @@
 // Media that absorb and scatter light along a ray (-me, -ma, -mg, mist).
 #include "transport/direct_light.h"
 #include "transport/path_state.h"
+#include "transport/prepared_scene.h"
 #include "transport/ray_functions.h"
-#include "transport/transport.h"
 
 namespace rsphere {
 
 class ParticipatingMedia {
  public:
   // Keeps references.
-  ParticipatingMedia(const Transport& transport, PathState& state, DirectLight& direct)
-      : t_(transport), state_(state), direct_(direct) {}
+  ParticipatingMedia(const PreparedScene& prepared, PathState& state, DirectLight& direct)
+      : t_(prepared), state_(state), direct_(direct) {}
 
   // Attenuates the ray's radiance by the medium between its origin and its hit, and adds the light that the
   // medium scatters into the ray: that of the uniform ambient value (-av) and of the sources that mist names.
@@ -23,7 +23,7 @@ class ParticipatingMedia {
   void passThrough(Ray& ray);
   void addScattered(Ray& ray);
 
-  const Transport& t_;
+  const PreparedScene& t_;
   PathState& state_;
   DirectLight& direct_;
 };

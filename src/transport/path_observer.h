@@ -1,10 +1,13 @@
 #pragma once
-// Results of a path besides its radiance.
+// What a path is asked for, and what it finds, besides its radiance.
 #include <functional>
 
+#include "trace/tracer.h"
 #include "transport/ray.h"
 
 namespace rsphere {
+
+class LocalGuess;
 
 // The light source that a primary ray showed, and the surface that mirrored it;
 // kNone if there is none.
@@ -17,5 +20,26 @@ struct ShownSource {
 // Gets every finished ray of a path (rtrace's -ot, -oT). The attenuation by the medium in front of its hit is
 // not yet in its value.
 using RayObserver = std::function<void(const Ray& ray)>;
+
+// What traces a path differently from others. None of it changes the expected radiance.
+struct PathRequest {
+  // A guess of the radiance of indirect rays, used as a control variate: for each indirect ray that is followed,
+  // several are only guessed (radiance_guess.h). The value of one ray may be negative. Null: nothing is guessed.
+  const LocalGuess* guess = nullptr;
+  // Is shown every ray: descendants before their ancestors, and the primary ray last (except under -I, where it hits
+  // nothing). Shadow rays are shown if they hit a surface that may transmit light, or any surface if allShadowRays.
+  // Null: no observer. Changes no answer.
+  const RayObserver* observer = nullptr;
+  bool allShadowRays = false;
+};
+
+// A primary ray that was traced.
+struct TracedRay : Ray {
+  Hit firstHit;  // as Tracer::nearest found it
+  // The light source that the ray showed: one that it hit, directly or straight through panes that also transmit
+  // shadow rays, after at most one reflection by a flat surface; a distant one also through slabs of parallel faces.
+  // If there are several, the one that was not mirrored, otherwise the first.
+  ShownSource shown;
+};
 
 }  // namespace rsphere

@@ -3,28 +3,36 @@
 #include "field/coarse_solution.h"
 #include "scene/random.h"
 #include "trace/tracer.h"
+#include "transport/aims.h"
+#include "transport/caches.h"
 #include "transport/path_observer.h"
-#include "transport/transport.h"
 
 namespace rsphere {
 
-class LocalGuess;
+// Two choices that a tracer makes for all of its paths.
+struct TracingMode {
+  // With -aa above 0, the coarse solution gives the indirect light of the first diffuse surface as it does that of
+  // later ones: if thousands of directions are averaged, the errors of single patches matter less than what a gather at
+  // each surface costs. In a picture patches would be visible.
+  bool coarseAtFirst = false;
+  // The light of sources in rough highlights is divided between shadow rays and samples of the lobes
+  // (shared_highlights.h). The mean stays the same.
+  bool sharesHighlights = false;
+};
 
 // How a tracer traces all of its paths.
 struct PathSettings {
+  const Caches& caches;
   Aims aims;
-  const LocalGuess* guess = nullptr;  // control variate of indirect rays; null: none
-  RayObserver observer;
-  bool observesAllShadowRays = false;
-  bool sharesHighlights = false;  // PathTracer::shareHighlights()
-  bool coarseAtFirst = false;     // PathTracer::useCoarseSolutionAtFirst()
+  TracingMode mode;
 };
 
 // Each path begins with a new state, and so does each gather: no answer can depend on an earlier path.
 struct PathState {
   Random random{0};
   V3d primaryDirection{0, 0, 1};  // unit
-  ShownSource shown;
+  PathRequest request;
+  ShownSource shown;                       // by the primary ray
   Hit firstHit;                            // of the primary ray
   bool glimpses = false;                   // one direction for each gather
   CoarseSolution::Links* links = nullptr;  // of a path from a patch: collects the light that it finds

@@ -53,24 +53,22 @@ void checkDepth(const Ray& ray) {
 // The recursion and its parts.
 class PathTracer::Path final : public RayFollower, public SiteGatherer {
  public:
-  Path(const Transport& transport, const Aims& aims)
-      : t_(transport),
-        direct_(transport, settings_, state_, *this),
-        specular_(transport, state_, *this),
-        interpolated_(transport, settings_, state_, *this),
-        indirect_(transport, settings_, state_, *this, interpolated_),
-        media_(transport, state_, direct_),
-        shading_(transport, settings_, state_, *this, direct_, specular_, indirect_) {
-    settings_.aims = aims;
-  }
+  Path(const PreparedScene& prepared, const PathSettings& settings)
+      : t_(prepared),
+        settings_(settings),
+        direct_(prepared, settings_, state_, *this),
+        specular_(prepared, settings_, state_, *this),
+        interpolated_(prepared, settings_, state_, *this),
+        indirect_(prepared, settings_, state_, *this, interpolated_),
+        media_(prepared, state_, direct_),
+        shading_(prepared, settings_, state_, *this, direct_, specular_, indirect_) {}
 
-  Ray trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed);
-  Ray traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed);
+  TracedRay trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed,
+                  const PathRequest& request);
+  TracedRay traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed,
+                          const PathRequest& request);
   Radiance glimpse(const V3d& origin, const V3d& direction, uint64_t seed);
   Ray cast(const V3d& origin, const V3d& direction, double farthest);
-
-  PathSettings& settings() { return settings_; }
-  const PathState& state() const { return state_; }
 
   void follow(Ray& ray) override;
   void pass(Ray& ray) override;
@@ -82,17 +80,22 @@ class PathTracer::Path final : public RayFollower, public SiteGatherer {
             CoarseSolution::Links& links) override;
 
  private:
-  void begin(uint64_t seed, const V3d& direction) {
+  void begin(uint64_t seed, const V3d& direction, const PathRequest& request = {}) {
     state_ = {};
+    state_.request = request;
     state_.random = Random(seed);
     state_.primaryDirection = direction;
+  }
+  void end(TracedRay& ray) const {
+    ray.firstHit = state_.firstHit;
+    ray.shown = state_.shown;
   }
   Path& gatherer();
   void find(Ray& ray);
   void finish(Ray& ray);
 
-  const Transport& t_;
-  PathSettings settings_;
+  const PreparedScene& t_;
+  const PathSettings settings_;
   PathState state_;
   DirectLight direct_;
   SpecularLight specular_;
@@ -103,9 +106,10 @@ class PathTracer::Path final : public RayFollower, public SiteGatherer {
   std::unique_ptr<Path> gatherer_;  // a gather is a path of its own, within this one
 };
 
-Ray PathTracer::Path::trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed) {
-  begin(seed, direction);
-  Ray ray;
+TracedRay PathTracer::Path::trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed,
+                                  const PathRequest& request) {
+  begin(seed, direction, request);
+  TracedRay ray;
   ray.medium = t_.medium();
   ray.origin = origin;
   ray.direction = direction;
@@ -119,21 +123,23 @@ Ray PathTracer::Path::trace(const V3d& origin, const V3d& direction, double fart
     follow(ray);
   }
   interpolated_.endPath();
+  end(ray);
   return ray;
 }
 
-Ray PathTracer::Path::traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed) {
-  begin(seed, sample.direction);
+TracedRay PathTracer::Path::traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed,
+                                          const PathRequest& request) {
+  begin(seed, sample.direction, request);
   const LightSource& light = t_.lights().all()[sample.source];
+  TracedRay ray;
   switch (
       t_.tracer().shadow(point, sample.direction, sample.distance, light.distant ? kNone : light.surface)) {
     case Shadow::unsure:
     case Shadow::refracted:
-      return trace(point, sample.direction, 0, seed);
+      return trace(point, sample.direction, 0, seed, request);
     case Shadow::blocked:
       break;
     case Shadow::clear: {
-      Ray ray;
       ray.origin = point;
       ray.direction = sample.direction;
       ray.surface = light.surface;
@@ -144,10 +150,11 @@ Ray PathTracer::Path::traceToSource(const V3d& point, const SourceSample& sample
       ray.medium = t_.medium();
       shading_.shadeSurface(ray);
       media_.participate(ray);
-      return ray;
+      end(ray);
+      break;
     }
   }
-  return Ray{};
+  return ray;
 }
 
 Radiance PathTracer::Path::glimpse(const V3d& origin, const V3d& direction, uint64_t seed) {
@@ -200,7 +207,7 @@ void PathTracer::Path::passOn(Ray& child, Ray& ray) {
   find(child);
   // Any number of surfaces without a modifier is passed in this loop instead of by recursion, unless an
   // observer is to be shown each of them.
-  while (!settings_.observer && child.surface != kNone &&
+  while (!state_.request.observer && child.surface != kNone &&
          t_.scene().surfaces[child.surface].modifier == kNone && child.length < kFarAway &&
          !isMedium(child.medium.extinction)) {
     length += child.length;
@@ -222,8 +229,8 @@ void PathTracer::Path::passOn(Ray& child, Ray& ray) {
 void PathTracer::Path::finish(Ray& ray) {
   // Rays that only determine the light of an unobstructed source are not shown. Shadow rays that hit nothing
   // are not shown either: they miss their source by rounding errors.
-  if (settings_.observer && !ray.unobstructed && (ray.aimedAt == kNone || ray.surface != kNone))
-    settings_.observer(ray);
+  if (state_.request.observer && !ray.unobstructed && (ray.aimedAt == kNone || ray.surface != kNone))
+    (*state_.request.observer)(ray);
   media_.participate(ray);
 }
 
@@ -234,14 +241,15 @@ void PathTracer::Path::find(Ray& ray) {
 
 // The path for gathers within this path. Nested gathers each use another one.
 PathTracer::Path& PathTracer::Path::gatherer() {
-  if (!gatherer_) gatherer_ = std::make_unique<Path>(t_, t_.aims());
+  if (!gatherer_)
+    gatherer_ = std::make_unique<Path>(t_, PathSettings{settings_.caches, settings_.caches.aims, {}});
   return *gatherer_;
 }
 
 GatheredLight PathTracer::Path::gather(const GatherSite& site, uint64_t seed, int depth) {
   Path& path = gatherer();
   path.begin(seed ^ rotationBits(t_.options()), site.normal);
-  return gatherLight(t_, path.state_, path.settings_.aims, path, site, depth);
+  return gatherLight(t_, path.state_, path.settings_, path, site, depth);
 }
 
 void PathTracer::Path::link(const GatherSite& site, int rays, uint64_t seed, int depth,
@@ -249,19 +257,22 @@ void PathTracer::Path::link(const GatherSite& site, int rays, uint64_t seed, int
   Path& path = gatherer();
   path.begin(seed ^ rotationBits(t_.options()), site.normal);
   path.state_.links = &links;
-  linkPatch(t_, path.state_, path.settings_.aims, path, site, rays, depth);
+  linkPatch(t_, path.state_, path.settings_, path, site, rays, depth);
 }
 
-PathTracer::PathTracer(const Transport& transport, const Aims& aims)
-    : path_(std::make_unique<Path>(transport, aims)) {}
+PathTracer::PathTracer(const PreparedScene& prepared, const Caches& caches, const Aims& aims,
+                       const TracingMode& mode)
+    : path_(std::make_unique<Path>(prepared, PathSettings{caches, aims, mode})) {}
 PathTracer::~PathTracer() = default;
 PathTracer::PathTracer(PathTracer&&) noexcept = default;
 
-Ray PathTracer::trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed) {
-  return path_->trace(origin, direction, farthest, seed);
+TracedRay PathTracer::trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed,
+                            const PathRequest& request) {
+  return path_->trace(origin, direction, farthest, seed, request);
 }
-Ray PathTracer::traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed) {
-  return path_->traceToSource(point, sample, seed);
+TracedRay PathTracer::traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed,
+                                    const PathRequest& request) {
+  return path_->traceToSource(point, sample, seed, request);
 }
 Radiance PathTracer::glimpse(const V3d& origin, const V3d& direction, uint64_t seed) {
   return path_->glimpse(origin, direction, seed);
@@ -269,14 +280,5 @@ Radiance PathTracer::glimpse(const V3d& origin, const V3d& direction, uint64_t s
 Ray PathTracer::cast(const V3d& origin, const V3d& direction, double farthest) {
   return path_->cast(origin, direction, farthest);
 }
-const ShownSource& PathTracer::shown() const { return path_->state().shown; }
-const Hit& PathTracer::firstHit() const { return path_->state().firstHit; }
-void PathTracer::observe(RayObserver observer, bool allShadowRays) {
-  path_->settings().observer = std::move(observer);
-  path_->settings().observesAllShadowRays = allShadowRays;
-}
-void PathTracer::guessWith(const LocalGuess* guess) { path_->settings().guess = guess; }
-void PathTracer::shareHighlights(bool share) { path_->settings().sharesHighlights = share; }
-void PathTracer::useCoarseSolutionAtFirst(bool use) { path_->settings().coarseAtFirst = use; }
 
 }  // namespace rsphere

@@ -6,34 +6,36 @@
 #include <memory>
 
 #include "transport/path_observer.h"
-#include "transport/ray.h"
-#include "transport/transport.h"
+#include "transport/path_state.h"
+#include "transport/prepared_scene.h"
 
 namespace rsphere {
 
-class LocalGuess;
-
-// Traces one ray at a time; each thread needs its own tracer. The answer depends only on the ray, the seed,
-// and the transport.
+// Traces one ray at a time; each thread needs its own tracer. The answer depends only on the ray, the seed, the
+// prepared scene, the aims and the mode.
 class PathTracer {
  public:
-  // Keeps references. aims: of directions where indirect light is gathered instead of interpolated.
-  explicit PathTracer(const Transport& transport, const Aims& aims = {});
+  // Keeps references to the scene and the caches; caches without fields: nothing is interpolated. aims: of the gathers
+  // that are not for the caches.
+  PathTracer(const PreparedScene& prepared, const Caches& caches, const Aims& aims,
+             const TracingMode& mode = {});
   ~PathTracer();
   PathTracer(PathTracer&&) noexcept;
 
-  // Radiance along a primary ray (W/sr/m2), or irradiance (W/m2) if Transport::irradiance asks for it: on the
+  // Radiance along a primary ray (W/sr/m2), or irradiance (W/m2) if PreparedScene::irradiance asks for it: on the
   // surface that is hit, or on an imagined one just ahead that faces the ray (see inputRay() for where -I
   // starts). direction: unit. farthest: 0 for no limit (-ld, world units). The seed determines every random
   // number of the path. Throws rad::Error
   // - if a path passes through more than 20500 surfaces in succession,
   // - if it passes through more than this thread's stack has room for (at most 2 kB each),
   // - if Russian roulette has no weight limit to compare with (-lw 0).
-  Ray trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed);
+  TracedRay trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed,
+                  const PathRequest& request = {});
 
   // The radiance along a primary ray to a light source, equal to that of trace(). It costs one shadow ray if
-  // no surface that may transmit light lies in between. shown() says whether the ray showed the source.
-  Ray traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed);
+  // no surface that may transmit light lies in between. TracedRay::shown says whether the ray showed the source.
+  TracedRay traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed,
+                          const PathRequest& request = {});
 
   // The radiance (W/sr/m2) along a ray after which at most one diffuse bounce is followed, in one direction.
   Radiance glimpse(const V3d& origin, const V3d& direction, uint64_t seed);
@@ -41,37 +43,30 @@ class PathTracer {
   // Finds the surface that a ray hits; its value stays 0.
   Ray cast(const V3d& origin, const V3d& direction, double farthest);
 
-  // The light source that the last primary ray showed: one that it hit, directly or straight through panes that
-  // also transmit shadow rays, after at most one reflection by a flat surface; a distant one also through slabs of
-  // parallel faces. If there are several, the one that was not mirrored, otherwise the first.
-  using Shown = ShownSource;
-  const Shown& shown() const;
-
-  // The first hit of the last primary ray, as Tracer::nearest found it.
-  const Hit& firstHit() const;
-
-  // From now on trace() shows every ray to the observer: descendants before their ancestors, and the primary
-  // ray last (except under -I, where it hits nothing). Shadow rays are shown if they hit a surface that may
-  // transmit light, or any surface if allShadowRays. This changes no answer. Null: no observer.
-  void observe(RayObserver observer, bool allShadowRays = false);
-
-  // From now on a guess of the radiance of indirect rays (radiance_guess.h) is used as a control variate: for
-  // each indirect ray that is followed, several are only guessed. The expected value does not change, but the
-  // value of one ray may be negative. Null: nothing is guessed.
-  void guessWith(const LocalGuess* guess);
-
-  // Whether the light of sources in rough highlights is divided between shadow rays and samples of the lobes
-  // (shared_highlights.h). The mean stays the same.
-  void shareHighlights(bool share);
-
-  // Whether, with -aa above 0, the coarse solution gives the indirect light of the first diffuse surface as it
-  // does that of later ones: if thousands of directions are averaged, the errors of single patches matter less than
-  // what a gather at each surface costs. In a picture patches would be visible.
-  void useCoarseSolutionAtFirst(bool use);
-
  private:
   class Path;
   std::unique_ptr<Path> path_;
+};
+
+// Traces paths from one point, all with the same request.
+class PathsFrom {
+ public:
+  // point: world. Keeps a reference to the tracer.
+  PathsFrom(PathTracer& tracer, const V3d& point, const PathRequest& request = {})
+      : tracer_(tracer), point_(point), request_(request) {}
+
+  const V3d& point() const { return point_; }
+  TracedRay trace(const V3d& direction, uint64_t seed) const {
+    return tracer_.trace(point_, direction, 0, seed, request_);
+  }
+  TracedRay traceToSource(const SourceSample& sample, uint64_t seed) const {
+    return tracer_.traceToSource(point_, sample, seed, request_);
+  }
+
+ private:
+  PathTracer& tracer_;
+  V3d point_;
+  PathRequest request_;
 };
 
 }  // namespace rsphere

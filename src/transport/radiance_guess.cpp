@@ -42,9 +42,9 @@ double middleOf(std::vector<double>& values) {
 
 }  // namespace
 
-RadianceGuess::RadianceGuess(const Transport& transport, const ById<SurfaceId, bool>& unguessed)
-    : transport_(transport), unguessed_(unguessed) {
-  const Scene& scene = transport.scene();
+RadianceGuess::RadianceGuess(const PreparedScene& prepared, const ById<SurfaceId, bool>& unguessed)
+    : prepared_(prepared), unguessed_(unguessed) {
+  const Scene& scene = prepared.scene();
   for (const Finish& finish : scene.surfaces.finishes()) {
     Coefficient& reflectance = reflectance_.emplace_back();
     const Material* material = scene.materialAt(finish.material);
@@ -52,7 +52,7 @@ RadianceGuess::RadianceGuess(const Transport& transport, const ById<SurfaceId, b
     if (const auto diffuse = diffuseReflection(*material))
       reflectance = Coefficient(diffuse->color * diffuse->share);
   }
-  const auto& lights = transport.lights().all();
+  const auto& lights = prepared.lights().all();
   for (const LightId i : lights.ids()) {
     if (lights[i].isVirtual()) continue;
     const Radiance radiance = sourceRadiance(scene, scene.surfaces[lights[i].surface]);
@@ -62,13 +62,13 @@ RadianceGuess::RadianceGuess(const Transport& transport, const ById<SurfaceId, b
 
 RadianceGuess::Place RadianceGuess::placeAlong(const V3d& point, const V3d& direction,
                                                SurfaceId start) const {
-  return placeOf(point, direction, transport_.tracer().nearest(point, direction, kFarAway, start));
+  return placeOf(point, direction, prepared_.tracer().nearest(point, direction, kFarAway, start));
 }
 
 RadianceGuess::Place RadianceGuess::placeOf(SurfaceId surface, const V3d& point, const V3d& normal,
                                             const V3d& direction) const {
   if (surface == kNone) return {};
-  const uint32_t finish = transport_.scene().surfaces.face(surface).finish;
+  const uint32_t finish = prepared_.scene().surfaces.face(surface).finish;
   return {point, normal.dot(direction) > 0 ? -normal : normal,
           unguessed_[surface] ? Coefficient() : reflectance_[finish]};
 }
@@ -79,7 +79,7 @@ RadianceGuess::Place RadianceGuess::placeOf(const V3d& point, const V3d& directi
 
 // Unoccluded irradiance from a source of radiance 1, sr.
 double RadianceGuess::factor(LightId source, const Place& at) const {
-  const LightSource& light = transport_.lights().all()[source];
+  const LightSource& light = prepared_.lights().all()[source];
   if (light.distant) return 2 * kPi * (1 - light.cosHalfAngle) * std::max(0., at.normal.dot(light.center));
   const V3d to = light.center - at.point;
   if (at.normal.dot(to) <= -light.radius) return 0;
@@ -115,7 +115,7 @@ double RadianceGuess::sent(const Light& light, const Place& at) const {
 
 // The share of some fixed points on the source that are visible from the place.
 double RadianceGuess::seenFrom(const Place& at, LightId source) const {
-  const LightSource& light = transport_.lights().all()[source];
+  const LightSource& light = prepared_.lights().all()[source];
   const bool ball = light.map == LightSource::Map::ball;
   V3d u = light.u, v = light.v;
   if (ball) {
@@ -137,8 +137,8 @@ double RadianceGuess::seenFrom(const Place& at, LightId source) const {
         to /= distance;
         if (!(at.normal.dot(to) > 0)) continue;
         ++asked;
-        seen += transport_.tracer().shadow(at.point, to, light.distant ? kFarAway : distance,
-                                           light.surface) != Shadow::blocked;
+        seen += prepared_.tracer().shadow(at.point, to, light.distant ? kFarAway : distance, light.surface) !=
+                Shadow::blocked;
       }
     return asked ? static_cast<double>(seen) / asked : 0;
   };
@@ -153,7 +153,7 @@ double RadianceGuess::shareThatArrives(const Light& light, std::span<const doubl
                                        std::span<const Place> places, Random& random) const {
   double sum = 0;
   for (const double s : sent) sum += s;
-  const SurfaceId surface = transport_.lights().all()[light.source].surface;
+  const SurfaceId surface = prepared_.lights().all()[light.source].surface;
   std::vector<SourceSample> samples;
   int asked = 0, arrived = 0;
   double due = random.uniform();
@@ -163,11 +163,11 @@ double RadianceGuess::shareThatArrives(const Light& light, std::span<const doubl
     if (due < 1) continue;
     due -= std::floor(due);
     samples.clear();
-    transport_.lights().sample(light.source, at.point, {0, 1, at.normal}, random, samples);
+    prepared_.lights().sample(light.source, at.point, {0, 1, at.normal}, random, samples);
     ++asked;
     if (samples.empty()) continue;
     const SourceSample& s = samples[0];
-    arrived += transport_.tracer().shadow(at.point, s.direction, s.distance, surface) != Shadow::blocked;
+    arrived += prepared_.tracer().shadow(at.point, s.direction, s.distance, surface) != Shadow::blocked;
   }
   return asked ? static_cast<double>(arrived) / asked : 0;
 }
@@ -266,7 +266,7 @@ Radiance LocalGuess::indirect(const Ray& traced) const {
 
 int LocalGuess::raysToGuess(int bounces) const {
   if (bounces > 1) return 0;
-  const int left = guess_->transport_.options().ambientBounces - bounces;
+  const int left = guess_->prepared_.options().ambientBounces - bounces;
   // Beyond the second surface, all contributions have about half the weight.
   const double pay = std::sqrt(Tuning::kBouncePrice * left * shareGuessed_);
   const auto rays = static_cast<int>(std::lround(std::min(pay, Tuning::kMostGuesses) / (1 + bounces)));

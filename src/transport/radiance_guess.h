@@ -17,8 +17,8 @@
 #include <span>
 #include <vector>
 
+#include "transport/prepared_scene.h"
 #include "transport/ray.h"
-#include "transport/transport.h"
 
 namespace rsphere {
 
@@ -76,8 +76,8 @@ class RadianceGuess {
   using Place = LocalGuess::Place;
 
   // unguessed: by surface (index in Scene::surfaces), whether its guess is to be 0. It is 0 anyway for all
-  // materials but plastic and metal. Keeps a reference to transport.
-  RadianceGuess(const Transport& transport, const ById<SurfaceId, bool>& unguessed);
+  // materials but plastic and metal. Keeps a reference to the prepared scene.
+  RadianceGuess(const PreparedScene& prepared, const ById<SurfaceId, bool>& unguessed);
 
   // The hit of a traced direction, and the radiance from there.
   struct Traced {
@@ -106,7 +106,7 @@ class RadianceGuess {
   double shareThatArrives(const Light& light, std::span<const double> sent, std::span<const Place> places,
                           Random& random) const;
 
-  const Transport& transport_;
+  const PreparedScene& prepared_;
   std::vector<Coefficient> reflectance_;  // diffuse, by number of finish
   ById<SurfaceId, bool> unguessed_;       // surfaces that are black here
   std::vector<Light> lights_;             // share not set

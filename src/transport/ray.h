@@ -11,7 +11,7 @@
 
 namespace rsphere {
 
-// Light sources whose light is scattered into a ray, as positions in Transport::scatterers(). Unused elements
+// Light sources whose light is scattered into a ray, as positions in PreparedScene::scatterers(). Unused elements
 // are neither set nor copied.
 struct ScatteringSources {
   static constexpr size_t kMost = 32;  // the limit in RADIANCE

@@ -16,19 +16,19 @@ V3d along(const V3d& origin, double distance, const V3d& direction) {
 
 // Sets the distant source in the direction of a ray. The first one that is neither a glow nor an illum that
 // transmits light hides the others; if there is none, it is the first glow.
-void findDistant(const Transport& transport, Ray& ray) {
-  const Scene& scene = transport.scene();
+void findDistant(const PreparedScene& prepared, Ray& ray) {
+  const Scene& scene = prepared.scene();
   const auto sees = [&](SurfaceId surface) {
     return scene.surfaces[surface].shape.as<Distant>()->isSeenAlong(ray.direction);
   };
   if (ray.aimedAt != kNone) {
-    const LightSource& light = transport.lights().all()[ray.aimedAt];
+    const LightSource& light = prepared.lights().all()[ray.aimedAt];
     if (light.distant && !light.isVirtual() && sees(light.surface)) ray.surface = light.surface;
     return;
   }
   SurfaceId glow;
   bool passedIllum = false;
-  for (const SurfaceId s : transport.distant()) {
+  for (const SurfaceId s : prepared.distant()) {
     if (!sees(s)) continue;
     switch (coverOf(*scene.materialOf(scene.surfaces[s]))) {
       case Cover::yields:
@@ -48,14 +48,14 @@ void findDistant(const Transport& transport, Ray& ray) {
 }
 
 // Sets the hit of a shadow ray on the source that it is aimed at, and ignores all other surfaces.
-void findTarget(const Transport& transport, Ray& ray) {
-  const Scene& scene = transport.scene();
-  const LightSource& target = transport.lights().all()[ray.aimedAt];
+void findTarget(const PreparedScene& prepared, Ray& ray) {
+  const Scene& scene = prepared.scene();
+  const LightSource& target = prepared.lights().all()[ray.aimedAt];
   ray.point = ray.origin;
   ray.normal = -ray.direction;
   ShapeHit hit;
   if (target.distant && !target.isVirtual()) {
-    findDistant(transport, ray);
+    findDistant(prepared, ray);
   } else if (intersect(scene.surfaces[target.surface].shape, scene.vertices, ray.origin, ray.direction,
                        kFarAway, hit)) {
     ray.surface = target.surface;
@@ -68,14 +68,14 @@ void findTarget(const Transport& transport, Ray& ray) {
 
 }  // namespace
 
-Hit findHit(const Transport& transport, Ray& ray) {
+Hit findHit(const PreparedScene& prepared, Ray& ray) {
   if (ray.unobstructed) {
-    findTarget(transport, ray);
+    findTarget(prepared, ray);
     return {};
   }
-  const Hit hit = transport.tracer().nearest(ray.origin, ray.direction,
-                                             ray.farthest > kSamePlace ? ray.farthest : kFarAway,
-                                             ray.parent ? ray.parent->surface : kNone);
+  const Hit hit = prepared.tracer().nearest(ray.origin, ray.direction,
+                                            ray.farthest > kSamePlace ? ray.farthest : kFarAway,
+                                            ray.parent ? ray.parent->surface : kNone);
   ray.surface = hit.surface;
   ray.point = ray.origin;
   ray.normal = -ray.direction;
@@ -92,7 +92,7 @@ Hit findHit(const Transport& transport, Ray& ray) {
   } else if (ray.farthest > kSamePlace) {
     ray.point = along(ray.origin, ray.farthest, ray.direction);
   } else {
-    findDistant(transport, ray);
+    findDistant(prepared, ray);
   }
   return hit;
 }

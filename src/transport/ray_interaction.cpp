@@ -8,7 +8,7 @@ constexpr double kStraight = 1e-9;
 
 // Whether a ray continues the primary ray in a straight line, except for its reflection by ray.mirror, and
 // passes no surface that blocks shadow rays, so that shadow rays to the source reach it as well.
-bool isStraight(const Transport& t, const Ray& ray, const V3d& primaryDirection) {
+bool isStraight(const PreparedScene& t, const Ray& ray, const V3d& primaryDirection) {
   for (const Ray* before = ray.parent; before; before = before->parent)
     if (before->surface != kNone && before->surface != ray.mirror &&
         t.tracer().stopsShadows(before->surface, before->cosine > 0))
@@ -23,7 +23,7 @@ bool isStraight(const Transport& t, const Ray& ray, const V3d& primaryDirection)
 
 }  // namespace
 
-void noteShown(const Transport& t, const Ray& ray, PathState& state) {
+void noteShown(const PreparedScene& t, const Ray& ray, PathState& state) {
   if (t.lightOf(ray.surface) == kNone) return;
   // The ray shows this source only if it came straight or was mirrored once. Behind a slab, such as thick glass, refraction
   // displaces the ray, which makes no difference to a distant source.

@@ -4,13 +4,13 @@
 
 #include "shade/material_hit.h"
 #include "transport/path_state.h"
+#include "transport/prepared_scene.h"
 #include "transport/ray.h"
-#include "transport/transport.h"
 
 namespace rsphere {
 
 // REQUIRES that the ray hit a surface, except for interactionOf() and pointOf().
-inline Arrival arrivalOf(const Transport& t, const Ray& ray) {
+inline Arrival arrivalOf(const PreparedScene& t, const Ray& ray) {
   Arrival a;
   a.kinds = ray.kinds;
   a.cosine = ray.cosine;
@@ -61,6 +61,6 @@ inline FunctionPoint pointOf(const Ray& ray) {
 
 // Adds a light source that the ray shows to the state of its path, if the ray is one that shows sources
 // (PathTracer::shown()). The ray hit a surface that emits light towards it.
-void noteShown(const Transport& transport, const Ray& ray, PathState& state);
+void noteShown(const PreparedScene& prepared, const Ray& ray, PathState& state);
 
 }  // namespace rsphere

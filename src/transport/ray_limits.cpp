@@ -7,16 +7,16 @@
 
 namespace rsphere {
 
-bool continueRay(const Transport& transport, Random& random, Ray& child, RayKind kind, const Ray& parent,
+bool continueRay(const PreparedScene& prepared, Random& random, Ray& child, RayKind kind, const Ray& parent,
                  Coefficient& coefficient) {
-  const RayOptions& o = transport.options();
+  const RayOptions& o = prepared.options();
   inherit(child, parent, kind);
   if (kind & kReflections) {
     ++child.level;
     child.farthest = 0;
     if (kind == kReflected && !(parent.kinds & ~(kPrimary | kTransmitted)) && parent.surface != kNone &&
-        parent.surface.index() < transport.scene().outermost().size() &&
-        planeNormal(transport.scene().surfaces[parent.surface].shape))
+        parent.surface.index() < prepared.scene().outermost().size() &&
+        planeNormal(prepared.scene().surfaces[parent.surface].shape))
       child.mirror = parent.surface;
   } else {
     child.mirror = parent.mirror;

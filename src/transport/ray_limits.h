@@ -1,7 +1,8 @@
 #pragma once
 // How far paths are followed and into how many rays they split: -lr, -lw, -ss.
+#include "transport/path_state.h"
+#include "transport/prepared_scene.h"
 #include "transport/ray.h"
-#include "transport/transport.h"
 
 namespace rsphere {
 
@@ -14,25 +15,25 @@ inline constexpr double kMeanReflectance = .5;
 // below the weight limit (-lw): always if -lr is positive, otherwise by Russian roulette. coefficient: of the
 // child's radiance in the parent's. It is increased if the path survived roulette, so that the mean stays
 // unbiased. Throws rad::Error if roulette has no weight limit to compare with (-lw 0).
-bool continueRay(const Transport& transport, Random& random, Ray& child, RayKind kind, const Ray& parent,
+bool continueRay(const PreparedScene& prepared, Random& random, Ray& child, RayKind kind, const Ray& parent,
                  Coefficient& coefficient);
 
 // Whether rays reflected at the ray's hit are followed, except those that Russian roulette ends, whose light
 // the others make up for. Otherwise -lr ends them for certain.
-inline bool goesOn(const Transport& transport, const Ray& ray) {
-  const int limit = transport.options().reflectionLimit;
+inline bool goesOn(const PreparedScene& prepared, const Ray& ray) {
+  const int limit = prepared.options().reflectionLimit;
   return limit == 0 || (limit < 0 && ray.level + 1 <= -limit);
 }
 
 // Whether the ray is one of the many rays of a gather for interpolation, or descends from one. Noise averages
 // out over these rays, so that each takes one sample where a primary ray takes several.
-inline bool isOfGather(const Transport& transport, const Ray& ray) {
-  return transport.field() && ray.ambientLevel > 0;
+inline bool isOfGather(const PathSettings& settings, const Ray& ray) {
+  return settings.caches.field && ray.ambientLevel > 0;
 }
 
 // The number of samples that a ray takes of a lobe, at least 1. wanted: the number for a ray of weight 1.
-inline int samplesOf(const Transport& transport, const Ray& ray, double wanted) {
-  if (isOfGather(transport, ray)) return 1;
+inline int samplesOf(const PathSettings& settings, const Ray& ray, double wanted) {
+  if (isOfGather(settings, ray)) return 1;
   return std::max(1, static_cast<int>(wanted * ray.weight + .5));
 }
 

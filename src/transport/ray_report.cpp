@@ -40,12 +40,12 @@ RayAnswer answerOf(const Scene& scene, const Ray& ray) {
   return a;
 }
 
-RayAnswer branchAnswer(const Transport& transport, const Ray& ray) {
-  RayAnswer a = answerOf(transport.scene(), ray);
+RayAnswer branchAnswer(const PreparedScene& prepared, const Ray& ray) {
+  RayAnswer a = answerOf(prepared.scene(), ray);
   a.rayWeight = ray.weight;
   a.contribution = ray.contribution * passedBy(ray);
   const bool dark = ray.value.color.x + ray.value.color.y + ray.value.color.z <= 3 * kNegligible;
-  if (ray.aimedAt != kNone && dark && transport.lights().all()[ray.aimedAt].surface != ray.surface)
+  if (ray.aimedAt != kNone && dark && prepared.lights().all()[ray.aimedAt].surface != ray.surface)
     a.contribution = {};
   return a;
 }

@@ -2,9 +2,9 @@
 // The quantities of a ray that rtrace's output letters report.
 #include <string_view>
 
+#include "transport/prepared_scene.h"
 #include "transport/ray.h"
 #include "transport/ray_answer.h"
-#include "transport/transport.h"
 
 namespace rsphere {
 
@@ -13,7 +13,7 @@ RayAnswer answerOf(const Scene& scene, const Ray& ray);
 
 // The answer for a ray that an observer was shown (RayObserver): answerOf() with the ray's weight and its
 // contribution, which is zero for a shadow ray that receives no light from its source.
-RayAnswer branchAnswer(const Transport& transport, const Ray& ray);
+RayAnswer branchAnswer(const PreparedScene& prepared, const Ray& ray);
 
 // Whether the letters need a ray's value, and not only its hit.
 bool needsValue(std::string_view letters);

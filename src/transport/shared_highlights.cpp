@@ -19,13 +19,13 @@ double apparentSize(const LightSource& source, double distance, double cosine) {
 
 }  // namespace
 
-bool sharesHighlights(const Transport& transport, LightId source) {
-  const LightSource& light = transport.lights().all()[source];
+bool sharesHighlights(const PreparedScene& prepared, LightId source) {
+  const LightSource& light = prepared.lights().all()[source];
   if (light.isVirtual() || light.reach > 0 || light.spot || light.map == LightSource::Map::tube ||
-      !transport.constantRadiance(source))
+      !prepared.constantRadiance(source))
     return false;
-  const Surface& surface = transport.scene().surfaces[light.surface];
-  return surface.goal || !std::holds_alternative<Illum>(*transport.scene().materialOf(surface));
+  const Surface& surface = prepared.scene().surfaces[light.surface];
+  return surface.goal || !std::holds_alternative<Illum>(*prepared.scene().materialOf(surface));
 }
 
 double shareOfLobe(const LightSource& source, double distance, double cosine, double density) {
@@ -33,12 +33,12 @@ double shareOfLobe(const LightSource& source, double distance, double cosine, do
   return within > tuning::SharedHighlights::kLeast ? within / (1 + within) : 0;
 }
 
-Radiance sourceSeenBy(const Transport& transport, const Ray& sample) {
+Radiance sourceSeenBy(const PreparedScene& prepared, const Ray& sample) {
   if (sample.surface == kNone || !hitFront(sample)) return {};
-  const LightId source = transport.lightOf(sample.surface);
-  if (source == kNone || !sharesHighlights(transport, source)) return {};
+  const LightId source = prepared.lightOf(sample.surface);
+  if (source == kNone || !sharesHighlights(prepared, source)) return {};
   const Medium& medium = sample.medium;  // attenuates as it does shadow rays
-  return *transport.constantRadiance(source) *
+  return *prepared.constantRadiance(source) *
          passing(medium.extinction * (Color(1, 1, 1) - medium.albedo), sample.length);
 }
 

@@ -5,14 +5,14 @@
 // mean. The light is therefore divided between both (multiple importance sampling, balance heuristic: Veach
 // and Guibas 1995). The shares are functions of the direction alone, and sum to 1 for each, so that no light
 // is counted twice or lost.
+#include "transport/prepared_scene.h"
 #include "transport/ray.h"
-#include "transport/transport.h"
 
 namespace rsphere {
 
 // Whether the light of a source in highlights is divided: real sources of constant radiance without a reach
 // or a spot. Not illums, through which samples of a lobe pass.
-bool sharesHighlights(const Transport& transport, LightId source);
+bool sharesHighlights(const PreparedScene& prepared, LightId source);
 
 // The share (0 to 1) of a highlight's light from a direction that samples of the lobe estimate. distance
 // (world units), cosine: of the hit on the source in this direction. density: of the lobe's samples in it,
@@ -21,6 +21,6 @@ double shareOfLobe(const LightSource& source, double distance, double cosine, do
 
 // The radiance of the source that a lobe's sample has hit first of all, without the share; black if it hit
 // none, or one whose light is not divided. sample: as traced; its own value is black there.
-Radiance sourceSeenBy(const Transport& transport, const Ray& sample);
+Radiance sourceSeenBy(const PreparedScene& prepared, const Ray& sample);
 
 }  // namespace rsphere

@@ -12,8 +12,8 @@ namespace {
 using Tuning = tuning::SpecularLight;
 
 // The weight below which sharp paths of an indirect ray are followed by Russian roulette.
-double leastWeight(const Transport& transport, const Ray& ray) {
-  return std::max(Tuning::kWeakBranch * ray.weight, isOfGather(transport, ray) ? Tuning::kWeakPath : 0);
+double leastWeight(const PathSettings& settings, const Ray& ray) {
+  return std::max(Tuning::kWeakBranch * ray.weight, isOfGather(settings, ray) ? Tuning::kWeakPath : 0);
 }
 
 // Whether the path of a child goes on. If so, its weight is at least `least`, and its coefficient makes up for
@@ -37,7 +37,7 @@ void SpecularLight::follow(Ray& ray, const SharpPaths& sharp) {
     Coefficient coefficient = path.coefficient;
     if (isBlack(coefficient) || !continueRay(t_, state_.random, child, path.kind, ray, coefficient)) continue;
     if (!(ray.kinds & kShadow) && ray.ambientLevel > 0 &&
-        !survives(state_.random, leastWeight(t_, ray), child, coefficient))
+        !survives(state_.random, leastWeight(settings_, ray), child, coefficient))
       continue;
     child.direction = path.direction;
     if (path.entersMedium) child.medium = path.medium;
@@ -80,7 +80,7 @@ void SpecularLight::sampleLobe(Ray& ray, RayKind kind, const Lobe& lobe, LobeSam
                                const LobeShare* share) {
   const RayOptions& o = t_.options();
   const double spread = o.specularSampling;
-  int samples = samplesOf(t_, ray, std::max<double>(spread > 1.5 ? spread : 1, lobe.leastSamples));
+  int samples = samplesOf(settings_, ray, std::max<double>(spread > 1.5 ? spread : 1, lobe.leastSamples));
   if (lobe.share > 0 && o.weightLimit > 0)
     samples =
         std::max(1, static_cast<int>(std::min<double>(samples, lobe.share * ray.weight / o.weightLimit)));

@@ -3,8 +3,8 @@
 #include "shade/surface_scattering.h"
 #include "transport/function_ref.h"
 #include "transport/path_state.h"
+#include "transport/prepared_scene.h"
 #include "transport/ray_follower.h"
-#include "transport/transport.h"
 
 namespace rsphere {
 
@@ -18,8 +18,9 @@ using LobeShare = FunctionRef<Radiance(const Ray& sample)>;
 class SpecularLight {
  public:
   // Keeps references.
-  SpecularLight(const Transport& transport, PathState& state, RayFollower& follower)
-      : t_(transport), state_(state), follower_(follower) {}
+  SpecularLight(const PreparedScene& prepared, const PathSettings& settings, PathState& state,
+                RayFollower& follower)
+      : t_(prepared), settings_(settings), state_(state), follower_(follower) {}
 
   // Follows a ray along sharp paths, and adds their light to its value (W/sr/m2).
   void follow(Ray& ray, const SharpPaths& sharp);
@@ -36,7 +37,8 @@ class SpecularLight {
                   const LobeShare* share = nullptr);
 
  private:
-  const Transport& t_;
+  const PreparedScene& t_;
+  const PathSettings& settings_;
   PathState& state_;
   RayFollower& follower_;
 };

@@ -10,30 +10,30 @@
 namespace rsphere {
 namespace {
 
-MaterialOptions materialOptions(const Transport& transport) {
-  const RayOptions& o = transport.options();
+MaterialOptions materialOptions(const PreparedScene& prepared) {
+  const RayOptions& o = prepared.options();
   return {.backFacesVisible = o.backFacesVisible,
           .sourcesVisible = o.sourcesVisible,
           .specularThreshold = o.specularThreshold,
           .specularSampling = o.specularSampling,
           .directJitter = o.directJitter,
-          .basicRadiance = transport.basicRadiance(),
-          .medium = transport.medium()};
+          .basicRadiance = prepared.basicRadiance(),
+          .medium = prepared.medium()};
 }
 
 }  // namespace
 
-SurfaceShading::SurfaceShading(const Transport& transport, const PathSettings& settings, PathState& state,
+SurfaceShading::SurfaceShading(const PreparedScene& prepared, const PathSettings& settings, PathState& state,
                                RayFollower& follower, DirectLight& direct, SpecularLight& specular,
                                IndirectLight& indirect)
-    : t_(transport),
+    : t_(prepared),
       settings_(settings),
       state_(state),
       follower_(follower),
       direct_(direct),
       specular_(specular),
       indirect_(indirect),
-      context_{transport.scene(), transport.functions(), materialOptions(transport)} {}
+      context_{prepared.scene(), prepared.functions(), materialOptions(prepared)} {}
 
 // The hit of a ray as its material sees it.
 class SurfaceShading::Hit final : public MaterialHit {
@@ -55,7 +55,7 @@ class SurfaceShading::Hit final : public MaterialHit {
     const LightSource& source = lights[lights[ray_.aimedAt].relayed];
     return (source.distant ? source.center : source.center - ray_.point).normalized();
   }
-  int samplesOf(double wanted) const override { return rsphere::samplesOf(shading_.t_, ray_, wanted); }
+  int samplesOf(double wanted) const override { return rsphere::samplesOf(shading_.settings_, ray_, wanted); }
 
  private:
   void applyModifiers() override { shading_.applyModifiers(ray_, modifiers()); }
@@ -222,7 +222,7 @@ bool SurfaceShading::follow(Ray& ray, S& scattering) {
         specular_.sampleLobe(ray, kTransmittedSpecular, *lobe, draw);
         continue;
       }
-      shares = settings_.sharesHighlights && goesOn(t_, ray);
+      shares = settings_.mode.sharesHighlights && goesOn(t_, ray);
       const auto ofSource = [&](const Ray& sample) { return lobesPart(scattering, sample); };
       const LobeShare share(ofSource);
       specular_.sampleLobe(ray, kReflectedSpecular, *lobe, draw, shares ? &share : nullptr);

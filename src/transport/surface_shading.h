@@ -5,16 +5,16 @@
 #include "transport/direct_light.h"
 #include "transport/indirect_light.h"
 #include "transport/path_state.h"
+#include "transport/prepared_scene.h"
 #include "transport/ray_follower.h"
 #include "transport/specular_light.h"
-#include "transport/transport.h"
 
 namespace rsphere {
 
 class SurfaceShading {
  public:
   // Keeps references.
-  SurfaceShading(const Transport& transport, const PathSettings& settings, PathState& state,
+  SurfaceShading(const PreparedScene& prepared, const PathSettings& settings, PathState& state,
                  RayFollower& follower, DirectLight& direct, SpecularLight& specular,
                  IndirectLight& indirect);
 
@@ -63,7 +63,7 @@ class SurfaceShading {
   template <ScattersLight S>
   Coefficient lobesCoefficient(const S& scattering, const SourceSample& sample) const;
 
-  const Transport& t_;
+  const PreparedScene& t_;
   const PathSettings& settings_;
   PathState& state_;
   RayFollower& follower_;

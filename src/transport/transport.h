@@ -1,138 +1,34 @@
 #pragma once
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string_view>
-#include <vector>
-
-#include "field/field_options.h"
-#include "light/source_choice.h"
-#include "light/sources.h"
-#include "scene/chosen_surfaces.h"
-#include "scene/random.h"
-#include "scene/scene.h"
-#include "shade/surface_functions.h"
-#include "trace/tracer.h"
-#include "transport/presumed_shadows.h"
-#include "transport/ray.h"
-#include "transport/ray_options.h"
+// All that the path tracers of a run share: the scene prepared for tracing, what gathers are aimed at, and the caches
+// of interpolated light.
+#include "transport/aims.h"
+#include "transport/caches.h"
+#include "transport/path_tracer.h"
+#include "transport/prepared_scene.h"
 
 namespace rsphere {
 
-class Highlights;
-class BrightSpots;
-class CoarseSolution;
-class IrradianceField;
-class Openings;
-
-// Seeds are combined with these bits, so that -Sr changes them. 0 for -Sr 0, where seeds depend only on
-// places and rays.
-inline uint64_t rotationBits(const RayOptions& options) {
-  return options.rotation == 0 ? 0 : mixBits(options.rotation);
-}
-
-// What the rays of gathers are aimed at; null: nothing.
-struct Aims {
-  const Openings* openings = nullptr;
-  const BrightSpots* spots = nullptr;
-  const Highlights* highlights = nullptr;
-};
-
-// The options of the fields of interpolated light.
-FieldOptions fieldOptions(const RayOptions& options);
-
-// The scene prepared for tracing, shared by all threads. It is constant once constructed, except for the two
-// caches that tracing adds to: field() and coarse(). Keeps a reference to the scene.
+// Shared by all threads. Constant once constructed, except for the caches. Keeps a reference to the scene.
 class Transport {
  public:
-  // basicRadiance: refraction does not scale radiance by the square of the refractive index (-Sb). warn: gets
-  // the warnings of SurfaceFunctions and LightSources. If there is indirect light (-ab) and the scene has
-  // panes, the constructor traces some paths to find the openings that daylight enters through.
+  // See PreparedScene. If there is indirect light (-ab) and the scene has panes or holes, the constructor traces some
+  // paths to find the openings that daylight enters through. Throws what PreparedScene throws.
   Transport(const Scene& scene, const RayOptions& options, IrradianceAt irradiance,
             bool basicRadiance = false, const rad::Warn& warn = {});
-  ~Transport();
 
-  const Scene& scene() const { return scene_; }
-  const Tracer& tracer() const { return tracer_; }
-  const LightSources& lights() const { return lights_; }
-  const PresumedShadows& presumedShadows() const { return presumedShadows_; }
-  const SourceChoice& choice() const { return choice_; }
-  const SurfaceFunctions& functions() const { return functions_; }
-  const RayOptions& options() const { return options_; }
-  IrradianceAt irradiance() const { return irradiance_; }
-  bool basicRadiance() const { return basicRadiance_; }
-  // A surface's own light, or kNone.
-  LightId lightOf(SurfaceId surface) const {
-    const auto number = luminous_.numberOf(surface);
-    return number ? LightId(*number) : kNone;
+  const PreparedScene& prepared() const { return prepared_; }
+  Aims aims() const { return aims_; }
+  const Caches& caches() const { return caches_; }
+
+  // A tracer for one thread, whose gathers are aimed.
+  PathTracer pathTracer(const TracingMode& mode = {}) const {
+    return PathTracer(prepared_, caches_, aims_, mode);
   }
-  // The radiance of a light source if it is the same from all points and directions;
-  // null if it has to be computed for each ray.
-  const Radiance* constantRadiance(LightId source) const {
-    return constantRadiance_[source] ? &*constantRadiance_[source] : nullptr;
-  }
-  // Whether indirect light is computed on the surface (-ae, -ai).
-  bool isAmbient(SurfaceId surface) const {
-    return surface == kNone || ambient_.empty() || ambient_[surface];
-  }
-  // The medium of the space outside of mist and dielectrics (-me -ma -mg).
-  Medium medium() const {
-    return {options_.mediumExtinction, options_.mediumAlbedo, options_.mediumEccentricity};
-  }
-  // Light sources that any mist names; and those that one mist names, as
-  // positions in scatterers().
-  const std::vector<LightId>& scatterers() const { return scatterers_; }
-  const std::vector<uint16_t>& scatterersOf(const Mist& mist) const { return scatterersOf_[mist.number]; }
-  // Whether the scene has no light at all: no light sources, no glow, no ambient value, no goals.
-  bool isDark() const;
-  // Whether rtrace warns that there are no light sources: there is none, and either no surface glows or
-  // there is no indirect light (-ab), which alone carries the light of glow without reach. The ambient value
-  // makes no difference.
-  bool lacksSources() const;
-  // Surfaces of type source that emit light, in the order of the scene.
-  const std::vector<SurfaceId>& distant() const { return distant_; }
-  // The irradiance cache of first diffuse surfaces; null without interpolation (-aa 0). Tracing adds to it.
-  IrradianceField* field() const { return field_.get(); }
-  // The coarse solution, which gives the light of second and later diffuse surfaces; null where paths are
-  // followed instead (-aa 0, -ab 1). Tracing adds to it.
-  CoarseSolution* coarse() const { return coarse_.get(); }
-  // The number of diffuse bounces beyond a patch: one less where patches never serve the first surface.
-  int bouncesBeyondPatches() const {
-    return options_.ambientBounces - (options_.leastForPatches > 0 ? 0 : 1);
-  }
-  // The openings that daylight enters through, and patches of strong direct light, which are looked for where light
-  // is interpolated (-aa above 0) or daylight enters; and highlights on rough balls and cylinders.
-  Aims aims() const { return {openings_.get(), spots_.get(), highlights_.get()}; }
-  bool looksForSpots() const { return options_.ambientAccuracy > 0 || openings_; }
 
  private:
-  void findAims();
-  void prepareInterpolation(const rad::Warn& warn);
-  bool glows(SurfaceList::Beginning surfaces) const;
-  void findScatterers(const rad::Warn& warn);
-  LightId sourceNamed(std::string_view name) const;
-
-  const Scene& scene_;
-  RayOptions options_;
-  IrradianceAt irradiance_;
-  bool basicRadiance_;
-  Tracer tracer_;
-  SurfaceFunctions functions_;
-  LightSources lights_;
-  PresumedShadows presumedShadows_;
-  SourceChoice choice_;
-  ChosenSurfaces luminous_;  // those that are light sources: the first lights, in their order
-  ById<LightId, std::optional<Radiance>> constantRadiance_;
-  std::vector<SurfaceId> distant_;
-  std::vector<LightId> scatterers_;
-  std::vector<std::vector<uint16_t>> scatterersOf_;  // by Mist::number
-  ById<SurfaceId, bool> ambient_;                    // empty: all of them
-  std::unique_ptr<const Openings> openings_;
-  std::unique_ptr<IrradianceField> field_;
-  std::unique_ptr<CoarseSolution> coarse_;
-  std::unique_ptr<const BrightSpots> spots_;
-  std::unique_ptr<const Highlights> highlights_;
+  PreparedScene prepared_;
+  FoundAims aims_;
+  Caches caches_;
 };
 
 }  // namespace rsphere

@@ -15,9 +15,9 @@ double without(double extinction, double mist, double around) {
 
 }  // namespace
 
-Ray beyondMist(const Transport& transport, const CrossesMist& boundary, Ray& ray) {
+Ray beyondMist(const PreparedScene& prepared, const CrossesMist& boundary, Ray& ray) {
   const Mist& mist = boundary.mist;
-  const auto& sources = transport.scatterersOf(mist);
+  const auto& sources = prepared.scatterersOf(mist);
   const auto addTo = [&](Ray& r) {
     r.medium.extinction += boundary.extinction;
     if (mist.hasAlbedo) r.medium.albedo = mist.albedo;
@@ -38,7 +38,7 @@ Ray beyondMist(const Transport& transport, const CrossesMist& boundary, Ray& ray
   for (const uint16_t s : sources) removed += child.scatterers.remove(s);
   // The ray began inside the mist.
   if (removed < sources.size()) addTo(ray);
-  const Medium around = transport.medium();
+  const Medium around = prepared.medium();
   const Medium& before = ray.mist ? ray.mist->medium : around;
   child.medium.extinction = combined(ray.medium.extinction, boundary.extinction, around.extinction, without);
   if (mist.hasAlbedo) child.medium.albedo = before.albedo;

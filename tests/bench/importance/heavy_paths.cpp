@@ -87,27 +87,25 @@ int run(int argc, char** argv) {
         const double share = sample.solidAngle / (4 * kPi) / mean;
         // Light arrives where a ray sees a source: its value is then what the source emits. What samples of a
         // lobe estimate of near sources (shared_highlights.h) is not among it.
-        again.tracer.observe(
-            [&](const Ray& ray) {
-              if (ray.surface == kNone || !ray.parent) return;
-              if (transport.lightOf(ray.surface) == kNone || isBlack(ray.value)) return;
-              const double contribution = brightness(ray.value * (ray.contribution)) * share;
-              if (!(contribution > 0)) return;
-              Kind& kind = kinds[pathOf(scene, ray, false)];
-              kind.sum += contribution;
-              kind.squares += contribution * contribution;
-              kind.largest = std::max(kind.largest, contribution);
-              sum += contribution;
-              squares += contribution * contribution;
-              if (singles.size() < kSingles || contribution > singles.back().contribution) {
-                singles.push_back({contribution, pathOf(scene, ray, true)});
-                std::sort(singles.begin(), singles.end(),
-                          [](const Single& a, const Single& b) { return a.contribution > b.contribution; });
-                if (singles.size() > kSingles) singles.pop_back();
-              }
-            },
-            true);
-        again.tracer.trace(point, sample.direction, 0, random.bits());
+        const RayObserver observer = [&](const Ray& ray) {
+          if (ray.surface == kNone || !ray.parent) return;
+          if (transport.prepared().lightOf(ray.surface) == kNone || isBlack(ray.value)) return;
+          const double contribution = brightness(ray.value * (ray.contribution)) * share;
+          if (!(contribution > 0)) return;
+          Kind& kind = kinds[pathOf(scene, ray, false)];
+          kind.sum += contribution;
+          kind.squares += contribution * contribution;
+          kind.largest = std::max(kind.largest, contribution);
+          sum += contribution;
+          squares += contribution * contribution;
+          if (singles.size() < kSingles || contribution > singles.back().contribution) {
+            singles.push_back({contribution, pathOf(scene, ray, true)});
+            std::sort(singles.begin(), singles.end(),
+                      [](const Single& a, const Single& b) { return a.contribution > b.contribution; });
+            if (singles.size() > kSingles) singles.pop_back();
+          }
+        };
+        again.tracer.trace(point, sample.direction, 0, random.bits(), {nullptr, &observer, true});
       }
     }
   }

@@ -96,8 +96,8 @@ RayOptions optionsOf(int bounces) {
 TEST(CoarseSolution, LightIsTheGeometricSeriesInAFurnace) {
   constexpr int kBounces = 4;
   const Traced box(kBox);
-  FurnaceLooker looker(box.transport().tracer(), kBounces, [](const SurfacePlace&) { return 1; });
-  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(optionsOf(kBounces)),
+  FurnaceLooker looker(box.prepared().tracer(), kBounces, [](const SurfacePlace&) { return 1; });
+  CoarseSolution solution(box.scene(), box.prepared().tracer().bounds(), fieldOptions(optionsOf(kBounces)),
                           1);
   looker.solve(solution);
   Random random(2);
@@ -128,10 +128,10 @@ TEST(CoarseSolution, LightIsTheGeometricSeriesInAFurnace) {
 // The rays that the patch of a place on the floor of the box has, for a room of this size.
 int raysOfPatch(const Traced& box, const RayOptions& options, double room, double distance = 0,
                 double covered = 1) {
-  FurnaceLooker looker(box.transport().tracer(), 1, [](const SurfacePlace&) { return 1; });
+  FurnaceLooker looker(box.prepared().tracer(), 1, [](const SurfacePlace&) { return 1; });
   looker.mean = distance;
   looker.covered = covered;
-  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(options), room);
+  CoarseSolution solution(box.scene(), box.prepared().tracer().bounds(), fieldOptions(options), room);
   looker.solve(solution);
   const SurfacePlace place = looker.placeAlong(V3d(2, 1.5, 2), V3d(0, 0, -1));
   CoarseSolution::Patch* const patch = solution.find(place, .5, .5, looker);
@@ -170,12 +170,12 @@ TEST(CoarseSolution, RaysGoWhereTheirNoiseMatters) {
 TEST(CoarseSolution, PatchesServeWhatTheySee) {
   constexpr int kBounces = 2;
   const Traced box(kBox + kAcross);
-  FurnaceLooker looker(box.transport().tracer(), kBounces,
+  FurnaceLooker looker(box.prepared().tracer(), kBounces,
                        [](const SurfacePlace& p) { return (p.point + 1e-4 * p.normal).x < 1.03 ? 1 : 0; });
   RayOptions options = optionsOf(kBounces);
   options.ambientValue = Radiance(0);
   options.ambientDivisions = 64;
-  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(options), 1);
+  CoarseSolution solution(box.scene(), box.prepared().tracer().bounds(), fieldOptions(options), 1);
   looker.solve(solution);
   Random random(4);
   int found[2] = {0, 0};
@@ -203,8 +203,8 @@ TEST(CoarseSolution, PatchesServeWhatTheySee) {
 // The path of a ray from nearby is followed instead, because patches would be visible there.
 TEST(CoarseSolution, NoPatchServesWhatIsSeenFromNear) {
   const Traced box(kBox);
-  FurnaceLooker looker(box.transport().tracer(), 2, [](const SurfacePlace&) { return 1; });
-  CoarseSolution solution(box.scene(), box.transport().tracer().bounds(), fieldOptions(optionsOf(2)), 1);
+  FurnaceLooker looker(box.prepared().tracer(), 2, [](const SurfacePlace&) { return 1; });
+  CoarseSolution solution(box.scene(), box.prepared().tracer().bounds(), fieldOptions(optionsOf(2)), 1);
   looker.solve(solution);
   SurfacePlace place{V3d(2, 1.5, 0), V3d(0, 0, 1), SurfaceId(0), nullptr, 2.5};
   EXPECT_TRUE(solution.find(place, .5, .5, looker));

@@ -125,8 +125,8 @@ TEST(IrradianceField, AgreesWithWhatIsGatheredAnew) {
       ++count;
     }
   EXPECT_LT(std::abs(sum / count), .01);
-  ASSERT_TRUE(field.transport().field());
-  EXPECT_GT(field.transport().field()->sitesMade(), 10u);
+  ASSERT_TRUE(field.transport().caches().field);
+  EXPECT_GT(field.transport().caches().field->sitesMade(), 10u);
 }
 
 TEST(IrradianceField, LeavesTheDarkBehindAThinWall) {
@@ -147,7 +147,7 @@ TEST(IrradianceField, AnswersTheSameInAnyOrderAndForAnyThread) {
   std::vector<Color> expected;
   for (const V3d& p : places) expected.push_back(forwards.color(p, down, 7));
   const auto work = [&](bool backwards) {
-    PathTracer tracer(shared.transport());
+    PathTracer tracer = shared.transport().pathTracer();
     for (size_t i = 0; i < places.size(); ++i) {
       const size_t k = backwards ? places.size() - 1 - i : i;
       EXPECT_EQ(tracer.trace(places[k], down, 0, 7).value.color, expected[k]);
@@ -171,14 +171,14 @@ TEST(IrradianceField, ForgetsBeyondItsBoundAndAnswersTheSame) {
   Traced whole(kRoom, o);
   std::vector<Color> expected;
   for (const V3d& p : places) expected.push_back(whole.tracer().trace(p, down, 0, 7).value.color);
-  const size_t needed = whole.transport().field()->bytes() - kTable;
+  const size_t needed = whole.transport().caches().field->bytes() - kTable;
 
   constexpr size_t kThreads = 3, kQuestion = 6'000;  // bytes
   o.fieldMemory = static_cast<double>(needed) / 20e6;
   Traced bounded(kRoom, o);
-  IrradianceField& field = *bounded.transport().field();
+  IrradianceField& field = *bounded.transport().caches().field;
   const auto work = [&](size_t first) {
-    PathTracer tracer(bounded.transport());
+    PathTracer tracer = bounded.transport().pathTracer();
     for (size_t i = 0; i < places.size(); ++i) {
       const size_t k = (first + i) % places.size();
       EXPECT_EQ(tracer.trace(places[k], down, 0, 7).value.color, expected[k]);
@@ -190,7 +190,7 @@ TEST(IrradianceField, ForgetsBeyondItsBoundAndAnswersTheSame) {
   work(0);
   for (std::thread& other : others) other.join();
   EXPECT_GT(needed, 4 * kThreads * kQuestion) << "or nothing is told";
-  EXPECT_GT(field.sitesMade(), 2 * whole.transport().field()->sitesMade()) << "something was forgotten";
+  EXPECT_GT(field.sitesMade(), 2 * whole.transport().caches().field->sitesMade()) << "something was forgotten";
 }
 
 // Light of second diffuse surfaces has the same mean as with single paths, and less variance.

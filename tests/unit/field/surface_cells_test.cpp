@@ -36,7 +36,7 @@ std::vector<Met> placesOn(const Traced& t, SurfaceId surface, const V3d& middle,
   while (static_cast<int>(found.size()) < count) {
     const V3d towards = middle + randomPoint(random, 2.5), direction = randomDirection(random);
     const V3d from = towards - 4. * direction;
-    const Hit hit = t.transport().tracer().nearest(from, direction);
+    const Hit hit = t.prepared().tracer().nearest(from, direction);
     if (hit.surface != surface) continue;
     SurfacePlace place{from + hit.distance * direction, V3d(0, 0, 1), surface, nullptr, hit.distance};
     place.normal = hit.normal.dot(direction) > 0 ? -hit.normal : hit.normal;
@@ -71,7 +71,7 @@ TEST(CellGrid, SidesHalveFromLevelToLevel) {
 // site is on the side that the place was seen from.
 TEST(SurfaceCells, SitesLieAboveTheirSurfaces) {
   const Traced t(kShapes);
-  const CellGrid grid(t.transport().tracer().bounds());
+  const CellGrid grid(t.prepared().tracer().bounds());
   for (const SurfaceId s : t.scene().surfaces.ids()) {
     int without = 0, all = 0;
     for (const auto& [place, from] : placesOn(t, s, kMiddles[s.index()], 60)) {
@@ -87,7 +87,7 @@ TEST(SurfaceCells, SitesLieAboveTheirSurfaces) {
           continue;
         }
         EXPECT_NEAR(site->normal.length(), 1, 1e-12);
-        const Hit hit = t.transport().tracer().nearest(site->point, -site->normal);
+        const Hit hit = t.prepared().tracer().nearest(site->point, -site->normal);
         EXPECT_EQ(hit.surface, s);
         EXPECT_NEAR(hit.distance, grid.lift, 1e-3 * grid.lift);
         if (s.index() < 5) {
@@ -108,7 +108,7 @@ TEST(SurfaceCells, SitesLieAboveTheirSurfaces) {
 
 TEST(SurfaceCells, CellsAreEqualPartsAndTheirNumbersEndAtTheEdges) {
   const Traced t(kShapes);
-  const CellGrid grid(t.transport().tracer().bounds());
+  const CellGrid grid(t.prepared().tracer().bounds());
   const SurfacePlace place{V3d(1, 2, 0), V3d(0, 0, 1), SurfaceId(0), nullptr, 1};
   const auto chart = SurfaceChart::of(t.scene(), grid, place);
   ASSERT_TRUE(chart);
@@ -129,7 +129,7 @@ TEST(SurfaceCells, CellsAreEqualPartsAndTheirNumbersEndAtTheEdges) {
 // The rectangle of 5 x 3 is divided across into at least 7 parts, and along as before.
 TEST(SurfaceCells, StripsAreDividedAcross) {
   const Traced t(kShapes);
-  const CellGrid grid(t.transport().tracer().bounds());
+  const CellGrid grid(t.prepared().tracer().bounds());
   const SurfacePlace place{V3d(2, .1, 0), V3d(0, 0, 1), SurfaceId(0), nullptr, 1};
   const SurfaceChart whole = *SurfaceChart::of(t.scene(), grid, place);
   SurfaceChart strips = whole;
@@ -151,7 +151,7 @@ TEST(SurfaceCells, StripsAreDividedAcross) {
 
 TEST(SurfaceCells, KeysNameCells) {
   const Traced t(kShapes);
-  const CellGrid grid(t.transport().tracer().bounds());
+  const CellGrid grid(t.prepared().tracer().bounds());
   const auto keyAt = [&](double x, double y, double up, SurfaceId surface = SurfaceId(0)) {
     const auto chart = SurfaceChart::of(
         t.scene(), grid, {V3d(x, y, surface != SurfaceId(0) ? 10 : 0), V3d(0, 0, up), surface, nullptr, 1});
@@ -167,7 +167,7 @@ TEST(SurfaceCells, KeysNameCells) {
 // Surfaces that are too small for separate cells share those of their plane, one set for each side.
 TEST(SurfaceCells, PlanesAreSharedByAllThatLiesInThem) {
   const Traced t(kShapes);
-  const CellGrid grid(t.transport().tracer().bounds());
+  const CellGrid grid(t.prepared().tracer().bounds());
   const V3d normal = V3d(1, 2, 3).normalized(), along = V3d(3, 0, -1), middle(2, 1, 4);
   const auto chartOf = [&](const V3d& point, const V3d& n) {
     return SurfaceChart::ofPlane(grid, {point, n, SurfaceId(0), nullptr, 1});

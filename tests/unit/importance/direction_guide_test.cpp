@@ -22,9 +22,9 @@ const std::string kRoom = "void plastic white 0 0 5 .5 .5 .5 0 0\nvoid light shi
 
 TEST(DirectionGuide, DensityIntegratesToOneAndFollowsTheLight) {
   const Traced room(kRoom, unbiased(2));
-  const LightPatches patches(room.transport());
+  const LightPatches patches(room.prepared());
   const V3d point(6, 6, 1.5);
-  const DirectionGuide guide(patches, room.transport().tracer(), point);
+  const DirectionGuide guide(patches, room.prepared().tracer(), point);
   double sum = 0;
   const std::vector<V3d> all = baseDirections(100000);
   for (const V3d& d : all) sum += guide.density(d) * 4 * pi / static_cast<double>(all.size());
@@ -36,8 +36,8 @@ TEST(DirectionGuide, DensityIntegratesToOneAndFollowsTheLight) {
 // In each of some parts of the sphere there are as many directions as the density says.
 TEST(DirectionGuide, DirectionsFollowTheDensity) {
   const Traced room(kRoom, unbiased(2));
-  const LightPatches patches(room.transport());
-  const DirectionGuide guide(patches, room.transport().tracer(), V3d(6, 6, 1.5));
+  const LightPatches patches(room.prepared());
+  const DirectionGuide guide(patches, room.prepared().tracer(), V3d(6, 6, 1.5));
   const auto partOf = [](const V3d& d) {
     return static_cast<size_t>((d.x > 0) + 2 * (d.y > .3) + 4 * (d.z > .1) + 8 * (d.z < -.3));
   };
@@ -66,7 +66,7 @@ TEST(DirectionGuide, DirectionsFollowTheDensity) {
 // lamp's power.
 TEST(LightPatches, SendWhatSurfacesReflect) {
   const Traced room(kRoom, unbiased(20));
-  const LightPatches patches(room.transport());
+  const LightPatches patches(room.prepared());
   double power = 0;
   for (const LightPatches::Patch& patch : patches.all()) power += patch.power;
   EXPECT_NEAR(power, .04 * pi * .5 / (1 - .5), .05 * .04 * pi);
@@ -76,9 +76,9 @@ TEST(LightPatches, SendWhatSurfacesReflect) {
 
 TEST(DirectionGuide, KnowsNoLightInTheDark) {
   const Traced dark("void plastic white 0 0 5 .5 .5 .5 0 0\n" + roomOf("white", V3d(4, 4, 3)), unbiased(2));
-  const LightPatches patches(dark.transport());
+  const LightPatches patches(dark.prepared());
   EXPECT_TRUE(patches.all().empty());
-  const DirectionGuide guide(patches, dark.transport().tracer(), V3d(1, 1, 1));
+  const DirectionGuide guide(patches, dark.prepared().tracer(), V3d(1, 1, 1));
   Random random(1);
   EXPECT_TRUE(guide.directions(10, random).empty());
   EXPECT_EQ(guide.density(V3d(0, 0, 1)), 0);

@@ -66,7 +66,7 @@ Sample irradianceOnGoal(int bounces, int relays = 2, int side = 100) {
   RayOptions options = finely(bounces + 1);
   options.directRelays = relays;
   const Transport transport(scene, options, IrradianceAt::point);
-  PathTracer tracer(transport);
+  PathTracer tracer = transport.pathTracer();
   Random random(7);
   Sample sample;
   for (int i = 0; i < side; ++i)
@@ -179,7 +179,7 @@ TEST(Duality, BasicRadianceLeavesOutTheSquareOfTheIndex) {
       "void glow sky 0 0 4 1 1 1 0\nsky source dome 0 0 4 0 0 1 360\n");
   const auto straightUp = [&](bool basic) {
     const Transport transport(scene, finely(0), IrradianceAt::none, basic);
-    PathTracer tracer(transport);
+    PathTracer tracer = transport.pathTracer();
     Sample sample;
     for (uint64_t seed = 0; seed < 200; ++seed)
       sample.add(tracer.trace(V3d(0, 0, 0), V3d(0, 0, 1), 0, seed).value.color.x);

@@ -21,7 +21,7 @@ struct Setting : SphereSetting {
                               text),
                       [](RayOptions& o) { o.ambientBounces = 0; }) {}
   std::vector<Glint> seenFrom(const V3d& point, double least = 0) const {
-    return Glints(*transport, findSpecialObjects(scene, 1)).find(point, least);
+    return Glints(transport->prepared(), findSpecialObjects(scene, 1)).find(point, least);
   }
 };
 
@@ -39,7 +39,7 @@ Found compare(const Setting& setting, const V3d& point) {
   Found found;
   found.images = static_cast<int>(glints.size());
   const Silhouette whole = silhouetteOf(Shape(Sphere{V3d(1, 2, 3), .1}), {}, point);
-  PathTracer tracer(*setting.transport);
+  PathTracer tracer = setting.transport->pathTracer();
   int inRegions = 0, dark = 0;
   constexpr int kSide = 300;
   for (int i = 0; i < kSide; ++i)

@@ -78,7 +78,7 @@ struct Drawn : SphereSetting {
     const SphereEstimator estimator(*transport, o);
     SphereEstimator::Workspace workspace(estimator);
     mean = brightness(estimator.estimate(point, workspace).mean);
-    raster = drawPoint(point, map, *transport, estimator.sources(), workspace.tracer, seed);
+    raster = drawPoint(point, map, estimator.tracing(), estimator.sources(), seed);
   }
   double at(size_t pixel) const { return raster.pixels[3 * pixel + 1]; }
   double towards(const V3d& direction) const { return at(map.pixelOf(direction.normalized())); }
@@ -132,7 +132,7 @@ TEST(PointPicture, WallsAndLuminairesAreAsBrightAsTheyAre) {
     EXPECT_GT(least, .1) << "walls are black";
     EXPECT_EQ(drawn.towards(V3d(-.2, .3, 1.9)), 40);
     EXPECT_EQ(drawn.towards(V3d(2.6, .3, -.1)), 30);
-    PathTracer tracer(*drawn.transport);
+    PathTracer tracer = drawn.transport->pathTracer();
     int black = 0;
     for (uint64_t seed = 0; seed < 100; ++seed)
       black += tracer.trace(V3d(.2, -.3, .1), V3d(-.6, 0, .8), 0, seed).value.color.y < .1 ? 1 : 0;
@@ -180,7 +180,7 @@ TEST(PointPicture, SmallSourcesHaveTheirLightWithLittleNoise) {
   SphereEstimator::Workspace workspace(estimator);
   for (uint64_t seed = 1; seed <= 100; ++seed) {
     drawn.raster =
-        drawPoint(V3d(0, 0, 0), drawn.map, *drawn.transport, estimator.sources(), workspace.tracer, seed);
+        drawPoint(V3d(0, 0, 0), drawn.map, estimator.tracing(), estimator.sources(), seed);
     half.add(drawn.integral());
   }
   EXPECT_LT(std::sqrt(half.variance()) / half.mean(), .2) << "one sample: over .3";
@@ -194,7 +194,7 @@ TEST(PointPicture, DoesNotDependOnThePicturesBefore) {
   for (const V3d& point : {V3d(1, 1, 1), V3d(.2, -.3, .1)}) {
     estimator.estimate(point, workspace);
     const Raster again =
-        drawPoint(point, drawn.map, *drawn.transport, estimator.sources(), workspace.tracer, 1);
+        drawPoint(point, drawn.map, estimator.tracing(), estimator.sources(), 1);
     EXPECT_EQ(again.pixels == drawn.raster.pixels, point.x == .2);
   }
 }
@@ -208,7 +208,7 @@ TEST(PointPicture, CanBeGivenUp) {
     if (++rows == 3) throw rad::Error("Terminate", rad::Status::signal);
   };
   EXPECT_THROW(
-      drawPoint(V3d(0, 0, 0), drawn.map, *drawn.transport, estimator.sources(), workspace.tracer, 1, stop),
+      drawPoint(V3d(0, 0, 0), drawn.map, estimator.tracing(), estimator.sources(), 1, stop),
       rad::Error);
   EXPECT_EQ(rows, 3);
 }

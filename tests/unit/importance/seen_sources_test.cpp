@@ -101,10 +101,11 @@ TEST(SeenSources, SunAndItsImageInAPane) {
   const double solidAngle = 4 * kPi * std::pow(std::sin(.25 * kPi / 360), 2);
   const V3d point(2, 0, 0);
   // Through nothing; and at 45 degrees in glass, what a single ray there shows.
-  PathTracer tracer(*setting.transport);
-  const double glass = brightness(tracer.trace(point, V3d(-1, 0, 1).normalized(), 0, 1).value);
+  PathTracer tracer = setting.transport->pathTracer();
+  const TracedRay ray = tracer.trace(point, V3d(-1, 0, 1).normalized(), 0, 1);
+  const double glass = brightness(ray.value);
   EXPECT_GT(glass, 5);
-  EXPECT_EQ(tracer.shown().mirror, SurfaceId(1));
+  EXPECT_EQ(ray.shown.mirror, SurfaceId(1));
   // The glass has no other light to mirror or let pass.
   const double exact = (100 + glass) * solidAngle / (4 * kPi);
   EXPECT_NEAR(setting.apart(point) / exact, 1, 1e-4);
@@ -154,7 +155,7 @@ TEST(SeenSources, EveryShapeOfSource) {
 double raysTo(const char* sources, size_t most) {
   const Setting setting(sources);
   const std::vector<SeenSources::Image> images =
-      SeenSources(*setting.transport).findImages(V3d(0, 0, 0), most, 0);
+      SeenSources(setting.transport->prepared()).findImages(V3d(0, 0, 0), most, 0);
   return images.empty() ? 0 : images[0].rays;
 }
 

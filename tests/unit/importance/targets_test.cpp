@@ -60,9 +60,9 @@ TEST(TargetChoice, FitsTargetsThatDoNotOverlap) {
       "clear polygon beside 0 0 12 1 2 0 2 2 0 2 2 1 1 2 1\n";
   const SphereSetting setting(sceneOf(scene), [](RayOptions& o) { o.ambientBounces = 1; });
   const std::vector<SpecialObject> objects = findSpecialObjects(setting.scene, 1);
-  const SeenSources sources(*setting.transport);
+  const SeenSources sources(setting.transport->prepared());
   const Targets targets =
-      TargetChoice(*setting.transport, objects, sources, Aims{}, 1).at(V3d(.5, 0, .5), 1e6, 2048, 4096);
+      TargetChoice(setting.tracing(), objects, sources, 1).at(V3d(.5, 0, .5), 1e6, 2048, 4096);
   ASSERT_EQ(targets.all().size(), 3u);
   EXPECT_TRUE(targets.all()[0].fitted);
   EXPECT_FALSE(targets.all()[1].fitted);
@@ -85,7 +85,7 @@ struct Choice {
   SeenSources sources{*setting.transport};
 
   Targets at(const V3d& point, double meanBrightness, size_t most, double densityFactor = 1) const {
-    return TargetChoice(*setting.transport, objects, sources, Aims{}, densityFactor)
+    return TargetChoice(setting.tracing(), objects, sources, densityFactor)
         .at(point, meanBrightness, 2048, most);
   }
 };
@@ -130,9 +130,9 @@ TEST(TargetChoice, DensityIsMultiplied) {
 // The sun shines on the floor at 1.5 <= x <= 2.5, 1 <= y <= 2.
 TEST(TargetChoice, SunlitFloorsAreTargets) {
   const SphereSetting setting(sceneOf(kSunlitRoom), [](RayOptions& o) { o.ambientBounces = 1; });
-  const SeenSources sources(*setting.transport);
+  const SeenSources sources(setting.transport->prepared());
   const auto towards = [&](const Aims& aims, const V3d& point, const V3d& place) {
-    return regionAt(TargetChoice(*setting.transport, {}, sources, aims, 1).at(point, 1, 2048, 4096),
+    return regionAt(TargetChoice(setting.tracing(aims), {}, sources, 1).at(point, 1, 2048, 4096),
                     place - point)
         .density;
   };
@@ -149,9 +149,9 @@ TEST(TargetChoice, SunlitFloorsAreTargets) {
 // sky.
 TEST(TargetChoice, HolesThatShowTheSkyAreTargets) {
   const SphereSetting setting(sceneOf(kRoomWithAWindow), [](RayOptions& o) { o.ambientBounces = 1; });
-  const SeenSources sources(*setting.transport);
+  const SeenSources sources(setting.transport->prepared());
   const auto at = [&](const Aims& aims, const V3d& point, double meanBrightness) {
-    return TargetChoice(*setting.transport, {}, sources, aims, 1).at(point, meanBrightness, 512, 4096);
+    return TargetChoice(setting.tracing(aims), {}, sources, 1).at(point, meanBrightness, 512, 4096);
   };
   const Aims aims = setting.transport->aims();
   ASSERT_TRUE(aims.openings);
@@ -175,8 +175,8 @@ TEST(TargetChoice, HolesThatShowTheSkyAreTargets) {
 // Without special objects and openings nothing is measured.
 TEST(Contrasts, NoneOfDiffuseScenes) {
   const Setting setting;
-  const SeenSources sources(*setting.transport);
-  const Contrasts contrasts = measureContrasts(*setting.transport, {}, sources, Aims{});
+  const SeenSources sources(setting.transport->prepared());
+  const Contrasts contrasts = measureContrasts(setting.tracing(), {}, sources);
   EXPECT_TRUE(contrasts.objects.empty());
   EXPECT_EQ(contrasts.surroundings, 1);
 }
@@ -187,8 +187,8 @@ TEST(Contrasts, OfAMirrorUnderHalfASphereOfLight) {
       sceneOf("void glow sky 0 0 4 1 1 1 0\nsky source dome 0 0 4 0 0 1 180\n"
               "void metal chrome 0 0 5 .9 .9 .9 1 0\nchrome sphere s 0 0 4 0 0 0 1\n"));
   const auto objects = findSpecialObjects(setting.scene, 1);
-  const SeenSources sources(*setting.transport);
-  const Contrasts contrasts = measureContrasts(*setting.transport, objects, sources, Aims{});
+  const SeenSources sources(setting.transport->prepared());
+  const Contrasts contrasts = measureContrasts(setting.tracing(), objects, sources);
   ASSERT_EQ(contrasts.objects.size(), 1u);
   EXPECT_NEAR(contrasts.objects[0].deviation, .45, .05);
   EXPECT_GT(contrasts.surroundings, 0);

@@ -19,6 +19,10 @@ struct SphereSetting {
     if (change) change(options.ray);
     transport = std::make_unique<Transport>(scene, options.ray, IrradianceAt::none);
   }
+
+  SphereTracing tracing(const Aims& aims = {}) const {
+    return {transport->prepared(), transport->caches(), aims};
+  }
 };
 
 }  // namespace rsphere

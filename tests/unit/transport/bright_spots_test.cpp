@@ -27,7 +27,7 @@ const std::string kPot =
     "white ring bottom\n0\n0\n8 1 1 2.4 0 0 1 0 .302\n";
 
 BrightSpots spotsOf(const Traced& t) {
-  return BrightSpots(t.scene(), t.transport().tracer(), t.transport().lights());
+  return BrightSpots(t.scene(), t.prepared().tracer(), t.prepared().lights());
 }
 
 TEST(BrightSpots, AreWhereLightIsThick) {
@@ -86,7 +86,7 @@ TEST(BrightSpots, AreAimedAtAsDensitySays) {
 TEST(BrightSpots, LeaveTheMeanAsItIs) {
   Traced pot(kRoom + kPot, unbiased(2));
   const BrightSpots spots = spotsOf(pot);
-  PathTracer aimed(pot.transport(), Aims{nullptr, &spots});
+  PathTracer aimed = pot.tracerWith(Aims{nullptr, &spots});
   const V3d origin(3, 2.5, 1), down(.1, .2, -1);
   constexpr double kMean = 7.0979e-4;
   constexpr int kPaths = 80000;
@@ -99,14 +99,14 @@ TEST(BrightSpots, LeaveTheMeanAsItIs) {
 
 Openings openingsOf(const std::string& text) {
   Traced t(text, unbiased(1));
-  return Openings(t.transport());
+  return findOpenings(t.prepared());
 }
 
 TEST(BrightSpots, AreWhereTheSunShinesThroughOpenings) {
   const Traced room(kSunlitRoom, unbiased(1));
   const Openings openings = openingsOf(kSunlitRoom);
   ASSERT_FALSE(openings.empty());
-  const BrightSpots spots(room.scene(), room.transport().tracer(), room.transport().lights(), &openings);
+  const BrightSpots spots(room.scene(), room.prepared().tracer(), room.prepared().lights(), &openings);
   for (const V3d& point : {V3d(2, 2, 3), V3d(3, 3.5, 3)}) {
     BrightSpots::Aim aim;
     spots.aim(point, V3d(0, 0, -1), aim);
@@ -132,8 +132,8 @@ TEST(BrightSpots, AreWhereTheSunShinesThroughOpenings) {
 TEST(BrightSpots, ThroughOpeningsLeaveTheMeanAsItIs) {
   Traced room(kSunlitRoom, unbiased(1));
   const Openings openings = openingsOf(kSunlitRoom);
-  const BrightSpots spots(room.scene(), room.transport().tracer(), room.transport().lights(), &openings);
-  PathTracer aimed(room.transport(), Aims{nullptr, &spots});
+  const BrightSpots spots(room.scene(), room.prepared().tracer(), room.prepared().lights(), &openings);
+  PathTracer aimed = room.tracerWith(Aims{nullptr, &spots});
   // A ray to the north wall, below the sill, where no ground is visible through the window.
   const V3d origin(2, 2, .9), north = V3d(.1, 1, 0).normalized();
   Sample with, without;

@@ -60,7 +60,7 @@ TEST(GatherDirections, AreAimedWhereThatPays) {
 // is visible through the window.
 TEST(GatherDirections, LeaveTheMeanOfPathsAsItIs) {
   Traced room(kSunlitRoom, unbiased(3));
-  PathTracer aimed(room.transport(), room.transport().aims());
+  PathTracer aimed = room.tracerWith(room.transport().aims());
   const V3d origin(2, 2, .9), north = V3d(.1, 1, 0).normalized();
   Sample with, without;
   for (uint64_t i = 0; i < 40000; ++i) with.add(aimed.trace(origin, north, 0, mixBits(i)).value.color.x);

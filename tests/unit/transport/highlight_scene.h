@@ -20,7 +20,7 @@ inline const std::string kFloor = "matt polygon floor 0 0 12 0 0 0 4 0 0 4 4 0 0
 // BallHighlights or CylinderHighlights of a scene.
 template <class Highlights>
 Highlights highlightsOf(const Traced& t) {
-  return Highlights(t.scene(), t.transport().tracer(), t.transport().lights(), 1e-9);
+  return Highlights(t.scene(), t.prepared().tracer(), t.prepared().lights(), 1e-9);
 }
 
 // At a point that sees one highlight above it: those that are too weak are left out, and those that are hidden
@@ -48,7 +48,7 @@ inline void expectMeanOfPathsKept(const std::string& reflectors, const V3d& orig
   RayOptions options = unbiased(1);
   options.ambientDivisions = 64;
   Traced t(kMaterials + reflectors + kBulb + roomOf("matt", V3d(4, 4, 3)), options);
-  PathTracer aimed(t.transport(), t.transport().aims());
+  PathTracer aimed = t.tracerWith(t.transport().aims());
   const V3d down(0, 0, -1);
   Sample with, without;
   constexpr int kMore = 8;  // times as many without

@@ -27,7 +27,7 @@ std::string upright(const std::string& name, double y, double x0, double z0, dou
 std::vector<Rectangle> holesIn(const std::string& text, double leastArea = .01) {
   Traced t(kGray + text, {});
   const auto any = [](const Surface&) { return true; };
-  return holesOf(t.scene(), t.transport().tracer().bounds(), leastArea, any);
+  return holesOf(t.scene(), t.prepared().tracer().bounds(), leastArea, any);
 }
 
 // That the rectangle is the one between two corners.
@@ -107,7 +107,7 @@ TEST(Holes, AreInEachPlaneByItself) {
                "clear polygon pane 0 0 12 1 .2 0 2 .2 0 2 .2 2 1 .2 2\n",
            {});
   const auto holes = [&](auto isWall) {
-    return holesOf(t.scene(), t.transport().tracer().bounds(), .01, isWall).size();
+    return holesOf(t.scene(), t.prepared().tracer().bounds(), .01, isWall).size();
   };
   EXPECT_EQ(holes([](const Surface&) { return true; }), 1u) << "a pane as a part of the wall closes it";
   EXPECT_EQ(holes([&](const Surface& s) { return t.scene().surfaceName(s) != "pane"; }), 2u);

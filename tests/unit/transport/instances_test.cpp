@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "rad_parser/scene_file.h"
-#include "transport/path_tracer.h"
+#include "transport/transport.h"
 #include "transport/ray_report.h"
 
 // Rays that hit instances and meshes, compared with the original.
@@ -46,7 +46,7 @@ TEST(Instances, LookAsToTheOriginal) {
   const std::string text = "!xform " + std::string(kFolder) + "/scene.rad\n";
   const Scene scene = buildScene(rad::readSceneText(text, "room.rad"));
   const Transport transport(scene, o, IrradianceAt::none);
-  PathTracer tracer(transport);
+  PathTracer tracer = transport.pathTracer();
   const std::vector<RayText> rays = raysOf(std::string(kFolder) + "/rays.txt");
   std::ifstream file(std::string(kFolder) + "/rtrace.txt");
   std::string line;

@@ -1,4 +1,4 @@
-#include "transport/openings.h"
+#include "transport/find_openings.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ const std::string kSky = "void glow sky_glow 0 0 4 1 1 1 0\nsky_glow source sky 
 
 Openings openingsOf(const std::string& text) {
   Traced t(text, unbiased(1));
-  return Openings(t.transport());
+  return findOpenings(t.prepared());
 }
 
 // The radiance over the hemisphere that is expected from the openings.
@@ -137,7 +137,7 @@ TEST(Openings, AreNotAskedOfBsdfsWithoutTheirFile) {
       "void BSDF missing 6 0 no_such_file.xml 0 0 1 . 0 0\n"
       "missing polygon window 0 0 12 1 0 1 3 0 1 3 0 2 1 0 2\n";
   Traced t(kSky + kRoom + kLid + pane, unbiased(1));
-  EXPECT_TRUE(Openings(t.transport()).empty());
+  EXPECT_TRUE(findOpenings(t.prepared()).empty());
   EXPECT_THROW(t.value(V3d(2, 2, 1.5), V3d(0, -1, 0)), rad::Error);
   EXPECT_GE(t.value(V3d(2, 2, 1.5), V3d(0, 1, 0)), 0);
 }

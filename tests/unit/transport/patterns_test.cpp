@@ -633,7 +633,7 @@ TEST_F(Patterns, WarnsOnceOfWhatHasNoValue) {
   std::vector<std::string> warnings;
   const Transport transport(scene, {}, IrradianceAt::none, false,
                             [&](std::string_view text) { warnings.emplace_back(text); });
-  PathTracer tracer(transport);
+  PathTracer tracer = transport.pathTracer();
   for (int i = 0; i < 3; ++i)
     EXPECT_EQ(tracer.trace(V3d(3, 3, 3), V3d(0, 0, -1), 0, 1).value.color.x, 1) << "left out";
   ASSERT_EQ(warnings.size(), 1u);
@@ -660,13 +660,13 @@ TEST_F(Patterns, ThreadsMeetAModifierForTheFirstTimeTogether) {
                             "P mixfunc N\n4 void void wave shading.cal\n0\n0\nN glow M\n0\n0\n4 1 1 1 0\n") +
                 kFloor);
     const Transport transport(scene, {}, IrradianceAt::none);
-    PathTracer alone(transport);
+    PathTracer alone = transport.pathTracer();
     std::array<double, 4> values{};
     std::vector<std::thread> threads;
     std::atomic<int> waiting = 4;
     for (size_t i = 0; i < values.size(); ++i)
       threads.emplace_back([&, i] {
-        PathTracer tracer(transport);
+        PathTracer tracer = transport.pathTracer();
         --waiting;
         while (waiting > 0) std::this_thread::yield();
         values[i] = tracer.trace(V3d(1, 1.5, 3), V3d(0, 0, -1), 0, 1).value.color.x;
@@ -696,7 +696,7 @@ TEST_F(Patterns, GoalMayBeAMixture) {
   const std::vector<std::string> goals = {"G"};
   const Scene scene = buildScene(rad::readSceneText(text, "room.rad"), {}, goals);
   const Transport transport(scene, unbiased(), IrradianceAt::none);
-  PathTracer tracer(transport);
+  PathTracer tracer = transport.pathTracer();
   EXPECT_EQ(tracer.trace(V3d(.2, .3, 1), V3d(0, 0, 1), 0, 1).value.color.x, 1);
   Sample floor;
   for (uint64_t i = 0; i < 4000; ++i)
@@ -722,7 +722,7 @@ TEST_F(Patterns, RaysToAGoalTakeTheRandomNumbersOfTheirSeed) {
   const auto toGoal = [&](PathTracer& tracer, uint64_t seed) {
     return tracer.traceToSource(V3d(0, 0, 1), sample, seed).value.color;
   };
-  PathTracer fresh(transport), used(transport);
+  PathTracer fresh = transport.pathTracer(), used = transport.pathTracer();
   used.trace(V3d(.2, .3, 1), V3d(0, 0, -1), 0, 99);
   const Color first = toGoal(fresh, 7);
   EXPECT_EQ(toGoal(used, 7), first);

@@ -26,8 +26,8 @@ RayOptions finely(int bounces) {
 
 RadianceGuess guessOf(const Traced& t) {
   ById<SurfaceId, bool> lights(t.scene().surfaces.size(), false);
-  for (const LightSource& l : t.transport().lights().all()) lights[l.surface] = true;
-  return RadianceGuess(t.transport(), lights);
+  for (const LightSource& l : t.prepared().lights().all()) lights[l.surface] = true;
+  return RadianceGuess(t.prepared(), lights);
 }
 
 // A guess fitted to the view from the point, in the same way as for spherical means.
@@ -38,10 +38,10 @@ LocalGuess fitted(const RadianceGuess& guess, Traced& t, const V3d& point, int r
   std::vector<RadianceGuess::Traced> traced;
   for (int i = 0; i < rays; ++i) {
     const V3d d = randomDirection(random);
-    const Radiance radiance(t.color(point, d, random.bits()));
-    const Hit& hit = t.tracer().firstHit();
-    if (t.tracer().shown().source == kNone)
-      traced.push_back({guess.placeOf(point, d, hit), hit.surface, radiance});
+    const TracedRay ray = t.tracer().trace(point, d, 0, random.bits());
+    const Hit& hit = ray.firstHit;
+    if (ray.shown.source == kNone)
+      traced.push_back({guess.placeOf(point, d, hit), hit.surface, Radiance(ray.value.color)});
   }
   return guess.fit(point, glances, traced, 1);
 }
@@ -131,16 +131,15 @@ TEST(RadianceGuess, OfIndirectRaysLeavesTheMeanAsItIs) {
     const RadianceGuess guess = guessOf(room);
     const LocalGuess local = fitted(guess, room, from, 64);
     ASSERT_GT(local.raysToGuess(0), 0);
-    const BrightSpots spots(room.scene(), room.transport().tracer(), room.transport().lights());
+    const BrightSpots spots(room.scene(), room.prepared().tracer(), room.prepared().lights());
     EXPECT_EQ(spots.empty(), c.light == &kPanel);
-    PathTracer plain(room.transport(), Aims{nullptr, spots.empty() ? nullptr : &spots});
-    PathTracer guessing(room.transport(), Aims{nullptr, spots.empty() ? nullptr : &spots});
-    guessing.guessWith(&local);
+    PathTracer plain = room.tracerWith(Aims{nullptr, spots.empty() ? nullptr : &spots});
+    PathTracer guessing = room.tracerWith(Aims{nullptr, spots.empty() ? nullptr : &spots});
     Sample without, with;
     const V3d to = V3d(-.3, .2, -1).normalized();  // the floor
     for (uint64_t i = 0; i < 8000; ++i) {
       without.add(plain.trace(from, to, 0, mixBits(i)).value.color.x);
-      with.add(guessing.trace(from, to, 0, mixBits(i + 100000)).value.color.x);
+      with.add(guessing.trace(from, to, 0, mixBits(i + 100000), {.guess = &local}).value.color.x);
     }
     const double error = std::hypot(with.standardError(), without.standardError());
     EXPECT_LT(std::abs(with.mean() - without.mean()), kMostSigmas * error) << *c.light << c.bounces;
@@ -158,14 +157,13 @@ TEST(RadianceGuess, EndsWherePathsDo) {
     options.weightLimit = 1e-3;
     Traced room(furnished(kPanel), options);
     const RadianceGuess guess = guessOf(room);
-    const V3d from(2.5, 2.5, 1.2);
+    const V3d from(2.5, 2.5, 1.2), to = V3d(-.3, .2, -1).normalized();
     const LocalGuess local = fitted(guess, room, from, 64);
-    PathTracer guessing(room.transport());
-    guessing.guessWith(&local);
+    PathTracer guessing = room.transport().pathTracer();
     Sample without, with;
     for (uint64_t i = 0; i < 4000; ++i) {
-      without.add(room.value(from, V3d(-.3, .2, -1), mixBits(i)));
-      with.add(guessing.trace(from, V3d(-.3, .2, -1).normalized(), 0, mixBits(i + 100000)).value.color.x);
+      without.add(room.value(from, to, mixBits(i)));
+      with.add(guessing.trace(from, to, 0, mixBits(i + 100000), {.guess = &local}).value.color.x);
     }
     const double error = std::hypot(with.standardError(), without.standardError());
     EXPECT_LT(std::abs(with.mean() - without.mean()), kMostSigmas * error) << limit;

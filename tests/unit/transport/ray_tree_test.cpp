@@ -25,18 +25,14 @@ struct Shown {
   bool shadow;
 };
 
-std::vector<Shown> treeOf(Traced& room, const V3d& origin, const V3d& direction, bool shadows,
-                          const Transport& transport) {
+std::vector<Shown> treeOf(Traced& room, const V3d& origin, const V3d& direction, bool shadows) {
   std::vector<Shown> tree;
-  room.tracer().observe(
-      [&](const Ray& ray) {
-        const RayAnswer a = branchAnswer(transport, ray);
-        tree.push_back(
-            {a.surface.text(), ray.depth, ray.value.color, a.contribution.color, (ray.kinds & kShadow) != 0});
-      },
-      shadows);
-  room.value(origin, direction);
-  room.tracer().observe({});
+  const RayObserver observer = [&](const Ray& ray) {
+    const RayAnswer a = branchAnswer(room.prepared(), ray);
+    tree.push_back(
+        {a.surface.text(), ray.depth, ray.value.color, a.contribution.color, (ray.kinds & kShadow) != 0});
+  };
+  room.color(origin, direction, 1, 0, {.observer = &observer, .allShadowRays = shadows});
   return tree;
 }
 
@@ -49,7 +45,7 @@ TEST(RayTree, IsThatOfTheOriginal) {
   RayOptions options;
   options.specularSampling = 0;
   Traced room(text, options);
-  const auto tree = treeOf(room, V3d(0, 0, 1), V3d(-1, 0, -.2), true, room.transport());
+  const auto tree = treeOf(room, V3d(0, 0, 1), V3d(-1, 0, -.2), true);
   const struct {
     const char* surface;
     int depth;
@@ -78,7 +74,7 @@ TEST(RayTree, IsThatOfTheOriginal) {
 TEST(RayTree, LeavesOutShadowRaysInTheClear) {
   Traced room(kRoom);
   int through = 0;
-  for (const Shown& s : treeOf(room, V3d(0, 0, 1), V3d(-1, 0, -.2), false, room.transport()))
+  for (const Shown& s : treeOf(room, V3d(0, 0, 1), V3d(-1, 0, -.2), false))
     through += s.shadow;
   EXPECT_EQ(through, 2);  // the pane, and the bulb behind it
 }
@@ -89,7 +85,7 @@ TEST(RayTree, ContributionsSumToTheValue) {
   options.ambientDivisions = 16;
   Traced room(kRoom, options);
   for (const V3d& direction : {V3d(0, 0, -1), V3d(-1, 0, -.2), V3d(1, 1, 0), V3d(1, .1, -.1)}) {
-    const auto tree = treeOf(room, V3d(0, 0, 1), direction, true, room.transport());
+    const auto tree = treeOf(room, V3d(0, 0, 1), direction, true);
     ASSERT_FALSE(tree.empty());
     EXPECT_EQ(tree.back().depth, 0);
     Color sum(0, 0, 0), outside(0, 0, 0);
@@ -109,10 +105,10 @@ TEST(RayTree, ChangesNoAnswer) {
     const V3d direction = randomDirection(random);
     const Color before = room.color(V3d(0, 0, 1), direction, 5);
     int shown = 0;
-    room.tracer().observe([&](const Ray&) { ++shown; }, i % 2 == 0);
-    EXPECT_EQ(room.color(V3d(0, 0, 1), direction, 5), before);
+    const RayObserver observer = [&](const Ray&) { ++shown; };
+    EXPECT_EQ(room.color(V3d(0, 0, 1), direction, 5, 0, {.observer = &observer, .allShadowRays = i % 2 == 0}),
+              before);
     EXPECT_GT(shown, 0);
-    room.tracer().observe({});
   }
 }
 
@@ -122,7 +118,7 @@ TEST(RayTree, ShowsSurfacesOfNothing) {
       "void polygon a 0 0 12 -1 -1 1 1 -1 1 1 1 1 -1 1 1\nvoid polygon b 0 0 12 -1 -1 2 1 -1 2 1 1 2 -1 1 2\n"
       "void polygon c 0 0 12 -1 -1 3 1 -1 3 1 1 3 -1 1 3\n");
   std::string seen;
-  for (const Shown& s : treeOf(room, V3d(0, 0, 0), V3d(0, 0, 1), false, room.transport())) seen += s.surface;
+  for (const Shown& s : treeOf(room, V3d(0, 0, 0), V3d(0, 0, 1), false)) seen += s.surface;
   EXPECT_EQ(seen, "*cba");
 }
 

@@ -146,10 +146,9 @@ Weighed weighed(const std::string& material, const Limits& limits, double others
                     "void glow g 0 0 4 1 1 1 0\ng sphere around 0 0 4 0 0 0 -4\n",
                 options);
   Weighed w;
-  traced.tracer().observe([&](const Ray& ray) { w.weights.push_back(ray.weight); });
-  const Color seen = traced.color(V3d(.3, .2, 3), V3d(0, 0, -1));
+  const RayObserver observer = [&](const Ray& ray) { w.weights.push_back(ray.weight); };
+  const Color seen = traced.color(V3d(.3, .2, 3), V3d(0, 0, -1), 1, 0, {.observer = &observer});
   w.seen = seen.bandsIn(*options.sampling).values()[kClearBand];
-  traced.tracer().observe({});
   return w;
 }
 

@@ -37,10 +37,11 @@ Both wallSeen(const std::string& scene, int count) {
   Both both;
   const V3d origin(.5, .2, .0325), direction = V3d(.02, .3, -.03).normalized();
   for (const bool share : {false, true}) {
-    room.tracer().shareHighlights(share);
+    PathTracer tracer = room.tracerWith({}, {.sharesHighlights = share});
     Sample& sample = share ? both.shared : both.apart;
     for (int i = 0; i < count; ++i)
-      sample.add(room.value(origin, direction, mixBits(static_cast<uint64_t>(i + share * count))));
+      sample.add(
+          tracer.trace(origin, direction, 0, mixBits(static_cast<uint64_t>(i + share * count))).value.color.x);
   }
   return both;
 }

@@ -6,7 +6,7 @@
 
 #include "tests/unit/support/scene_of.h"
 #include "tests/unit/support/statistics.h"
-#include "transport/path_tracer.h"
+#include "transport/transport.h"
 
 namespace rsphere {
 
@@ -15,10 +15,11 @@ class Traced {
  public:
   explicit Traced(const std::string& text, const RayOptions& options = {},
                   IrradianceAt irradiance = IrradianceAt::none)
-      : scene_(sceneOf(text)), transport_(scene_, options, irradiance), tracer_(transport_) {}
+      : scene_(sceneOf(text)), transport_(scene_, options, irradiance), tracer_(tracerWith({})) {}
 
-  Color color(const V3d& origin, const V3d& direction, uint64_t seed = 1, double farthest = 0) {
-    return tracer_.trace(origin, direction.normalized(), farthest, seed).value.color;
+  Color color(const V3d& origin, const V3d& direction, uint64_t seed = 1, double farthest = 0,
+              const PathRequest& request = {}) {
+    return tracer_.trace(origin, direction.normalized(), farthest, seed, request).value.color;
   }
   // The red channel alone: the scenes are gray unless a test says otherwise.
   double value(const V3d& origin, const V3d& direction, uint64_t seed = 1, double farthest = 0) {
@@ -34,9 +35,14 @@ class Traced {
     const Ray ray = tracer_.trace(origin, direction.normalized(), 0, 1);
     return ray.surface == kNone ? "" : std::string(scene_.surfaceName(scene_.surfaces[ray.surface]));
   }
+  // Aims at nothing where light is gathered instead of interpolated.
   PathTracer& tracer() { return tracer_; }
+  PathTracer tracerWith(const Aims& aims, const TracingMode& mode = {}) const {
+    return PathTracer(transport_.prepared(), transport_.caches(), aims, mode);
+  }
   const Scene& scene() const { return scene_; }
   const Transport& transport() const { return transport_; }
+  const PreparedScene& prepared() const { return transport_.prepared(); }
 
  private:
   Scene scene_;

@@ -194,7 +194,7 @@ TEST(VirtualSource, IsLeftOutWhereGeometryShowsItNeverLights) {
   const auto count = [](const std::string& text, int relays) {
     const Scene scene = sceneOf(text);
     const Transport transport(scene, relaying(relays), IrradianceAt::none);
-    return transport.lights().all().size();
+    return transport.prepared().lights().all().size();
   };
   EXPECT_EQ(count(lamp(kLamp) + mirror(0, 1), 1), 2u);
   EXPECT_EQ(count(lamp(kLamp) + mirror(0, 1), 9), 2u);
@@ -245,7 +245,7 @@ TEST(VirtualSource, BeamsHoldAllThatTheyLight) {
     const Scene scene =
         sceneOf("void light bright 0 0 3 1 1 1\n" + std::string(source) + "\n" + ringOfMirrors(mirrors));
     const Transport transport(scene, relaying(4), IrradianceAt::none);
-    const auto& lights = transport.lights().all();
+    const auto& lights = transport.prepared().lights().all();
     std::map<std::vector<SurfaceId>, LightId> imageIn;  // by the mirrors from the lamp on
     for (const LightId id : lights.ids()) {
       std::vector<SurfaceId> way;
@@ -313,7 +313,7 @@ TEST(VirtualSource, BeamsHoldAllThatTheyLight) {
 TEST(VirtualSource, BeamsAreAsNarrowAsAllTheirMirrorsLeaveThem) {
   const auto images = [](const std::string& source, int relays) {
     const Scene scene = sceneOf("void light bright 0 0 3 1 1 1\n" + source + "\n" + ringOfMirrors(60));
-    return Transport(scene, relaying(relays), IrradianceAt::none).lights().all().size();
+    return Transport(scene, relaying(relays), IrradianceAt::none).prepared().lights().all().size();
   };
   // By the last mirror alone, there would be 72,000 and 28,000.
   EXPECT_LT(images("bright polygon lamp 0 0 12 -.3 -.3 2 -.3 .3 2 .3 .3 2 .3 -.3 2", 3), 6000u);

@@ -1,0 +1,18 @@
+#pragma once
+#include "transport/path_tracer.h"
+
+namespace rsphere {
+
+// What the paths of sphere mode are traced with. Shared by all threads; keeps references.
+struct SphereTracing {
+  const PreparedScene& prepared;
+  const Caches& caches;
+  Aims aims;  // of indirect rays
+
+  // Each thread needs its own.
+  PathTracer tracer() const {
+    return PathTracer(prepared, caches, aims, {.coarseAtFirst = true, .sharesHighlights = true});
+  }
+};
+
+}  // namespace rsphere

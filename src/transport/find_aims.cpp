@@ -1,0 +1,42 @@
+#include "transport/find_aims.h"
+
+#include "transport/find_openings.h"
+
+namespace rsphere {
+namespace {
+
+template <class T>
+std::unique_ptr<const T> unlessEmpty(T&& found) {
+  return found.empty() ? nullptr : std::make_unique<const T>(std::move(found));
+}
+
+std::unique_ptr<const BrightSpots> spotsOf(const PreparedScene& prepared, const Openings* openings) {
+  return unlessEmpty(BrightSpots(prepared.scene(), prepared.tracer(), prepared.lights(), openings));
+}
+
+bool looksForSpots(const PreparedScene& prepared, const Openings* openings) {
+  return prepared.options().ambientAccuracy > 0 || openings;
+}
+
+}  // namespace
+
+FoundAims findAimsOfGathers(const PreparedScene& prepared) {
+  FoundAims found;
+  if (!prepared.hasIndirectLight()) return found;
+  const Scene& scene = prepared.scene();
+  if (!scene.importance) found.openings = unlessEmpty(findOpenings(prepared));
+  if (looksForSpots(prepared, found.openings.get())) found.spots = spotsOf(prepared, found.openings.get());
+  found.highlights = unlessEmpty(Highlights(scene, prepared.tracer(), prepared.lights()));
+  return found;
+}
+
+FoundAims findAimsOfPoints(const PreparedScene& prepared, const Aims& ofGathers) {
+  FoundAims found;
+  if (prepared.hasIndirectLight() && looksForSpots(prepared, ofGathers.openings)) return found;
+  if (!prepared.hasIndirectLight() && !prepared.scene().importance)
+    found.openings = unlessEmpty(findOpenings(prepared));
+  found.spots = spotsOf(prepared, found.openings ? found.openings.get() : ofGathers.openings);
+  return found;
+}
+
+}  // namespace rsphere

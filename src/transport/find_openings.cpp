@@ -1,0 +1,227 @@
+#include "transport/find_openings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "base/constants.h"
+#include "scene/even_sequence.h"
+#include "scene/random.h"
+#include "shade/scattering.h"
+#include "trace/tracer.h"
+#include "transport/holes.h"
+#include "transport/panes.h"
+#include "transport/path_tracer.h"
+#include "transport/tuning.h"
+
+namespace rsphere {
+namespace {
+
+using Tuning = tuning::Openings;
+
+// Whether panes close most of a hole: near its middle and near its corners.
+bool hasPane(const PreparedScene& prepared, const Rectangle& hole) {
+  const double reach = .5 * std::min(hole.width, hole.height);
+  int panes = 0;
+  for (int c = 0; c < 5; ++c) {
+    const V3d middle = c < 4 ? hole.at(.25 + .5 * (c & 1), .25 + .5 * (c >> 1)) : hole.at(.5, .5);
+    const Hit hit = prepared.tracer().nearest(middle - reach * hole.normal, hole.normal, 2 * reach);
+    if (hit.surface != kNone && lightPasses(prepared, prepared.scene().surfaces[hit.surface])) ++panes;
+  }
+  return panes > 2;
+}
+
+// What is seen from a pane or a hole: means over a hemisphere, in brightness (W/sr/m2).
+struct Seen {
+  double all = 0;
+  double sky = 0;  // neither reflected nor attenuated by panes
+};
+
+// Whether the side that is seen first is the bright side of an opening.
+bool showsMoreSky(const Seen& one, const Seen& other) {
+  return one.sky > std::max(Tuning::kMoreSky * other.sky, Tuning::kLeastSky * one.all);
+}
+bool isBrighter(const Seen& one, const Seen& other) {
+  return showsMoreSky(one, other) || (!showsMoreSky(other, one) && one.all > Tuning::kBrighter * other.all);
+}
+
+// Looks around from points of panes and holes.
+class Probe {
+ public:
+  // lift: distance of the points from the rectangle (world units), larger than rounding errors.
+  Probe(const PreparedScene& prepared, double lift)
+      : t_(prepared), tracer_(prepared, noCaches_, Aims{}), lift_(lift) {}
+
+  // What is seen in the directions around a normal of the rectangle (either of both) through what is in it.
+  Seen through(const Rectangle& r, const V3d& normal) {
+    Seen seen;
+    look(r, normal, -lift_, [&](const V3d& point, const V3d& direction, uint64_t seed) {
+      seen.all += brightness(tracer_.glimpse(point, direction, seed)) / Tuning::kProbes;
+      seen.sky += skySeen(point, direction) / Tuning::kProbes;
+    });
+    return seen;
+  }
+
+  // The mean brightness (W/sr/m2) of what is on the normal's side, and its distance (world units; root mean square, 0
+  // if nothing is hit).
+  struct Room {
+    double brightness = 0, distance = 0;
+  };
+  Room behind(const Rectangle& r, const V3d& normal) {
+    Room room;
+    double squares = 0, hits = 0;
+    look(r, normal, lift_, [&](const V3d& point, const V3d& direction, uint64_t seed) {
+      room.brightness += brightness(tracer_.glimpse(point, direction, seed)) / Tuning::kProbes;
+      const Hit hit = t_.tracer().nearest(point, direction);
+      if (hit.surface == kNone) return;
+      squares += hit.distance * hit.distance;
+      ++hits;
+    });
+    room.distance = std::sqrt(squares / std::max(hits, 1.));
+    return room;
+  }
+
+ private:
+  using Look = FunctionRef<void(const V3d& point, const V3d& direction, uint64_t seed)>;
+  static void look(const Rectangle& r, const V3d& normal, double lift, Look each) {
+    for (int i = 0; i < Tuning::kProbes; ++i) {
+      const auto n = static_cast<size_t>(i);
+      const Imath::V2d at = evenly(n, .5, .5), to = evenly(n, .1, .3);
+      each(r.at(at.x, at.y) + lift * normal, diffuseDirection(normal, to.y, to.x), n);
+    }
+  }
+
+  double skySeen(const V3d& origin, const V3d& direction) {
+    const auto last = beyondPanes(t_.scene(), t_.tracer(), origin, direction,
+                                  [&](const Surface& surface) { return lightPasses(t_, surface); });
+    if (!last || last->hit.surface != kNone) return 0;
+    return brightness(tracer_.glimpse(last->origin, direction, 0));
+  }
+
+  const PreparedScene& t_;
+  const Caches noCaches_;
+  PathTracer tracer_;
+  double lift_;
+};
+
+std::vector<Opening> panesOf(const PreparedScene& prepared, double leastArea) {
+  const Scene& scene = prepared.scene();
+  std::vector<Opening> panes;
+  for (const Surface& surface : scene.outermost()) {
+    const auto* polygon = surface.shape.as<Polygon>();
+    const double area = polygon ? areaOf(*polygon, scene.vertices) : 0;
+    if (!polygon || area < leastArea || !lightPasses(prepared, surface)) continue;
+    panes.push_back({rectangleAround(scene, {&polygon, 1}), area});
+  }
+  return panes;
+}
+
+// Holes in walls without panes. Without distant sources there is no sky to see through them.
+std::vector<Opening> doorsOf(const PreparedScene& prepared, double leastArea) {
+  std::vector<Opening> doors;
+  if (prepared.distant().empty()) return doors;
+  const Scene& scene = prepared.scene();
+  const auto isWall = [&](const Surface& surface) {
+    const Material* material = scene.materialOf(surface);
+    return material && !enclosesVolume(*material) && !isLightSource(*material) &&
+           !lightPasses(prepared, surface);
+  };
+  for (const Rectangle& hole : holesOf(scene, prepared.tracer().bounds(), leastArea, isWall))
+    if (!hasPane(prepared, hole)) doors.push_back({hole, hole.area(), true});
+  return doors;
+}
+
+// Whether a hole leads to another place than the openings so far: the two faces of a thick wall have one each.
+bool isNewPlace(const Opening& hole, std::span<const Opening> openings) {
+  return std::none_of(openings.begin(), openings.end(), [&](const Opening& o) {
+    return std::abs(o.normal.dot(hole.normal)) > Tuning::kParallel &&
+           (o.at(.5, .5) - hole.at(.5, .5)).length() <
+               Tuning::kSameHole * std::min({o.width, o.height, hole.width, hole.height});
+  });
+}
+
+// Merges panes that lie side by side with small gaps only.
+void merge(std::vector<Opening>& panes) {
+  for (size_t i = 0; i < panes.size(); ++i)
+    for (size_t j = i + 1; j < panes.size();) {
+      Opening& a = panes[i];
+      const Opening& b = panes[j];
+      const V3d between = b.corner - a.corner;
+      // Panes are coplanar within 1e-4 of their size and an angle of .08 degrees.
+      const double scale = 1e-4 * (a.width + a.height);
+      double low[2] = {0, 0}, high[2] = {a.width, a.height};
+      bool together = a.normal.dot(b.normal) > 1 - 1e-6 && std::abs(between.dot(a.normal)) < scale;
+      for (int c = 0; c < 4 && together; ++c) {
+        const V3d way = b.at(c & 1, c >> 1) - a.corner;
+        const double at[2] = {way.dot(a.x), way.dot(a.y)};
+        for (int k = 0; k < 2; ++k) {
+          low[k] = std::min(low[k], at[k]);
+          high[k] = std::max(high[k], at[k]);
+        }
+      }
+      together = together && (high[0] - low[0]) * (high[1] - low[1]) * Tuning::kFilled < a.filled + b.filled;
+      if (!together) {
+        ++j;
+        continue;
+      }
+      a.corner += low[0] * a.x + low[1] * a.y;
+      a.width = high[0] - low[0];
+      a.height = high[1] - low[1];
+      a.filled += b.filled;
+      a.power += b.power;
+      panes.erase(panes.begin() + static_cast<ptrdiff_t>(j));
+      j = i + 1;
+    }
+}
+
+// Panes and holes that may be openings, the largest first. face: the largest side of the scene's box (square world
+// units).
+std::vector<Opening> candidates(const PreparedScene& prepared, double face) {
+  std::vector<Opening> asked = panesOf(prepared, Tuning::kLeastArea * face);
+  const std::vector<Opening> doors = doorsOf(prepared, Tuning::kLeastHole * face);
+  asked.insert(asked.end(), doors.begin(), doors.end());
+  std::stable_sort(asked.begin(), asked.end(),
+                   [](const Opening& a, const Opening& b) { return a.area() > b.area(); });
+  if (asked.size() > Tuning::kMostAsked) asked.resize(Tuning::kMostAsked);
+  return asked;
+}
+
+}  // namespace
+
+Openings findOpenings(const PreparedScene& prepared) {
+  const Box3d& bounds = prepared.tracer().bounds();
+  if (bounds.isEmpty()) return {{}, 0, 0};
+  const V3d size = bounds.size();
+  const double face = std::max({size.x * size.y, size.y * size.z, size.z * size.x});
+  std::vector<Opening> asked = candidates(prepared, face), found;
+  if (asked.empty()) return {{}, 0, 0};
+  Probe probe(prepared, std::max(1e-6 * std::max({size.x, size.y, size.z}), 2 * kSamePlace));
+  double all = 0, inside = 0, depth = 0;
+  for (Opening& opening : asked) {
+    const Seen along = probe.through(opening, opening.normal),
+               against = probe.through(opening, -opening.normal);
+    const auto& judge = opening.isHole ? showsMoreSky : isBrighter;
+    const bool above = judge(along, against);
+    if (!above && !judge(against, along)) continue;
+    if (opening.isHole && !isNewPlace(opening, found)) continue;
+    if (above) opening.normal = -opening.normal;
+    const Probe::Room room = probe.behind(opening, opening.normal);
+    if (!(room.distance > 0)) continue;  // no surface receives its light
+    opening.power = (above ? along : against).all * opening.filled;
+    inside += opening.power * room.brightness;
+    depth += opening.power * room.distance;
+    all += opening.power;
+    found.push_back(opening);
+  }
+  if (all > 0) {
+    inside /= all;
+    depth /= all;
+  }
+  merge(found);
+  const auto byPower = [](const Opening& a, const Opening& b) { return a.power > b.power; };
+  std::stable_sort(found.begin(), found.end(), byPower);
+  if (found.size() > Tuning::kMost) found.resize(Tuning::kMost);
+  return {std::move(found), inside, depth};
+}
+
+}  // namespace rsphere
