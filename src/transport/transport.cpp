@@ -64,7 +64,7 @@ Transport::Transport(const Scene& scene, const RayOptions& options, IrradianceAt
       irradiance_(irradiance),
       basicRadiance_(basicRadiance),
       tracer_(scene, options.backFacesVisible),
-      functions_(scene, warn, options.definitions, options.sampling, options.wavelengths),
+      functions_(scene, options.sampling, warn, options.definitions, options.wavelengths),
       lights_(scene, options.directRelays, functions_, warn),
       presumedShadows_(scene, tracer_, lights_),
       choice_(scene, lights_),
