@@ -125,8 +125,8 @@ Ray PathTracer::Path::trace(const V3d& origin, const V3d& direction, double fart
 Ray PathTracer::Path::traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed) {
   begin(seed, sample.direction);
   const LightSource& light = t_.lights().all()[sample.source];
-  switch (
-      t_.tracer().shadow(point, sample.direction, sample.distance, light.distant ? kNone : light.surface)) {
+  switch (t_.tracer().shadow(point, sample.direction, sample.distance,
+                             light.isDistant() ? kNone : light.surface)) {
     case Shadow::unsure:
     case Shadow::refracted:
       return trace(point, sample.direction, 0, seed);
@@ -138,7 +138,7 @@ Ray PathTracer::Path::traceToSource(const V3d& point, const SourceSample& sample
       ray.direction = sample.direction;
       ray.surface = light.surface;
       ray.length = ray.unmirroredLength = sample.distance;
-      if (!light.distant) ray.point = point + sample.distance * sample.direction;
+      if (!light.isDistant()) ray.point = point + sample.distance * sample.direction;
       ray.normal = sample.normal;
       ray.cosine = sample.cosine;
       ray.medium = t_.medium();

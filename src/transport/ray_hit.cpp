@@ -23,7 +23,7 @@ void findDistant(const Transport& transport, Ray& ray) {
   };
   if (ray.aimedAt != kNone) {
     const LightSource& light = transport.lights().all()[ray.aimedAt];
-    if (light.distant && !light.isVirtual() && sees(light.surface)) ray.surface = light.surface;
+    if (light.isDistant() && !light.isVirtual() && sees(light.surface)) ray.surface = light.surface;
     return;
   }
   SurfaceId glow;
@@ -54,7 +54,7 @@ void findTarget(const Transport& transport, Ray& ray) {
   ray.point = ray.origin;
   ray.normal = -ray.direction;
   ShapeHit hit;
-  if (target.distant && !target.isVirtual()) {
+  if (target.isDistant() && !target.isVirtual()) {
     findDistant(transport, ray);
   } else if (intersect(scene.surfaces[target.surface].shape, scene.vertices, ray.origin, ray.direction,
                        kFarAway, hit)) {
