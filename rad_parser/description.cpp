@@ -9,6 +9,7 @@
 
 #include "rad_parser/error.h"
 #include "rad_parser/nearest_name.h"
+#include "rad_parser/printable.h"
 
 namespace rad {
 

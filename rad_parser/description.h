@@ -13,7 +13,6 @@
 #include <string_view>
 #include <vector>
 
-#include "rad_parser/characters.h"
 #include "rad_parser/primitive.h"
 #include "rad_parser/primitive_list.h"
 
@@ -87,5 +86,8 @@ class ModifierIndex {
  private:
   std::map<std::string, std::vector<PrimitiveId>, std::less<>> definitions_;
 };
+
+// The byte order mark, which some editors write at the beginning of UTF-8 text.
+inline constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
 }  // namespace rad

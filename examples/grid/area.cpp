@@ -11,6 +11,7 @@
 
 #include "rad_parser/error.h"
 #include "rad_parser/nearest_name.h"
+#include "rad_parser/printable.h"
 #include "scene/shape.h"
 
 namespace grid {

@@ -11,6 +11,7 @@
 
 #include "rad_parser/file_path.h"
 #include "rad_parser/open_file.h"
+#include "rad_parser/printable.h"
 
 namespace rsphere {
 namespace {

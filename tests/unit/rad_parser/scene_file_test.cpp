@@ -10,6 +10,7 @@
 #include <cmath>
 #include <random>
 
+#include "rad_parser/printable.h"
 #include "scene_text.h"
 
 namespace {

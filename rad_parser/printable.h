@@ -11,7 +11,4 @@ std::string printable(std::string_view text, size_t longest = 80);
 // Whether a character is a printable ASCII character or a blank.
 inline bool isPrintable(char c) { return c >= ' ' && c <= '~'; }
 
-// The byte order mark, which some editors write at the beginning of UTF-8 text.
-inline constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-
 }  // namespace rad

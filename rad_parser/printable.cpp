@@ -1,4 +1,4 @@
-#include "rad_parser/characters.h"
+#include "rad_parser/printable.h"
 
 namespace rad {
 
