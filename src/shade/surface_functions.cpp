@@ -209,10 +209,8 @@ class SurfaceFunctions::Maker {
 
   std::unique_ptr<Function> makeFrom(const FunctionArguments& read) const {
     auto f = std::make_unique<Function>();
-    f->results = read.expressions.size();
-    f->what = Values{compiled(*f, read.file.name, read.expressions)};
-    setTransform(*f, read.file.transform);
-    return f;
+    Values values{compiled(*f, read.file.name, read.expressions)};
+    return finish(std::move(f), std::move(values), read.expressions.size(), read.file.transform);
   }
 
   std::unique_ptr<Function> makeFrom(const DataArguments& read) const {
@@ -222,7 +220,6 @@ class SurfaceFunctions::Maker {
                                     : arguments_.type() == Type::texdata ? std::vector{3, 3, 3}
                                                                          : std::vector{1};
     auto f = std::make_unique<Function>();
-    f->results = read.corrections.size();
     Data d;
     for (const std::string_view name : read.tables) d.tables.push_back(table(name));
     const size_t dimensions = d.tables[0]->dimensions();
@@ -232,9 +229,8 @@ class SurfaceFunctions::Maker {
     const auto rest = std::span(read.rest);
     d.coordinates = compiled(*f, read.file, rest.first(dimensions));
     d.corrections = corrections(*f, read.file, read.corrections, passed);
-    f->what = std::move(d);
-    setTransform(*f, transformAmong(rest.subspan(dimensions)));
-    return f;
+    return finish(std::move(f), std::move(d), read.corrections.size(),
+                  transformAmong(rest.subspan(dimensions)));
   }
 
   std::unique_ptr<Function> makeFrom(const PictureArguments& read) const {
@@ -243,23 +239,17 @@ class SurfaceFunctions::Maker {
                                         ? colorsPassed(read.file.name, read.corrections)
                                         : std::vector{3};
     auto f = std::make_unique<Function>();
-    f->results = read.corrections.size();
     Image i;
     i.coordinates = compiled(*f, read.file.name, read.coordinates);
     i.corrections = corrections(*f, read.file.name, read.corrections, passed);
     i.picture = picture(functions_.pictures_, read.picture);
-    f->what = std::move(i);
-    setTransform(*f, read.file.transform);
-    return f;
+    return finish(std::move(f), std::move(i), read.corrections.size(), read.file.transform);
   }
 
   // ---- spectra
 
   std::unique_ptr<Function> constant(Color color) const {
-    auto f = std::make_unique<Function>();
-    f->results = 0;
-    f->what = ConstantSpectrum{std::move(color)};
-    return f;
+    return finish(std::make_unique<Function>(), ConstantSpectrum{std::move(color)}, 0, {});
   }
   std::unique_ptr<Function> constant(std::span<const double> values, double first, double last) const {
     return constant(functions_.colorOf(betweenMiddles(values, first, last)));
@@ -286,7 +276,6 @@ class SurfaceFunctions::Maker {
 
   std::unique_ptr<Function> makeFrom(const SpectralFunctionArguments& read) const {
     auto f = std::make_unique<Function>();
-    f->results = 0;
     SpectralFunction s;
     s.program = functions_.library_.compileCall(request(read.file.name), read.function, 1);
     use(*f, s.program);
@@ -301,9 +290,7 @@ class SurfaceFunctions::Maker {
       s.step = std::max(range / kMostBands, band / 4);
       s.bins = std::max(size_t{1}, static_cast<size_t>(range / s.step + .1));
     }
-    f->what = std::move(s);
-    setTransform(*f, read.file.transform);
-    return f;
+    return finish(std::move(f), std::move(s), 0, read.file.transform);
   }
 
   std::unique_ptr<Function> spectralData(const DataArguments& read) const {
@@ -338,13 +325,10 @@ class SurfaceFunctions::Maker {
                                       std::span<const std::string_view> coordinates,
                                       std::string_view correction, const Words& transform) const {
     auto f = std::make_unique<Function>();
-    f->results = 0;
     s.coordinates = compiled(*f, file, coordinates);
     s.correction = functions_.library_.compileCall(request(file), correction, 2);
     use(*f, s.correction);
-    f->what = std::move(s);
-    setTransform(*f, transform);
-    return f;
+    return finish(std::move(f), std::move(s), 0, transform);
   }
 
   // ---- text
@@ -456,15 +440,19 @@ class SurfaceFunctions::Maker {
     Redirector r;
     for (size_t i = 0; i < read.images.size(); ++i)
       r.programs[i] = compiled(*f, read.file.name, read.images[i]);
-    f->what = std::move(r);
-    setTransform(*f, read.file.transform);
-    return f;
+    return finish(std::move(f), std::move(r), 1, read.file.transform);
   }
 
   std::unique_ptr<Function> finish(std::unique_ptr<Function> f, Scatterer s, const FunctionFile& file) const {
-    f->results = 3;
-    f->what = std::move(s);
-    setTransform(*f, file.transform);
+    return finish(std::move(f), std::move(s), 3, file.transform);
+  }
+  // what: one of Function::what.
+  template <class What>
+  std::unique_ptr<Function> finish(std::unique_ptr<Function> f, What what, size_t results,
+                                   const Words& transform) const {
+    f->results = results;
+    f->what = std::move(what);
+    setTransform(*f, transform);
     return f;
   }
 
