@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rad_parser/number.h"
+#include "rad_parser/printable.h"
 
 namespace rad {
 namespace {

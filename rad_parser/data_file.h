@@ -25,7 +25,8 @@ class DataFile {
 
   size_t dimensions() const { return axes_.size(); }
 
-  // The divisions of an axis: their number, the first and the last of them, and whether they are evenly spaced.
+  // The divisions of an axis: their number, the first and the last of them, and whether they are evenly
+  // spaced.
   struct Divisions {
     size_t count = 0;
     double first = 0, last = 0;

@@ -9,16 +9,9 @@
 
 #include "rad_parser/error.h"
 #include "rad_parser/nearest_name.h"
+#include "rad_parser/printable.h"
 
 namespace rad {
-
-std::string printable(std::string_view text, size_t longest) {
-  std::string line(text.substr(0, longest));
-  for (char& c : line)
-    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
-  if (text.size() > longest) line += "...";
-  return line;
-}
 
 std::string Description::at(Place place) const {
   const auto alone = [this](Place p) {

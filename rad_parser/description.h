@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <limits>
 #include <map>
@@ -38,7 +39,9 @@ struct Cube {
 struct Description {
   std::vector<SourceFile> files;
   PrimitiveList primitives;
-  std::vector<std::string> words;    // string arguments and names of modifiers, each distinct word once
+  // String arguments and names of modifiers, each distinct word once. Views of a word remain valid when words
+  // are added and when the description is moved.
+  std::deque<std::string> words;
   std::vector<uint32_t> stringArgs;  // indices in words
   std::vector<double> realArgs;      // of all primitives but polygons
   std::vector<Imath::V3d> vertices;  // the real arguments of polygons, in threes; a last incomplete three
@@ -83,13 +86,6 @@ class ModifierIndex {
  private:
   std::map<std::string, std::vector<PrimitiveId>, std::less<>> definitions_;
 };
-
-// The text on one line, for messages: control characters are replaced, and text beyond `longest`
-// bytes is replaced by "...".
-std::string printable(std::string_view text, size_t longest = 80);
-
-// Whether a character is a printable ASCII character or a blank.
-inline bool isPrintable(char c) { return c >= ' ' && c <= '~'; }
 
 // The byte order mark, which some editors write at the beginning of UTF-8 text.
 inline constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";

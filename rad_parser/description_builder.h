@@ -28,8 +28,8 @@ class DescriptionBuilder {
   // The definition of this modifier that is in force now, or kVoid if there is none.
   PrimitiveId modifier(std::string_view name) const;
 
-  // The nearest modifier that is in force now, or void, as the end of a message (see NearestName::hint()). Takes time in
-  // proportion to the number of primitives.
+  // The nearest modifier that is in force now, or void, as the end of a message (see NearestName::hint()).
+  // Takes time in proportion to the number of primitives.
   std::string nearestModifier(std::string_view name) const;
 
   // A primitive without arguments. Its arguments will be the next ones of description().

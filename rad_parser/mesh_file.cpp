@@ -10,6 +10,7 @@
 #include "rad_parser/binary_scene.h"
 #include "rad_parser/file_path.h"
 #include "rad_parser/open_file.h"
+#include "rad_parser/printable.h"
 
 namespace rad {
 namespace {

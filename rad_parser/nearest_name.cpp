@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "rad_parser/description.h"
+#include "rad_parser/printable.h"
 
 namespace rad {
 namespace {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "rad_parser/binary_scene.h"
+#include "rad_parser/printable.h"
 
 namespace rad {
 namespace {

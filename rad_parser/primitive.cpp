@@ -31,8 +31,6 @@ constexpr auto kByName = [] {
   return sorted;
 }();
 
-bool within(Type type, Type first, Type last) { return first <= type && type <= last; }
-
 }  // namespace
 
 std::string_view typeName(Type type) { return kNames[static_cast<size_t>(type)]; }
@@ -50,10 +48,5 @@ std::string nearestType(std::string_view name) {
   for (const std::string_view type : kNames) nearest.consider(type);
   return nearest.hint();
 }
-
-bool isMaterial(Type type) { return within(type, Type::light, Type::antimatter); }
-bool isTexture(Type type) { return within(type, Type::texfunc, Type::texdata); }
-bool isPattern(Type type) { return within(type, Type::colorfunc, Type::specpict); }
-bool isMixture(Type type) { return within(type, Type::mixfunc, Type::mixtext); }
 
 }  // namespace rad

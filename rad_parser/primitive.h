@@ -15,21 +15,21 @@ struct Place {
   uint32_t line = 0;
 };
 
-// The primitive types of the scene language (RADIANCE reference manual, "Scene description"), grouped for
-// isSurface() and the functions after it.
+// The primitive types of the scene language (RADIANCE reference manual, "Scene description"). isSurface() and
+// isMixture() rely on the groups.
 // clang-format off
 enum class Type : uint8_t {
   // surfaces
   source, sphere, bubble, polygon, cone, cup, cylinder, tube, ring, instance, mesh,
   // materials
-  light, illum, glow, spotlight, mirror, prism1, prism2, mist, plastic, metal, trans, plastic2, metal2, trans2,
-  ashik2, dielectric, interface, glass, plasfunc, metfunc, transfunc, brtdfunc, plasdata, metdata, transdata, bsdf,
-  absdf, wgmdfunc, antimatter,
+  light, illum, glow, spotlight, mirror, prism1, prism2, mist, plastic, metal, trans, plastic2, metal2,
+  trans2, ashik2, dielectric, interface, glass, plasfunc, metfunc, transfunc, brtdfunc, plasdata, metdata,
+  transdata, bsdf, absdf, wgmdfunc, antimatter,
   // textures
   texfunc, texdata,
   // patterns
-  colorfunc, brightfunc, specfunc, colordata, brightdata, specdata, colorpict, brighttext, colortext, spectrum,
-  specfile, specpict,
+  colorfunc, brightfunc, specfunc, colordata, brightdata, specdata, colorpict, brighttext, colortext,
+  spectrum, specfile, specpict,
   // mixtures
   mixfunc, mixdata, mixpict, mixtext,
   // another name for a modifier
@@ -50,10 +50,7 @@ std::string nearestType(std::string_view name);
 
 // source .. mesh; all other types are modifiers, which others can name
 inline bool isSurface(Type type) { return type <= Type::mesh; }
-bool isMaterial(Type type);  // light .. antimatter
-bool isTexture(Type type);
-bool isPattern(Type type);
-bool isMixture(Type type);
+inline bool isMixture(Type type) { return Type::mixfunc <= type && type <= Type::mixtext; }
 
 using PrimitiveId = Id<struct PrimitiveTag>;  // index in Description::primitives
 

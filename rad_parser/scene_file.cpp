@@ -15,6 +15,7 @@
 #include "rad_parser/number.h"
 #include "rad_parser/octree_file.h"
 #include "rad_parser/open_file.h"
+#include "rad_parser/printable.h"
 #include "rad_parser/shell_command.h"
 #include "rad_parser/text_source.h"
 #include "rad_parser/xform_command.h"

@@ -14,7 +14,7 @@ uint32_t hashOf(std::string_view word) {
 
 }  // namespace
 
-WordTable::WordTable(std::vector<std::string>& words) : words_(words), slots_(1024) {}
+WordTable::WordTable(std::deque<std::string>& words) : words_(words), slots_(1024) {}
 
 size_t WordTable::slotOf(std::string_view word, uint32_t hash) const {
   const size_t mask = slots_.size() - 1;

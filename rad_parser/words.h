@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <deque>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,7 +14,7 @@ class WordTable {
  public:
   static constexpr uint32_t kNone = 0xffffffff;
 
-  explicit WordTable(std::vector<std::string>& words);
+  explicit WordTable(std::deque<std::string>& words);
 
   // The index of the word in the list, to which it is appended if it is new.
   uint32_t intern(std::string_view word);
@@ -31,7 +32,7 @@ class WordTable {
   size_t slotOf(std::string_view word, uint32_t hash) const;
   void grow();
 
-  std::vector<std::string>& words_;
+  std::deque<std::string>& words_;
   std::vector<Slot> slots_;  // the number of slots is a power of two; at most half are used
   size_t interned_ = 0;      // number of slots in use
 };

@@ -11,6 +11,7 @@
 
 #include "rad_parser/error.h"
 #include "rad_parser/nearest_name.h"
+#include "rad_parser/printable.h"
 #include "scene/shape.h"
 
 namespace grid {
@@ -96,8 +97,8 @@ bool hasModifier(const Description& scene, const Primitive& p, std::string_view 
          (modifier.type == rad::Type::alias && scene.primitives[modifier.aliased].name == name);
 }
 
-// Up to five names of polygons and of their modifiers that resemble this one; if none does, the horizontal polygons
-// that are largest.
+// Up to five names of polygons and of their modifiers that resemble this one; if none does, the horizontal
+// polygons that are largest.
 std::string namesLike(const Description& scene, std::string_view wanted) {
   std::set<std::pair<double, std::string>> near, largest;
   const auto consider = [&](const std::string& name) {

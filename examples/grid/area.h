@@ -17,8 +17,8 @@ struct Edge {
   V2d from, to;
 };
 
-// The plane of an area, with coordinates (u, v) in units of the scene. Of a horizontal plane u and v are x and y; of
-// others u runs to the right and v upwards as seen from the front, from the lower left corner.
+// The plane of an area, with coordinates (u, v) in units of the scene. Of a horizontal plane u and v are x
+// and y; of others u runs to the right and v upwards as seen from the front, from the lower left corner.
 struct Plane {
   V3d origin, right, up;
   V3d normal;  // unit, of the side that is measured
@@ -28,16 +28,16 @@ struct Plane {
   bool horizontal() const;
 };
 
-// One polygon, or several in one plane that serve as one surface (a floor of triangles, for instance). Holes, seams and
-// overlaps are allowed.
+// One polygon, or several in one plane that serve as one surface (a floor of triangles, for instance). Holes,
+// seams and overlaps are allowed.
 class Area {
  public:
   // REQUIRES: at least one ring, each of at least 3 vertices.
   Area(const Plane& plane, std::vector<Ring> rings);
 
   const Plane& plane() const { return plane_; }
-  // The boundary: edges with the area on their left and nothing on their right. Seams of holes and edges between
-  // polygons are not part of it.
+  // The boundary: edges with the area on their left and nothing on their right. Seams of holes and edges
+  // between polygons are not part of it.
   const std::vector<Edge>& edges() const { return edges_; }
   // Inside one of the polygons by RADIANCE's rule, an odd number of crossings.
   bool contains(const V2d& p) const;
@@ -49,12 +49,13 @@ class Area {
   std::vector<Edge> edges_;
 };
 
-// The area of the polygons of these names. If no polygon has a name, it stands for the polygons with the modifier of
-// that name. reversed: the back is measured. Throws rad::Error if there is no such polygon, with the names that resemble
-// it, and if the polygons lie in different planes.
+// The area of the polygons of these names. If no polygon has a name, it stands for the polygons with the
+// modifier of that name. reversed: the back is measured. Throws rad::Error if there is no such polygon, with
+// the names that resemble it, and if the polygons lie in different planes.
 Area findArea(const rad::Description& scene, std::span<const std::string> names, bool reversed);
 
-// The outlines of all polygons of these names or modifiers, projected on the plane. Throws rad::Error as findArea() does.
+// The outlines of all polygons of these names or modifiers, projected on the plane. Throws rad::Error as
+// findArea() does.
 std::vector<Ring> findOutlines(const rad::Description& scene, std::span<const std::string> names,
                                const Plane& plane);
 

@@ -26,8 +26,8 @@ struct Drawing {
 // An illuminance with three significant digits, or all digits before the point: "0.125", "12.5", "1250".
 std::string luxText(double lux);
 
-// The plan as one SVG file: bands of color between the levels, isolines with their labels, outline, axes in units of the
-// scene, legend.
+// The plan as one SVG file: bands of color between the levels, isolines with their labels, outline, axes in
+// units of the scene, legend.
 std::string planAsSvg(const Area& area, const Grid& grid, std::span<const double> values,
                       const Drawing& drawing);
 

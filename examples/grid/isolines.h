@@ -6,15 +6,15 @@
 
 namespace grid {
 
-// The values of a grid between its points: linear from each point to the middles between it and its neighbours, and
-// constant from the outer points to the borders of their cells.
+// The values of a grid between its points: linear from each point to the middles between it and its
+// neighbours, and constant from the outer points to the borders of their cells.
 class Field {
  public:
   // values: one for each point.
   Field(const Grid& grid, std::span<const double> values);
 
-  // Where the value is at least `level`, within the cells that have points: closed outlines, with holes in the opposite
-  // sense.
+  // Where the value is at least `level`, within the cells that have points: closed outlines, with holes in
+  // the opposite sense.
   std::vector<std::vector<V2d>> region(double level) const;
 
   // The lines on which the value is `level`. The first point of a closed line is also its last.
@@ -33,9 +33,9 @@ class Field {
   std::vector<double> nodes_;  // the values; only those of cells with points are used
 };
 
-// Round values between the smallest and the largest of these: EN 12464-1's scale of illuminances (1, 1.5, 2, 3, 5, 7.5,
-// 10, ...). If nine tenths of the values span less than a factor of 4, equal steps divide their range. Ascending, at
-// most 14, none if all values are equal. REQUIRES: at least one value.
+// Round values between the smallest and the largest of these: EN 12464-1's scale of illuminances (1, 1.5, 2,
+// 3, 5, 7.5, 10, ...). If nine tenths of the values span less than a factor of 4, equal steps divide their
+// range. Ascending, at most 14, none if all values are equal. REQUIRES: at least one value.
 std::vector<double> roundLevels(std::span<const double> values);
 
 }  // namespace grid

@@ -25,14 +25,15 @@ struct Grid {
   }
 };
 
-// The largest spacing that EN 12464-1 allows on an area of these sides (m): .2 * 5^log10(d), at most 10, where d is the
-// longer side, or the shorter one if the longer is at least twice as long.
+// The largest spacing that EN 12464-1 allows on an area of these sides (m): .2 * 5^log10(d), at most 10,
+// where d is the longer side, or the shorter one if the longer is at least twice as long.
 double standardSpacing(double length, double width);
 
-// A grid parallel to the sides of the smallest rectangle around the area. The cells fill this rectangle, without a band
-// of the width `margin` along its sides; the spacing is at most `spacing`, or that of standardSpacing() if it is 0. Points
-// are at least margin + half a spacing away from every edge; both may differ by a thousandth for rounding. Throws
-// rad::Error if there is no such point, and if there were more than a million cells.
+// A grid parallel to the sides of the smallest rectangle around the area. The cells fill this rectangle,
+// without a band of the width `margin` along its sides; the spacing is at most `spacing`, or that of
+// standardSpacing() if it is 0. Points are at least margin + half a spacing away from every edge; both may
+// differ by a thousandth for rounding. Throws rad::Error if there is no such point, and if there were more
+// than a million cells.
 Grid layGrid(const Area& area, double spacing, double margin);
 
 // The grid without the points that are not kept. REQUIRES: one flag for each point.

@@ -1,5 +1,5 @@
-// A falsecolor plan of the illuminance on a floor, a desk or a wall of a scene, and its average and uniformity. Without
-// arguments it prints its options.
+// A falsecolor plan of the illuminance on a floor, a desk or a wall of a scene, and its average and
+// uniformity. Without arguments it prints its options.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "rad_parser/error.h"
-#include "rad_parser/rayinit/interface.h"
+#include "rad_parser/rayinit/inputs.h"
 #include "rad_parser/rayinit/prism_panel.h"
 
 namespace rad::calc {

@@ -6,7 +6,7 @@
 
 #include "answer/header.h"
 #include "answer/threads.h"
-#include "base/spectral_sampling.h"
+#include "base/colorimetry.h"
 #include "importance/point_picture.h"
 
 namespace rsphere {

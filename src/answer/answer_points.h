@@ -42,7 +42,7 @@ class PointWorkers {
 class PointSummary {
  public:
   // sampling: RayOptions::sampling.
-  void add(uint64_t record, const PointAnswer& answer, const SpectralSampling* sampling = nullptr);
+  void add(uint64_t record, const PointAnswer& answer, const SpectralSampling* sampling);
 
   // Where the accuracy of -Sa was not reached:
   //   "-Sa 0.01 was not reached at 3 of 20 points with at most 8192 directions; the worst is record 7: 1.25%"

@@ -5,6 +5,7 @@
 #endif
 
 #include "rad_parser/scene_file.h"
+#include "scene/build_scene.h"
 
 namespace rsphere {
 

@@ -121,13 +121,13 @@ void OutputColors::writeBands(RecordText& text, const Bands& bands, double scale
   };
   switch (options_.space) {
     case ColorSpace::rgb:
-      return text.color(Color(standardRgb(bandWeights_.tristimulus(bands))));
+      return text.color(Color(standardRgb(bandWeights_.tristimulus(values))));
     case ColorSpace::spectrum:
       return text.spectrum(values);
     case ColorSpace::xyz:
-      return text.color(Color(bandWeights_.tristimulus(bands) * scale));
+      return text.color(Color(bandWeights_.tristimulus(values) * scale));
     case ColorSpace::primaries: {
-      const V3d xyz = bandWeights_.tristimulus(bands);
+      const V3d xyz = bandWeights_.tristimulus(values);
       return text.color(Color(intoGamut(product(matrix_, xyz), xyz.y)));
     }
     case ColorSpace::photopic:

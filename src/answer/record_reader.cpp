@@ -14,6 +14,7 @@
 #include "rad_parser/description.h"
 #include "rad_parser/error.h"
 #include "rad_parser/number.h"
+#include "rad_parser/printable.h"
 
 namespace rsphere {
 namespace {

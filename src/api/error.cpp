@@ -11,8 +11,8 @@ const char* version() { return kVersion; }
 
 namespace {
 
-// The file of a message "FILE: cannot open scene file: ..." or "FILE (from OTHER:12): cannot open ...", which names no
-// line of it; empty for any other message.
+// The file of a message "FILE: cannot open scene file: ..." or "FILE (from OTHER:12): cannot open ...", which
+// names no line of it; empty for any other message.
 std::string fileNotOpened(const std::string& text) {
   const size_t end = text.find(": cannot open ");
   if (end == std::string::npos) return "";

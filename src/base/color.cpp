@@ -18,8 +18,9 @@ struct Bands::Block {
   size_t count() const { return sampling->count(); }
 };
 
-// Blocks that a thread has given back, since a path makes and drops dozens of them at each surface. All have room for
-// kMostBands. What outlives the thread's objects, such as colors of static ones, is given back to the heap.
+// Blocks that a thread has given back, since a path makes and drops dozens of them at each surface. All have
+// room for kMostBands. What outlives the thread's objects, such as colors of static ones, is given back to
+// the heap.
 struct Bands::Spares {
   static thread_local Block* first;
   static thread_local bool closed;

@@ -233,8 +233,8 @@ inline double brightness(const Color& c) { return kRedWeight * c.x + kGreenWeigh
 inline double brightnessOfProduct(const Color& a, const Color& b) {
   return kRedWeight * (a.x * b.x) + kGreenWeight * (a.y * b.y) + kBlueWeight * (a.z * b.z);
 }
-// The largest and the smallest value of the bands, or of red, green and blue where there are no bands: a mean that is
-// dark may hide a bright band.
+// The largest and the smallest value of the bands, or of red, green and blue where there are no bands: a mean
+// that is dark may hide a bright band.
 inline double maxChannel(const Color& c) {
   if (c.bands()) [[unlikely]]
     return c.extremesOfBands().second;
@@ -245,8 +245,8 @@ inline double minChannel(const Color& c) {
     return c.extremesOfBands().first;
   return std::min({c.x, c.y, c.z});
 }
-// Whether red, green, blue and all bands are 0 or less. The bands are looked at last, since few colors are black: a band
-// may be bright where the mean of its channel is not, if others are negative.
+// Whether red, green, blue and all bands are 0 or less. The bands are looked at last, since few colors are
+// black: a band may be bright where the mean of its channel is not, if others are negative.
 inline bool isBlack(const Color& c) {
   return !(c.x > 0 || c.y > 0 || c.z > 0) && (!c.bands() || !(c.extremesOfBands().second > 0));
 }

@@ -1,80 +1,12 @@
 #include "base/colorimetry.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <vector>
+#include <numeric>
 
-#include "base/cie_tables.h"
 #include "base/primaries.h"
 
 namespace rsphere {
-namespace {
-
-// The integral of a curve from its shortest wavelength on, 1 at its longest. Between the values of the table, which
-// are 1 nm apart, the integral is interpolated linearly: the curve is constant there, at the mean of both.
-class Cumulative {
- public:
-  explicit Cumulative(const CieCurve& curve) : shortest_(curve.shortest), upTo_{0} {
-    for (size_t i = 1; i < curve.values.size(); ++i)
-      upTo_.push_back(upTo_.back() + (curve.values[i - 1] + curve.values[i]) / 2);
-    for (double& share : upTo_) share /= upTo_.back();
-  }
-
-  double upTo(double wavelength) const {
-    const double at = wavelength - shortest_;
-    if (!(at > 0)) return 0;
-    const auto i = static_cast<size_t>(std::min(at, static_cast<double>(upTo_.size())));
-    if (i + 1 >= upTo_.size()) return 1;
-    return std::lerp(upTo_[i], upTo_[i + 1], at - static_cast<double>(i));
-  }
-
-  double of(const Spectrum& s) const {
-    const double step = (s.last - s.first) / static_cast<double>(s.values.size());
-    double sum = 0, from = upTo(s.first);
-    for (size_t i = 0; i < s.values.size(); ++i) {
-      const double to = upTo(s.first + static_cast<double>(i + 1) * step);
-      sum += s.values[i] * (to - from);
-      from = to;
-    }
-    return step < 0 ? -sum : sum;
-  }
-
- private:
-  double shortest_;
-  std::vector<double> upTo_;
-};
-
-const Cumulative& cumulativeX() {
-  static const Cumulative curve(colorMatchingX());
-  return curve;
-}
-const Cumulative& cumulativeY() {
-  static const Cumulative curve(colorMatchingY());
-  return curve;
-}
-const Cumulative& cumulativeZ() {
-  static const Cumulative curve(colorMatchingZ());
-  return curve;
-}
-
-}  // namespace
-
-V3d tristimulus(const Spectrum& spectrum) {
-  return V3d(cumulativeX().of(spectrum), cumulativeY().of(spectrum), cumulativeZ().of(spectrum));
-}
-
-double photopic(const Spectrum& spectrum) { return cumulativeY().of(spectrum); }
-
-double scotopic(const Spectrum& spectrum) {
-  static const Cumulative curve(scotopicEfficiency());
-  return curve.of(spectrum);
-}
-
-double melanopic(const Spectrum& spectrum) {
-  static const Cumulative curve(melanopicSensitivity());
-  return curve.of(spectrum);
-}
 
 Spectrum spectrumOf(const Bands& bands) {
   return {bands.values(), bands.sampling().longest, bands.sampling().shortest};
@@ -134,55 +66,10 @@ V3d standardRgb(const V3d& xyz) {
   return intoGamut(product(rgbFromXyz, xyz), xyz.y);
 }
 
-V3d BandWeights::tristimulus(const Bands& bands) const {
-  const std::span<const double> values = bands.values();
-  V3d sum(0, 0, 0);
-  for (size_t i = 0; i < values.size(); ++i) sum += values[i] * xyz[i];
-  return sum;
-}
-
-// How much longer the wavelength of light seems to be by RADIANCE's tables (nm): found by comparing what rtrace writes for
-// narrow bands with the CIE's curves.
-constexpr double kColorShift = 1.5, kScotopicShift = -.5, kMelanopicShift = .5;
-
-// The ends of the spectrum are rounded to single precision, so that rounding errors do not move a limit at a
-// whole number to the number below.
-V3d tristimulusInRadiance(const Spectrum& spectrum) {
-  const size_t count = spectrum.values.size();
-  const bool falls = spectrum.first > spectrum.last;
-  const double shortest = static_cast<float>(std::min(spectrum.first, spectrum.last));
-  const double longest = static_cast<float>(std::max(spectrum.first, spectrum.last));
-  const double width = (longest - shortest) / static_cast<double>(count);
-  const auto upTo = [&](size_t fromShortest) {
-    const double limit = std::floor(shortest + static_cast<double>(fromShortest) * width) + kColorShift;
-    return V3d(cumulativeX().upTo(limit), cumulativeY().upTo(limit), cumulativeZ().upTo(limit));
-  };
-  V3d sum(0, 0, 0), from = upTo(0);
-  for (size_t i = 0; i < count; ++i) {
-    const V3d to = upTo(i + 1);
-    sum += spectrum.values[falls ? count - 1 - i : i] * (to - from);
-    from = to;
-  }
-  return sum;
-}
-
-BandWeights bandWeights(const SpectralSampling& sampling) {
-  BandWeights weights;
-  const size_t count = sampling.count();
-  const auto limit = [&](size_t fromShortest) {
-    return std::floor(sampling.shortest + static_cast<double>(fromShortest) * sampling.width());
-  };
-  for (size_t i = 0; i < count; ++i) {
-    const double longer = limit(count - i), shorter = limit(count - i - 1);
-    static constexpr std::array<double, 1> kOne{1};
-    const auto seen = [&](double displacement) {
-      return Spectrum{kOne, longer + displacement, shorter + displacement};
-    };
-    weights.xyz.push_back(tristimulusInRadiance({kOne, longer, shorter}));
-    weights.scotopic.push_back(scotopic(seen(kScotopicShift)));
-    weights.melanopic.push_back(melanopic(seen(kMelanopicShift)));
-  }
-  return weights;
+double photopicOf(const Color& color, const SpectralSampling* sampling) {
+  if (!sampling) return brightness(color);
+  const Bands bands = color.bandsIn(*sampling);
+  return std::inner_product(bands.values().begin(), bands.values().end(), sampling->photopic.begin(), 0.);
 }
 
 V3d shownRgb(const Color& color, const SpectralSampling* sampling) {
@@ -191,7 +78,7 @@ V3d shownRgb(const Color& color, const SpectralSampling* sampling) {
   static thread_local BandWeights weights;
   if (last != sampling) weights = bandWeights(*sampling);
   last = sampling;
-  return standardRgb(weights.tristimulus(color.bandsIn(*sampling)));
+  return standardRgb(weights.tristimulus(color.bandsIn(*sampling).values()));
 }
 
 }  // namespace rsphere

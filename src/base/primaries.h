@@ -1,10 +1,12 @@
 #pragma once
 // Conversions between CIE X, Y, Z and the red, green and blue of primaries.
+#include <Imath/ImathVec.h>
+
 #include <array>
 
-#include "base/color.h"
-
 namespace rsphere {
+
+using Imath::V3d;
 
 using Matrix = std::array<std::array<double, 3>, 3>;  // rows
 

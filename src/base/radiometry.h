@@ -12,8 +12,8 @@
 
 namespace rsphere {
 
-// A color that is a physical quantity. Kinds do not convert into each other, and Color converts only where its
-// kind is named. Quantities of the same kind can be added, and any can be scaled by a number or by a
+// A color that is a physical quantity. Kinds do not convert into each other, and Color converts only where
+// its kind is named. Quantities of the same kind can be added, and any can be scaled by a number or by a
 // Coefficient. Other arithmetic within a function uses `color`.
 template <class Kind>
 struct Quantity {

@@ -1,12 +1,12 @@
 #include "base/spectral_sampling.h"
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <mutex>
-#include <numeric>
 #include <tuple>
 
-#include "base/colorimetry.h"
+#include "base/observers.h"
 
 namespace rsphere {
 namespace {
@@ -15,6 +15,10 @@ namespace {
 // responses, as in RADIANCE.
 constexpr double kRedFrom = 588, kGreenFrom = 480;
 constexpr double kRedPeak = 607, kBluePeak = 469;
+
+// By how much longer wavelengths seem in RADIANCE's tables than in the CIE's (nm): found by comparing
+// rtrace's output for narrow bands with the CIE's curves.
+constexpr double kScotopicShift = -.5, kMelanopicShift = .5;
 
 SpectralSampling makeSampling(int bands, double shortest, double longest) {
   SpectralSampling s;
@@ -38,10 +42,29 @@ bool spectrumHoldsChannels(double shortest, double longest) {
   return shortest < kBluePeak && longest > kRedPeak;
 }
 
-double photopicOf(const Color& color, const SpectralSampling* sampling) {
-  if (!sampling) return brightness(color);
-  const Bands bands = color.bandsIn(*sampling);
-  return std::inner_product(bands.values().begin(), bands.values().end(), sampling->photopic.begin(), 0.);
+V3d BandWeights::tristimulus(std::span<const double> bands) const {
+  V3d sum(0, 0, 0);
+  for (size_t i = 0; i < bands.size(); ++i) sum += bands[i] * xyz[i];
+  return sum;
+}
+
+BandWeights bandWeights(const SpectralSampling& sampling) {
+  BandWeights weights;
+  const size_t count = sampling.count();
+  const auto limit = [&](size_t fromShortest) {
+    return std::floor(sampling.shortest + static_cast<double>(fromShortest) * sampling.width());
+  };
+  for (size_t i = 0; i < count; ++i) {
+    const double longer = limit(count - i), shorter = limit(count - i - 1);
+    static constexpr std::array<double, 1> kOne{1};
+    const auto seen = [&](double displacement) {
+      return Spectrum{kOne, longer + displacement, shorter + displacement};
+    };
+    weights.xyz.push_back(tristimulusInRadiance({kOne, longer, shorter}));
+    weights.scotopic.push_back(scotopic(seen(kScotopicShift)));
+    weights.melanopic.push_back(melanopic(seen(kMelanopicShift)));
+  }
+  return weights;
 }
 
 const SpectralSampling& spectralSampling(int bands, double shortest, double longest) {

@@ -1,13 +1,17 @@
 #pragma once
+// How a spectral run (-cs above 3) divides the spectrum into bands.
+#include <Imath/ImathVec.h>
+
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
-
-#include "base/color.h"
 
 namespace rsphere {
 
-// What is computed of the spectrum (-cw), nm.
+using Imath::V3d;
+
+// The part of the spectrum that is computed (-cw), nm.
 struct WavelengthLimits {
   double shortest = 380, longest = 780;
 };
@@ -17,8 +21,7 @@ struct SpectralSampling {
   double longest = 780, shortest = 380;    // nm, the limits (-cw)
   std::array<double, 2> splits{588, 480};  // nm, between red and green, and between green and blue
   std::vector<uint8_t> channel;  // of each band, from the longest wavelength: 0 red, 1 green, 2 blue
-
-  std::vector<double> photopic;  // shares of the bands in the photopic integral (colorimetry.h)
+  std::vector<double> photopic;  // shares of the bands in the photopic integral
 
   size_t count() const { return channel.size(); }
   double width() const { return (longest - shortest) / static_cast<double>(count()); }  // nm, of a band
@@ -31,11 +34,21 @@ inline constexpr int kMostBands = 24;
 // Equal arguments have the same result, which exists until the program ends. Thread-safe.
 const SpectralSampling& spectralSampling(int bands, double shortest, double longest);
 
-// The brightness of a color, and in a spectral run (sampling: not null) its photopic integral.
-double photopicOf(const Color& color, const SpectralSampling* sampling);
-
 // Whether red, green and blue each have a part of the spectrum within these limits (nm): then the splits are
 // RADIANCE's; otherwise they divide the range into thirds.
 bool spectrumHoldsChannels(double shortest, double longest);
+
+// The shares of bands in the integrals of the observers, as RADIANCE 6.1 computes them. Whatever is written
+// is converted by these, so that it equals rtrace's output. RADIANCE's tables are displaced against the
+// CIE's: light is seen as if its wavelength were 1.5 nm (X, Y, Z) or .5 nm (melanopic) longer, or .5 nm
+// shorter (scotopic), and limits of bands are rounded down to whole nanometers. This changes X, Y and Z by 2
+// to 4% for saturated colors, and by .3% for daylight.
+struct BandWeights {
+  std::vector<V3d> xyz;
+  std::vector<double> scotopic, melanopic;
+
+  V3d tristimulus(std::span<const double> bands) const;
+};
+BandWeights bandWeights(const SpectralSampling& sampling);
 
 }  // namespace rsphere

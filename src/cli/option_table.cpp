@@ -144,21 +144,22 @@ struct NamedSpace {
 };
 constexpr std::array<NamedSpace, 6> kSpaces = {{
     {"-pRGB", ColorSpace::rgb, "standard RGB color output",
-     "Colors as red, green and blue of RADIANCE's standard primaries. In a spectral run (-cs above 3) they are "
-     "computed from CIE X, Y and Z; colors outside the gamut are mixed with gray until no channel is "
+     "Colors as red, green and blue of RADIANCE's standard primaries. In a spectral run (-cs above 3) they "
+     "are computed from CIE X, Y and Z; colors outside the gamut are mixed with gray until no channel is "
      "negative."},
     {"-pXYZ", ColorSpace::xyz, "CIE XYZ color output",
      "Colors as CIE X, Y and Z, times 179 lm/W: Y is luminance or illuminance."},
     {"-pY", ColorSpace::photopic, "photopic output",
-     "One number for each color, its luminance: 179 lm/W times .265 red + .670 green + .065 blue, or times the "
-     "integral of spectrum and V(lambda) in a spectral run."},
+     "One number for each color, its luminance: 179 lm/W times .265 red + .670 green + .065 blue, or times "
+     "the integral of spectrum and V(lambda) in a spectral run."},
     {"-pS", ColorSpace::scotopic, "scotopic output",
-     "One number for each color, its scotopic luminance, that of night vision (412 lm/W). Without a spectrum, "
-     "red represents the wavelengths from 588 nm up, green those from 480 to 588 nm, and blue those below."},
+     "One number for each color, its scotopic luminance, that of night vision (412 lm/W). Without a "
+     "spectrum, red represents the wavelengths from 588 nm up, green those from 480 to 588 nm, and blue "
+     "those below."},
     {"-pM", ColorSpace::melanopic, "melanopic output",
-     "One number for each color, its melanopic luminance, with the channels as for -pS. It equals luminance for "
-     "light of equal energy at all wavelengths (179 lm/W). Times .906 it is the melanopic equivalent daylight "
-     "(D65) luminance of CIE S 026."},
+     "One number for each color, its melanopic luminance, with the channels as for -pS. It equals luminance "
+     "for light of equal energy at all wavelengths (179 lm/W). Times .906 it is the melanopic equivalent "
+     "daylight (D65) luminance of CIE S 026."},
     {"-pA", ColorSpace::average, "radiometric average output",
      "One number for each color: the mean of its channels or bands."},
 }};
@@ -285,9 +286,9 @@ void addRecordOptions(const Add& add) {
        .remark = "number of rendering processes",
        .paragraph =
            "Answers records on N threads; 0 starts one for each core. If the system refuses to start so "
-           "many, there is a warning and the program uses fewer. The answers do not depend on N. On a machine of "
-           "several NUMA nodes, the scene lies in the memory of one of them; a process for each node, bound to it by "
-           "numactl(8) and given a part of the records, can be faster.",
+           "many, there is a warning and the program uses fewer. The answers do not depend on N. On a "
+           "machine of several NUMA nodes, the scene lies in the memory of one of them; a process for each "
+           "node, bound to it by numactl(8) and given a part of the records, can be faster.",
        .line = +[](const O& o) { return fmt::format("-n {:<2}\t\t\t\t", o.threads); }});
   add({.name = "-x",
        .arguments = "res",
@@ -399,12 +400,12 @@ void addRayOptions(const Add& add) {
        .remark = "uncorrelated Monte Carlo sampling|correlated quasi-Monte Carlo sampling",
        .paragraph =
            "Toggles other random numbers for a ray that is repeated. With -u+, the random numbers of a ray "
-           "depend on its number in the input as well as on the ray itself, so that the mean of the answers to "
-           "a repeated ray has less variance than a single answer. Otherwise they depend on the ray alone, so "
-           "that a repeated ray has the same answer each time; in rtrace it never has. -defaults prints -u+ "
-           "even so, as rtrace does, because programs read it. In both cases the answers do not depend on -n, "
-           "and interpolated indirect light (-aa above 0) is the same for repeated rays. All samples are "
-           "random; quasi-random sequences are not used. Ray mode only.",
+           "depend on its number in the input as well as on the ray itself, so that the mean of the answers "
+           "to a repeated ray has less variance than a single answer. Otherwise they depend on the ray "
+           "alone, so that a repeated ray has the same answer each time; in rtrace it never has. -defaults "
+           "prints -u+ even so, as rtrace does, because programs read it. In both cases the answers do not "
+           "depend on -n, and interpolated indirect light (-aa above 0) is the same for repeated rays. All "
+           "samples are random; quasi-random sequences are not used. Ray mode only.",
        .inEffect = +[](const O& o) { return o.numberedRays; }});
   add({.name = "-bv",
        .group = Group::program,
@@ -640,9 +641,9 @@ void addSpectrumOptions(const Add& add) {
        .remark = "number of spectral bins",
        .paragraph =
            "Number of bands of equal width in which light is computed, at most 24. With more than three, all "
-           "that is written is computed from the bands: see -co and -pRGB. Spectral patterns (spectrum, specfile, "
-           "specfunc, specdata, specpict) need them: in three channels they become red, green and blue by "
-           "the CIE's observer, and products of spectra are approximate. See Spectra.",
+           "that is written is computed from the bands: see -co and -pRGB. Spectral patterns (spectrum, "
+           "specfile, specfunc, specdata, specpict) need them: in three channels they become red, green and "
+           "blue by the CIE's observer, and products of spectra are approximate. See Spectra.",
        .line = bandsLine});
   add({.name = "-cw",
        .arguments = "nmA nmB",
@@ -652,8 +653,8 @@ void addSpectrumOptions(const Add& add) {
        .unit = "nm",
        .remark = "wavelength limits (nm)",
        .paragraph =
-           "Limits of the spectrum that -cs divides: at least 0, and at least 50 nm apart. Light beyond them is left out. Default: 380 "
-           "and 780.",
+           "Limits of the spectrum that -cs divides: at least 0, and at least 50 nm apart. Light beyond them "
+           "is left out. Default: 380 and 780.",
        .line = wavelengthsLine});
 }
 
@@ -867,10 +868,11 @@ void addDirectionOptions(const Add& add) {
        .remark = "most directions",
        .paragraph =
            "Largest number of directions for one point: base directions, directions to special objects, "
-           "directions to light sources and, where light is uneven, directions that follow the light. Directions to light sources are at most a quarter of -Sn "
-           "unless there are more sources than that; they are sent even if they exceed the limit. Shadow "
-           "rays, and the rays that find the surfaces for the control variate of -Sw c, do not count. If "
-           "-Sx is not given, it is twice -Sn where that is more than the default; see -Sa."});
+           "directions to light sources and, where light is uneven, directions that follow the light. "
+           "Directions to light sources are at most a quarter of -Sn unless there are more sources than "
+           "that; they are sent even if they exceed the limit. Shadow rays, and the rays that find the "
+           "surfaces for the control variate of -Sw c, do not count. If -Sx is not given, it is twice -Sn "
+           "where that is more than the default; see -Sa."});
 }
 
 void addWeightOptions(const Add& add) {
@@ -883,8 +885,8 @@ void addWeightOptions(const Add& add) {
        .paragraph =
            "Factor on the density of directions (1/sr) towards special objects. With 0 and -Sw c, all "
            "directions have equal weights except those to light sources that are seen directly, diffuse "
-           "surfaces have no control variate, no directions follow the light, and no indirect rays are aimed at small "
-           "bright patches."});
+           "surfaces have no control variate, no directions follow the light, and no indirect rays are aimed "
+           "at small bright patches."});
   add({.name = "-Sa",
        .arguments = "acc",
        .group = Group::sphere,
@@ -911,8 +913,8 @@ void addWeightOptions(const Add& add) {
            "Directions to light sources that are integrated separately are not limited. The clamp makes "
            "the mean too small wherever it takes effect; at the end, a warning gives the number of points "
            "where it did and how much light it took. Standard errors are those of the clamped mean and do "
-           "not contain this bias. A direction contributes 1/N of the mean on average (-Sn N), so that values "
-           "below 20/N take more than outliers. Only with -Sw c. 0 does not clamp."});
+           "not contain this bias. A direction contributes 1/N of the mean on average (-Sn N), so that "
+           "values below 20/N take more than outliers. Only with -Sw c. 0 does not clamp."});
   add({.name = "-Sw",
        .arguments = "letter",
        .group = Group::sphere,

@@ -69,8 +69,8 @@ struct OptionEntry {
   bool (*harmless)(std::span<const std::string> words) = nullptr;
   bool glued = false;      // its value follows without a blank: -fio -ospec
   bool alsoGlued = false;  // its value may follow without a blank: -te mod, -temod
-  // Of a switch whose value is only what rtrace prints by -defaults: whether it is in effect, which -help and the manual
-  // state.
+  // Of a switch whose value is only what rtrace prints by -defaults: whether it is in effect, which -help and
+  // the manual state.
   bool (*inEffect)(const Options&) = nullptr;
   // The line of -defaults without its remark, if the type does not determine it. It returns "" for no line.
   std::string (*line)(const Options&) = nullptr;

@@ -68,11 +68,11 @@ std::vector<OptionEntry> makeTable() {
        .value = +[](Options& o) -> std::string& { return own(o).page; },
        .remark = "report as an HTML page",
        .paragraph =
-           "Writes the report as one HTML page for a browser: the verdict, the figures, a plot of each record's "
-           "answer against the original's, a histogram of the differences, the worst records, the options, "
-           "the date and the versions. If the records form a picture (-x and -y), the page has both pictures "
-           "and their difference, too. It needs no other file, no network and no scripts, and can be "
-           "printed."});
+           "Writes the report as one HTML page for a browser: the verdict, the figures, a plot of each "
+           "record's answer against the original's, a histogram of the differences, the worst records, the "
+           "options, the date and the versions. If the records form a picture (-x and -y), the page has both "
+           "pictures and their difference, too. It needs no other file, no network and no scripts, and can "
+           "be printed."});
   for (OptionEntry& entry : table) entry.group = Group::companion;
   return table;
 }

@@ -20,16 +20,16 @@ struct CompareSubject {
   std::vector<std::string> warnings;  // those written to standard error
 };
 
-// An SVG plot of the brightness of our answers against the original's (means of the repeats), with logarithmic
-// axes. Of more than kMostMarks records, evenly chosen ones are drawn and the worst. Records of which an
-// answer is not above 0 are omitted.
+// An SVG plot of the brightness of our answers against the original's (means of the repeats), with
+// logarithmic axes. Of more than kMostMarks records, evenly chosen ones are drawn and the worst. Records of
+// which an answer is not above 0 are omitted.
 std::string comparePlot(const Answers& ours, const Answers& original, const Comparison& comparison,
                         const CompareSubject& subject);
 inline constexpr size_t kMostMarks = 2000;
 
-// An HTML page with the verdict, the warnings, the figures, comparePlot(), a histogram, the pictures, and the rest of the
-// report. REQUIRES: comparison is that of the answers. Throws rad::Error (Status::system) if OpenImageIO,
-// which encodes the pictures, cannot be loaded.
+// An HTML page with the verdict, the warnings, the figures, comparePlot(), a histogram, the pictures, and the
+// rest of the report. REQUIRES: comparison is that of the answers. Throws rad::Error (Status::system) if
+// OpenImageIO, which encodes the pictures, cannot be loaded.
 std::string comparePage(const Answers& ours, const Answers& original, const Comparison& comparison,
                         const CompareSubject& subject, std::time_t when);
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/spectral_sampling.h"
+#include "base/colorimetry.h"
 
 namespace rsphere {
 
@@ -25,9 +25,9 @@ enum class Verdict {
   differs     // a bias above the tolerance is certain, or too many records differ by more than it
 };
 
-// The comparison of one channel, or of one band of a spectral run. The bias is relative to the mean of the original. The difference of a record
-// is that of its means over the repeats; it is relative to the mean of both programs for the record, or to
-// kDarkest times the mean of all records where this is larger.
+// The comparison of one channel, or of one band of a spectral run. The bias is relative to the mean of the
+// original. The difference of a record is that of its means over the repeats; it is relative to the mean of
+// both programs for the record, or to kDarkest times the mean of all records where this is larger.
 struct ChannelComparison {
   std::string name;  // "red", or the middle of the band: "570 nm"
   double ourMean = 0, originalMean = 0;

@@ -2,15 +2,10 @@
 // Pictures as files.
 #include <string>
 #include <string_view>
-#include <vector>
+
+#include "image/raster.h"
 
 namespace rsphere {
-
-// Red, green and blue of each pixel (W/sr/m2, or screen colours from 0 to 1), the highest row first.
-struct Raster {
-  int width = 0, height = 0;
-  std::vector<float> pixels;
-};
 
 // The formats, by the values that they store.
 enum class PictureFormat {

@@ -2,7 +2,7 @@
 #include <string>
 #include <string_view>
 
-#include "image/picture_file.h"
+#include "image/raster.h"
 
 namespace rsphere {
 

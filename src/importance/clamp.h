@@ -2,7 +2,7 @@
 // The clamp of single directions (-Sf).
 #include <span>
 
-#include "base/spectral_sampling.h"
+#include "base/colorimetry.h"
 #include "importance/direction_sample.h"
 
 namespace rsphere {

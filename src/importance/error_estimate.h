@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "base/spectral_sampling.h"
+#include "base/colorimetry.h"
 #include "importance/direction_sample.h"
 #include "importance/seen_sources.h"
 

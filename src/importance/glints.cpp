@@ -32,24 +32,35 @@ struct Part {
 
 std::vector<Part> partsOf(const Scene& scene, const LightSource& source, const Sphere& ball) {
   const auto* polygon = scene.surfaces[source.surface].shape.as<Polygon>();
-  const bool outlined = polygon && source.map != LightSource::Map::parallelogram;
+  const auto* plane = source.as<PlaneLight>();
+  const bool outlined = polygon && !std::holds_alternative<PlaneLight::Parallelogram>(plane->map);
   if (outlined && polygon->vertices <= Tuning::kMostCorners) {
     const auto first = scene.vertices.begin() + polygon->firstVertex;
     return {{source.center, std::vector<V3d>(first, first + polygon->vertices)}};
   }
-  const V3d away = source.distant ? source.center : source.center - ball.center;
+  const V3d away = source.isDistant() ? source.center : source.center - ball.center;
   const double distance = std::max(away.length() - ball.radius, kSamePlace);
-  V3d u = source.u, v = source.v;
-  if (source.map == LightSource::Map::tube) {
-    v = u.cross(away).normalized() * (source.area / (4 * u.length()));
-  } else if (outlined || !source.isPlane()) {
-    frame(outlined ? source.normal : away.normalized(), u, v);
-    const double radius = source.distant ? source.sinHalfAngle : source.radius;
+  V3d u(0, 0, 0), v(0, 0, 0);
+  const auto setRound = [&](const V3d& axis, double radius) {
+    frame(axis, u, v);
     u *= radius;
     v *= radius;
-  }
+  };
+  match(
+      source.shape,
+      [&](const PlaneLight& flat) {
+        u = flat.u;
+        v = flat.v;
+        if (outlined) setRound(flat.normal, source.radius);
+      },
+      [&](const BallLight&) { setRound(away.normalized(), source.radius); },
+      [&](const TubeLight& tube) {
+        u = tube.half;
+        v = acrossTube(tube, away);
+      },
+      [&](const DistantLight& cone) { setRound(away.normalized(), cone.sinHalfAngle); });
   const auto divided = [&](const V3d& half) {
-    if (source.distant) return 1;
+    if (source.isDistant()) return 1;
     return static_cast<int>(
         std::min(std::ceil(half.length() / (Tuning::kHalfPart * distance)), Tuning::kMostParts));
   };
@@ -64,7 +75,7 @@ std::vector<Part> partsOf(const Scene& scene, const LightSource& source, const S
       for (const auto& [x, y] :
            {std::pair(1., 1.), std::pair(-1., 1.), std::pair(-1., -1.), std::pair(1., -1.)}) {
         const V3d corner = part.middle + x * u + y * v;
-        part.corners.push_back(source.distant ? corner.normalized() : corner);
+        part.corners.push_back(source.isDistant() ? corner.normalized() : corner);
       }
       parts.push_back(std::move(part));
     }
@@ -74,14 +85,19 @@ std::vector<Part> partsOf(const Scene& scene, const LightSource& source, const S
 // The approximate solid angle of the source as seen from the ball, `distance` from its surface. It is rather
 // too large than too small.
 double solidAngleFrom(const LightSource& source, const Sphere& ball, double distance) {
-  if (source.distant) return 2 * pi * (1 - source.cosHalfAngle);
-  if (source.isPlane()) {
-    const V3d away = ball.center - source.center;
-    const double front = (source.normal.dot(away) + ball.radius) / away.length();
-    return source.area * std::clamp(front, 0., 1.) / (distance * distance);
-  }
-  const double sine = std::min(1., source.radius / distance);
-  return pi * sine * sine;
+  const auto ofBall = [&] {
+    const double sine = std::min(1., source.radius / distance);
+    return pi * sine * sine;
+  };
+  return match(
+      source.shape,
+      [&](const PlaneLight& plane) {
+        const V3d away = ball.center - source.center;
+        const double front = (plane.normal.dot(away) + ball.radius) / away.length();
+        return plane.area * std::clamp(front, 0., 1.) / (distance * distance);
+      },
+      [&](const OneOf<BallLight, TubeLight> auto&) { return ofBall(); },
+      [](const DistantLight& cone) { return 2 * pi * (1 - cone.cosHalfAngle); });
 }
 
 }  // namespace
@@ -109,8 +125,8 @@ Glints::Glints(const PreparedScene& prepared, std::span<const SpecialObject> obj
 bool Glints::shines(const LightSource& source, std::span<const V3d> corners, const V3d& middle,
                     const V3d& at) const {
   const auto seen = [&](const V3d& place) {
-    const V3d direction = source.distant ? place : place - at;
-    const double far = source.distant ? kFarAway : direction.length();
+    const V3d direction = source.isDistant() ? place : place - at;
+    const double far = source.isDistant() ? kFarAway : direction.length();
     return prepared_.tracer().shadow(at, direction.normalized(), far, source.surface) != Shadow::blocked;
   };
   return seen(middle) || std::any_of(corners.begin(), corners.end(),
@@ -125,8 +141,9 @@ std::vector<Glint> Glints::find(const V3d& point, double least) const {
     if (!(nearest > 1e-4 * ball.radius)) continue;
     for (const Light& light : lights_) {
       const LightSource& source = prepared_.lights().all()[light.source];
+      const auto* plane = source.as<PlaneLight>();
       const double distance =
-          source.distant ? kFarAway : (source.center - ball.center).length() - ball.radius;
+          source.isDistant() ? kFarAway : (source.center - ball.center).length() - ball.radius;
       if (!(distance > 0) || (source.reach > 0 && distance - source.radius > source.reach)) continue;
       // A ball spreads distant light evenly over the sphere. The image therefore fills the solid angle of the
       // source as seen from the ball, times the square of the ball's radius over the distance to it, over 4.
@@ -135,10 +152,10 @@ std::vector<Glint> Glints::find(const V3d& point, double least) const {
         continue;
       const size_t first = found.size();
       for (const Part& part : partsOf(prepared_.scene(), source, ball)) {
-        const V3d normal = mirroringNormal(ball, point, part.middle, source.distant);
+        const V3d normal = mirroringNormal(ball, point, part.middle, source.isDistant());
         const V3d at = ball.center + (ball.radius + 2 * kSamePlace) * normal, in = point - at;
-        const V3d out = source.distant ? source.center : (part.middle - at).normalized();
-        if (!(normal.dot(in) > 0) || (source.isPlane() && source.normal.dot(out) >= 0)) continue;
+        const V3d out = source.isDistant() ? source.center : (part.middle - at).normalized();
+        if (!(normal.dot(in) > 0) || (plane && plane->normal.dot(out) >= 0)) continue;
         if (source.spot && outsideSpot(*source.spot, out)) continue;
         if (prepared_.tracer().shadow(at, in.normalized(), in.length(), kNone) == Shadow::blocked) continue;
         if (!shines(source, part.corners, part.middle, at)) continue;
@@ -148,7 +165,8 @@ std::vector<Glint> Glints::find(const V3d& point, double least) const {
           for (const double share : {0., .5}) {
             const V3d place =
                 part.middle + Tuning::kEnlarged * (corner + share * (next - corner) - part.middle);
-            around.push_back(ball.center + ball.radius * mirroringNormal(ball, point, place, source.distant));
+            around.push_back(ball.center +
+                             ball.radius * mirroringNormal(ball, point, place, source.isDistant()));
           }
         }
         Silhouette region = hullOf(around, point);

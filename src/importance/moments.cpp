@@ -5,7 +5,7 @@
 #include <iterator>
 #include <numbers>
 
-#include "base/spectral_sampling.h"
+#include "base/colorimetry.h"
 
 namespace rsphere {
 

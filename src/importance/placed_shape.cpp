@@ -73,36 +73,32 @@ PlacedShape placed(const Polygon& polygon, std::span<const V3d> vertices, const 
 }  // namespace
 
 PlacedShape placed(ShapeRef shape, std::span<const V3d> vertices, const Placement& placement) {
-  return visit(Overloaded{
-                   [&](const Polygon& polygon) { return placed(polygon, vertices, placement); },
-                   [&](const OneOf<Sphere, Cone, Ring> auto& form) {
-                     return PlacedShape{placed(form, placement), {}};
-                   },
-                   [](const Distant&) { return PlacedShape{}; },
-                   [](const NestedShape auto&) { return PlacedShape{}; },
-               },
-               shape);
+  return match(
+      shape, [&](const Polygon& polygon) { return placed(polygon, vertices, placement); },
+      [&](const OneOf<Sphere, Cone, Ring> auto& form) {
+        return PlacedShape{placed(form, placement), {}};
+      },
+      [](const Distant&) { return PlacedShape{}; }, [](const NestedShape auto&) { return PlacedShape{}; });
 }
 
 SurfacePoint samplePoint(const Scene& scene, const Surface& surface, Random& random) {
-  return visit(Overloaded{
-                   [&](const MeshInstance& mesh) {
-                     return placed(pointOnTriangle(scene.meshes[mesh.mesh].data, random),
-                                   scene.placements[mesh.placement]);
-                   },
-                   [&](const Instance& instance) {
-                     const SurfaceGroup& group = scene.groups[instance.group];
-                     const size_t count = group.surfaces.size();
-                     if (count == 0) return SurfacePoint{};
-                     const auto i = static_cast<size_t>(random.uniform() * static_cast<double>(count));
-                     return placed(samplePoint(scene, scene.surfaces[group.surfaces[i]], random),
-                                   scene.placements[instance.placement]);
-                   },
-                   [&](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) {
-                     return samplePoint(surface.shape, scene.vertices, random);
-                   },
-               },
-               surface.shape);
+  return match(
+      surface.shape,
+      [&](const MeshInstance& mesh) {
+        return placed(pointOnTriangle(scene.meshes[mesh.mesh].data, random),
+                      scene.placements[mesh.placement]);
+      },
+      [&](const Instance& instance) {
+        const SurfaceGroup& group = scene.groups[instance.group];
+        const size_t count = group.surfaces.size();
+        if (count == 0) return SurfacePoint{};
+        const auto i = static_cast<size_t>(random.uniform() * static_cast<double>(count));
+        return placed(samplePoint(scene, scene.surfaces[group.surfaces[i]], random),
+                      scene.placements[instance.placement]);
+      },
+      [&](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) {
+        return samplePoint(surface.shape, scene.vertices, random);
+      });
 }
 
 Sphere BoundingBalls::ofGroup(uint32_t index) {
@@ -115,18 +111,17 @@ Sphere BoundingBalls::ofGroup(uint32_t index) {
 }
 
 Box3d BoundingBalls::boxOf(const Surface& surface) {
-  return visit(Overloaded{
-                   [&](const Instance& instance) {
-                     return boxAround(placed(ofGroup(instance.group), scene_.placements[instance.placement]));
-                   },
-                   [&](const MeshInstance& mesh) {
-                     return boxAround(placed(ofMesh(mesh.mesh), scene_.placements[mesh.placement]));
-                   },
-                   [&](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) {
-                     return bounds(surface.shape, scene_.vertices);
-                   },
-               },
-               surface.shape);
+  return match(
+      surface.shape,
+      [&](const Instance& instance) {
+        return boxAround(placed(ofGroup(instance.group), scene_.placements[instance.placement]));
+      },
+      [&](const MeshInstance& mesh) {
+        return boxAround(placed(ofMesh(mesh.mesh), scene_.placements[mesh.placement]));
+      },
+      [&](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) {
+        return bounds(surface.shape, scene_.vertices);
+      });
 }
 
 const BoundingBalls::MeshBalls& BoundingBalls::meshBalls(uint32_t index) {

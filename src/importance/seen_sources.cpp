@@ -29,13 +29,11 @@ double sharpReflectance(const Material& material, double cosine = 1) {
 
 // The area within the outline of a plane shape, of a ring with its hole.
 double outlinedArea(ShapeRef shape, std::span<const V3d> vertices) {
-  return visit(Overloaded{
-                   [&](const Polygon& polygon) { return areaOf(polygon, vertices); },
-                   [](const Ring& ring) { return pi * std::pow(ring.outer, 2); },
-                   [](const OneOf<Sphere, Cone, Distant> auto&) { return 0.; },
-                   [](const NestedShape auto&) { return 0.; },
-               },
-               shape);
+  return match(
+      shape, [&](const Polygon& polygon) { return areaOf(polygon, vertices); },
+      [](const Ring& ring) { return pi * std::pow(ring.outer, 2); },
+      [](const OneOf<Sphere, Cone, Distant> auto&) { return 0.; },
+      [](const NestedShape auto&) { return 0.; });
 }
 
 bool emitsBehind(ShapeRef shape, const V3d& point) {
@@ -45,15 +43,12 @@ bool emitsBehind(ShapeRef shape, const V3d& point) {
 
 // Whether the shape fills its region.
 bool fills(ShapeRef shape, const Silhouette& s) {
-  return visit(Overloaded{
-                   [](const OneOf<Sphere, Distant> auto&) { return true; },
-                   [&](const Polygon&) {
-                     return std::abs(s.regionSolidAngle() - s.solidAngle()) <= 1e-9 * s.solidAngle();
-                   },
-                   [](const OneOf<Cone, Ring> auto&) { return false; },
-                   [](const NestedShape auto&) { return false; },
-               },
-               shape);
+  return match(
+      shape, [](const OneOf<Sphere, Distant> auto&) { return true; },
+      [&](const Polygon&) {
+        return std::abs(s.regionSolidAngle() - s.solidAngle()) <= 1e-9 * s.solidAngle();
+      },
+      [](const OneOf<Cone, Ring> auto&) { return false; }, [](const NestedShape auto&) { return false; });
 }
 
 bool hits(const Scene& scene, ShapeRef shape, const V3d& point, const V3d& direction, ShapeHit& hit) {
@@ -166,8 +161,9 @@ void SeenSources::addMirrored(const V3d& point, std::vector<Image>& images) cons
     for (const LightId i : sources_) {
       const LightSource& light = lights[i];
       if (light.surface == m) continue;
-      const double before = light.distant ? side * plane.normal.dot(light.center) + light.sinHalfAngle
-                                          : side * plane.height(light.center) + light.radius;
+      const auto* cone = light.as<DistantLight>();
+      const double before = cone ? side * plane.normal.dot(light.center) + cone->sinHalfAngle
+                                 : side * plane.height(light.center) + light.radius;
       const Surface& surface = scene.surfaces[light.surface];
       if (before <= 0 || emitsBehind(surface.shape, behind)) continue;
       if (!window) window = silhouetteOf(mirror.shape, scene.vertices, behind);

@@ -267,7 +267,7 @@ Silhouette silhouetteOf(ShapeRef shape, std::span<const V3d> vertices, const V3d
     }
   };
   const auto ofNested = [](const NestedShape auto&) {};  // represented by balls
-  visit(Overloaded{ofSphere, ofDistant, ofCone, ofRing, ofPolygon, ofNested}, shape);
+  match(shape, ofSphere, ofDistant, ofCone, ofRing, ofPolygon, ofNested);
   return s;
 }
 

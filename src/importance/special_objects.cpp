@@ -78,20 +78,18 @@ Shown mostIrregular(const Scene& scene, ModifierId modifier) {
   Shown most;
   for (; modifier != kNone; modifier = scene.modifiers[modifier].next) {
     const Modifier& m = scene.modifiers[modifier];
-    const Shown here = std::visit(
-        Overloaded{
-            [&](const Material& material) {
-              const auto* illum = std::get_if<Illum>(&material);
-              return illum ? seenOf(scene, m, illum->alternate) : Shown{&m, irregularity(material)};
-            },
-            [&](const Mixture& mixture) {
-              const Shown foreground = mostIrregular(scene, mixture.foreground);
-              const Shown background = mostIrregular(scene, mixture.background);
-              return background.irregularity > foreground.irregularity ? background : foreground;
-            },
-            [](const OneOf<Pattern, Texture> auto&) { return Shown{}; },
+    const Shown here = match(
+        m.content,
+        [&](const Material& material) {
+          const auto* illum = std::get_if<Illum>(&material);
+          return illum ? seenOf(scene, m, illum->alternate) : Shown{&m, irregularity(material)};
         },
-        m.content);
+        [&](const Mixture& mixture) {
+          const Shown foreground = mostIrregular(scene, mixture.foreground);
+          const Shown background = mostIrregular(scene, mixture.background);
+          return background.irregularity > foreground.irregularity ? background : foreground;
+        },
+        [](const OneOf<Pattern, Texture> auto&) { return Shown{}; });
     if (here.irregularity > most.irregularity) most = here;
     if (std::holds_alternative<Material>(m.content)) break;
   }
@@ -103,32 +101,30 @@ std::string why(const Material& material, double irregularity) {
     return fmt::format("{}: irregularity {:.3g} of at least {:g}", given, irregularity, kSpecialIrregularity);
   };
   const auto transmitted = [](const auto& m) { return m.transmissivity * m.transmittedSpecular; };
-  return std::visit(
-      Overloaded{
-          [&](const Opaque& m) {
-            return reason(fmt::format("specularity {:g}, roughness {:g}", m.specularity, m.roughness));
-          },
-          [&](const Trans& m) {
-            return reason(fmt::format("specularity {:g}, transmitted {:g}, roughness {:g}", m.specularity,
-                                      transmitted(m), m.roughness));
-          },
-          [&](const Anisotropic& m) {
-            return reason(fmt::format("specularity {:g}, transmitted {:g}, roughness {:g} and {:g}",
-                                      m.specularity, transmitted(m), m.roughnessAlong, m.roughnessAcross));
-          },
-          [&](const Ashikhmin& m) {
-            return reason(fmt::format("specularity {:g}, powers {:g} and {:g}", maxChannel(m.specular),
-                                      m.powerAlong, m.powerAcross));
-          },
-          [&](const FunctionScatterer& m) {
-            return reason(fmt::format("specularity {:g}, transmitted {:g}, by functions", m.specularity,
-                                      transmitted(m)));
-          },
-          [&](const OneOf<BrtdFunction, WgmdFunction> auto&) { return reason("by functions"); },
-          [](const OneOf<BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist, Light,
-                         Illum, Glow, Spotlight> auto&) -> std::string { return "irregular by type"; },
+  return match(
+      material,
+      [&](const Opaque& m) {
+        return reason(fmt::format("specularity {:g}, roughness {:g}", m.specularity, m.roughness));
       },
-      material);
+      [&](const Trans& m) {
+        return reason(fmt::format("specularity {:g}, transmitted {:g}, roughness {:g}", m.specularity,
+                                  transmitted(m), m.roughness));
+      },
+      [&](const Anisotropic& m) {
+        return reason(fmt::format("specularity {:g}, transmitted {:g}, roughness {:g} and {:g}",
+                                  m.specularity, transmitted(m), m.roughnessAlong, m.roughnessAcross));
+      },
+      [&](const Ashikhmin& m) {
+        return reason(fmt::format("specularity {:g}, powers {:g} and {:g}", maxChannel(m.specular),
+                                  m.powerAlong, m.powerAcross));
+      },
+      [&](const FunctionScatterer& m) {
+        return reason(
+            fmt::format("specularity {:g}, transmitted {:g}, by functions", m.specularity, transmitted(m)));
+      },
+      [&](const OneOf<BrtdFunction, WgmdFunction> auto&) { return reason("by functions"); },
+      [](const OneOf<BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist, Light,
+                     Illum, Glow, Spotlight> auto&) -> std::string { return "irregular by type"; });
 }
 
 class Finder {
@@ -171,13 +167,10 @@ class Finder {
 
   Contents contentsOf(const Surface& s) {
     if (scene_.hasOwnModifier(s)) return {};
-    return visit(
-        Overloaded{
-            [&](const Instance& instance) { return contentsOfGroup(instance.group); },
-            [&](const MeshInstance& mesh) { return contentsOfMesh(scene_.meshes[mesh.mesh]); },
-            [](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) { return Contents{}; },
-        },
-        s.shape);
+    return match(
+        s.shape, [&](const Instance& instance) { return contentsOfGroup(instance.group); },
+        [&](const MeshInstance& mesh) { return contentsOfMesh(scene_.meshes[mesh.mesh]); },
+        [](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) { return Contents{}; });
   }
 
   Contents contentsOfMesh(const Mesh& mesh) const {
@@ -220,17 +213,14 @@ class Finder {
   // surface belongs to; null: the world.
   void add(SurfaceId index, const Placement* at) {
     const Surface& s = scene_.surfaces[index];
-    visit(Overloaded{
-              [&](const OneOf<Instance, MeshInstance> auto& nested) { addNested(index, nested, at); },
-              [](const Distant&) {},
-              [&](const OneOf<Polygon, Sphere, Cone, Ring, MeshFaces> auto&) {
-                const double value = irregularityOf(index);
-                if (value < kSpecialIrregularity) return;
-                addObject(index, value,
-                          at ? std::optional(placed(s.shape, scene_.vertices, *at)) : std::nullopt);
-              },
-          },
-          s.shape);
+    match(
+        s.shape, [&](const OneOf<Instance, MeshInstance> auto& nested) { addNested(index, nested, at); },
+        [](const Distant&) {},
+        [&](const OneOf<Polygon, Sphere, Cone, Ring, MeshFaces> auto&) {
+          const double value = irregularityOf(index);
+          if (value < kSpecialIrregularity) return;
+          addObject(index, value, at ? std::optional(placed(s.shape, scene_.vertices, *at)) : std::nullopt);
+        });
   }
 
   void addNested(SurfaceId index, const auto& nested, const Placement* at) {
@@ -261,14 +251,12 @@ class Finder {
   void addAround(SurfaceId index) {
     const Surface& s = scene_.surfaces[index];
     const Contents contents = contentsOf(s);
-    visit(Overloaded{
-              [&](const OneOf<Instance, MeshInstance> auto& nested) {
-                addBall(contents.mostIrregular, contents.irregularity, ballOf(nested),
-                        scene_.placements[nested.placement], true);
+    match(s.shape,
+[&](const OneOf<Instance, MeshInstance> auto& nested) {
+      addBall(contents.mostIrregular, contents.irregularity, ballOf(nested),
+              scene_.placements[nested.placement], true);
               },
-              [](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) {},  // no contents
-          },
-          s.shape);
+              [](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) {},  // no contents);
   }
 
   const Scene& scene_;

@@ -1,5 +1,5 @@
 #pragma once
-// Cones that hold all the light that leaves something through an opening.
+// Cones that bound the directions of light behind an opening.
 #include "scene/shape.h"
 
 namespace rsphere {
@@ -10,22 +10,22 @@ struct Ball {
   double radius = 0;
 };
 
-// All directions, seen from a point that goes without saying, within an angle of an axis.
+// The directions within an angle of an axis. The apex of the cone is given elsewhere.
 struct Beam {
   V3d axis{0, 0, 1};   // unit
   double cosine = -1;  // of the angle: -1, all directions; above 1, none
 
-  // Whether anything in the ball may lie in the beam from apex, to within 1e-6 radians. Never false of a ball
-  // of which a point lies in the beam.
+  // Whether a point of the ball lies in the beam from apex. May also be true for a ball that is up to 1e-6
+  // radians outside the beam.
   bool meets(const V3d& apex, const Ball& ball) const;
 };
 
-// The narrowest beam that holds, as seen from the center of `from`, every point that a straight ray reaches
-// in or beyond `opening`, once it has left `from`.
+// A beam from the center of `from` that contains every point that a straight ray from a point of `from`
+// reaches inside or behind `opening`.
 Beam beamThrough(const Ball& from, const Ball& opening);
 
-// A beam that holds all directions common to two with the same apex, and no wider than either. Two narrow
-// beams without a common direction give one with none (cosine > 1).
+// A beam that contains the intersection of two beams with the same apex, and is no wider than either. If two
+// narrow beams do not overlap, it contains no direction (cosine > 1).
 Beam sharedBeam(const Beam& a, const Beam& b);
 
 }  // namespace rsphere

@@ -1,5 +1,5 @@
-// The samples of one light source as seen from a point: how each map of LightSource is divided into parts,
-// and how a part is sampled.
+// The samples of one light source as seen from a point: how each shape is divided into parts, and how a part
+// is sampled.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -46,24 +46,29 @@ struct SourcePart {
   double s0 = 0, s1 = 1, t0 = 0, t1 = 1;
 };
 
-V3d onFan(const LightSource& source, double s, double t) {
-  const auto triangle = std::upper_bound(source.fanArea.begin(), source.fanArea.end() - 1, s);
-  const size_t i = static_cast<size_t>(triangle - source.fanArea.begin());
-  const double before = i ? source.fanArea[i - 1] : 0;
-  const double root = std::sqrt(std::clamp((s - before) / (source.fanArea[i] - before), 0., 1.));
-  return (1 - root) * source.fanVertices[0] + root * (1 - t) * source.fanVertices[i + 1] +
-         root * t * source.fanVertices[i + 2];
+V3d onFan(const PlaneLight::Fan& fan, double s, double t) {
+  const auto triangle = std::upper_bound(fan.areas.begin(), fan.areas.end() - 1, s);
+  const size_t i = static_cast<size_t>(triangle - fan.areas.begin());
+  const double before = i ? fan.areas[i - 1] : 0;
+  const double root = std::sqrt(std::clamp((s - before) / (fan.areas[i] - before), 0., 1.));
+  return (1 - root) * fan.vertices[0] + root * (1 - t) * fan.vertices[i + 1] + root * t * fan.vertices[i + 2];
 }
 
-V3d onPlane(const LightSource& source, double s, double t) {
+// The point on the source that a point of the unit square is mapped to.
+V3d onPlane(const V3d& center, const PlaneLight& plane, double s, double t) {
   double a = 2 * s - 1, b = 2 * t - 1;
-  if (source.map == LightSource::Map::fan) return a == 0 && b == 0 ? source.center : onFan(source, s, t);
-  if (source.map == LightSource::Map::disk) toDisk(a, b);
-  return source.center + a * source.u + b * source.v;
+  const auto at = [&] { return center + a * plane.u + b * plane.v; };
+  return match(
+      plane.map, [&](const OneOf<PlaneLight::Parallelogram, PlaneLight::Square> auto&) { return at(); },
+      [&](const PlaneLight::Disk&) {
+        toDisk(a, b);
+        return at();
+      },
+      [&](const PlaneLight::Fan& fan) { return a == 0 && b == 0 ? center : onFan(fan, s, t); });
 }
 
-std::array<V3d, 4> cornersOf(const LightSource& source, const SourcePart& p) {
-  const auto at = [&](double s, double t) { return onPlane(source, s, t); };
+std::array<V3d, 4> cornersOf(const V3d& center, const PlaneLight& plane, const SourcePart& p) {
+  const auto at = [&](double s, double t) { return onPlane(center, plane, s, t); };
   return {at(p.s0, p.t0), at(p.s1, p.t0), at(p.s1, p.t1), at(p.s0, p.t1)};
 }
 
@@ -75,10 +80,9 @@ SourcePart shrunk(const SourcePart& p, double jitter) {
 
 // Whether a part is so near that cosine / distance^2 varies strongly over it. Sampling it by area would then
 // have unbounded variance.
-bool isNear(const LightSource& source, const SourcePart& part, const V3d& point) {
-  const double width =
-      2 * std::max(source.extentU * (part.s1 - part.s0), source.extentV * (part.t1 - part.t0));
-  const V3d middle = onPlane(source, (part.s0 + part.s1) / 2, (part.t0 + part.t1) / 2);
+bool isNear(const V3d& center, const PlaneLight& plane, const SourcePart& part, const V3d& point) {
+  const double width = 2 * std::max(plane.extentU * (part.s1 - part.s0), plane.extentV * (part.t1 - part.t0));
+  const V3d middle = onPlane(center, plane, (part.s0 + part.s1) / 2, (part.t0 + part.t1) / 2);
   return width * width > Tuning::kNear * Tuning::kNear * (middle - point).length2();
 }
 
@@ -145,13 +149,14 @@ class PartSampler {
   bool hit(const V3d& direction, double length, SourceSample& sample) const;
 
   void addRound(const V3d& middle, double sine, double distance);
-  void addDistant(double distance);
-  void addTube(const V3d& towards);
-  void addMiddle(const V3d& aim, double length, double area);
-  void addMiddles(const V3d& towards);
-  void addNear(const SourcePart& part);
+  void addDistant(const DistantLight& cone, double distance);
+  void addTube(const TubeLight& tube, const V3d& towards);
+  void addMiddle(const PlaneLight& plane, const V3d& aim, double length, double area);
+  void addMiddles(const PlaneLight& plane, const V3d& towards);
+  void addNear(const PlaneLight& plane, const SourcePart& part);
   template <class Position>
-  void addPlane(const Position& at);
+  void addParts(const PlaneLight& plane, const Position& at);
+  void addPlane(const PlaneLight& plane, const V3d& towards);
 
   const LightSource& source_;
   LightId index_;
@@ -165,22 +170,27 @@ class PartSampler {
 
 // Sets the hit of a ray that is aimed at the source; false if it misses.
 bool PartSampler::hit(const V3d& direction, double length, SourceSample& sample) const {
-  if (source_.hitsWhereAimed && source_.map == LightSource::Map::ball && jitter_ <= 0) {
-    sample.distance = length - source_.radius;
-  } else if (source_.hitsWhereAimed && source_.map != LightSource::Map::ball) {
-    sample.distance = length;
-    sample.cosine = -direction.dot(source_.normal);
-    sample.normal = source_.normal;
-  } else if (!source_.distant || source_.isVirtual()) {
-    ShapeHit hit;
-    // The relay of a virtual source lies in front of the image.
-    const double farthest = source_.isVirtual() && !source_.distant ? length + source_.radius : 1e10;
-    if (!intersect(scene_.surfaces[source_.surface].shape, scene_.vertices, point_, direction, farthest, hit))
-      return false;
-    sample.distance = hit.distance;
-    sample.cosine = hit.cosine;
-    sample.normal = hit.normal;
+  if (source_.hitsWhereAimed) {
+    if (const auto* plane = source_.as<PlaneLight>()) {
+      sample.distance = length;
+      sample.cosine = -direction.dot(plane->normal);
+      sample.normal = plane->normal;
+      return true;
+    }
+    if (jitter_ <= 0) {
+      sample.distance = length - source_.radius;
+      return true;
+    }
   }
+  if (source_.isDistant() && !source_.isVirtual()) return true;
+  ShapeHit hit;
+  // The relay of a virtual source lies in front of the image.
+  const double farthest = source_.isVirtual() && !source_.isDistant() ? length + source_.radius : 1e10;
+  if (!intersect(scene_.surfaces[source_.surface].shape, scene_.vertices, point_, direction, farthest, hit))
+    return false;
+  sample.distance = hit.distance;
+  sample.cosine = hit.cosine;
+  sample.normal = hit.normal;
   return true;
 }
 
@@ -188,7 +198,7 @@ void PartSampler::add(const V3d& direction, double solidAngle, double length) {
   SourceSample sample{direction, solidAngle, 1e10, 1, -direction, index_};
   if (!hit(direction, length, sample)) return;
   if (source_.reach > 0 && length > source_.reach) return;
-  if (source_.spot && !source_.distant) {
+  if (source_.spot && !source_.isDistant()) {
     if (outsideSpot(*source_.spot, direction)) return;
     // The light diverges from a focus behind the surface.
     const double nearer = length / (length + source_.spot->focalLength);
@@ -213,35 +223,36 @@ void PartSampler::addRound(const V3d& middle, double sine, double distance) {
     add(s * (std::cos(angle) * x + std::sin(angle) * y) + c * middle, kPi * sine * sine / c, length);
 }
 
-void PartSampler::addDistant(double distance) {
-  if (source_.cosHalfAngle >= kEdgeOn) return addRound(source_.center, source_.sinHalfAngle, distance);
+void PartSampler::addDistant(const DistantLight& cone, double distance) {
+  if (cone.cosHalfAngle >= kEdgeOn) return addRound(source_.center, cone.sinHalfAngle, distance);
   // The source fills almost half the sky or more: directions are uniform by solid angle over the cone.
-  const double c = 1 - (1 - source_.cosHalfAngle) * (jitter_ > 0 ? random_.uniform() * jitter_ : 0);
+  const double c = 1 - (1 - cone.cosHalfAngle) * (jitter_ > 0 ? random_.uniform() * jitter_ : 0);
   const double angle = 2 * kPi * (jitter_ > 0 ? random_.uniform() : 0);
   const double s = std::sqrt(std::max(0., 1 - c * c));
   V3d x, y;
   frame(source_.center, x, y);
-  const double omega = 2 * kPi * (1 - source_.cosHalfAngle);
+  const double omega = 2 * kPi * (1 - cone.cosHalfAngle);
   add(s * (std::cos(angle) * x + std::sin(angle) * y) + c * source_.center, jitter_ > 0 ? omega : kPi,
       distance);
 }
 
-// A sample of a plane part. aim: the vector from the point to the place to hit. Inline: most sources consist of
-// a few such parts, and the calls were .6% of the instructions for patterned lamps.
-[[gnu::always_inline]] inline void PartSampler::addMiddle(const V3d& aim, double length, double area) {
+// A sample of a plane part. aim: the vector from the point to the place to hit. Inline: most sources consist
+// of a few such parts, and the calls were .6% of the instructions for patterned lamps.
+[[gnu::always_inline]] inline void PartSampler::addMiddle(const PlaneLight& plane, const V3d& aim,
+                                                          double length, double area) {
   if (!(length > 0)) return;
   const double inverse = 1 / length;
   const V3d direction = aim * inverse;
-  const double cosine = -direction.dot(source_.normal);
+  const double cosine = -direction.dot(plane.normal);
   if (cosine <= kEdgeOn) return;
   const double omega = area * cosine * (inverse * inverse);
   if (!source_.hitsWhereAimed || source_.reach > 0 || source_.spot) return add(direction, omega, length);
-  samples_.push_back({direction, omega, length, cosine, source_.normal, index_});
+  samples_.push_back({direction, omega, length, cosine, plane.normal, index_});
 }
 
 // The same as split() for a plane source that is spanned by u and v, without recursion: a part is given by
 // its middle and by the number of times that u and v were halved.
-void PartSampler::addMiddles(const V3d& towards) {
+void PartSampler::addMiddles(const PlaneLight& plane, const V3d& towards) {
   struct Place {
     V3d middle;  // the vector from the point to it
     int halvedU, halvedV;
@@ -249,34 +260,33 @@ void PartSampler::addMiddles(const V3d& towards) {
   std::array<Place, kMostHalvings> later;
   Place part{towards, 0, 0};
   for (int count = 0;;) {
-    const double extentU = kHalved[part.halvedU] * source_.extentU,
-                 extentV = kHalved[part.halvedV] * source_.extentV;
+    const double extentU = kHalved[part.halvedU] * plane.extentU,
+                 extentV = kHalved[part.halvedV] * plane.extentV;
     const double larger = std::max(extentU, extentV), length2 = part.middle.length2();
     if (allowed_ > 0 && part.halvedU + part.halvedV < kMostHalvings &&
         length2 * allowed_ * allowed_ < larger * larger) {
       const bool acrossU = extentU > extentV;
-      const V3d half =
-          acrossU ? kHalved[part.halvedU + 1] * source_.u : kHalved[part.halvedV + 1] * source_.v;
+      const V3d half = acrossU ? kHalved[part.halvedU + 1] * plane.u : kHalved[part.halvedV + 1] * plane.v;
       part.halvedU += acrossU;
       part.halvedV += !acrossU;
       later[count++] = {part.middle + half, part.halvedU, part.halvedV};
       part.middle -= half;
       continue;
     }
-    addMiddle(part.middle, std::sqrt(length2), kHalved[part.halvedU + part.halvedV] * source_.area);
+    addMiddle(plane, part.middle, std::sqrt(length2), kHalved[part.halvedU + part.halvedV] * plane.area);
     if (count == 0) return;
     part = later[--count];
   }
 }
 
-void PartSampler::addTube(const V3d& towards) {
-  const V3d axis = source_.u.normalized();
-  const double halfLength = source_.extentU;
-  const double radius = source_.area / (4 * halfLength);
+void PartSampler::addTube(const TubeLight& tube, const V3d& towards) {
+  const V3d axis = tube.half.normalized();
+  const double halfLength = tube.half.length();
+  const double radius = tube.area / (4 * halfLength);
   const double along = towards.dot(axis);
   const double fromAxis = (towards - along * axis).length();
   if (fromAxis <= radius) return;  // inside, or looking at an open end
-  const auto at = [&](double s, double) { return source_.center + (2 * s - 1) * source_.u; };
+  const auto at = [&](double s, double) { return source_.center + (2 * s - 1) * tube.half; };
   const auto use = [&](const SourcePart& part, const V3d& unjittered) {
     const V3d middle =
         jitter_ > 0 ? at(jittered(part.s0, part.s1, jitter_, random_), 0) - point_ : unjittered;
@@ -286,7 +296,7 @@ void PartSampler::addTube(const V3d& towards) {
     const double length = aim.length();
     const double cosine = aim.dot(axis) / length;
     add(aim / length,
-        source_.area * (part.s1 - part.s0) * std::sqrt(std::max(0., 1 - cosine * cosine)) / (length * length),
+        tube.area * (part.s1 - part.s0) * std::sqrt(std::max(0., 1 - cosine * cosine)) / (length * length),
         length);
   };
   // Nearer than this, the tube's width matters as much as its length, and splitting does not pay.
@@ -295,16 +305,16 @@ void PartSampler::addTube(const V3d& towards) {
 }
 
 // Samples a part of a parallelogram uniformly by solid angle.
-void PartSampler::addNear(const SourcePart& part) {
-  const double height = source_.normal.dot(point_ - source_.center);
+void PartSampler::addNear(const PlaneLight& plane, const SourcePart& part) {
+  const double height = plane.normal.dot(point_ - source_.center);
   // For a point in the plane of the source, rounding would decide which side is seen, and the source
   // would then fill half the sky.
   if (height <= kSamePlace) return;
-  const std::array<V3d, 4> whole = cornersOf(source_, part);
+  const std::array<V3d, 4> whole = cornersOf(source_.center, plane, part);
   const double below = triangleSolidAngle(whole[0], whole[1], whole[2], point_);
   const double above = triangleSolidAngle(whole[0], whole[2], whole[3], point_);
   const double omega = std::abs(below + above);
-  std::array<V3d, 4> aims = cornersOf(source_, shrunk(part, jitter_));
+  std::array<V3d, 4> aims = cornersOf(source_.center, plane, shrunk(part, jitter_));
   for (V3d& corner : aims) corner = (corner - point_).normalized();
   const double u = random_.uniform() * omega, v = random_.uniform();
   const bool first = u < std::abs(below);
@@ -314,50 +324,52 @@ void PartSampler::addNear(const SourcePart& part) {
       aims[0], aims[first ? 1 : 2], aims[first ? 2 : 3],
       std::abs(triangleSolidAngle(aims[0], aims[first ? 1 : 2], aims[first ? 2 : 3], V3d(0, 0, 0))),
       (first ? u : u - std::abs(below)) / half, v);
-  const double cosine = -direction.dot(source_.normal);
+  const double cosine = -direction.dot(plane.normal);
   if (cosine > kEdgeOn) add(direction, omega, height / cosine);
 }
 
-// at: maps the unit square to points on the source.
+// at: as onPlane().
 template <class Position>
-void PartSampler::addPlane(const Position& at) {
+void PartSampler::addParts(const PlaneLight& plane, const Position& at) {
+  const bool mayBeNear = jitter_ > 0 && std::holds_alternative<PlaneLight::Parallelogram>(plane.map);
   const auto use = [&](const SourcePart& part, const V3d& middle) {
-    if (jitter_ > 0 && source_.map == LightSource::Map::parallelogram && isNear(source_, part, point_))
-      return addNear(part);
+    if (mayBeNear && isNear(source_.center, plane, part, point_)) return addNear(plane, part);
     const V3d aim = jitter_ > 0 ? at(jittered(part.s0, part.s1, jitter_, random_),
                                      jittered(part.t0, part.t1, jitter_, random_)) -
                                       point_
                                 : middle;
-    addMiddle(aim, aim.length(), source_.area * (part.s1 - part.s0) * (part.t1 - part.t0));
+    addMiddle(plane, aim, aim.length(), plane.area * (part.s1 - part.s0) * (part.t1 - part.t0));
   };
-  split(SourcePart{}, allowed_ > 0 ? kMostParts : 1, source_.extentU, source_.extentV, allowed_, point_, at,
-        use);
+  split(SourcePart{}, allowed_ > 0 ? kMostParts : 1, plane.extentU, plane.extentV, allowed_, point_, at, use);
+}
+
+void PartSampler::addPlane(const PlaneLight& plane, const V3d& towards) {
+  match(
+      plane.map,
+      // Most sources are of these two kinds. The map is inlined for them, because a call for every
+      // point would cost as much as the rest.
+      [&](const OneOf<PlaneLight::Parallelogram, PlaneLight::Square> auto&) {
+        if (jitter_ <= 0) return addMiddles(plane, towards);
+        addParts(plane, [&](double s, double t) {
+          return source_.center + (2 * s - 1) * plane.u + (2 * t - 1) * plane.v;
+        });
+      },
+      [&](const OneOf<PlaneLight::Disk, PlaneLight::Fan> auto&) {
+        addParts(plane, [&](double s, double t) { return onPlane(source_.center, plane, s, t); });
+      });
 }
 
 void PartSampler::sample(const V3d& towards) {
-  const double distance = source_.distant ? 1e10 : towards.length();
+  const double distance = source_.isDistant() ? 1e10 : towards.length();
   if (source_.reach > 0 && distance > source_.reach + source_.radius) return;
   if (source_.isVirtual() && -towards.dot(source_.beam.axis) < source_.beam.cosine * distance) return;
-  if (jitter_ <= 0 && source_.map <= LightSource::Map::square) return addMiddles(towards);
-  switch (source_.map) {
-    case LightSource::Map::cone:
-      return addDistant(distance);
-    case LightSource::Map::ball:
-      if (distance > source_.radius) addRound(towards / distance, source_.radius / distance, distance);
-      return;
-    case LightSource::Map::tube:
-      return addTube(towards);
-    // Most sources are of these two kinds. The map is inlined for them, because a call for every point would
-    // cost as much as the rest.
-    case LightSource::Map::parallelogram:
-    case LightSource::Map::square:
-      return addPlane([&](double s, double t) {
-        return source_.center + (2 * s - 1) * source_.u + (2 * t - 1) * source_.v;
-      });
-    case LightSource::Map::disk:
-    case LightSource::Map::fan:
-      return addPlane([&](double s, double t) { return onPlane(source_, s, t); });
-  }
+  match(
+      source_.shape, [&](const PlaneLight& plane) { addPlane(plane, towards); },
+      [&](const BallLight&) {
+        if (distance > source_.radius) addRound(towards / distance, source_.radius / distance, distance);
+      },
+      [&](const TubeLight& tube) { addTube(tube, towards); },
+      [&](const DistantLight& cone) { addDistant(cone, distance); });
 }
 
 }  // namespace

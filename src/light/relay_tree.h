@@ -11,8 +11,8 @@ namespace rsphere {
 
 class RelayTree {
  public:
-  // Bounds of a relay, or of several: of their corners, of the centers of the spheres around each, and the
-  // largest radius of these spheres (world units).
+  // Bounds of one relay or several: the box of their corners, the box of the centers of their bounding
+  // spheres, and the largest radius of these spheres (world units).
   struct Bounds {
     Box3d corners, centers;
     double radius = 0;
@@ -22,9 +22,9 @@ class RelayTree {
 
   explicit RelayTree(const std::vector<Bounds>& relays);
 
-  // Sets found to the numbers of some relays, in ascending order: all those whose bounds may be reached, and
-  // some others. mayReach(Bounds): whether light may reach something within the bounds; it must be true of
-  // bounds that contain others of which it is true.
+  // Sets found to the numbers of all relays that light may reach, in ascending order; some others may be
+  // among them. mayReach(Bounds): whether light may reach something within the bounds. If it is true for some
+  // bounds, it must be true for all bounds that contain them.
   template <class MayReach>
   void find(const MayReach& mayReach, std::vector<uint32_t>& found) const {
     found.clear();

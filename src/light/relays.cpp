@@ -61,22 +61,37 @@ ModifierId relayMaterial(const Scene& scene, const Surface& surface) {
 
 // The largest distance of the source's points from its center, measured along a unit vector.
 double extent(const LightSource& source, const V3d& along) {
-  const double u = source.u.dot(along), v = source.v.dot(along);
-  switch (source.map) {
-    case LightSource::Map::parallelogram:
-      return std::abs(u) + std::abs(v);
-    case LightSource::Map::disk:
-      return std::hypot(u, v);
-    case LightSource::Map::fan: {
-      double most = 0;
-      for (const V3d& p : source.fanVertices) most = std::max(most, (p - source.center).dot(along));
-      return most;
-    }
-    case LightSource::Map::cone:
-      return source.cosHalfAngle > 0 ? source.sinHalfAngle : 1;
-    default:
-      return source.radius;
-  }
+  const auto ofPlane = [&](const PlaneLight& plane) {
+    const double u = plane.u.dot(along), v = plane.v.dot(along);
+    return match(
+        plane.map, [&](const PlaneLight::Parallelogram&) { return std::abs(u) + std::abs(v); },
+        [&](const PlaneLight::Square&) { return source.radius; },
+        [&](const PlaneLight::Disk&) { return std::hypot(u, v); },
+        [&](const PlaneLight::Fan& fan) {
+          double most = 0;
+          for (const V3d& p : fan.vertices) most = std::max(most, (p - source.center).dot(along));
+          return most;
+        });
+  };
+  return match(
+      source.shape, ofPlane, [&](const OneOf<BallLight, TubeLight> auto&) { return source.radius; },
+      [&](const DistantLight&) { return source.outermost; });
+}
+
+LightShape imageOf(LightShape shape, const Projection& projection) {
+  match(
+      shape,
+      [&](PlaneLight& plane) {
+        plane.normal = projection.vector(plane.normal).normalized();
+        plane.u = projection.vector(plane.u);
+        plane.v = projection.vector(plane.v);
+        if (auto* fan = std::get_if<PlaneLight::Fan>(&plane.map))
+          for (V3d& p : fan->vertices) p = projection.point(p);
+        measure(plane);
+      },
+      [&](TubeLight& tube) { tube.half = projection.vector(tube.half); },
+      [](const OneOf<BallLight, DistantLight> auto&) {});
+  return shape;
 }
 
 class Images {
@@ -98,7 +113,7 @@ class Images {
   // Adds the images of a real source, and recursively their images, in sequences of up to `relays` relays.
   void addImages(LightId real, int relays) {
     Way way;
-    if (!sources_[real].distant) way.push_back({{sources_[real].center, sources_[real].radius}, {}});
+    if (!sources_[real].isDistant()) way.push_back({{sources_[real].center, sources_[real].radius}, {}});
     addImages(real, way, relays);
   }
 
@@ -118,7 +133,7 @@ class Images {
         relayOf_.push_back(r);
         sources_.push_back(imageOf(sources_[source], relays_[r], *projection));
         const Way through = wayThrough(sources_.back(), way, relays_[r], *projection);
-        if (!sources_.back().distant) sources_.back().beam = through.front().beam;
+        if (!sources_.back().isDistant()) sources_.back().beam = through.front().beam;
         sources_.back().relayed = source;
         sources_.back().image = image;
         addImages(sources_.last(), through, relays - 1);
@@ -140,28 +155,26 @@ class Images {
     }
     relay.normal = *normal;
     relay.offset = planeOffset(surface.shape);
-    visit(Overloaded{
-              [&](const Polygon& polygon) {
-                const auto vertices =
-                    std::span(scene_.vertices).subspan(polygon.firstVertex, polygon.vertices);
-                relay.corners.assign(vertices.begin(), vertices.end());
-                relay.ball.center = centerOf(polygon, scene_.vertices);
-                for (const V3d& v : vertices)
-                  relay.ball.radius = std::max(relay.ball.radius, (v - relay.ball.center).length());
-              },
-              [&](const Ring& ring) {
-                relay.ball.center = ring.center;
-                relay.ball.radius = ring.outer;
-                V3d x, y;
-                frame(relay.normal, x, y);
-                for (const double a : {-relay.ball.radius, relay.ball.radius})
-                  for (const double b : {-relay.ball.radius, relay.ball.radius})
-                    relay.corners.push_back(relay.ball.center + a * x + b * y);
-              },
-              [](const OneOf<Sphere, Cone, Distant> auto&) {},  // not plane
-              [](const NestedShape auto&) {},
-          },
-          surface.shape);
+    match(
+        surface.shape,
+        [&](const Polygon& polygon) {
+          const auto vertices = std::span(scene_.vertices).subspan(polygon.firstVertex, polygon.vertices);
+          relay.corners.assign(vertices.begin(), vertices.end());
+          relay.ball.center = centerOf(polygon, scene_.vertices);
+          for (const V3d& v : vertices)
+            relay.ball.radius = std::max(relay.ball.radius, (v - relay.ball.center).length());
+        },
+        [&](const Ring& ring) {
+          relay.ball.center = ring.center;
+          relay.ball.radius = ring.outer;
+          V3d x, y;
+          frame(relay.normal, x, y);
+          for (const double a : {-relay.ball.radius, relay.ball.radius})
+            for (const double b : {-relay.ball.radius, relay.ball.radius})
+              relay.corners.push_back(relay.ball.center + a * x + b * y);
+        },
+        [](const OneOf<Sphere, Cone, Distant> auto&) {},  // not plane
+        [](const NestedShape auto&) {});
     relays_.push_back(relay);
   }
 
@@ -182,8 +195,8 @@ class Images {
   std::optional<Projection> project(const LightSource& source, const Way& way, const Relay& relay,
                                     int image) {
     if (isPrism(relay)) return projectByPrism(source, relay, image);
-    const double before =
-        source.center.dot(relay.normal) - (source.distant ? 0 : relay.offset) + extent(source, relay.normal);
+    const double before = source.center.dot(relay.normal) - (source.isDistant() ? 0 : relay.offset) +
+                          extent(source, relay.normal);
     if (before <= kTiny) return std::nullopt;  // behind the mirror
     // Of a source that the plane divides, the part in front may be hidden by an earlier relay.
     const auto reachesFront = [&](const Passage& passage) {
@@ -199,7 +212,7 @@ class Images {
   std::optional<Projection> projectByPrism(const LightSource& source, const Relay& relay, int image) {
     FunctionPoint at;
     at.point = relay.ball.center + (relay.offset - relay.ball.center.dot(relay.normal)) * relay.normal;
-    const V3d way = source.distant ? -source.center : at.point - source.center;
+    const V3d way = source.isDistant() ? -source.center : at.point - source.center;
     at.distance = at.shadowDistance = way.length();
     if (!(at.distance > 0)) return std::nullopt;
     at.direction = way / at.distance;
@@ -229,7 +242,7 @@ class Images {
     // A mirror reflects on its front, even where its plane divides the source; a prism's light leaves on the
     // side opposite to the image.
     const double side =
-        isPrism(last) ? source.center.dot(last.normal) - (source.distant ? 0 : last.offset) : -1;
+        isPrism(last) ? source.center.dot(last.normal) - (source.isDistant() ? 0 : last.offset) : -1;
     return side > 0 ? Side{-last.normal, -last.offset} : Side{last.normal, last.offset};
   }
 
@@ -241,7 +254,7 @@ class Images {
       if (mostOver(relay, [&](const V3d& p) { return p.dot(away) - offset; }) <= kTiny) return false;
       if (!meetsBeams(source, way, relay.ball)) return false;
     }
-    if (source.distant) return true;
+    if (source.isDistant()) return true;
     // As in RADIANCE, the reach is compared with the distance to the relay's center.
     if (source.reach > 0 && (relay.ball.center - source.center).length() > source.reach) return false;
     if (source.spot) {
@@ -251,8 +264,9 @@ class Images {
       const Ball enlarged{relay.ball.center, relay.ball.radius + source.radius};
       if (cone.cosine > 0 && !cone.meets(source.center, enlarged)) return false;
     }
-    if (!source.isPlane()) return true;
-    return mostOver(relay, [&](const V3d& p) { return (p - source.center).dot(source.normal); }) > kTiny;
+    const auto* plane = source.as<PlaneLight>();
+    return !plane ||
+           mostOver(relay, [&](const V3d& p) { return (p - source.center).dot(plane->normal); }) > kTiny;
   }
 
   // False only if lights() is false of every relay within the bounds.
@@ -275,17 +289,18 @@ class Images {
   static bool meetsBeams(const LightSource& source, const Way& way, const Ball& ball) {
     return std::ranges::all_of(way, [&](const Passage& passage) {
       return passage.beam.meets(passage.ball.center, ball) &&
-             (!source.distant || meetsDistantLight(source, passage.ball, ball));
+             (!source.isDistant() || meetsDistantLight(source, passage.ball, ball));
     });
   }
 
   // Whether light of a distant source that has come through a relay's ball can reach anything in another.
   static bool meetsDistantLight(const LightSource& source, const Ball& relay, const Ball& ball) {
     // A source as wide as 120 degrees is taken to light every relay. That costs tests, but no light.
-    if (source.cosHalfAngle <= .5) return true;
+    const DistantLight& cone = *source.as<DistantLight>();
+    if (cone.cosHalfAngle <= .5) return true;
     const V3d between = ball.center - relay.center;
     const double radius = relay.radius + ball.radius, distance = between.length() + radius;
-    const double spread = distance * source.sinHalfAngle / source.cosHalfAngle;
+    const double spread = distance * cone.sinHalfAngle / cone.cosHalfAngle;
     const V3d aside = between - between.dot(source.center) * source.center;
     return aside.length() <= radius + spread;
   }
@@ -298,7 +313,7 @@ class Images {
       for (const Passage& passage : before)
         way.push_back({{projection.point(passage.ball.center), passage.ball.radius},
                        {projection.vector(passage.beam.axis), passage.beam.cosine}});
-    } else if (!image.distant) {
+    } else if (!image.isDistant()) {
       // A prism's light seems to come from the image, but not from images of earlier relays. A shear makes
       // the source longer by its shift at most.
       way.push_back({{image.center, image.radius * (1 + projection.shift.length())}, {}});
@@ -313,21 +328,15 @@ class Images {
     LightSource image = source;
     image.hitsWhereAimed = false;
     image.surface = relay.surface;
-    image.u = projection.vector(source.u);
-    image.v = projection.vector(source.v);
-    for (V3d& p : image.fanVertices) p = projection.point(p);
-    if (source.isPlane()) image.normal = projection.vector(source.normal).normalized();
+    image.shape = rsphere::imageOf(source.shape, projection);
     if (image.spot) {
       image.spot->aim = projection.vector(image.spot->aim).normalized();
       // A shear does not map a cone to a cone, so the image has no limit. The spot's cone is tested when the
       // ray reaches the real source.
       if (!projection.isMirror) image.spot->solidAngle = 4 * kPi;
     }
-    if (source.distant) {
-      image.center = projection.vector(source.center).normalized();
-      return image;
-    }
-    image.center = projection.point(source.center);
+    image.center =
+        source.isDistant() ? projection.vector(source.center).normalized() : projection.point(source.center);
     return image;
   }
 

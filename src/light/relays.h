@@ -6,12 +6,13 @@
 // radiance in that direction they return.
 //
 // An image is omitted if geometry alone shows that it lights nothing: the source lies behind the mirror or
-// faces away from the relay, or light that comes from the source by way of all relays before misses it.
-// RADIANCE also sends test rays (-dp): it drops images that none of them reaches, and omits the shadow test
-// for those that all of them reach. Here every image is tested for shadows, as with RADIANCE's -dp 0.
+// faces away from the relay, or the light of the source misses the relay after it has passed the preceding
+// relays. RADIANCE also sends test rays (-dp): it drops an image if all of them are blocked, and omits its
+// shadow tests if none is. Here every image is tested for shadows, as with RADIANCE's -dp 0.
 #include <vector>
 
-#include "light/sources.h"
+#include "light/light_source.h"
+#include "shade/surface_functions.h"
 
 namespace rsphere {
 

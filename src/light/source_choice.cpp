@@ -30,15 +30,19 @@ SourceChoice::SourceChoice(const Scene& scene, const LightSources& lights) {
   for (const LightId i : all.ids()) {
     const LightSource& source = all[i];
     const double bright = brightnessOf(scene, all, i);
-    if (source.distant) {
-      near_[i] = {V3d(0, 0, 0), V3d(0, 0, 0), 0, 1, 0};
-      distant_.push_back({i, source.center, bright * 2 * kPi * (1 - source.cosHalfAngle),
-                          source.cosHalfAngle > 0 ? source.sinHalfAngle : 1});
-      continue;
-    }
-    const double area = source.area > 0 ? source.area : kPi * source.radius * source.radius;
-    const bool plane = source.normal != V3d(0, 0, 0);
-    near_[i] = {source.center, source.normal, bright * area, source.radius, plane ? 0. : 1.};
+    const auto add = [&](const V3d& normal, double area) {
+      near_[i] = {source.center, normal, bright * area, source.radius, normal != V3d(0, 0, 0) ? 0. : 1.};
+    };
+    match(
+        source.shape, [&](const PlaneLight& plane) { add(plane.normal, plane.area); },
+        [&](const BallLight&) { add(V3d(0, 0, 0), kPi * source.radius * source.radius); },
+        [&](const TubeLight& tube) { add(V3d(0, 0, 0), tube.area); },
+        [&](const DistantLight& cone) {
+          near_[i] = {V3d(0, 0, 0), V3d(0, 0, 0), 0, 1, 0};
+          distant_.push_back(
+              {i, source.center, bright * 2 * kPi * (1 - cone.cosHalfAngle), source.outermost});
+        });
+    if (source.isDistant()) continue;
     if (source.reach > 0 || source.spot) restricted_.push_back({i, source.reach, source.spot});
   }
 }

@@ -60,12 +60,9 @@ SurfacePoint pointOn(const Ring& ring, std::span<const V3d>, Random& random) {
 }  // namespace
 
 SurfacePoint samplePoint(ShapeRef shape, std::span<const V3d> vertices, Random& random) {
-  return visit(Overloaded{
-                   [&](const PlainShape auto& form) { return pointOn(form, vertices, random); },
-                   [](const Distant&) { return SurfacePoint{}; },
-                   [](const NestedShape auto&) { return SurfacePoint{}; },
-               },
-               shape);
+  return match(
+      shape, [&](const PlainShape auto& form) { return pointOn(form, vertices, random); },
+      [](const Distant&) { return SurfacePoint{}; }, [](const NestedShape auto&) { return SurfacePoint{}; });
 }
 
 }  // namespace rsphere

@@ -1,10 +1,10 @@
 #pragma once
-// The tuning constants of this folder (base/tuned.h). They change the variance of direct light and
-// its time, not its mean.
+// The tuning constants of this folder (base/tuned.h). They affect the variance of direct light and the
+// computing time, but not the mean.
 //
-// Each comment gives the meaning and the unit, then after the colon where the value comes from. The last
-// sentence says what less and more of the constant do to error and time in the case of
-// tests/bench/sensitivity where it matters most (runs/2026-11-22.txt there).
+// Each comment gives the meaning and the unit, and after the colon the origin of the value. Its last sentence
+// gives the effect on error and time of a value that is 30% smaller or larger, in the case of
+// tests/bench/sensitivity where the effect is largest (runs/2026-11-22.txt there).
 #include "base/tuned.h"
 
 namespace rsphere::tuning {

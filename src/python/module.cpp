@@ -153,7 +153,8 @@ void addError(py::module_& m) {
   type = PyErr_NewExceptionWithDoc(
       "rsphere.Error",
       "A fault in the scene, the options or the records. Its text begins with the place: room.rad:12: ...\n\n"
-      "file, line: that place; line is None for a file that cannot be opened, and both if the fault has no place.\n"
+      "file, line: that place; line is None for a file that cannot be opened, and both if the fault has no "
+      "place.\n"
       "cause: 'input', or 'system' if a file cannot be opened or memory or threads are short.",
       PyExc_Exception, nullptr);
   m.attr("Error") = py::handle(type);

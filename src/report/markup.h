@@ -7,7 +7,8 @@
 namespace rsphere {
 
 // Text as the content of an element or the value of a quoted attribute, in HTML and in XML. What neither may
-// contain (bytes that are not UTF-8, control characters except tab and line feed, U+FFFE and U+FFFF) becomes U+FFFD.
+// contain (bytes that are not UTF-8, control characters except tab and line feed, U+FFFE and U+FFFF) becomes
+// U+FFFD.
 std::string escaped(std::string_view text);
 
 // "data:image/png;base64,..." for the bytes of a PNG file.

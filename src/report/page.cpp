@@ -62,7 +62,8 @@ figcaption { color: var(--soft); font-size: .87rem; }
   * { print-color-adjust: exact; } }
 )";
 
-// Text whose lines may break between an option and the next one, but neither within an option nor before its value.
+// Text whose lines may break between an option and the next one, but neither within an option nor before its
+// value.
 std::string withOptionsWhole(std::string_view text) {
   std::string out;
   while (!text.empty()) {

@@ -74,8 +74,8 @@ struct Bar {
 };
 std::string barsSvg(const std::string& title, std::span<const Bar> bars);
 
-// Throws rad::Error if the name that an option gives to a file with a diagram has the extension of another format than
-// SVG: programs would open the file as one of that format. what: the diagram, as "the plot".
+// Throws rad::Error if the name that an option gives to a file with a diagram has the extension of another
+// format than SVG: programs would open the file as one of that format. what: the diagram, as "the plot".
 void requireSvgName(std::string_view option, const std::string& name, std::string_view what);
 
 }  // namespace rsphere

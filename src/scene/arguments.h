@@ -14,9 +14,9 @@ namespace rsphere {
 
 using Words = std::vector<std::string_view>;
 
-// The arguments of one primitive as its file gives them, and errors that name its place. Which argument means
-// what is in modifier_arguments.h and shape_arguments.h alone. Words refer to the description, which must
-// outlive them.
+// The arguments of one primitive as its file gives them, and errors that name its place. Only
+// modifier_arguments.h and shape_arguments.h know what each argument means. Words refer to the description,
+// which must outlive them.
 class PrimitiveArguments {
  public:
   PrimitiveArguments(const rad::Description& description, rad::PrimitiveId primitive)

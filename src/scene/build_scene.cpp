@@ -1,3 +1,5 @@
+#include "scene/build_scene.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +10,6 @@
 #include "rad_parser/nearest_name.h"
 #include "scene/modifier_builder.h"
 #include "scene/nesting.h"
-#include "scene/scene.h"
 #include "scene/shape_arguments.h"
 
 namespace rsphere {
@@ -182,28 +183,25 @@ class Builder {
     if (!material || !isSampled(*material)) return;
     const PrimitiveArguments own(scene_.description, p);
     const std::span<const V3d> vertices = scene_.description.vertices;
-    std::visit(
-        Overloaded{
-            [&](const Polygon& polygon) {
-              if (areaOf(polygon, vertices) == 0) own.fail("zero source area");
-              if (!inside(polygon, vertices, centerOf(polygon, vertices)))
-                own.fail("cannot hit source center");
-            },
-            [&](const Ring& ring) {
-              if (ring.inner > 0) own.fail("cannot hit source center");
-            },
-            [&](const Sphere& sphere) {
-              if (sphere.inward) own.fail("a bubble cannot be a light source");
-            },
-            [&](const Cone& cone) {
-              if (cone.inward || cone.radius0 != cone.radius1)
-                own.fail("a cone, cup or tube cannot be a light source");
-              if (cone.radius0 > .2 * cone.length) own.warn(warn_, "source aspect too small");
-            },
-            [](const Distant&) {},
-            [&](const NestedShape auto&) { own.fail("a surface of this type cannot be a light source"); },
+    match(
+        shape,
+        [&](const Polygon& polygon) {
+          if (areaOf(polygon, vertices) == 0) own.fail("zero source area");
+          if (!inside(polygon, vertices, centerOf(polygon, vertices))) own.fail("cannot hit source center");
         },
-        shape);
+        [&](const Ring& ring) {
+          if (ring.inner > 0) own.fail("cannot hit source center");
+        },
+        [&](const Sphere& sphere) {
+          if (sphere.inward) own.fail("a bubble cannot be a light source");
+        },
+        [&](const Cone& cone) {
+          if (cone.inward || cone.radius0 != cone.radius1)
+            own.fail("a cone, cup or tube cannot be a light source");
+          if (cone.radius0 > .2 * cone.length) own.warn(warn_, "source aspect too small");
+        },
+        [](const Distant&) {},
+        [&](const NestedShape auto&) { own.fail("a surface of this type cannot be a light source"); });
   }
 
   std::optional<Shape> makeShape(PrimitiveId i, const Primitive& p) {

@@ -44,8 +44,8 @@ struct Glass {
   double refraction = 1.52;
 };
 
-// functions, in the materials below: the material itself as a modifier, by which SurfaceFunctions finds its
-// function files.
+// `functions` in the materials below: the index of the material's own modifier, by which SurfaceFunctions
+// evaluates it.
 
 // plastic2, metal2 and trans2: elliptical highlights. The functions give a direction, which is projected onto
 // the surface; the roughnesses along it and across it are both above 0.
@@ -73,7 +73,7 @@ struct FunctionScatterer {
   double transmissivity = 0, transmittedSpecular = 0;
   ModifierId functions = kNone;
 };
-// BRTDfunc. Arguments that are numbers are evaluated here; the others are known only at a hit.
+// BRTDfunc. Only arguments that are plain numbers enter here; the others are evaluated at each hit.
 struct BrtdFunction {
   Color diffuseFront, diffuseBack, diffuseTransmitted;
   bool transmits = true;     // sharply: some transmission argument is not "0"
@@ -104,7 +104,7 @@ struct BsdfMaterial {
   ModifierId functions = kNone;
 };
 
-// How a surface of illum or mirror is shaded for rays to which it is not a light source.
+// How a surface of illum or mirror is shaded for rays that do not see it as a light source or a relay.
 struct Alternate {
   enum class Kind : uint8_t { none, pass, modifier } kind = Kind::none;
   ModifierId modifier = kNone;  // for Kind::modifier
@@ -143,9 +143,9 @@ struct Illum {
   Color radiance;
   Alternate alternate;  // Kind::none also lets rays pass
 };
-// reach (world units): beyond this distance it is not sampled as a light source and lights only by indirect
-// rays that happen to hit it. 0: it lights in this way alone, at any distance. Negative: it does not light
-// the scene and is only seen directly.
+// reach (world units): beyond this distance it is not sampled as a light source, and its light arrives only
+// by indirect rays that happen to hit it. 0: its light always arrives in this way. Negative: it does not
+// light the scene and is only seen directly.
 struct Glow {
   Color radiance;
   double reach = 0;

@@ -8,197 +8,159 @@
 namespace rsphere {
 
 bool isTransparent(const Material& material) {
-  return std::visit(
-      Overloaded{
-          [](const OneOf<Trans, Dielectric, Interface, Glass, Mist> auto&) { return true; },
-          [](const Anisotropic& m) { return m.trans; },
-          [](const OneOf<BrtdFunction, WgmdFunction> auto& m) { return m.transmits; },
-          [](const BsdfMaterial& m) { return m.aperture || m.proxy; },
-          [](const OneOf<Opaque, Ashikhmin, FunctionScatterer, Mirror, Prism, Antimatter> auto&) {
-            return false;
-          },
-          [](const OneOf<Light, Illum, Glow, Spotlight> auto&) { return false; },
+  return match(
+      material, [](const OneOf<Trans, Dielectric, Interface, Glass, Mist> auto&) { return true; },
+      [](const Anisotropic& m) { return m.trans; },
+      [](const OneOf<BrtdFunction, WgmdFunction> auto& m) { return m.transmits; },
+      [](const BsdfMaterial& m) { return m.aperture || m.proxy; },
+      [](const OneOf<Opaque, Ashikhmin, FunctionScatterer, Mirror, Prism, Antimatter> auto&) {
+        return false;
       },
-      material);
+      [](const OneOf<Light, Illum, Glow, Spotlight> auto&) { return false; });
 }
 
 Sides stopsShadows(const Material& material) {
-  return std::visit(
-      Overloaded{
-          [](const Opaque&) {
-            return Sides{true, false};
-          },
-          [](const Mirror& m) {
-            return Sides{m.alternate.kind == Alternate::Kind::none, false};
-          },
-          [](const OneOf<BrtdFunction, WgmdFunction> auto& m) {
-            return Sides{!m.transmits, !m.transmits};
-          },
-          [](const OneOf<Anisotropic, Ashikhmin, FunctionScatterer, Prism, Light, Glow, Spotlight> auto&) {
-            return Sides{true, true};
-          },
-          [](const OneOf<Trans, Dielectric, Interface, Glass, BsdfMaterial, Antimatter, Mist, Illum> auto&) {
-            return Sides{};
-          },
+  return match(
+      material,
+      [](const Opaque&) {
+        return Sides{true, false};
       },
-      material);
+      [](const Mirror& m) {
+        return Sides{m.alternate.kind == Alternate::Kind::none, false};
+      },
+      [](const OneOf<BrtdFunction, WgmdFunction> auto& m) {
+        return Sides{!m.transmits, !m.transmits};
+      },
+      [](const OneOf<Anisotropic, Ashikhmin, FunctionScatterer, Prism, Light, Glow, Spotlight> auto&) {
+        return Sides{true, true};
+      },
+      [](const OneOf<Trans, Dielectric, Interface, Glass, BsdfMaterial, Antimatter, Mist, Illum> auto&) {
+        return Sides{};
+      });
 }
 
 bool isBoundary(const Material& material) {
-  return std::visit(
-      Overloaded{
-          [](const OneOf<Dielectric, Interface> auto&) { return true; },
-          [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
-                         BsdfMaterial, Glass, Mirror, Prism, Antimatter, Mist> auto&) { return false; },
-          [](const OneOf<Light, Illum, Glow, Spotlight> auto&) { return false; },
-      },
-      material);
+  return match(
+      material, [](const OneOf<Dielectric, Interface> auto&) { return true; },
+      [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
+                     BsdfMaterial, Glass, Mirror, Prism, Antimatter, Mist> auto&) { return false; },
+      [](const OneOf<Light, Illum, Glow, Spotlight> auto&) { return false; });
 }
 
 bool enclosesVolume(const Material& material) {
-  return std::visit(
-      Overloaded{
-          [](const OneOf<Antimatter, Mist> auto&) { return true; },
-          [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
-                         BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism> auto&) { return false; },
-          [](const OneOf<Light, Illum, Glow, Spotlight> auto&) { return false; },
-      },
-      material);
+  return match(
+      material, [](const OneOf<Antimatter, Mist> auto&) { return true; },
+      [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
+                     BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism> auto&) { return false; },
+      [](const OneOf<Light, Illum, Glow, Spotlight> auto&) { return false; });
 }
 
 std::optional<Alternate> alternateOf(const Material& material) {
   using Answer = std::optional<Alternate>;
-  return std::visit(
-      Overloaded{
-          [](const OneOf<Mirror, Illum> auto& m) -> Answer { return m.alternate; },
-          [](const Antimatter& m) -> Answer { return m.cut; },
-          [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
-                         BsdfMaterial, Dielectric, Interface, Glass, Prism, Mist> auto&) -> Answer {
-            return {};
-          },
-          [](const OneOf<Light, Glow, Spotlight> auto&) -> Answer { return {}; },
-      },
-      material);
+  return match(
+      material, [](const OneOf<Mirror, Illum> auto& m) -> Answer { return m.alternate; },
+      [](const Antimatter& m) -> Answer { return m.cut; },
+      [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
+                     BsdfMaterial, Dielectric, Interface, Glass, Prism, Mist> auto&) -> Answer { return {}; },
+      [](const OneOf<Light, Glow, Spotlight> auto&) -> Answer { return {}; });
 }
 
 std::optional<Radiance> sourceRadiance(const Material& material) {
   using Answer = std::optional<Radiance>;
-  return std::visit(
-      Overloaded{
-          [](const OneOf<Light, Illum, Glow, Spotlight> auto& m) -> Answer { return Radiance(m.radiance); },
-          [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
-                         BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist> auto&)
-              -> Answer { return {}; },
-      },
-      material);
+  return match(
+      material,
+      [](const OneOf<Light, Illum, Glow, Spotlight> auto& m) -> Answer { return Radiance(m.radiance); },
+      [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
+                     BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist> auto&)
+          -> Answer { return {}; });
 }
 
 bool isLightSource(const Material& material) { return sourceRadiance(material).has_value(); }
 
 bool isSampled(const Material& material) {
   const auto emits = [](const auto& source) { return !(maxChannel(source.radiance) <= 0); };
-  return std::visit(
-      Overloaded{
-          [&](const OneOf<Light, Illum, Spotlight> auto& m) { return emits(m); },
-          [&](const Glow& m) { return emits(m) && !(m.reach <= 0); },
-          [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
-                         BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist> auto&) {
-            return false;
-          },
-      },
-      material);
+  return match(
+      material, [&](const OneOf<Light, Illum, Spotlight> auto& m) { return emits(m); },
+      [&](const Glow& m) { return emits(m) && !(m.reach <= 0); },
+      [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
+                     BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist> auto&) {
+        return false;
+      });
 }
 
 double reachOf(const Material& material) {
-  return std::visit(
-      Overloaded{
-          [](const Glow& m) { return m.reach; },
-          [](const OneOf<Light, Illum, Spotlight> auto&) { return 0.; },
-          [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
-                         BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist> auto&) {
-            return 0.;
-          },
-      },
-      material);
+  return match(
+      material, [](const Glow& m) { return m.reach; },
+      [](const OneOf<Light, Illum, Spotlight> auto&) { return 0.; },
+      [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
+                     BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist> auto&) {
+        return 0.;
+      });
 }
 
 Cover coverOf(const Material& material) {
-  return std::visit(
-      Overloaded{
-          [](const Glow&) { return Cover::yields; },
-          [](const Illum& m) {
-            return m.alternate.kind == Alternate::Kind::modifier ? Cover::hides : Cover::passes;
-          },
-          [](const OneOf<Light, Spotlight> auto&) { return Cover::hides; },
-          [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
-                         BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist> auto&) {
-            return Cover::hides;
-          },
+  return match(
+      material, [](const Glow&) { return Cover::yields; },
+      [](const Illum& m) {
+        return m.alternate.kind == Alternate::Kind::modifier ? Cover::hides : Cover::passes;
       },
-      material);
+      [](const OneOf<Light, Spotlight> auto&) { return Cover::hides; },
+      [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
+                     BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist> auto&) {
+        return Cover::hides;
+      });
 }
 
 int imagesMadeBy(const Material& material) {
-  return std::visit(
-      Overloaded{
-          [](const Mirror&) { return 1; },
-          [](const Prism& m) { return m.images; },
-          [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
-                         BsdfMaterial, Dielectric, Interface, Glass, Antimatter, Mist> auto&) { return 0; },
-          [](const OneOf<Light, Illum, Glow, Spotlight> auto&) { return 0; },
-      },
-      material);
+  return match(
+      material, [](const Mirror&) { return 1; }, [](const Prism& m) { return m.images; },
+      [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
+                     BsdfMaterial, Dielectric, Interface, Glass, Antimatter, Mist> auto&) { return 0; },
+      [](const OneOf<Light, Illum, Glow, Spotlight> auto&) { return 0; });
 }
 
 std::optional<MirrorReflection> mirrorReflection(const Material& material) {
   using Answer = std::optional<MirrorReflection>;
-  return std::visit(
-      Overloaded{
-          [](const Opaque& m) -> Answer {
-            return MirrorReflection{.share = m.specularity,
-                                    .brightness = m.specularity * (m.metal ? brightness(m.color) : 1),
-                                    .roughness = m.roughness};
-          },
-          [](const Trans& m) -> Answer {
-            return MirrorReflection{
-                .share = m.specularity, .brightness = m.specularity, .roughness = m.roughness};
-          },
-          [](const Mirror& m) -> Answer {
-            return MirrorReflection{.share = maxChannel(m.reflectance),
-                                    .brightness = brightness(m.reflectance),
-                                    .frontOnly = true};
-          },
-          [](const Glass&) -> Answer { return MirrorReflection{.boundaries = 2}; },
-          [](const OneOf<Dielectric, Interface> auto&) -> Answer {
-            return MirrorReflection{.boundaries = 1};
-          },
-          [](const OneOf<Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction, BsdfMaterial,
-                         Prism, Antimatter, Mist> auto&) -> Answer { return {}; },
-          [](const OneOf<Light, Illum, Glow, Spotlight> auto&) -> Answer { return {}; },
+  return match(
+      material,
+      [](const Opaque& m) -> Answer {
+        return MirrorReflection{.share = m.specularity,
+                                .brightness = m.specularity * (m.metal ? brightness(m.color) : 1),
+                                .roughness = m.roughness};
       },
-      material);
+      [](const Trans& m) -> Answer {
+        return MirrorReflection{
+            .share = m.specularity, .brightness = m.specularity, .roughness = m.roughness};
+      },
+      [](const Mirror& m) -> Answer {
+        return MirrorReflection{
+            .share = maxChannel(m.reflectance), .brightness = brightness(m.reflectance), .frontOnly = true};
+      },
+      [](const Glass&) -> Answer { return MirrorReflection{.boundaries = 2}; },
+      [](const OneOf<Dielectric, Interface> auto&) -> Answer { return MirrorReflection{.boundaries = 1}; },
+      [](const OneOf<Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction, BsdfMaterial,
+                     Prism, Antimatter, Mist> auto&) -> Answer { return {}; },
+      [](const OneOf<Light, Illum, Glow, Spotlight> auto&) -> Answer { return {}; });
 }
 
 std::optional<DiffuseReflection> diffuseReflection(const Material& material) {
   using Answer = std::optional<DiffuseReflection>;
-  return std::visit(
-      Overloaded{
-          [](const Opaque& m) -> Answer {
-            return DiffuseReflection{m.color, 1 - m.specularity};
-          },
-          [](const OneOf<Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
-                         BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist> auto&)
-              -> Answer { return {}; },
-          [](const OneOf<Light, Illum, Glow, Spotlight> auto&) -> Answer { return {}; },
+  return match(
+      material,
+      [](const Opaque& m) -> Answer {
+        return DiffuseReflection{m.color, 1 - m.specularity};
       },
-      material);
+      [](const OneOf<Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
+                     BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist> auto&)
+          -> Answer { return {}; },
+      [](const OneOf<Light, Illum, Glow, Spotlight> auto&) -> Answer { return {}; });
 }
 
 namespace {
 
-// The transmissivity (of one passage) at which a pane transmits all light at normal incidence, the reflections between its
-// two sides included. From the transmittance (1-r)^2 t / (1 - r^2 t^2) = 1, with Fresnel's reflectance r of one side.
-// 1.089 for the usual glass, and 1 for a refractive index of 1.
+// The transmissivity (of one passage) at which a pane transmits all light at normal incidence, the
+// reflections between its two sides included. From the transmittance (1-r)^2 t / (1 - r^2 t^2) = 1, with
+// Fresnel's reflectance r of one side. 1.089 for the usual glass, and 1 for a refractive index of 1.
 double mostTransmissivity(double refraction) {
   const double r = std::pow((refraction - 1) / (refraction + 1), 2);
   const double passed = (1 - r) * (1 - r);
@@ -218,35 +180,33 @@ Excess transmissivity(const Color& c) { return {"transmissivity", maxChannel(c)}
 
 std::optional<Excess> excessOf(const Material& material) {
   using Answer = std::optional<Excess>;
-  return std::visit(
-      Overloaded{
-          [](const Opaque& m) -> Answer {
-            return firstAbove({reflectance(m.color), {"specularity", m.specularity}});
-          },
-          [](const OneOf<Trans, Anisotropic, FunctionScatterer> auto& m) -> Answer {
-            return firstAbove(
-                {reflectance(m.color), {"specularity", m.specularity}, {"transmissivity", m.transmissivity}});
-          },
-          [](const Ashikhmin& m) -> Answer {
-            return firstAbove({reflectance(m.diffuse), reflectance(m.specular)});
-          },
-          [](const OneOf<BrtdFunction, WgmdFunction, BsdfMaterial> auto& m) -> Answer {
-            return firstAbove({reflectance(m.diffuseFront), reflectance(m.diffuseBack),
-                               transmissivity(m.diffuseTransmitted)});
-          },
-          [](const Dielectric& m) -> Answer { return firstAbove({transmissivity(m.transmission)}); },
-          [](const Interface& m) -> Answer {
-            return firstAbove({transmissivity(m.innerTransmission), transmissivity(m.outerTransmission)});
-          },
-          [](const Glass& m) -> Answer {
-            return firstAbove(
-                {{"transmissivity", maxChannel(m.transmissivity), mostTransmissivity(m.refraction)}});
-          },
-          [](const Mirror& m) -> Answer { return firstAbove({reflectance(m.reflectance)}); },
-          [](const OneOf<Prism, Antimatter, Mist> auto&) -> Answer { return {}; },
-          [](const OneOf<Light, Illum, Glow, Spotlight> auto&) -> Answer { return {}; },
+  return match(
+      material,
+      [](const Opaque& m) -> Answer {
+        return firstAbove({reflectance(m.color), {"specularity", m.specularity}});
       },
-      material);
+      [](const OneOf<Trans, Anisotropic, FunctionScatterer> auto& m) -> Answer {
+        return firstAbove(
+            {reflectance(m.color), {"specularity", m.specularity}, {"transmissivity", m.transmissivity}});
+      },
+      [](const Ashikhmin& m) -> Answer {
+        return firstAbove({reflectance(m.diffuse), reflectance(m.specular)});
+      },
+      [](const OneOf<BrtdFunction, WgmdFunction, BsdfMaterial> auto& m) -> Answer {
+        return firstAbove(
+            {reflectance(m.diffuseFront), reflectance(m.diffuseBack), transmissivity(m.diffuseTransmitted)});
+      },
+      [](const Dielectric& m) -> Answer { return firstAbove({transmissivity(m.transmission)}); },
+      [](const Interface& m) -> Answer {
+        return firstAbove({transmissivity(m.innerTransmission), transmissivity(m.outerTransmission)});
+      },
+      [](const Glass& m) -> Answer {
+        return firstAbove(
+            {{"transmissivity", maxChannel(m.transmissivity), mostTransmissivity(m.refraction)}});
+      },
+      [](const Mirror& m) -> Answer { return firstAbove({reflectance(m.reflectance)}); },
+      [](const OneOf<Prism, Antimatter, Mist> auto&) -> Answer { return {}; },
+      [](const OneOf<Light, Illum, Glow, Spotlight> auto&) -> Answer { return {}; });
 }
 
 }  // namespace rsphere

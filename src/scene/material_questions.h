@@ -1,6 +1,6 @@
 #pragma once
-// What materials are like, by type and arguments, before patterns and textures. Each question has an answer for
-// each type of material: a new type that answers nowhere does not compile.
+// What materials are like, by type and arguments, before patterns and textures. A new type of material does
+// not compile until each question has an answer for it.
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -44,11 +44,11 @@ bool isSampled(const Material& material);
 // Glow::reach (world units); 0, which means no limit, for all other materials.
 double reachOf(const Material& material);
 
-// What a distant source of the material does to distant sources in the same direction.
+// How a distant source of the material combines with other distant sources in the same direction.
 enum class Cover : uint8_t {
-  hides,   // the other sources
-  yields,  // to a source that hides it; glow
-  passes   // their light on; illum without an alternate material
+  hides,   // the others are not seen
+  yields,  // it is seen only if no other source hides it; glow
+  passes   // the others are seen through it; illum without an alternate material
 };
 Cover coverOf(const Material& material);
 
@@ -59,19 +59,20 @@ int imagesMadeBy(const Material& material);
 // ---- reflection. How irregular a material is, which sets the number of directions towards it, is a question
 // of importance/special_objects.h.
 
-// The specular reflection in the front of a surface, as far as it may show a sharp image of the surroundings.
-// Those who ask differ in three choices, which they make by themselves: the largest roughness that still shows
-// an image, the angle at which Fresnel's equations are evaluated, and whether colors count.
+// The specular reflection of a surface's front, if it may show a sharp image of the surroundings. Callers
+// decide for themselves up to which roughness there is an image, at which angle to evaluate Fresnel's
+// equations, and whether to use `share` or `brightness`.
 struct MirrorReflection {
-  // Fraction of the light. Of a metal: before its color is applied; of mirror: in the channel that it reflects
-  // best. Not for clear materials, where the angle decides.
+  // Reflected fraction of the light. For a metal, before its color is applied; for mirror, in the channel
+  // with the largest reflectance. Not set for clear materials, whose reflectance depends on the angle.
   double share = 0;
   double brightness = 0;   // the same for the brightness of white light, with all colors
   double roughness = 0;    // rms slope of the facets
   int boundaries = 0;      // of clear materials: the number of boundaries that reflect; 0: not clear
   bool frontOnly = false;  // the back reflects nothing
 };
-// Empty for materials that mirror nothing, whose highlights are always wide, or whose functions or data decide.
+// Empty for materials that mirror nothing, whose highlights are always wide, or whose functions or data
+// decide.
 std::optional<MirrorReflection> mirrorReflection(const Material& material);
 
 // The diffuse reflection of both sides of an opaque material without functions: `share` of the light, in this
@@ -82,10 +83,10 @@ struct DiffuseReflection {
 };
 std::optional<DiffuseReflection> diffuseReflection(const Material& material);
 
-// An argument by which more light leaves a surface of the material than arrives there: `value`, in the channel where it is
-// largest, is above `most` by more than kRoundedArgument. Nothing in nature is so, and with several bounces light grows
-// without limit. Empty if there is none. Functions and data of a material are not looked at, nor are light sources,
-// volumes and prisms.
+// An argument that makes more light leave a surface of the material than arrives there: its `value`, in the
+// channel where it is largest, exceeds `most` by more than kRoundedArgument. No real material does this, and
+// with several bounces the light grows without limit. Empty if there is none. Functions and data of
+// materials, light sources, volumes and prisms are not checked.
 struct Excess {
   std::string_view argument;  // "reflectance", "specularity", "transmissivity" (also that of a length)
   double value = 0, most = 1;

@@ -95,13 +95,13 @@ SpectrumArguments readSpectrum(const PrimitiveArguments& a) {
   a.needAtLeast(0, 5);
   const auto r = a.reals();
   if (r[0] == r[1]) a.fail("the wavelengths of the first and the last value must differ");
-  return {r[0], r[1], r.subspan(2)};
+  return {r[0], r[1], {r.begin() + 2, r.end()}};
 }
 
-std::string_view readSpectrumFile(const PrimitiveArguments& a) {
+SpectrumFileArguments readSpectrumFile(const PrimitiveArguments& a) {
   a.needAtLeast(1);
   a.needAtMostStrings(1);
-  return a.string(0);
+  return {a.string(0)};
 }
 
 SpectralFunctionArguments readSpectralFunction(const PrimitiveArguments& a) {

@@ -5,11 +5,10 @@
 //
 // Each reader throws rad::Error with the primitive's place if an argument is missing or out of range. It does
 // not look up the files and modifiers that arguments name. Words refer to the description, which must outlive
-// them. REQUIRES that the primitive has one of the types that are given above the struct.
-#include <array>
+// them but may grow. REQUIRES that the primitive has one of the types that are given above the struct.
 #include <optional>
-#include <span>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "scene/arguments.h"
@@ -74,12 +73,15 @@ TextArguments readText(const PrimitiveArguments& arguments);
 // spectrum. The values are means over bins of equal width, whose middles run from `first` to `last` (nm).
 struct SpectrumArguments {
   double first = 0, last = 0;
-  std::span<const double> values;  // at least three
+  std::vector<double> values;  // at least three
 };
 SpectrumArguments readSpectrum(const PrimitiveArguments& arguments);
 
-// specfile: the name of a data file.
-std::string_view readSpectrumFile(const PrimitiveArguments& arguments);
+// specfile
+struct SpectrumFileArguments {
+  std::string_view data;  // a data file
+};
+SpectrumFileArguments readSpectrumFile(const PrimitiveArguments& arguments);
 
 // specfunc
 struct SpectralFunctionArguments {
@@ -190,5 +192,12 @@ struct PrismArguments {
   FunctionFile file;
 };
 PrismArguments readPrism(const PrimitiveArguments& arguments);
+
+// The arguments of a modifier that is evaluated at each hit, by functions, data, a picture or text.
+using EvaluatedArguments =
+    std::variant<FunctionArguments, DataArguments, PictureArguments, TextArguments, SpectrumArguments,
+                 SpectrumFileArguments, SpectralFunctionArguments, AnisotropicArguments, AshikhminArguments,
+                 FunctionScattererArguments, DataScattererArguments, BrtdArguments, WgmdArguments,
+                 BsdfArguments, PrismArguments>;
 
 }  // namespace rsphere

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/constants.h"
+#include "rad_parser/printable.h"
 
 namespace rsphere {
 
@@ -49,13 +50,14 @@ ModifierId ModifierBuilder::modifier(PrimitiveId described) {
       target = alias.aliased != rad::kVoid ? alias.aliased : target == i ? rad::kVoid : alias.modifier;
     }
     if (target != rad::kVoid) {  // an alias without a target is its modifier
-      Content made = content(target);
+      Made made = make(target);
       const ModifierId index(scene_.modifiers.size());
-      if (auto* material = std::get_if<Material>(&made)) {
+      if (auto* material = std::get_if<Material>(&made.content)) {
         setFunctions(*material, index);
         warnOfExcess(target, *material, converted);
       }
-      scene_.modifiers.push_back({std::move(made), converted, target, primitive(target)});
+      scene_.modifiers.push_back(
+          {std::move(made.content), std::move(made.arguments), converted, target, primitive(target)});
       converted = index;
     }
     modifierOf_[i] = converted;
@@ -90,49 +92,46 @@ ModifierId ModifierBuilder::named(PrimitiveId i, std::string_view name) {
   return converted;
 }
 
-Content ModifierBuilder::content(PrimitiveId i) {
+template <class Arguments>
+ModifierBuilder::Made ModifierBuilder::mixture(PrimitiveId i, Arguments read) {
+  const ModifierId foreground = named(i, read.mixed.foreground);
+  return {Mixture{foreground, named(i, read.mixed.background)}, std::move(read)};
+}
+
+ModifierBuilder::Made ModifierBuilder::make(PrimitiveId i) {
   const PrimitiveArguments arguments(scene_.description, i);
   switch (arguments.type()) {
     case Type::brightfunc:
     case Type::colorfunc:
-      readFunction(arguments);
-      return Pattern{};
+      return {Pattern{}, readFunction(arguments)};
     case Type::brightdata:
     case Type::colordata:
     case Type::specdata:
-      readData(arguments);
-      return Pattern{};
+      return {Pattern{}, readData(arguments)};
     case Type::colorpict:
     case Type::specpict:
-      readPicture(arguments);
-      return Pattern{};
+      return {Pattern{}, readPicture(arguments)};
     case Type::spectrum:
-      readSpectrum(arguments);
-      return Pattern{};
+      return {Pattern{}, readSpectrum(arguments)};
     case Type::specfile:
-      readSpectrumFile(arguments);
-      return Pattern{};
+      return {Pattern{}, readSpectrumFile(arguments)};
     case Type::specfunc:
-      readSpectralFunction(arguments);
-      return Pattern{};
+      return {Pattern{}, readSpectralFunction(arguments)};
     case Type::brighttext:
     case Type::colortext:
-      readText(arguments);
-      return Pattern{};
+      return {Pattern{}, readText(arguments)};
     case Type::texfunc:
-      readFunction(arguments);
-      return Texture{};
+      return {Texture{}, readFunction(arguments)};
     case Type::texdata:
-      readData(arguments);
-      return Texture{};
+      return {Texture{}, readData(arguments)};
     case Type::mixfunc:
-      return mixture(i, readFunction(arguments).mixed);
+      return mixture(i, readFunction(arguments));
     case Type::mixdata:
-      return mixture(i, readData(arguments).mixed);
+      return mixture(i, readData(arguments));
     case Type::mixpict:
-      return mixture(i, readPicture(arguments).mixed);
+      return mixture(i, readPicture(arguments));
     case Type::mixtext:
-      return mixture(i, readText(arguments).mixed);
+      return mixture(i, readText(arguments));
     case Type::plastic:
     case Type::metal:
       return readOpaque(arguments);
@@ -141,24 +140,24 @@ Content ModifierBuilder::content(PrimitiveId i) {
     case Type::plastic2:
     case Type::metal2:
     case Type::trans2:
-      return readAnisotropic(arguments).values;
+      return readAnisotropic(arguments);
     case Type::ashik2:
-      return readAshikhmin(arguments).values;
+      return readAshikhmin(arguments);
     case Type::plasfunc:
     case Type::metfunc:
     case Type::transfunc:
-      return readFunctionScatterer(arguments).values;
+      return readFunctionScatterer(arguments);
     case Type::plasdata:
     case Type::metdata:
     case Type::transdata:
-      return readDataScatterer(arguments).values;
+      return readDataScatterer(arguments);
     case Type::brtdfunc:
-      return readBrtd(arguments).values;
+      return readBrtd(arguments);
     case Type::wgmdfunc:
       return wgmd(i, readWgmd(arguments));
     case Type::bsdf:
     case Type::absdf:
-      return readBsdf(arguments).values;
+      return readBsdf(arguments);
     case Type::dielectric:
       return readDielectric(arguments);
     case Type::interface:
@@ -170,8 +169,10 @@ Content ModifierBuilder::content(PrimitiveId i) {
       return Mirror{read.color, alternate(i, read)};
     }
     case Type::prism1:
-    case Type::prism2:
-      return Prism{static_cast<int>(readPrism(arguments).images.size())};
+    case Type::prism2: {
+      PrismArguments read = readPrism(arguments);
+      return {Prism{static_cast<int>(read.images.size())}, std::move(read)};
+    }
     case Type::antimatter:
       return antimatter(i, readAntimatter(arguments));
     case Type::mist:
@@ -203,11 +204,6 @@ Content ModifierBuilder::content(PrimitiveId i) {
   arguments.fail("this type is not supported yet");
 }
 
-Content ModifierBuilder::mixture(PrimitiveId i, const Mixed& names) {
-  const ModifierId foreground = named(i, names.foreground);
-  return Mixture{foreground, named(i, names.background)};
-}
-
 Alternate ModifierBuilder::alternate(PrimitiveId i, const AlternatingArguments& arguments) {
   if (!arguments.alternate) return {};
   if (*arguments.alternate == "void") return {Alternate::Kind::pass, kNone};
@@ -222,17 +218,16 @@ std::optional<ModifierId> ModifierBuilder::componentModifier(PrimitiveId i, std:
   return named(i, name);
 }
 
-Material ModifierBuilder::wgmd(PrimitiveId i, const WgmdArguments& arguments) {
-  WgmdFunction made = arguments.values;
-  const auto use = [&](WgmdFunction::Lobe& lobe, const WgmdArguments::Lobe& read) {
-    lobe.modifier = componentModifier(i, read.modifier, lobe.share > kNegligible);
+ModifierBuilder::Made ModifierBuilder::wgmd(PrimitiveId i, WgmdArguments read) {
+  WgmdFunction& made = read.values;
+  const auto use = [&](WgmdFunction::Lobe& lobe, std::string_view name) {
+    lobe.modifier = componentModifier(i, name, lobe.share > kNegligible);
   };
-  use(made.reflected, arguments.reflected);
-  use(made.transmitted, arguments.transmitted);
+  use(made.reflected, read.reflected.modifier);
+  use(made.transmitted, read.transmitted.modifier);
   const bool diffusesThrough = maxChannel(made.diffuseTransmitted) > kNegligible;
-  made.diffuseTransmittedModifier =
-      componentModifier(i, arguments.diffuseTransmittedModifier, diffusesThrough);
-  return made;
+  made.diffuseTransmittedModifier = componentModifier(i, read.diffuseTransmittedModifier, diffusesThrough);
+  return read;
 }
 
 Material ModifierBuilder::antimatter(PrimitiveId i, const AntimatterArguments& arguments) {
@@ -254,8 +249,8 @@ Material ModifierBuilder::antimatter(PrimitiveId i, const AntimatterArguments& a
   return made;
 }
 
-// Warns of a material that sends on more light than arrives, once for equal definitions. A pattern among its modifiers may
-// multiply its color by less than 1, so that nothing is said then.
+// Warns of a material that sends on more light than arrives, once for equal definitions. A pattern among its
+// modifiers may multiply its color by less than 1, so that nothing is said then.
 void ModifierBuilder::warnOfExcess(PrimitiveId i, const Material& material, ModifierId next) {
   const std::optional<Excess> excess = excessOf(material);
   if (!excess) return;

@@ -1,5 +1,7 @@
 #pragma once
+#include <concepts>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -14,14 +16,15 @@
 
 namespace rsphere {
 
-// Converts the modifiers that surfaces use, and those that these name, to Scene::modifiers, each once.
+// Converts modifiers to Scene::modifiers, each once: those that surfaces use, and those that their arguments
+// name.
 class ModifierBuilder {
  public:
   // Keeps references to both. The description of the scene may grow between calls.
   ModifierBuilder(Scene& scene, const rad::Warn& warn) : scene_(scene), warn_(warn) {}
 
-  // Begins with a file whose description has been appended to the scene's: string arguments name only
-  // modifiers among the primitives from this one on.
+  // Starts on a file whose description, from this primitive on, has been appended to the scene's. Its string
+  // arguments name only modifiers of the same file.
   void beginFile(uint32_t firstPrimitive);
 
   // Converts the modifier at this index of the description and the chain of those that modify it. Returns its
@@ -37,14 +40,33 @@ class ModifierBuilder {
   static constexpr ModifierId kUnknown{-2};  // not converted yet
   static constexpr int kDeepest = 64;
 
+  // Modifier::content and Modifier::arguments.
+  struct Made {
+    Content content;
+    std::unique_ptr<const EvaluatedArguments> arguments;
+
+    // A material without functions.
+    template <class M>
+    requires(std::constructible_from<Material, M> && !requires(M m) { m.functions; }) Made(M made)
+        : content(std::move(made)) {}
+    template <class Arguments>
+    Made(Content made, Arguments read)
+        : content(std::move(made)), arguments(std::make_unique<EvaluatedArguments>(std::move(read))) {}
+    // A material whose arguments are only its values and what its functions are made from.
+    template <class Arguments>
+    requires requires(Arguments read) { read.values; }
+    Made(Arguments read) : Made(read.values, read) {}
+  };
+
   rad::Primitive primitive(PrimitiveId i) const { return scene_.description.primitives[i]; }
   PrimitiveId definedBefore(PrimitiveId i, std::string_view name);
   ModifierId named(PrimitiveId i, std::string_view name);
-  Content content(PrimitiveId i);
-  Content mixture(PrimitiveId i, const Mixed& names);
+  Made make(PrimitiveId i);
+  template <class Arguments>
+  Made mixture(PrimitiveId i, Arguments read);
   Alternate alternate(PrimitiveId i, const AlternatingArguments& arguments);
   std::optional<ModifierId> componentModifier(PrimitiveId i, std::string_view name, bool used);
-  Material wgmd(PrimitiveId i, const WgmdArguments& arguments);
+  Made wgmd(PrimitiveId i, WgmdArguments read);
   Material antimatter(PrimitiveId i, const AntimatterArguments& arguments);
   Material mist(Mist read);
   void warnOfExcess(PrimitiveId i, const Material& material, ModifierId next);

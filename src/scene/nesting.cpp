@@ -25,16 +25,14 @@ class Nesting {
     const SurfaceGroup& g = scene_.groups[group];
     for (const SurfaceId s : g.surfaces) {
       const Surface& surface = scene_.surfaces[s];
-      const int under =
-          visit(Overloaded{
-                    [&](const Instance& instance) {
-                      if (heights_[instance.group] == kOpen) fail(surface, "an octree contains itself");
-                      return depth < kMostLevels ? 1 + height(instance.group, depth + 1) : kMostLevels + 1;
-                    },
-                    [](const MeshInstance&) { return 1; },
-                    [](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) { return 0; },
-                },
-                surface.shape);
+      const int under = match(
+          surface.shape,
+          [&](const Instance& instance) {
+            if (heights_[instance.group] == kOpen) fail(surface, "an octree contains itself");
+            return depth < kMostLevels ? 1 + height(instance.group, depth + 1) : kMostLevels + 1;
+          },
+          [](const MeshInstance&) { return 1; },
+          [](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) { return 0; });
       if (depth + under > kMostLevels)
         fail(surface, fmt::format("octrees are nested more than {} deep", kMostLevels));
       highest = std::max(highest, under);

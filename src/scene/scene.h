@@ -1,6 +1,6 @@
 #pragma once
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -8,20 +8,18 @@
 #include <vector>
 
 #include "rad_parser/description.h"
-#include "rad_parser/error.h"
 #include "rad_parser/mesh_file.h"
-#include "rad_parser/scene_file.h"
 #include "scene/ids.h"
 #include "scene/material.h"
 #include "scene/material_questions.h"
+#include "scene/modifier_arguments.h"
 #include "scene/placement.h"
 #include "scene/shape.h"
 #include "scene/surface_list.h"
 
 namespace rsphere {
 
-// Multiplies the colour of the materials behind it. The functions and data of patterns, textures and mixtures
-// are prepared from the primitive's arguments when they are first needed: shade/surface_functions.h.
+// Multiplies the colour of the materials behind it.
 struct Pattern {};
 // Perturbs the normal.
 struct Texture {};
@@ -35,6 +33,9 @@ using Content = std::variant<Material, Pattern, Texture, Mixture>;
 // A modifier that some surface uses, and the modifier that modifies it in turn (kNone: void).
 struct Modifier {
   Content content;
+  // Of patterns, textures, mixtures and the materials with `functions`; null for others. Files that they name
+  // are read, and functions compiled, when the modifier is first evaluated: shade/surface_functions.h.
+  std::unique_ptr<const EvaluatedArguments> arguments;
   ModifierId next;
   PrimitiveId primitive;     // in Scene::description; of the target if it was an alias
   rad::Primitive described;  // that primitive, so that no ray has to decode it
@@ -62,7 +63,8 @@ struct Scene {
   std::vector<Placement> placements;
   std::vector<V3d> vertices;  // of the polygons, also of those that have no area
   ById<ModifierId, Modifier> modifiers;
-  // Of the surfaces, if they are few: decoding a name would take a quarter of the time of a ray there.
+  // Names of the surfaces, if there are at most kFewSurfaces. In such a scene, decoding a name takes a
+  // quarter of the time of a ray.
   ById<SurfaceId, std::string> names;
   static constexpr size_t kFewSurfaces = 20000;
   bool importance = false;  // there are goals: importance is traced, and all other sources are dark
@@ -72,7 +74,8 @@ struct Scene {
   IdRange<SurfaceId> outermostIds() const {
     return groups.empty() ? IdRange<SurfaceId>() : groups[0].surfaces;
   }
-  // Of one side of each of these (square world units). Instances and meshes count as 0.
+  // The total area of these surfaces, one side of each (square world units). Instances and meshes are not
+  // included.
   double area() const;
   // The composition of all placements on the path; the identity for an empty path.
   Placement placementOf(const PlacementPath& path) const;
@@ -99,18 +102,5 @@ struct Scene {
 
 // The emitted radiance of a surface before patterns, W/sr/m2: 1 for a goal, black if it is not a source.
 Radiance sourceRadiance(const Scene& scene, const Surface& surface);
-
-// Validates and converts the parts of the description that surfaces use, and reads the octrees and meshes
-// that it names, each once (with these options). The description is kept for names and places. Vertices keep
-// the double precision of the files.
-// - Warns where RADIANCE warns: negative radii, surfaces without area, vertices out of the plane.
-// - Leaves out surfaces without area, and distant sources in octrees.
-// - goals (-Sg): surfaces whose modifier has one of these names emit importance.
-// - Throws rad::Error with the primitive's place for: wrong arguments, a used type that is not supported yet,
-//   mixtures nested too deeply, octrees that contain themselves or are nested deeper than
-//   PlacementPath::kDeepest, a goal that is the modifier of no surface, and all errors of rad::readOctree()
-//   and rad::readMesh().
-Scene buildScene(rad::Description description, const rad::ReadOptions& options = {},
-                 std::span<const std::string> goals = {});
 
 }  // namespace rsphere

@@ -273,58 +273,44 @@ Box3d bounds(const Ring& ring) {
 
 bool intersect(ShapeRef shape, std::span<const V3d> vertices, const V3d& origin, const V3d& direction,
                double farthest, ShapeHit& hit) {
-  return visit(Overloaded{
-                   [&](const Polygon& polygon) {
-                     return intersect(polygon, vertices, origin, direction, farthest, hit);
-                   },
-                   [&](const OneOf<Sphere, Cone, Ring> auto& form) {
-                     return intersect(form, origin, direction, farthest, hit);
-                   },
-                   [](const Distant&) { return false; },
-                   [](const NestedShape auto&) { return false; },
-               },
-               shape);
+  return match(
+      shape,
+      [&](const Polygon& polygon) { return intersect(polygon, vertices, origin, direction, farthest, hit); },
+      [&](const OneOf<Sphere, Cone, Ring> auto& form) {
+        return intersect(form, origin, direction, farthest, hit);
+      },
+      [](const Distant&) { return false; }, [](const NestedShape auto&) { return false; });
 }
 
 Box3d bounds(ShapeRef shape, std::span<const V3d> vertices) {
-  return visit(Overloaded{
-                   [&](const Polygon& polygon) { return bounds(polygon, vertices); },
-                   [](const OneOf<Sphere, Cone, Ring> auto& form) { return bounds(form); },
-                   [](const Distant&) { return Box3d(); },
-                   [](const NestedShape auto&) { return Box3d(); },
-               },
-               shape);
+  return match(
+      shape, [&](const Polygon& polygon) { return bounds(polygon, vertices); },
+      [](const OneOf<Sphere, Cone, Ring> auto& form) { return bounds(form); },
+      [](const Distant&) { return Box3d(); }, [](const NestedShape auto&) { return Box3d(); });
 }
 
 double planeOffset(ShapeRef shape) {
-  return visit(Overloaded{
-                   [](const Polygon& polygon) { return polygon.offset; },
-                   [](const Ring& ring) { return ring.normal.dot(ring.center); },
-                   [](const OneOf<Sphere, Cone, Distant> auto&) { return 0.; },
-                   [](const NestedShape auto&) { return 0.; },
-               },
-               shape);
+  return match(
+      shape, [](const Polygon& polygon) { return polygon.offset; },
+      [](const Ring& ring) { return ring.normal.dot(ring.center); },
+      [](const OneOf<Sphere, Cone, Distant> auto&) { return 0.; },
+      [](const NestedShape auto&) { return 0.; });
 }
 
 bool isClosed(ShapeRef shape) {
-  return visit(Overloaded{
-                   [](const Sphere&) { return true; },
-                   [](const OneOf<Polygon, Cone, Ring, Distant> auto&) { return false; },
-                   [](const NestedShape auto&) { return false; },
-               },
-               shape);
+  return match(
+      shape, [](const Sphere&) { return true; },
+      [](const OneOf<Polygon, Cone, Ring, Distant> auto&) { return false; },
+      [](const NestedShape auto&) { return false; });
 }
 
 double areaOf(ShapeRef shape, std::span<const V3d> vertices) {
-  return visit(Overloaded{
-                   [&](const Polygon& p) { return areaOf(p, vertices); },
-                   [](const Sphere& s) { return 4 * kPi * s.radius * s.radius; },
-                   [](const Cone& c) { return kPi * (c.radius0 + c.radius1) * c.length; },
-                   [](const Ring& r) { return kPi * (r.outer * r.outer - r.inner * r.inner); },
-                   [](const Distant&) { return 0.; },
-                   [](const NestedShape auto&) { return 0.; },
-               },
-               shape);
+  return match(
+      shape, [&](const Polygon& p) { return areaOf(p, vertices); },
+      [](const Sphere& s) { return 4 * kPi * s.radius * s.radius; },
+      [](const Cone& c) { return kPi * (c.radius0 + c.radius1) * c.length; },
+      [](const Ring& r) { return kPi * (r.outer * r.outer - r.inner * r.inner); },
+      [](const Distant&) { return 0.; }, [](const NestedShape auto&) { return 0.; });
 }
 
 V3d centerOf(const Polygon& polygon, std::span<const V3d> all) {

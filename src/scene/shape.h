@@ -105,9 +105,9 @@ struct MeshFaces {};
 
 using Shape = std::variant<Polygon, Sphere, Cone, Ring, Distant, Instance, MeshInstance, MeshFaces>;
 
-// A shape is either Distant or one of these two. They list their types, so that a visitor that uses them does
-// not compile for a new type of shape until it is listed here or has an answer of its own.
-// Rays intersect the shape itself, by one of the functions below.
+// Every shape is Distant, a PlainShape or a NestedShape. The two concepts list their types, so that a visitor
+// that uses them does not compile for a new type of shape until the type is added to one of the lists or the
+// visitor handles it. Rays intersect the shape itself, by one of the functions below.
 template <class S>
 concept PlainShape = OneOf<S, Polygon, Sphere, Cone, Ring>;
 // Rays hit the contents, or a part of them.
@@ -141,18 +141,18 @@ class ShapeRef {
 };
 
 inline bool isPlain(ShapeRef shape) {
-  return visit(Overloaded{[](const PlainShape auto&) { return true; }, [](const Distant&) { return false; },
-                          [](const NestedShape auto&) { return false; }},
-               shape);
+  return match(
+      shape, [](const PlainShape auto&) { return true; }, [](const Distant&) { return false; },
+      [](const NestedShape auto&) { return false; });
 }
 
 // The normal of polygons and rings; null for shapes that are not plane.
 inline const V3d* planeNormal(ShapeRef shape) {
   using Answer = const V3d*;
-  return visit(Overloaded{[](const OneOf<Polygon, Ring> auto& flat) -> Answer { return &flat.normal; },
-                          [](const OneOf<Sphere, Cone, Distant> auto&) -> Answer { return nullptr; },
-                          [](const NestedShape auto&) -> Answer { return nullptr; }},
-               shape);
+  return match(
+      shape, [](const OneOf<Polygon, Ring> auto& flat) -> Answer { return &flat.normal; },
+      [](const OneOf<Sphere, Cone, Distant> auto&) -> Answer { return nullptr; },
+      [](const NestedShape auto&) -> Answer { return nullptr; });
 }
 // normal . p for the points p of the plane. REQUIRES planeNormal(); 0 for shapes that are not plane.
 double planeOffset(ShapeRef shape);
@@ -160,8 +160,8 @@ double planeOffset(ShapeRef shape);
 // Whether the shape surrounds a volume, so that it is seen from one side only. The ends of cones are open.
 bool isClosed(ShapeRef shape);
 
-// The area of one side (world units). Of a cone: as if its sides had the length of its axis. 0 for shapes that
-// are not plain.
+// The area of one side (world units). For a cone, the slant height is taken as the length of the axis. 0 for
+// shapes that are not plain.
 double areaOf(ShapeRef shape, std::span<const V3d> vertices);
 double areaOf(const Polygon& polygon, std::span<const V3d> vertices);
 

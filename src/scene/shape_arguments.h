@@ -2,8 +2,8 @@
 // The arguments of surfaces: one reader for each kind of primitive, which checks the number and range of the
 // arguments and makes the shape.
 //
-// Each reader throws rad::Error with the primitive's place for arguments that RADIANCE refuses. Where RADIANCE
-// warns and ignores the surface, it warns and returns nothing.
+// Each reader throws rad::Error with the primitive's place for arguments that RADIANCE refuses. Where
+// RADIANCE warns and ignores the surface, it warns and returns nothing.
 #include <optional>
 #include <string>
 #include <vector>

@@ -10,7 +10,7 @@
 
 namespace rsphere {
 
-// What surfaces with the same modifier have in common.
+// Properties that all surfaces with the same modifier share.
 struct Finish {
   PrimitiveId described;  // the modifier in Scene::description; kNone: void
   ModifierId modifier;    // the same in Scene::modifiers
@@ -96,15 +96,15 @@ class SurfaceList {
     return face.hasArea ? ShapeRef(static_cast<const Polygon&>(face)) : ShapeRef(others_[face.firstVertex]);
   }
 
-  // The primitive in Scene::description that has the surface's name and place. Takes logarithmic time in how
-  // often surfaces alternate with other primitives.
+  // The primitive in Scene::description that has the surface's name and place. Takes time logarithmic in the
+  // number of runs of consecutive surfaces.
   PrimitiveId primitiveOf(SurfaceId id) const;
 
   // By number.
   const std::vector<Finish>& finishes() const { return finishes_; }
   std::vector<Finish>& finishes() { return finishes_; }
 
-  // Appends a surface. Surfaces that come from consecutive primitives take no memory for their numbers.
+  // Appends a surface. For surfaces of consecutive primitives, the numbers of the primitives take no memory.
   void push_back(const Shape& shape, uint32_t finish, PrimitiveId primitive);
   void reserve(size_t more);
 

@@ -31,8 +31,8 @@ struct EllipticLobe {
   bool disoriented = false;
 };
 
-// ambient: the coefficient of the indirect light: the share, plus (if the share is not black) the share of a
-// lobe too weak to be sampled (-st).
+// A diffuse component. ambient: the coefficient of indirect light. It is the share, plus the share of a lobe
+// that is too weak to be sampled (-st); it is black if the share is black.
 struct DiffuseComponent {
   V3d normal{0, 0, 1};  // perturbed, on the ray's side
   Color share{0, 0, 0}, ambient{0, 0, 0};
@@ -53,8 +53,8 @@ struct AnisotropicScattering {
 AnisotropicScattering scatter(const Anisotropic& material, const Interaction& at, const V3d& along,
                               double specularThreshold);
 
-// A component of WGMDfunc. `at` contains the pattern and the texture of its own modifiers; the rest are the
-// values of its functions.
+// A component of WGMDfunc. `at` contains the pattern and the texture of the component's own modifiers; the
+// other members are values of its functions.
 struct WgmdComponent {
   Interaction at;
   double share = 0;                                // of a lobe; 0: none
@@ -98,9 +98,8 @@ Coefficient directCoefficient(const AshikhminScattering& scattering, const V3d& 
                               const V3d& toSource, double solidAngle);
 // Samples the whole lobe by half vectors, the paper's eq. (6) and (8); -ss does not narrow it. Returns false
 // if the sample lies below the surface; RADIANCE then draws another. As in RADIANCE, every sample has weight
-// 1 instead of min(1, cosine out / cosine in), the weight with which the mean would be that of the lobe for
-// direct light. Indirect light is therefore not reduced at grazing angles as direct light is. It never
-// contributes more than the share.
+// 1. The weight that would reproduce the lobe for direct light is min(1, cosine out / cosine in), so that at
+// grazing angles more indirect light is scattered than direct light, but never more than the share.
 bool sampleReflection(const AshikhminScattering& scattering, const Interaction& at, double u1, double u2,
                       V3d& direction);
 

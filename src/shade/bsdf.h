@@ -2,9 +2,10 @@
 // Bidirectional scattering distribution functions from XML files: evaluation and sampling.
 //
 // Directions are unit vectors that point away from the surface, in its local frame: z is its normal, so that
-// z > 0 is the front, and y is "up". Scattering is a function of a view and another direction. The view is
-// looked up as the direction that light arrives from in the data. If the data lack the transmission for the
-// side of the view, that of the other side is used with the directions exchanged (Helmholtz reciprocity).
+// z > 0 is the front, and y is "up". Scattering is a function of a view and another direction. The data give
+// scattering by the direction of the incident light; the view is looked up as that direction. If the data
+// lack the transmission for light from the side of the view, the transmission from the other side is used
+// with the two directions exchanged (Helmholtz reciprocity).
 //
 // Sources: WINDOW 6's Klems matrices; Ward et al., LBNL-6535E, 2012 (tensor trees); Shirley and Chiu, "A low
 // distortion map between disk and square", JGT 2/3, 1997; RADIANCE's notes on BSDF directions.
@@ -62,8 +63,8 @@ class DirectedScattering {
   };
   virtual Resolution resolution(const V3d& view) const = 0;
   // Prepares albedo() and sample() for views from the side without data of its own, for which the directions
-  // are exchanged (see turned()). Returns false if these data do not determine the scattering there, as those
-  // of isotropic trees, which store one angle less; the albedo is then 0 for views from that side.
+  // are exchanged (see turned()). Returns false if the data do not determine the scattering there, which is
+  // so for isotropic trees, because they store one angle less; the albedo is then 0 for views from that side.
   virtual bool prepareTurned() = 0;
   // The projected solid angle (sr) of the smallest of all cells, and the largest albedo of all views.
   double finestCell() const { return finestCell_; }
@@ -77,8 +78,8 @@ class DirectedScattering {
 // The data of a file, prepared for sampling. Immutable: any number of threads may use it at once.
 class BsdfData {
  public:
-  // name: of the file, for messages. Warns if the data scatter more light than arrives, and of transmission
-  // that they do not define.
+  // name: of the file, for messages. Warns if the data scatter more light than arrives, or if they do not
+  // determine the transmission from one side.
   BsdfData(const rad::BsdfFile& file, std::string_view name, const rad::Warn& warn);
 
   // The share of light that is scattered diffusely, by the side of the view: the smallest value of the data,

@@ -5,6 +5,8 @@
 
 namespace rsphere {
 
+static_assert(ScattersLight<BsdfScattering>);
+
 std::optional<BsdfFrame> bsdfFrame(const Interaction& at, const V3d& up) {
   BsdfFrame frame;
   double cosine = 0;

@@ -26,9 +26,9 @@ struct FunctionScattering {
 
 FunctionScattering scatter(const FunctionScatterer& material, const Interaction& at);
 
-// The sharp paths are missing, because the functions that define them take this result as input.
+// Without the sharp paths, because the functions that define them take this result as input.
 FunctionScattering scatter(const BrtdFunction& material, const Interaction& at);
-// Its sharp paths, with the coefficients that its functions give.
+// The sharp paths of BRTDfunc. coefficient: by channel, the values of the material's functions.
 SharpPath sharpTransmission(const FunctionScattering& scattering, const Interaction& at,
                             const std::array<double, 3>& coefficient);
 SharpPath sharpReflection(const FunctionScattering& scattering, const Interaction& at,

@@ -1,6 +1,6 @@
 #pragma once
-// The hit of a ray as materials see it: plain values, and those that are computed only if a material needs
-// them, because most hits need few of them.
+// The hit of a ray as materials see it. Some values are stored; others are computed only when a material asks
+// for them, because most hits need few of these.
 #include "scene/scene.h"
 #include "shade/scattering.h"
 #include "shade/surface_functions.h"
@@ -26,7 +26,7 @@ struct Arrival {
   double pathLength = 0;      // of its ancestors
   SurfaceId surface = kNone;  // that it hit
   // Of a shadow ray: the surface of the light source that it is aimed at, or kNone. atImage: that source is
-  // virtual, an image of another source in a mirror or a prism, whose surface this is. image: which of a
+  // virtual, and target is the surface of the mirror or prism that produces the image. image: which of a
   // prism's images.
   SurfaceId target = kNone;
   bool atImage = false;
@@ -37,7 +37,7 @@ struct Arrival {
   bool isAimedHere() const { return isAimed() && target == surface; }
 };
 
-// What the materials of a scene need, whichever ray hits them. scratch: of one thread.
+// What materials need besides the hit. scratch: belongs to one thread.
 struct MaterialContext {
   const Scene& scene;
   const SurfaceFunctions& functions;
@@ -66,22 +66,22 @@ class MaterialHit {
   void modify() {
     if (modifiers_ != kNone) applyModifiers();
   }
-  // Turns a hit from behind into a hit from the front, which point() and the tracer then see.
+  // Turns a hit from behind into a hit from the front, also for point() and the tracer.
   void turnRound() {
     if (arrival_.cosine < 0) turnToFront();
   }
   virtual Interaction interaction() const = 0;
   // The factor of the patterns that were applied.
   virtual const Color& pattern() const = 0;
-  // The hit with the patterns and textures of a chain of modifiers added (kNone: of none); without those of
-  // modify(), if it was not called. Does not change the hit itself.
+  // The hit with the patterns and textures of a chain of modifiers (kNone: an empty chain) in addition to
+  // those that modify() has applied. Does not change the hit itself.
   virtual Interaction interactionAfter(ModifierId modifiers) const = 0;
   virtual FunctionPoint point() const = 0;
   // The medium that the ray travels through.
   virtual const Medium& medium() const = 0;
-  // The direction (unit) to the light source whose image a shadow ray is aimed at. REQUIRES one that is.
+  // The direction (unit) to the light source whose image the ray is aimed at. REQUIRES Arrival::atImage.
   virtual V3d towardsSource() const = 0;
-  // The number of samples that the ray takes where one of weight 1 takes `wanted`.
+  // The number of samples for this ray, if a ray of weight 1 takes `wanted` of them.
   virtual int samplesOf(double wanted) const = 0;
 
  protected:

@@ -1,7 +1,7 @@
 #pragma once
-// How each material responds to a ray that hits it, as values: nothing is traced here. The type of each
-// overload of response() lists the possible outcomes for a material, and the tracer handles each of them. A
-// new material without a response does not compile.
+// How each material responds to a ray that hits it, as values: nothing is traced here. The return type of
+// each overload of response() lists the possible outcomes for a material, and the tracer handles each of
+// them. A new material does not compile until it has an overload.
 #include <variant>
 
 #include "shade/bsdf_scattering.h"
@@ -24,8 +24,8 @@ struct ReflectsSharply {
   ReflectsSharply(const M& material, const Interaction& at) : scattering(scatter(material, at)) {}
   Scattering scattering;
 };
-// Sharp reflection and refraction at a boundary between media. Scattering::medium is the one that the ray has
-// travelled through, which the boundary knows better than the ray.
+// Sharp reflection and refraction at a boundary between media. The boundary determines the medium that the
+// ray has travelled through (Scattering::medium), which replaces the one that the ray carries.
 struct Boundary {
   Scattering scattering;
 };
@@ -33,7 +33,7 @@ struct Boundary {
 struct Redirects {
   SharpPaths paths;
 };
-// A shadow ray that has reached the image it was aimed at continues to the source whose image that is.
+// A shadow ray has reached the image that it was aimed at, and continues from there to the real source.
 struct Relays {
   SharpPath path;
 };
@@ -56,10 +56,10 @@ using EllipticResponse = std::variant<Absorbs, Passes, EllipticScattering>;
 using PaneResponse = std::variant<Passes, ReflectsSharply>;
 using SourceResponse = std::variant<Absorbs, Passes, Emits, Alternate>;
 
-// They make large values in place, because copies of what was just written stall the processor: they took up
-// to a tenth of the time of a ray through glass.
-// Each may apply modifiers to the hit and turn it round (MaterialHit). They throw rad::Error as
-// SurfaceFunctions does, and if the material is modified by another material.
+// Large results are constructed in place. Copying values that were just written stalls the processor, and
+// took up to a tenth of the time of a ray through glass. Each may apply modifiers to the hit and turn it
+// round (MaterialHit). They throw rad::Error as SurfaceFunctions does, and if the material is modified by
+// another material.
 DiffusingResponse response(const Opaque& material, MaterialHit& hit);
 DiffusingResponse response(const Trans& material, MaterialHit& hit);
 EllipticResponse response(const Anisotropic& material, MaterialHit& hit);

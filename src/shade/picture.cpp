@@ -15,6 +15,7 @@
 #include "rad_parser/description.h"
 #include "rad_parser/error.h"
 #include "rad_parser/open_file.h"
+#include "rad_parser/printable.h"
 
 namespace rsphere {
 namespace {

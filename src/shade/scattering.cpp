@@ -81,7 +81,8 @@ double fresnelReflectance(double cosine, double ratio, double& cosineBeyond) {
 Color extinctionOf(const Color& transmission, const Color& pattern) {
   Color e = transmission * pattern;
   e.transform([](double t) { return t < 1e-40 ? 100 : t >= 1 ? 0 : -std::log(t); });
-  // The means of the extinctions, so that they are 0 only where all bands are: the pattern of a band may exceed 1.
+  // The means of the extinctions, so that they are 0 only where all bands are: the pattern of a band may
+  // exceed 1.
   if (e.bands()) [[unlikely]]
     e = Color(e.bands());
   return e;

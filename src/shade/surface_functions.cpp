@@ -11,7 +11,7 @@
 
 #include "rad_parser/file_path.h"
 #include "rad_parser/open_file.h"
-#include "scene/modifier_arguments.h"
+#include "rad_parser/printable.h"
 
 namespace rsphere {
 namespace {
@@ -53,7 +53,8 @@ Spectrum betweenMiddles(std::span<const double> values, double first, double las
   return {values, first - half, last + half};
 }
 
-// The color of a spectrum that falls in wavelength, as RADIANCE 6.1 has it: three values are red, green and blue.
+// The color of a spectrum that falls in wavelength, as RADIANCE 6.1 has it: three values are red, green and
+// blue.
 Color threeChannels(const Spectrum& spectrum) {
   const auto& v = spectrum.values;
   if (v.size() == 3) return Color(v[0], v[1], v[2]);
@@ -81,68 +82,14 @@ std::vector<std::string> linesOf(std::string_view text) {
 // Reads and compiles one modifier.
 class SurfaceFunctions::Maker {
  public:
-  Maker(const SurfaceFunctions& functions, PrimitiveId primitive)
+  Maker(const SurfaceFunctions& functions, ModifierId modifier)
       : functions_(functions),
         scene_(functions.scene_),
-        index_(primitive),
-        arguments_(scene_.description, primitive) {}
+        modifier_(scene_.modifiers[modifier]),
+        arguments_(scene_.description, modifier_.described) {}
 
   std::unique_ptr<Function> make() {
-    switch (arguments_.type()) {
-      case Type::brightfunc:
-      case Type::colorfunc:
-      case Type::texfunc:
-      case Type::mixfunc:
-        return values(readFunction(arguments_));
-      case Type::brightdata:
-      case Type::colordata:
-      case Type::texdata:
-      case Type::mixdata:
-        return data(readData(arguments_));
-      case Type::colorpict:
-      case Type::mixpict:
-        return image(readPicture(arguments_));
-      case Type::spectrum:
-        return spectrum(readSpectrum(arguments_));
-      case Type::specfile:
-        return spectrumFile(readSpectrumFile(arguments_));
-      case Type::specfunc:
-        return spectralFunction(readSpectralFunction(arguments_));
-      case Type::specdata:
-        return spectralData(readData(arguments_));
-      case Type::specpict:
-        return spectralImage(readPicture(arguments_));
-      case Type::brighttext:
-      case Type::colortext:
-      case Type::mixtext:
-        return text(readText(arguments_));
-      case Type::plastic2:
-      case Type::metal2:
-      case Type::trans2:
-        return oriented(readAnisotropic(arguments_).orientation);
-      case Type::ashik2:
-        return oriented(readAshikhmin(arguments_).orientation);
-      case Type::plasfunc:
-      case Type::metfunc:
-      case Type::transfunc:
-        return distributed(readFunctionScatterer(arguments_));
-      case Type::plasdata:
-      case Type::metdata:
-      case Type::transdata:
-        return tabulated(readDataScatterer(arguments_));
-      case Type::brtdfunc:
-        return brtd(readBrtd(arguments_));
-      case Type::wgmdfunc:
-        return wgmd(readWgmd(arguments_));
-      case Type::bsdf:
-      case Type::absdf:
-        return bsdf(readBsdf(arguments_));
-      case Type::prism1:
-      case Type::prism2:
-        return redirector(readPrism(arguments_));
-      default:
-        fail("this type is not supported yet");
-    }
+    return std::visit([&](const auto& read) { return makeFrom(read); }, *modifier_.arguments);
   }
 
  private:
@@ -213,7 +160,7 @@ class SurfaceFunctions::Maker {
 
   calc::Request request(std::string_view file) const {
     calc::Request r;
-    r.place = scene_.place(index_);
+    r.place = scene_.place(modifier_.primitive);
     r.file = file;
     r.available = available_;
     r.reals = arguments_.reals();
@@ -260,21 +207,19 @@ class SurfaceFunctions::Maker {
     f.placement = readPlacement(arguments_, transform);
   }
 
-  std::unique_ptr<Function> values(const FunctionArguments& read) const {
+  std::unique_ptr<Function> makeFrom(const FunctionArguments& read) const {
     auto f = std::make_unique<Function>();
-    f->results = read.expressions.size();
-    f->what = Values{compiled(*f, read.file.name, read.expressions)};
-    setTransform(*f, read.file.transform);
-    return f;
+    Values values{compiled(*f, read.file.name, read.expressions)};
+    return finish(std::move(f), std::move(values), read.expressions.size(), read.file.transform);
   }
 
-  std::unique_ptr<Function> data(const DataArguments& read) const {
+  std::unique_ptr<Function> makeFrom(const DataArguments& read) const {
+    if (arguments_.type() == Type::specdata) return spectralData(read);
     const std::vector<int> passed = arguments_.type() == Type::colordata
                                         ? colorsPassed(read.file, read.corrections)
                                     : arguments_.type() == Type::texdata ? std::vector{3, 3, 3}
                                                                          : std::vector{1};
     auto f = std::make_unique<Function>();
-    f->results = read.corrections.size();
     Data d;
     for (const std::string_view name : read.tables) d.tables.push_back(table(name));
     const size_t dimensions = d.tables[0]->dimensions();
@@ -284,44 +229,38 @@ class SurfaceFunctions::Maker {
     const auto rest = std::span(read.rest);
     d.coordinates = compiled(*f, read.file, rest.first(dimensions));
     d.corrections = corrections(*f, read.file, read.corrections, passed);
-    f->what = std::move(d);
-    setTransform(*f, transformAmong(rest.subspan(dimensions)));
-    return f;
+    return finish(std::move(f), std::move(d), read.corrections.size(),
+                  transformAmong(rest.subspan(dimensions)));
   }
 
-  std::unique_ptr<Function> image(const PictureArguments& read) const {
+  std::unique_ptr<Function> makeFrom(const PictureArguments& read) const {
+    if (arguments_.type() == Type::specpict) return spectralImage(read);
     const std::vector<int> passed = arguments_.type() == Type::colorpict
                                         ? colorsPassed(read.file.name, read.corrections)
                                         : std::vector{3};
     auto f = std::make_unique<Function>();
-    f->results = read.corrections.size();
     Image i;
     i.coordinates = compiled(*f, read.file.name, read.coordinates);
     i.corrections = corrections(*f, read.file.name, read.corrections, passed);
     i.picture = picture(functions_.pictures_, read.picture);
-    f->what = std::move(i);
-    setTransform(*f, read.file.transform);
-    return f;
+    return finish(std::move(f), std::move(i), read.corrections.size(), read.file.transform);
   }
 
   // ---- spectra
 
   std::unique_ptr<Function> constant(Color color) const {
-    auto f = std::make_unique<Function>();
-    f->results = 0;
-    f->what = ConstantSpectrum{std::move(color)};
-    return f;
+    return finish(std::make_unique<Function>(), ConstantSpectrum{std::move(color)}, 0, {});
   }
   std::unique_ptr<Function> constant(std::span<const double> values, double first, double last) const {
     return constant(functions_.colorOf(betweenMiddles(values, first, last)));
   }
 
-  std::unique_ptr<Function> spectrum(const SpectrumArguments& read) const {
+  std::unique_ptr<Function> makeFrom(const SpectrumArguments& read) const {
     return constant(read.values, read.first, read.last);
   }
 
-  std::unique_ptr<Function> spectrumFile(std::string_view name) const {
-    const auto data = table(name);
+  std::unique_ptr<Function> makeFrom(const SpectrumFileArguments& read) const {
+    const auto data = table(read.data);
     if (data->dimensions() != 1)
       fail(fmt::format("expected data of 1 dimension, the wavelength, got {}", data->dimensions()));
     const rad::DataFile::Divisions d = data->divisions(0);
@@ -335,9 +274,8 @@ class SurfaceFunctions::Maker {
     return constant(functions_.colorOf(SpectralCurve{wavelengths, values}));
   }
 
-  std::unique_ptr<Function> spectralFunction(const SpectralFunctionArguments& read) const {
+  std::unique_ptr<Function> makeFrom(const SpectralFunctionArguments& read) const {
     auto f = std::make_unique<Function>();
-    f->results = 0;
     SpectralFunction s;
     s.program = functions_.library_.compileCall(request(read.file.name), read.function, 1);
     use(*f, s.program);
@@ -352,9 +290,7 @@ class SurfaceFunctions::Maker {
       s.step = std::max(range / kMostBands, band / 4);
       s.bins = std::max(size_t{1}, static_cast<size_t>(range / s.step + .1));
     }
-    f->what = std::move(s);
-    setTransform(*f, read.file.transform);
-    return f;
+    return finish(std::move(f), std::move(s), 0, read.file.transform);
   }
 
   std::unique_ptr<Function> spectralData(const DataArguments& read) const {
@@ -389,18 +325,15 @@ class SurfaceFunctions::Maker {
                                       std::span<const std::string_view> coordinates,
                                       std::string_view correction, const Words& transform) const {
     auto f = std::make_unique<Function>();
-    f->results = 0;
     s.coordinates = compiled(*f, file, coordinates);
     s.correction = functions_.library_.compileCall(request(file), correction, 2);
     use(*f, s.correction);
-    f->what = std::move(s);
-    setTransform(*f, transform);
-    return f;
+    return finish(std::move(f), std::move(s), 0, transform);
   }
 
   // ---- text
 
-  std::unique_ptr<Function> text(const TextArguments& read) const {
+  std::unique_ptr<Function> makeFrom(const TextArguments& read) const {
     auto f = std::make_unique<Function>();
     const size_t channels = read.foreground.size();
     f->results = std::max<size_t>(channels, 1);
@@ -428,11 +361,11 @@ class SurfaceFunctions::Maker {
 
   // ---- materials
 
-  std::unique_ptr<Function> oriented(const OrientationArguments& read) const {
+  std::unique_ptr<Function> makeFrom(const OneOf<AnisotropicArguments, AshikhminArguments> auto& read) const {
     auto f = std::make_unique<Function>();
     Scatterer s;
-    s.orientation = compiled(*f, read.file.name, read.direction);
-    return finish(std::move(f), std::move(s), read.file);
+    s.orientation = compiled(*f, read.orientation.file.name, read.orientation.direction);
+    return finish(std::move(f), std::move(s), read.orientation.file);
   }
 
   // The function of this name, called with the direction to a source and its solid angle, after `before`
@@ -443,7 +376,7 @@ class SurfaceFunctions::Maker {
     return program;
   }
 
-  std::unique_ptr<Function> distributed(const FunctionScattererArguments& read) {
+  std::unique_ptr<Function> makeFrom(const FunctionScattererArguments& read) {
     available_ = calc::kMaterialInputs;
     auto f = std::make_unique<Function>();
     Scatterer s;
@@ -451,7 +384,7 @@ class SurfaceFunctions::Maker {
     return finish(std::move(f), std::move(s), read.file);
   }
 
-  std::unique_ptr<Function> tabulated(const DataScattererArguments& read) {
+  std::unique_ptr<Function> makeFrom(const DataScattererArguments& read) {
     available_ = calc::kMaterialInputs;
     auto f = std::make_unique<Function>();
     Scatterer s;
@@ -464,7 +397,7 @@ class SurfaceFunctions::Maker {
     return finish(std::move(f), std::move(s), read.file);
   }
 
-  std::unique_ptr<Function> brtd(const BrtdArguments& read) {
+  std::unique_ptr<Function> makeFrom(const BrtdArguments& read) {
     available_ = calc::kMaterialInputs;
     auto f = std::make_unique<Function>();
     Scatterer s;
@@ -477,7 +410,7 @@ class SurfaceFunctions::Maker {
     return finish(std::move(f), std::move(s), read.file);
   }
 
-  std::unique_ptr<Function> wgmd(const WgmdArguments& read) {
+  std::unique_ptr<Function> makeFrom(const WgmdArguments& read) {
     available_ = (uint64_t{1} << calc::CrP) - 1;
     auto f = std::make_unique<Function>();
     const FunctionFile& file = read.orientation.file;
@@ -488,7 +421,7 @@ class SurfaceFunctions::Maker {
     return finish(std::move(f), std::move(s), file);
   }
 
-  std::unique_ptr<Function> bsdf(const BsdfArguments& read) const {
+  std::unique_ptr<Function> makeFrom(const BsdfArguments& read) const {
     auto f = std::make_unique<Function>();
     Scatterer s;
     s.bsdf = shared(functions_.bsdfs_, read.data, [&] {
@@ -501,34 +434,38 @@ class SurfaceFunctions::Maker {
     return finish(std::move(f), std::move(s), read.up.file);
   }
 
-  std::unique_ptr<Function> redirector(const PrismArguments& read) {
+  std::unique_ptr<Function> makeFrom(const PrismArguments& read) {
     available_ = calc::kPrismInputs;
     auto f = std::make_unique<Function>();
     Redirector r;
     for (size_t i = 0; i < read.images.size(); ++i)
       r.programs[i] = compiled(*f, read.file.name, read.images[i]);
-    f->what = std::move(r);
-    setTransform(*f, read.file.transform);
-    return f;
+    return finish(std::move(f), std::move(r), 1, read.file.transform);
   }
 
   std::unique_ptr<Function> finish(std::unique_ptr<Function> f, Scatterer s, const FunctionFile& file) const {
-    f->results = 3;
-    f->what = std::move(s);
-    setTransform(*f, file.transform);
+    return finish(std::move(f), std::move(s), 3, file.transform);
+  }
+  // what: one of Function::what.
+  template <class What>
+  std::unique_ptr<Function> finish(std::unique_ptr<Function> f, What what, size_t results,
+                                   const Words& transform) const {
+    f->results = results;
+    f->what = std::move(what);
+    setTransform(*f, transform);
     return f;
   }
 
   const SurfaceFunctions& functions_;
   const Scene& scene_;
-  PrimitiveId index_;
+  const Modifier& modifier_;
   PrimitiveArguments arguments_;
   uint64_t available_ = calc::kPointInputs;
 };
 
-SurfaceFunctions::SurfaceFunctions(const Scene& scene, rad::Warn warn,
+SurfaceFunctions::SurfaceFunctions(const Scene& scene, const SpectralSampling* sampling, rad::Warn warn,
                                    std::span<const SharedDefinitions> definitions,
-                                   const SpectralSampling* sampling, const WavelengthLimits& limits)
+                                   const WavelengthLimits& limits)
     : scene_(scene),
       sampling_(sampling),
       limits_(sampling ? WavelengthLimits{sampling->shortest, sampling->longest} : limits),
@@ -548,7 +485,7 @@ const SurfaceFunctions::Function& SurfaceFunctions::prepare(ModifierId modifier)
   const std::lock_guard lock(mutex_);
   auto& slot = ready_[modifier.index()];
   if (const Function* f = slot.load(std::memory_order_relaxed)) return *f;
-  functions_.push_back(Maker(*this, scene_.modifiers[modifier].primitive).make());
+  functions_.push_back(Maker(*this, modifier).make());
   slot.store(functions_.back().get(), std::memory_order_release);
   return *functions_.back();
 }
@@ -679,8 +616,8 @@ Color SurfaceFunctions::spectralPattern(ModifierId modifier, const Function& f, 
   return colorOf(betweenMiddles(scratch.spectrum, data.firstWavelength, data.lastWavelength));
 }
 
-// RADIANCE draws one wavelength at random in each bin. The mean of the two here is the mean of its draws up to terms
-// of the third order in the wavelength.
+// RADIANCE draws one wavelength at random in each bin. The mean of the two here is the mean of its draws up
+// to terms of the third order in the wavelength.
 void SurfaceFunctions::evaluateSpectrum(const SpectralFunction& f, calc::Point& point,
                                         FunctionScratch& scratch) const {
   scratch.spectrum.resize(f.bins);
@@ -721,9 +658,9 @@ void SurfaceFunctions::evaluateSpectrum(const SpectralData& data, calc::Point& p
 
 Color SurfaceFunctions::colorOf(const Spectrum& spectrum) const {
   if (sampling_) return Color(bandsOf(spectrum, *sampling_));
-  // In a run of three channels, RADIANCE first resamples spectra that rise in wavelength or have many values, at
-  // about their own resolution. This shifts colors by up to a fifth where it is coarse, and scenes are made with
-  // these colors.
+  // In a run of three channels, RADIANCE first resamples spectra that rise in wavelength or have many values,
+  // at about their own resolution. This shifts colors by up to a fifth where it is coarse, and scenes are
+  // made with these colors.
   const size_t count = spectrum.values.size();
   if (spectrum.first > spectrum.last && count <= kMostBands) return threeChannels(spectrum);
   const double range = std::abs(spectrum.last - spectrum.first);
@@ -733,8 +670,8 @@ Color SurfaceFunctions::colorOf(const Spectrum& spectrum) const {
       spectrumOf(bandsOf(spectrum, spectralSampling(resampled, limits_.shortest, limits_.longest))));
 }
 
-// RADIANCE samples data of unevenly spaced wavelengths at even ones, so that it misses lines. Here the means over bands
-// are exact.
+// RADIANCE samples data of unevenly spaced wavelengths at even ones, so that it misses lines. Here the means
+// over bands are exact.
 Color SurfaceFunctions::colorOf(const SpectralCurve& curve) const {
   if (sampling_) return Color(bandsOf(curve, *sampling_));
   return threeChannels(

@@ -54,14 +54,13 @@ struct FunctionScratch {
 
 class SurfaceFunctions {
  public:
-  // Keeps a reference to the scene. warn: called with a line, once for each modifier, when a value cannot be
-  // computed (division by zero and the like); from any thread, but never from two at once. definitions:
-  // shared by all function files, instead of those of rayinit.cal. sampling: the bands of a spectral run; null
-  // in a run of three channels, in which spectra are computed between these limits. Throws rad::Error if a
+  // Keeps a reference to the scene. sampling: the bands of a spectral run; null in a run of three channels,
+  // in which spectra are computed between these limits. warn: called with a line, once for each modifier,
+  // when a value cannot be computed (division by zero and the like); from any thread, but never from two at
+  // once. definitions: shared by all function files, instead of those of rayinit.cal. Throws rad::Error if a
   // definition is missing or invalid.
-  explicit SurfaceFunctions(const Scene& scene, rad::Warn warn = {},
-                            std::span<const SharedDefinitions> definitions = {},
-                            const SpectralSampling* sampling = nullptr, const WavelengthLimits& limits = {});
+  SurfaceFunctions(const Scene& scene, const SpectralSampling* sampling, rad::Warn warn = {},
+                   std::span<const SharedDefinitions> definitions = {}, const WavelengthLimits& limits = {});
 
   // Each of these functions takes a modifier. If a value cannot be computed, it returns the neutral value
   // given below. It throws rad::Error, with the modifier's place in the scene file, when it first needs
@@ -75,7 +74,7 @@ class SurfaceFunctions {
   Color pattern(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
   // The perturbation that is added to the surface's normal, in the world. Neutral value: (0, 0, 0).
   V3d texture(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
-  // The foreground's share, 0 to 1; negative if it cannot be computed: the mixture is then ignored.
+  // The share of the foreground, 0 to 1. Negative if it cannot be computed; the mixture is then ignored.
   double mixture(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
 
   // The same for materials; the neutral value is 0.
@@ -138,8 +137,7 @@ class SurfaceFunctions {
   struct Text {
     std::shared_ptr<const rad::FontFile> font;
     rad::TextLayout layout;
-    // anchor: the origin of the text. right, down: in its plane, dual to the motion vectors; products with
-    // these are 1 or 0.
+    // anchor: the origin of the text. right, down: the basis of its plane that is dual to the motion vectors.
     V3d anchor, right, down;
     std::array<double, 3> foreground, background;
   };
@@ -148,8 +146,9 @@ class SurfaceFunctions {
   struct ConstantSpectrum {
     Color color;
   };
-  // specfunc: the means of a function of the wavelength over bins, each by its values at two wavelengths. As in
-  // RADIANCE, the bins are taken to fill the range, of which a part of a step may be left over.
+  // specfunc: a function of the wavelength. Its mean over each bin is estimated from its values at two
+  // wavelengths. As in RADIANCE, the spectrum is spread over the whole range, although the bins may end up to
+  // a step before the end of the range.
   struct SpectralFunction {
     ProgramPointer program;
     double longest = 0, shortest = 0;  // nm
@@ -207,8 +206,8 @@ class SurfaceFunctions {
   }
   const Function& prepare(ModifierId modifier) const;
   std::span<const double> realsOf(ModifierId modifier) const;
-  // The placement of the function's coordinates in the world; null if they are world coordinates. A placement
-  // composed for this call is kept in scratch.
+  // The placement of the function's coordinates in the world; null if they are world coordinates. If it has
+  // to be composed for this call, it is stored in scratch.
   const Placement* placementOf(const Function& f, const FunctionPoint& at, FunctionScratch& scratch) const;
   void setInputs(const Function& f, const FunctionPoint& at, FunctionScratch& scratch) const;
   // Whether no fault has occurred since the faults were cleared; otherwise warns.

@@ -1,13 +1,10 @@
 #include "shade/surface_scattering.h"
 
-#include "shade/bsdf_scattering.h"
-
 namespace rsphere {
 namespace {
 
 static_assert(ScattersLight<RoundScattering> && ScattersLight<EllipticScattering> &&
-              ScattersLight<AshikhminLobeScattering> && ScattersLight<ProgrammedScattering> &&
-              ScattersLight<BsdfScattering>);
+              ScattersLight<AshikhminLobeScattering> && ScattersLight<ProgrammedScattering>);
 
 // Maximal number of draws for a sample of ashik2 that lies above the surface; as in RADIANCE.
 constexpr int kMostTries = 10;
@@ -33,10 +30,10 @@ LobeSample RoundScattering::draw(Component component, int i, int n, Random& rand
   const Scattering& s = scattering_;
   if (component == Component::reflected)
     return drawStratified(s.specularReflection, i, n, random, [&](double u1, double u2, V3d& d) {
-      return sampleReflection(s, at_, spread_, u1, u2, d);
+      return sampleReflection(s, at_, spread_.lobe, u1, u2, d);
     });
   return drawStratified(s.specularTransmission, i, n, random, [&](double u1, double u2, V3d& d) {
-    return sampleTransmission(s, at_, spread_, u1, u2, d);
+    return sampleTransmission(s, at_, spread_.lobe, u1, u2, d);
   });
 }
 
@@ -54,10 +51,10 @@ bool RoundScattering::isEven() const {
 LobeSample EllipticScattering::draw(Component component, int i, int n, Random& random) const {
   if (component == Component::reflected)
     return drawStratified(scattering_.reflected.share, i, n, random, [&](double u1, double u2, V3d& d) {
-      return sampleReflection(scattering_.reflected, at_, spread_, u1, u2, d);
+      return sampleReflection(scattering_.reflected, at_, spread_.lobe, u1, u2, d);
     });
   return drawStratified(scattering_.transmitted.share, i, n, random, [&](double u1, double u2, V3d& d) {
-    return sampleTransmission(scattering_.transmitted, at_, spread_, u1, u2, d);
+    return sampleTransmission(scattering_.transmitted, at_, spread_.lobe, u1, u2, d);
   });
 }
 

@@ -23,7 +23,7 @@ enum class Component : uint8_t { reflected, transmitted };
 inline constexpr std::array kComponents{Component::reflected, Component::transmitted};
 using Components = std::span<const Component>;
 
-// Adding it to a point changes no bit of the point: -0 + -0 is -0.
+// Adding this to a point leaves the point unchanged to the last bit, also if it contains -0.
 inline const V3d kNoOffset{-0., -0., -0.};
 // Of a surface that light reaches from both sides.
 inline const V3d kNoFront{0, 0, 0};
@@ -31,10 +31,20 @@ inline const V3d kNoFront{0, 0, 0};
 // A lobe that is estimated by samples.
 struct Lobe {
   int leastSamples = 1;  // of a ray of weight 1, whatever -ss is
-  // Of the lobe's light in the ray's radiance. If above 0, no more samples are taken than leave each a weight
-  // of at least -lw.
+  // The lobe's share of the ray's radiance. If above 0, the number of samples is limited so that each of them
+  // keeps a weight of at least -lw.
   double share = 0;
   V3d offset = kNoOffset;  // from the hit to the origin of the samples (world units)
+};
+
+// How far samples are spread: over a lobe (-ss) and over a light source (-dj), 1 for all of it.
+struct SampleSpread {
+  double lobe = 1, source = 0;
+
+  explicit SampleSpread(const MaterialOptions& options)
+      : lobe(options.specularSampling), source(options.directJitter) {}
+  // Whether samples of a lobe reproduce the light that coefficient() gives to it.
+  bool isWhole() const { return lobe >= 1 && source >= 1; }
 };
 
 struct LobeSample {
@@ -46,31 +56,30 @@ struct LobeSample {
 template <class S>
 concept ScattersLight = requires(S s, const S& c, Component component, Random& random, V3d v) {
   { c.sharp() } -> std::same_as<const SharpPaths&>;
-  // Those that the surface has, in the order in which they are estimated; the others are black.
+  // The components of the surface, in the order in which they are estimated; any others are black.
   { c.components() } -> std::same_as<Components>;
   // Empty if the component has no lobe that is sampled.
   { s.lobe(component, random) } -> std::same_as<std::optional<Lobe>>;
   // Sample i of n of a lobe, for i from 0 on. The coefficients of all n add up to the lobe's share of light.
   { c.draw(component, 0, 1, random) } -> std::same_as<LobeSample>;
-  // The coefficient of the mean radiance over the hemisphere that the component's light comes from: that
-  // around the normal, or, if it is transmitted, around the opposite direction.
+  // The coefficient of the mean radiance over the hemisphere from which the component's light arrives. It is
+  // centered on the normal, or for transmitted light on the opposite direction.
   { c.indirect(component) } -> std::same_as<Coefficient>;
   // The perturbed normal, and the surface's own (unit). Both are on the ray's side, whatever the component.
   { c.normal(component) } -> std::same_as<const V3d&>;
   { c.trueNormal() } -> std::same_as<const V3d&>;
-  // From the hit to the point that light of this component arrives at (world units).
+  // From the hit to the point where light of this component arrives (world units).
   { c.offset(component) } -> std::convertible_to<V3d>;
-  // Whether direct light is estimated at that point, after the indirect light of the component. It is that of
-  // this component, or of both where the same point serves both.
+  // Whether direct light is estimated at that point, after the indirect light of the component. It comprises
+  // the light of this component, or of both components if they share the point.
   { c.takesDirect(component) } -> std::same_as<bool>;
   // The normal behind which coefficients of direct light are 0; 0: none.
   { c.front() } -> std::same_as<const V3d&>;
   // The share of a source's radiance that is scattered towards the ray's origin, for a source that fills a
-  // solid angle (sr) in a direction (unit). component: one that takes direct light.
+  // solid angle (sr) in a direction (unit). REQUIRES takesDirect(component).
   { c.coefficient(component, v, 1., random) } -> std::same_as<Coefficient>;
-  // The density (per sr) with which a lobe's samples choose a direction (unit), and by which they represent
-  // the light that coefficient() gives to the lobe there. 0 if its samples do not reproduce that light
-  // exactly.
+  // The probability density (per sr) of a lobe's samples in a direction (unit). 0 if the samples do not
+  // reproduce exactly the light that coefficient() assigns to the lobe there.
   { c.lobeDensity(component, v) } -> std::same_as<double>;
   // The share of light (of each channel and band) that the component's lobe scatters.
   { c.lobeShare(component) } -> std::convertible_to<Color>;
@@ -78,7 +87,7 @@ concept ScattersLight = requires(S s, const S& c, Component component, Random& r
   { c.isEven() } -> std::same_as<bool>;
 };
 
-// plastic, metal, trans: lobes that are the same all round (scattering.h).
+// plastic, metal, trans: rotationally symmetric lobes (scattering.h).
 class RoundScattering {
  public:
   RoundScattering(const Opaque& material, const MaterialHit& hit) : RoundScattering(material, hit, false) {}
@@ -105,13 +114,13 @@ class RoundScattering {
     return component == components().back() && (transmits_ || !isBlack(scattering_.diffuseReflection) ||
                                                 !isBlack(scattering_.specularReflection));
   }
-  // What transmits no light is lit from its front alone.
+  // A surface that transmits no light is lit only from its front.
   const V3d& front() const { return transmits_ ? kNoFront : scattering_.normal; }
   Coefficient coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
-    return directCoefficient(scattering_, at_, toSource, solidAngle, sourceJitter_);
+    return directCoefficient(scattering_, at_, toSource, solidAngle, spread_.source);
   }
   double lobeDensity(Component component, const V3d& direction) const {
-    return component == Component::reflected && spread_ >= 1 && sourceJitter_ >= 1
+    return component == Component::reflected && spread_.isWhole()
                ? reflectedDensity(scattering_, at_, direction)
                : 0;
   }
@@ -128,13 +137,12 @@ class RoundScattering {
         scattering_(scatter(material, at_, hit.options().specularThreshold)),
         mayTransmit_(mayTransmit),
         transmits_(mayTransmit),
-        spread_(hit.options().specularSampling),
-        sourceJitter_(hit.options().directJitter) {}
+        spread_(hit.options()) {}
 
   Interaction at_;
   Scattering scattering_;
   bool mayTransmit_, transmits_;
-  double spread_, sourceJitter_;
+  SampleSpread spread_;
 };
 
 // plastic2, metal2, trans2, WGMDfunc: elliptic lobes (anisotropic.h).
@@ -145,17 +153,13 @@ class EllipticScattering {
   EllipticScattering(const Anisotropic& material, const V3d& along, const MaterialHit& hit)
       : at_(hit.interaction()),
         scattering_(scatter(material, at_, along, hit.options().specularThreshold)),
-        spread_(hit.options().specularSampling),
-        sourceJitter_(hit.options().directJitter) {
+        spread_(hit.options()) {
     if (scattering_.reflected.disoriented || scattering_.transmitted.disoriented)
       hit.functions().warn(material.functions, "illegal orientation vector");
   }
   EllipticScattering(const AnisotropicScattering& scattering, const Interaction& at,
                      const MaterialOptions& options)
-      : at_(at),
-        scattering_(scattering),
-        spread_(options.specularSampling),
-        sourceJitter_(options.directJitter) {}
+      : at_(at), scattering_(scattering), spread_(options) {}
 
   const SharpPaths& sharp() const { return scattering_.sharp; }
   Components components() const { return kComponents; }
@@ -170,10 +174,10 @@ class EllipticScattering {
   bool takesDirect(Component component) const { return component == Component::transmitted; }
   const V3d& front() const { return kNoFront; }
   Coefficient coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
-    return directCoefficient(scattering_, at_.direction, toSource, solidAngle, sourceJitter_);
+    return directCoefficient(scattering_, at_.direction, toSource, solidAngle, spread_.source);
   }
   double lobeDensity(Component component, const V3d& direction) const {
-    return component == Component::reflected && spread_ >= 1 && sourceJitter_ >= 1
+    return component == Component::reflected && spread_.isWhole()
                ? reflectedDensity(scattering_.reflected, at_, direction)
                : 0;
   }
@@ -190,7 +194,7 @@ class EllipticScattering {
 
   Interaction at_;
   AnisotropicScattering scattering_;
-  double spread_, sourceJitter_;
+  SampleSpread spread_;
 };
 
 // ashik2 (anisotropic.h).

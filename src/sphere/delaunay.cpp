@@ -167,8 +167,8 @@ void Delaunay::lengthenScratch(std::size_t length) {
   rim_.resize(length);
 }
 
-// Grows the hole edge by edge counterclockwise, so that its rim comes out in order. Inlined into insert(), its
-// only caller, as the next two are, so that p stays in registers.
+// Grows the hole edge by edge counterclockwise, so that its rim comes out in order. Inlined into insert(),
+// its only caller, as the next two are, so that p stays in registers.
 [[gnu::always_inline]] inline Delaunay::Hole Delaunay::growHole(const V3d& p, std::uint32_t first) {
   // Local pointers let the compiler assume that writes to the arrays do not change them.
   const std::uint32_t insertion = ++insertions;

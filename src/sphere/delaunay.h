@@ -55,9 +55,9 @@ struct Delaunay {
   // Starts with four different sites.
   void start(const std::array<Site, 4>& first);
 
-  // Adds a site. Its index is 4 plus the number of earlier calls. It is merged into a site that it equals, or
-  // into the nearest one if it lies inside the hull, which happens only within 1e-15 of another site. Sites
-  // that it puts inside the hull are merged into it.
+  // Adds a site. Its index is 4 plus the number of earlier calls. If it equals an existing site, it is merged
+  // into that site. If it lies inside the hull, which happens only within 1e-15 of another site, it is merged
+  // into the nearest site. Existing sites that come to lie inside the hull are merged into the new one.
   void insert(const Site& added);
 
   // Whether p lies inside the triangle's circumcircle.

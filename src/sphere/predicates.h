@@ -15,9 +15,9 @@
 // rounded unit vectors as they are was rejected: their radii differ by 1e-16, which decides the hull if the
 // spacing is below 1e-8.
 //
-// Ties between coplanar points are broken by a symbolic perturbation. That of a point with lexicographically
-// greater coordinates is infinitely larger. Points move first along the radius, then (if all lie on a great
-// circle) along x, y and z.
+// Ties between coplanar points are broken by a symbolic perturbation. Of two points, the one with
+// lexicographically greater coordinates is perturbed by an infinitely larger amount. Points move first along
+// the radius, then (if all lie on a great circle) along x, y and z.
 namespace rsphere {
 
 using Imath::V3d;

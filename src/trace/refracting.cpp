@@ -14,18 +14,16 @@ class Refracting {
 
   bool surface(const Surface& s) {
     if (scene_.hasOwnModifier(s)) return modifier(s.modifier);
-    return visit(Overloaded{
-                     [&](const Instance& instance) { return group(instance.group); },
-                     [&](const MeshInstance& mesh) {
-                       for (const SurfaceId faces : scene_.meshes[mesh.mesh].facesOf)
-                         if (faces != kNone && modifier(scene_.surfaces[faces].modifier)) return true;
-                       return false;
-                     },
-                     [&](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) {
-                       return modifier(s.modifier);
-                     },
-                 },
-                 s.shape);
+    return match(
+        s.shape, [&](const Instance& instance) { return group(instance.group); },
+        [&](const MeshInstance& mesh) {
+          for (const SurfaceId faces : scene_.meshes[mesh.mesh].facesOf)
+            if (faces != kNone && modifier(scene_.surfaces[faces].modifier)) return true;
+          return false;
+        },
+        [&](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) {
+          return modifier(s.modifier);
+        });
   }
 
  private:
@@ -34,17 +32,15 @@ class Refracting {
     for (ModifierId m = first; m != kNone; m = scene_.modifiers[m].next) {
       std::optional<bool>& known = modifiers_[m];
       if (!known) {
-        known = std::visit(Overloaded{
-                               [&](const Mixture& mixture) {
-                                 return modifier(mixture.foreground) || modifier(mixture.background);
-                               },
-                               [&](const Material& material) {
-                                 return isBoundary(material) ||
-                                        alternate(alternateOf(material).value_or(Alternate{}));
-                               },
-                               [](const OneOf<Pattern, Texture> auto&) { return false; },
-                           },
-                           scene_.modifiers[m].content);
+        known = match(
+            scene_.modifiers[m].content,
+            [&](const Mixture& mixture) {
+              return modifier(mixture.foreground) || modifier(mixture.background);
+            },
+            [&](const Material& material) {
+              return isBoundary(material) || alternate(alternateOf(material).value_or(Alternate{}));
+            },
+            [](const OneOf<Pattern, Texture> auto&) { return false; });
       }
       if (*known) return true;
     }

@@ -238,19 +238,17 @@ class Tracer::Tree {
     uint32_t placement = 0;
   };
   Contents contentsOf(const Surface& surface) const {
-    return visit(
-        Overloaded{
-            [&](const Instance& instance) {
-              const bool all = isWhole_ || scene_.hasOwnModifier(surface);
-              return Contents{(all ? others_.groups : others_.refracting)[instance.group].get(),
-                              instance.placement};
-            },
-            [&](const MeshInstance& mesh) {
-              return Contents{others_.meshes[mesh.mesh].get(), mesh.placement};
-            },
-            [](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) { return Contents{}; },
+    return match(
+        surface.shape,
+        [&](const Instance& instance) {
+          const bool all = isWhole_ || scene_.hasOwnModifier(surface);
+          return Contents{(all ? others_.groups : others_.refracting)[instance.group].get(),
+                          instance.placement};
         },
-        surface.shape);
+        [&](const MeshInstance& mesh) {
+          return Contents{others_.meshes[mesh.mesh].get(), mesh.placement};
+        },
+        [](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) { return Contents{}; });
   }
 
   Box3d boundsOf(uint32_t primitive) const {
@@ -559,9 +557,9 @@ namespace {
 
 // Embree's settings for trees over this many primitives in all.
 const char* deviceFor(size_t primitives) {
-  // Embree's cache for subdivision surfaces, 128 MB of address space, is not needed. Threads and huge pages only
-  // help in large scenes: starting threads takes longer than building the tree of a small one, and Embree reads
-  // /proc/meminfo to find out about huge pages.
+  // Embree's cache for subdivision surfaces, 128 MB of address space, is not needed. Threads and huge pages
+  // only help in large scenes: starting threads takes longer than building the tree of a small one, and
+  // Embree reads /proc/meminfo to find out about huge pages.
   if (primitives < 20000) return "tessellation_cache_size=0,threads=1,user_threads=1,hugepages=0";
   // Leaves of up to four primitives take 27 bytes a primitive less than those of one. In scenes beyond the
   // processor's caches they take no more time: more primitives are tested, but less of the tree is read. In

@@ -6,8 +6,8 @@
 // traverses one tree. Embree's single-precision arithmetic only finds candidates: the scene is recentred,
 // bounds are padded by more than its rounding can move a ray, and rays start where they enter the scene.
 // Single-precision triangles were rejected: they miss the right primitive on 17% of rays once a scene
-// lies 1e5 units from the origin. As candidates, with the test in double precision behind them, they take longer
-// than callbacks in all interiors (tests/bench/rtrace/runs/2026-11-23-rays.txt).
+// lies 1e5 units from the origin. If they only find candidates for a test in double precision, they are
+// slower than callbacks in all interiors (tests/bench/rtrace/runs/2026-11-23-rays.txt).
 //
 // Each octree and each mesh has its own tree, in its own coordinates. An instance is a primitive whose
 // callback queries that tree with the ray transformed in double precision; instances may be nested. Embree's
@@ -38,16 +38,16 @@ struct Hit {
 
 enum class Shadow : uint8_t {
   clear,     // nothing lies between the two
-  blocked,   // something opaque does, and nothing before it could refract the ray past it
-  unsure,    // nothing opaque does, but something may transmit light: the ray must be followed
+  blocked,   // something opaque lies between, and nothing before it could refract the ray past it
+  unsure,    // nothing opaque lies between, but something may transmit light: the ray must be followed
   refracted  // something opaque does, but something before it may refract the ray past it: the ray must
              // be followed
 };
 
 class Tracer {
  public:
-  // Keeps a reference to the scene. backFacesVisible (-bv): whether an opaque material stops rays from
-  // behind. Throws rad::Error (Status::system) if Embree runs out of memory.
+  // Keeps a reference to the scene. backFacesVisible (-bv): whether opaque materials stop rays that hit them
+  // from behind. Throws rad::Error (Status::system) if Embree runs out of memory.
   Tracer(const Scene& scene, bool backFacesVisible);
   ~Tracer();
   Tracer(Tracer&&) noexcept;
@@ -65,10 +65,9 @@ class Tracer {
   // Visibility between origin and a light source's surface at the given distance along direction. source:
   // that surface, which does not block the ray; kNone if there is none. For a distant source,
   // distance is kFarAway.
-  // blocker: in, the primitive that blocked the last ray, which is tried first; out, the one that blocked
-  // this ray, or kNoBlocker. Consecutive rays to one source are often blocked by the same surface. The answer
-  // does not depend on it.
-  // from: as for nearest().
+  // blocker: on entry, a primitive to test first, usually the one that blocked the last ray to this source,
+  // because consecutive rays are often blocked by the same surface. On return, the primitive that blocked
+  // this ray, or kNoBlocker. The answer does not depend on it. from: as for nearest().
   Shadow shadow(const V3d& origin, const V3d& direction, double distance, SurfaceId source,
                 uint32_t* blocker = nullptr, SurfaceId from = kNone) const;
   static constexpr uint32_t kNoBlocker = ~0u;

@@ -40,9 +40,10 @@ std::vector<OptionEntry> makeTable() {
        .value = +[](Options& o) -> bool& { return own(o).bounces; },
        .remark = "fewer bounces on|fewer bounces off",
        .paragraph =
-           "Toggles settings with fewer bounces than -ab, besides the usual ones or those of -Tl. The light that "
-           "they leave out appears as a bias against the reference, which has the bounces of -ab. To measure "
-           "how much light the bounces after the third add, for example, use -Tb -ab 8 and read the line of -ab 3."});
+           "Toggles settings with fewer bounces than -ab, besides the usual ones or those of -Tl. The light "
+           "that they leave out appears as a bias against the reference, which has the bounces of -ab. To "
+           "measure how much light the bounces after the third add, for example, use -Tb -ab 8 and read the "
+           "line of -ab 3."});
   add({.name = "-Tl",
        .arguments = "file",
        .value = +[](Options& o) -> std::string& { return own(o).ladder; },

@@ -94,8 +94,8 @@ std::string tradeCsv(std::span<const Figures> all, const Reference& reference) {
 
 std::string bouncesText(int bounces) {
   return fmt::format(
-      "These errors hold for -ab {}. The light that further bounces would add is not in them; -Tb with a larger "
-      "-ab measures it.",
+      "These errors hold for -ab {}. The light that further bounces would add is not in them; -Tb with a "
+      "larger -ab measures it.",
       bounces);
 }
 
@@ -207,8 +207,8 @@ std::string tradePage(std::span<const Figures> all, const Reference& reference, 
   page.note(
       "Time: CPU time of one thread, without reading the scene and other work before the first point. "
       "Errors are relative to the reference: those of single answers, as root mean square (rms) over points "
-      "and repeats, and the largest. Bias: the mean error \u00b1 its standard error. Own estimate: the standard "
-      "error that the setting states itself (-oe).");
+      "and repeats, and the largest. Bias: the mean error \u00b1 its standard error. Own estimate: the "
+      "standard error that the setting states itself (-oe).");
   page.heading("Measurement");
   page.facts(
       {{"Scene", subject.scene},

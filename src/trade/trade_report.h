@@ -12,7 +12,8 @@ namespace rsphere {
 std::string tradeTable(std::span<const Figures> all);
 std::string tradeCsv(std::span<const Figures> all, const Reference& reference);
 
-// States that errors do not include the light of further bounces, which the reference leaves out as well, and how to measure it.
+// States that errors do not include the light of further bounces, which the reference leaves out as well, and
+// how to measure it.
 std::string bouncesText(int bounces);
 
 // What a report is about, beside the settings.

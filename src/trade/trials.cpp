@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/spectral_sampling.h"
+#include "base/colorimetry.h"
 #include "measure/work.h"
 
 namespace rsphere {

@@ -63,7 +63,7 @@ CylinderHighlights::Cylinder CylinderHighlights::lit(const Cone& shape, const Op
   std::vector<Candidate> candidates;
   for (const LightSource& source : lights.all()) {
     const V3d from =
-        source.distant ? shape.base + shape.length / 2 * shape.axis : nearestOnAxis(shape, source.center);
+        source.isDistant() ? shape.base + shape.length / 2 * shape.axis : nearestOnAxis(shape, source.center);
     for (const LightingPart& part : partsThatLight(source, from, radius, scene)) {
       const double solidAngle = part.solidAngle(from), radiance = reflectance * part.radiance;
       const double spread = cylinder.roughness * cylinder.roughness + solidAngle / (8 * kPi);

@@ -16,7 +16,7 @@ using Tuning = tuning::DirectLight;
 
 // Kinds of sources whose visibility is estimated separately, because they are occluded for different reasons.
 constexpr int kSourceKinds = 3;
-int kindOf(const LightSource& light) { return light.isVirtual() ? 2 : light.distant ? 1 : 0; }
+int kindOf(const LightSource& light) { return light.isVirtual() ? 2 : light.isDistant() ? 1 : 0; }
 
 // The number of sources that were tested for shadows, and of those that are visible.
 struct Tests {
@@ -77,7 +77,7 @@ bool DirectLight::isWhole(const SourceSample& sample) const {
 bool DirectLight::arrives(const Ray& ray, Contribution& to, Radiance& value) {
   const SourceSample& sample = *to.sample;
   const LightSource& light = t_.lights().all()[sample.source];
-  const bool toSurface = !light.distant || light.isVirtual();
+  const bool toSurface = !light.isDistant() || light.isVirtual();
   Shadow shadow =
       t_.tracer().shadow(ray.point, sample.direction, sample.distance, toSurface ? light.surface : kNone,
                          &blockerOf(ray.surface, sample.source), ray.surface);

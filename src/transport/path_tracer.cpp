@@ -132,8 +132,8 @@ TracedRay PathTracer::Path::traceToSource(const V3d& point, const SourceSample& 
   begin(seed, sample.direction, request);
   const LightSource& light = t_.lights().all()[sample.source];
   TracedRay ray;
-  switch (
-      t_.tracer().shadow(point, sample.direction, sample.distance, light.distant ? kNone : light.surface)) {
+  switch (t_.tracer().shadow(point, sample.direction, sample.distance,
+                             light.isDistant() ? kNone : light.surface)) {
     case Shadow::unsure:
     case Shadow::refracted:
       return trace(point, sample.direction, 0, seed, request);
@@ -144,7 +144,7 @@ TracedRay PathTracer::Path::traceToSource(const V3d& point, const SourceSample& 
       ray.direction = sample.direction;
       ray.surface = light.surface;
       ray.length = ray.unmirroredLength = sample.distance;
-      if (!light.distant) ray.point = point + sample.distance * sample.direction;
+      if (!light.isDistant()) ray.point = point + sample.distance * sample.direction;
       ray.normal = sample.normal;
       ray.cosine = sample.cosine;
       ray.medium = t_.medium();

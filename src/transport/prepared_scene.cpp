@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "rad_parser/printable.h"
+
 namespace rsphere {
 PreparedScene::PreparedScene(const Scene& scene, const RayOptions& options, IrradianceAt irradiance,
                              bool basicRadiance, const rad::Warn& warn)
@@ -12,7 +14,7 @@ PreparedScene::PreparedScene(const Scene& scene, const RayOptions& options, Irra
       irradiance_(irradiance),
       basicRadiance_(basicRadiance),
       tracer_(scene, options.backFacesVisible),
-      functions_(scene, warn, options.definitions, options.sampling, options.wavelengths),
+      functions_(scene, options.sampling, warn, options.definitions, options.wavelengths),
       lights_(scene, options.directRelays, functions_, warn),
       presumedShadows_(scene, tracer_, lights_),
       choice_(scene, lights_),

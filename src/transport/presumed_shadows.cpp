@@ -47,7 +47,7 @@ bool PresumedShadows::isOpaque(const Hit& hit) const {
 // Sets the line from a source through the middle of a shadow ray's cell; false if the ray has no cell.
 bool PresumedShadows::middleOfCell(const LightSource& light, const V3d& point, const V3d& direction,
                                    V3d& origin, V3d& onward) const {
-  if (light.distant) {
+  if (light.isDistant()) {
     // The grid lies in the plane of the cube's side that faces the source most. It is extended beyond that
     // side, so that every ray to the source that leaves the cube crosses it.
     const V3d& to = light.center;
@@ -69,9 +69,10 @@ bool PresumedShadows::middleOfCell(const LightSource& light, const V3d& point, c
   }
   // The side of a cube of directions. If the source is plane, the cube is aligned with the source.
   V3d axes[3] = {V3d(1, 0, 0), V3d(0, 1, 0), V3d(0, 0, 1)};
-  if (light.isPlane()) {
-    axes[2] = light.normal;
-    axes[0] = light.u.normalized();
+  const auto* plane = light.as<PlaneLight>();
+  if (plane) {
+    axes[2] = plane->normal;
+    axes[0] = plane->u.normalized();
     axes[1] = axes[2].cross(axes[0]);
   }
   const V3d from(-direction.dot(axes[0]), -direction.dot(axes[1]), -direction.dot(axes[2]));
@@ -83,8 +84,7 @@ bool PresumedShadows::middleOfCell(const LightSource& light, const V3d& point, c
   onward.normalize();
   // The line starts just in front of the source, because the source's center may lie inside it.
   constexpr double kBefore = .01;
-  origin =
-      light.center + light.radius * (light.isPlane() ? kBefore * light.normal : (1 + 5 * kBefore) * onward);
+  origin = light.center + light.radius * (plane ? kBefore * plane->normal : (1 + 5 * kBefore) * onward);
   return true;
 }
 
@@ -100,7 +100,7 @@ bool PresumedShadows::hide(LightId source, const V3d& point, const V3d& directio
     if (first.surface != light.surface && isOpaque(first)) {
       // A surface this near to the side of the cube is missed by rtrace, which searches on the other side.
       constexpr double kLost = 1;  // world units
-      if (light.distant && passed + first.distance <= kLost) return false;
+      if (light.isDistant() && passed + first.distance <= kLost) return false;
       break;
     }
     passed += first.distance + 10 * kSamePlace;

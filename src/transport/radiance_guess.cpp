@@ -33,6 +33,14 @@ double irradianceFrom(const std::array<V3d, N>& corners, const V3d& normal) {
   return std::abs(sum) / 2;
 }
 
+// The same from a fan of triangles around its first vertex, at a point.
+double irradianceFromFan(std::span<const V3d> v, const V3d& point, const V3d& normal) {
+  double sum = 0;
+  for (size_t i = 2; i < v.size(); ++i)
+    sum += irradianceFrom<3>({v[0] - point, v[i - 1] - point, v[i] - point}, normal);
+  return sum;
+}
+
 double middleOf(std::vector<double>& values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
@@ -80,33 +88,35 @@ RadianceGuess::Place RadianceGuess::placeOf(const V3d& point, const V3d& directi
 // Unoccluded irradiance from a source of radiance 1, sr.
 double RadianceGuess::factor(LightId source, const Place& at) const {
   const LightSource& light = prepared_.lights().all()[source];
-  if (light.distant) return 2 * kPi * (1 - light.cosHalfAngle) * std::max(0., at.normal.dot(light.center));
+  if (const auto* cone = light.as<DistantLight>())
+    return 2 * kPi * (1 - cone->cosHalfAngle) * std::max(0., at.normal.dot(light.center));
   const V3d to = light.center - at.point;
   if (at.normal.dot(to) <= -light.radius) return 0;
-  const bool oneSided = light.map == LightSource::Map::disk || light.map == LightSource::Map::fan ||
-                        light.map == LightSource::Map::parallelogram;
-  if (oneSided && !(light.normal.dot(to) < 0)) return 0;
+  if (const auto* plane = light.as<PlaneLight>(); plane && !(plane->normal.dot(to) < 0)) return 0;
   const double squared = to.length2(), distance = std::sqrt(squared);
   if (light.reach > 0 && distance - light.radius > light.reach) return 0;
   if (light.spot && outsideSpot(*light.spot, to / distance)) return 0;
   const double cosine = std::max(0., at.normal.dot(to) / distance);
-  if (light.map == LightSource::Map::ball)
-    return kPi * light.radius * light.radius * cosine / std::max(squared, light.radius * light.radius);
-  if (light.map == LightSource::Map::tube) return light.area * cosine / (squared + light.area / kPi);
-  if (light.map == LightSource::Map::cone) return 0;
-  const double front = -light.normal.dot(to) / distance;
-  if (!(front > 0)) return 0;
-  if (light.map == LightSource::Map::disk) return light.area * cosine * front / (squared + light.area / kPi);
-  if (light.map == LightSource::Map::fan) {
-    double sum = 0;
-    const auto& v = light.fanVertices;
-    for (size_t i = 2; i < v.size(); ++i)
-      sum += irradianceFrom<3>({v[0] - at.point, v[i - 1] - at.point, v[i] - at.point}, at.normal);
-    return sum;
-  }
-  if (distance > Tuning::kNear * light.radius) return light.area * cosine * front / squared;
-  const V3d &u = light.u, &v = light.v;
-  return irradianceFrom<4>({to - u - v, to + u - v, to + u + v, to - u + v}, at.normal);
+  const auto ofPlane = [&](const PlaneLight& plane) -> double {
+    const double front = -plane.normal.dot(to) / distance;
+    if (!(front > 0)) return 0;
+    const V3d &u = plane.u, &v = plane.v;
+    return match(
+        plane.map,
+        [&](const PlaneLight::Disk&) { return plane.area * cosine * front / (squared + plane.area / kPi); },
+        [&](const PlaneLight::Fan& fan) { return irradianceFromFan(fan.vertices, at.point, at.normal); },
+        [&](const OneOf<PlaneLight::Parallelogram, PlaneLight::Square> auto&) {
+          if (distance > Tuning::kNear * light.radius) return plane.area * cosine * front / squared;
+          return irradianceFrom<4>({to - u - v, to + u - v, to + u + v, to - u + v}, at.normal);
+        });
+  };
+  return match(
+      light.shape, ofPlane,
+      [&](const BallLight&) {
+        return kPi * light.radius * light.radius * cosine / std::max(squared, light.radius * light.radius);
+      },
+      [&](const TubeLight& tube) { return tube.area * cosine / (squared + tube.area / kPi); },
+      [](const DistantLight&) { return 0.; });
 }
 
 double RadianceGuess::sent(const Light& light, const Place& at) const {
@@ -116,29 +126,35 @@ double RadianceGuess::sent(const Light& light, const Place& at) const {
 // The share of some fixed points on the source that are visible from the place.
 double RadianceGuess::seenFrom(const Place& at, LightId source) const {
   const LightSource& light = prepared_.lights().all()[source];
-  const bool ball = light.map == LightSource::Map::ball;
-  V3d u = light.u, v = light.v;
-  if (ball) {
-    // A square perpendicular to the view with the area of the ball's disk: half its side is sqrt(pi) / 2
-    // radii.
-    frame((light.center - at.point).normalized(), u, v);
-    u *= .886 * light.radius;
-    v *= .886 * light.radius;
-  }
-  const bool wide = !light.distant && u.length2() > 0 && v.length2() > 0;
+  V3d u(0, 0, 0), v(0, 0, 0);
+  match(
+      light.shape,
+      [&](const PlaneLight& plane) {
+        u = plane.u;
+        v = plane.v;
+      },
+      [&](const BallLight&) {
+        // A square perpendicular to the view with the area of the ball's disk: half its side is
+        // sqrt(pi) / 2 radii.
+        frame((light.center - at.point).normalized(), u, v);
+        u *= .886 * light.radius;
+        v *= .886 * light.radius;
+      },
+      [](const OneOf<TubeLight, DistantLight> auto&) {});
+  const bool wide = u.length2() > 0 && v.length2() > 0;
   const auto share = [&](int side) {
     int seen = 0, asked = 0;
     for (int i = 0; i < side; ++i)
       for (int k = 0; k < side; ++k) {
         const double s = (2 * i + 1.) / side - 1, t = (2 * k + 1.) / side - 1;
-        V3d to = light.distant ? light.center : light.center - at.point;
+        V3d to = light.isDistant() ? light.center : light.center - at.point;
         if (wide) to += s * u + t * v;
         const double distance = to.length();
         to /= distance;
         if (!(at.normal.dot(to) > 0)) continue;
         ++asked;
-        seen += prepared_.tracer().shadow(at.point, to, light.distant ? kFarAway : distance, light.surface) !=
-                Shadow::blocked;
+        seen += prepared_.tracer().shadow(at.point, to, light.isDistant() ? kFarAway : distance,
+                                           light.surface) != Shadow::blocked;
       }
     return asked ? static_cast<double>(seen) / asked : 0;
   };

@@ -23,7 +23,7 @@ void findDistant(const PreparedScene& prepared, Ray& ray) {
   };
   if (ray.aimedAt != kNone) {
     const LightSource& light = prepared.lights().all()[ray.aimedAt];
-    if (light.distant && !light.isVirtual() && sees(light.surface)) ray.surface = light.surface;
+    if (light.isDistant() && !light.isVirtual() && sees(light.surface)) ray.surface = light.surface;
     return;
   }
   SurfaceId glow;
@@ -54,7 +54,7 @@ void findTarget(const PreparedScene& prepared, Ray& ray) {
   ray.point = ray.origin;
   ray.normal = -ray.direction;
   ShapeHit hit;
-  if (target.distant && !target.isVirtual()) {
+  if (target.isDistant() && !target.isVirtual()) {
     findDistant(prepared, ray);
   } else if (intersect(scene.surfaces[target.surface].shape, scene.vertices, ray.origin, ray.direction,
                        kFarAway, hit)) {

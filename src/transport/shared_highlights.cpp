@@ -11,17 +11,22 @@ namespace {
 
 // The solid angle (sr) that the source would fill if all of it were seen as it is in this direction.
 double apparentSize(const LightSource& source, double distance, double cosine) {
-  if (source.distant) return 2 * kPi * (1 - source.cosHalfAngle);
-  if (source.isPlane()) return std::min(2 * kPi, source.area * cosine / (distance * distance));
-  const double r = source.radius, toCenter2 = distance * distance + r * r + 2 * distance * r * cosine;
-  return 2 * kPi * (1 - std::sqrt(std::max(0., 1 - r * r / toCenter2)));
+  const auto ofBall = [&] {
+    const double r = source.radius, toCenter2 = distance * distance + r * r + 2 * distance * r * cosine;
+    return 2 * kPi * (1 - std::sqrt(std::max(0., 1 - r * r / toCenter2)));
+  };
+  return match(
+      source.shape,
+      [&](const PlaneLight& plane) { return std::min(2 * kPi, plane.area * cosine / (distance * distance)); },
+      [&](const OneOf<BallLight, TubeLight> auto&) { return ofBall(); },
+      [](const DistantLight& cone) { return 2 * kPi * (1 - cone.cosHalfAngle); });
 }
 
 }  // namespace
 
 bool sharesHighlights(const PreparedScene& prepared, LightId source) {
   const LightSource& light = prepared.lights().all()[source];
-  if (light.isVirtual() || light.reach > 0 || light.spot || light.map == LightSource::Map::tube ||
+  if (light.isVirtual() || light.reach > 0 || light.spot || light.as<TubeLight>() ||
       !prepared.constantRadiance(source))
     return false;
   const Surface& surface = prepared.scene().surfaces[light.surface];

@@ -14,20 +14,30 @@ namespace {
 using Tuning = tuning::HighlightParts;
 
 std::vector<SourcePart> partsOf(const LightSource& source, const V3d& from) {
-  const V3d way = source.distant ? source.center : source.center - from;
+  const V3d way = source.isDistant() ? source.center : source.center - from;
   const double distance = way.length();
-  const bool isRound = source.map == LightSource::Map::disk || source.map == LightSource::Map::ball ||
-                       source.map == LightSource::Map::cone;
-  SourcePart whole{.distant = source.distant, .center = source.center, .u = source.u, .v = source.v};
-  if (isRound) whole.variance = 1. / 4;
-  if (source.map == LightSource::Map::tube)
-    whole.v = source.u.cross(way).normalized() * (source.area / (4 * source.u.length()));
-  if (isRound && !source.isPlane()) {
-    const double radius = source.distant ? source.outermost : source.radius;
+  SourcePart whole{.distant = source.isDistant(), .center = source.center};
+  bool isRound = false;
+  const auto setRound = [&](double radius) {
+    isRound = true;
     frame(way / distance, whole.u, whole.v);
     whole.u *= radius;
     whole.v *= radius;
-  }
+  };
+  match(
+      source.shape,
+      [&](const PlaneLight& plane) {
+        isRound = std::holds_alternative<PlaneLight::Disk>(plane.map);
+        whole.u = plane.u;
+        whole.v = plane.v;
+      },
+      [&](const BallLight&) { setRound(source.radius); },
+      [&](const TubeLight& tube) {
+        whole.u = tube.half;
+        whole.v = acrossTube(tube, way);
+      },
+      [&](const DistantLight&) { setRound(source.outermost); });
+  if (isRound) whole.variance = 1. / 4;
   const auto divided = [&](const V3d& half) {
     if (isRound) return 1.;
     return std::clamp(std::ceil(half.length() / (Tuning::kHalf * distance)), 1., Tuning::kMost);
@@ -48,20 +58,24 @@ std::vector<SourcePart> partsOf(const LightSource& source, const V3d& from) {
 }  // namespace
 
 double LightingPart::solidAngle(const V3d& from) const {
-  if (source->distant) return share * 2 * kPi * (1 - source->cosHalfAngle);
+  if (const auto* cone = source->as<DistantLight>()) return share * 2 * kPi * (1 - cone->cosHalfAngle);
   const V3d way = part.towards(from);
   const double squared = way.length2(), distance = std::sqrt(squared);
-  double area = kPi * source->radius * source->radius;
-  if (source->isPlane()) area = source->area * std::max(0., -source->normal.dot(way)) / distance;
-  if (source->map == LightSource::Map::tube)
-    area = source->area * source->u.cross(way).length() / (source->u.length() * distance);
+  const double area = match(
+      source->shape,
+      [&](const PlaneLight& plane) { return plane.area * std::max(0., -plane.normal.dot(way)) / distance; },
+      [&](const BallLight&) { return kPi * source->radius * source->radius; },
+      [&](const TubeLight& tube) {
+        return tube.area * tube.half.cross(way).length() / (tube.half.length() * distance);
+      },
+      [](const DistantLight&) { return 0.; });
   return share * std::min(2 * kPi, area / squared);
 }
 
 std::vector<LightingPart> partsThatLight(const LightSource& source, const V3d& from, double radius,
                                          const Scene& scene) {
   if (source.isVirtual()) return {};
-  if (!source.distant) {
+  if (!source.isDistant()) {
     const V3d way = source.center - from;
     const double apart = way.length() - radius;
     if (!(apart > 0) || (source.reach > 0 && apart - source.radius > source.reach)) return {};

@@ -53,7 +53,7 @@ class SurfaceShading::Hit final : public MaterialHit {
   V3d towardsSource() const override {
     const auto& lights = shading_.t_.lights().all();
     const LightSource& source = lights[lights[ray_.aimedAt].relayed];
-    return (source.distant ? source.center : source.center - ray_.point).normalized();
+    return (source.isDistant() ? source.center : source.center - ray_.point).normalized();
   }
   int samplesOf(double wanted) const override { return rsphere::samplesOf(shading_.settings_, ray_, wanted); }
 

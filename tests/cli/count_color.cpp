@@ -1,4 +1,5 @@
-// Counts the pixels of a color in a picture, or in a rectangle of it: for tests that look at what a browser draws.
+// Counts the pixels of a color in a picture, or in a rectangle of it: for tests that look at what a browser
+// draws.
 //   count_color PICTURE RRGGBB [LEFT TOP RIGHT BOTTOM]
 // prints their number and the middle of the box around them.
 #include <OpenImageIO/imageio.h>

@@ -1,12 +1,11 @@
 // Reads scene text and converts it for the tracer. The result is a consistent scene or rad::Error. Commands
 // are disabled, so the only "!" lines that are executed are xform.
-#include "scene/scene.h"
-
 #include <cmath>
 #include <cstdlib>
 #include <string_view>
 
 #include "rad_parser/scene_file.h"
+#include "scene/build_scene.h"
 
 namespace {
 

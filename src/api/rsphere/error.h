@@ -20,8 +20,8 @@ class RSPHERE_API Error : public std::runtime_error {
   ~Error() override;
 
   Cause cause() const { return cause_; }
-  // The file that the message begins with, and the line in it, from 1; 0 for a file that cannot be opened. Empty and 0
-  // if the message names no place.
+  // The file that the message begins with, and the line in it, from 1; 0 for a file that cannot be opened.
+  // Empty and 0 if the message names no place.
   const std::string& file() const { return file_; }
   int line() const { return line_; }
 

@@ -21,6 +21,7 @@
 #include "cli/option_table.h"
 #include "importance/estimator.h"
 #include "rad_parser/scene_file.h"
+#include "scene/build_scene.h"
 #include "tests/bench/support/bench_main.h"
 
 namespace rsphere {

@@ -26,6 +26,7 @@
 #include "importance/two_halves.h"
 #include "measure/statistics.h"
 #include "rad_parser/scene_file.h"
+#include "scene/build_scene.h"
 #include "scene/random.h"
 #include "tests/bench/support/bench_main.h"
 

@@ -75,7 +75,8 @@ TEST(OutputColors, ColorsWithoutBandsHaveTheValueOfTheirChannelInEach) {
   EXPECT_EQ(written({"-co", "-co", "-cs", "9"}, abc).size(), 3u);
 }
 
-// A color of 20 bands from 780 to 380 nm, each 20 nm wide, that this function of the middle of the band (nm) gives.
+// A color of 20 bands from 780 to 380 nm, each 20 nm wide, that this function of the middle of the band (nm)
+// gives.
 template <class F>
 Color spectrumOf20(const F& value) {
   Bands bands(spectralSampling(20, 380, 780));
@@ -117,8 +118,8 @@ TEST(OutputColors, EqualEnergyIsWhite) {
   }
 }
 
-// The light of one band, beside the CIE's tables: the integral of the curve over the band, from its values 5 nm apart
-// by Simpson's rule, as a share of the whole (106.857 nm for V, 97.1 nm for V').
+// The light of one band, beside the CIE's tables: the integral of the curve over the band, from its values 5
+// nm apart by Simpson's rule, as a share of the whole (106.857 nm for V, 97.1 nm for V').
 TEST(OutputColors, OneBandHasItsShareOfTheCurve) {
   const Color green = spectrumOf20([](double wavelength) { return wavelength == 550 ? 1. : 0.; });
   const double v = (.954 + 4 * .9803 + 2 * .99495 + 4 * 1 + .995) * 5 / 3 / 106.857;
@@ -129,7 +130,8 @@ TEST(OutputColors, OneBandHasItsShareOfTheCurve) {
   EXPECT_NEAR(writtenOf20({"-pS"}, cyan)[0], 412 * scotopic, .005 * 412 * scotopic);
 }
 
-// A single band is outside the gamut. It is mixed with gray of the same luminance until the smallest channel is 0.
+// A single band is outside the gamut. It is mixed with gray of the same luminance until the smallest channel
+// is 0.
 TEST(OutputColors, ColorsOutsideTheGamutKeepTheirLuminance) {
   for (double wavelength = 390; wavelength < 700; wavelength += 20) {
     const Color band = spectrumOf20([&](double w) { return w == wavelength ? 1. : 0.; });
@@ -140,8 +142,8 @@ TEST(OutputColors, ColorsOutsideTheGamutKeepTheirLuminance) {
   }
 }
 
-// Two spectra of the same X, Y and Z, and so of the same color, but for scotopic and melanopic light. The second
-// differs from the first by four bands whose X, Y and Z cancel: the determinants of Cramer's rule.
+// Two spectra of the same X, Y and Z, and so of the same color, but for scotopic and melanopic light. The
+// second differs from the first by four bands whose X, Y and Z cancel: the determinants of Cramer's rule.
 TEST(OutputColors, MetamersHaveTheSameColor) {
   const std::array<double, 4> changed = {450, 530, 570, 630};
   std::array<V3d, 4> xyz;

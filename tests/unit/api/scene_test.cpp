@@ -186,8 +186,8 @@ TEST(Scene, ThreadsMeetAPatternForTheFirstTimeTogether) {
   unsetenv("RAYPATH");
 }
 
-// In a spectral run, colors have as many columns as there are bands with -co, also when the same scene was asked in
-// three channels before.
+// In a spectral run, colors have as many columns as there are bands with -co, also when the same scene was
+// asked in three channels before.
 TEST(Scene, SpectraHaveTheBytesOfTheCommand) {
   const Scene scene({kSpectral});
   const std::vector<rsphere::Ray> rays = someRays();

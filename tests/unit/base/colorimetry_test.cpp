@@ -123,8 +123,8 @@ TEST(Colorimetry, DaylightHasItsPublishedValues) {
   EXPECT_NEAR(efficacy * 1000, 1.3262, 2e-4);
 }
 
-// CIE S 026: melanopic daylight efficacy ratios of illuminant A and of equal energy. CIE 15 gives the former as the
-// radiation of a black body with c2 = .014350 m K.
+// CIE S 026: melanopic daylight efficacy ratios of illuminant A and of equal energy. CIE 15 gives the former
+// as the radiation of a black body with c2 = .014350 m K.
 TEST(Colorimetry, MelanopicRatiosOfOtherIlluminants) {
   std::vector<double> tungsten;
   for (int nm = 380; nm <= 780; ++nm)

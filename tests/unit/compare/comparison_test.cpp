@@ -49,8 +49,8 @@ TEST(Compare, TooMuchNoiseIsUndecided) {
   EXPECT_EQ(ofBias(.005, .3, 4).verdict, Verdict::undecided);
 }
 
-// Values with rare bright outliers. The scale of a record is the mean of both programs, so that the outliers of
-// one program do not make its noise look smaller than that of the other.
+// Values with rare bright outliers. The scale of a record is the mean of both programs, so that the outliers
+// of one program do not make its noise look smaller than that of the other.
 TEST(Compare, BothProgramsNoiseIsTakenAlike) {
   const auto rare = [](uint64_t seed) {
     Random random(seed);

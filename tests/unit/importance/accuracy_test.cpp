@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rad_parser/scene_file.h"
+#include "scene/build_scene.h"
 #include "tests/unit/support/sphere_setting.h"
 #include "tests/unit/support/statistics.h"
 

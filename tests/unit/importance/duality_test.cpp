@@ -7,6 +7,7 @@
 
 #include "base/constants.h"
 #include "importance/estimator.h"
+#include "scene/build_scene.h"
 #include "tests/unit/support/scene_of.h"
 #include "tests/unit/support/statistics.h"
 

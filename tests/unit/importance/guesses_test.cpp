@@ -8,6 +8,7 @@
 
 #include "base/constants.h"
 #include "rad_parser/scene_file.h"
+#include "scene/build_scene.h"
 #include "sphere/directions.h"
 #include "tests/unit/support/sphere_setting.h"
 #include "tests/unit/support/statistics.h"

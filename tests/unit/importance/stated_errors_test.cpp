@@ -10,6 +10,7 @@
 
 #include "base/constants.h"
 #include "rad_parser/scene_file.h"
+#include "scene/build_scene.h"
 #include "scene/random.h"
 #include "tests/unit/support/scene_of.h"
 #include "tests/unit/support/sphere_setting.h"

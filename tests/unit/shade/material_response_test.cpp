@@ -21,7 +21,7 @@ class Response : public testing::Test {
   }
 
   Scene scene;
-  SurfaceFunctions functions{scene};
+  SurfaceFunctions functions{scene, nullptr};
   MaterialContext context{scene, functions, {}};
   MaterialOptions& options = context.options;
   bool turned = false;

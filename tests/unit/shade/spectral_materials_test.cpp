@@ -99,7 +99,7 @@ class SpectralMaterials : public testing::TestWithParam<double> {
   }
 
   Scene scene;
-  SurfaceFunctions functions{scene};
+  SurfaceFunctions functions{scene, nullptr};
 };
 INSTANTIATE_TEST_SUITE_P(Angles, SpectralMaterials, testing::Values(.95, .1));
 
@@ -193,7 +193,8 @@ TEST_P(SpectralMaterials, Bsdf) {
     });
 }
 
-// Where the lobe is not sampled, what is left of it beside the peak is estimated by brightness, as in RADIANCE.
+// Where the lobe is not sampled, what is left of it beside the peak is estimated by brightness, as in
+// RADIANCE.
 TEST_P(SpectralMaterials, BsdfOfAPane) {
   const BsdfData data = dataOf(tree4Xml());
   expectBandsAlone([&](const Color& pattern) {
@@ -236,7 +237,7 @@ TEST_P(SpectralMaterials, GlassAndMirror) {
 template <class Outcome, class M>
 Outcome outcomeOf(const M& material, const Color& pattern, const Arrival& arrival = {}) {
   const Scene scene;
-  const SurfaceFunctions functions(scene);
+  const SurfaceFunctions functions(scene, nullptr);
   MaterialContext context{scene, functions, {}, {}};
   Interaction i;
   i.pattern = pattern;

@@ -39,11 +39,10 @@ class File {
 // The pattern P of a scene, without and with bands.
 class Evaluated {
  public:
-  explicit Evaluated(const std::string& pattern, const SpectralSampling* sampling = nullptr,
-                     const WavelengthLimits& limits = {})
+  Evaluated(const std::string& pattern, const SpectralSampling* sampling, const WavelengthLimits& limits = {})
       : scene_(sceneOf(pattern + "\nP glow M 0 0 4 1 1 1 0\nM sphere s 0 0 4 0 0 0 1\n")),
         functions_(
-            scene_, [this](std::string_view line) { warnings_.emplace_back(line); }, {}, sampling, limits) {}
+            scene_, sampling, [this](std::string_view line) { warnings_.emplace_back(line); }, {}, limits) {}
 
   Color at(const V3d& point) {
     for (const ModifierId id : scene_.modifiers.ids())
@@ -61,7 +60,7 @@ class Evaluated {
 };
 
 Color inChannels(const std::string& pattern, const V3d& point = V3d(0, 0, 0)) {
-  return Evaluated(pattern).at(point);
+  return Evaluated(pattern, nullptr).at(point);
 }
 Bands inBands(const std::string& pattern, const SpectralSampling& sampling, const V3d& point = V3d(0, 0, 0)) {
   const Color color = Evaluated(pattern, &sampling).at(point);
@@ -73,11 +72,11 @@ Bands inBands(const std::string& pattern, const SpectralSampling& sampling, cons
 // bands of a spectral run are.
 V3d rgbOf(const Spectrum& spectrum, int bins) {
   const SpectralSampling& sampling = spectralSampling(bins, 380, 780);
-  return standardRgb(bandWeights(sampling).tristimulus(bandsOf(spectrum, sampling)));
+  return standardRgb(bandWeights(sampling).tristimulus(bandsOf(spectrum, sampling).values()));
 }
 V3d rgbOfFalling(const Spectrum& s) {
   const SpectralSampling& sampling = spectralSampling(static_cast<int>(s.values.size()), s.last, s.first);
-  return standardRgb(bandWeights(sampling).tristimulus(bandsOf(s, sampling)));
+  return standardRgb(bandWeights(sampling).tristimulus(bandsOf(s, sampling).values()));
 }
 void expectColor(const Color& got, const V3d& rgb, double tolerance = 1e-12) {
   EXPECT_FALSE(got.bands());
@@ -88,9 +87,9 @@ void expectBands(const Bands& got, const Bands& expected, double tolerance = 1e-
     EXPECT_NEAR(got.values()[i], expected.values()[i], tolerance) << i;
 }
 
-std::string errorOf(const std::string& pattern, const SpectralSampling* sampling = nullptr) {
+std::string errorOf(const std::string& pattern) {
   try {
-    Evaluated(pattern, sampling).at(V3d(0, 0, 0));
+    Evaluated(pattern, nullptr).at(V3d(0, 0, 0));
   } catch (const rad::Error& e) {
     return e.what();
   }
@@ -187,8 +186,8 @@ TEST(SpecfilePattern, EvenDataAreASpectrum) {
   expectBands(inBands(pattern, twenty()), bandsOf(bins, twenty()), 1e-7);
 }
 
-// The means in bands of a curve that is linear between its points, which need not be evenly spaced. rtrace evaluates it
-// at evenly spaced wavelengths and misses the line.
+// The means in bands of a curve that is linear between its points, which need not be evenly spaced. rtrace
+// evaluates it at evenly spaced wavelengths and misses the line.
 TEST(SpecfilePattern, UnevenDataHaveTheirMeans) {
   const std::vector<std::pair<double, double>> curve{{380, .1}, {420, .3}, {500, .8},
                                                      {560, .2}, {650, .9}, {780, .4}};
@@ -218,7 +217,7 @@ TEST(SpecfilePattern, UnevenDataHaveTheirMeans) {
       }
       const SpectralSampling& most = spectralSampling(24, 380, 780);
       const Bands means = meansOf(f, most, shortest, longest);
-      expectColor(inChannels(pattern), standardRgb(bandWeights(most).tristimulus(means)), 2e-4);
+      expectColor(inChannels(pattern), standardRgb(bandWeights(most).tristimulus(means.values())), 2e-4);
     }
   }
 }
@@ -431,7 +430,7 @@ TEST(SpecpictPattern, HasTheColorsOfTheOriginal) {
                               "NCOMP=18\nWAVELENGTH_SPLITS= 780 588 480 380\nFORMAT=Radiance_spectra\n"));
     const std::string pattern = "void specpict P 5 noop " + file.path() + " . Px Py 0 0";
     const SpectralSampling& sampling = spectralSampling(18, 380, 780);
-    const V3d ofBands = standardRgb(bandWeights(sampling).tristimulus(inBands(pattern, sampling)));
+    const V3d ofBands = standardRgb(bandWeights(sampling).tristimulus(inBands(pattern, sampling).values()));
     const Color ofChannels = inChannels(pattern);
     for (int i = 0; i < 3; ++i) {
       EXPECT_NEAR(ofChannels[i], color[i], .001) << peak;

@@ -23,7 +23,7 @@ const V3d kAlong(.9, .4, .2);
 template <class M>
 RoundScattering roundScattering(const M& material, const Interaction& at) {
   const Scene scene;
-  const SurfaceFunctions functions(scene);
+  const SurfaceFunctions functions(scene, nullptr);
   MaterialContext context{scene, functions, kOptions};
   return RoundScattering(material, FakeHit(at, context));
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "rad_parser/scene_file.h"
-#include "scene/scene.h"
+#include "scene/build_scene.h"
 
 namespace rsphere {
 

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "rad_parser/scene_file.h"
+#include "scene/build_scene.h"
 #include "transport/transport.h"
 #include "transport/ray_report.h"
 

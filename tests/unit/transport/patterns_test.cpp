@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "scene/build_scene.h"
 #include "tests/unit/transport/transport_fixture.h"
 #include "transport/ray_report.h"
 

@@ -70,8 +70,7 @@ TEST(SharedHighlights, LeaveTheLightBehindPanesToShadowRays) {
 
 TEST(SharedHighlights, SharesAreProbabilities) {
   LightSource lamp;
-  lamp.map = LightSource::Map::parallelogram;
-  lamp.area = 2;
+  lamp.shape = PlaneLight{.area = 2};
   double before = 0;
   for (const double density : {0., .01, .1, 1., 10., 1e6}) {
     const double share = shareOfLobe(lamp, 1, .5, density);
@@ -81,7 +80,7 @@ TEST(SharedHighlights, SharesAreProbabilities) {
   }
   EXPECT_EQ(shareOfLobe(lamp, 1, .5, .1), 0) << "a wide lobe is left to shadow rays";
   EXPECT_GT(before, .99);
-  lamp.map = LightSource::Map::ball;
+  lamp.shape = BallLight{};
   lamp.radius = .1;
   // A ball of .1 at 1 from its nearest point fills 2 pi (1 - cos) sr, its sine being .1 / 1.1.
   const double solidAngle = 2 * kPi * (1 - std::sqrt(1 - std::pow(.1 / 1.1, 2)));

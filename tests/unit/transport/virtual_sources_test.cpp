@@ -260,18 +260,19 @@ TEST(VirtualSource, BeamsHoldAllThatTheyLight) {
       const auto signedUniform = [&] { return 2 * random.uniform() - 1; };
       const double around = 2 * kPi * random.uniform();
       V3d at(std::cos(around), std::sin(around), .5 * random.uniform()), way;  // about on a mirror
-      if (lamp.distant) {
+      const auto* const plane = lamp.as<PlaneLight>();
+      if (const auto* cone = lamp.as<DistantLight>()) {
         V3d x, y;
         frame(lamp.center, x, y);
-        const double off = lamp.sinHalfAngle * std::sqrt(random.uniform()), turn = 2 * kPi * random.uniform();
+        const double off = cone->sinHalfAngle * std::sqrt(random.uniform()),
+                     turn = 2 * kPi * random.uniform();
         way = -(std::sqrt(1 - off * off) * lamp.center + off * std::cos(turn) * x + off * std::sin(turn) * y);
         at -= way;
       } else {
         const V3d start =
-            lamp.isPlane()
-                ? lamp.center + signedUniform() * lamp.u + signedUniform() * lamp.v
-                : lamp.center + .999 * lamp.radius * std::cbrt(random.uniform()) *
-                                    V3d(signedUniform(), signedUniform(), signedUniform()).normalized();
+            plane ? lamp.center + signedUniform() * plane->u + signedUniform() * plane->v
+                  : lamp.center + .999 * lamp.radius * std::cbrt(random.uniform()) *
+                                      V3d(signedUniform(), signedUniform(), signedUniform()).normalized();
         way = (at - start).normalized();
         at = start;
       }
@@ -298,7 +299,7 @@ TEST(VirtualSource, BeamsHoldAllThatTheyLight) {
         ASSERT_TRUE(imageIn.contains(mirrorsHit)) << source << ": an image in a mirror is missing";
         const LightSource& image = lights[imageIn.at(mirrorsHit)];
         for (const double distance : {0., .5, 100.}) {
-          if (image.distant) continue;
+          if (image.isDistant()) continue;
           const V3d from = at + distance * way - image.center;
           EXPECT_GE(from.dot(image.beam.axis), image.beam.cosine * from.length() - 1e-9) << source;
         }

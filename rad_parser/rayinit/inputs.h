@@ -1,0 +1,54 @@
+#pragma once
+#include <cstdint>
+
+namespace rad::calc {
+
+// Indices in Point::inputs. Lengths and directions are in the primitive's own space: its transform, and that
+// of the instance that contains it, have been undone.
+enum Input : uint32_t {
+  Dx,
+  Dy,
+  Dz,  // unit ray direction
+  Nx,
+  Ny,
+  Nz,  // unit surface normal, unperturbed and not turned towards the ray
+  Px,
+  Py,
+  Pz,    // intersection point
+  T,     // distance from the ray's origin, through all transmissions
+  Rdot,  // -D.N, within [-1,1]
+  S,     // reciprocal of the scale of the transform to world space
+  Tx,
+  Ty,
+  Tz,  // origin of world space
+  Ix,
+  Iy,
+  Iz,  // unit x axis of world space
+  Jx,
+  Jy,
+  Jz,  // unit y axis
+  Kx,
+  Ky,
+  Kz,  // unit z axis
+  Ts,  // length of this ray, or of the shadow ray that it is part of
+  Lu,
+  Lv,  // texture coordinates of meshes; 0 for other surfaces
+  NxP,
+  NyP,
+  NzP,    // perturbed surface normal, for materials with functions or data
+  RdotP,  // perturbed Rdot
+  CrP,
+  CgP,
+  CbP,  // perturbed material colour
+  DxA,
+  DyA,
+  DzA,  // direction to the target light source, or 0, for prism1 and prism2
+  kInputs
+};
+
+// Request::available by kind of primitive: patterns and textures, materials with functions or data, prisms.
+inline constexpr uint64_t kPointInputs = (uint64_t{1} << NxP) - 1;
+inline constexpr uint64_t kMaterialInputs = (uint64_t{1} << DxA) - 1;
+inline constexpr uint64_t kPrismInputs = kPointInputs | (uint64_t{7} << DxA);
+
+}  // namespace rad::calc

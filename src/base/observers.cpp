@@ -1,0 +1,99 @@
+#include "base/observers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/cie_tables.h"
+
+namespace rsphere {
+namespace {
+
+// The wavelength by which RADIANCE's table is displaced from the CIE's (nm), as in BandWeights.
+constexpr double kColorShift = 1.5;
+
+// The integral of a curve from its shortest wavelength on, 1 at its longest. The values of the table are 1 nm
+// apart. Between two of them the curve is taken as constant, at their mean.
+class Cumulative {
+ public:
+  explicit Cumulative(const CieCurve& curve) : shortest_(curve.shortest), upTo_{0} {
+    for (size_t i = 1; i < curve.values.size(); ++i)
+      upTo_.push_back(upTo_.back() + (curve.values[i - 1] + curve.values[i]) / 2);
+    for (double& share : upTo_) share /= upTo_.back();
+  }
+
+  double upTo(double wavelength) const {
+    const double at = wavelength - shortest_;
+    if (!(at > 0)) return 0;
+    const auto i = static_cast<size_t>(std::min(at, static_cast<double>(upTo_.size())));
+    if (i + 1 >= upTo_.size()) return 1;
+    return std::lerp(upTo_[i], upTo_[i + 1], at - static_cast<double>(i));
+  }
+
+  double of(const Spectrum& s) const {
+    const double step = (s.last - s.first) / static_cast<double>(s.values.size());
+    double sum = 0, from = upTo(s.first);
+    for (size_t i = 0; i < s.values.size(); ++i) {
+      const double to = upTo(s.first + static_cast<double>(i + 1) * step);
+      sum += s.values[i] * (to - from);
+      from = to;
+    }
+    return step < 0 ? -sum : sum;
+  }
+
+ private:
+  double shortest_;
+  std::vector<double> upTo_;
+};
+
+// X, Y and Z.
+struct ColorMatching {
+  Cumulative x{colorMatchingX()}, y{colorMatchingY()}, z{colorMatchingZ()};
+};
+const ColorMatching& colorMatching() {
+  static const ColorMatching curves;
+  return curves;
+}
+
+}  // namespace
+
+V3d tristimulus(const Spectrum& spectrum) {
+  const auto& [x, y, z] = colorMatching();
+  return V3d(x.of(spectrum), y.of(spectrum), z.of(spectrum));
+}
+
+double photopic(const Spectrum& spectrum) { return colorMatching().y.of(spectrum); }
+
+double scotopic(const Spectrum& spectrum) {
+  static const Cumulative curve(scotopicEfficiency());
+  return curve.of(spectrum);
+}
+
+double melanopic(const Spectrum& spectrum) {
+  static const Cumulative curve(melanopicSensitivity());
+  return curve.of(spectrum);
+}
+
+// The ends of the spectrum are rounded to single precision, so that rounding errors do not move a limit at a
+// whole number to the number below.
+V3d tristimulusInRadiance(const Spectrum& spectrum) {
+  const size_t count = spectrum.values.size();
+  const bool falls = spectrum.first > spectrum.last;
+  const double shortest = static_cast<float>(std::min(spectrum.first, spectrum.last));
+  const double longest = static_cast<float>(std::max(spectrum.first, spectrum.last));
+  const double width = (longest - shortest) / static_cast<double>(count);
+  const auto& [x, y, z] = colorMatching();
+  const auto upTo = [&](size_t fromShortest) {
+    const double limit = std::floor(shortest + static_cast<double>(fromShortest) * width) + kColorShift;
+    return V3d(x.upTo(limit), y.upTo(limit), z.upTo(limit));
+  };
+  V3d sum(0, 0, 0), from = upTo(0);
+  for (size_t i = 0; i < count; ++i) {
+    const V3d to = upTo(i + 1);
+    sum += spectrum.values[falls ? count - 1 - i : i] * (to - from);
+    from = to;
+  }
+  return sum;
+}
+
+}  // namespace rsphere

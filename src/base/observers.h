@@ -1,0 +1,32 @@
+#pragma once
+// The CIE's observers: integrals of spectra.
+//
+// A spectrum is given by bins of equal width: values[0] is the mean from `first` (nm) on, the last value the
+// mean up to `last` (nm); first may be above or below last. It is 0 beyond them.
+//
+// All integrals are normalized so that they are 1 for a spectrum that is 1 at all wavelengths.
+// Source: CIE 15 (X, Y, Z of 1931, V'(lambda)), CIE S 026 (melanopic).
+#include <Imath/ImathVec.h>
+
+#include <span>
+
+namespace rsphere {
+
+using Imath::V3d;
+
+struct Spectrum {
+  std::span<const double> values;
+  double first = 780, last = 380;  // nm
+};
+
+// X, Y, Z, photopic (= Y), scotopic and melanopic integrals.
+V3d tristimulus(const Spectrum& spectrum);
+double photopic(const Spectrum& spectrum);
+double scotopic(const Spectrum& spectrum);
+double melanopic(const Spectrum& spectrum);
+
+// X, Y, Z as RADIANCE 6.1 computes them, with the limits of the bins rounded down to whole nanometers: see
+// BandWeights (spectral_sampling.h).
+V3d tristimulusInRadiance(const Spectrum& spectrum);
+
+}  // namespace rsphere
