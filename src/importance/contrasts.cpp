@@ -89,7 +89,7 @@ Contrasts measureContrasts(const Transport& transport, std::span<const SpecialOb
   for (const SpecialObject& object : objects)
     alike[scene.surfaces[object.surface].modifier].push_back(object);
   PathTracer tracer(transport, aims);
-  tracer.useCoarseSolutionAtFirst(true);
+  tracer.takeFirstBounce(FirstBounce::fromPatches);
   tracer.shareHighlights(true);
   contrasts.surroundings = measureSurroundings(scene, sources, tracer);
   if (alike.empty()) return contrasts;

@@ -143,7 +143,7 @@ SphereEstimator::Workspace::Workspace(const SphereEstimator& estimator)
     : tracer(estimator.transport_, estimator.aims_) {}
 
 PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) const {
-  workspace.tracer.useCoarseSolutionAtFirst(true);
+  workspace.tracer.takeFirstBounce(FirstBounce::fromPatches);
   workspace.tracer.shareHighlights(true);
   // -Sa may send a million directions. They are kept only if they are to be printed.
   const bool keep = options_.everyDirection || options_.accuracy <= 0;

@@ -17,10 +17,14 @@ void IndirectLight::add(Ray& ray, const V3d& normal, const V3d& trueNormal, RayK
     ray.value += coefficient * o.ambientValue;
     return;
   }
+  if (ray.depth == 0 && settings_.leavesOutIndirect) return;
   const Surroundings at{normal, trueNormal, kind, coefficient};
-  if (ray.ambientLevel > 0 || settings_.coarseAtFirst) {
+  const FirstBounce first = settings_.firstBounce;
+  if (ray.ambientLevel > 0 || first == FirstBounce::fromPatches ||
+      (first == FirstBounce::gathered && (ray.kinds & kSpecular))) {
     if (t_.coarse() && interpolated_.addFromPatch(ray, normal, trueNormal, coefficient)) return;
-  } else if (t_.field() && interpolated_.add(ray, normal, trueNormal, coefficient)) {
+  } else if (first == FirstBounce::interpolated && t_.field() &&
+             interpolated_.add(ray, normal, trueNormal, coefficient)) {
     return;
   }
   gather(ray, at);

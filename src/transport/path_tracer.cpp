@@ -277,6 +277,10 @@ void PathTracer::observe(RayObserver observer, bool allShadowRays) {
 }
 void PathTracer::guessWith(const LocalGuess* guess) { path_->settings().guess = guess; }
 void PathTracer::shareHighlights(bool share) { path_->settings().sharesHighlights = share; }
-void PathTracer::useCoarseSolutionAtFirst(bool use) { path_->settings().coarseAtFirst = use; }
+void PathTracer::takeFirstBounce(FirstBounce from) { path_->settings().firstBounce = from; }
+void PathTracer::leaveOut(bool indirect, bool lobes) {
+  path_->settings().leavesOutIndirect = indirect;
+  path_->settings().leavesOutLobes = lobes;
+}
 
 }  // namespace rsphere

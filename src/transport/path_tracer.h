@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "transport/path_observer.h"
+#include "transport/path_state.h"
 #include "transport/ray.h"
 #include "transport/transport.h"
 
@@ -64,10 +65,14 @@ class PathTracer {
   // (shared_highlights.h). The mean stays the same.
   void shareHighlights(bool share);
 
-  // Whether, with -aa above 0, the coarse solution gives the indirect light of the first diffuse surface as it
-  // does that of later ones: if thousands of directions are averaged, the errors of single patches matter less than
-  // what a gather at each surface costs. In a picture patches would be visible.
-  void useCoarseSolutionAtFirst(bool use);
+  // If thousands of directions are averaged, the errors of single patches matter less than what a gather at each
+  // surface costs (fromPatches). In a picture, patches would be visible, and cache records would outnumber its
+  // pixels where furniture is dense (gathered).
+  void takeFirstBounce(FirstBounce from);
+
+  // Whether the surface that a primary ray hits is shown without its indirect light, and without the samples of its
+  // rough reflections and transmissions.
+  void leaveOut(bool indirect, bool lobes);
 
  private:
   class Path;

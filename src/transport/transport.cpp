@@ -59,14 +59,22 @@ FieldOptions fieldOptions(const RayOptions& o) {
 
 Transport::Transport(const Scene& scene, const RayOptions& options, IrradianceAt irradiance,
                      bool basicRadiance, const rad::Warn& warn)
+    : Transport(scene, std::make_shared<const Tracer>(scene, options.backFacesVisible), options, irradiance,
+                basicRadiance, warn) {}
+
+Transport::Transport(const Transport& other, const RayOptions& options)
+    : Transport(other.scene_, other.tracer_, options, other.irradiance_, other.basicRadiance_, {}) {}
+
+Transport::Transport(const Scene& scene, std::shared_ptr<const Tracer> tracer, const RayOptions& options,
+                     IrradianceAt irradiance, bool basicRadiance, const rad::Warn& warn)
     : scene_(scene),
       options_(options),
       irradiance_(irradiance),
       basicRadiance_(basicRadiance),
-      tracer_(scene, options.backFacesVisible),
+      tracer_(std::move(tracer)),
       functions_(scene, warn, options.definitions, options.sampling, options.wavelengths),
       lights_(scene, options.directRelays, functions_, warn),
-      presumedShadows_(scene, tracer_, lights_),
+      presumedShadows_(scene, *tracer_, lights_),
       choice_(scene, lights_),
       luminous_(scene.surfaces.size()) {
   constantRadiance_.resize(lights_.all().size());
@@ -107,15 +115,15 @@ void Transport::findAims() {
     if (!openings->empty()) openings_ = std::move(openings);
   }
   if (looksForSpots()) {
-    auto spots = std::make_unique<BrightSpots>(scene_, tracer_, lights_, openings_.get());
+    auto spots = std::make_unique<BrightSpots>(scene_, *tracer_, lights_, openings_.get());
     if (!spots->empty()) spots_ = std::move(spots);
   }
-  auto highlights = std::make_unique<Highlights>(scene_, tracer_, lights_);
+  auto highlights = std::make_unique<Highlights>(scene_, *tracer_, lights_);
   if (!highlights->empty()) highlights_ = std::move(highlights);
 }
 
 void Transport::prepareInterpolation(const rad::Warn& warn) {
-  const Box3d& bounds = tracer_.bounds();
+  const Box3d& bounds = tracer_->bounds();
   field_ = std::make_unique<IrradianceField>(scene_, bounds, fieldOptions(options_));
   if (options_.ambientBounces > 1)
     coarse_ = std::make_unique<CoarseSolution>(scene_, bounds, fieldOptions(options_),

@@ -51,10 +51,13 @@ class Transport {
   // panes, the constructor traces some paths to find the openings that daylight enters through.
   Transport(const Scene& scene, const RayOptions& options, IrradianceAt irradiance,
             bool basicRadiance = false, const rad::Warn& warn = {});
+  // The scene of another, with other options and without warnings. They share the tracer, which takes most of the
+  // memory and time in a large scene. REQUIRES: -bv is the same.
+  Transport(const Transport& other, const RayOptions& options);
   ~Transport();
 
   const Scene& scene() const { return scene_; }
-  const Tracer& tracer() const { return tracer_; }
+  const Tracer& tracer() const { return *tracer_; }
   const LightSources& lights() const { return lights_; }
   const PresumedShadows& presumedShadows() const { return presumedShadows_; }
   const SourceChoice& choice() const { return choice_; }
@@ -107,6 +110,8 @@ class Transport {
   bool looksForSpots() const { return options_.ambientAccuracy > 0 || openings_; }
 
  private:
+  Transport(const Scene& scene, std::shared_ptr<const Tracer> tracer, const RayOptions& options,
+            IrradianceAt irradiance, bool basicRadiance, const rad::Warn& warn);
   void findAims();
   void prepareInterpolation(const rad::Warn& warn);
   bool glows(SurfaceList::Beginning surfaces) const;
@@ -117,7 +122,7 @@ class Transport {
   RayOptions options_;
   IrradianceAt irradiance_;
   bool basicRadiance_;
-  Tracer tracer_;
+  std::shared_ptr<const Tracer> tracer_;
   SurfaceFunctions functions_;
   LightSources lights_;
   PresumedShadows presumedShadows_;
