@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <ctime>
 
 #include "answer/answer_points.h"
@@ -25,6 +27,12 @@ const T& lasting(const T* object) {
   return *kept;
 }
 
+// Pictures report their progress if -t asks for it, or on a terminal; never to a program that reads the messages.
+PictureProgress::Report pictureReport(const Options& options, const Messages& messages) {
+  if (options.progressSeconds <= 0 && isatty(messages.descriptor()) == 0) return {};
+  return [&messages](std::string_view text) { messages.report(text); };
+}
+
 void answer(const Options& options, const Messages& messages, StopSignals& signals) {
   const rad::Warn warn = [&](std::string_view text) { messages.warning(text); };
   const Scene& scene = lasting(new Scene(loadScene(options, warn)));
@@ -47,7 +55,9 @@ void answer(const Options& options, const Messages& messages, StopSignals& signa
     };
     try {
       runRecords(reader, writer, options, messages, &signals,
-                 answerPoints(transport, options, answers, warn, summary, [&] { signals.check(); }));
+                 answerPoints(
+                     transport, options, answers, warn, summary, [&] { signals.check(); },
+                     pictureReport(options, messages)));
     } catch (...) {
       summarize();
       throw;

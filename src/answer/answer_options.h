@@ -36,6 +36,7 @@ struct AnswerOptions {
   std::string program;             // argv[0] without its folder; it and the words are for the header
   std::vector<std::string> words;  // the command line between program and scene, with @file and $VAR replaced
   std::string picture;             // -Si  the name of the pictures; empty: none
+  RayOptions pictureRay;           // how their rays are traced
   bool listSpecial = false;        // -Sl  a list of the special objects instead of answers
   // work
   int threads = 1;             // -n; 0: one for each core

@@ -6,8 +6,8 @@
 
 #include "answer/header.h"
 #include "answer/threads.h"
-#include "base/colorimetry.h"
-#include "importance/point_picture.h"
+#include "base/spectral_sampling.h"
+#include "importance/draw_point.h"
 
 namespace rsphere {
 namespace {
@@ -15,17 +15,43 @@ namespace {
 // Makes the random numbers of a picture differ from those of the answer to the same point.
 constexpr uint64_t kPictureSeed = 0x70696374757265;  // "picture"
 
-void writePicture(const std::string& name, const V3d& point, const Transport& transport,
-                  const AnswerOptions& options, const SphereEstimator& estimator,
-                  SphereEstimator::Workspace& workspace) {
+// Seconds between reports on a terminal, where -t does not say.
+constexpr double kReportSeconds = 5;
+
+// Draws the pictures of points, with options of their own.
+class PictureMaker {
+ public:
+  PictureMaker(const Transport& answers, const AnswerOptions& options, const PictureProgress::Report& report)
+      : options_(options),
+        transport_(answers, options.pictureRay),
+        sources_(transport_.prepared()),
+        report_(report) {}
+
+  void write(const std::string& name, const V3d& point, const std::function<void()>& checkStop) const;
+
+ private:
+  const AnswerOptions& options_;
+  const Transport transport_;
+  const SeenSources sources_;
+  const PictureProgress::Report report_;
+};
+
+void PictureMaker::write(const std::string& name, const V3d& point,
+                         const std::function<void()>& checkStop) const {
   PictureFile file(name);
   const PixelMap map(file.format() == PictureFormat::radiance ? Projection::angularFisheye
                                                               : Projection::latitudeLongitude);
   const uint64_t seed = seedOf(std::initializer_list<double>{point.x, point.y, point.z},
-                               kPictureSeed ^ rotationBits(options.ray));
-  Raster raster = drawPoint(point, map, estimator.tracing(), estimator.sources(), seed, workspace.checkStop);
-  if (file.format() == PictureFormat::screen) expose(raster, map);
-  file.write(raster, provenance(options, transport.prepared().scene().description.header) + viewLine(point));
+                               kPictureSeed ^ rotationBits(options_.ray));
+  PictureProgress progress(name, report_,
+                           options_.progressSeconds > 0 ? options_.progressSeconds : kReportSeconds);
+  const auto onward = [&](double done) {
+    if (checkStop) checkStop();
+    progress.at(done);
+  };
+  const bool forScreen = file.format() == PictureFormat::screen;
+  file.write(drawPoint(point, map, transport_, sources_, seed, forScreen, onward),
+             provenance(options_, transport_.prepared().scene().description.header) + viewLine(point));
 }
 
 }  // namespace
@@ -79,21 +105,24 @@ std::vector<std::string> PointSummary::warnings(const SphereOptions& options) co
 
 AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& options,
                           const AnswerWriter& writer, const rad::Warn& warn, PointSummary& summary,
-                          const std::function<void()>& checkStop) {
+                          const std::function<void()>& checkStop,
+                          const PictureProgress::Report& pictureReport) {
   const bool standardError = options.outputs.find('e') != std::string::npos;
   const auto workers = std::make_shared<PointWorkers>(transport, options, standardError, checkStop);
   if (transport.prepared().isDark()) warn("no light sources found");
-  return [&, workers](const Record& record, unsigned worker, std::string& bytes) {
+  const auto pictures = options.picture.empty()
+                            ? nullptr
+                            : std::make_shared<const PictureMaker>(transport, options, pictureReport);
+  return [&, workers, pictures](const Record& record, unsigned worker, std::string& bytes) {
     const V3d point(record.numbers[0], record.numbers[1], record.numbers[2]);
     const PointAnswer answer = workers->answer(point, worker);
     summary.add(record.index, answer, options.ray.sampling);
     SphereEstimator::Workspace& workspace = workers->workspace(worker);
-    if (!options.picture.empty())
-      writePicture(pictureName(options.picture, record.index), point, transport, options,
-                   workers->estimator(), workspace);
+    if (pictures) pictures->write(pictureName(options.picture, record.index), point, workspace.checkStop);
     if (!options.sphere.everyDirection) return writer.write(bytes, answer);
     for (size_t i = 0; i < workspace.samples.size(); ++i)
-      writer.write(bytes, directionAnswer(transport.prepared().scene(), workspace.samples[i], workspace.rays[i]),
+      writer.write(bytes,
+                   directionAnswer(transport.prepared().scene(), workspace.samples[i], workspace.rays[i]),
                    record.index);
   };
 }

@@ -8,6 +8,7 @@
 #include "answer/answer_options.h"
 #include "answer/answer_writer.h"
 #include "answer/batch.h"
+#include "answer/picture_progress.h"
 #include "importance/estimator.h"
 
 namespace rsphere {
@@ -67,10 +68,11 @@ class PointSummary {
 
 // The function that answers points in sphere mode: appends the spherical mean, or a record of every
 // direction (-Sd), and writes pictures of the points (-Si). Warns if nothing in the scene gives light.
-// checkStop: see PointWorkers; it is copied. The other arguments must live as long as the result. Throws
+// checkStop: see PointWorkers; it is copied. pictureReport: gets the progress of pictures. The other arguments must live as long as the result. Throws
 // what PointWorkers throws.
 AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& options,
                           const AnswerWriter& writer, const rad::Warn& warn, PointSummary& summary,
-                          const std::function<void()>& checkStop);
+                          const std::function<void()>& checkStop,
+                          const PictureProgress::Report& pictureReport = {});
 
 }  // namespace rsphere

@@ -391,6 +391,17 @@ std::vector<std::string> takeScene(Words& words) {
   return scene;
 }
 
+// Pictures have defaults of their own, and the options that are given.
+RayOptions rayOptionsOfPictures(const Given& given, const Options& options) {
+  Options own = options;
+  own.ray = pictureDefaults();
+  for (const Use& use : given.uses)
+    if (use.entry->name != "-S") apply(use, own);
+  own.ray.sampling = options.ray.sampling;
+  own.ray.wavelengths = options.ray.wavelengths;
+  return own.ray;
+}
+
 // Reads a command line into options, and returns the options that it uses.
 std::vector<Use> parse(std::span<const std::string> commandLine, const Companion& companion,
                        Options& options) {
@@ -421,6 +432,7 @@ std::vector<Use> parse(std::span<const std::string> commandLine, const Companion
   if (answers) checkColorOutput(options);
   checkIrradiance(options);
   checkTogether(options, given.has("-Sx"));
+  if (!options.picture.empty()) options.pictureRay = rayOptionsOfPictures(given, options);
   return std::move(given.uses);
 }
 

@@ -1094,4 +1094,15 @@ Options modeDefaults(bool sphereMode) {
   return options;
 }
 
+RayOptions pictureDefaults() {
+  RayOptions ray = modeDefaults(true).ray;
+  ray.ambientDivisions = 16;
+  ray.ambientAccuracy = .2;
+  ray.ambientResolution = 64;
+  ray.leastForPatches = 256;
+  ray.specularSampling = 8;
+  ray.weightLimit = 1e-4;
+  return ray;
+}
+
 }  // namespace rsphere

@@ -87,6 +87,9 @@ int arity(const OptionEntry& entry);
 // the mean of thousands of directions.
 Options modeDefaults(bool sphereMode);
 
+// The same for the rays of pictures (-Si).
+RayOptions pictureDefaults();
+
 // Reads a command line, of which words[0] is the name of the program.
 // - "@file" and "$VARIABLE", in the place of an option or of a word of the scene, are replaced by the words
 //   that they contain, at most 4096.

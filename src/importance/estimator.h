@@ -61,7 +61,6 @@ class SphereEstimator {
 
   const std::vector<SpecialObject>& specialObjects() const { return special_; }
   const SeenSources& sources() const { return sources_; }
-  const SphereTracing& tracing() const { return tracing_; }
 
  private:
   std::unique_ptr<const SamplingStrategy> makeStrategy() const;

@@ -4,50 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
+#include <utility>
+#include <vector>
 
-#include "base/colorimetry.h"
 #include "image/screen_color.h"
-#include "importance/smooth_indirect.h"
-#include "importance/tuning.h"
 #include "rad_parser/error.h"
-#include "transport/ray_functions.h"
 
 namespace rsphere {
 namespace {
 
 using std::numbers::pi;
-using Tuning = tuning::Pictures;
-
-V3d valueAt(const Raster& raster, size_t pixel) {
-  const float* p = raster.pixels.data() + 3 * pixel;
-  return V3d(p[0], p[1], p[2]);
-}
-
-void setValue(Raster& raster, size_t pixel, const V3d& value) {
-  for (int c = 0; c < 3; ++c)
-    raster.pixels[3 * pixel + static_cast<size_t>(c)] = static_cast<float>(value[c]);
-}
-
-// The seeds of a picture, each named after its use.
-class PictureStreams {
- public:
-  explicit PictureStreams(uint64_t seed) : seed_(seed) {}
-  uint64_t smallSources() const { return mixBits(seed_ + 1); }
-  uint64_t middle(size_t pixel) const { return mixBits(seed_ + 16 + pixel); }
-  // beside: index in Tuning::kBeside.
-  uint64_t aside(size_t pixel, size_t beside) const { return mixBits(middle(pixel) + 1 + beside); }
-
- private:
-  uint64_t seed_;
-};
-
-// The light of small sources in one pixel.
-struct Spot {
-  double solidAngle = 0;
-  Irradiance light;
-};
 
 }  // namespace
 
@@ -90,128 +57,7 @@ double PixelMap::solidAngle(size_t pixel) const {
   return radius > 0 ? square * std::sin(pi * radius) / (pi * radius) : square;
 }
 
-namespace {
-
-// The sources that pixels may miss: their images, and their light in each pixel.
-struct SmallSources {
-  std::vector<SeenSources::Image> images;
-  std::map<size_t, Spot> spots;  // by pixel
-};
-
-SmallSources smallSources(const PathsFrom& paths, const PixelMap& map, const SeenSources& sources,
-                          uint64_t seed) {
-  SmallSources small{sources.findImages(paths.point(), map.count(), 0), {}};
-  // Pixels are smaller near the rim and the poles.
-  for (SeenSources::Image& image : small.images) {
-    const double there = map.solidAngle(map.pixelOf(image.region.sample(.5, .5)));
-    const double pixels = there > 0 ? image.solidAngle / there : Tuning::kSmallest;
-    image.rays =
-        pixels < Tuning::kSmallest ? std::max(Tuning::kLeastSamples, Tuning::kSamplesPerPixel * pixels) : 0;
-  }
-  small.images.erase(std::remove_if(small.images.begin(), small.images.end(),
-                                    [](const auto& image) { return image.rays == 0; }),
-                     small.images.end());
-  for (const SeenSources::Sample& s : sources.sample(paths, small.images, seed)) {
-    if (!(s.direction.solidAngle > 0)) continue;
-    Spot& spot = small.spots[map.pixelOf(s.direction.direction)];
-    spot.solidAngle += s.direction.solidAngle;
-    spot.light += irradianceFrom(s.direction.value, s.direction.solidAngle);
-  }
-  return small;
-}
-
-// Traces pixels, and separates the indirect light of the surface that is seen from all other light.
-class PixelTracer {
- public:
-  PixelTracer(const V3d& point, const PreparedScene& prepared, PathTracer& tracer)
-      : prepared_(prepared), paths_(tracer, point, {.observer = &addIndirect_}) {}
-  PixelTracer(const PixelTracer&) = delete;
-  PixelTracer& operator=(const PixelTracer&) = delete;
-
-  // Returns the radiance (red, green, blue) without the indirect light that it stores in pixel.light, which is to be
-  // multiplied by `pattern` and added. shown: the source that the ray showed.
-  V3d trace(const V3d& direction, uint64_t seed, IndirectPixels::Pixel& pixel, V3d& pattern,
-            ShownSource& shown) {
-    indirect_ = {};
-    pixel = {};
-    const TracedRay ray = paths_.trace(direction, seed);
-    const Hit& hit = ray.firstHit;
-    shown = ray.shown;
-    const SpectralSampling* const sampling = prepared_.options().sampling;
-    pattern = shownRgb(ray.pattern, sampling);
-    // The indirect light is not separated if a medium attenuates it on its way, or if the pattern is
-    // black in a channel and it cannot be divided by the pattern.
-    if (hit.surface == kNone || !isBlack(prepared_.medium().extinction) || !prepared_.scatterers().empty() ||
-        !(std::min({pattern.x, pattern.y, pattern.z}) > 0))
-      return shownRgb(ray.value.color, sampling);
-    const Scene& scene = prepared_.scene();
-    const ModifierId material = scene.surfaces[hit.surface].material;
-    if (!scene.materialAt(material)) return shownRgb(ray.value.color, sampling);
-    pixel.material = material;
-    pixel.light = Imath::V3f(shownRgb(indirect_.color, sampling) / pattern);
-    pixel.point = Imath::V3f(hit.distance * direction);
-    pixel.normal = Imath::V3f(hit.normal);
-    pixel.distance = static_cast<float>(hit.distance);
-    return shownRgb((ray.value - indirect_).color, sampling);
-  }
-
- private:
-  const PreparedScene& prepared_;
-  Radiance indirect_;
-  const RayObserver addIndirect_ = [this](const Ray& ray) {
-    if (ray.depth == 1 && (ray.kind & kAmbient)) indirect_ += ray.value * ray.contribution;
-  };
-  const PathsFrom paths_;
-};
-
-}  // namespace
-
-Raster drawPoint(const V3d& point, const PixelMap& map, const SphereTracing& tracing,
-                 const SeenSources& sources, uint64_t seed, const std::function<void()>& checkStop) {
-  const PictureStreams streams(seed);
-  PathTracer tracer(tracing.prepared, tracing.caches, tracing.aims, {.sharesHighlights = true});
-  const SmallSources small = smallSources(PathsFrom(tracer, point), map, sources, streams.smallSources());
-  std::vector<V3d> direct(map.count(), V3d(0, 0, 0));
-  std::vector<V3d> patterns(map.count(), V3d(1, 1, 1));
-  IndirectPixels indirect{map.width(), map.height(), map.wraps(), {}};
-  indirect.pixels.resize(map.count());
-  PixelTracer pixels(point, tracing.prepared, tracer);
-  for (int row = 0; row < map.height(); ++row) {
-    if (checkStop) checkStop();
-    for (int column = 0; column < map.width(); ++column) {
-      const size_t pixel =
-          static_cast<size_t>(row) * static_cast<size_t>(map.width()) + static_cast<size_t>(column);
-      const auto trace = [&](double x, double y, uint64_t raySeed) {
-        const auto direction = map.direction(column + x, row + y);
-        direct[pixel] = V3d(0, 0, 0);
-        indirect.pixels[pixel] = {};
-        if (!direction) return true;
-        ShownSource shown;
-        direct[pixel] = pixels.trace(*direction, raySeed, indirect.pixels[pixel], patterns[pixel], shown);
-        return small.images.empty() || !sources.isOneStraight(shown, small.images);
-      };
-      bool shown = !trace(.5, .5, streams.middle(pixel));
-      for (size_t i = 0; shown && i < Tuning::kBeside.size(); ++i)
-        shown = !trace(.5 + Tuning::kBeside[i][0], .5 + Tuning::kBeside[i][1], streams.aside(pixel, i));
-      if (shown) direct[pixel] = V3d(0, 0, 0);
-    }
-  }
-  smoothIndirect(indirect);
-  Raster raster{map.width(), map.height(), std::vector<float>(3 * map.count())};
-  for (size_t pixel = 0; pixel < map.count(); ++pixel) {
-    const Imath::V3f& light = indirect.pixels[pixel].light;
-    setValue(raster, pixel, direct[pixel] + patterns[pixel] * V3d(light));
-  }
-  for (const auto& [pixel, spot] : small.spots) {
-    const double whole = std::max(map.solidAngle(pixel), spot.solidAngle);
-    setValue(raster, pixel,
-             valueAt(raster, pixel) * (1 - spot.solidAngle / whole) +
-                 shownRgb(meanRadiance(spot.light, whole).color, tracing.prepared.options().sampling));
-  }
-  return raster;
-}
-
-void expose(Raster& raster, const PixelMap& map) {
+double exposureOf(const Raster& raster, const PixelMap& map) {
   std::vector<std::pair<double, double>> lit;  // brightness, solid angle
   double all = 0;
   for (size_t pixel = 0; pixel < map.count(); ++pixel) {
@@ -226,7 +72,10 @@ void expose(Raster& raster, const PixelMap& map) {
     median = b;
     if ((sum += solidAngle) >= all / 2) break;
   }
-  const double exposure = median > 0 ? kMidBright / median : 1;
+  return median > 0 ? kMidBright / median : 1;
+}
+
+void toScreen(Raster& raster, double exposure) {
   for (float& p : raster.pixels) p = static_cast<float>(sRgb(std::max(0., exposure * p)));
 }
 

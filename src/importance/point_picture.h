@@ -1,15 +1,12 @@
 #pragma once
-// A picture of the radiance that arrives at a point from all directions.
+// Pictures of the view from a point in all directions: projections, exposure and names. draw_point.h draws them.
 #include <cstdint>
-#include <functional>
 #include <optional>
-#include <span>
 #include <string>
 
 #include "image/picture_file.h"
-#include "importance/seen_sources.h"
-#include "importance/sphere_tracing.h"
 #include "importance/tuning.h"
+#include "scene/scene.h"
 
 namespace rsphere {
 
@@ -55,19 +52,22 @@ class PixelMap {
   int width_, height_;
 };
 
-// Draws the radiance (W/sr/m2) that arrives at a point (world). A ray is traced through the middle of each
-// pixel; nothing is guessed, and patches do not serve the first diffuse surface.
-// - Sources that are seen directly (SeenSources) and are so small that pixels may miss them are
-//   sampled separately. Their light is added to the pixels that they cover, so that none is lost
-//   and none looks larger.
-// - The indirect light of surfaces that are seen directly is averaged over nearby pixels (smooth_indirect.h).
-// checkStop is called once per row; it may throw to abandon the picture. All random numbers follow from seed.
-Raster drawPoint(const V3d& point, const PixelMap& map, const SphereTracing& tracing,
-                 const SeenSources& sources, uint64_t seed, const std::function<void()>& checkStop = {});
+inline V3d valueAt(const Raster& raster, size_t pixel) {
+  const float* p = raster.pixels.data() + 3 * pixel;
+  return V3d(p[0], p[1], p[2]);
+}
 
-// Converts radiance to screen colours. The median brightness of the pixels that are not black, by solid
-// angle, becomes .5 on the sRGB curve, so that a room is visible however bright the sources in it are.
-void expose(Raster& raster, const PixelMap& map);
+inline void setValue(Raster& raster, size_t pixel, const V3d& value) {
+  for (int c = 0; c < 3; ++c)
+    raster.pixels[3 * pixel + static_cast<size_t>(c)] = static_cast<float>(value[c]);
+}
+
+// The factor by which the median brightness of the pixels that are not black, by solid angle, becomes .5 on the sRGB
+// curve, so that a room is visible however bright the sources in it are.
+double exposureOf(const Raster& raster, const PixelMap& map);
+
+// Converts radiance to screen colors.
+void toScreen(Raster& raster, double exposure);
 
 // The pattern with its one %d (or %4d, %04d and so on) replaced by the record number, and %% by %. Throws
 // rad::Error if there is another %, or if there is no %d for a record after the first, because its picture

@@ -233,7 +233,7 @@ struct Stopping {
   RSPHERE_TUNED(Stopping, size_t, kMostRatio, 2);
 };
 
-// Pictures of the view from a point (point_picture.cpp, smooth_indirect.cpp).
+// Pictures of the view from a point (draw_point.cpp, pixel_tracer.cpp, smooth_light.cpp).
 struct Pictures {
   // Pixels along the height: about half a million pixels in all, one per .45 degrees and one per .35 degrees.
   // Chosen by experiment.
@@ -254,6 +254,20 @@ struct Pictures {
   // chosen by experiment.
   static constexpr std::array<std::array<double, 2>, 4> kBeside = {
       {{-.4, -.4}, {.4, .4}, {-.4, .4}, {.4, -.4}}};
+  // One pixel in a square of this side gathers indirect light, and each of those from 16 rays: chosen by experiment.
+  RSPHERE_TUNED(Pictures, int, kSharing, 2);
+  // Passes of smoothing of indirect light and of gloss: chosen by experiment.
+  RSPHERE_TUNED(Pictures, int, kIndirectPasses, 3);
+  RSPHERE_TUNED(Pictures, int, kGlossPasses, 2);
+  // Cosine between the normals of pixels that share gloss: 2 degrees, less than the width of a lobe: derived.
+  RSPHERE_TUNED(Pictures, float, kSameGlossNormal, .9994f);
+  // Least roughness of surfaces whose pixels share gloss: derived. The lobe is about as wide as the gloss of two
+  // passes is blurred, 2.2 pixels or .014 radians.
+  RSPHERE_TUNED(Pictures, double, kLeastRoughness, .02);
+  // Pixels that differ from a neighbor by more than this, of 1 on the sRGB curve, are traced by kSide x kSide rays:
+  // chosen by experiment.
+  RSPHERE_TUNED(Pictures, double, kVisible, .03);
+  RSPHERE_TUNED(Pictures, int, kSide, 3);
   // Two pixels share indirect light if the cosine between their normals is at least kSameNormal, the height
   // of one point over the plane of the other at most kSamePlane of their distance, and their distance at
   // most kNear of that from the eye: chosen by experiment. .87 or .93: within noise (picture from point;

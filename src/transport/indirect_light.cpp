@@ -17,10 +17,14 @@ void IndirectLight::add(Ray& ray, const V3d& normal, const V3d& trueNormal, RayK
     ray.value += coefficient * o.ambientValue;
     return;
   }
+  if (ray.depth == 0 && state_.request.leavesOutIndirect) return;
   const Surroundings at{normal, trueNormal, kind, coefficient};
-  if (ray.ambientLevel > 0 || settings_.mode.coarseAtFirst) {
+  const FirstBounce first = settings_.mode.firstBounce;
+  if (ray.ambientLevel > 0 || first == FirstBounce::fromPatches ||
+      (first == FirstBounce::gathered && (ray.kinds & kSpecular))) {
     if (settings_.caches.coarse && interpolated_.addFromPatch(ray, normal, trueNormal, coefficient)) return;
-  } else if (settings_.caches.field && interpolated_.add(ray, normal, trueNormal, coefficient)) {
+  } else if (first == FirstBounce::interpolated && settings_.caches.field &&
+             interpolated_.add(ray, normal, trueNormal, coefficient)) {
     return;
   }
   gather(ray, at);

@@ -21,7 +21,7 @@ struct ShownSource {
 // not yet in its value.
 using RayObserver = std::function<void(const Ray& ray)>;
 
-// What traces a path differently from others. None of it changes the expected radiance.
+// What traces a path differently from others. Only what is left out changes the expected radiance.
 struct PathRequest {
   // A guess of the radiance of indirect rays, used as a control variate: for each indirect ray that is followed,
   // several are only guessed (radiance_guess.h). The value of one ray may be negative. Null: nothing is guessed.
@@ -31,6 +31,9 @@ struct PathRequest {
   // Null: no observer. Changes no answer.
   const RayObserver* observer = nullptr;
   bool allShadowRays = false;
+  // The surface that the primary ray hits is shown without its indirect light, and without the samples of its rough
+  // reflections and transmissions.
+  bool leavesOutIndirect = false, leavesOutLobes = false;
 };
 
 // A primary ray that was traced.

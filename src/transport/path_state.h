@@ -1,5 +1,7 @@
 #pragma once
 // The state of a path while it is traced.
+#include <cstdint>
+
 #include "field/coarse_solution.h"
 #include "scene/random.h"
 #include "trace/tracer.h"
@@ -9,12 +11,19 @@
 
 namespace rsphere {
 
-// Two choices that a tracer makes for all of its paths.
+// Where the indirect light of the first diffuse surface of a path comes from, with -aa above 0. That of later ones
+// comes from the coarse solution. If thousands of directions are averaged, the errors of single patches matter less
+// than what a gather at each surface costs. In a picture, patches would be visible, and cache records would outnumber
+// its pixels where furniture is dense.
+enum class FirstBounce : uint8_t {
+  interpolated,  // from cache records
+  fromPatches,   // from the coarse solution
+  gathered       // from rays, and beyond a rough reflection from the coarse solution
+};
+
+// Choices that a tracer makes for all of its paths.
 struct TracingMode {
-  // With -aa above 0, the coarse solution gives the indirect light of the first diffuse surface as it does that of
-  // later ones: if thousands of directions are averaged, the errors of single patches matter less than what a gather at
-  // each surface costs. In a picture patches would be visible.
-  bool coarseAtFirst = false;
+  FirstBounce firstBounce = FirstBounce::interpolated;
   // The light of sources in rough highlights is divided between shadow rays and samples of the lobes
   // (shared_highlights.h). The mean stays the same.
   bool sharesHighlights = false;

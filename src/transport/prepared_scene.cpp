@@ -3,20 +3,30 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "rad_parser/printable.h"
 
 namespace rsphere {
 PreparedScene::PreparedScene(const Scene& scene, const RayOptions& options, IrradianceAt irradiance,
                              bool basicRadiance, const rad::Warn& warn)
+    : PreparedScene(scene, std::make_shared<const Tracer>(scene, options.backFacesVisible), options,
+                    irradiance, basicRadiance, warn) {}
+
+PreparedScene::PreparedScene(const PreparedScene& other, const RayOptions& options)
+    : PreparedScene(other.scene_, other.tracer_, options, other.irradiance_, other.basicRadiance_, {}) {}
+
+PreparedScene::PreparedScene(const Scene& scene, std::shared_ptr<const Tracer> tracer,
+                             const RayOptions& options, IrradianceAt irradiance, bool basicRadiance,
+                             const rad::Warn& warn)
     : scene_(scene),
       options_(options),
       irradiance_(irradiance),
       basicRadiance_(basicRadiance),
-      tracer_(scene, options.backFacesVisible),
+      tracer_(std::move(tracer)),
       functions_(scene, options.sampling, warn, options.definitions, options.wavelengths),
       lights_(scene, options.directRelays, functions_, warn),
-      presumedShadows_(scene, tracer_, lights_),
+      presumedShadows_(scene, *tracer_, lights_),
       choice_(scene, lights_),
       luminous_(scene.surfaces.size()) {
   constantRadiance_.resize(lights_.all().size());

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -32,9 +33,14 @@ class PreparedScene {
   // the warnings of SurfaceFunctions and LightSources.
   PreparedScene(const Scene& scene, const RayOptions& options, IrradianceAt irradiance,
                 bool basicRadiance = false, const rad::Warn& warn = {});
+  // The scene of another, with other options and without warnings. They share the tracer, which takes most of the
+  // memory and time in a large scene. REQUIRES: -bv is the same.
+  PreparedScene(const PreparedScene& other, const RayOptions& options);
+  PreparedScene(const PreparedScene&) = delete;
+  PreparedScene& operator=(const PreparedScene&) = delete;
 
   const Scene& scene() const { return scene_; }
-  const Tracer& tracer() const { return tracer_; }
+  const Tracer& tracer() const { return *tracer_; }
   const LightSources& lights() const { return lights_; }
   const PresumedShadows& presumedShadows() const { return presumedShadows_; }
   const SourceChoice& choice() const { return choice_; }
@@ -76,6 +82,8 @@ class PreparedScene {
   const std::vector<SurfaceId>& distant() const { return distant_; }
 
  private:
+  PreparedScene(const Scene& scene, std::shared_ptr<const Tracer> tracer, const RayOptions& options,
+                IrradianceAt irradiance, bool basicRadiance, const rad::Warn& warn);
   bool glows(SurfaceList::Beginning surfaces) const;
   void findScatterers(const rad::Warn& warn);
   LightId sourceNamed(std::string_view name) const;
@@ -84,7 +92,7 @@ class PreparedScene {
   RayOptions options_;
   IrradianceAt irradiance_;
   bool basicRadiance_;
-  Tracer tracer_;
+  std::shared_ptr<const Tracer> tracer_;
   SurfaceFunctions functions_;
   LightSources lights_;
   PresumedShadows presumedShadows_;

@@ -215,8 +215,10 @@ bool SurfaceShading::follow(Ray& ray, S& scattering) {
   if (ray.kinds & kShadow) return true;
   const auto components = scattering.components();
   bool shares = false;
+  const bool followsLobes = ray.depth > 0 || !state_.request.leavesOutLobes;
   for (const Component c : components)
     if (const std::optional<Lobe> lobe = scattering.lobe(c, random)) {
+      if (!followsLobes) continue;
       const auto draw = [&](int i, int n) { return scattering.draw(c, i, n, random); };
       if (c == Component::transmitted) {
         specular_.sampleLobe(ray, kTransmittedSpecular, *lobe, draw);

@@ -10,4 +10,9 @@ Transport::Transport(const Scene& scene, const RayOptions& options, IrradianceAt
       aims_(findAimsOfGathers(prepared_)),
       caches_(makeCaches(prepared_, aims_, warn)) {}
 
+Transport::Transport(const Transport& other, const RayOptions& options)
+    : prepared_(other.prepared_, options),
+      aims_(findAimsOfGathers(prepared_)),
+      caches_(makeCaches(prepared_, aims_, {})) {}
+
 }  // namespace rsphere

@@ -1,0 +1,77 @@
+#include "importance/pixel_tracer.h"
+
+#include <algorithm>
+#include <variant>
+
+#include "base/colorimetry.h"
+#include "importance/tuning.h"
+#include "transport/ray_functions.h"
+
+namespace rsphere {
+namespace {
+
+using Tuning = tuning::Pictures;
+
+// Whether the gloss of neighboring pixels is nearly the same: lobes are wider than a few pixels, and neither a pattern
+// nor a texture changes them from pixel to pixel.
+bool sharesGloss(const Material& material, const Ray& ray) {
+  if (ray.perturbation != V3d(0, 0, 0)) return false;
+  if (const auto* opaque = std::get_if<Opaque>(&material))
+    return opaque->roughness >= Tuning::kLeastRoughness && (!opaque->metal || ray.pattern == Color(1, 1, 1));
+  const auto* trans = std::get_if<Trans>(&material);
+  return trans && trans->roughness >= Tuning::kLeastRoughness && ray.pattern == Color(1, 1, 1);
+}
+
+}  // namespace
+
+// Nothing is separated if a medium attenuates light on its way, because the samples are observed before it does.
+PixelTracer::PixelTracer(const V3d& point, const Transport& transport)
+    : point_(point),
+      prepared_(transport.prepared()),
+      tracer_(transport.pathTracer({FirstBounce::gathered})),
+      separates_(isBlack(prepared_.medium().extinction) && prepared_.scatterers().empty()) {}
+
+PixelSample PixelTracer::trace(const V3d& direction, uint64_t seed, PixelParts parts) {
+  if (!separates_) parts = PixelParts::all;
+  const PixelSample sample = traceOnce(direction, seed, parts);
+  const bool incomplete = (parts != PixelParts::all && sample.seen.material == kNone) ||
+                          (parts == PixelParts::restAlone && !sample.sharesGloss);
+  return incomplete && sample.hits ? traceOnce(direction, seed, PixelParts::all) : sample;
+}
+
+PixelSample PixelTracer::traceOnce(const V3d& direction, uint64_t seed, PixelParts parts) {
+  Radiance indirect, gloss;
+  const RayObserver separate = [&](const Ray& ray) {
+    if (ray.depth != 1) return;
+    if (ray.kind & kAmbient) indirect += ray.value * ray.contribution;
+    if (ray.kind & kSpecular) gloss += ray.value * ray.contribution;
+  };
+  const TracedRay ray = tracer_.trace(point_, direction, 0, seed,
+                                      {.observer = &separate,
+                                       .leavesOutIndirect = parts != PixelParts::all,
+                                       .leavesOutLobes = parts == PixelParts::restAlone});
+  const Hit& hit = ray.firstHit;
+  const SpectralSampling* const sampling = prepared_.options().sampling;
+  PixelSample sample;
+  sample.hits = hit.surface != kNone;
+  sample.shown = ray.shown;
+  sample.rest = shownRgb(ray.value.color, sampling);
+  sample.pattern = shownRgb(ray.pattern, sampling);
+  // Light is not separated from a pattern that is black in a channel, which it cannot be divided by.
+  const V3d& pattern = sample.pattern;
+  if (hit.surface == kNone || !separates_ || !(std::min({pattern.x, pattern.y, pattern.z}) > 0))
+    return sample;
+  const ModifierId id = prepared_.scene().surfaces[hit.surface].material;
+  const Material* const material = prepared_.scene().materialAt(id);
+  if (!material) return sample;
+  sample.sharesGloss = sharesGloss(*material, ray);
+  if (!sample.sharesGloss) gloss = {};
+  sample.rest = shownRgb((ray.value - indirect - gloss).color, sampling);
+  sample.indirect = shownRgb(indirect.color, sampling) / pattern;
+  sample.gloss = shownRgb(gloss.color, sampling);
+  sample.seen = {id, Imath::V3f(hit.distance * direction), Imath::V3f(hit.normal),
+                 static_cast<float>(hit.distance)};
+  return sample;
+}
+
+}  // namespace rsphere
