@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/spectral_sampling.h"
 #include "importance/tuning.h"
 #include "light/surface_point.h"
 
@@ -30,11 +31,18 @@ class Values {
   int count_ = 0;
 };
 
-// Contrasts::surroundings, as seen from points of the scene's surfaces, each surface as often as any other.
-// Two paths are traced in each direction to separate the noise of paths, which even directions do not reduce,
-// from the variation with direction, which they do.
-double measureSurroundings(const Scene& scene, const SeenSources& sources, PathTracer& tracer) {
+// What points of the scene's surfaces see, each surface as often as any other. Two paths are traced in each
+// direction to separate the noise of paths, which even directions do not reduce, from the variation with direction,
+// which they do.
+struct Surroundings {
+  double mean = 0;   // of the photopic radiance, W/sr/m2
+  double error = 1;  // Contrasts::surroundings
+};
+Surroundings measureSurroundings(const Scene& scene, const SeenSources& sources,
+                                 const SpectralSampling* sampling, PathTracer& tracer) {
+  Surroundings result;
   Random random(mixBits(scene.outermost().size()));
+  Values photopic;
   Values values;
   double noise = 0;
   for (size_t k = 0; k < Tuning::kDirectionsAround; ++k) {
@@ -46,18 +54,32 @@ double measureSurroundings(const Scene& scene, const SeenSources& sources, PathT
     const V3d away = diffuseDirection(at.normal, random.uniform(), random.uniform());
     double seen[2];
     bool apart = false;
+    double sum = 0;
     for (double& value : seen) {
-      value = brightness(tracer.trace(at.point + at.clearance * away, away, 0, random.bits()).value);
+      const Ray ray = tracer.trace(at.point + at.clearance * away, away, 0, random.bits());
+      value = brightness(ray.value);
+      sum += photopicOf(ray.value.color, sampling);
       apart = apart || sources.shown(tracer);
     }
     if (apart) continue;
+    photopic.add(sum / 2);
     values.add((seen[0] + seen[1]) / 2);
     noise += (seen[0] - seen[1]) * (seen[0] - seen[1]) / 2;
   }
-  if (!(values.mean() > 0)) return 1;
+  if (!(values.mean() > 0)) return result;
   noise /= static_cast<double>(values.count());
   const double uneven = std::max(0., std::pow(values.deviation(), 2) - noise / 2);
-  return std::sqrt(noise + Tuning::kUnevenShare * Tuning::kUnevenShare * uneven) / values.mean();
+  result.mean = photopic.mean();
+  result.error = std::sqrt(noise + Tuning::kUnevenShare * Tuning::kUnevenShare * uneven) / values.mean();
+  return result;
+}
+
+PathTracer tracerFor(const Transport& transport, const Aims& aims) {
+  PathTracer tracer(transport, aims);
+  tracer.useCoarseSolutionAtFirst(true);
+  tracer.shareHighlights(true);
+  tracer.boundWork(true);
+  return tracer;
 }
 
 // Standard deviation of the brightness on objects with the same modifier. Rays start just in front of points
@@ -88,10 +110,8 @@ Contrasts measureContrasts(const Transport& transport, std::span<const SpecialOb
   std::map<ModifierId, std::vector<SpecialObject>> alike;  // by modifier
   for (const SpecialObject& object : objects)
     alike[scene.surfaces[object.surface].modifier].push_back(object);
-  PathTracer tracer(transport, aims);
-  tracer.useCoarseSolutionAtFirst(true);
-  tracer.shareHighlights(true);
-  contrasts.surroundings = measureSurroundings(scene, sources, tracer);
+  PathTracer tracer = tracerFor(transport, aims);
+  contrasts.surroundings = measureSurroundings(scene, sources, transport.options().sampling, tracer).error;
   if (alike.empty()) return contrasts;
   const size_t rays = std::clamp<size_t>(Tuning::kMostRays / alike.size(), 2, Tuning::kRaysPerModifier);
   for (const auto& [modifier, same] : alike) {
@@ -99,6 +119,11 @@ Contrasts measureContrasts(const Transport& transport, std::span<const SpecialOb
     for (const SpecialObject& object : same) contrasts.objects.push_back({object, deviation});
   }
   return contrasts;
+}
+
+double typicalRadiance(const Transport& transport, const SeenSources& sources, const Aims& aims) {
+  PathTracer tracer = tracerFor(transport, aims);
+  return measureSurroundings(transport.scene(), sources, transport.options().sampling, tracer).mean;
 }
 
 }  // namespace rsphere

@@ -18,6 +18,7 @@ struct PathSettings {
   bool observesAllShadowRays = false;
   bool sharesHighlights = false;  // PathTracer::shareHighlights()
   bool coarseAtFirst = false;     // PathTracer::useCoarseSolutionAtFirst()
+  bool boundsWork = false;        // PathTracer::boundWork()
 };
 
 // Each path begins with a new state, and so does each gather: no answer can depend on an earlier path.
@@ -27,6 +28,7 @@ struct PathState {
   ShownSource shown;
   Hit firstHit;                            // of the primary ray
   bool glimpses = false;                   // one direction for each gather
+  int followed = 0;                        // rays so far, without shadow rays, where work is bounded
   CoarseSolution::Links* links = nullptr;  // of a path from a patch: collects the light that it finds
 };
 

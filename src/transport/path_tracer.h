@@ -64,6 +64,11 @@ class PathTracer {
   // (shared_highlights.h). The mean stays the same.
   void shareHighlights(bool share);
 
+  // Whether the rays that one primary ray may spawn have a bound, so that a record takes a bounded time wherever it
+  // lies: within a closed metal cylinder paths would branch at each surface, into thousands of rays. Beyond
+  // tuning::BoundedPath::kRays rays, weak ones are followed by Russian roulette. The mean stays the same.
+  void boundWork(bool bound);
+
   // Whether, with -aa above 0, the coarse solution gives the indirect light of the first diffuse surface as it
   // does that of later ones: if thousands of directions are averaged, the errors of single patches matter less than
   // what a gather at each surface costs. In a picture patches would be visible.
