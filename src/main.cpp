@@ -51,7 +51,7 @@ void answer(const Options& options, const Messages& messages, StopSignals& signa
   if (options.sphereMode) {
     PointSummary summary;
     const auto summarize = [&] {
-      for (const std::string& text : summary.warnings(options.sphere)) warn(text);
+      for (const std::string& text : summary.warnings(options.sphere, transport.prepared())) warn(text);
     };
     try {
       runRecords(reader, writer, options, messages, &signals,

@@ -15,6 +15,9 @@ namespace {
 // Makes the random numbers of a picture differ from those of the answer to the same point.
 constexpr uint64_t kPictureSeed = 0x70696374757265;  // "picture"
 
+// The relative error of a mean that is not above 0.
+constexpr double kAnyError = 1e30;
+
 // Seconds between reports on a terminal, where -t does not say.
 constexpr double kReportSeconds = 5;
 
@@ -76,7 +79,8 @@ void PointSummary::add(uint64_t record, const PointAnswer& answer, const Spectra
   const std::lock_guard lock(mutex_);
   ++points_;
   const double mean = photopicOf(answer.mean.color, sampling);
-  if (!answer.reached) missed_.add(record, mean > 0 ? answer.brightnessError / mean : 1e30);
+  if (answer.isDark) unlit_.add(record, 0);
+  if (!answer.reached) missed_.add(record, mean > 0 ? answer.brightnessError / mean : kAnyError);
   if (answer.clamped > 0) {
     const double share = mean > 0 ? answer.clamped / (mean + answer.clamped) : 1;
     clamped_.add(record, share);
@@ -84,15 +88,21 @@ void PointSummary::add(uint64_t record, const PointAnswer& answer, const Spectra
   }
 }
 
-std::vector<std::string> PointSummary::warnings(const SphereOptions& options) const {
+std::vector<std::string> PointSummary::warnings(const SphereOptions& options,
+                                                const PreparedScene& prepared) const {
   const std::lock_guard lock(mutex_);
   std::vector<std::string> texts;
+  if (unlit_.points > 0 && !prepared.isDark())
+    texts.push_back(fmt::format(
+        "no {} reaches {} of {} points, or almost none; the first is record {}: check the units of the points, and "
+        "whether they lie inside of something",
+        prepared.scene().importance ? "importance" : "light", unlit_.points, points_, unlit_.worst + 1));
   if (missed_.points > 0)
     texts.push_back(fmt::format(
         "-Sa {:g} was not reached at {} of {} points with at most {} directions; the worst is record {}: "
-        "{:.3g}%",
+        "{}",
         options.accuracy, missed_.points, points_, options.mostOfAllSets(), missed_.worst + 1,
-        100 * missed_.most));
+        missed_.most < kAnyError ? fmt::format("{:.3g}%", 100 * missed_.most) : "no light"));
   if (clamped_.points > 0)
     texts.push_back(fmt::format(
         "-Sf {:g} clamped {} of {} points and took {:.3g}% of their light on average; the most is record {}: "

@@ -45,11 +45,13 @@ class PointSummary {
   // sampling: RayOptions::sampling.
   void add(uint64_t record, const PointAnswer& answer, const SpectralSampling* sampling);
 
+  // Where no direction finds light, or almost none, unless the whole scene is dark, of which answerPoints() warns:
+  //   "no light reaches 3 of 20 points, or almost none; the first is record 7: check the units of the points, ..."
   // Where the accuracy of -Sa was not reached:
   //   "-Sa 0.01 was not reached at 3 of 20 points with at most 8192 directions; the worst is record 7: 1.25%"
   // Where -Sf took light:
   //   "-Sf 0.01 clamped 3 of 20 points and took 1.4% of their light on average; the most is record 7: 2.5%"
-  std::vector<std::string> warnings(const SphereOptions& options) const;
+  std::vector<std::string> warnings(const SphereOptions& options, const PreparedScene& prepared) const;
 
  private:
   // Points that something is to be said of. The first record is kept of equal ones.
@@ -60,6 +62,7 @@ class PointSummary {
   };
   mutable std::mutex mutex_;
   uint64_t points_ = 0;
+  Some unlit_;    // dark ones
   Some missed_;   // -Sa: relative standard errors of the mean brightness
   Some clamped_;  // -Sf: shares of the light that they had without the clamp
   // The sum of these shares, as a whole number, which no order of summation changes.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/spectral_sampling.h"
 #include "importance/tuning.h"
 #include "light/surface_point.h"
 
@@ -30,11 +31,18 @@ class Values {
   int count_ = 0;
 };
 
-// Contrasts::surroundings, as seen from points of the scene's surfaces, each surface as often as any other.
-// Two paths are traced in each direction to separate the noise of paths, which even directions do not reduce,
-// from the variation with direction, which they do.
-double measureSurroundings(const Scene& scene, const SeenSources& sources, PathTracer& tracer) {
+// What points of the scene's surfaces see, each surface as often as any other. Two paths are traced in each
+// direction to separate the noise of paths, which even directions do not reduce, from the variation with direction,
+// which they do.
+struct Surroundings {
+  double mean = 0;   // of the photopic radiance, W/sr/m2
+  double error = 1;  // Contrasts::surroundings
+};
+Surroundings measureSurroundings(const Scene& scene, const SeenSources& sources,
+                                 const SpectralSampling* sampling, PathTracer& tracer) {
+  Surroundings result;
   Random random(mixBits(scene.outermost().size()));
+  Values photopic;
   Values values;
   double noise = 0;
   for (size_t k = 0; k < Tuning::kDirectionsAround; ++k) {
@@ -46,19 +54,24 @@ double measureSurroundings(const Scene& scene, const SeenSources& sources, PathT
     const V3d away = diffuseDirection(at.normal, random.uniform(), random.uniform());
     double seen[2];
     bool apart = false;
+    double sum = 0;
     for (double& value : seen) {
       const TracedRay ray = tracer.trace(at.point + at.clearance * away, away, 0, random.bits());
       value = brightness(ray.value);
+      sum += photopicOf(ray.value.color, sampling);
       apart = apart || sources.isApart(ray.shown);
     }
     if (apart) continue;
+    photopic.add(sum / 2);
     values.add((seen[0] + seen[1]) / 2);
     noise += (seen[0] - seen[1]) * (seen[0] - seen[1]) / 2;
   }
-  if (!(values.mean() > 0)) return 1;
+  if (!(values.mean() > 0)) return result;
   noise /= static_cast<double>(values.count());
   const double uneven = std::max(0., std::pow(values.deviation(), 2) - noise / 2);
-  return std::sqrt(noise + Tuning::kUnevenShare * Tuning::kUnevenShare * uneven) / values.mean();
+  result.mean = photopic.mean();
+  result.error = std::sqrt(noise + Tuning::kUnevenShare * Tuning::kUnevenShare * uneven) / values.mean();
+  return result;
 }
 
 // Standard deviation of the brightness on objects with the same modifier. Rays start just in front of points
@@ -90,7 +103,8 @@ Contrasts measureContrasts(const SphereTracing& tracing, std::span<const Special
   for (const SpecialObject& object : objects)
     alike[scene.surfaces[object.surface].modifier].push_back(object);
   PathTracer tracer = tracing.tracer();
-  contrasts.surroundings = measureSurroundings(scene, sources, tracer);
+  contrasts.surroundings =
+      measureSurroundings(scene, sources, tracing.prepared.options().sampling, tracer).error;
   if (alike.empty()) return contrasts;
   const size_t rays = std::clamp<size_t>(Tuning::kMostRays / alike.size(), 2, Tuning::kRaysPerModifier);
   for (const auto& [modifier, same] : alike) {
@@ -98,6 +112,12 @@ Contrasts measureContrasts(const SphereTracing& tracing, std::span<const Special
     for (const SpecialObject& object : same) contrasts.objects.push_back({object, deviation});
   }
   return contrasts;
+}
+
+double typicalRadiance(const SphereTracing& tracing, const SeenSources& sources) {
+  PathTracer tracer = tracing.tracer();
+  const PreparedScene& prepared = tracing.prepared;
+  return measureSurroundings(prepared.scene(), sources, prepared.options().sampling, tracer).mean;
 }
 
 }  // namespace rsphere

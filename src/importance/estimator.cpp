@@ -7,8 +7,10 @@
 #include <numbers>
 #include <span>
 
+#include "importance/contrasts.h"
 #include "importance/equal_weights.h"
 #include "importance/silhouette_weights.h"
+#include "importance/tuning.h"
 #include "importance/two_halves.h"
 #include "importance/voronoi_weights.h"
 #include "transport/find_aims.h"
@@ -112,6 +114,8 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
     }
   }
   strategy_ = makeStrategy();
+  if (options.accuracy > 0)
+    dark_ = 4 * std::numbers::pi * tuning::Dark::kMean * typicalRadiance(tracing_, sources_);
 }
 
 std::unique_ptr<const SamplingStrategy> SphereEstimator::makeStrategy() const {
@@ -129,15 +133,22 @@ std::unique_ptr<const SamplingStrategy> SphereEstimator::makeStrategy() const {
 SphereEstimator::Workspace::Workspace(const SphereEstimator& estimator)
     : tracer(estimator.tracing_.tracer()) {}
 
+// lit: directions that found light. Sources are found by directions of their own with -Sw c alone.
+bool SphereEstimator::isDark(const PointAnswer& answer, size_t lit) const {
+  if (maxChannel(answer.mean.color) == 0) return true;
+  return options_.weights == Weights::silhouettes &&
+         static_cast<double>(lit) < tuning::Dark::kLitDirections * static_cast<double>(answer.directions);
+}
+
 PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) const {
   // -Sa may send a million directions. They are kept only if they are to be printed.
   const bool keep = options_.everyDirection || options_.accuracy <= 0;
   const auto most = static_cast<size_t>(options_.mostOfAllSets());
   std::array<Half, 2> halves;
   std::vector<KeptSet> kept;
-  TwoHalves decision(options_.accuracy);
+  TwoHalves decision(options_.accuracy, dark_);
   uint64_t sets = 0;
-  size_t directions = 0, largest = 0;
+  size_t directions = 0, largest = 0, lit = 0;
   for (auto next = decision.next(); next && directions + largest <= most; next = decision.next()) {
     if (workspace.checkStop) workspace.checkStop();
     SampledSet set =
@@ -150,6 +161,8 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
     half.variance += set.variance;
     decision.add(*next, photopicOf(moments.total.color, base_.sampling), set.variance.brightness);
     directions += set.samples.size();
+    lit += static_cast<size_t>(std::ranges::count_if(
+        set.samples, [](const DirectionSample& s) { return maxChannel(s.value.color) != 0; }));
     largest = std::max(largest, set.samples.size());
     if (keep) kept.push_back({*next, std::move(set)});
   }
@@ -174,6 +187,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
   answer.standardError.color.transform(standardError);
   answer.brightnessError = standardError(variance.brightness);
   answer.clamped = photopicOf(clamped.color, base_.sampling) / (4 * std::numbers::pi);
+  answer.isDark = isDark(answer, lit);
   answer.reached = options_.accuracy <= 0 || decision.isReached();
   return answer;
 }

@@ -56,13 +56,15 @@ class SphereEstimator {
   // The quantities at a point (world); the directions are left in workspace.samples. The answer depends on
   // the point, the scene and the options alone. With -Sa, sets of directions with different rotations are
   // averaged until the estimated standard error of the brightness of the mean is below that fraction of it
-  // (two_halves.h), or until the next set might exceed SphereOptions::mostOfAllSets().
+  // (two_halves.h), or until the next set might exceed SphereOptions::mostOfAllSets(), or at a dark point after
+  // tuning::Dark::kSets sets.
   PointAnswer estimate(const V3d& point, Workspace& workspace) const;
 
   const std::vector<SpecialObject>& specialObjects() const { return special_; }
   const SeenSources& sources() const { return sources_; }
 
  private:
+  bool isDark(const PointAnswer& answer, size_t lit) const;
   std::unique_ptr<const SamplingStrategy> makeStrategy() const;
 
   SphereOptions options_;
@@ -73,6 +75,7 @@ class SphereEstimator {
   std::unique_ptr<const LightPatches> patches_;  // null where light is even
   SphereTracing tracing_;
   std::unique_ptr<const SamplingStrategy> strategy_;
+  double dark_ = 0;  // -Sa: points with a smaller integral of radiance are dark, W/m2
 };
 
 // One direction of a point as -Sd prints it.

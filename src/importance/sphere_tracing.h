@@ -11,7 +11,7 @@ struct SphereTracing {
 
   // Each thread needs its own.
   PathTracer tracer() const {
-    return PathTracer(prepared, caches, aims, {FirstBounce::fromPatches, true});
+    return PathTracer(prepared, caches, aims, {FirstBounce::fromPatches, true, true});
   }
 };
 

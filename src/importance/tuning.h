@@ -233,6 +233,18 @@ struct Stopping {
   RSPHERE_TUNED(Stopping, size_t, kMostRatio, 2);
 };
 
+// Points that hardly any light reaches (estimator.cpp, two_halves.cpp).
+struct Dark {
+  // The mean below which -Sa gives up soon, relative to what surfaces of the scene show on average: chosen without
+  // measurement. Within closed furniture of metal one direction in a hundred thousand finds a gap between surfaces;
+  // a million directions would not tell how much light that is within a percent.
+  RSPHERE_TUNED(Dark, double, kMean, 1e-3);
+  // The sets after which it gives up: chosen by experiment. Within a closed column of metal they take 7 s (-ab 6).
+  RSPHERE_TUNED(Dark, size_t, kSets, 8);
+  // Share of the directions that find light below which a warning names the point: chosen without measurement.
+  RSPHERE_TUNED(Dark, double, kLitDirections, 1e-3);
+};
+
 // Pictures of the view from a point (draw_point.cpp, pixel_tracer.cpp, smooth_light.cpp).
 struct Pictures {
   // Pixels along the height: about half a million pixels in all, one per .45 degrees and one per .35 degrees.

@@ -29,6 +29,7 @@ std::optional<size_t> TwoHalves::next() const {
   if (b.sets == 0) return 1;
   const bool wantsA = a.sets < setsFor(b), wantsB = b.sets < setsFor(a);
   if (!wantsA && !wantsB && isReached()) return std::nullopt;
+  if (a.sets + b.sets >= tuning::Dark::kSets && average() < dark_) return std::nullopt;
   if (a.sets >= Tuning::kMostRatio * b.sets) return 1;
   if (b.sets >= Tuning::kMostRatio * a.sets) return 0;
   if (wantsA != wantsB) return wantsA ? 0 : 1;
@@ -47,12 +48,12 @@ double TwoHalves::share(size_t half) const {
 }
 
 bool TwoHalves::isReached() const {
-  double total = 0, variance = 0;
-  for (size_t half = 0; half < halves_.size(); ++half) {
-    total += share(half) * halves_[half].total;
+  double variance = 0;
+  for (size_t half = 0; half < halves_.size(); ++half)
     variance += share(half) * share(half) * halves_[half].variance;
-  }
-  return std::sqrt(std::max(0., variance)) <= accuracy_ * total;
+  return std::sqrt(std::max(0., variance)) <= accuracy_ * average();
 }
+
+double TwoHalves::average() const { return share(0) * halves_[0].total + share(1) * halves_[1].total; }
 
 }  // namespace rsphere

@@ -27,6 +27,10 @@ struct TracingMode {
   // The light of sources in rough highlights is divided between shadow rays and samples of the lobes
   // (shared_highlights.h). The mean stays the same.
   bool sharesHighlights = false;
+  // The rays that one primary ray may spawn have a bound, so that a record takes a bounded time wherever it lies:
+  // within a closed metal cylinder paths would branch at each surface, into thousands of rays. Beyond
+  // tuning::BoundedPath::kRays rays, weak ones are followed by Russian roulette. The mean stays the same.
+  bool boundsWork = false;
 };
 
 // How a tracer traces all of its paths.
@@ -44,6 +48,7 @@ struct PathState {
   ShownSource shown;                       // by the primary ray
   Hit firstHit;                            // of the primary ray
   bool glimpses = false;                   // one direction for each gather
+  int followed = 0;                        // rays so far, without shadow rays, where work is bounded
   CoarseSolution::Links* links = nullptr;  // of a path from a patch: collects the light that it finds
 };
 

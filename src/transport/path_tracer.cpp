@@ -11,9 +11,12 @@
 #include "transport/ray_functions.h"
 #include "transport/ray_hit.h"
 #include "transport/surface_shading.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
 namespace {
+
+using Tuning = tuning::BoundedPath;
 
 // -I: distance (world units) from the ray's origin to its imagined surface, as in rtrace.
 constexpr double kMeterLength = 1e-5;
@@ -92,6 +95,8 @@ class PathTracer::Path final : public RayFollower, public SiteGatherer {
   }
   Path& gatherer();
   void find(Ray& ray);
+  double shareThatIsFollowed(const Ray& ray);
+  void shadeByChance(Ray& ray, double share);
   void finish(Ray& ray);
 
   const PreparedScene& t_;
@@ -183,8 +188,35 @@ Ray PathTracer::Path::cast(const V3d& origin, const V3d& direction, double farth
 void PathTracer::Path::follow(Ray& ray) {
   checkDepth(ray);
   find(ray);
-  if (ray.surface != kNone) shading_.shadeHit(ray);
+  if (ray.surface != kNone) {
+    if (const double share = shareThatIsFollowed(ray); share < 1)
+      shadeByChance(ray, share);
+    else
+      shading_.shadeHit(ray);
+  }
   finish(ray);
+}
+
+// Counts the ray, and returns the probability with which the light of what it hit is to be computed. What emits
+// is no beginning of further rays.
+double PathTracer::Path::shareThatIsFollowed(const Ray& ray) {
+  if (!settings_.mode.boundsWork || (ray.kinds & kShadow)) return 1;
+  const double asked = std::max(1, t_.options().ambientDivisions + t_.options().ambientSuperSamples);
+  if (++state_.followed <= Tuning::kRays * asked || t_.lightOf(ray.surface) != kNone) return 1;
+  return std::min(1., ray.weight * Tuning::kBranches * asked);
+}
+
+void PathTracer::Path::shadeByChance(Ray& ray, double share) {
+  if (!(state_.random.uniform() < share)) return;
+  const double weight = ray.weight;
+  const Coefficient contribution = ray.contribution;
+  ray.weight /= share;
+  ray.contribution /= share;
+  shading_.shadeHit(ray);
+  ray.value /= share;
+  ray.mirrored /= share;
+  ray.weight = weight;
+  ray.contribution = contribution;
 }
 
 void PathTracer::Path::pass(Ray& ray) {
