@@ -251,12 +251,13 @@ class Finder {
   void addAround(SurfaceId index) {
     const Surface& s = scene_.surfaces[index];
     const Contents contents = contentsOf(s);
-    match(s.shape,
-[&](const OneOf<Instance, MeshInstance> auto& nested) {
-      addBall(contents.mostIrregular, contents.irregularity, ballOf(nested),
-              scene_.placements[nested.placement], true);
-              },
-              [](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) {},  // no contents);
+    match(
+        s.shape,
+        [&](const OneOf<Instance, MeshInstance> auto& nested) {
+          addBall(contents.mostIrregular, contents.irregularity, ballOf(nested),
+                  scene_.placements[nested.placement], true);
+        },
+        [](const OneOf<Polygon, Sphere, Cone, Ring, Distant, MeshFaces> auto&) {});  // no contents
   }
 
   const Scene& scene_;
