@@ -25,7 +25,7 @@ Ray rootOf(const Transport& transport, const GatherSite& site, int depth) {
 }  // namespace
 
 GatheredLight gatherLight(const Transport& transport, PathState& state, const Aims& aims,
-                          RayFollower& follower, const GatherSite& site, int depth) {
+                          RayFollower& follower, const GatherSite& site, double nearest, int depth) {
   const RayOptions& o = transport.options();
   const Ray root = rootOf(transport, site, depth);
   V3d x, y;
@@ -42,7 +42,7 @@ GatheredLight gatherLight(const Transport& transport, PathState& state, const Ai
                        radiance[cell] += child.value * factor * cells.count();
                        distance[cell] = std::min(distance[cell], apparentLength(child));
                      });
-  return cells.sum(radiance, distance, transport.field()->finestSpacing() / 2, x, y, site.normal);
+  return cells.sum(radiance, distance, nearest, x, y, site.normal);
 }
 
 void linkPatch(const Transport& transport, PathState& state, const Aims& aims, RayFollower& follower,
