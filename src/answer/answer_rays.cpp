@@ -15,8 +15,7 @@ uint64_t seedOfRay(std::span<const double> numbers, uint64_t index, const Answer
 
 std::vector<PathTracer> rayTracers(const Transport& transport, const AnswerOptions& options) {
   std::vector<PathTracer> tracers;
-  for (unsigned i = 0; i < threadCount(options.threads); ++i)
-    tracers.push_back(transport.pathTracer());
+  for (unsigned i = 0; i < threadCount(options.threads); ++i) tracers.push_back(transport.pathTracer());
   return tracers;
 }
 

@@ -396,7 +396,9 @@ Answers Scene::Implementation::answer(std::span<const double> numbers, const Opt
     if (answerer->summary) answerer->summary.emplace();
     Call(*answerer, numbers, keep).run(options.stop);
     if (answerer->summary)
-      for (const std::string& text : answerer->summary->warnings(parsed.sphere, prepared->transport.prepared())) warn(text);
+      for (const std::string& text :
+           answerer->summary->warnings(parsed.sphere, prepared->transport.prepared()))
+        warn(text);
     giveBack(given.key, std::move(answerer));
     return answers;
   });

@@ -34,6 +34,7 @@ struct Site {
   bool usable = false;
   GatherSite at;
   double reach = 0;
+  double finest = 0;             // the finest spacing that its surroundings ask for (world units)
   bool smallObjectNear = false;  // smaller than the cell, so that interpolation would miss it
   std::atomic<const GatheredLight*> light{nullptr};
   std::atomic<bool> begun{false};  // a thread gathers it, or has
@@ -82,14 +83,12 @@ class IrradianceField::Cache {
       : scene_(scene),
         grid_(bounds),
         accuracy_(options.accuracy),
-        // RADIANCE's own meaning of -ar.
-        finest_(grid_.size * std::min(accuracy_, .5) /
-                (options.resolution > 0 ? options.resolution : Tuning::kUnlimited)),
+        finestShare_(std::min(accuracy_, .5) /
+                     (options.resolution > 0 ? options.resolution : Tuning::kUnlimited)),
         bound_(options.memory > 0 ? static_cast<size_t>(options.memory * 1e6) : kNoBound) {}
 
   bool find(const SurfacePlace& place, FieldReader& reader, SiteLooker& looker, GatheredLight& light);
   void keepIn(std::unique_ptr<AmbientFile> file) { stored_.emplace(std::move(file)); }
-  double finestSpacing() const { return finest_; }
   bool isBounded() const { return bound_ != kNoBound; }
   size_t sitesMade() const { return made_.load(std::memory_order_relaxed); }
   size_t bytes() const { return use_->bytes.load(std::memory_order_relaxed); }
@@ -106,12 +105,15 @@ class IrradianceField::Cache {
   const GatheredLight& lightOf(Site& site, const Asked& asked);
   bool look(const SurfaceChart& chart, const SurfacePlace& place, int level, const Asked& asked,
             SitesAround& around);
-  int firstLevel(const SurfaceChart& chart, int finest, const Asked& asked);
+  bool hasOwnCells(const SurfaceChart& chart, const Asked& asked);
+  int levelFrom(int level, const SurfaceChart& chart, const Asked& asked);
+  int firstLevel(const SurfaceChart& chart, const SurfacePlace& place, const Asked& asked);
+  bool isFinest(const SurfaceChart& chart, int level, const Asked& asked);
 
   const Scene& scene_;
   CellGrid grid_;
   double accuracy_;
-  double finest_;
+  double finestShare_;  // the finest spacing, in sizes of the room around
   size_t bound_;  // on the bytes of all memories
   std::shared_ptr<Use> use_ = std::make_shared<Use>();
   // The memory that new queries use.
@@ -146,8 +148,10 @@ Site& IrradianceField::Cache::siteOf(const SurfaceChart& chart, const CellKey& k
     if (const auto at = chart.site(grid_, key)) {
       made.usable = true;
       made.at = *at;
-      made.reach = asked.looker.surroundings(*at).harmonicMean;
-      made.smallObjectNear = grid_.side(key.level) > finest_ &&
+      const Surroundings seen = asked.looker.surroundings(*at);
+      made.reach = seen.harmonicMean;
+      made.finest = finestShare_ * std::min(grid_.size, Tuning::kRoom * seen.rootMeanSquare);
+      made.smallObjectNear = grid_.side(key.level) > made.finest &&
                              asked.looker.smallObjectNear(*at, grid_.side(key.level), grid_.lift);
     }
     asked.memory.add(sizeof(Site) + kNode);
@@ -160,7 +164,7 @@ const GatheredLight& IrradianceField::Cache::lightOf(Site& site, const Asked& as
   site.begun.store(true, std::memory_order_relaxed);
   const GatheredLight* const known = stored_ ? stored_->find(site.key) : nullptr;
   auto gathered =
-      std::make_unique<GatheredLight>(known ? *known : asked.looker.gather(site.at, site.key.hash()));
+      std::make_unique<GatheredLight>(known ? *known : asked.looker.gather(site.at, site.finest / 2, site.key.hash()));
   const GatheredLight* first = nullptr;
   if (!site.light.compare_exchange_strong(first, gathered.get(), std::memory_order_acq_rel)) return *first;
   const GatheredLight& light = *gathered.release();
@@ -216,10 +220,24 @@ bool IrradianceField::Cache::look(const SurfaceChart& chart, const SurfacePlace&
   return true;
 }
 
-// The level of the widest cells that the surroundings of the place allow.
-int IrradianceField::Cache::firstLevel(const SurfaceChart& chart, int finest, const Asked& asked) {
-  int level = std::min(grid_.levelOf(std::min(chart.extent(), Tuning::kOpen * grid_.size)), finest);
-  for (; level < finest; ++level) {
+// Whether a surface is not too small to have cells.
+bool IrradianceField::Cache::hasOwnCells(const SurfaceChart& chart, const Asked& asked) {
+  if (chart.extent() >= finestShare_ * grid_.size) return true;
+  const Site& site =
+      siteOf(chart, chart.cellAt(grid_, grid_.levelOf(chart.extent()), chart.u(), chart.v()), asked);
+  return site.usable && chart.extent() >= site.finest;
+}
+
+// Whether the cells of a level are as fine as the surroundings of the place ask for.
+bool IrradianceField::Cache::isFinest(const SurfaceChart& chart, int level, const Asked& asked) {
+  if (level >= CellGrid::kLevels) return true;
+  const Site& site = siteOf(chart, chart.cellAt(grid_, level, chart.u(), chart.v()), asked);
+  return grid_.side(level) <= (site.usable ? site.finest : finestShare_ * grid_.size);
+}
+
+// The level of the widest cells, of this level or finer, that the surroundings of their sites allow.
+int IrradianceField::Cache::levelFrom(int level, const SurfaceChart& chart, const Asked& asked) {
+  for (; !isFinest(chart, level, asked); ++level) {
     const Site& site = siteOf(chart, chart.cellAt(grid_, level, chart.u(), chart.v()), asked);
     if (site.usable && !site.smallObjectNear && grid_.side(level) <= Tuning::kWidest * accuracy_ * site.reach)
       break;
@@ -227,29 +245,42 @@ int IrradianceField::Cache::firstLevel(const SurfaceChart& chart, int finest, co
   return level;
 }
 
+// The level of the widest cells that the surroundings of the place allow. The sites of wide cells may lie outside
+// of the gap that the place lies in.
+int IrradianceField::Cache::firstLevel(const SurfaceChart& chart, const SurfacePlace& place,
+                                       const Asked& asked) {
+  const int level = levelFrom(grid_.levelOf(std::min(chart.extent(), Tuning::kOpen * grid_.size)), chart, asked);
+  const double clear = asked.looker.clearance({place.point + grid_.lift * place.normal, place.normal},
+                                              grid_.side(level) / Tuning::kGap);
+  const int resolving = grid_.levelOf(Tuning::kGap * clear);
+  return resolving > level ? levelFrom(resolving, chart, asked) : level;
+}
+
 bool IrradianceField::Cache::find(const SurfacePlace& place, FieldReader& reader, SiteLooker& looker,
                                   GatheredLight& light) {
   auto chart = SurfaceChart::of(scene_, grid_, place);
   if (!chart) return false;
-  if (chart->extent() < finest_) {
+  enter(reader);
+  const Asked asked{*reader, looker};
+  if (!hasOwnCells(*chart, asked)) {
     if (chart->isCurved()) return false;
     chart = SurfaceChart::ofPlane(grid_, place);
   }
-  enter(reader);
-  const Asked asked{*reader, looker};
-  const int finest = grid_.levelOf(finest_),
-            last = std::min(finest + Tuning::kBeyondFinest, CellGrid::kLevels);
   const double tolerance = accuracy_ / Tuning::kAllowed;
   light = {};
   double missing = 1, allowed = 1;
-  for (int level = firstLevel(*chart, finest, asked); level <= last; ++level, allowed *= Tuning::kMoreError) {
+  int beyond = 0;
+  for (int level = firstLevel(*chart, place, asked); beyond <= Tuning::kBeyondFinest;
+       ++level, allowed *= Tuning::kMoreError) {
+    const bool finest = isFinest(*chart, level, asked);
+    beyond += finest;
     SitesAround around;
     if (!look(*chart, place, level, asked, around)) continue;
     double extrapolationError = 0;
     const GatheredLight here = around.at(place.point, extrapolationError);
     const double roughness =
         std::max(around.roughness(tolerance), extrapolationError * Tuning::kShiftError / tolerance) / allowed;
-    const double share = level >= finest ? 1 : shareOf(roughness);
+    const double share = finest ? 1 : shareOf(roughness);
     blend(light, here, static_cast<float>(missing * share));
     missing *= 1 - share;
     if (missing <= 0) return true;
@@ -270,7 +301,6 @@ bool IrradianceField::find(const SurfacePlace& place, FieldReader& reader, SiteL
                            GatheredLight& light) {
   return cache_->find(place, reader, looker, light);
 }
-double IrradianceField::finestSpacing() const { return cache_->finestSpacing(); }
 void IrradianceField::leave(FieldReader& reader) const {
   if (cache_->isBounded()) reader = {};
 }

@@ -34,7 +34,10 @@ using FieldReader = std::shared_ptr<FieldMemory>;
 // The rays that the field needs. Every answer depends on nothing but the arguments.
 class SiteLooker {
  public:
-  virtual GatheredLight gather(const GatherSite& site, uint64_t seed) = 0;
+  // nearest: of HemisphereCells::sum().
+  virtual GatheredLight gather(const GatherSite& site, double nearest, uint64_t seed) = 0;
+  // The distance, at most `farthest`, to what lies above the site along its normal (world units).
+  virtual double clearance(const GatherSite& site, double farthest) = 0;
   // Estimated in a few directions.
   virtual Surroundings surroundings(const GatherSite& site) = 0;
   // Whether the segment between two points is unoccluded.
@@ -62,9 +65,6 @@ class IrradianceField {
   // reader: the thread's own. The looker must not call find() of
   // the same field.
   bool find(const SurfacePlace& place, FieldReader& reader, SiteLooker& looker, GatheredLight& light);
-
-  // The finest spacing of sites (world units) that the options ask for. Smaller detail is not resolved.
-  double finestSpacing() const;
 
   // Lets go of the memory; it is freed if it has been replaced and this was its last reader.
   void leave(FieldReader& reader) const;

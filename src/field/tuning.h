@@ -19,6 +19,10 @@ struct IrradianceField {
   // The side of the widest cells, in sizes of the scene: chosen by experiment. 30% less or more: within noise
   // (picture of workshop; error 6%, time 3%).
   RSPHERE_TUNED(IrradianceField, double, kOpen, .1);
+  // The size of a room, in root mean square distances of what a site in it sees: derived.
+  RSPHERE_TUNED(IrradianceField, double, kRoom, 2.5);
+  // The side of the widest cells, in heights of the gap that a place lies in.
+  RSPHERE_TUNED(IrradianceField, double, kGap, 1);
   // -ar 0 sets no limit. Cells of this resolution, as -ar would give it, are the finest: chosen so that
   // they resolve crumbs on a table (.15 mm in a room of 10 m, at -aa .15). 30% less or more: the same
   // answers in all cases.

@@ -24,8 +24,8 @@ Ray rootOf(const PreparedScene& prepared, const GatherSite& site, int depth) {
 
 }  // namespace
 
-GatheredLight gatherLight(const PreparedScene& prepared, PathState& state, const PathSettings& settings,
-                          RayFollower& follower, const GatherSite& site, int depth) {
+GatheredLight gatherLight(const PreparedScene& prepared, PathState& state, const Aims& aims,
+                          RayFollower& follower, const GatherSite& site, double nearest, int depth) {
   const RayOptions& o = prepared.options();
   const Ray root = rootOf(prepared, site, depth);
   V3d x, y;
@@ -34,7 +34,7 @@ GatheredLight gatherLight(const PreparedScene& prepared, PathState& state, const
   const HemisphereCells cells(count);
   std::vector<Radiance> radiance(cells.count());
   std::vector<double> distance(cells.count(), kFarAway);
-  const GatherDirections directions(settings.aims, site.point, site.normal, site.normal, count);
+  const GatherDirections directions(aims, site.point, site.normal, site.normal, count);
   sendOverHemisphere(prepared, directions, state.random, root, kReflectedAmbient, count, Coefficient(1),
                      Coefficient(kMeanReflectance), [&](Ray& child, const Coefficient& factor) {
                        follower.follow(child);
@@ -42,14 +42,14 @@ GatheredLight gatherLight(const PreparedScene& prepared, PathState& state, const
                        radiance[cell] += child.value * factor * cells.count();
                        distance[cell] = std::min(distance[cell], apparentLength(child));
                      });
-  return cells.sum(radiance, distance, settings.caches.field->finestSpacing() / 2, x, y, site.normal);
+  return cells.sum(radiance, distance, nearest, x, y, site.normal);
 }
 
-void linkPatch(const PreparedScene& prepared, PathState& state, const PathSettings& settings,
-               RayFollower& follower, const GatherSite& site, int rays, int depth) {
+void linkPatch(const PreparedScene& prepared, PathState& state, const Aims& aims, RayFollower& follower,
+               const GatherSite& site, int rays, int depth) {
   const Ray root = rootOf(prepared, site, depth);
   Radiance sum;
-  const GatherDirections directions(settings.aims, site.point, site.normal, site.normal, rays);
+  const GatherDirections directions(aims, site.point, site.normal, site.normal, rays);
   sendOverHemisphere(prepared, directions, state.random, root, kReflectedAmbient, rays, Coefficient(1),
                      Coefficient(kMeanReflectance), [&](Ray& child, const Coefficient& factor) {
                        follower.follow(child);

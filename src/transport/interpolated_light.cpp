@@ -63,8 +63,12 @@ class Looker final : public SiteLooker, public CoarseSolution::Looker {
  public:
   Looker(const Tracer& tracer, SiteGatherer& gatherer, int depth)
       : tracer_(tracer), gatherer_(gatherer), depth_(depth) {}
-  GatheredLight gather(const GatherSite& site, uint64_t seed) override {
-    return gatherer_.gather(site, seed, depth_);
+  GatheredLight gather(const GatherSite& site, double nearest, uint64_t seed) override {
+    return gatherer_.gather(site, nearest, seed, depth_);
+  }
+  double clearance(const GatherSite& site, double farthest) override {
+    const Hit hit = tracer_.nearest(site.point, site.normal, farthest);
+    return hit.surface == kNone ? farthest : hit.distance;
   }
   void link(const GatherSite& site, int rays, uint64_t seed, CoarseSolution::Links& links) override {
     gatherer_.link(site, rays, seed, depth_, links);

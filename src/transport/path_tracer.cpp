@@ -78,7 +78,7 @@ class PathTracer::Path final : public RayFollower, public SiteGatherer {
   void passOn(Ray& child, Ray& ray) override;
   bool shade(Ray& ray, ModifierId modifier) override { return shading_.shade(ray, modifier); }
 
-  GatheredLight gather(const GatherSite& site, uint64_t seed, int depth) override;
+  GatheredLight gather(const GatherSite& site, double nearest, uint64_t seed, int depth) override;
   void link(const GatherSite& site, int rays, uint64_t seed, int depth,
             CoarseSolution::Links& links) override;
 
@@ -278,10 +278,10 @@ PathTracer::Path& PathTracer::Path::gatherer() {
   return *gatherer_;
 }
 
-GatheredLight PathTracer::Path::gather(const GatherSite& site, uint64_t seed, int depth) {
+GatheredLight PathTracer::Path::gather(const GatherSite& site, double nearest, uint64_t seed, int depth) {
   Path& path = gatherer();
   path.begin(seed ^ rotationBits(t_.options()), site.normal);
-  return gatherLight(t_, path.state_, path.settings_, path, site, depth);
+  return gatherLight(t_, path.state_, path.settings_.aims, path, site, nearest, depth);
 }
 
 void PathTracer::Path::link(const GatherSite& site, int rays, uint64_t seed, int depth,
@@ -289,7 +289,7 @@ void PathTracer::Path::link(const GatherSite& site, int rays, uint64_t seed, int
   Path& path = gatherer();
   path.begin(seed ^ rotationBits(t_.options()), site.normal);
   path.state_.links = &links;
-  linkPatch(t_, path.state_, path.settings_, path, site, rays, depth);
+  linkPatch(t_, path.state_, path.settings_.aims, path, site, rays, depth);
 }
 
 PathTracer::PathTracer(const PreparedScene& prepared, const Caches& caches, const Aims& aims,

@@ -154,7 +154,7 @@ double RadianceGuess::seenFrom(const Place& at, LightId source) const {
         if (!(at.normal.dot(to) > 0)) continue;
         ++asked;
         seen += prepared_.tracer().shadow(at.point, to, light.isDistant() ? kFarAway : distance,
-                                           light.surface) != Shadow::blocked;
+                                          light.surface) != Shadow::blocked;
       }
     return asked ? static_cast<double>(seen) / asked : 0;
   };

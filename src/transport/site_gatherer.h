@@ -8,9 +8,9 @@ namespace rsphere {
 
 class SiteGatherer {
  public:
-  // The indirect light of a site, estimated with -ad + -as rays. depth: of the ray that requests it; only the
-  // limit of nesting depends on it.
-  virtual GatheredLight gather(const GatherSite& site, uint64_t seed, int depth) = 0;
+  // The indirect light of a site, estimated with -ad + -as rays. nearest: of HemisphereCells::sum(). depth: of
+  // the ray that requests it; only the limit of nesting depends on it.
+  virtual GatheredLight gather(const GatherSite& site, double nearest, uint64_t seed, int depth) = 0;
 
   // Sends about `rays` rays from a patch of the coarse solution, and records the patches and the light
   // that they find.
