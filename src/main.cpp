@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <ctime>
+#include <exception>
 
 #include "answer/answer_points.h"
 #include "answer/answer_rays.h"
@@ -48,24 +49,22 @@ void answer(const Options& options, const Messages& messages, StopSignals& signa
   const AnswerWriter answers(options);
   writeHeader(writer, options, scene.description.header, std::time(nullptr));
   writer.flush();  // a program that talks to this one may read the header before it sends a record
-  if (options.sphereMode) {
-    PointSummary summary;
-    const auto summarize = [&] {
+  PointSummary summary;
+  RunEnd end;
+  end.leave = [&](const std::exception_ptr& fault) {
+    _exit(exitStatus(messages, [&]() -> int { std::rethrow_exception(fault); }));
+  };
+  if (options.sphereMode)
+    end.ended = [&] {
       for (const std::string& text : summary.warnings(options.sphere, transport.prepared())) warn(text);
     };
-    try {
-      runRecords(reader, writer, options, messages, &signals,
-                 answerPoints(
-                     transport, options, answers, warn, summary, [&] { signals.check(); },
-                     pictureReport(options, messages)));
-    } catch (...) {
-      summarize();
-      throw;
-    }
-    summarize();
-  } else {
-    runRecords(reader, writer, options, messages, &signals, answerRays(transport, options, answers, warn));
-  }
+  runRecords(reader, writer, options, messages, &signals,
+             options.sphereMode
+                 ? answerPoints(
+                       transport, options, answers, warn, summary, [&] { signals.check(); },
+                       pictureReport(options, messages))
+                 : answerRays(transport, options, answers, warn),
+             end);
 }
 
 }  // namespace

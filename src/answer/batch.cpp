@@ -1,17 +1,21 @@
 #include "answer/batch.h"
 
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/eventfd.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <limits>
 #include <map>
+#include <memory>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "answer/answer_writer.h"
@@ -32,6 +36,12 @@ constexpr uint64_t kClaimsAhead = 16;
 // One repetition of a ray may be an accident; two suggest that someone averages its answers.
 constexpr int kRepeatsToRemark = 2;
 
+// Finished answers are written at least this often, where -x does not ask for groups.
+constexpr auto kLongestDelay = std::chrono::milliseconds(500);
+// At the end of a run, the time that records in work have to end before the process ends without them. Most
+// records take less, and a picture that is being written takes a few milliseconds.
+constexpr auto kGrace = std::chrono::milliseconds(100);
+
 constexpr uint64_t kNoLimit = std::numeric_limits<uint64_t>::max();
 
 // Consecutive records, for one thread.
@@ -45,6 +55,56 @@ struct Claim {
   std::exception_ptr error;  // the fault in reading the record after them
 };
 
+// The answers to the records of a claim. Its thread appends them, and another thread may take away those that
+// are there while it computes the next. Appending takes no lock unless there is no more room.
+class alignas(64) InWork {
+ public:
+  // By the thread of the claim.
+  void begin(uint64_t claim) {
+    const std::lock_guard lock(mutex_);
+    claim_ = claim;
+  }
+  void append(std::string_view bytes) {
+    const size_t size = size_.load(std::memory_order_relaxed);
+    if (size + bytes.size() > room_) grow(size + bytes.size());
+    std::copy(bytes.begin(), bytes.end(), bytes_.get() + size);
+    size_.store(size + bytes.size(), std::memory_order_release);
+  }
+  // Ends the claim and returns what is not taken yet.
+  std::string finish() {
+    const std::lock_guard lock(mutex_);
+    std::string rest = untaken();
+    claim_ = kNoLimit;
+    size_ = taken_ = 0;
+    return rest;
+  }
+  // By any thread: what is not taken yet, if it belongs to this claim.
+  std::string take(uint64_t claim) {
+    const std::lock_guard lock(mutex_);
+    return claim_ == claim ? untaken() : std::string();
+  }
+
+ private:
+  std::string untaken() {
+    const size_t from = std::exchange(taken_, size_.load(std::memory_order_acquire));
+    return std::string(bytes_.get() + from, taken_ - from);
+  }
+  void grow(size_t least) {
+    auto larger = std::make_unique_for_overwrite<char[]>(std::max(2 * room_, least));
+    std::copy_n(bytes_.get(), size_.load(), larger.get());
+    const std::lock_guard lock(mutex_);
+    bytes_ = std::move(larger);
+    room_ = std::max(2 * room_, least);
+  }
+
+  std::mutex mutex_;
+  uint64_t claim_ = kNoLimit;
+  size_t taken_ = 0;
+  std::atomic<size_t> size_{0};
+  size_t room_ = 0;
+  std::unique_ptr<char[]> bytes_;
+};
+
 struct Finished {
   std::string bytes;
   size_t records = 0;
@@ -53,19 +113,46 @@ struct Finished {
   std::exception_ptr error;
 };
 
+// A file descriptor that threads wait for with poll(2). It counts until it is read.
+class Event {
+ public:
+  Event() : fd_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+    if (fd_ < 0) throw rad::Error("cannot create an event descriptor", rad::Status::system);
+  }
+  ~Event() { close(fd_); }
+  Event(const Event&) = delete;
+  Event& operator=(const Event&) = delete;
+
+  void raise() const {
+    const uint64_t one = 1;
+    [[maybe_unused]] const ssize_t n = ::write(fd_, &one, sizeof one);
+  }
+  // How often it was raised since the last call.
+  uint64_t count() const {
+    uint64_t n = 0;
+    return ::read(fd_, &n, sizeof n) == sizeof n ? n : 0;
+  }
+  int descriptor() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
 // Each thread takes records from the reader (under input_), answers them, and hands in the bytes
-// (under output_). The thread that hands in the oldest claim writes all claims that are due. Lock
-// order: input_ before output_.
+// (under output_). The thread that hands in the oldest claim writes all claims that are due. The thread that
+// called run() watches: it writes the finished records of the oldest claim every kLongestDelay and on a
+// signal. Lock order: input_, output_, that of InWork.
 class Batch {
  public:
   Batch(RecordReader& reader, RecordWriter& writer, const AnswerOptions& options, const Messages& messages,
-        const StopSignals* signals, const AnswerRecord& answer)
+        const StopSignals* signals, const AnswerRecord& answer, const RunEnd& end)
       : reader_(reader),
         writer_(writer),
         options_(options),
         messages_(messages),
         signals_(signals),
         answer_(answer),
+        end_(end),
         threads_(threadCount(options.threads)),
         perRecord_(options.numbersPerRecord()),
         interval_(options.height == 0 || options.width <= 1 ? static_cast<uint64_t>(options.width) : 0),
@@ -73,7 +160,8 @@ class Batch {
         remaining_(options.height == 0 ? kNoLimit
                                        : static_cast<uint64_t>(std::max<int64_t>(options.width, 1)) *
                                              static_cast<uint64_t>(options.height)),
-        before_(static_cast<size_t>(perRecord_), 0.0) {}
+        before_(static_cast<size_t>(perRecord_), 0.0),
+        inWork_(threads_) {}
 
   void run();
 
@@ -85,7 +173,14 @@ class Batch {
   void remarkRepeats(const double* record, uint64_t index);
   void remarkLayout();
   Finished compute(const Claim& claim, unsigned worker);
-  void handIn(uint64_t number, Finished&& finished);
+  void handIn(uint64_t number, Finished&& finished, InWork& mine);
+  template <typename Write>
+  void guardOutput(const Write& write);
+  void writeDue();
+  void writeFinished();
+  void watch(uint64_t workers);
+  void endForSignal();
+  std::exception_ptr conclude();
   void waitingForInput(bool waiting);
   void reportProgress();
   double expectedRecords() const;
@@ -100,6 +195,7 @@ class Batch {
   const Messages& messages_;
   const StopSignals* signals_;
   const AnswerRecord& answer_;
+  const RunEnd& end_;
   const unsigned threads_;
   const int perRecord_;
   const uint64_t interval_;  // records between flushes; 0: none
@@ -117,18 +213,18 @@ class Batch {
   uint64_t nextOut_ = 0, recordsOut_ = 0;
   std::exception_ptr error_;
   bool outputEnded_ = false;
+  std::vector<InWork> inWork_;  // by worker
   Clock::time_point start_ = Clock::now(), lastReport_ = start_;
 
   std::atomic<bool> stopped_{false}, waiting_{false};
   std::atomic<uint64_t> recordsTaken_{0};  // this and inputShare_ are for progress reports only
   std::atomic<double> inputShare_{0};
-  int wakeFd_ = -1;
+  Event wake_;         // the run ends: nobody waits for input any more
+  Event workerEnded_;  // raised once by each worker
 };
 
 void Batch::run() {
-  wakeFd_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-  if (wakeFd_ < 0) throw rad::Error("cannot create an event descriptor", rad::Status::system);
-  std::vector<int> wakes{wakeFd_};
+  std::vector<int> wakes{wake_.descriptor()};
   if (signals_ != nullptr) wakes.push_back(signals_->descriptor());
   reader_.interruptBy(wakes);
   reader_.whenWaiting([this](bool waiting) { waitingForInput(waiting); });
@@ -136,16 +232,24 @@ void Batch::run() {
   runWorkers();
   reader_.whenWaiting({});
   reader_.interruptBy({});
-  close(wakeFd_);
   writer_.holdUntilFlush(false);
+  if (const std::exception_ptr fault = conclude()) std::rethrow_exception(fault);
+}
+
+// Writes what is left to be written and returns why the run has ended, or null at the end of the input.
+std::exception_ptr Batch::conclude() {
+  const std::lock_guard output(output_);
   try {
     writer_.flush();
   } catch (const rad::Error&) {
     if (!error_) error_ = std::current_exception();  // the first fault is reported
   }
-  if (error_) std::rethrow_exception(error_);
-  if (signals_ != nullptr && signals_->raised()) throw rad::Error(signals_->name(), rad::Status::signal);
+  if (end_.ended) end_.ended();
+  if (error_) return error_;
+  if (signals_ != nullptr && signals_->raised())
+    return std::make_exception_ptr(rad::Error(signals_->name(), rad::Status::signal));
   if (remaining_ != kNoLimit && remaining_ > 0) messages_.warning("unexpected EOF on input");
+  return nullptr;
 }
 
 // The answers do not depend on the number of threads.
@@ -158,15 +262,48 @@ void Batch::runWorkers() {
                     wanted, threads_));
   try {
     runOnThreads(
-        threads_, [this](unsigned worker) { work(worker); },
+        threads_,
+        [this](unsigned worker) {
+          work(worker);
+          workerEnded_.raise();
+        },
         [this](unsigned started, const std::string& reason) {
           messages_.warning(
               fmt::format("reducing number of threads from {} to {}: no more could be started: {}", threads_,
                           started, reason));
-        });
+        },
+        [this](unsigned started) { watch(started); });
   } catch (const rad::Error&) {
     stop(std::current_exception());
   }
+}
+
+// Runs on the calling thread while the workers answer. It ends with the last of them. If the run ends for
+// another reason while a record is in work that takes long, it ends the process (RunEnd::leave).
+void Batch::watch(uint64_t workers) {
+  std::array<pollfd, 3> events{{{workerEnded_.descriptor(), POLLIN, 0},
+                                {wake_.descriptor(), POLLIN, 0},
+                                {signals_ != nullptr ? signals_->descriptor() : -1, POLLIN, 0}}};
+  const int delay = interval_ == 0 ? static_cast<int>(kLongestDelay.count()) : -1;
+  uint64_t ended = 0;
+  while (ended < workers && !stopping()) {
+    if (poll(events.data(), events.size(), delay) == 0) writeFinished();
+    ended += workerEnded_.count();
+  }
+  if (ended == workers) return;
+  if (!stopped_) endForSignal();
+  for (const auto end = Clock::now() + kGrace; ended < workers;) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
+    if (left.count() <= 0) break;
+    poll(events.data(), 1, static_cast<int>(left.count()));
+    ended += workerEnded_.count();
+  }
+  if (ended < workers && end_.leave) end_.leave(conclude());
+}
+
+void Batch::endForSignal() {
+  writeFinished();
+  stop(nullptr);
 }
 
 void Batch::work(unsigned worker) {
@@ -178,7 +315,7 @@ void Batch::work(unsigned worker) {
       const auto time = Clock::now() - start;
       if (time < kClaimTime / 2 && claim.records == most) most = std::min(2 * most, kLargestClaim);
       if (time > 2 * kClaimTime) most = std::max<size_t>(most / 2, 1);
-      handIn(claim.number, std::move(finished));
+      handIn(claim.number, std::move(finished), inWork_[worker]);
     }
   } catch (...) {
     stop(std::current_exception());
@@ -274,31 +411,31 @@ void Batch::remarkLayout() {
                     first->line, first->numbers, first->numbers == 1 ? "" : "s"));
 }
 
+// Leaves the answers in inWork_[worker].
 Finished Batch::compute(const Claim& claim, unsigned worker) {
+  InWork& mine = inWork_[worker];
+  mine.begin(claim.number);
   Finished finished;
   finished.flush = claim.flush;
   finished.error = claim.error;
   const double* before = claim.before.data();
   const auto length = static_cast<size_t>(perRecord_);
   try {
-    for (; finished.records < claim.records; ++finished.records) {
+    std::string bytes;
+    for (size_t& i = finished.records; i < claim.records; ++i) {
       if (stopping()) {
         finished.last = true;
         return finished;
       }
-      const double* numbers = claim.numbers.data() + length * finished.records;
+      const double* numbers = claim.numbers.data() + length * i;
       Record record;
-      record.index = claim.firstRecord + finished.records;
+      record.index = claim.firstRecord + i;
       record.bogus = isBogus(numbers);
       if (!record.bogus) before = numbers;
       record.numbers = {before, length};
-      const size_t whole = finished.bytes.size();
-      try {
-        answer_(record, worker, finished.bytes);
-      } catch (...) {
-        finished.bytes.resize(whole);
-        throw;
-      }
+      bytes.clear();
+      answer_(record, worker, bytes);
+      mine.append(bytes);
     }
   } catch (...) {
     finished.error = std::current_exception();
@@ -307,37 +444,59 @@ Finished Batch::compute(const Claim& claim, unsigned worker) {
   return finished;
 }
 
-void Batch::handIn(uint64_t number, Finished&& finished) {
+void Batch::handIn(uint64_t number, Finished&& finished, InWork& mine) {
   const std::lock_guard output(output_);
+  finished.bytes = mine.finish();
   finished_.emplace(number, std::move(finished));
-  try {
-    while (!finished_.empty() && finished_.begin()->first == nextOut_ && !outputEnded_) {
-      const Finished due = std::move(finished_.begin()->second);
-      finished_.erase(finished_.begin());
-      ++nextOut_;
-      recordsOut_ += due.records;
-      writer_.write(due.bytes);
-      if (due.flush) writer_.flush();
-      if (due.last) {
-        outputEnded_ = true;
-        error_ = due.error;
-      }
-    }
+  guardOutput([this] {
+    writeDue();
     if (waiting_ && interval_ == 0) writer_.flush();
+  });
+  reportProgress();
+  written_.notify_all();
+}
+
+// Writes the claims that are finished, in their order, up to the first that is not. REQUIRES output_.
+void Batch::writeDue() {
+  while (!finished_.empty() && finished_.begin()->first == nextOut_ && !outputEnded_) {
+    const Finished due = std::move(finished_.begin()->second);
+    finished_.erase(finished_.begin());
+    ++nextOut_;
+    recordsOut_ += due.records;
+    writer_.write(due.bytes);
+    if (due.flush) writer_.flush();
+    if (due.last) {
+      outputEnded_ = true;
+      error_ = due.error;
+    }
+  }
+}
+
+// Writes and flushes all records that are finished, up to the first that is not.
+void Batch::writeFinished() {
+  const std::lock_guard output(output_);
+  guardOutput([this] {
+    for (InWork& work : inWork_) writer_.write(work.take(nextOut_));
+    writer_.flush();
+  });
+}
+
+// Calls `write`, unless the output has ended. If it fails, or was the last, the run ends. REQUIRES output_.
+template <typename Write>
+void Batch::guardOutput(const Write& write) {
+  try {
+    if (!outputEnded_) write();
   } catch (...) {
     outputEnded_ = true;
     error_ = std::current_exception();
   }
   if (outputEnded_) endInput();
-  reportProgress();
-  written_.notify_all();
 }
 
 // Wakes the thread that waits for input and the threads that wait for answers to be written.
 void Batch::endInput() {
   stopped_ = true;
-  const uint64_t one = 1;
-  [[maybe_unused]] const ssize_t n = ::write(wakeFd_, &one, sizeof one);
+  wake_.raise();
   written_.notify_all();
 }
 
@@ -345,14 +504,7 @@ void Batch::waitingForInput(bool waiting) {
   waiting_ = waiting;
   if (!waiting || interval_ != 0) return;
   const std::lock_guard output(output_);
-  if (outputEnded_) return;
-  try {
-    writer_.flush();
-  } catch (...) {
-    outputEnded_ = true;
-    error_ = std::current_exception();
-    endInput();
-  }
+  guardOutput([this] { writer_.flush(); });
 }
 
 void Batch::reportProgress() {
@@ -381,7 +533,7 @@ double Batch::expectedRecords() const {
 
 void Batch::stop(std::exception_ptr error) {
   const std::lock_guard output(output_);
-  if (!error_) error_ = error;
+  if (!outputEnded_) error_ = error;
   outputEnded_ = true;
   endInput();
 }
@@ -389,9 +541,10 @@ void Batch::stop(std::exception_ptr error) {
 }  // namespace
 
 void runRecords(RecordReader& reader, RecordWriter& writer, const AnswerOptions& options,
-                const Messages& messages, StopSignals* signals, const AnswerRecord& answer) {
+                const Messages& messages, StopSignals* signals, const AnswerRecord& answer,
+                const RunEnd& end) {
   if (signals != nullptr) signals->defer(true);
-  Batch(reader, writer, options, messages, signals, answer).run();
+  Batch(reader, writer, options, messages, signals, answer, end).run();
   if (signals != nullptr) signals->defer(false);
 }
 

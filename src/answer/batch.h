@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <span>
 #include <string>
@@ -26,16 +27,26 @@ struct Record {
 // answers to all records before this one are written, and runRecords() throws the exception on.
 using AnswerRecord = std::function<void(const Record& record, unsigned worker, std::string& bytes)>;
 
+// What happens at the end of a run besides its result.
+struct RunEnd {
+  // Called once, after the last answer is written.
+  std::function<void()> ended;
+  // Ends the process with the message and the status of `fault`; it may not return. Called where a fault, a
+  // signal or a closed output ends the run and a record is still in work after .1 s: no thread can be stopped
+  // within a record, and the threads use what the caller holds. If it is empty, the run ends with the record.
+  std::function<void(const std::exception_ptr& fault)> leave;
+};
+
 // Reads records to the end of the input (or of the -y'th scanline of -x records), calls `answer` for each on
 // threadCount() threads (threads.h), and writes the answers in the order of the input.
 // - Output is flushed after every -x records where -y is 0, after every record where -x is 1, after a
-//   bogus record, and, unless -x asks for groups of several records, whenever the next input is not
-//   there yet. A group is written at once when it is complete, so that a program may write all of it
-//   before it reads an answer.
+//   bogus record, and, unless -x asks for groups of several records, every half second and whenever the next
+//   input is not there yet. A group is written at once when it is complete, so that a program may write all
+//   of it before it reads an answer.
 // - Memory does not grow with the input: at most 16 claims of records for each thread wait to be written.
 // - A fault in the input or in an answer ends the run when all records before it are answered and written.
-//   A signal does so too (rad::Error with Status::signal and its name as text), but discards the
-//   records that are being computed.
+// - A signal ends the run (rad::Error with Status::signal and its name as text): the answers that are finished
+//   up to the first record that is not are written at once, and nothing waits for the records in work.
 // - Warns if there are fewer threads than -n asks for, if the input ends before -y scanlines, if the first
 //   line of text in ray mode does not hold whole rays, and (once, without -u+) if the same ray comes three
 //   times in a row and its answers may be noisy.
@@ -43,6 +54,7 @@ using AnswerRecord = std::function<void(const Record& record, unsigned worker, s
 // Throws what reader, writer and answer throw, and rad::Error (Status::system) if no thread can be
 // started. `signals` may be null.
 void runRecords(RecordReader& reader, RecordWriter& writer, const AnswerOptions& options,
-                const Messages& messages, StopSignals* signals, const AnswerRecord& answer);
+                const Messages& messages, StopSignals* signals, const AnswerRecord& answer,
+                const RunEnd& end = {});
 
 }  // namespace rsphere

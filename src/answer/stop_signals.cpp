@@ -27,7 +27,7 @@ constexpr std::array<Named, 6> kSignals = {{{SIGINT, "Interrupt"},
 constexpr int kStatus = 3;          // as in rtrace(1)
 constexpr unsigned kPatience = 15;  // seconds in which to finish, as in rtrace
 // timeout(1) sends its signal to the process and to its group: twice within microseconds, or longer if it is
-// interrupted in between. A person who asks a second time is slower than this.
+// interrupted in between. systemd sends HUP right after TERM. A person who asks a second time is slower.
 constexpr int64_t kOneRequest = 50'000'000;  // ns
 
 struct State {
@@ -65,7 +65,9 @@ void onSignal(int number) {
   int first = 0;
   const bool again = !state.raised.compare_exchange_strong(first, number);
   if (!again) state.raisedAt = now();
-  if (again && first == number && now() - state.raisedAt < kOneRequest) {
+  // The time is still 0 if another thread is handling the first signal at this moment.
+  const int64_t raisedAt = state.raisedAt;
+  if (again && state.deferred && (raisedAt == 0 || now() - raisedAt < kOneRequest)) {
     errno = error;
     return;
   }
@@ -91,6 +93,7 @@ StopSignals::StopSignals(const std::string& program) {
   if (pipe2(state.pipe, O_CLOEXEC | O_NONBLOCK) != 0)
     throw rad::Error("cannot create a pipe for signals", rad::Status::system);
   state.raised = 0;
+  state.raisedAt = 0;
   state.deferred = false;
   state.told = false;
   state.ending = false;

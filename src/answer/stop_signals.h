@@ -8,10 +8,10 @@ namespace rsphere {
 // Makes the signals that ask a program to end (INT HUP TERM ALRM XCPU XFSZ) end it as in rtrace, with a
 // message "rsphere: signal - Terminate" and exit status 3.
 // - Before defer(true), a signal ends the program at once. After it, raised() becomes true and
-//   descriptor() becomes readable, and the program has 15 seconds to flush the answers that it has
-//   finished. A second signal ends it at once.
-// - The same signal within 50 ms is the same request, because timeout(1) sends its signal to the
-//   process and to its group.
+//   descriptor() becomes readable, and the program has 15 seconds to write the answers that it has
+//   finished, which it needs only if the output is blocked. A second signal ends it at once.
+// - A second signal within 50 ms belongs to the same request: timeout(1) sends its signal to the process and
+//   to its group, and systemd sends HUP after TERM.
 // - Signals that were ignored remain ignored. SIGPIPE is ignored: a closed pipe is an error of write(2).
 // - The descriptors 0 to 2 are reserved for standard input, output and error, even if these are closed.
 // At most one object at a time may exist in a process: signal handlers can only reach process-wide state, all

@@ -65,7 +65,8 @@ unsigned wantedThreads(int asked) {
 unsigned threadCount(int asked) { return std::min(wantedThreads(asked), mostThreads()); }
 
 void runOnThreads(unsigned count, const std::function<void(unsigned)>& work,
-                  const std::function<void(unsigned, const std::string&)>& fewer) {
+                  const std::function<void(unsigned, const std::string&)>& fewer,
+                  const std::function<void(unsigned)>& watch) {
   std::list<Thread> threads;
   try {
     for (unsigned i = 0; i < count; ++i) threads.emplace_back([&work, i] { work(i); });
@@ -74,6 +75,7 @@ void runOnThreads(unsigned count, const std::function<void(unsigned)>& work,
       throw rad::Error(fmt::format("cannot start a thread: {}", error.what()), rad::Status::system);
     if (fewer) fewer(static_cast<unsigned>(threads.size()), error.what());
   }
+  if (watch) watch(static_cast<unsigned>(threads.size()));
 }
 
 }  // namespace rsphere

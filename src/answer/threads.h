@@ -16,8 +16,9 @@ unsigned threadCount(int asked);
 // have ended. Each thread has a stack of 64 MB, of which the system provides the pages that are used: the
 // surfaces along a path are traced recursively, and a path may meet many. If the system starts only some of
 // the threads, calls fewer(started, reason) and goes on with those. Throws rad::Error (Status::system) if it
-// starts none. REQUIRES: work does not throw.
+// starts none. Meanwhile, watch(started) runs on the calling thread. REQUIRES: none of them throws.
 void runOnThreads(unsigned count, const std::function<void(unsigned worker)>& work,
-                  const std::function<void(unsigned started, const std::string& reason)>& fewer = {});
+                  const std::function<void(unsigned started, const std::string& reason)>& fewer = {},
+                  const std::function<void(unsigned started)>& watch = {});
 
 }  // namespace rsphere

@@ -321,6 +321,31 @@ TEST(RunRecords, EndlessInputNeedsNoMoreMemory) {
   EXPECT_GE(ahead, 2) << "the other thread went on";
 }
 
+// They used to come at the end of the file, or after 64 KiB.
+TEST(RunRecords, AnswersOfAFileComeWhileItWorks) {
+  std::string text, expected;
+  for (int i = 0; i < 310; ++i) text += "1 2 3\n";
+  for (int i = 0; i < 300; ++i) expected += fmt::format("{}\n", i);
+  const Options options = parse({"rsphere", "-n", "2", "s.oct"});
+  const TemporaryFile in(text);
+  const Pipe out;
+  std::promise<void> received;
+  std::atomic<bool> inTime{false};
+  std::jthread program([&, isReceived = received.get_future().share()] {
+    RecordReader reader(in.descriptor, NumberFormat::ascii, 3);
+    RecordWriter writer(out.in);
+    runRecords(reader, writer, options, Messages("rsphere"), nullptr,
+               [&](const Record& record, unsigned, std::string& bytes) {
+                 if (record.index == 300) inTime = isReceived.wait_for(20s) == std::future_status::ready;
+                 bytes += fmt::format("{}\n", record.index);
+               });
+  });
+  EXPECT_EQ(out.getLines(300), expected);
+  received.set_value();
+  program.join();
+  EXPECT_TRUE(inTime);
+}
+
 TEST(RunRecords, FullDiskIsASystemFault) {
   const Options options = parse({"rsphere", "-n", "2", "s.oct"});
   const TemporaryFile in("1 2 3\n");
@@ -372,7 +397,7 @@ TEST(RunRecords, ProgressOfAPipeHasAnEndOnlyWithScanlines) {
 // A child process, because signals end it. It answers two records and then waits for input, or is busy.
 class Child {
  public:
-  Child(bool deferred, const AnswerRecord& answer) {
+  Child(bool deferred, const AnswerRecord& answer, const char* threads = "2") {
     pid_ = fork();
     if (pid_ != 0) {
       toChild.closeOut();
@@ -380,21 +405,25 @@ class Child {
       return;
     }
     toChild.closeIn();
+    fromChild.closeOut();
     dup2(log.descriptor, 2);
     Messages messages("rsphere");
     int status = 0;
     try {
       StopSignals signals("rsphere");
-      const Options options = parse({"rsphere", "-n", "2", "s.oct"});
+      const Options options = parse({"rsphere", "-n", threads, "s.oct"});
       if (!deferred) {
         fromChild.put("ready\n");
         for (;;) pause();
       }
       RecordReader reader(toChild.out, NumberFormat::ascii, 3);
       RecordWriter writer(fromChild.in);
-      runRecords(reader, writer, options, messages, &signals, answer);
-    } catch (const rad::Error& error) {
-      status = messages.error(error);
+      RunEnd end;
+      end.ended = [&] { messages.report("ended"); };
+      end.leave = [&](const std::exception_ptr& fault) { _exit(statusOf(messages, fault)); };
+      runRecords(reader, writer, options, messages, &signals, answer, end);
+    } catch (const rad::Error&) {
+      status = statusOf(messages, std::current_exception());
     }
     _exit(status);
   }
@@ -413,6 +442,14 @@ class Child {
   Pipe toChild, fromChild;
   TemporaryFile log;
 
+  static int statusOf(const Messages& messages, const std::exception_ptr& fault) {
+    try {
+      std::rethrow_exception(fault);
+    } catch (const rad::Error& error) {
+      return messages.error(error);
+    }
+  }
+
  private:
   pid_t pid_ = -1;
 };
@@ -427,7 +464,7 @@ TEST(StopSignals, WhileWaitingForInput) {
     EXPECT_EQ(child.fromChild.getLines(1), "1 2 3 \n");
     child.send(signal);
     EXPECT_EQ(child.exitStatus(), 3);
-    EXPECT_EQ(contents(child.log.path), std::string("rsphere: signal - ") + name + "\n");
+    EXPECT_EQ(contents(child.log.path), std::string("rsphere: ended\nrsphere: signal - ") + name + "\n");
   }
 }
 
@@ -452,7 +489,7 @@ TEST(StopSignals, FlushWhatIsFinished) {
   const std::string out = child.fromChild.getAll();
   EXPECT_EQ(out.substr(0, 14), "1 2 3 \n4 5 6 \n");
   EXPECT_EQ(out.back(), '\n');
-  EXPECT_EQ(contents(child.log.path), "rsphere: signal - Terminate\n");
+  EXPECT_EQ(contents(child.log.path), "rsphere: ended\nrsphere: signal - Terminate\n");
 }
 
 TEST(StopSignals, BeforeRecordsAreRead) {
@@ -480,6 +517,59 @@ TEST(StopSignals, TheSecondEndsItAtOnce) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, 10s);
 }
 
+// Answers 300 records at once, with two numbers each. The next takes a minute; `busy` gets a line when it begins.
+AnswerRecord slowAfter300(const Pipe& busy) {
+  return [&busy](const Record& record, unsigned, std::string& bytes) {
+    if (record.index == 300) {
+      busy.put("busy\n");
+      std::this_thread::sleep_for(60s);
+    }
+    bytes += fmt::format("{}\n", record.index);
+  };
+}
+
+// The finished answers used to wait for the record in work. After 15 seconds they were lost.
+TEST(StopSignals, NothingWaitsForTheRecordInWork) {
+  std::string expected;
+  for (int i = 0; i < 300; ++i) expected += fmt::format("{}\n", i);
+  for (const char* threads : {"1", "2", "3"})
+    for (const int second : {0, SIGHUP}) {
+      const Pipe busy;
+      Child child(true, slowAfter300(busy), threads);
+      const auto start = std::chrono::steady_clock::now();
+      for (int i = 0; i < 310; ++i) child.toChild.put("1 2 3\n");
+      EXPECT_EQ(busy.getLines(1), "busy\n");
+      child.send(SIGTERM);
+      if (second != 0) child.send(second);  // systemd sends it right after TERM
+      EXPECT_EQ(child.exitStatus(), 3);
+      EXPECT_LT(std::chrono::steady_clock::now() - start, 10s);
+      EXPECT_EQ(child.fromChild.getAll(), expected) << threads;
+      const std::string log = contents(child.log.path);
+      EXPECT_TRUE(log == "rsphere: ended\nrsphere: signal - Terminate\n" ||
+                  (second != 0 && log == "rsphere: ended\nrsphere: signal - Hangup\n"))
+          << log;
+    }
+}
+
+// Nobody reads the answers any more: nothing waits for the record in work either.
+TEST(StopSignals, AClosedOutputEndsTheRunThoughARecordIsInWork) {
+  const Pipe busy;
+  Child child(true, [&](const Record& record, unsigned, std::string& bytes) {
+    if (record.index == 1) {
+      busy.put("busy\n");
+      std::this_thread::sleep_for(60s);
+    }
+    if (record.index == 0) busy.getLines(1);
+    bytes += "answer\n";
+  });
+  child.fromChild.closeOut();
+  const auto start = std::chrono::steady_clock::now();
+  child.toChild.put("1 2 3\n4 5 6\n");
+  EXPECT_EQ(child.exitStatus(), 3);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, 10s);
+  EXPECT_EQ(contents(child.log.path), "rsphere: ended\n");
+}
+
 // timeout(1) sends a signal to the process and to its group.
 TEST(StopSignals, TheSameTwiceInAMomentIsOne) {
   const Child child(true, stoppedAtTheThird([] {
@@ -490,7 +580,7 @@ TEST(StopSignals, TheSameTwiceInAMomentIsOne) {
   child.toChild.put("1 2 3 4 5 6 7 8 9 10 11 12 13 14 15\n");
   EXPECT_EQ(child.exitStatus(), 3);
   EXPECT_EQ(child.fromChild.getAll().substr(0, 14), "1 2 3 \n4 5 6 \n");
-  EXPECT_EQ(contents(child.log.path), "rsphere: signal - Terminate\n");
+  EXPECT_EQ(contents(child.log.path), "rsphere: ended\nrsphere: signal - Terminate\n");
 }
 
 TEST(StopSignals, AClosedStandardInputIsAFaultAndNotSomeOtherFile) {
