@@ -5,6 +5,7 @@
 #include "image/picture_file.h"
 #include "importance/point_picture.h"
 #include "importance/seen_sources.h"
+#include "transport/transport.h"
 
 namespace rsphere {
 
