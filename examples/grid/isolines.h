@@ -34,7 +34,8 @@ class Field {
 };
 
 // Round values between the smallest and the largest of these: EN 12464-1's scale of illuminances (1, 1.5, 2, 3, 5, 7.5,
-// 10, ...). If nine tenths of the values span less than a factor of 4, equal steps divide their range. Ascending, at
+// 10, ...). The lowest and the highest 2% of the values, at least one of ten and more, have no levels of their own:
+// one point inside of furniture would take half of them. If nine tenths of the values span less than a factor of 4, equal steps divide their range. Ascending, at
 // most 14, none if all values are equal. REQUIRES: at least one value.
 std::vector<double> roundLevels(std::span<const double> values);
 
