@@ -169,6 +169,17 @@ Plane planeOf(const rsphere::Polygon& face) {
   return plane;
 }
 
+bool facesUp(const Description& scene, const Primitive& p) {
+  return faceOf(verticesOf(scene, p)).normal.z > .99999;
+}
+
+// Polygons in one plane, of those that are not.
+std::string howToChoose(size_t up, size_t all) {
+  if (up > 0 && up < all)
+    return up == 1 ? "-u takes the one that faces up" : fmt::format("-u takes the {} that face up", up);
+  return "name those of one plane, each by -s";
+}
+
 }  // namespace
 
 V3d Plane::at(const V2d& p, double height) const { return origin + right * p.x + up * p.y + normal * height; }
@@ -200,10 +211,16 @@ double Area::distanceToEdge(const V2d& p) const {
   return nearest;
 }
 
-Area findArea(const Description& scene, std::span<const std::string> names, bool reversed) {
+Area findArea(const Description& scene, std::span<const std::string> names, bool reversed, bool upOnly) {
   std::vector<Primitive> polygons;
+  size_t up = 0;
   for (const std::string& name : names)
-    for (Primitive& p : polygonsNamed(scene, name)) polygons.push_back(std::move(p));
+    for (Primitive& p : polygonsNamed(scene, name)) {
+      const bool isUp = facesUp(scene, p);
+      up += isUp ? 1 : 0;
+      if (isUp || !upOnly) polygons.push_back(std::move(p));
+    }
+  if (polygons.empty()) throw rad::Error(fmt::format("no polygon of {} faces up (-u)", quoted(names)));
 
   // The largest polygon decides which side is the front.
   std::vector<std::vector<V3d>> vertices;
@@ -224,9 +241,10 @@ Area findArea(const Description& scene, std::span<const std::string> names, bool
     Ring& ring = rings.emplace_back();
     for (const V3d& p : vertices[i]) {
       if (std::abs(face.normal.dot(p) - face.offset) > tolerance)
-        throw rad::Error(fmt::format(
-            "the {} polygons of {} are not all in one plane, \"{}\" and \"{}\" for instance", polygons.size(),
-            quoted(names), rad::printable(polygons[*largest].name), rad::printable(polygons[i].name)));
+        throw rad::Error(
+            fmt::format("the {} polygons of {} are not all in one plane, \"{}\" and \"{}\" for instance; {}",
+                        polygons.size(), quoted(names), rad::printable(polygons[*largest].name),
+                        rad::printable(polygons[i].name), howToChoose(up, polygons.size())));
       ring.push_back(plane.project(p));
     }
   }

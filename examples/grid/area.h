@@ -50,9 +50,11 @@ class Area {
 };
 
 // The area of the polygons of these names. If no polygon has a name, it stands for the polygons with the
-// modifier of that name. reversed: the back is measured. Throws rad::Error if there is no such polygon, with
-// the names that resemble it, and if the polygons lie in different planes.
-Area findArea(const rad::Description& scene, std::span<const std::string> names, bool reversed);
+// modifier of that name. reversed: the back is measured. upOnly: only those of these polygons that face up, such
+// as the tops of boxes. Throws rad::Error if there is no such polygon, with the names that resemble it, and if
+// the polygons lie in different planes.
+Area findArea(const rad::Description& scene, std::span<const std::string> names, bool reversed,
+              bool upOnly = false);
 
 // The outlines of all polygons of these names or modifiers, projected on the plane. Throws rad::Error as
 // findArea() does.

@@ -181,8 +181,9 @@ void drawLabels(Canvas& canvas, const Scale& scale, const std::vector<std::vecto
   }
 }
 
+// Below and above the levels, the smallest and the largest value: bands at the ends may reach far.
 void drawLegend(Canvas& canvas, const std::vector<double>& levels, const std::vector<Color>& colors,
-                double left, double top, double height) {
+                const Summary& summary, double left, double top, double height) {
   const double step = std::min(26., height / static_cast<double>(colors.size()));
   canvas.text(left, top - 8, "lx", "font-weight=\"bold\"");
   for (size_t i = 0; i < colors.size(); ++i) {
@@ -191,6 +192,10 @@ void drawLegend(Canvas& canvas, const std::vector<double>& levels, const std::ve
                      fmt::format("fill=\"{}\" stroke=\"#444\" stroke-width=\".5\"", colors[i].text()));
     if (i < levels.size()) canvas.text(left + 28, bottom - step + 4, luxText(levels[i]), "font-size=\"11\"");
   }
+  const std::string style = "font-size=\"11\" fill=\"#777\"";
+  canvas.text(left + 28, top + 4, "max " + luxText(summary.largest), style);
+  canvas.text(left + 28, top + step * static_cast<double>(colors.size()) + 4,
+              "min " + luxText(summary.smallest), style);
 }
 
 }  // namespace
@@ -259,15 +264,16 @@ std::string planAsSvg(const Area& area, const Grid& grid, std::span<const double
       const double halfWidth = .32 * size * static_cast<double>(words.size());
       taken.push_back({x - halfWidth, y - size * .5, x + halfWidth, y + size * .5});
       canvas.text(x, y + size * .35, words,
-                  fmt::format("text-anchor=\"middle\" font-size=\"{:.1f}\" fill=\"{}\"", size,
-                              colors[band].dark() ? "white" : "black"));
+                  fmt::format("text-anchor=\"middle\" font-size=\"{:.1f}\" fill=\"{}\" stroke=\"{}\" "
+                              "stroke-width=\"{:.1f}\" stroke-linejoin=\"round\" paint-order=\"stroke\"",
+                              size, colors[band].dark() ? "white" : "black", colors[band].text(), .3 * size));
     }
   }
   for (size_t i = levels.size(); i-- > 0;) drawLabels(canvas, scale, isolines[i], levels[i], taken);
 
   drawAxes(canvas, scale);
   const double legendHeight = std::max(frame.bottom - frame.top, 18. * static_cast<double>(colors.size()));
-  drawLegend(canvas, levels, colors, frame.right + 24, kTop + 8, legendHeight - 8);
+  drawLegend(canvas, levels, colors, Summary(values), frame.right + 24, kTop + 8, legendHeight - 8);
   double bottom = kTop + legendHeight + 30;
   for (const std::string& remark : drawing.remarks) canvas.text(kLeft - 40, bottom += 17, remark, "");
   double width = frame.right + 24 + 78;

@@ -98,7 +98,8 @@ std::vector<std::vector<V2d>> Field::isolines(double level) const {
 std::vector<double> roundLevels(std::span<const double> values) {
   std::vector<double> sorted(values.begin(), values.end());
   std::sort(sorted.begin(), sorted.end());
-  const double smallest = sorted.front(), largest = sorted.back();
+  const size_t beyond = sorted.size() < 10 ? 0 : std::max<size_t>(1, sorted.size() / 50);
+  const double smallest = sorted[beyond], largest = sorted[sorted.size() - 1 - beyond];
   if (!(largest > smallest)) return {};
   const double low = sorted[sorted.size() / 20], high = sorted[sorted.size() - 1 - sorted.size() / 20];
   std::vector<double> levels;

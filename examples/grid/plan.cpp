@@ -30,6 +30,7 @@ constexpr const char* kUsage =
   -h H      height above the polygon, along its normal (0)
   -d D      largest spacing of the grid (EN 12464-1's: .2 * 5^log10(longer side), in metres)
   -m M      width of a band along the edges that is left out (0; EN 12464-1 allows .5 m along walls)
+  -u        of these polygons, only those that face up: the tops of boxes
   -r        measure the back of the polygon
   -z        leave out points of 0 lx, which are inside of furniture
   -f F      maintenance factor, by which all illuminances are multiplied (1)
@@ -51,7 +52,7 @@ const std::vector<std::string> kDefaults{"-ab", "8",   "-aa",  ".1",  "-ad", "10
 struct Settings {
   std::vector<std::string> surfaces, context, files, rtrace = kDefaults;
   double height = 0, spacing = 0, margin = 0, maintenance = 1;
-  bool reversed = false, skipDark = false, values = false, onlyPoints = false;
+  bool upOnly = false, reversed = false, skipDark = false, values = false, onlyPoints = false;
   std::string picture, title, table, readings;
   std::vector<double> levels;
 };
@@ -113,6 +114,8 @@ Settings settingsOf(const std::vector<std::string>& words) {
       s.table = argument();
     else if (word == "-i")
       s.readings = argument();
+    else if (word == "-u")
+      s.upOnly = true;
     else if (word == "-r")
       s.reversed = true;
     else if (word == "-z")
@@ -175,11 +178,19 @@ std::vector<std::string> remarksOf(const Settings& s, const Plane& plane, const 
   return lines;
 }
 
+// "Illuminance 0.8 above floor (lx)"
+std::string titleOf(const Settings& s) {
+  const std::string where =
+      s.height == 0 ? "on" : fmt::format("{:.4g} {}", std::abs(s.height), s.height > 0 ? "above" : "behind");
+  return fmt::format("{} {} {} (lx)", s.maintenance == 1 ? "Illuminance" : "Maintained illuminance", where,
+                     fmt::join(s.surfaces, ", "));
+}
+
 void warn(std::string_view text) { fmt::print(stderr, "plan: warning - {}\n", text); }
 
 void run(const Settings& s) {
   const rad::Description scene = rad::readScene(s.files, {.warn = warn});
-  const Area area = findArea(scene, s.surfaces, s.reversed);
+  const Area area = findArea(scene, s.surfaces, s.reversed, s.upOnly);
   const Plane& plane = area.plane();
   Grid grid = layGrid(area, s.spacing, s.margin);
   std::vector<V3d> sensors;
@@ -219,9 +230,9 @@ void run(const Settings& s) {
   }
 
   const Summary summary(values);
-  Drawing drawing{s.title.empty() ? fmt::format("Illuminance, {}", fmt::join(s.surfaces, ", ")) : s.title,
-                  remarksOf(s, plane, grid, dark, summary), s.levels.empty() ? roundLevels(values) : s.levels,
-                  findOutlines(scene, s.context, plane), s.values};
+  Drawing drawing{s.title.empty() ? titleOf(s) : s.title, remarksOf(s, plane, grid, dark, summary),
+                  s.levels.empty() ? roundLevels(values) : s.levels, findOutlines(scene, s.context, plane),
+                  s.values};
   for (const std::string& line : drawing.remarks) fmt::print("{}\n", line);
   if (!s.table.empty()) {
     std::string table;

@@ -18,9 +18,9 @@ namespace {
 
 using Tuning = tuning::Pictures;
 
-constexpr Smoothing kOfIndirect{Tuning::kIndirectPasses, Tuning::kSameNormal, Tuning::kSamePlane,
-                                Tuning::kNear};
-constexpr Smoothing kOfGloss{Tuning::kGlossPasses, Tuning::kSameGlossNormal, Tuning::kSamePlane,
+constexpr Smoothing kOfIndirect{Tuning::kIndirectPasses, Tuning::kCarefulPasses, Tuning::kSameLight,
+                                Tuning::kSameNormal,     Tuning::kSamePlane,     Tuning::kNear};
+constexpr Smoothing kOfGloss{Tuning::kGlossPasses, 0, 0, Tuning::kSameGlossNormal, Tuning::kSamePlane,
                              Tuning::kNear};
 
 constexpr double kTracingShare = .8;  // of the time of a picture; for progress reports only

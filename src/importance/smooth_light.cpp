@@ -14,8 +14,15 @@ struct Average {
   float known = 0;
 };
 
+// The weight of b's light in a's average.
+float similarity(const Imath::V3f& a, const Imath::V3f& b, float sameLight) {
+  const Imath::V3f apart = (b - a) / (sameLight * (a + b) / 2 + Imath::V3f(1e-20f));
+  return std::exp(-apart.length2() / 6);
+}
+
 Average averageAround(const SeenSurfaces& seen, const Smoothing& smoothing, const PixelLight& light,
-                      int column, int row, int step) {
+                      int column, int row, int pass) {
+  const int step = 1 << pass;
   const auto at = [&](int x, int y) { return static_cast<size_t>(y) * seen.width + x; };
   const SeenSurface& here = seen.pixels[at(column, row)];
   Imath::V3f sum(0, 0, 0);
@@ -27,7 +34,9 @@ Average averageAround(const SeenSurfaces& seen, const Smoothing& smoothing, cons
       int x = column + k * step;
       if (seen.wraps) x = (x + seen.width) % seen.width;
       if (x < 0 || x >= seen.width || !mayShare(here, seen.pixels[at(x, y)], smoothing)) continue;
-      const float weight = kSpline[static_cast<size_t>(i + 2)] * kSpline[static_cast<size_t>(k + 2)];
+      float weight = kSpline[static_cast<size_t>(i + 2)] * kSpline[static_cast<size_t>(k + 2)];
+      if (pass >= smoothing.passes)
+        weight *= similarity(light.light[at(column, row)], light.light[at(x, y)], smoothing.sameLight);
       weights += weight;
       known += weight * light.known[at(x, y)];
       sum += weight * light.known[at(x, y)] * light.light[at(x, y)];
@@ -48,12 +57,12 @@ bool mayShare(const SeenSurface& a, const SeenSurface& b, const Smoothing& smoot
 
 void smoothLight(const SeenSurfaces& seen, const Smoothing& smoothing, PixelLight& light) {
   PixelLight next = light;
-  for (int pass = 0; pass < smoothing.passes; ++pass) {
+  for (int pass = 0; pass < smoothing.passes + smoothing.careful; ++pass) {
     for (int row = 0; row < seen.height; ++row)
       for (int column = 0; column < seen.width; ++column) {
         const size_t pixel = static_cast<size_t>(row) * seen.width + column;
         if (seen.pixels[pixel].material == kNone) continue;
-        const Average average = averageAround(seen, smoothing, light, column, row, 1 << pass);
+        const Average average = averageAround(seen, smoothing, light, column, row, pass);
         next.light[pixel] = average.light;
         next.known[pixel] = average.known;
       }

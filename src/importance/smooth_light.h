@@ -28,7 +28,9 @@ struct PixelLight {
 
 // How pixels share light.
 struct Smoothing {
-  int passes = 0;                                 // each reaches twice as far as the one before
+  int passes = 0;   // each reaches twice as far as the one before
+  int careful = 0;  // the number of further passes, in which pixels share light only if it is nearly the same
+  float sameLight = 0;                            // by this part of it: tuning::Pictures::kSameLight
   float sameNormal = 0, samePlane = 0, near = 0;  // tuning::Pictures::kSameNormal, ...
 };
 
@@ -36,11 +38,11 @@ struct Smoothing {
 bool mayShare(const SeenSurface& a, const SeenSurface& b, const Smoothing& smoothing);
 
 // Averages the light over nearby pixels that may share it. Pixels without light of their own get that of their
-// neighbors, and stay at known 0 if they have none. Edges of surfaces are not crossed. Passes with steps of 1, 2 and 4
-// pixels are together like a Gaussian with a standard deviation of 4.6 pixels: light that changes within that is
-// blurred, and the noise falls to a sixteenth. Source: Dammertz, Sewtz, Hanika, Lensch, "Edge-avoiding a-trous wavelet
-// transform for fast global illumination filtering" (2010). Only geometry limits the filter here, because differences
-// of light are noise.
+// neighbors, and stay at known 0 if they have none. Edges of surfaces are not crossed. Passes with steps of 1, 2
+// and 4 pixels are together like a Gaussian with a standard deviation of 4.6 pixels: light that changes within
+// that is blurred, and the noise falls to a sixteenth. Small differences that are then left are mostly noise,
+// and large ones shadows: careful passes blur the former alone. Source: Dammertz, Sewtz, Hanika, Lensch,
+// "Edge-avoiding a-trous wavelet transform for fast global illumination filtering" (2010).
 void smoothLight(const SeenSurfaces& seen, const Smoothing& smoothing, PixelLight& light);
 
 }  // namespace rsphere

@@ -238,6 +238,20 @@ TEST(ParseOptions, MostDirectionsFollowTheBase) {
             "command line error at '-Sx': 100 is less than -Sn 2048; see -help");
 }
 
+TEST(ParseOptions, PicturesHaveDefaultsOfTheirOwnAndTheOptionsThatAreGiven) {
+  const RayOptions usual = parse({"rsphere", "-ab", "3", "-Si", "a.png", "s.oct"}).pictureRay;
+  EXPECT_EQ(usual.ambientBounces, 3);
+  EXPECT_EQ(usual.ambientDivisions, pictureDefaults().ambientDivisions);
+  EXPECT_EQ(usual.ambientAccuracy, pictureDefaults().ambientAccuracy);
+  const Options given = parse({"rsphere", "-ad", "64", "-aa", "0", "-Si", "a.png", "-af", "x.amb", "s.oct"});
+  EXPECT_EQ(given.pictureRay.ambientDivisions, 64);
+  EXPECT_EQ(given.pictureRay.ambientAccuracy, 0);
+  EXPECT_EQ(given.pictureRay.specularSampling, pictureDefaults().specularSampling);
+  EXPECT_EQ(given.pictureRay.ambientFile, "") << "its light would be that of other options";
+  EXPECT_EQ(given.ray.ambientFile, "x.amb");
+  EXPECT_EQ(given.ray.specularSampling, modeDefaults(true).ray.specularSampling);
+}
+
 TEST(ParseOptions, Words) {
   const Options options = parse({"rsphere", "-Sg", "a", "-Sg", "b", "-Sw", "h", "-Sr", "12345678901", "-e",
                                  "err", "-af", "x.amb", "s.oct"});

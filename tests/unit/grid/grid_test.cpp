@@ -25,9 +25,10 @@ const std::string kL = "carpet polygon L 0 0 18 0 0 0 6 0 0 6 2 0 3 2 0 3 4 0 0 
 const std::string kHole =
     "carpet polygon holed 0 0 30 0 0 0 6 0 0 6 6 0 0 6 0 0 0 0  2 2 0 2 4 0 4 4 0 4 2 0 2 2 0\n";
 
-Area areaOf(const std::string& polygons, const std::string& name, bool reversed = false) {
+Area areaOf(const std::string& polygons, const std::string& name, bool reversed = false,
+            bool upOnly = false) {
   const std::string names[] = {name};
-  return findArea(rad::readSceneText(kMaterials + polygons, "test"), names, reversed);
+  return findArea(rad::readSceneText(kMaterials + polygons, "test"), names, reversed, upOnly);
 }
 
 std::string messageOf(const std::string& polygons, const std::string& name) {
@@ -119,6 +120,19 @@ TEST(GridArea, MessagesNameTheRemedy) {
   EXPECT_NE(
       messageOf(kL + "carpet polygon up 0 0 9 0 0 1 1 0 1 0 1 1\n", "carpet").find("not all in one plane"),
       std::string::npos);
+}
+
+TEST(GridArea, BoxesHaveTops) {
+  const std::string box =
+      "wood polygon b.top 0 0 12 0 0 1 1 0 1 1 1 1 0 1 1\nwood polygon b.bottom 0 0 12 0 0 0 0 1 0 1 1 0 1 0 0\n"
+      "wood polygon b.side 0 0 12 0 0 0 1 0 0 1 0 1 0 0 1\n";
+  const std::string message = messageOf(box, "wood");
+  EXPECT_TRUE(message.ends_with("; -u takes the one that faces up")) << message;
+  const Area top = areaOf(box, "wood", false, true);
+  EXPECT_EQ(top.plane().at(V2d(0, 0)).z, 1);
+  EXPECT_EQ(top.plane().normal.z, 1);
+  EXPECT_THROW(areaOf("wood polygon b.bottom 0 0 12 0 0 0 0 1 0 1 1 0 1 0 0\n", "wood", false, true),
+               rad::Error);
 }
 
 TEST(GridLayout, SpacingOfTheStandard) {
@@ -244,6 +258,16 @@ TEST(GridIsolines, RoundLevels) {
   EXPECT_EQ(roundLevels(narrow), (std::vector<double>{450, 500, 550}));
   EXPECT_TRUE(roundLevels(equal).empty());
   EXPECT_FALSE(roundLevels(dark).empty());
+}
+
+// One point of 0 lx among a hundred took six of the eight levels.
+TEST(GridIsolines, OnePointOfNothingHasNoLevels) {
+  std::vector<double> values;
+  for (int i = 0; i < 99; ++i) values.push_back(300 + 3 * i);
+  const std::vector<double> levels = roundLevels(values);
+  values.push_back(0);
+  EXPECT_EQ(roundLevels(values), levels);
+  EXPECT_GE(levels.front(), 300);
 }
 
 TEST(GridSummary, ByTheNamesOfTheStandard) {

@@ -7,7 +7,9 @@
 #include <string>
 
 #include "base/constants.h"
-#include "importance/smooth_indirect.h"
+#include "importance/draw_point.h"
+#include "importance/smooth_light.h"
+#include "importance/tuning.h"
 #include "rad_parser/error.h"
 #include "tests/unit/support/scene_of.h"
 #include "tests/unit/support/sphere_setting.h"
@@ -63,13 +65,23 @@ TEST(PixelMap, PixelsShowTheirDirectionsAndCoverTheSphere) {
 
 // ---- what arrives
 
+RayOptions picturesWith(int bounces) {
+  RayOptions ray = pictureDefaults();
+  ray.ambientBounces = bounces;
+  return ray;
+}
+
 struct Drawn : SphereSetting {
+  Transport pictures;
+  SeenSources sources;
   PixelMap map;
   Raster raster;
   double mean = 0;  // by the estimator, brightness
   Drawn(const std::string& text, const V3d& point, int bounces, Projection projection, int width,
         uint64_t seed = 1)
       : SphereSetting(sceneOf(text), [&](RayOptions& o) { o.ambientBounces = bounces; }),
+        pictures(*transport, picturesWith(bounces)),
+        sources(pictures.prepared()),
         map(projection, width, projection == Projection::angularFisheye ? width : width / 2) {
     SphereOptions o = options.sphere;
     o.baseDirections = 4096;
@@ -78,7 +90,10 @@ struct Drawn : SphereSetting {
     const SphereEstimator estimator(*transport, o);
     SphereEstimator::Workspace workspace(estimator);
     mean = brightness(estimator.estimate(point, workspace).mean);
-    raster = drawPoint(point, map, estimator.tracing(), estimator.sources(), seed);
+    raster = again(point, seed);
+  }
+  Raster again(const V3d& point, uint64_t seed, const DrawingProgress& progress = {}) const {
+    return drawPoint(point, map, pictures, sources, seed, false, progress);
   }
   double at(size_t pixel) const { return raster.pixels[3 * pixel + 1]; }
   double towards(const V3d& direction) const { return at(map.pixelOf(direction.normalized())); }
@@ -176,11 +191,8 @@ TEST(PointPicture, SmallSourcesHaveTheirLightWithLittleNoise) {
       "void plastic black 0 0 5 0 0 0 0 0\nvoid light lamp 0 0 3 1e6 1e6 1e6\n"
       "lamp sphere l 0 0 4 0 2 0 .002\nblack polygon o 0 0 12 0 1 -9 9 1 -9 9 1 9 0 1 9\n";
   Drawn drawn(hidden, V3d(0, 0, 0), 0, Projection::angularFisheye, 32);
-  const SphereEstimator estimator(*drawn.transport, drawn.options.sphere);
-  SphereEstimator::Workspace workspace(estimator);
   for (uint64_t seed = 1; seed <= 100; ++seed) {
-    drawn.raster =
-        drawPoint(V3d(0, 0, 0), drawn.map, estimator.tracing(), estimator.sources(), seed);
+    drawn.raster = drawn.again(V3d(0, 0, 0), seed);
     half.add(drawn.integral());
   }
   EXPECT_LT(std::sqrt(half.variance()) / half.mean(), .2) << "one sample: over .3";
@@ -193,62 +205,108 @@ TEST(PointPicture, DoesNotDependOnThePicturesBefore) {
   SphereEstimator::Workspace workspace(estimator);
   for (const V3d& point : {V3d(1, 1, 1), V3d(.2, -.3, .1)}) {
     estimator.estimate(point, workspace);
-    const Raster again =
-        drawPoint(point, drawn.map, estimator.tracing(), estimator.sources(), 1);
-    EXPECT_EQ(again.pixels == drawn.raster.pixels, point.x == .2);
+    EXPECT_EQ(drawn.again(point, 1).pixels == drawn.raster.pixels, point.x == .2);
   }
 }
 
 TEST(PointPicture, CanBeGivenUp) {
   const Drawn drawn(room(""), V3d(0, 0, 0), 0, Projection::latitudeLongitude, 16);
-  const SphereEstimator estimator(*drawn.transport, drawn.options.sphere);
-  SphereEstimator::Workspace workspace(estimator);
   int rows = 0;
-  const auto stop = [&] {
+  const auto stop = [&](double) {
     if (++rows == 3) throw rad::Error("Terminate", rad::Status::signal);
   };
-  EXPECT_THROW(
-      drawPoint(V3d(0, 0, 0), drawn.map, estimator.tracing(), estimator.sources(), 1, stop),
-      rad::Error);
+  EXPECT_THROW(drawn.again(V3d(0, 0, 0), 1, stop), rad::Error);
   EXPECT_EQ(rows, 3);
 }
 
-// ---- averages of indirect light
+// Rays that find a bright window by chance made one pixel in a hundred white.
+TEST(PointPicture, GlossyDesksHaveNoSpeckles) {
+  const std::string text =
+      "void plastic beech 0 0 5 .5 .4 .28 .02 .1\nvoid plastic wall 0 0 5 .5 .5 .5 0 0\n"
+      "void glow sky 0 0 4 2000 2000 2000 0\nwall bubble room 0 0 4 0 0 0 3\n"
+      "sky polygon window 0 0 12 2.5 -.4 .5 2.5 .4 .5 2.5 .4 1 2.5 -.4 1\n"
+      "beech polygon desk 0 0 12 -2 -2 -1 2 -2 -1 2 2 -1 -2 2 -1\n";
+  const Drawn drawn(text, V3d(0, 0, 0), 1, Projection::latitudeLongitude, 256);
+  double roughest = 0;
+  for (int row = 96; row < 120; ++row)
+    for (int column = 0; column < 255; ++column) {
+      const size_t pixel = static_cast<size_t>(256 * row + column);
+      roughest = std::max(roughest, std::abs(drawn.at(pixel) / drawn.at(pixel + 1) - 1));
+    }
+  EXPECT_LT(roughest, .2);
+}
+
+// The edge of a luminaire that is a thousand times as bright as the screen can show is as even as any other.
+TEST(PointPicture, EdgesOfLuminairesAreEvenOnAScreen) {
+  const Drawn drawn(room("void light bright 0 0 3 1e5 1e5 1e5\nbright ring l 0 0 8 .3 .2 2 0 0 -1 0 1\n"),
+                    V3d(.2, -.3, .1), 1, Projection::latitudeLongitude, 128);
+  const Raster screen = drawPoint(V3d(.2, -.3, .1), drawn.map, drawn.pictures, drawn.sources, 1, true);
+  size_t between = 0, white = 0;
+  for (size_t pixel = 0; pixel < drawn.map.count(); ++pixel) {
+    const double value = screen.pixels[3 * pixel + 1];
+    EXPECT_LE(value, 1);
+    white += value == 1 ? 1 : 0;
+    between += value > .65 && value < .98 ? 1 : 0;
+  }
+  EXPECT_GT(white, 100u);
+  EXPECT_GT(between, 40u);
+}
+
+TEST(PointPicture, ReportsHowMuchIsDone) {
+  const Drawn drawn(room(""), V3d(0, 0, 0), 0, Projection::latitudeLongitude, 16);
+  std::vector<double> reports;
+  drawn.again(V3d(0, 0, 0), 1, [&](double done) { reports.push_back(done); });
+  EXPECT_EQ(reports.size(), 16u) << "two for each row";
+  EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
+  EXPECT_EQ(reports.front(), 0);
+  EXPECT_LT(reports.back(), 1);
+}
+
+// ---- averages of light
+
+constexpr Smoothing kThreePasses{
+    3, 0, 0, tuning::Pictures::kSameNormal, tuning::Pictures::kSamePlane, tuning::Pictures::kNear};
+
+struct Plane {
+  SeenSurfaces seen{64, 64, false, {}};
+  PixelLight light;
+  float at(size_t pixel) const { return light.light[pixel].x; }
+};
 
 // A plane of 64 by 64 pixels before the eye, with light that is noise of mean 1.
-IndirectPixels plane(uint64_t seed) {
+Plane plane(uint64_t seed) {
   Random random(seed);
-  IndirectPixels picture{64, 64, false, {}};
+  Plane picture;
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x) {
-      const float light = random.uniform() < .1 ? 10.f : 0.f;
-      picture.pixels.push_back({Imath::V3f(light), Imath::V3f(.01f * (x - 32), 1, .01f * (y - 32)),
-                                Imath::V3f(0, -1, 0), 1, ModifierId(0)});
+      picture.light.light.emplace_back(random.uniform() < .1 ? 10.f : 0.f);
+      picture.light.known.push_back(1);
+      picture.seen.pixels.push_back(
+          {ModifierId(0), Imath::V3f(.01f * (x - 32), 1, .01f * (y - 32)), Imath::V3f(0, -1, 0), 1});
     }
   return picture;
 }
 
-TEST(SmoothIndirect, ASixteenthOfTheNoiseIsLeft) {
-  IndirectPixels picture = plane(1);
-  smoothIndirect(picture);
+TEST(SmoothLight, ASixteenthOfTheNoiseIsLeft) {
+  Plane picture = plane(1);
+  smoothLight(picture.seen, kThreePasses, picture.light);
   Sample sample;
-  for (int y = 15; y < 49; ++y)
-    for (int x = 15; x < 49; ++x) sample.add(picture.pixels[static_cast<size_t>(64 * y + x)].light.x);
+  for (size_t y = 15; y < 49; ++y)
+    for (size_t x = 15; x < 49; ++x) sample.add(picture.at(64 * y + x));
   EXPECT_NEAR(sample.mean(), 1, .15);
   EXPECT_LT(std::sqrt(sample.variance()), 3 / 14.);
 }
 
-TEST(SmoothIndirect, EdgesAreNotCrossed) {
+TEST(SmoothLight, EdgesAreNotCrossed) {
   const auto step = [](auto&& other) {
-    IndirectPixels picture = plane(1);
-    for (size_t i = 0; i < picture.pixels.size(); ++i) {
-      picture.pixels[i].light = Imath::V3f(i % 64 < 32 ? 1.f : 0.f);
-      if (i % 64 >= 32) other(picture.pixels[i]);
+    Plane picture = plane(1);
+    for (size_t i = 0; i < 64 * 64; ++i) {
+      picture.light.light[i] = Imath::V3f(i % 64 < 32 ? 1.f : 0.f);
+      if (i % 64 >= 32) other(picture.seen.pixels[i]);
     }
-    smoothIndirect(picture);
+    smoothLight(picture.seen, kThreePasses, picture.light);
     double blurred = 0;
-    for (size_t i = 0; i < picture.pixels.size(); ++i)
-      blurred += std::abs(picture.pixels[i].light.x - (i % 64 < 32 ? 1.f : 0.f));
+    for (size_t i = 0; i < 64 * 64; ++i) blurred += std::abs(picture.at(i) - (i % 64 < 32 ? 1.f : 0.f));
     return blurred / 64;
   };
   EXPECT_GT(step([](auto&) {}), 2) << "the same surface";
@@ -258,16 +316,47 @@ TEST(SmoothIndirect, EdgesAreNotCrossed) {
   EXPECT_LT(step([](auto& pixel) { pixel.point *= 2; }), 1e-5) << "a parallel plane farther away";
 }
 
-TEST(SmoothIndirect, ColumnsWrapWhereTheyAreToldTo) {
+TEST(SmoothLight, CarefulPassesBlurSmallDifferencesAlone) {
+  const auto blurredBy = [](float difference) {
+    Plane picture = plane(1);
+    for (size_t i = 0; i < 64 * 64; ++i)
+      picture.light.light[i] = Imath::V3f(i % 64 < 32 ? 1.f : 1 - difference);
+    Smoothing careful = kThreePasses;
+    careful.passes = 0;
+    careful.careful = 3;
+    careful.sameLight = .1f;
+    smoothLight(picture.seen, careful, picture.light);
+    return (1 - picture.at(64 * 32 + 31)) / difference;
+  };
+  EXPECT_GT(blurredBy(.02f), .3);
+  EXPECT_LT(blurredBy(.5f), .01);
+}
+
+TEST(SmoothLight, PixelsWithoutLightHaveThatOfTheirNeighbors) {
+  Plane picture = plane(1);
+  for (size_t i = 0; i < 64 * 64; ++i) {
+    picture.light.light[i] = Imath::V3f(2);
+    picture.light.known[i] = i % 4 == 1 ? 1 : 0;
+  }
+  picture.seen.pixels[64 * 20 + 20].material = ModifierId(1);  // no other pixel shows its surface
+  smoothLight(picture.seen, kThreePasses, picture.light);
+  for (const size_t i : {64 * 10 + 10, 64 * 30 + 33}) {
+    EXPECT_NEAR(picture.at(i), 2, 1e-5);
+    EXPECT_NEAR(picture.light.known[i], .25, .1);
+  }
+  EXPECT_EQ(picture.light.known[64 * 20 + 20], 0);
+}
+
+TEST(SmoothLight, ColumnsWrapWhereTheyAreToldTo) {
   for (const bool wraps : {false, true}) {
-    IndirectPixels picture = plane(1);
-    picture.wraps = wraps;
-    for (size_t i = 0; i < picture.pixels.size(); ++i) {
-      picture.pixels[i].light = Imath::V3f(i % 64 == 63 ? 1.f : 0.f);
-      picture.pixels[i].point = Imath::V3f(0, 1, 0);
+    Plane picture = plane(1);
+    picture.seen.wraps = wraps;
+    for (size_t i = 0; i < 64 * 64; ++i) {
+      picture.light.light[i] = Imath::V3f(i % 64 == 63 ? 1.f : 0.f);
+      picture.seen.pixels[i].point = Imath::V3f(0, 1, 0);
     }
-    smoothIndirect(picture);
-    EXPECT_EQ(picture.pixels[64 * 30].light.x > .01f, wraps);
+    smoothLight(picture.seen, kThreePasses, picture.light);
+    EXPECT_EQ(picture.at(64 * 30) > .01f, wraps);
   }
 }
 
@@ -282,14 +371,14 @@ TEST(PointPicture, TheMedianOfWhatIsNotBlackIsMidBright) {
     const float value = k == 0 ? 0 : k <= 2 ? 1 : k == 3 ? 2 : 1e6f;
     raster.pixels.insert(raster.pixels.end(), 3, value);
   }
-  expose(raster, map);
+  toScreen(raster, exposureOf(raster, map));
   const auto at = [&](size_t column) { return raster.pixels[3 * (64 * 16 + column)]; };
   EXPECT_EQ(at(0), 0);
   EXPECT_NEAR(at(20), .5, 1e-3);
   EXPECT_NEAR(at(45), 1.055 * std::pow(2 * .21404114, 1 / 2.4) - .055, 1e-3);
   EXPECT_EQ(at(60), 1);
   Raster black{8, 4, std::vector<float>(96)};
-  expose(black, PixelMap(Projection::latitudeLongitude, 8, 4));
+  toScreen(black, exposureOf(black, PixelMap(Projection::latitudeLongitude, 8, 4)));
   for (const float p : black.pixels) EXPECT_EQ(p, 0);
 }
 
