@@ -9,22 +9,15 @@
 
 #include "rad_parser/error.h"
 #include "rad_parser/nearest_name.h"
+#include "rad_parser/printable.h"
 
 namespace rad {
-
-std::string printable(std::string_view text, size_t longest) {
-  std::string line(text.substr(0, longest));
-  for (char& c : line)
-    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
-  if (text.size() > longest) line += "...";
-  return line;
-}
 
 std::string Description::at(Place place) const {
   const auto alone = [this](Place p) {
     const SourceFile& file = files[p.file];
     // The first words identify a command, but only the whole path identifies a file.
-    const std::string name = printable(file.name, file.name.starts_with('!') ? 100 : 4096);
+    const std::string name = printable(file.name, file.name.starts_with('!') ? 100 : kLongestName);
     if (p.line == 0) return name;
     return file.numbered ? fmt::format("{}: object {}", name, p.line) : fmt::format("{}:{}", name, p.line);
   };

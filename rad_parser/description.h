@@ -84,13 +84,6 @@ class ModifierIndex {
   std::map<std::string, std::vector<PrimitiveId>, std::less<>> definitions_;
 };
 
-// The text on one line, for messages: control characters are replaced, and text beyond `longest`
-// bytes is replaced by "...".
-std::string printable(std::string_view text, size_t longest = 80);
-
-// Whether a character is a printable ASCII character or a blank.
-inline bool isPrintable(char c) { return c >= ' ' && c <= '~'; }
-
 // The byte order mark, which some editors write at the beginning of UTF-8 text.
 inline constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 

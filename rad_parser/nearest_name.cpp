@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "rad_parser/description.h"
+#include "rad_parser/printable.h"
 
 namespace rad {
 namespace {

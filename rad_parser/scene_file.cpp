@@ -15,6 +15,7 @@
 #include "rad_parser/number.h"
 #include "rad_parser/octree_file.h"
 #include "rad_parser/open_file.h"
+#include "rad_parser/printable.h"
 #include "rad_parser/shell_command.h"
 #include "rad_parser/text_source.h"
 #include "rad_parser/xform_command.h"
@@ -59,7 +60,7 @@ class Reader {
     const uint32_t file = builder_.addFile(found.value_or(name));
     const OpenFile input(found.value_or(name));
     if (input.descriptor() < 0)
-      throw Error(fmt::format("{}: cannot open {} file: {}", printable(name, 4096),
+      throw Error(fmt::format("{}: cannot open {} file: {}", printable(name, kLongestName),
                               name.ends_with(".oct") ? "octree" : "scene", std::strerror(errno)),
                   Status::system);
     const std::string ahead = readBeginning(input.descriptor());
@@ -74,17 +75,18 @@ class Reader {
   void octreeFile(const std::string& name) {
     const std::optional<std::string> found = findFile(name, libraryPath(), {}, options_.files);
     if (!found)
-      throw Error(
-          fmt::format("{}: cannot find octree file{}", printable(name, 4096), options_.files.remark(name)),
-          Status::system);
+      throw Error(fmt::format("{}: cannot find octree file{}", printable(name, kLongestName),
+                              options_.files.remark(name)),
+                  Status::system);
     const OpenFile input(*found);
     if (input.descriptor() < 0)
-      throw Error(
-          fmt::format("{}: cannot open octree file: {}", printable(*found, 4096), std::strerror(errno)),
-          Status::system);
+      throw Error(fmt::format("{}: cannot open octree file: {}", printable(*found, kLongestName),
+                              std::strerror(errno)),
+                  Status::system);
     const uint32_t file = builder_.addFile(*found);
     const std::string ahead = readBeginning(input.descriptor());
-    if (!octree(input.descriptor(), file, ahead)) throw Error(printable(*found, 4096) + ": not an octree");
+    if (!octree(input.descriptor(), file, ahead))
+      throw Error(printable(*found, kLongestName) + ": not an octree");
     input.requireUnchanged(*found);
   }
 
@@ -103,7 +105,7 @@ class Reader {
     const std::string name = builder_.description().files[file].name;
     if (!ahead.empty() && !isOctree(ahead, name)) return false;
     if (!alone_)
-      throw Error(printable(name, 4096) +
+      throw Error(printable(name, kLongestName) +
                   ": an octree is a whole scene: it cannot be combined with other files");
     ofOctree_ = true;
     BinaryReader input(descriptor, name, "octree", ahead);
@@ -212,8 +214,8 @@ class Reader {
           const auto path = findFile(name, libraryPath(), context.directory, options_.files);
           if (!path)
             throw builder_.error(place,
-                                 fmt::format("xform: cannot find file \"{}\"{}", printable(name, 4096),
-                                             options_.files.remark(name)),
+                                 fmt::format("xform: cannot find file \"{}\"{}",
+                                             printable(name, kLongestName), options_.files.remark(name)),
                                  Status::system);
           auto known =
               std::find_if(seen.begin(), seen.end(), [&](const auto& s) { return s.first == *path; });
@@ -222,8 +224,8 @@ class Reader {
           const OpenFile input(*path);
           if (input.descriptor() < 0)
             throw builder_.error(place,
-                                 fmt::format("xform: cannot open file \"{}\": {}", printable(name, 4096),
-                                             std::strerror(errno)),
+                                 fmt::format("xform: cannot open file \"{}\": {}",
+                                             printable(name, kLongestName), std::strerror(errno)),
                                  Status::system);
           TextSource text(input.descriptor(), known->second, builder_);
           const Context inner{pass.changesDirectory ? directoryOf(*path) : context.directory, &nested,

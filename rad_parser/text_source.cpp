@@ -9,6 +9,7 @@
 
 #include "rad_parser/block.h"
 #include "rad_parser/number.h"
+#include "rad_parser/printable.h"
 
 namespace rad {
 namespace {

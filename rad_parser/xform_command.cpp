@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "rad_parser/number.h"
+#include "rad_parser/printable.h"
 
 namespace rad {
 namespace {

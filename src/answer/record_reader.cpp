@@ -14,6 +14,7 @@
 #include "rad_parser/description.h"
 #include "rad_parser/error.h"
 #include "rad_parser/number.h"
+#include "rad_parser/printable.h"
 
 namespace rsphere {
 namespace {
@@ -32,18 +33,6 @@ bool startsNumber(char c) { return (c >= '0' && c <= '9') || c == '.'; }
 std::string systemText(std::string_view what) {
   const int error = errno;
   return fmt::format("{}: {}", what, std::strerror(error));
-}
-
-// The word in a form that fits on one line of a message.
-std::string shown(std::string_view word) {
-  std::string text;
-  for (const char c : word.substr(0, kShownWord))
-    if (const auto byte = static_cast<unsigned char>(c); byte < 32 || byte == 127)
-      text += fmt::format("\\x{:02x}", byte);
-    else
-      text += c;
-  if (word.size() > kShownWord) text += "...";
-  return text;
 }
 
 bool isText(std::string_view bytes) {
@@ -130,7 +119,7 @@ void RecordReader::newLine() {
 
 void RecordReader::malformed(std::string_view word) const {
   throw rad::Error(fmt::format("{}:{}: expected {} {}, got \"{}\"", name_, line_, perRecord_,
-                               counted(perRecord_), shown(word)));
+                               counted(perRecord_), rad::printable(word, kShownWord)));
 }
 
 // A fast path for most text after the first line: reads the records in the block up to the first that does

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/constants.h"
+#include "rad_parser/printable.h"
 
 namespace rsphere {
 

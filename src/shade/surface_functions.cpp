@@ -11,6 +11,7 @@
 
 #include "rad_parser/file_path.h"
 #include "rad_parser/open_file.h"
+#include "rad_parser/printable.h"
 #include "scene/modifier_arguments.h"
 
 namespace rsphere {

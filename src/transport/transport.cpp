@@ -7,6 +7,7 @@
 #include "base/version.h"
 #include "field/coarse_solution.h"
 #include "field/irradiance_field.h"
+#include "rad_parser/printable.h"
 #include "scene/fingerprint.h"
 #include "transport/bright_spots.h"
 #include "transport/highlights.h"

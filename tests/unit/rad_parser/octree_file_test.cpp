@@ -8,6 +8,7 @@
 
 #include "binary_data.h"
 #include "rad_parser/binary_reader.h"
+#include "rad_parser/printable.h"
 #include "scene_text.h"
 
 namespace {
