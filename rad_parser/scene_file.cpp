@@ -28,6 +28,7 @@ struct Context {
   std::string directory;  // in which its commands run; empty: the current one
   const Transform* transform = nullptr;
   int depth = 0;
+  int64_t copies = 1;  // that the commands around it make of its file
 };
 
 // A command as one line, for messages.
@@ -205,9 +206,9 @@ class Reader {
     // The indices of the files by their paths, because each element of an array reads the same files again.
     std::vector<std::pair<std::string, uint32_t>> seen;
     try {
+      const int64_t copies = context.copies * copiesOfArrays(words, context.copies);
       forEachPass(words, context.directory, options_.files, [&](const XformPass& pass) {
-        if (++passes_ > kMostPasses)
-          throw builder_.error(place, fmt::format("xform: more than {} copies in all", kMostPasses));
+        if (++passes_ > kMostPasses) throw tooMany();
         const Transform nested =
             context.transform ? within(*context.transform, pass.transform) : pass.transform;
         for (const std::string& name : pass.files) {
@@ -229,7 +230,7 @@ class Reader {
                                  Status::system);
           TextSource text(input.descriptor(), known->second, builder_);
           const Context inner{pass.changesDirectory ? directoryOf(*path) : context.directory, &nested,
-                              context.depth + 1};
+                              context.depth + 1, copies};
           all(text, inner, known->second, again);
           input.requireUnchanged(*path);
         }
