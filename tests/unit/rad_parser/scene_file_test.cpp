@@ -352,7 +352,7 @@ TEST(SceneFile, FilesThatCannotBeRead) {
   EXPECT_EQ(errorOf([&] { readFile(none); }, Status::system),
             none + ": cannot open scene file: No such file or directory");
   EXPECT_EQ(errorOf([&] { readFile(folder.path()); }, Status::system),
-            folder.path() + ":1: cannot read: Is a directory");
+            folder.path() + ": cannot read: Is a directory");
   const std::string locked = folder.write("locked.rad", "");
   chmod(locked.c_str(), 0);
   const std::string denied = errorOf([&] { readFile(locked); }, Status::system);  // except for root
