@@ -70,6 +70,18 @@ size_t RecordReader::read(std::vector<double>& numbers, size_t most) {
   return count;
 }
 
+size_t RecordReader::arrived(size_t most) {
+  if (begin_ == end_) refill();
+  RecordReader ahead = *this;
+  ahead.atEnd_ = true;  // it takes no more bytes from the descriptor
+  std::vector<double> numbers;
+  try {
+    return ahead.read(numbers, most);
+  } catch (const rad::Error&) {
+    return 0;  // read() finds the fault again
+  }
+}
+
 double RecordReader::shareRead() const {
   struct stat status {};
   if (fstat(fd_, &status) != 0 || !S_ISREG(status.st_mode)) return 0;
