@@ -35,7 +35,7 @@ BinaryReader::BinaryReader(int descriptor, std::string name, std::string kind, s
 }
 
 Error BinaryReader::fault(std::string_view text) const {
-  return Error(fmt::format("{}: {} at byte {}", printable(name_, 4096), text, offset()));
+  return Error(fmt::format("{}: {} at byte {}", printable(name_, kLongestName), text, offset()));
 }
 
 // Moves the data from keep on to the front of the block, together with next_, and reads more data behind
@@ -43,7 +43,8 @@ Error BinaryReader::fault(std::string_view text) const {
 bool BinaryReader::refill(const uint8_t*& keep) {
   if (descriptor_ < 0) return false;
   blockOffset_ += static_cast<uint64_t>(keep - block_.get());
-  return readOn(descriptor_, block_.get(), kBlock, keep, next_, end_, [&] { return printable(name_, 4096); });
+  return readOn(descriptor_, block_.get(), kBlock, keep, next_, end_,
+                [&] { return printable(name_, kLongestName); });
 }
 
 void BinaryReader::need(size_t bytes) {
@@ -79,7 +80,7 @@ std::string_view BinaryReader::string() {
 
 std::string BinaryReader::notThis() const {
   const bool vowel = std::string_view("aeiou").find(kind_[0]) != std::string_view::npos;
-  return fmt::format("{}: not {} {}", printable(name_, 4096), vowel ? "an" : "a", kind_);
+  return fmt::format("{}: not {} {}", printable(name_, kLongestName), vowel ? "an" : "a", kind_);
 }
 
 Error BinaryReader::otherFormat(std::string_view format) const {

@@ -28,7 +28,8 @@ TypeTable readTypes(BinaryReader& input, const Warn& warn) {
       types.emplace_back(type);
     } else {
       types.emplace_back();
-      if (warn) warn(fmt::format("{}: unknown type \"{}\"", printable(input.name(), 4096), printable(name)));
+      if (warn)
+        warn(fmt::format("{}: unknown type \"{}\"", printable(input.name(), kLongestName), printable(name)));
     }
   }
 }

@@ -17,7 +17,7 @@ std::string Description::at(Place place) const {
   const auto alone = [this](Place p) {
     const SourceFile& file = files[p.file];
     // The first words identify a command, but only the whole path identifies a file.
-    const std::string name = printable(file.name, file.name.starts_with('!') ? 100 : 4096);
+    const std::string name = printable(file.name, file.name.starts_with('!') ? 100 : kLongestName);
     if (p.line == 0) return name;
     return file.numbered ? fmt::format("{}: object {}", name, p.line) : fmt::format("{}:{}", name, p.line);
   };

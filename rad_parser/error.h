@@ -10,11 +10,11 @@ namespace rad {
 enum class Status { input = 1, system = 2, signal = 3 };
 
 // An error that stops the work. what() is one line that begins with the place of the error ("room.rad:12:
-// undefined modifier "wall""), without the program's name and without a line end.
+// undefined modifier "wall""), without the program's name and without a line end. It is printable whatever
+// the text contains (messageLine(), printable.h).
 class Error : public std::runtime_error {
  public:
-  explicit Error(const std::string& text, Status status = Status::input)
-      : std::runtime_error(text), status_(status) {}
+  explicit Error(std::string_view text, Status status = Status::input);
   Status status() const { return status_; }
 
  private:

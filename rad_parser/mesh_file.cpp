@@ -59,7 +59,7 @@ class Reader {
     for (int64_t i = 0; i < patches; ++i) patch();
     joinPatches();
     if (mesh_.triangles.empty() && warn_)
-      warn_(fmt::format("{}: no triangles in mesh", printable(input_.name(), 4096)));
+      warn_(fmt::format("{}: no triangles in mesh", printable(input_.name(), kLongestName)));
     return std::move(mesh_);
   }
 
@@ -166,7 +166,7 @@ class Reader {
       const uint32_t patch = vertex / kPatchVertices, local = vertex % kPatchVertices;
       if (patch + 1 >= firstVertex_.size() || local >= firstVertex_[patch + 1] - firstVertex_[patch])
         throw Error(fmt::format("{}: damaged mesh: no vertex {} in a patch {} at byte {}",
-                                printable(input_.name(), 4096), local + 1, patch + 1, joint.offset));
+                                printable(input_.name(), kLongestName), local + 1, patch + 1, joint.offset));
       vertex = firstVertex_[patch] + local;
     }
   }
@@ -226,12 +226,14 @@ std::optional<Imath::V2d> Mesh::uv(uint32_t vertex) const {
 Mesh readMesh(const std::string& name, const Warn& warn, const FileAccess& access) {
   const std::optional<std::string> path = findFile(name, libraryPath(), {}, access);
   if (!path)
-    throw Error(fmt::format("{}: cannot find mesh file{}", printable(name, 4096), access.remark(name)),
-                Status::system);
+    throw Error(
+        fmt::format("{}: cannot find mesh file{}", printable(name, kLongestName), access.remark(name)),
+        Status::system);
   const OpenFile file(*path);
   if (file.descriptor() < 0)
-    throw Error(fmt::format("{}: cannot open mesh file: {}", printable(*path, 4096), std::strerror(errno)),
-                Status::system);
+    throw Error(
+        fmt::format("{}: cannot open mesh file: {}", printable(*path, kLongestName), std::strerror(errno)),
+        Status::system);
   BinaryReader input(file.descriptor(), *path, "mesh");
   Mesh mesh = Reader(input, warn).read();
   file.requireUnchanged(*path);

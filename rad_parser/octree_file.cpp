@@ -73,7 +73,7 @@ bool isOctree(std::string_view beginning, std::string_view name) {
     hasNumber = number > kMagic && number <= kMagic + 8;
   }
   if (format && (hasNumber || beginning.starts_with(kFirst)))
-    throw Error(fmt::format("{}: not an octree: its header says FORMAT={}", printable(name, 4096),
+    throw Error(fmt::format("{}: not an octree: its header says FORMAT={}", printable(name, kLongestName),
                             printable(*format)));
   return hasNumber;
 }
@@ -102,7 +102,7 @@ void readOctree(BinaryReader& input, uint32_t file, DescriptionBuilder& builder,
   });
 
   const auto stale = [&](std::string_view text) {
-    return Error(fmt::format("{}: {}; octree stale?", printable(input.name(), 4096), text));
+    return Error(fmt::format("{}: {}; octree stale?", printable(input.name(), kLongestName), text));
   };
   if (frozen) {
     reserve(d, objects, width, input.remaining());

@@ -40,7 +40,7 @@ class OpenFile {
     for (ssize_t got = 1; got != 0;) {
       got = read(descriptor_, block, sizeof block);
       if (got < 0 && errno != EINTR)
-        throw Error(printable(name, 4096) + ": cannot read: " + std::strerror(errno), Status::system);
+        throw Error(printable(name, kLongestName) + ": cannot read: " + std::strerror(errno), Status::system);
       if (got > 0) bytes.append(block, static_cast<size_t>(got));
     }
     return bytes;
@@ -54,7 +54,7 @@ class OpenFile {
     if (!S_ISREG(begin_.st_mode) || fstat(descriptor_, &now) != 0) return;
     if (now.st_size != begin_.st_size || now.st_mtim.tv_sec != begin_.st_mtim.tv_sec ||
         now.st_mtim.tv_nsec != begin_.st_mtim.tv_nsec)
-      throw Error(printable(name, 4096) + ": changed while it was read", Status::system);
+      throw Error(printable(name, kLongestName) + ": changed while it was read", Status::system);
   }
 
  private:

@@ -4,9 +4,19 @@
 
 namespace rad {
 
-// The text on one line, for messages: control characters are replaced, and text beyond `longest`
-// bytes is replaced by "...".
+// For printable(): no path and no excerpt of a file is shown with more bytes.
+inline constexpr size_t kLongestName = 480;
+
+// Text from a file or a command line in a form that a message can contain: one line that no terminal takes for
+// a command. UTF-8 text remains as it is. Bytes of control characters (C0, DEL, C1), of characters that end a
+// line or change the direction of writing, and of anything that is not UTF-8 are written as "\x1b". Text that
+// is then longer than `longest` bytes ends with "..." instead of its rest.
 std::string printable(std::string_view text, size_t longest = 80);
+
+// A whole message in the same form. Of a word of more than 500 bytes, as a long path, only the beginning and
+// the end are kept, and a message of more than 4000 bytes is cut. Every error (error.h) and
+// every message of the programs passes here. The result is the same when it passes twice.
+std::string messageLine(std::string_view text);
 
 // Whether a character is a printable ASCII character or a blank.
 inline bool isPrintable(char c) { return c >= ' ' && c <= '~'; }

@@ -28,6 +28,7 @@ struct Context {
   std::string directory;  // in which its commands run; empty: the current one
   const Transform* transform = nullptr;
   int depth = 0;
+  int64_t copies = 1;  // that the commands around it make of its file
 };
 
 // A command as one line, for messages.
@@ -60,7 +61,7 @@ class Reader {
     const uint32_t file = builder_.addFile(found.value_or(name));
     const OpenFile input(found.value_or(name));
     if (input.descriptor() < 0)
-      throw Error(fmt::format("{}: cannot open {} file: {}", printable(name, 4096),
+      throw Error(fmt::format("{}: cannot open {} file: {}", printable(name, kLongestName),
                               name.ends_with(".oct") ? "octree" : "scene", std::strerror(errno)),
                   Status::system);
     const std::string ahead = readBeginning(input.descriptor());
@@ -75,17 +76,18 @@ class Reader {
   void octreeFile(const std::string& name) {
     const std::optional<std::string> found = findFile(name, libraryPath(), {}, options_.files);
     if (!found)
-      throw Error(
-          fmt::format("{}: cannot find octree file{}", printable(name, 4096), options_.files.remark(name)),
-          Status::system);
+      throw Error(fmt::format("{}: cannot find octree file{}", printable(name, kLongestName),
+                              options_.files.remark(name)),
+                  Status::system);
     const OpenFile input(*found);
     if (input.descriptor() < 0)
-      throw Error(
-          fmt::format("{}: cannot open octree file: {}", printable(*found, 4096), std::strerror(errno)),
-          Status::system);
+      throw Error(fmt::format("{}: cannot open octree file: {}", printable(*found, kLongestName),
+                              std::strerror(errno)),
+                  Status::system);
     const uint32_t file = builder_.addFile(*found);
     const std::string ahead = readBeginning(input.descriptor());
-    if (!octree(input.descriptor(), file, ahead)) throw Error(printable(*found, 4096) + ": not an octree");
+    if (!octree(input.descriptor(), file, ahead))
+      throw Error(printable(*found, kLongestName) + ": not an octree");
     input.requireUnchanged(*found);
   }
 
@@ -104,7 +106,7 @@ class Reader {
     const std::string name = builder_.description().files[file].name;
     if (!ahead.empty() && !isOctree(ahead, name)) return false;
     if (!alone_)
-      throw Error(printable(name, 4096) +
+      throw Error(printable(name, kLongestName) +
                   ": an octree is a whole scene: it cannot be combined with other files");
     ofOctree_ = true;
     BinaryReader input(descriptor, name, "octree", ahead);
@@ -204,17 +206,17 @@ class Reader {
     // The indices of the files by their paths, because each element of an array reads the same files again.
     std::vector<std::pair<std::string, uint32_t>> seen;
     try {
+      const int64_t copies = context.copies * copiesOfArrays(words, context.copies);
       forEachPass(words, context.directory, options_.files, [&](const XformPass& pass) {
-        if (++passes_ > kMostPasses)
-          throw builder_.error(place, fmt::format("xform: more than {} copies in all", kMostPasses));
+        if (++passes_ > kMostPasses) throw tooMany();
         const Transform nested =
             context.transform ? within(*context.transform, pass.transform) : pass.transform;
         for (const std::string& name : pass.files) {
           const auto path = findFile(name, libraryPath(), context.directory, options_.files);
           if (!path)
             throw builder_.error(place,
-                                 fmt::format("xform: cannot find file \"{}\"{}", printable(name, 4096),
-                                             options_.files.remark(name)),
+                                 fmt::format("xform: cannot find file \"{}\"{}",
+                                             printable(name, kLongestName), options_.files.remark(name)),
                                  Status::system);
           auto known =
               std::find_if(seen.begin(), seen.end(), [&](const auto& s) { return s.first == *path; });
@@ -223,12 +225,12 @@ class Reader {
           const OpenFile input(*path);
           if (input.descriptor() < 0)
             throw builder_.error(place,
-                                 fmt::format("xform: cannot open file \"{}\": {}", printable(name, 4096),
-                                             std::strerror(errno)),
+                                 fmt::format("xform: cannot open file \"{}\": {}",
+                                             printable(name, kLongestName), std::strerror(errno)),
                                  Status::system);
           TextSource text(input.descriptor(), known->second, builder_);
           const Context inner{pass.changesDirectory ? directoryOf(*path) : context.directory, &nested,
-                              context.depth + 1};
+                              context.depth + 1, copies};
           all(text, inner, known->second, again);
           input.requireUnchanged(*path);
         }

@@ -48,7 +48,7 @@ TextSource::TextSource(std::string_view text, uint32_t file, const DescriptionBu
 bool TextSource::refill(const char*& keep) {
   if (descriptor_ < 0) return false;
   return readOn(descriptor_, block_.get(), kBlock, keep, next_, end_, [&] {
-    return builder_.description().at({file_, line_});
+    return builder_.description().at({file_, 0});
   });
 }
 

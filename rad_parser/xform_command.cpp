@@ -79,7 +79,7 @@ class Passes {
       if (words[i] == "-f") return fromFile(words, i, nested);
     for (size_t i = 1; i < words.size(); ++i)
       if (words[i] == "-a") return array(words, i, nested);
-    if (++done_ > kMostPasses) throw fault(fmt::format("more than {} copies", kMostPasses));
+    if (++done_ > kMostPasses) throw tooMany();
     single(words);
   }
 
@@ -115,7 +115,7 @@ class Passes {
   void array(const std::vector<std::string>& words, size_t at, int nested) {
     const auto count = at + 1 < words.size() ? parseInteger(words[at + 1]) : std::nullopt;
     if (!count || *count <= 0) throw fault("missing count for -a");
-    if (*count > kMostPasses) throw fault(fmt::format("more than {} copies", kMostPasses));
+    copiesOfArrays(words);
     // If a command has several names (-n), each of them becomes the last one with the element's number.
     std::optional<std::string> name;
     for (size_t i = 1; i + 1 < words.size(); ++i)
@@ -206,6 +206,22 @@ std::optional<std::vector<std::string>> plainWords(std::string_view command) {
     }
   }
   return words;
+}
+
+XformFault tooMany() {
+  return fault(fmt::format(
+      "more than {} copies: make an octree (oconv -f) of a part, and copy instances of it", kMostPasses));
+}
+
+int64_t copiesOfArrays(std::span<const std::string> words, int64_t outside) {
+  int64_t copies = 1;
+  for (size_t i = 1; i + 1 < words.size(); ++i) {
+    const auto count = words[i] == "-a" ? parseInteger(words[i + 1]) : std::nullopt;
+    if (!count || *count <= 0) continue;
+    if (*count > kMostPasses / copies / outside) throw tooMany();
+    copies *= *count;
+  }
+  return copies;
 }
 
 void forEachPass(std::span<const std::string> words, const std::string& directory, const FileAccess& access,

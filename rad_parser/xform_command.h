@@ -37,12 +37,21 @@ class XformFault : public Error {
 //   - for errors that xform(1) reports,
 //   - for standard input in place of a file ("-f -", or no file named),
 //   - for argument files that `access` does not allow,
-//   - for more than kMostPasses passes.
+//   - for more than kMostPasses passes, before the first of an array with more.
 // Exceptions of `pass` are passed on.
 void forEachPass(std::span<const std::string> words, const std::string& directory, const FileAccess& access,
                  const std::function<void(const XformPass&)>& pass);
 
-// Limit on the passes of a command and of a scene, because more would run for hours.
+// Limit on the passes of a command and of a scene. Each reads its files again: more would take many minutes,
+// and gigabytes even where a file has one surface.
 inline constexpr int64_t kMostPasses = 10'000'000;
+
+// The fault of more.
+XformFault tooMany();
+
+// The number of copies that the arrays (-a) of a command make of its files: the product of their counts. Counts
+// that forEachPass() refuses are left out. Throws XformFault if the product times `outside`, the copies that
+// the commands around it make of this command, is above kMostPasses: before anything is copied.
+int64_t copiesOfArrays(std::span<const std::string> words, int64_t outside = 1);
 
 }  // namespace rad

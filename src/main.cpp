@@ -49,6 +49,7 @@ void answer(const Options& options, const Messages& messages, StopSignals& signa
   const AnswerWriter answers(options);
   writeHeader(writer, options, scene.description.header, std::time(nullptr));
   writer.flush();  // a program that talks to this one may read the header before it sends a record
+  requirePictureNames(options, reader);
   PointSummary summary;
   RunEnd end;
   end.leave = [&](const std::exception_ptr& fault) {

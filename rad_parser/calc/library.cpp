@@ -11,6 +11,7 @@
 #include "rad_parser/calc/expand.h"
 #include "rad_parser/calc/symbols.h"
 #include "rad_parser/calc/syntax.h"
+#include "rad_parser/printable.h"
 
 namespace rad::calc {
 
@@ -73,7 +74,7 @@ struct Library::Tables {
   SourceText need(std::string_view file, std::string_view place) const {
     std::optional<SourceText> source = load(file);
     if (source) return std::move(*source);
-    throw Error(fmt::format("{}cannot find function file \"{}\"{}", place, file,
+    throw Error(fmt::format("{}cannot find function file \"{}\"{}", place, printable(file, kLongestName),
                             interface.searched ? interface.searched(file) : ""),
                 Status::system);
   }
@@ -155,7 +156,8 @@ std::shared_ptr<const Program> Library::compileCall(const Request& request, std:
   const std::string context = tables_->enter(request);
   const Syntax name = parseExpression(function, request.place);
   if (name.kind != Syntax::Kind::name) {
-    throw Error(fmt::format("{}: expected a function's name, got \"{}\"", request.place, function));
+    throw Error(
+        fmt::format("{}: expected a function's name, got \"{}\"", request.place, printable(function)));
   }
   const int symbol = tables_->symbols.refer(name.text, context);
   return writeProgram(expandCall(tables_->compileInput(request), symbol, count));

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "rad_parser/error.h"
+#include "rad_parser/printable.h"
 
 namespace rad::calc {
 namespace {
@@ -48,7 +49,8 @@ class Parser {
   char next() const { return atEnd() ? '\0' : text_[position_]; }
 
   [[noreturn]] void failAt(uint32_t line, const std::string& problem) const {
-    if (oneExpression_) throw Error(fmt::format("{}: {} in \"{}\"", file_, problem, text_));
+    if (oneExpression_)
+      throw Error(fmt::format("{}: {} in \"{}\"", file_, problem, printable(text_, kLongestName)));
     throw Error(fmt::format("{}:{}: {}", file_, line, problem));
   }
 

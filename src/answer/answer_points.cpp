@@ -113,6 +113,11 @@ std::vector<std::string> PointSummary::warnings(const SphereOptions& options,
   return texts;
 }
 
+void requirePictureNames(const AnswerOptions& options, RecordReader& reader) {
+  const bool one = options.height == 1 && options.width <= 1;
+  if (!options.picture.empty() && !one && reader.arrived(2) > 1) pictureName(options.picture, 1);
+}
+
 AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& options,
                           const AnswerWriter& writer, const rad::Warn& warn, PointSummary& summary,
                           const std::function<void()>& checkStop,

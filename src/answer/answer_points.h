@@ -69,6 +69,10 @@ class PointSummary {
   uint64_t billionths_ = 0;
 };
 
+// Throws rad::Error if the records that have arrived need more pictures (-Si) than its name has room for: before
+// the first of them is drawn. Waits for the first record if there are pictures.
+void requirePictureNames(const AnswerOptions& options, RecordReader& reader);
+
 // The function that answers points in sphere mode: appends the spherical mean, or a record of every
 // direction (-Sd), and writes pictures of the points (-Si). Warns if nothing in the scene gives light.
 // checkStop: see PointWorkers; it is copied. pictureReport: gets the progress of pictures. The other arguments must live as long as the result. Throws

@@ -6,26 +6,31 @@
 
 #include <cerrno>
 #include <cstring>
+#include <limits>
 
 #include "answer/record_writer.h"
+#include "rad_parser/printable.h"
 
 namespace rsphere {
 namespace {
 
-// Faults are ignored, because there is no other place to report them.
-void writeAll(int fd, std::string_view text) {
+constexpr int kStandardError = 2;
+
+// Returns whether all of the text was written.
+bool writeAll(int fd, std::string_view text) {
   while (!text.empty()) {
     const ssize_t n = ::write(fd, text.data(), text.size());
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return;
+    if (n <= 0) return false;
     text.remove_prefix(static_cast<size_t>(n));
   }
+  return true;
 }
 
 }  // namespace
 
 Messages::~Messages() {
-  if (fd_ != 2) close(fd_);
+  if (fd_ != kStandardError) close(fd_);
 }
 
 void Messages::use(const MessageOptions& options, std::string_view command) {
@@ -36,9 +41,10 @@ void Messages::use(const MessageOptions& options, std::string_view command) {
       throw rad::Error(
           fmt::format("cannot open error file \"{}\": {}", options.errorFile, std::strerror(errno)),
           rad::Status::system);
-    if (fd_ != 2) close(fd_);
+    if (fd_ != kStandardError) close(fd_);
     fd_ = fd;
-    writeAll(fd_, fmt::format("**************\n*** PID {:5}: {}\n\n", getpid(), command));
+    writeAll(fd_, fmt::format("**************\n*** PID {:5}: {}\n\n", getpid(),
+                              rad::printable(command, std::numeric_limits<size_t>::max())));
   }
   for (const std::string& remark : options.remarks) warning(remark);
 }
@@ -67,14 +73,9 @@ int Messages::error(const rad::Error& error) const {
 void Messages::report(std::string_view text) const { write("", text); }
 
 void Messages::write(std::string_view kind, std::string_view text) const {
-  std::string lines;
   while (!text.empty() && text.back() == '\n') text.remove_suffix(1);
-  for (bool first = true; first || !text.empty(); first = false) {
-    const size_t end = text.find('\n');
-    lines += fmt::format("{}: {}{}\n", program_, first ? kind : "", text.substr(0, end));
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  }
-  writeAll(fd_, lines);
+  const std::string line = fmt::format("{}: {}{}\n", program_, kind, rad::messageLine(text));
+  if (!writeAll(fd_, line) && fd_ != kStandardError) writeAll(kStandardError, line);
 }
 
 }  // namespace rsphere

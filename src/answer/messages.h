@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "rad_parser/error.h"
+#include "rad_parser/printable.h"
 
 namespace rsphere {
 
@@ -15,7 +16,9 @@ struct MessageOptions {
 };
 
 // The only writer of messages. Each message is one write(2) to standard error, or to the file of -e, so that
-// the messages of several programs do not mix. Each line begins with the program's name, as in rtrace:
+// the messages of several programs do not mix. If the file cannot be written, as on a full disk, the message
+// goes to standard error. A message is one printable line (rad::messageLine()) that begins with the program's
+// name, as in rtrace:
 //   rsphere: warning - ...    dropped under -w
 //   rsphere: fatal - ...      exit status 1
 //   rsphere: system - ...     exit status 2
@@ -24,7 +27,7 @@ struct MessageOptions {
 class Messages {
  public:
   // program: argv[0] without its folder.
-  explicit Messages(std::string program) : program_(std::move(program)) {}
+  explicit Messages(std::string_view program) : program_(rad::printable(program)) {}
   ~Messages();
   Messages(const Messages&) = delete;
   Messages& operator=(const Messages&) = delete;

@@ -35,18 +35,6 @@ std::string systemText(std::string_view what) {
   return fmt::format("{}: {}", what, std::strerror(error));
 }
 
-// The word in a form that fits on one line of a message.
-std::string shown(std::string_view word) {
-  std::string text;
-  for (const char c : word.substr(0, kShownWord))
-    if (const auto byte = static_cast<unsigned char>(c); byte < 32 || byte == 127)
-      text += fmt::format("\\x{:02x}", byte);
-    else
-      text += c;
-  if (word.size() > kShownWord) text += "...";
-  return text;
-}
-
 bool isText(std::string_view bytes) {
   return std::all_of(bytes.begin(), bytes.end(), [](char c) { return isSpace(c) || rad::isPrintable(c); });
 }
@@ -80,6 +68,18 @@ size_t RecordReader::read(std::vector<double>& numbers, size_t most) {
                                                            : readText(numbers, most);
   records_ += count;
   return count;
+}
+
+size_t RecordReader::arrived(size_t most) {
+  if (begin_ == end_) refill();
+  RecordReader ahead = *this;
+  ahead.atEnd_ = true;  // it takes no more bytes from the descriptor
+  std::vector<double> numbers;
+  try {
+    return ahead.read(numbers, most);
+  } catch (const rad::Error&) {
+    return 0;  // read() finds the fault again
+  }
 }
 
 double RecordReader::shareRead() const {
@@ -131,7 +131,7 @@ void RecordReader::newLine() {
 
 void RecordReader::malformed(std::string_view word) const {
   throw rad::Error(fmt::format("{}:{}: expected {} {}, got \"{}\"", name_, line_, perRecord_,
-                               counted(perRecord_), shown(word)));
+                               counted(perRecord_), rad::printable(word, kShownWord)));
 }
 
 // A fast path for most text after the first line: reads the records in the block up to the first that does

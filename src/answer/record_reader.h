@@ -47,6 +47,10 @@ class RecordReader {
   // Throws rad::Error with Status::system if read(2) fails.
   size_t read(std::vector<double>& numbers, size_t most);
 
+  // Waits for the next record and returns the number of records that have arrived, at most `most`. The next
+  // read() returns them.
+  size_t arrived(size_t most);
+
   // `waiting` is called with true before the reader waits for input, and with false afterwards.
   void whenWaiting(std::function<void(bool)> waiting) { waiting_ = std::move(waiting); }
 

@@ -10,6 +10,7 @@
 #include <ctime>
 
 #include "rad_parser/error.h"
+#include "rad_parser/printable.h"
 
 namespace rsphere {
 namespace {
@@ -77,7 +78,9 @@ void onSignal(int number) {
     for (size_t i = 0; i < kSignals.size() && !state.told; ++i)
       if (kSignals[i].number == (again ? first : number)) {
         const std::string& text = state.messages[i];
-        [[maybe_unused]] const ssize_t n = write(state.messageFd, text.data(), text.size());
+        if (write(state.messageFd, text.data(), text.size()) < 0) {
+          [[maybe_unused]] const ssize_t n = write(2, text.data(), text.size());
+        }
       }
     _exit(kStatus);
   }
@@ -99,7 +102,7 @@ StopSignals::StopSignals(const std::string& program) {
   state.ending = false;
   state.messageFd = 2;
   for (size_t i = 0; i < kSignals.size(); ++i) {
-    state.messages[i] = program + ": signal - " + kSignals[i].text + "\n";
+    state.messages[i] = rad::printable(program) + ": signal - " + kSignals[i].text + "\n";
     struct sigaction action {};
     action.sa_handler = onSignal;
     sigemptyset(&action.sa_mask);

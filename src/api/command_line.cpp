@@ -6,12 +6,13 @@
 
 #include "cli/option_table.h"
 #include "rad_parser/error.h"
+#include "rad_parser/printable.h"
 
 namespace rsphere::v1 {
 namespace {
 
-// Ends the words of the options, as a scene does on a command line.
-constexpr std::string_view kScene = "scene";
+// Ends the words of the options, as a scene does on a command line. No option takes an empty word for a value.
+constexpr std::string_view kScene;
 
 class Words {
  public:
@@ -70,6 +71,9 @@ CommandOptions commandOptions(const Options& options, Records records) {
   for (const std::string& argument : options.arguments) words.add(argument);
   words.add(std::string(kScene));
 
+  for (const std::string& word : words.words())
+    if (word.find('\0') != std::string::npos)
+      throw rad::Error(fmt::format("the option \"{}\" contains a NUL byte", rad::printable(word)));
   rsphere::Options parsed;
   const std::vector<UsedOption> used = parseCompanion(words.words(), Companion(), parsed);
   if (parsed.request != Request::answers)

@@ -22,6 +22,7 @@
 #include "api/command_line.h"
 #include "base/color.h"
 #include "cli/options.h"
+#include "rad_parser/printable.h"
 #include "scene/scene.h"
 #include "transport/transport.h"
 
@@ -45,7 +46,7 @@ class Warnings {
   rad::Warn collector() {
     return [this](std::string_view text) {
       const std::lock_guard lock(mutex_);
-      texts_.emplace_back(text);
+      texts_.push_back(rad::messageLine(text));
     };
   }
   void passOn(const Warn& warn) {
@@ -406,17 +407,20 @@ Answers Scene::Implementation::answer(std::span<const double> numbers, const Opt
 
 Scene::Scene(const std::vector<std::string>& files, const SceneOptions& options) {
   Warnings warnings;
-  implementation_ =
-      guarded([&] { warnings.passOn(options.warn); },
-              [&] {
-                if (files.empty())
-                  throw rad::Error("a scene needs at least one file: an octree, scene text or '!command'");
-                AnswerOptions read;
-                read.scene = files;
-                read.commands = options.commands;
-                read.goals = options.goals;
-                return std::make_unique<Implementation>(loadScene(read, warnings.collector()));
-              });
+  implementation_ = guarded(
+      [&] { warnings.passOn(options.warn); },
+      [&] {
+        if (files.empty())
+          throw rad::Error("a scene needs at least one file: an octree, scene text or '!command'");
+        for (const std::string& file : files)
+          if (file.find('\0') != std::string::npos)
+            throw rad::Error(fmt::format("the file name \"{}\" contains a NUL byte", rad::printable(file)));
+        AnswerOptions read;
+        read.scene = files;
+        read.commands = options.commands;
+        read.goals = options.goals;
+        return std::make_unique<Implementation>(loadScene(read, warnings.collector()));
+      });
 }
 
 Scene::~Scene() = default;

@@ -16,6 +16,7 @@
 #include "rad_parser/error.h"
 #include "rad_parser/nearest_name.h"
 #include "rad_parser/number.h"
+#include "rad_parser/printable.h"
 
 namespace rsphere {
 namespace {
@@ -127,12 +128,16 @@ std::string rangeText(const Range& range) {
   return isBound(range.lowest) ? fmt::format(" of at least {}", range.lowest) : "";
 }
 
+// The remedy for a percentage that was given as a number, as the end of a message.
+std::string percent(double x) { return fmt::format(": {}% is written {}", x, x / 100); }
+
 void checkRange(const OptionEntry& entry, double x) {
   const auto& [lowest, highest] = entry.range;
   if (x < lowest && highest == std::numeric_limits<double>::infinity())
     commandLineError(entry.name, fmt::format("{} is less than {}", x, lowest));
   if (x < lowest || x > highest)
-    commandLineError(entry.name, fmt::format("{} is not from {} to {}", x, lowest, highest));
+    commandLineError(entry.name, fmt::format("{} is not from {} to {}{}", x, lowest, highest,
+                                             lowest == 0 && highest == 1 && x > 1 ? percent(x) : ""));
 }
 
 double realWord(const OptionEntry& entry, const std::string& word) {
@@ -149,15 +154,39 @@ int64_t integerWord(const OptionEntry& entry, const std::string& word) {
   return *n;
 }
 
-// Throws the error of an option that lacks words: after `found` of them comes an empty word, or
-// the end of the command line.
-[[noreturn]] void missingWords(const std::string& given, const OptionEntry& entry, size_t found, bool atEnd) {
+// Whether a value of the option is missing at this word: a blank one, or an option where a number should be.
+bool isMissing(const OptionEntry& entry, const std::string& word) {
+  if (!isWord(word)) return true;
+  const bool takesNumbers =
+      std::holds_alternative<IntegerValue>(entry.value) || std::holds_alternative<CountValue>(entry.value) ||
+      std::holds_alternative<RealValue>(entry.value) || std::holds_alternative<ColorValue>(entry.value);
+  return takesNumbers && !rad::parseReal(word) && findOption(optionTable(), word) != nullptr;
+}
+
+// Throws the error of an option that lacks words: after `found` of them comes `next`, which is none of its
+// values, or, if that is null, the end of the command line.
+[[noreturn]] void missingWords(const std::string& given, const OptionEntry& entry, size_t found,
+                               const std::string* next) {
   const int wanted = arity(entry);
+  if (next != nullptr && rad::printable(*next) != *next)
+    commandLineError(given,
+                     fmt::format("its value contains a control character: \"{}\"", rad::printable(*next)));
   const std::string use = fmt::format("{} {}", entry.name, entry.arguments);
-  const std::string_view why = atEnd ? "the command line ends" : "an empty word follows";
+  const std::string why = next == nullptr ? "the command line ends"
+                          : isWord(*next) ? fmt::format("{} follows", *next)
+                                          : "no further word follows";
   if (wanted == 1) commandLineError(given, fmt::format("its value is missing ({}): {}", use, why));
   commandLineError(given, fmt::format("{} of its {} values are missing ({}): {}",
                                       static_cast<size_t>(wanted) - found, wanted, use, why));
+}
+
+// The options for the colors of the output, as the end of a message.
+std::string colorOutputs() {
+  std::string names;
+  for (const OptionEntry& entry : optionTable())
+    if (startsWith(entry.name, "-p") && arity(entry) == 0)
+      names += fmt::format("{}{}", names.empty() ? "" : ", ", entry.name);
+  return fmt::format("; the colors of the output are {}; -pY is luminance, or illuminance in lux", names);
 }
 
 // The reason why a word that begins with a hyphen names no option.
@@ -165,6 +194,7 @@ std::string whyUnknown(std::span<const OptionEntry> own, std::string_view word) 
   if (startsWith(word, "--") &&
       (findOption(own, word.substr(1)) != nullptr || findOption(optionTable(), word.substr(1)) != nullptr))
     return fmt::format("options begin with one hyphen: {}", word.substr(1));
+  if (startsWith(word, "-p")) return "there is no such option" + colorOutputs();
   rad::NearestName nearest(word);
   for (const std::span<const OptionEntry> table : {own, optionTable()})
     for (const OptionEntry& entry : table)
@@ -289,6 +319,7 @@ void checkTogether(Options& options, bool mostGiven) {
   if (!options.sphereMode) return;
   if (options.limitDistance) throw rad::Error("-ld needs ray mode (-S-): points have no direction vector");
   SphereOptions& sphere = options.sphere;
+  if (sphere.accuracy >= 1) commandLineError("-Sa", "1 is all of the mean" + percent(1));
   if (sphere.clamp > 0 && sphere.weights != Weights::silhouettes)
     commandLineError("-Sf", "needs -Sw c, which integrates light sources separately");
   options.ray.leastForPatches = sphere.raysForPatches();
@@ -310,8 +341,7 @@ void commandLineError(std::string_view at, std::string_view why) {
 void notReal(std::string_view option, std::string_view word, std::string_view range) {
   std::string hint;
   if (word.ends_with('%'))
-    if (const auto x = rad::parseReal(word.substr(0, word.size() - 1)))
-      hint = fmt::format(": {} is written {}", word, *x / 100);
+    if (const auto x = rad::parseReal(word.substr(0, word.size() - 1))) hint = percent(*x);
   if (word.find(',') != word.npos) hint = ": use a decimal point";
   commandLineError(option, fmt::format("\"{}\" is not a number{}{}", word, range, hint));
 }
@@ -352,7 +382,8 @@ Use takeUse(Words& words, const Companion& companion, const std::string& word) {
   Use use{entry, word.substr(entry->name.size()), {}};
   if (entry->alsoGlued && !use.rest.empty()) use.words.push_back(use.rest);
   while (use.words.size() < static_cast<size_t>(arity(*entry))) {
-    if (words.atEnd() || !isWord(words.word())) missingWords(word, *entry, use.words.size(), words.atEnd());
+    if (words.atEnd()) missingWords(word, *entry, use.words.size(), nullptr);
+    if (isMissing(*entry, words.word())) missingWords(word, *entry, use.words.size(), &words.word());
     use.words.push_back(words.take());
   }
   return use;

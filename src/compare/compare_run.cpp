@@ -19,6 +19,7 @@
 #include "compare/report.h"
 #include "measure/records_file.h"
 #include "measure/work.h"
+#include "rad_parser/printable.h"
 #include "report/markup.h"
 #include "report/page.h"
 #include "sphere/directions.h"
@@ -225,7 +226,7 @@ CompareStatus runCompare(CompareOptions options, std::span<const UsedOption> use
   CompareSubject subject;
   const rad::Warn warn = [&](std::string_view text) {
     messages.warning(text);
-    if (options.messages.warnings) subject.warnings.emplace_back(text);
+    if (options.messages.warnings) subject.warnings.push_back(rad::messageLine(text));
   };
   if (options.messages.warnings) subject.warnings = options.messages.remarks;
   const std::string recordsName = options.scene.back();

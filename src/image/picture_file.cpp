@@ -2,11 +2,16 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <memory>
+#include <utility>
 
 #include "image/codec.h"
 #include "image/radiance_picture.h"
@@ -20,32 +25,98 @@ namespace {
   throw rad::Error(fmt::format("cannot write picture \"{}\": {}", name, why), rad::Status::system);
 }
 
+// A new file in the folder of a file, with a name of its own. The destructor removes it, unless it has
+// replaced the file.
+class NewFile {
+ public:
+  explicit NewFile(std::string target) : target_(std::move(target)) {
+    const std::string folder = target_.substr(0, target_.rfind('/') + 1);
+    for (int i = 0; i < kMostNames && fd_ < 0; ++i) {
+      name_ = fmt::format("{}.rsphere-{}-{}", folder, getpid(), i);
+      fd_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (fd_ < 0 && errno != EEXIST) break;
+    }
+    created_ = fd_ >= 0;
+    struct stat before {};
+    if (created_ && stat(target_.c_str(), &before) == 0 && fchmod(fd_, before.st_mode & 0777) != 0) errno = 0;
+  }
+  ~NewFile() {
+    if (fd_ >= 0) close(fd_);
+    if (created_ && !replaced_) unlink(name_.c_str());
+  }
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+
+  // Negative, with errno, if the file cannot be created.
+  int descriptor() const { return fd_; }
+
+  // Returns false, with errno, if that fails.
+  bool replaceTarget() {
+    const int closed = close(std::exchange(fd_, -1));
+    if (closed != 0 && errno != EINTR) return false;
+    replaced_ = rename(name_.c_str(), target_.c_str()) == 0;
+    return replaced_;
+  }
+
+ private:
+  // Each thread writes one picture at a time.
+  static constexpr int kMostNames = 10000;
+
+  std::string target_, name_;
+  int fd_ = -1;
+  bool created_ = false, replaced_ = false;
+};
+
+bool isStandardDescriptor(const struct stat& file) {
+  for (int fd = 0; fd <= 2; ++fd) {
+    struct stat status {};
+    if (fstat(fd, &status) == 0 && status.st_dev == file.st_dev && status.st_ino == file.st_ino) return true;
+  }
+  return false;
+}
+
+// The name without links; the name itself if it has none that can be found.
+std::string realPath(const std::string& name) {
+  const std::unique_ptr<char, void (*)(void*)> path(realpath(name.c_str(), nullptr), std::free);
+  return path ? path.get() : name;
+}
+
+// Returns false, with errno, if a write fails.
+bool writeAll(int fd, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
+    if (n < 0 && errno != EINTR) return false;
+    if (n > 0) bytes.remove_prefix(static_cast<size_t>(n));
+  }
+  return true;
+}
+
 }  // namespace
 
 PictureFormat pictureFormat(const std::string& name) {
   for (const std::string_view suffix : {".hdr", ".pic", ".rgbe"})
     if (name.ends_with(suffix)) return PictureFormat::radiance;
   std::string format;
-  if (const std::string why = imageCodec().formatOf(name, format); !why.empty()) cannotWrite(name, why);
+  if (!imageCodec().formatOf(name, format).empty())
+    cannotWrite(name,
+                "its suffix is that of no picture format; usual ones are .hdr, .exr, .tif, .png and .jpg");
   return format == "hdr"                           ? PictureFormat::radiance
          : format == "openexr" || format == "tiff" ? PictureFormat::linear
                                                    : PictureFormat::screen;
 }
 
 PictureFile::PictureFile(std::string name) : name_(std::move(name)), format_(pictureFormat(name_)) {
-  fd_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (fd_ < 0) fail(std::strerror(errno));
-}
-
-PictureFile::~PictureFile() {
-  if (fd_ >= 0) close(fd_);
-}
-
-void PictureFile::fail(const std::string& why) {
-  // Some readers would take a truncated picture for a complete one, so the file is emptied. Devices cannot be
-  // emptied; that error is ignored.
-  if (fd_ >= 0 && ftruncate(fd_, 0) != 0) errno = 0;
-  cannotWrite(name_, why);
+  struct stat status {};
+  const bool exists = stat(name_.c_str(), &status) == 0;
+  if (exists && S_ISDIR(status.st_mode)) cannotWrite(name_, std::strerror(EISDIR));
+  if (exists && access(name_.c_str(), W_OK) != 0) cannotWrite(name_, std::strerror(errno));
+  if (exists && (!S_ISREG(status.st_mode) || isStandardDescriptor(status))) return;
+  const std::string target = exists ? realPath(name_) : name_;
+  const NewFile trial(target);
+  if (trial.descriptor() >= 0)
+    target_ = target;
+  else if (!exists)
+    cannotWrite(name_, std::strerror(errno));
 }
 
 void PictureFile::write(const Raster& raster, std::string_view header) {
@@ -55,16 +126,22 @@ void PictureFile::write(const Raster& raster, std::string_view header) {
   } else {
     const std::string why = imageCodec().encode(
         name_, raster.width, raster.height, format_ == PictureFormat::linear, raster.pixels.data(), bytes);
-    if (!why.empty()) fail(why);
+    if (!why.empty()) cannotWrite(name_, why);
   }
-  for (std::string_view left = bytes; !left.empty();) {
-    const ssize_t n = ::write(fd_, left.data(), left.size());
-    if (n < 0 && errno != EINTR) fail(std::strerror(errno));
-    if (n > 0) left.remove_prefix(static_cast<size_t>(n));
+  if (!target_.empty()) {
+    NewFile file(target_);
+    if (!writeAll(file.descriptor(), bytes) || !file.replaceTarget())
+      cannotWrite(name_, std::strerror(errno));
+    return;
   }
-  const int closed = close(fd_);
-  fd_ = -1;
-  if (closed != 0 && errno != EINTR) cannotWrite(name_, std::strerror(errno));
+  const int fd = open(name_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
+  const bool written = writeAll(fd, bytes);
+  const int why = errno;
+  // Some readers would take a cut picture for a complete one. A device cannot be emptied, which is no fault.
+  if (fd >= 0 && !written) [[maybe_unused]]
+    const int emptied = ftruncate(fd, 0);
+  if (fd >= 0) close(fd);
+  if (!written) cannotWrite(name_, std::strerror(why));
 }
 
 }  // namespace rsphere

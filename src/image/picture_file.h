@@ -15,17 +15,18 @@ enum class PictureFormat {
 };
 
 // The format for the suffix of a name; .pic, too, is RADIANCE's. Throws rad::Error (Status::system), with the
-// name, if there is no such format.
+// name and the usual suffixes, if there is no such format.
 PictureFormat pictureFormat(const std::string& name);
 
-// A file for a picture. It is created or emptied when it is opened, so that a file that cannot be written
-// causes an error before the picture is computed. The constructor and write() throw rad::Error
-// (Status::system) with the name of the file and the system's message: 'cannot write picture "a.png": No
-// space left on device'. A file that could not be written completely is left empty.
+// A file for a picture. Nobody finds a picture that is empty or cut: it is written beside the file under
+// another name, which it loses when it is complete, and a file that was there before remains until then. A
+// device, a pipe or the file of a standard descriptor (/dev/stdout) is written itself.
+// The constructor finds out whether the file can be written, so that an error comes before the picture is
+// computed. It and write() throw rad::Error (Status::system) with the name of the file and the system's
+// message: 'cannot write picture "a.png": No space left on device'.
 class PictureFile {
  public:
   explicit PictureFile(std::string name);
-  ~PictureFile();
   PictureFile(const PictureFile&) = delete;
   PictureFile& operator=(const PictureFile&) = delete;
 
@@ -36,11 +37,9 @@ class PictureFile {
   void write(const Raster& raster, std::string_view header);
 
  private:
-  [[noreturn]] void fail(const std::string& why);
-
   std::string name_;
   PictureFormat format_;
-  int fd_ = -1;
+  std::string target_;  // the name to replace, which is not that of a link; empty: the file itself is written
 };
 
 }  // namespace rsphere

@@ -84,6 +84,16 @@ std::string viewLine(const V3d& p) {
                      p.x, p.y, p.z);
 }
 
+namespace {
+
+// The pattern with a %d before its suffix.
+std::string withNumber(std::string pattern) {
+  const size_t folder = pattern.rfind('/') + 1, dot = pattern.rfind('.');
+  return pattern.insert(dot == std::string::npos || dot < folder ? pattern.size() : dot, "%d");
+}
+
+}  // namespace
+
 std::string pictureName(const std::string& pattern, uint64_t record) {
   std::string name;
   bool numbered = false;
@@ -110,7 +120,8 @@ std::string pictureName(const std::string& pattern, uint64_t record) {
   }
   if (!numbered && record > 0)
     throw rad::Error(
-        fmt::format("picture \"{}\": its name needs a %d for the number of record {}", pattern, record));
+        fmt::format("picture \"{}\": its name needs a %d for the number of record {}, as in \"{}\"", pattern,
+                    record, withNumber(pattern)));
   return name;
 }
 

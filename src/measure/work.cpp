@@ -41,7 +41,7 @@ bool forEachIndex(size_t count, int threads, const StopSignals* signals,
       }
     } catch (...) {
       const std::lock_guard lock(mutex);
-      if (!error) error = std::current_exception();
+      if (!error && (signals == nullptr || !signals->raised())) error = std::current_exception();
       stopped = true;
     }
   };

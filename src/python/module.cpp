@@ -65,6 +65,26 @@ py::object arrayOf(const std::vector<std::string>& names) {
   return py::module_::import("numpy").attr("array")(names);
 }
 
+// The numbers of an array or of lists. Throws what Python calls TypeError or ValueError for those that are no
+// plain real numbers: the imaginary parts and the mask would be lost.
+Numbers numbersOf(const py::object& array, const std::string& name) {
+  const py::module_ numpy = py::module_::import("numpy");
+  if (py::isinstance(array, numpy.attr("ma").attr("MaskedArray")))
+    throw py::type_error(name + " must not be a masked array: choose the rows, and pass array.data");
+  if (numpy.attr("iscomplexobj")(array).cast<bool>())
+    throw py::type_error(name + " must be real numbers, not complex");
+  return array.cast<Numbers>();
+}
+
+// The scene of a method. Scene.__new__(Scene) has none, nor has an object of another class.
+const Scene& sceneOf(const py::object& self) {
+  if (!py::isinstance<Scene>(self)) throw py::type_error("this method belongs to a Scene");
+  auto* const instance = reinterpret_cast<py::detail::instance*>(self.ptr());
+  if (!instance->get_value_and_holder().holder_constructed())
+    throw py::type_error("the Scene has no files: it must be made by Scene(files)");
+  return self.cast<const Scene&>();
+}
+
 // The records of an array as structs of doubles.
 template <typename Record>
 std::span<const Record> recordsOf(const Numbers& array, const char* name) {
@@ -79,7 +99,9 @@ py::object answersObject(const py::dict& arrays) {
   return py::module_::import("types").attr("SimpleNamespace")(**arrays);
 }
 
-py::object trace(const Scene& scene, const Numbers& array, const py::kwargs& keywords) {
+py::object trace(const py::object& self, const py::object& given, const py::kwargs& keywords) {
+  const Scene& scene = sceneOf(self);
+  const Numbers array = numbersOf(given, "rays");
   const std::span<const Ray> rays = recordsOf<Ray>(array, "rays");
   Options options = optionsOf(keywords);
   options.stop = interrupted;
@@ -107,7 +129,9 @@ py::object trace(const Scene& scene, const Numbers& array, const py::kwargs& key
   return answersObject(arrays);
 }
 
-py::object sphere(const Scene& scene, const Numbers& array, const py::kwargs& keywords) {
+py::object sphere(const py::object& self, const py::object& given, const py::kwargs& keywords) {
+  const Scene& scene = sceneOf(self);
+  const Numbers array = numbersOf(given, "points");
   const std::span<const Point> points = recordsOf<Point>(array, "points");
   Options options = optionsOf(keywords);
   options.stop = interrupted;
@@ -139,8 +163,11 @@ py::object photometricOf(const py::object& color) {
   return numpy.attr("dot")(color, numpy.attr("array")(kBrightnessWeights)) * py::float_(kLumensPerWatt);
 }
 
-// The text of an error, which refers to the help of Python instead of that of the command.
+// The text of an error, which refers to the help of Python instead of that of the command, and to options
+// instead of a command line.
 std::string forPython(std::string text) {
+  constexpr std::string_view kCommand = "command line error at ";
+  if (text.starts_with(kCommand)) text.replace(0, kCommand.size(), "option ");
   constexpr std::string_view kHelp = "see -help";
   if (std::string_view(text).ends_with(kHelp))
     text.replace(text.size() - kHelp.size(), kHelp.size(), "see help(rsphere.Scene)");

@@ -13,12 +13,16 @@ namespace {
 struct Keyword {
   std::string_view name;
   py::handle value;
+  const py::kwargs& all;
   bool known = false;
 
+  // option: the same option of the command, without its hyphen, if there is one.
   template <typename Member>
-  void set(std::string_view member, Member& to) {
+  void set(std::string_view member, Member& to, const char* option = "") {
     if (name != member) return;
     known = true;
+    if (all.contains(option) || all.contains(std::string(option) + '_'))
+      throw py::type_error(std::string(name) + " and " + option + " are the same option: give one of them");
     try {
       to = value.cast<Member>();
     } catch (const py::cast_error&) {
@@ -63,23 +67,23 @@ Options optionsOf(const py::kwargs& keywords) {
   for (const auto& [name, value] : keywords) {
     if (value.is_none()) continue;
     const auto text = name.cast<std::string>();
-    Keyword keyword{text, value};
-    keyword.set("ambient_bounces", options.ambientBounces);
-    keyword.set("ambient_accuracy", options.ambientAccuracy);
-    keyword.set("ambient_divisions", options.ambientDivisions);
-    keyword.set("ambient_super_samples", options.ambientSuperSamples);
-    keyword.set("ambient_resolution", options.ambientResolution);
-    keyword.set("ambient_value", options.ambientValue);
-    keyword.set("limit_reflections", options.limitReflections);
-    keyword.set("limit_weight", options.limitWeight);
-    keyword.set("rotation", options.rotation);
-    keyword.set("irradiance_at_origin", options.irradianceAtOrigin);
-    keyword.set("irradiance_at_surface", options.irradianceAtSurface);
-    keyword.set("directions", options.directions);
-    keyword.set("most_directions", options.mostDirections);
-    keyword.set("accuracy", options.accuracy);
-    keyword.set("outputs", options.outputs);
-    keyword.set("threads", options.threads);
+    Keyword keyword{text, value, keywords};
+    keyword.set("ambient_bounces", options.ambientBounces, "ab");
+    keyword.set("ambient_accuracy", options.ambientAccuracy, "aa");
+    keyword.set("ambient_divisions", options.ambientDivisions, "ad");
+    keyword.set("ambient_super_samples", options.ambientSuperSamples, "as");
+    keyword.set("ambient_resolution", options.ambientResolution, "ar");
+    keyword.set("ambient_value", options.ambientValue, "av");
+    keyword.set("limit_reflections", options.limitReflections, "lr");
+    keyword.set("limit_weight", options.limitWeight, "lw");
+    keyword.set("rotation", options.rotation, "Sr");
+    keyword.set("irradiance_at_origin", options.irradianceAtOrigin, "I");
+    keyword.set("irradiance_at_surface", options.irradianceAtSurface, "i");
+    keyword.set("directions", options.directions, "Sn");
+    keyword.set("most_directions", options.mostDirections, "Sx");
+    keyword.set("accuracy", options.accuracy, "Sa");
+    keyword.set("outputs", options.outputs, "o");
+    keyword.set("threads", options.threads, "n");
     keyword.set("arguments", options.arguments);
     if (!keyword.known && isNoOption(text))
       throw py::type_error("'" + text + "' is not an option; help(rsphere.Scene) lists the options");

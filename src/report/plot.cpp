@@ -40,6 +40,13 @@ LogAxis axisOf(std::span<const PlotPoint> extent, double PlotPoint::*value, doub
   return {low / kMargin, high * kMargin, from, to};
 }
 
+// The multiples of `step` from low to high.
+std::vector<double> multiples(double step, double low, double high) {
+  std::vector<double> found;
+  for (double k = std::ceil(low / step); k * step <= high; ++k) found.push_back(k * step);
+  return found;
+}
+
 }  // namespace
 
 double LogAxis::at(double value) const {
@@ -63,16 +70,15 @@ std::vector<double> LogAxis::ticks() const {
   };
   constexpr std::array kCoarse = {1.};
   constexpr std::array kUsual = {1., 2., 5.};
-  std::vector<double> fine, finest;
-  for (int digit = 10; digit < 100; ++digit) {
-    if (digit % 10 == 0) fine.push_back(digit / 10.);
-    finest.push_back(digit / 10.);
-  }
+  constexpr std::array kFine = {1., 2., 3., 4., 5., 6., 7., 8., 9.};
   if (step > 1) return ticksWith(kCoarse);
   std::vector<double> best = ticksWith(kUsual);
   if (best.size() > kMost) return ticksWith(kCoarse);
-  if (best.size() < kFewest) best = ticksWith(fine);
-  if (best.size() < kFewest) best = ticksWith(finest);
+  if (best.size() < kFewest) best = ticksWith(kFine);
+  // Less than a factor 2 or so: even steps, which are also even on the axis, nearly.
+  for (int power = last; best.size() < kFewest; --power)
+    for (const double digit : {5., 2., 1.})
+      if (best.size() < kFewest) best = multiples(digit * std::pow(10., power), low, high);
   return best;
 }
 

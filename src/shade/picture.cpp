@@ -96,7 +96,7 @@ class Bytes {
     const char* keep = next_;
     const auto kept = end_ - keep;
     const bool more = rad::readOn(descriptor_, block_.data(), kBlock, keep, next_, end_,
-                                  [&] { return rad::printable(path_, 4096); });
+                                  [&] { return rad::printable(path_, rad::kLongestName); });
     unread_ -= std::min(unread_, static_cast<size_t>(end_ - keep - kept));
     return more;
   }

@@ -21,7 +21,7 @@ bool Trials::run(const Setting& setting, bool standardErrors, bool timed, Trial&
   const AnswerOptions& options = setting.options;
   const Transport& transport = transportOf(setting);
   const double begin = threadSeconds();
-  PointWorkers workers(transport, options, standardErrors);
+  PointWorkers workers(transport, options, standardErrors, [this] { signals_.check(); });
   const double setup = threadSeconds() - begin;
   const size_t count = points_.size() / 3;
   std::vector<PointAnswer> answers(count);

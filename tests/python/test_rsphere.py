@@ -148,20 +148,40 @@ class Faults(unittest.TestCase):
     def test_options(self):
         scene = rsphere.Scene(FURNACE)
         for options, text in [
-            ({"zz": 3}, r"command line error at '-zz': there is no such option; see help\(rsphere.Scene\)$"),
-            ({"abb": 3}, "command line error at '-abb': there is no such option; the nearest is \"-ab\"; see help"),
-            ({"ab": "x"}, "command line error at '-ab': \"x\" is not a whole number"),
+            ({"zz": 3}, r"option '-zz': there is no such option; see help\(rsphere.Scene\)$"),
+            ({"abb": 3}, "option '-abb': there is no such option; the nearest is \"-ab\"; see help"),
+            ({"ab": "x"}, "option '-ab': \"x\" is not a whole number"),
+            ({"av": [1, 2]}, "option '-av': 1 of its 3 values are missing"),
+            ({"av": [1, 2], "ad": 5}, "option '-av': 1 of its 3 values are missing .*: -ad follows"),
+            ({"M": "a\0b"}, r'the option "a\\x00b" contains a NUL byte'),
             ({"arguments": ["-Sg", "goal"]}, "option '-Sg': "),
         ]:
             with self.assertRaisesRegex(rsphere.Error, "^" + text):
                 scene.trace([[0, 0, 0, 1, 0, 0]], **options)
         with self.assertRaisesRegex(TypeError, r"^'ambient_bounce' is not an option; help\(rsphere.Scene\) lists"):
             scene.sphere([[0, 0, 0]], ambient_bounce=3)
+        for short in [{"ab": 1}, {"as_": 1, "ambient_super_samples": 0}]:
+            with self.assertRaisesRegex(TypeError, "are the same option: give one of them$"):
+                scene.trace([[0, 0, 0, 1, 0, 0]], ambient_bounces=0, **short)
         with self.assertRaisesRegex(TypeError, "^threads has a value of the wrong type: 'x'"):
             scene.sphere([[0, 0, 0]], threads="x")
 
+    def test_a_scene_without_files(self):
+        # It used to end the process.
+        with self.assertRaisesRegex(TypeError, "^the Scene has no files"):
+            rsphere.Scene.__new__(rsphere.Scene).trace([[0, 0, 0, 1, 0, 0]])
+        with self.assertRaisesRegex(TypeError, "^this method belongs to a Scene"):
+            rsphere.Scene.sphere(5, [[0, 0, 0]])
+        with self.assertRaisesRegex(rsphere.Error, r'^the file name "a\\x00.rad" contains a NUL byte'):
+            rsphere.Scene("a\0.rad")
+
     def test_records(self):
         scene = rsphere.Scene(FURNACE)
+        # The imaginary parts and the mask used to be dropped.
+        with self.assertRaisesRegex(TypeError, "^points must be real numbers, not complex"):
+            scene.sphere(np.array([[0, 0, 1j]]))
+        with self.assertRaisesRegex(TypeError, "^points must not be a masked array"):
+            scene.sphere(np.ma.array([[0, 0, 1.0]], mask=[[0, 0, 1]]))
         with self.assertRaisesRegex(ValueError, r"^points must be an array of shape \(n, 3\)"):
             scene.sphere([[0, 0, 0, 1]])
         with self.assertRaisesRegex(rsphere.Error, r"^points\[1\]: nan is not a finite number"):

@@ -43,10 +43,21 @@ TEST(Messages, AClosedPipeIsQuiet) {
   EXPECT_EQ(standardErrorOf([&] { EXPECT_EQ(messages.error(ClosedPipe()), 3); }), "");
 }
 
-TEST(Messages, EveryLineHasThePrefix) {
-  const Messages messages("rsphere");
-  EXPECT_EQ(standardErrorOf([&] { messages.warning("one\ntwo\n"); }),
-            "rsphere: warning - one\nrsphere: two\n");
+TEST(Messages, AreOnePrintableLine) {
+  const Messages messages("r\x1b");
+  EXPECT_EQ(standardErrorOf([&] { messages.warning("one\n\x1b[31mtwo\n"); }),
+            "r\\x1b: warning - one\\x0a\\x1b[31mtwo\n");
+  EXPECT_EQ(standardErrorOf([&] { messages.report("\xc2\x9b"); }), "r\\x1b: \\xc2\\x9b\n");
+}
+
+// The message used to be lost: the program ended with status 1 and without a word.
+TEST(Messages, GoToStandardErrorIfTheErrorFileIsFull) {
+  Messages messages("rsphere");
+  EXPECT_EQ(standardErrorOf([&] {
+              use(messages, parse({"rsphere", "-e", "/dev/full", "s.oct"}));
+              messages.error(rad::Error("a.rad:3: no"));
+            }),
+            "rsphere: fatal - a.rad:3: no\n");
 }
 
 TEST(Messages, WarningsCanBeSwitchedOff) {

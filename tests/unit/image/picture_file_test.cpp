@@ -2,9 +2,12 @@
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -126,6 +129,54 @@ TEST_F(PictureFiles, AFullDiskIsASystemErrorWithTheNameInEveryFormat) {
     std::filesystem::create_symlink("/dev/full", name);
     EXPECT_EQ(faultOf(name), "cannot write picture \"" + name + "\": No space left on device");
   }
+}
+
+// They used to be empty from the time when the picture was begun, and cut after a fault.
+TEST_F(PictureFiles, AreNeverEmptyOrCut) {
+  const auto names = [&] {
+    std::vector<std::string> found;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      found.push_back(entry.path().filename());
+    return found;
+  };
+  const std::string name = folder + "a.hdr", old = "the picture before";
+  { const PictureFile abandoned(name); }
+  EXPECT_TRUE(names().empty());
+  std::ofstream(name) << old;
+  { const PictureFile abandoned(name); }
+  EXPECT_EQ(contents("a.hdr"), old);
+
+  std::signal(SIGXFSZ, SIG_IGN);
+  struct rlimit before {};
+  getrlimit(RLIMIT_FSIZE, &before);
+  struct rlimit small = before;
+  small.rlim_cur = 300;
+  setrlimit(RLIMIT_FSIZE, &small);
+  EXPECT_EQ(faultOf(name), "cannot write picture \"" + name + "\": File too large");
+  EXPECT_EQ(faultOf(folder + "b.png"), "cannot write picture \"" + folder + "b.png\": File too large");
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, SIG_DFL);
+  EXPECT_EQ(contents("a.hdr"), old);
+  EXPECT_EQ(names(), std::vector<std::string>{"a.hdr"});
+}
+
+TEST_F(PictureFiles, ReplaceAFileWithItsLinksAndPermissions) {
+  const std::string name = folder + "a.hdr", link = folder + "link.hdr";
+  std::ofstream(name) << "the picture before";
+  chmod(name.c_str(), 0640);
+  std::filesystem::create_symlink(name, link);
+  PictureFile(link).write(quarters(64, 32), kHeader);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(contents("a.hdr").substr(0, 2), "#?");
+  EXPECT_EQ(std::filesystem::status(name).permissions(), std::filesystem::perms(0640));
+}
+
+// The suffix is named, and suffixes that there are; OpenImageIO's text had none of them.
+TEST_F(PictureFiles, ASuffixOfNoFormatIsAnError) {
+  EXPECT_EQ(
+      faultOf("v.jpgg"),
+      "cannot write picture \"v.jpgg\": its suffix is that of no picture format; usual ones are .hdr, .exr, .tif, "
+      ".png and .jpg");
 }
 
 TEST_F(PictureFiles, WhatCannotBeWrittenIsASystemError) {

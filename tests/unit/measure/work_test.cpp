@@ -41,5 +41,15 @@ TEST(ForEachIndex, EndsOnASignal) {
   EXPECT_EQ(calls, 4u);
 }
 
+// A call that takes long may look for a signal itself.
+TEST(ForEachIndex, ACallMayThrowAfterASignal) {
+  StopSignals signals("test");
+  signals.defer(true);
+  EXPECT_FALSE(forEachIndex(100, 1, &signals, [&](size_t, unsigned) {
+    std::raise(SIGTERM);
+    signals.check();
+  }));
+}
+
 }  // namespace
 }  // namespace rsphere

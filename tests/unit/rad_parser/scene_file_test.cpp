@@ -173,7 +173,7 @@ TEST(SceneFile, FaultsAndTheirPlaces) {
   EXPECT_EQ(errorOfText("void sphere void 0 0 0"), "");
   EXPECT_EQ(errorOfText("void alias a void"), "room.rad:1: alias \"a\": undefined modifier \"void\"");
   EXPECT_EQ(errorOfText("void alias a a"), "room.rad:1: alias \"a\": undefined modifier \"a\"");
-  EXPECT_EQ(errorOfText("void sphere 'a\tb' 0 0 0"), "room.rad:1: tab in name \"a?b\"");
+  EXPECT_EQ(errorOfText("void sphere 'a\tb' 0 0 0"), "room.rad:1: tab in name \"a\\x09b\"");
   EXPECT_EQ(errorOfText("void sphere s x 0 0"),
             "room.rad:1: sphere \"s\": expected the number of string arguments, got \"x\"");
   EXPECT_EQ(errorOfText("void sphere s 0 0\n4.0 1 2 3 4"),
@@ -218,7 +218,7 @@ TEST(SceneFile, HostileBytes) {
   EXPECT_EQ(errorOfText(longWord), "room.rad:1: word longer than 65536 bytes: \"xxxxxxxxxxxxxxxxxxxx...\"");
   EXPECT_EQ(errorOfText("'" + longWord),
             "room.rad:1: word longer than 65536 bytes: \"xxxxxxxxxxxxxxxxxxxx...\"");
-  EXPECT_EQ(errorOfText("\x01\x02\x1b[31m\xff x y"), "room.rad:1: undefined modifier \"???[31m\xff\"");
+  EXPECT_EQ(errorOfText("\x01\x02\x1b[31m\xff x y"), "room.rad:1: undefined modifier \"\\x01\\x02\\x1b[31m\\xff\"");
   EXPECT_LT(errorOfText("void sphere " + std::string(60000, 'y') + " 0 0 x").size(), 200u);
   EXPECT_EQ(errorOfText("!" + std::string(2 << 20, 'x')), "room.rad:1: command longer than 1048576 bytes");
 }
@@ -350,7 +350,7 @@ TEST(SceneFile, FilesThatCannotBeRead) {
   EXPECT_EQ(errorOf([&] { readFile(none); }, Status::system),
             none + ": cannot open scene file: No such file or directory");
   EXPECT_EQ(errorOf([&] { readFile(folder.path()); }, Status::system),
-            folder.path() + ":1: cannot read: Is a directory");
+            folder.path() + ": cannot read: Is a directory");
   const std::string locked = folder.write("locked.rad", "");
   chmod(locked.c_str(), 0);
   const std::string denied = errorOf([&] { readFile(locked); }, Status::system);  // except for root
@@ -412,7 +412,7 @@ TEST(SceneFile, AByteOrderMarkIsSkipped) {
       1u);
   EXPECT_EQ(errorOfText("void sphere s 0 0 0\n" + text),
             "room.rad:2: undefined modifier \"\xef\xbb\xbfvoid\"");
-  EXPECT_EQ(errorOfText("\xef\xbb"), "room.rad:1: undefined modifier \"\xef\xbb\"");
+  EXPECT_EQ(errorOfText("\xef\xbb"), "room.rad:1: undefined modifier \"\\xef\\xbb\"");
 }
 
 // Without the error, their surfaces would be missing, and the results would not show it.

@@ -252,7 +252,15 @@ TEST(Xform, FaultsHaveThePlaceOfTheCommand) {
   EXPECT_EQ(fault("-mx -n late {0}"), "room.rad:2: xform: bad option or argument at \"-n\"");
   EXPECT_EQ(fault("-a 0 -mx {0}"), "room.rad:2: xform: missing count for -a");
   EXPECT_EQ(fault("-a {0}"), "room.rad:2: xform: missing count for -a");
-  EXPECT_EQ(fault("-a 99999999999 {0}"), "room.rad:2: xform: more than 10000000 copies");
+  const std::string tooMany =
+      "room.rad:2: xform: more than 10000000 copies: make an octree (oconv -f) of a part, and copy instances of it";
+  EXPECT_EQ(fault("-a 99999999999 {0}"), tooMany);
+  // They used to be copied, one after the other, until memory was used up or minutes had passed.
+  EXPECT_EQ(fault("-a 100000 -t 1 0 0 -a 100000 {0}"), tooMany);
+  EXPECT_EQ(fault("-a 1000 -t 1 0 0 -a 1000 -t 0 1 0 -a 11 {0}"), tooMany);
+  folder.write("row.rad", "!xform -a 5000 -t 1 0 0 p.rad\n");
+  EXPECT_EQ(errorOfText(fmt::format("!xform -a 5000 {}\n", folder.path("row.rad"))),
+            fmt::format("{}:1 (from room.rad:1): {}", folder.path("row.rad"), tooMany.substr(12)));
   EXPECT_EQ(fault("-rx 30"),
             "room.rad:2: xform: no file named: it would read standard input, which a scene must not");
   EXPECT_EQ(fault("-f - {0}"), "room.rad:2: xform: -f - would read standard input, which a scene must not");

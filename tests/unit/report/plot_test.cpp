@@ -40,6 +40,19 @@ TEST(LogAxis, TicksAreFewAndRound) {
   expectTicks(.002, 3);
 }
 
+// From .94 to 1.59 they used to be .94, .95, ..., 1, 1.1, ...: 12 pixels apart, with 25 for each label.
+TEST(LogAxis, LabelsDoNotOverlap) {
+  constexpr double kLabel = 30;  // pixels
+  for (double low = .1; low < 10; low *= 1.013)
+    for (const double ratio : {1.69, 1.8, 2.5, 4., 9., 30.}) {
+      const LogAxis axis{low, low * ratio, 0, 626};
+      const auto ticks = axis.ticks();
+      EXPECT_GE(ticks.size(), 3u) << low << ' ' << ratio;
+      for (size_t i = 1; i < ticks.size(); ++i)
+        EXPECT_GE(axis.at(ticks[i]) - axis.at(ticks[i - 1]), kLabel) << low << " times " << ratio;
+    }
+}
+
 TEST(Plot, PutsMarksWhereTheTicksSay) {
   const std::array extent = {PlotPoint{1, 1}, PlotPoint{100, 10}};
   Plot plot("a < b", extent, {"time & more", 1, " ms"}, {"error", 100, "%"});
