@@ -107,7 +107,7 @@ class IrradianceField::Cache {
             SitesAround& around);
   bool hasOwnCells(const SurfaceChart& chart, const Asked& asked);
   int levelFrom(int level, const SurfaceChart& chart, const Asked& asked);
-  int firstLevel(const SurfaceChart& chart, const SurfacePlace& place, const Asked& asked);
+  int firstLevel(const SurfaceChart& chart, const SurfacePlace& place, const Asked& asked, double& gap);
   bool isFinest(const SurfaceChart& chart, int level, const Asked& asked);
 
   const Scene& scene_;
@@ -164,7 +164,7 @@ const GatheredLight& IrradianceField::Cache::lightOf(Site& site, const Asked& as
   site.begun.store(true, std::memory_order_relaxed);
   const GatheredLight* const known = stored_ ? stored_->find(site.key) : nullptr;
   auto gathered =
-      std::make_unique<GatheredLight>(known ? *known : asked.looker.gather(site.at, site.finest / 2, site.key.hash()));
+      std::make_unique<GatheredLight>(known ? *known : asked.looker.gather(site.at, std::min(site.finest / 2, site.reach / 4), site.key.hash()));
   const GatheredLight* first = nullptr;
   if (!site.light.compare_exchange_strong(first, gathered.get(), std::memory_order_acq_rel)) return *first;
   const GatheredLight& light = *gathered.release();
@@ -248,11 +248,11 @@ int IrradianceField::Cache::levelFrom(int level, const SurfaceChart& chart, cons
 // The level of the widest cells that the surroundings of the place allow. The sites of wide cells may lie outside
 // of the gap that the place lies in.
 int IrradianceField::Cache::firstLevel(const SurfaceChart& chart, const SurfacePlace& place,
-                                       const Asked& asked) {
+                                       const Asked& asked, double& gap) {
   const int level = levelFrom(grid_.levelOf(std::min(chart.extent(), Tuning::kOpen * grid_.size)), chart, asked);
-  const double clear = asked.looker.clearance({place.point + grid_.lift * place.normal, place.normal},
-                                              grid_.side(level) / Tuning::kGap);
-  const int resolving = grid_.levelOf(Tuning::kGap * clear);
+  gap = asked.looker.clearance({place.point + grid_.lift * place.normal, place.normal},
+                               grid_.side(level) / std::min(Tuning::kGap, Tuning::kFinestInGap));
+  const int resolving = grid_.levelOf(Tuning::kGap * gap);
   return resolving > level ? levelFrom(resolving, chart, asked) : level;
 }
 
@@ -270,9 +270,10 @@ bool IrradianceField::Cache::find(const SurfacePlace& place, FieldReader& reader
   light = {};
   double missing = 1, allowed = 1;
   int beyond = 0;
-  for (int level = firstLevel(*chart, place, asked); beyond <= Tuning::kBeyondFinest;
+  double gap = 0;
+  for (int level = firstLevel(*chart, place, asked, gap); beyond <= Tuning::kBeyondFinest;
        ++level, allowed *= Tuning::kMoreError) {
-    const bool finest = isFinest(*chart, level, asked);
+    const bool finest = grid_.side(level) <= Tuning::kFinestInGap * gap && isFinest(*chart, level, asked);
     beyond += finest;
     SitesAround around;
     if (!look(*chart, place, level, asked, around)) continue;
