@@ -302,8 +302,8 @@ void Batch::watch(uint64_t workers) {
   if (ended < workers && end_.leave) end_.leave(conclude());
 }
 
-// What workers finish until the grace ends is written as well, and their faults are reported: a file that grows
-// too large causes both SIGXFSZ and an error of write(2), which has its name.
+// What workers finish until the grace ends is written as well, and their faults are reported: a file that
+// grows too large causes both SIGXFSZ and an error of write(2), which has its name.
 void Batch::endForSignal() {
   writeFinished();
   const std::lock_guard output(output_);
