@@ -7,10 +7,10 @@ namespace rad {
 // For printable(): no path and no excerpt of a file is shown with more bytes.
 inline constexpr size_t kLongestName = 480;
 
-// Text from a file or a command line in a form that a message can contain: one line that no terminal takes for
-// a command. UTF-8 text remains as it is. Bytes of control characters (C0, DEL, C1), of characters that end a
-// line or change the direction of writing, and of anything that is not UTF-8 are written as "\x1b". Text that
-// is then longer than `longest` bytes ends with "..." instead of its rest.
+// Text from a file or a command line in a form that a message can contain: one line that no terminal takes
+// for a command. UTF-8 text remains as it is. Bytes of control characters (C0, DEL, C1), of characters that
+// end a line or change the direction of writing, and of anything that is not UTF-8 are written as "\x1b".
+// Text that is then longer than `longest` bytes ends with "..." instead of its rest.
 std::string printable(std::string_view text, size_t longest = 80);
 
 // A whole message in the same form. Of a word of more than 500 bytes, as a long path, only the beginning and

@@ -49,9 +49,9 @@ inline constexpr int64_t kMostPasses = 10'000'000;
 // The fault of more.
 XformFault tooMany();
 
-// The number of copies that the arrays (-a) of a command make of its files: the product of their counts. Counts
-// that forEachPass() refuses are left out. Throws XformFault if the product times `outside`, the copies that
-// the commands around it make of this command, is above kMostPasses: before anything is copied.
+// The number of copies that the arrays (-a) of a command make of its files: the product of their counts.
+// Counts that forEachPass() refuses are left out. Throws XformFault if the product times `outside`, the
+// copies that the commands around it make of this command, is above kMostPasses: before anything is copied.
 int64_t copiesOfArrays(std::span<const std::string> words, int64_t outside = 1);
 
 }  // namespace rad

@@ -69,8 +69,8 @@ class PointSummary {
   uint64_t billionths_ = 0;
 };
 
-// Throws rad::Error if the records that have arrived need more pictures (-Si) than its name has room for: before
-// the first of them is drawn. Waits for the first record if there are pictures.
+// Throws rad::Error if the records that have arrived need more pictures (-Si) than its name has room for:
+// before the first of them is drawn. Waits for the first record if there are pictures.
 void requirePictureNames(const AnswerOptions& options, RecordReader& reader);
 
 // The function that answers points in sphere mode: appends the spherical mean, or a record of every

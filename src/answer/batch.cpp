@@ -239,6 +239,7 @@ void Batch::run() {
 // Writes what is left to be written and returns why the run has ended, or null at the end of the input.
 std::exception_ptr Batch::conclude() {
   const std::lock_guard output(output_);
+  outputEnded_ = true;  // workers that are left write nothing
   try {
     writer_.flush();
   } catch (const rad::Error&) {
@@ -301,9 +302,12 @@ void Batch::watch(uint64_t workers) {
   if (ended < workers && end_.leave) end_.leave(conclude());
 }
 
+// What workers finish until the grace ends is written as well, and their faults are reported: a file that
+// grows too large causes both SIGXFSZ and an error of write(2), which has its name.
 void Batch::endForSignal() {
   writeFinished();
-  stop(nullptr);
+  const std::lock_guard output(output_);
+  endInput();
 }
 
 void Batch::work(unsigned worker) {
@@ -533,7 +537,7 @@ double Batch::expectedRecords() const {
 
 void Batch::stop(std::exception_ptr error) {
   const std::lock_guard output(output_);
-  if (!outputEnded_) error_ = error;
+  if (!error_) error_ = error;
   outputEnded_ = true;
   endInput();
 }

@@ -45,8 +45,9 @@ struct RunEnd {
 //   of it before it reads an answer.
 // - Memory does not grow with the input: at most 16 claims of records for each thread wait to be written.
 // - A fault in the input or in an answer ends the run when all records before it are answered and written.
-// - A signal ends the run (rad::Error with Status::signal and its name as text): the answers that are finished
-//   up to the first record that is not are written at once, and nothing waits for the records in work.
+// - A signal ends the run (rad::Error with Status::signal and its name as text): the answers that are
+//   finished up to the first record that is not are written at once, and nothing waits for the records in
+//   work.
 // - Warns if there are fewer threads than -n asks for, if the input ends before -y scanlines, if the first
 //   line of text in ray mode does not hold whole rays, and (once, without -u+) if the same ray comes three
 //   times in a row and its answers may be noisy.

@@ -11,7 +11,8 @@
 namespace rsphere::v1 {
 namespace {
 
-// Ends the words of the options, as a scene does on a command line. No option takes an empty word for a value.
+// Ends the words of the options, as a scene does on a command line. No option takes an empty word for a
+// value.
 constexpr std::string_view kScene;
 
 class Words {

@@ -517,7 +517,8 @@ TEST(StopSignals, TheSecondEndsItAtOnce) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, 10s);
 }
 
-// Answers 300 records at once, with two numbers each. The next takes a minute; `busy` gets a line when it begins.
+// Answers 300 records at once, with two numbers each. The next takes a minute; `busy` gets a line when it
+// begins.
 AnswerRecord slowAfter300(const Pipe& busy) {
   return [&busy](const Record& record, unsigned, std::string& bytes) {
     if (record.index == 300) {
