@@ -17,8 +17,9 @@ Overloaded(Functions...) -> Overloaded<Functions...>;
 // for a type that none of them takes, as long as none takes plain `auto`. Types with the same answer share one
 // function by OneOf, which lists them:
 //   match(material, [](const Glass&) { return true; }, [](const OneOf<Light, Glow> auto&) { return false; })
+// Inline, since functions that are called for each ray match their shapes.
 template <class Variant, class... Functions>
-decltype(auto) match(Variant&& variant, Functions... functions) {
+[[gnu::always_inline]] inline decltype(auto) match(Variant&& variant, Functions... functions) {
   using std::visit;  // ShapeRef has its own
   return visit(Overloaded{std::move(functions)...}, std::forward<Variant>(variant));
 }
