@@ -10,7 +10,8 @@
 
 namespace rsphere {
 
-// A polygon or a ring. Samples are drawn in the unit square, with coordinates s and t, and mapped to the source.
+// A polygon or a ring. Samples are drawn in the unit square, with coordinates s and t, and mapped to the
+// source.
 struct PlaneLight {
   // To center + (2s-1) u + (2t-1) v.
   struct Parallelogram {};
@@ -44,11 +45,11 @@ struct DistantLight {
 // A visitor that lacks an answer for one of them does not compile.
 using LightShape = std::variant<PlaneLight, BallLight, TubeLight, DistantLight>;
 
-// A surface that is sampled by the direct calculation: light, spotlight, illum, and glow within its reach. If the
-// scene has importance goals, the goals are the only sources.
+// A surface that is sampled by the direct calculation: light, spotlight, illum, and glow within its reach. If
+// the scene has importance goals, the goals are the only sources.
 //
-// Virtual sources are the images of other sources in a relay (mirror, prism1, prism2). An image has a position
-// and an extent, and can only be seen through its relay.
+// Virtual sources are the images of other sources in a relay (mirror, prism1, prism2). An image has a
+// position and an extent, and can only be seen through its relay.
 struct LightSource {
   SurfaceId surface{};   // of a virtual source, its relay, which a ray to it hits first
   LightId relayed{};     // the source that a ray reaches from the relay; kNone: a real source
@@ -75,8 +76,8 @@ struct LightSource {
   }
 };
 
-// The source that a surface is, without the reach and the spot of its material. REQUIRES that the surface is not
-// an instance or a mesh.
+// The source that a surface is, without the reach and the spot of its material. REQUIRES that the surface is
+// not an instance or a mesh.
 LightSource lightSourceOf(const Scene& scene, SurfaceId surface);
 
 // Sets the extents of a source from its other members.

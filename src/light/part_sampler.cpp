@@ -46,7 +46,8 @@ struct SourcePart {
   double s0 = 0, s1 = 1, t0 = 0, t1 = 1;
 };
 
-V3d onFan(const PlaneLight::Fan& fan, double s, double t) {
+V3d onFan(const V3d& center, const PlaneLight::Fan& fan, double s, double t) {
+  if (2 * s - 1 == 0 && 2 * t - 1 == 0) return center;
   const auto triangle = std::upper_bound(fan.areas.begin(), fan.areas.end() - 1, s);
   const size_t i = static_cast<size_t>(triangle - fan.areas.begin());
   const double before = i ? fan.areas[i - 1] : 0;
@@ -54,21 +55,18 @@ V3d onFan(const PlaneLight::Fan& fan, double s, double t) {
   return (1 - root) * fan.vertices[0] + root * (1 - t) * fan.vertices[i + 1] + root * t * fan.vertices[i + 2];
 }
 
-// The point on the source that a point of the unit square is mapped to.
-V3d onPlane(const V3d& center, const PlaneLight& plane, double s, double t) {
+V3d onParallelogram(const V3d& center, const PlaneLight& plane, double s, double t) {
+  return center + (2 * s - 1) * plane.u + (2 * t - 1) * plane.v;
+}
+
+V3d onDisk(const V3d& center, const PlaneLight& plane, double s, double t) {
   double a = 2 * s - 1, b = 2 * t - 1;
-  const auto at = [&] { return center + a * plane.u + b * plane.v; };
-  return match(
-      plane.map, [&](const OneOf<PlaneLight::Parallelogram, PlaneLight::Square> auto&) { return at(); },
-      [&](const PlaneLight::Disk&) {
-        toDisk(a, b);
-        return at();
-      },
-      [&](const PlaneLight::Fan& fan) { return a == 0 && b == 0 ? center : onFan(fan, s, t); });
+  toDisk(a, b);
+  return center + a * plane.u + b * plane.v;
 }
 
 std::array<V3d, 4> cornersOf(const V3d& center, const PlaneLight& plane, const SourcePart& p) {
-  const auto at = [&](double s, double t) { return onPlane(center, plane, s, t); };
+  const auto at = [&](double s, double t) { return onParallelogram(center, plane, s, t); };
   return {at(p.s0, p.t0), at(p.s1, p.t0), at(p.s1, p.t1), at(p.s0, p.t1)};
 }
 
@@ -79,11 +77,10 @@ SourcePart shrunk(const SourcePart& p, double jitter) {
 }
 
 // Whether a part is so near that cosine / distance^2 varies strongly over it. Sampling it by area would then
-// have unbounded variance.
-bool isNear(const V3d& center, const PlaneLight& plane, const SourcePart& part, const V3d& point) {
+// have unbounded variance. towards: from the point to its middle.
+bool isNear(const PlaneLight& plane, const SourcePart& part, const V3d& towards) {
   const double width = 2 * std::max(plane.extentU * (part.s1 - part.s0), plane.extentV * (part.t1 - part.t0));
-  const V3d middle = onPlane(center, plane, (part.s0 + part.s1) / 2, (part.t0 + part.t1) / 2);
-  return width * width > Tuning::kNear * Tuning::kNear * (middle - point).length2();
+  return width * width > Tuning::kNear * Tuning::kNear * towards.length2();
 }
 
 // Splits a part until its half-extents u and v are at most `allowed` times its distance, or there are `most`
@@ -328,12 +325,12 @@ void PartSampler::addNear(const PlaneLight& plane, const SourcePart& part) {
   if (cosine > kEdgeOn) add(direction, omega, height / cosine);
 }
 
-// at: as onPlane().
+// at: maps the unit square to points on the source.
 template <class Position>
 void PartSampler::addParts(const PlaneLight& plane, const Position& at) {
   const bool mayBeNear = jitter_ > 0 && std::holds_alternative<PlaneLight::Parallelogram>(plane.map);
   const auto use = [&](const SourcePart& part, const V3d& middle) {
-    if (mayBeNear && isNear(source_.center, plane, part, point_)) return addNear(plane, part);
+    if (mayBeNear && isNear(plane, part, middle)) return addNear(plane, part);
     const V3d aim = jitter_ > 0 ? at(jittered(part.s0, part.s1, jitter_, random_),
                                      jittered(part.t0, part.t1, jitter_, random_)) -
                                       point_
@@ -344,18 +341,18 @@ void PartSampler::addParts(const PlaneLight& plane, const Position& at) {
 }
 
 void PartSampler::addPlane(const PlaneLight& plane, const V3d& towards) {
+  const V3d& center = source_.center;
   match(
       plane.map,
-      // Most sources are of these two kinds. The map is inlined for them, because a call for every
-      // point would cost as much as the rest.
       [&](const OneOf<PlaneLight::Parallelogram, PlaneLight::Square> auto&) {
         if (jitter_ <= 0) return addMiddles(plane, towards);
-        addParts(plane, [&](double s, double t) {
-          return source_.center + (2 * s - 1) * plane.u + (2 * t - 1) * plane.v;
-        });
+        addParts(plane, [&](double s, double t) { return onParallelogram(center, plane, s, t); });
       },
-      [&](const OneOf<PlaneLight::Disk, PlaneLight::Fan> auto&) {
-        addParts(plane, [&](double s, double t) { return onPlane(source_.center, plane, s, t); });
+      [&](const PlaneLight::Disk&) {
+        addParts(plane, [&](double s, double t) { return onDisk(center, plane, s, t); });
+      },
+      [&](const PlaneLight::Fan& fan) {
+        addParts(plane, [&](double s, double t) { return onFan(center, fan, s, t); });
       });
 }
 

@@ -36,6 +36,16 @@ TEST(Append, NumbersOnFromWhatThereIs) {
   EXPECT_EQ(d.at(d.primitives.at(4).place), "other.rad:6 (from room.rad:5)");
 }
 
+// Arguments of modifiers are views of words, and octrees are appended afterwards.
+TEST(Append, LeavesViewsOfWordsValid) {
+  Description d = readText(kSecond);
+  const std::string_view word = d.string(d.primitives.at(0), 3);
+  for (int i = 0; i < 20; ++i) append(d, readText(kSecond), {});
+  const Description moved = std::move(d);
+  EXPECT_EQ(word.data(), moved.string(moved.primitives.at(0), 3).data());
+  EXPECT_EQ(word, "y.cal");
+}
+
 TEST(Append, KeepsHeaderAndCube) {
   Description d = readText(kFirst);
   d.header = {"mine"};
