@@ -556,10 +556,12 @@ void addGatheringOptions(const Add& add) {
        .range = kCount,
        .remark = "ambient resolution",
        .paragraph =
-           "Finest resolution of the irradiance cache. The smallest spacing of cache records is about the "
-           "size of the scene times -aa (at most .5), divided by res. Where an obstacle hides cache "
-           "records from the place that needs them, the spacing may be somewhat smaller. Smaller detail "
-           "of the indirect light is blurred. 0 sets no limit."});
+           "Finest resolution of the irradiance cache. The smallest spacing of cache records is about "
+           "the size of the room around them times -aa (at most .5), divided by res. The size of the "
+           "room follows from the distances of what a record sees, so that a wide ground does not make "
+           "the spacing coarser; it is at most that of the scene, which rtrace takes. In narrow gaps, "
+           "and where an obstacle hides cache records from the place that needs them, the spacing is "
+           "smaller. Smaller detail of the indirect light is blurred. 0 sets no limit."});
   add({.name = "-ad",
        .arguments = "N",
        .group = Group::indirect,

@@ -114,7 +114,7 @@ class IrradianceField::Cache {
   CellGrid grid_;
   double accuracy_;
   double finestShare_;  // the finest spacing, in sizes of the room around
-  size_t bound_;  // on the bytes of all memories
+  size_t bound_;        // on the bytes of all memories
   std::shared_ptr<Use> use_ = std::make_shared<Use>();
   // The memory that new queries use.
   std::atomic<const FieldMemory*> newest_{nullptr};
@@ -163,8 +163,9 @@ const GatheredLight& IrradianceField::Cache::lightOf(Site& site, const Asked& as
   if (const GatheredLight* light = site.light.load(std::memory_order_acquire)) return *light;
   site.begun.store(true, std::memory_order_relaxed);
   const GatheredLight* const known = stored_ ? stored_->find(site.key) : nullptr;
-  auto gathered =
-      std::make_unique<GatheredLight>(known ? *known : asked.looker.gather(site.at, std::min(site.finest / 2, site.reach / 4), site.key.hash()));
+  auto gathered = std::make_unique<GatheredLight>(
+      known ? *known
+            : asked.looker.gather(site.at, std::min(site.finest / 2, site.reach / 4), site.key.hash()));
   const GatheredLight* first = nullptr;
   if (!site.light.compare_exchange_strong(first, gathered.get(), std::memory_order_acq_rel)) return *first;
   const GatheredLight& light = *gathered.release();
@@ -249,7 +250,8 @@ int IrradianceField::Cache::levelFrom(int level, const SurfaceChart& chart, cons
 // of the gap that the place lies in.
 int IrradianceField::Cache::firstLevel(const SurfaceChart& chart, const SurfacePlace& place,
                                        const Asked& asked, double& gap) {
-  const int level = levelFrom(grid_.levelOf(std::min(chart.extent(), Tuning::kOpen * grid_.size)), chart, asked);
+  const int level =
+      levelFrom(grid_.levelOf(std::min(chart.extent(), Tuning::kOpen * grid_.size)), chart, asked);
   gap = asked.looker.clearance({place.point + grid_.lift * place.normal, place.normal},
                                grid_.side(level) / std::min(Tuning::kGap, Tuning::kFinestInGap));
   const int resolving = grid_.levelOf(Tuning::kGap * gap);

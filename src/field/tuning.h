@@ -42,7 +42,7 @@ struct IrradianceField {
   // -aa divided by this is the allowed relative error of an interpolation: chosen by experiment. -aa bounds
   // the error of RADIANCE's interpolation, whose mean error is smaller. 30% less or more: within noise
   // (picture by sun; error 2%, time 4%).
-  RSPHERE_TUNED(IrradianceField, double, kAllowed, 2.5);
+  RSPHERE_TUNED(IrradianceField, double, kAllowed, 2.4);
   // The factor on the allowed error from level to level: chosen by experiment. The smaller the cells,
   // the smaller the part of a picture that they cover. 30% less or more: within noise (picture by sun;
   // error below 1%, time 6%).

@@ -164,7 +164,7 @@ TEST(IrradianceField, ForgetsBeyondItsBoundAndAnswersTheSame) {
   RayOptions o = interpolated(.2);
   o.ambientDivisions = 16;
   std::vector<V3d> places;
-  for (double x = .15; x < 3.9; x += .4)
+  for (double x = .15; x < 3.9; x += .3)
     for (double y = .15; y < 4; y += .6) places.emplace_back(x, y, 1.5);
   const V3d down = V3d(.2, .1, -1).normalized();
   constexpr size_t kTable = sizeof(void*) << 16;  // of a memory without a bound, before anything is in it
@@ -255,6 +255,58 @@ TEST(IrradianceField, FindsTheShadowOfAPlateOnAWideGround) {
       const double hidden = 2 * (hiddenByCorner(4 - x, 1, .8) - hiddenByCorner(2 - x, 1, .8));
       EXPECT_NEAR(traced.value(V3d(x, -2, .02), V3d(0, 0, -1)), .4 * (1 - hidden), .1 * .4)
           << half << ": " << x;
+    }
+  }
+}
+
+// The share of the light from above that reaches a point below a plate of this size and at this height. The
+// point is below the inside of the plate, this far from two of its edges.
+double shareBelowPlate(double width, double depth, double height, double x, double y) {
+  double hidden = 0;
+  for (const double a : {x, width - x})
+    for (const double b : {y, depth - y}) hidden += hiddenByCorner(a, b, height);
+  return 1 - hidden;
+}
+
+// Two parallel boards close to each other: light comes from the sky through the gap alone, however far the ground
+// below them extends. Interpolated light is not that of the places beside or above the boards.
+TEST(IrradianceField, FindsTheLightInGapsOnAWideGround) {
+  RayOptions coarse = interpolated(.1, 1);
+  coarse.ambientDivisions = 2048;
+  for (const double half : {3., 250., 2500.})
+    for (const double gap : {.04, .015, .003}) {
+      Traced traced(fmt::format("void glow g 0 0 4 1 1 1 0\ng source sky 0 0 4 0 0 1 360\n"
+                                "void plastic gray 0 0 5 .4 .4 .4 0 0\n"
+                                "gray polygon ground 0 0 12 -{0} -{0} 0 {0} -{0} 0 {0} {0} 0 -{0} {0} 0\n"
+                                "gray polygon lower 0 0 12 1 1 .7 1.6 1 .7 1.6 1.4 .7 1 1.4 .7\n"
+                                "gray polygon upper 0 0 12 1 1 {1} 1 1.4 {1} 1.6 1.4 {1} 1.6 1 {1}\n",
+                                half, .7 + gap),
+                    coarse);
+      // In heights of the gap from the edge.
+      for (const double x : {.4, 1., 2., 3.}) {
+        const double expected = .4 * shareBelowPlate(.6, .4, gap, x * gap, .2);
+        const V3d from(1 + x * gap, 1.2, .7 + gap / 2);
+        EXPECT_NEAR(traced.value(from, V3d(0, 0, -1)) / expected, 1, .2) << half << ": " << gap << ' ' << x;
+      }
+    }
+}
+
+// A shelf over the ground is narrower than the sites of the ground are apart, and longer.
+TEST(IrradianceField, FindsTheShadowOfANarrowShelfOnAWideGround) {
+  for (const double height : {.3, .05, .01}) {
+    RayOptions coarse = interpolated(.1, 1);
+    coarse.ambientDivisions = 2048;
+    Traced traced(fmt::format("void glow g 0 0 4 1 1 1 0\ng source sky 0 0 4 0 0 1 360\n"
+                              "void plastic gray 0 0 5 .4 .4 .4 0 0\n"
+                              "gray polygon ground 0 0 12 -250 -250 0 250 -250 0 250 250 0 -250 250 0\n"
+                              "gray polygon shelf 0 0 12 1 1 {0} 1.25 1 {0} 1.25 3 {0} 1 3 {0}\n",
+                              height),
+                  coarse);
+    for (const double x : {.01, .03, .06, .12}) {
+      const double expected = .4 * shareBelowPlate(.25, 2, height, x, 1);
+      if (expected < .002) continue;  // too dark to be known by so few rays
+      EXPECT_NEAR(traced.value(V3d(1 + x, 2, height / 2), V3d(0, 0, -1)) / expected, 1, .2)
+          << height << ": " << x;
     }
   }
 }
