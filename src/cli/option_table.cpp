@@ -1098,11 +1098,12 @@ Options modeDefaults(bool sphereMode) {
   return options;
 }
 
-// A picture has a tenth of the rays that one gather of interpolated light would have at each of its pixels, and averages
-// them over nearby pixels. Measured in the classroom of examples/daylight (-ab 8, 1024 x 512 pixels): 12 s with 32 rays;
-// with 16, 7 s, and the ceiling beside the windows has clouds. Patches with 256 rays at an accuracy of .2 are not
-// visible behind a gather. With full jitter, shadows of luminaires are grainy; without, they have steps. Lobes are sampled
-// 8 times, and averaged over 60 pixels. -dt as in ray mode: all shadows of 15 luminaires would take as long as all else.
+// A picture has a tenth of the rays that one gather of interpolated light would have at each of its pixels, and
+// averages them over nearby pixels. Measured in the classroom of examples/daylight (-ab 8, 1024 x 512 pixels):
+// 12 s with 32 rays; with 16, 7 s, and the ceiling beside the windows has clouds. Patches with 256 rays at an
+// accuracy of .2 are not visible behind a gather. With full jitter, shadows of luminaires are grainy; without,
+// they have steps. Lobes are sampled 8 times, and averaged over 60 pixels. -dt as in ray mode: testing all shadows
+// of 15 luminaires would take as long as all else.
 RayOptions pictureDefaults() {
   RayOptions ray = modeDefaults(true).ray;
   ray.ambientDivisions = 32;
