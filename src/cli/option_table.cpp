@@ -1025,7 +1025,7 @@ void addInspectionOptions(const Add& add) {
            "of the same surface, as are rough reflections. -aa 0 follows paths of all bounces, without "
            "bias and in several times the time; with any other -aa, later bounces come from the coarse "
            "solution. Pixels at edges have nine rays. Light sources have their own radiance and size. "
-           "One core takes 10 to 70 seconds for a picture with these defaults. On a terminal, and with "
+           "One core takes 10 seconds to two minutes for a picture with these defaults. On a terminal, and with "
            "-t, the program reports how much is done, and the time left. RADIANCE pictures "
            "(.hdr, .pic) are angular fisheyes of 360 degrees, with +y in the middle and +z above it. "
            "Their header has the command, SOFTWARE= and VIEW=; pinterp converts them to other views, such "
