@@ -276,7 +276,7 @@ std::string planAsSvg(const Area& area, const Grid& grid, std::span<const double
   drawLegend(canvas, levels, colors, Summary(values), frame.right + 24, kTop + 8, legendHeight - 8);
   double bottom = kTop + legendHeight + 30;
   for (const std::string& remark : drawing.remarks) canvas.text(kLeft - 40, bottom += 17, remark, "");
-  double width = frame.right + 24 + 78;
+  double width = frame.right + 24 + 104;
   for (const std::string& remark : drawing.remarks)
     width = std::max(width, 30 + 6.8 * static_cast<double>(remark.size()));
   width = std::max(width, 30 + 8.8 * static_cast<double>(drawing.title.size()));

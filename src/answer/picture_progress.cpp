@@ -3,6 +3,12 @@
 #include <fmt/format.h>
 
 namespace rsphere {
+namespace {
+
+// The part of a picture that must be done before it says how much time is left: its first rows make the coarse solution.
+constexpr double kEnough = .1;
+
+}  // namespace
 
 void PictureProgress::at(double done) {
   if (!report_) return;
@@ -14,7 +20,7 @@ void PictureProgress::at(double done) {
   last_ = now;
   const double seconds = since(start_);
   std::string text = fmt::format("picture {}: {:.0f}% after {:.1f} seconds", name_, 100 * done, seconds);
-  if (done > 0) text += fmt::format(", about {:.0f} seconds left", seconds * (1 / done - 1));
+  if (done > kEnough) text += fmt::format(", about {:.0f} seconds left", seconds * (1 / done - 1));
   report_(text);
 }
 

@@ -1022,15 +1022,15 @@ void addInspectionOptions(const Add& add) {
        .paragraph =
            "Draws a picture of the light that arrives at each point from all directions. The extension of "
            "the name gives the format. The answers are those of the same options without -Si. The half "
-           "a million pixels of a picture have defaults of their own: -aa .2 -ad 32 -ar 64 -dj .5 -lw "
-           "1e-4 -ss 8. Of these and all other options of rtrace, those that are given hold for "
+           "a million pixels of a picture have defaults of their own: -aa .2 -ad 32 -ar 64 -dj .5 -dt "
+           ".03 -lw 1e-4 -ss 8. Of these and all other options of rtrace, those that are given hold for "
            "pictures as well; -S options do not concern them, except for -Ss, -Sg, -Sb and -Sr. Indirect "
            "light is gathered at one pixel in four, from -ad + -as rays, and averaged over nearby pixels "
            "of the same surface, as are rough reflections. -aa 0 follows paths of all bounces, without "
            "bias and in several times the time; with any other -aa, later bounces come from the coarse "
            "solution. Pixels at edges have nine rays. Light sources have their own radiance and size. "
-           "One core takes 10 to 60 seconds for a picture with these defaults. On a terminal, and with "
-           "-t, the program reports how much is done, and the time left. RADIANCE pictures "
+           "One core takes 10 seconds to two minutes for a picture with these defaults. On a terminal, "
+           "and with -t, the program reports how much is done, and the time left. RADIANCE pictures "
            "(.hdr, .pic) are angular fisheyes of 360 degrees, with +y in the middle and +z above it. "
            "Their header has the command, SOFTWARE= and VIEW=; pinterp converts them to other views, such "
            "as the hemisphere that evalglare expects. In all other formats, the columns are azimuths from "
@@ -1102,11 +1102,12 @@ Options modeDefaults(bool sphereMode) {
   return options;
 }
 
-// A picture has a tenth of the rays that one gather of interpolated light would have at each of its pixels, and averages
-// them over nearby pixels. Measured in the classroom of examples/daylight (-ab 8, 1024 x 512 pixels): 12 s with 32 rays;
-// with 16, 7 s, and the ceiling beside the windows has clouds. Patches with 256 rays at an accuracy of .2 are not
-// visible behind a gather. With full jitter, shadows of luminaires are grainy; without, they have steps. Lobes are sampled
-// 8 times, and averaged over 60 pixels.
+// A picture has a tenth of the rays that one gather of interpolated light would have at each of its pixels, and
+// averages them over nearby pixels. Measured in the classroom of examples/daylight (-ab 8, 1024 x 512 pixels):
+// 12 s with 32 rays; with 16, 7 s, and the ceiling beside the windows has clouds. Patches with 256 rays at an
+// accuracy of .2 are not visible behind a gather. With full jitter, shadows of luminaires are grainy; without,
+// they have steps. Lobes are sampled 8 times, and averaged over 60 pixels. -dt as in ray mode: testing all shadows
+// of 15 luminaires would take as long as all else.
 RayOptions pictureDefaults() {
   RayOptions ray = modeDefaults(true).ray;
   ray.ambientDivisions = 32;
@@ -1115,6 +1116,7 @@ RayOptions pictureDefaults() {
   ray.leastForPatches = 256;
   ray.specularSampling = 8;
   ray.directJitter = .5;
+  ray.directThreshold = .03;
   ray.weightLimit = 1e-4;
   return ray;
 }

@@ -282,7 +282,7 @@ struct Pictures {
   RSPHERE_TUNED(Pictures, double, kLeastRoughness, .02);
   // Pixels that differ from a neighbor by more than this, of 1 on the sRGB curve, are traced by kSide x kSide rays:
   // chosen by experiment.
-  RSPHERE_TUNED(Pictures, double, kVisible, .04);
+  RSPHERE_TUNED(Pictures, double, kVisible, .05);
   RSPHERE_TUNED(Pictures, int, kSide, 3);
   // Two pixels share indirect light if the cosine between their normals is at least kSameNormal, the height
   // of one point over the plane of the other at most kSamePlane of their distance, and their distance at
