@@ -137,7 +137,7 @@ TEST(StatedErrors, OfSmoothLightAreNotThoseOfItsBends) {
               "void light lamp 0 0 3 1e4 1e4 1e4\nlamp polygon l 0 0 12 2.995 2.495 2.7 2.995 "
               "2.505 2.7 3.005 2.505 2.7 3.005 2.495 2.7\n"));
   const V3d points[] = {V3d(1.5, 1, 1.2), V3d(3, 2.5, 1.2), V3d(5, 4.5, 2), V3d(3, 4, .9)};
-  const auto answers = answersOf(room, points, 2048, 30);
+  const auto answers = answersOf(room, points, 2048, 10);
   const Honesty honest = honestyOf(answers, 1);
   EXPECT_GT(honest.trueOverStated, .5);
   EXPECT_LT(honest.trueOverStated, 1.25);
