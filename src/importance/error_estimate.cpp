@@ -11,85 +11,61 @@ namespace {
 
 using Tuning = tuning::ErrorEstimate;
 
-// The number of directions that share in the variance, n for values that are evenly distributed between two
-// bounds: by their fourth moment, of brightness. If k of n directions find something small, it is 1.8 k.
-double sharing(std::span<const DirectionSample> samples, const SpectralSampling* sampling) {
-  const auto partOf = [&](const DirectionSample& s) {
-    return photopicOf(irradianceFrom(s.value, s.solidAngle).color, sampling);
-  };
-  const double n = static_cast<double>(samples.size());
-  double mean = 0, second = 0, fourth = 0;
-  for (const DirectionSample& s : samples) mean += partOf(s) / n;
-  for (const DirectionSample& s : samples) {
-    const double square = std::pow(partOf(s) - mean, 2);
-    second += square;
-    fourth += square * square;
-  }
-  constexpr double kUniform = 1.8;  // the fourth moment of such values over the square of the second
-  return fourth > 0 ? std::min(n, kUniform * second * second / fourth) : n;
-}
+// Values minus the means of their neighbours.
+struct Differences {
+  std::vector<Radiance> values;  // 0 where there is no neighbour
+  std::vector<int> neighbours;   // how many there are
+};
 
-}  // namespace
-
-Variance baseVariance(std::span<const DirectionSample> base, const Neighbours& n,
-                      std::span<const RegionId> regions, const SpectralSampling* sampling) {
+// The neighbours are those in the same region; if there are none there, all that count.
+Differences differences(std::span<const Radiance> values, const Neighbours& n,
+                        std::span<const RegionId> regions) {
   const auto regionOf = [&](size_t i) { return regions.empty() ? RegionId{0} : regions[i]; };
-  Variance sum;
-  for (size_t i = 0; i < base.size(); ++i) {
+  Differences result{std::vector<Radiance>(values.size()), std::vector<int>(values.size())};
+  for (size_t i = 0; i < values.size(); ++i) {
     if (regionOf(i) == kNoRegion) continue;
     Radiance around, aroundHere;
     int count = 0, countHere = 0;
     for (uint32_t k = n.first[i]; k < n.first[i + 1]; ++k) {
       const uint32_t other = n.neighbour[k];
       if (regionOf(other) == kNoRegion) continue;
-      around += base[other].value;
+      around += values[other];
       ++count;
       if (regionOf(other) != regionOf(i)) continue;
-      aroundHere += base[other].value;
+      aroundHere += values[other];
       ++countHere;
     }
-    if (countHere > 0) {
-      around = aroundHere;
-      count = countHere;
-    }
-    if (count == 0) continue;
-    // If m neighbours have the same variance, the variance of the difference to their mean is (m+1)/m
-    // times that of the direction.
-    const double own = static_cast<double>(count) / (count + 1);
-    sum += Variance::of(irradianceFrom(base[i].value - around / count, base[i].solidAngle), sampling) * own;
+    result.neighbours[i] = countHere > 0 ? countHere : count;
+    if (count > 0) result.values[i] = values[i] - (countHere > 0 ? aroundHere / countHere : around / count);
   }
-  return sum * Tuning::kEvenSet;
+  return result;
 }
 
-Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling) {
-  const double n = static_cast<double>(samples.size());
-  Irradiance sum;
-  Variance squares;
-  for (const DirectionSample& s : samples) {
-    const Irradiance part = irradianceFrom(s.value, s.solidAngle);
-    sum += part;
-    squares += Variance::of(part, sampling);
-  }
-  if (samples.size() < 2) return squares;
-  // If an edge crosses the region, only the cells on the edge contribute, about n^1/2 of n. What few
-  // directions find is smaller than that: directions that are even in the whole region are independent in it.
-  const double even = 1 / (1 + std::sqrt(sharing(samples, sampling)) / Tuning::kEvenRun);
-  squares += Variance::of(sum, sampling) * (-1 / n);
-  return squares * (n / (n - 1) * even);
+// The variance of one of m + 1 independent values over that of a difference between differences. It has the value
+// 1 + 1/m times and each neighbour -2/m + 2/m^2 times, since each shares two neighbours with the direction; the rest,
+// of neighbours of neighbours, is .023 for m = 6.
+double ownPartOfSecond(double m) {
+  constexpr double kFarther = .023;
+  return 1 / (std::pow(1 + 1 / m, 2) + 4 / m * std::pow(1 - 1 / m, 2) + kFarther);
 }
 
-Variance loneVariance(const DirectionSample& sample, RegionId region, std::span<const DirectionSample> base,
-                      std::span<const RegionId> regions, const SpectralSampling* sampling) {
-  Radiance sum;
-  int count = 0;
-  for (size_t i = 0; i < base.size(); ++i) {
-    if (regions[i] != region) continue;
-    sum += base[i].value;
-    ++count;
+}  // namespace
+
+Variance localVariance(std::span<const DirectionSample> samples, size_t evenOnes, const Neighbours& n,
+                       std::span<const RegionId> regions, const SpectralSampling* sampling) {
+  std::vector<Radiance> values(samples.size());
+  std::ranges::transform(samples, values.begin(), [](const DirectionSample& s) { return s.value; });
+  const Differences once = differences(values, n, regions), twice = differences(once.values, n, regions);
+  Variance sum;
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const double m = once.neighbours[i];
+    if (m == 0) continue;
+    const bool even = i < evenOnes && (regions.empty() || regions[i] == 0) && m >= Tuning::kFewestAround;
+    const Radiance& difference = even ? twice.values[i] : once.values[i];
+    sum += Variance::of(irradianceFrom(difference, samples[i].solidAngle), sampling) *
+           (even ? Tuning::kEvenSet * ownPartOfSecond(m) : Tuning::kAmongOthers * m / (m + 1));
   }
-  if (count == 0) return Variance::of(irradianceFrom(sample.value, sample.solidAngle), sampling);
-  const double own = static_cast<double>(count) / (count + 1);
-  return Variance::of(irradianceFrom(sample.value - sum / count, sample.solidAngle), sampling) * own;
+  return sum;
 }
 
 Variance unseenVariance(std::span<const DirectionSample> samples, std::span<const RegionId> regions,

@@ -131,6 +131,20 @@ TEST(StatedErrors, OfLampsThatAreChosenByChance) {
   EXPECT_GT(spoiled.trueOverStated, 1.35) << "would not see half the error";
 }
 
+// A lamp that is tiny lights a white room nearly evenly. How its light bends smoothly over the walls is no error.
+TEST(StatedErrors, OfSmoothLightAreNotThoseOfItsBends) {
+  const SphereSetting room(
+      sceneOf("void plastic white 0 0 5 .6 .6 .6 0 0\n" + roomOf("white", V3d(6, 5, 2.8)) +
+              "void light lamp 0 0 3 1e4 1e4 1e4\nlamp polygon l 0 0 12 2.995 2.495 2.7 2.995 "
+              "2.505 2.7 3.005 2.505 2.7 3.005 2.495 2.7\n"));
+  const V3d points[] = {V3d(1.5, 1, 1.2), V3d(3, 2.5, 1.2), V3d(5, 4.5, 2), V3d(3, 4, .9)};
+  const auto answers = answersOf(room, points, 2048, 10);
+  const Honesty honest = honestyOf(answers, 1);
+  EXPECT_GT(honest.trueOverStated, .5);
+  EXPECT_LT(honest.trueOverStated, 1.25);
+  EXPECT_LT(honestyOf(answers, 2).trueOverStated, .5) << "would not see twice the error";
+}
+
 // A window is much brighter than the room, and its edges would cause most of the error.
 TEST(StatedErrors, OfRoomsWithAWindow) {
   const SphereSetting rooms[] = {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/constants.h"
+#include "importance/tuning.h"
 #include "tests/unit/support/statistics.h"
 
 namespace rsphere {
@@ -108,6 +109,19 @@ TEST(TwoHalves, NothingToFindIsFoundWithTwoSets) {
   }
   EXPECT_EQ(dark.next(), std::nullopt);
   EXPECT_TRUE(dark.isReached());
+}
+
+TEST(TwoHalves, GiveUpInTheDark) {
+  TwoHalves dark(.01, 1), lit(.01, 1);
+  for (size_t sets = 0; sets < tuning::Dark::kSets; ++sets) {
+    const auto half = dark.next();
+    ASSERT_TRUE(half);
+    dark.add(*half, .5, 1);
+    lit.add(*lit.next(), 2, 4);
+  }
+  EXPECT_EQ(dark.next(), std::nullopt);
+  EXPECT_FALSE(dark.isReached());
+  EXPECT_TRUE(lit.next());
 }
 
 TEST(TwoHalves, GoOnWhereTheMeanIsNoneOfLight) {

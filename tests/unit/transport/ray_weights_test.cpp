@@ -172,5 +172,34 @@ TEST(RayWeights, FollowTheBrightestBand) {
     }
 }
 
+// Within a closed cylinder of metal paths branch at each surface. Its ceiling glows, so that there is a mean.
+TEST(RayWeights, WorkWithinClosedMetalHasABoundAndTheSameMean) {
+  RayOptions o = unbiased(6);
+  o.ambientDivisions = 4;
+  o.reflectionLimit = -10;
+  o.weightLimit = 1e-5;
+  Traced column(
+      "void metal m 0 0 5 .8 .8 .8 .5 .1\nm cylinder column 0 0 7 0 0 0 0 0 1 .2\n"
+      "m ring floor 0 0 8 0 0 0 0 0 1 0 .2\nvoid glow g 0 0 4 1 1 1 0\ng ring ceiling 0 0 8 0 0 1 0 0 -1 0 .2\n",
+      o);
+  const auto rays = [&](bool bound) {
+    column.tracer().boundWork(bound);
+    size_t count = 0;
+    column.tracer().observe([&](const Ray&) { ++count; });
+    column.value(V3d(.03, .02, .3), V3d(.6, .3, .4), 7);
+    column.tracer().observe({});
+    return count;
+  };
+  EXPECT_GT(rays(false), 1500u);
+  EXPECT_LT(rays(true), 700u);
+  const Sample bounded = column.mean(V3d(.03, .02, .3), V3d(.6, .3, .4), 1000);
+  column.tracer().boundWork(false);
+  const Sample all = column.mean(V3d(.03, .02, .3), V3d(.6, .3, .4), 120, 5000);
+  EXPECT_LT(std::abs(bounded.mean() - all.mean()),
+            kMostSigmas * std::hypot(bounded.standardError(), all.standardError()));
+  EXPECT_LT(kMostSigmas * std::hypot(bounded.standardError(), all.standardError()), .15 * all.mean())
+      << "would not see an error of 15%";
+}
+
 }  // namespace
 }  // namespace rsphere
