@@ -182,19 +182,22 @@ TEST(RayWeights, WorkWithinClosedMetalHasABoundAndTheSameMean) {
       "void metal m 0 0 5 .8 .8 .8 .5 .1\nm cylinder column 0 0 7 0 0 0 0 0 1 .2\n"
       "m ring floor 0 0 8 0 0 0 0 0 1 0 .2\nvoid glow g 0 0 4 1 1 1 0\ng ring ceiling 0 0 8 0 0 1 0 0 -1 0 .2\n",
       o);
-  const auto rays = [&](bool bound) {
-    column.tracer().boundWork(bound);
+  PathTracer free = column.tracerWith({}), bound = column.tracerWith({}, {.boundsWork = true});
+  const V3d from(.03, .02, .3), to = V3d(.6, .3, .4).normalized();
+  const auto rays = [&](PathTracer& tracer) {
     size_t count = 0;
-    column.tracer().observe([&](const Ray&) { ++count; });
-    column.value(V3d(.03, .02, .3), V3d(.6, .3, .4), 7);
-    column.tracer().observe({});
+    const RayObserver observer = [&](const Ray&) { ++count; };
+    tracer.trace(from, to, 0, 7, {.observer = &observer});
     return count;
   };
-  EXPECT_GT(rays(false), 1500u);
-  EXPECT_LT(rays(true), 700u);
-  const Sample bounded = column.mean(V3d(.03, .02, .3), V3d(.6, .3, .4), 1000);
-  column.tracer().boundWork(false);
-  const Sample all = column.mean(V3d(.03, .02, .3), V3d(.6, .3, .4), 120, 5000);
+  EXPECT_GT(rays(free), 1500u);
+  EXPECT_LT(rays(bound), 700u);
+  const auto mean = [&](PathTracer& tracer, uint64_t count, uint64_t seed) {
+    Sample sample;
+    for (uint64_t i = 0; i < count; ++i) sample.add(tracer.trace(from, to, 0, mixBits(seed + i)).value.color.x);
+    return sample;
+  };
+  const Sample bounded = mean(bound, 1000, 1), all = mean(free, 120, 5000);
   EXPECT_LT(std::abs(bounded.mean() - all.mean()),
             kMostSigmas * std::hypot(bounded.standardError(), all.standardError()));
   EXPECT_LT(kMostSigmas * std::hypot(bounded.standardError(), all.standardError()), .15 * all.mean())
