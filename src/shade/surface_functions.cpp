@@ -42,6 +42,12 @@ std::optional<calc::SourceText> loadFunctionFile(std::string_view name, const ra
   return calc::SourceText{*path, std::move(*text)};
 }
 
+// Coordinates that are not numbers are a fault; data are 0 infinitely far away.
+void checkCoordinates(std::span<const double> coordinates, calc::State& state) {
+  if (std::any_of(coordinates.begin(), coordinates.end(), [](double c) { return std::isnan(c); }))
+    state.faults |= calc::kDomainError;
+}
+
 // Number i of `count` wavelengths that are evenly spaced from first to last. REQUIRES count above 1.
 double between(double first, double last, size_t i, size_t count) {
   return first + (last - first) * static_cast<double>(i) / static_cast<double>(count - 1);
@@ -536,8 +542,10 @@ void SurfaceFunctions::warn(ModifierId modifier, std::string_view problem) const
   warn_(fmt::format("{}: {}", scene_.place(scene_.modifiers[modifier].primitive), problem));
 }
 
-bool SurfaceFunctions::computed(ModifierId modifier, const FunctionScratch& scratch) const {
-  if (scratch.state.faults == 0) return true;
+bool SurfaceFunctions::computed(ModifierId modifier, const FunctionScratch& scratch,
+                                std::span<const double> values) const {
+  const auto isFinite = [](double value) { return std::isfinite(value); };
+  if (scratch.state.faults == 0 && std::all_of(values.begin(), values.end(), isFinite)) return true;
   warn(modifier, "compute error");
   return false;
 }
@@ -567,6 +575,7 @@ bool SurfaceFunctions::evaluate(ModifierId modifier, const Function& f, const Fu
     std::array<double, rad::DataFile::kMaxDimensions> coordinates{};
     const std::span<double> place(coordinates.data(), data->coordinates->outputs());
     data->coordinates->evaluate(point, state, place);
+    checkCoordinates(place, state);
     std::array<double, 3> found{};
     for (size_t i = 0; i < data->tables.size() && state.faults == 0; ++i)
       found[i] = i > 0 && data->tables[i] == data->tables[0] ? found[0] : data->tables[i]->value(place);
@@ -574,13 +583,14 @@ bool SurfaceFunctions::evaluate(ModifierId modifier, const Function& f, const Fu
   } else if (const auto* image = std::get_if<Image>(&f.what)) {
     std::array<double, 2> xy{};
     image->coordinates->evaluate(point, state, xy);
+    checkCoordinates(xy, state);
     if (state.faults == 0) {
       const Color color = image->picture->value(xy[0], xy[1]);
       const std::array<double, 3> found{color.x, color.y, color.z};
       correct(image->corrections, found.data());
     }
   }
-  return computed(modifier, scratch);
+  return computed(modifier, scratch, std::span(out).first(f.results));
 }
 
 Color SurfaceFunctions::pattern(ModifierId modifier, const FunctionPoint& at,
@@ -605,12 +615,12 @@ Color SurfaceFunctions::spectralPattern(ModifierId modifier, const Function& f, 
       return Color(1, 1, 1);
     }
     evaluateSpectrum(*function, point, scratch);
-    if (!computed(modifier, scratch)) return Color(1, 1, 1);
+    if (!computed(modifier, scratch, scratch.spectrum)) return Color(1, 1, 1);
     return colorOf({scratch.spectrum, function->shortest, function->longest});
   }
   const auto& data = std::get<SpectralData>(f.what);
   evaluateSpectrum(data, point, scratch);
-  if (!computed(modifier, scratch)) return Color(1, 1, 1);
+  if (!computed(modifier, scratch, scratch.spectrum)) return Color(1, 1, 1);
   if (!data.unevenWavelengths.empty())
     return colorOf(SpectralCurve{data.unevenWavelengths, scratch.spectrum});
   return colorOf(betweenMiddles(scratch.spectrum, data.firstWavelength, data.lastWavelength));
@@ -638,6 +648,7 @@ void SurfaceFunctions::evaluateSpectrum(const SpectralData& data, calc::Point& p
   std::array<double, rad::DataFile::kMaxDimensions> place{};
   const size_t coordinates = data.coordinates->outputs();
   data.coordinates->evaluate(point, state, std::span(place).first(coordinates));
+  checkCoordinates(std::span(place).first(coordinates), state);
   if (state.faults > 0) return;
   scratch.spectrum.resize(data.count);
   if (data.picture) data.picture->value(place[0], place[1], scratch.spectrum);
@@ -701,7 +712,7 @@ std::array<double, 3> SurfaceFunctions::three(ModifierId modifier, ProgramPointe
   scratch.state.faults = 0;
   std::array<double, 3> v{};
   (std::get<Scatterer>(f.what).*program)->evaluate({scratch.inputs, realsOf(modifier), {}}, scratch.state, v);
-  return computed(modifier, scratch) ? v : std::array<double, 3>{};
+  return computed(modifier, scratch, v) ? v : std::array<double, 3>{};
 }
 
 V3d SurfaceFunctions::orientation(ModifierId modifier, const FunctionPoint& at,
@@ -721,7 +732,7 @@ double SurfaceFunctions::thickness(ModifierId modifier, const FunctionPoint& at,
   scratch.state.faults = 0;
   const double own =
       std::get<Scatterer>(f.what).thickness->evaluate({scratch.inputs, realsOf(modifier), {}}, scratch.state);
-  if (!computed(modifier, scratch)) return 0;
+  if (!computed(modifier, scratch, {&own, 1})) return 0;
   const Placement* placement = placementOf(f, at, scratch);
   return placement ? own * std::abs(placement->toOuter.scale) : own;
 }
@@ -762,6 +773,7 @@ Color SurfaceFunctions::distribution(ModifierId modifier, const FunctionPoint& a
   if (s.table) {
     std::array<double, rad::DataFile::kMaxDimensions> place{};
     for (size_t i = 0; i < s.coordinates.size(); ++i) place[i] = s.coordinates[i]->evaluate(point, state);
+    checkCoordinates(std::span(place).first(s.coordinates.size()), state);
     if (state.faults == 0) arguments[0] = s.table->value({place.data(), s.coordinates.size()});
     point.arguments = arguments;
   }
@@ -769,7 +781,7 @@ Color SurfaceFunctions::distribution(ModifierId modifier, const FunctionPoint& a
   for (int i = 0; i < (s.gray ? 1 : 3) && state.faults == 0; ++i)
     if (s.distribution[static_cast<size_t>(i)])
       value[i] = s.distribution[static_cast<size_t>(i)]->evaluate(point, state);
-  if (!computed(modifier, scratch)) return Color(0, 0, 0);
+  if (!computed(modifier, scratch, std::array{value.x, value.y, value.z})) return Color(0, 0, 0);
   return s.gray ? Color(value.x, value.x, value.x) : value;
 }
 
@@ -787,7 +799,7 @@ SurfaceFunctions::Redirection SurfaceFunctions::redirection(ModifierId modifier,
   const V3d direction = placement ? placement->directionToOuter(own) : own;
   const double length = direction.length();
   if (!(length > 0)) ++scratch.state.faults;
-  if (!computed(modifier, scratch)) return {};
+  if (!computed(modifier, scratch, v)) return {};
   return {v[0], direction / length};
 }
 

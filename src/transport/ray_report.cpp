@@ -10,6 +10,7 @@ RayAnswer answerOf(const Scene& scene, const Ray& ray) {
   a.origin = ray.origin;
   a.direction = ray.direction;
   a.value = ray.value;
+  a.contribution = ray.contribution * passedBy(ray);
   a.mirroredContribution = ray.mirrored;
   a.unmirroredContribution = ray.value - ray.mirrored;
   a.mirroredLength = ray.mirroredLength;
@@ -43,7 +44,6 @@ RayAnswer answerOf(const Scene& scene, const Ray& ray) {
 RayAnswer branchAnswer(const PreparedScene& prepared, const Ray& ray) {
   RayAnswer a = answerOf(prepared.scene(), ray);
   a.rayWeight = ray.weight;
-  a.contribution = ray.contribution * passedBy(ray);
   const bool dark = ray.value.color.x + ray.value.color.y + ray.value.color.z <= 3 * kNegligible;
   if (ray.aimedAt != kNone && dark && prepared.lights().all()[ray.aimedAt].surface != ray.surface)
     a.contribution = {};
