@@ -35,7 +35,7 @@ GatheredLight gatherLight(const Transport& transport, PathState& state, const Ai
   std::vector<Radiance> radiance(cells.count());
   std::vector<double> distance(cells.count(), kFarAway);
   const GatherDirections directions(aims, site.point, site.normal, site.normal, count);
-  sendOverHemisphere(transport, directions, state.random, root, kReflectedAmbient, count, Coefficient(1),
+  sendOverHemisphere(transport, directions, state, root, kReflectedAmbient, count, Coefficient(1),
                      Coefficient(kMeanReflectance), [&](Ray& child, const Coefficient& factor) {
                        follower.follow(child);
                        const int cell = cells.cellOf(child.direction, x, y, site.normal);
@@ -50,7 +50,7 @@ void linkPatch(const Transport& transport, PathState& state, const Aims& aims, R
   const Ray root = rootOf(transport, site, depth);
   Radiance sum;
   const GatherDirections directions(aims, site.point, site.normal, site.normal, rays);
-  sendOverHemisphere(transport, directions, state.random, root, kReflectedAmbient, rays, Coefficient(1),
+  sendOverHemisphere(transport, directions, state, root, kReflectedAmbient, rays, Coefficient(1),
                      Coefficient(kMeanReflectance), [&](Ray& child, const Coefficient& factor) {
                        follower.follow(child);
                        sum += child.value * factor;

@@ -10,6 +10,7 @@
 #include "transport/function_ref.h"
 #include "transport/highlights.h"
 #include "transport/openings.h"
+#include "transport/path_state.h"
 #include "transport/ray.h"
 #include "transport/transport.h"
 
@@ -47,7 +48,7 @@ using GatherRay = FunctionRef<void(Ray& child, const Coefficient& factor)>;
 // Makes rays of directions at the hit of the root. coefficient: of the mean radiance over the hemisphere in
 // the result. weight: of one child relative to the root's, by which the weight limit (-lw) ends paths. An
 // aimed direction has no smaller weight than others, although its factor is smaller.
-void sendOverHemisphere(const Transport& transport, const GatherDirections& directions, Random& random,
+void sendOverHemisphere(const Transport& transport, const GatherDirections& directions, PathState& state,
                         const Ray& root, RayKind kind, int rays, const Coefficient& coefficient,
                         const Coefficient& weight, GatherRay each);
 

@@ -59,7 +59,7 @@ void IndirectLight::gather(Ray& ray, const Surroundings& at) {
       ray.value += at.coefficient * part * settings_.guess->indirect(ray.point, direction, ray.surface);
     });
   const Coefficient weight = t_.field() ? Coefficient(kMeanReflectance) : at.coefficient / rays;
-  sendOverHemisphere(t_, directions, state_.random, ray, at.kind, rays, at.coefficient, weight,
+  sendOverHemisphere(t_, directions, state_, ray, at.kind, rays, at.coefficient, weight,
                      [&](Ray& child, const Coefficient& factor) {
                        follower_.follow(child);
                        if (state_.links)

@@ -20,6 +20,13 @@ struct PathSettings {
   bool coarseAtFirst = false;     // PathTracer::useCoarseSolutionAtFirst()
 };
 
+// The descendants of one ray of a gather for interpolation: how many there are, and where they begin.
+struct Descendants {
+  double weight = 0;  // of the ray that they descend from; 0: they are not limited
+  int depth = 0;      // of that ray
+  int rays = 0;       // followed so far
+};
+
 // Each path begins with a new state, and so does each gather: no answer can depend on an earlier path.
 struct PathState {
   Random random{0};
@@ -27,6 +34,7 @@ struct PathState {
   ShownSource shown;
   Hit firstHit;                            // of the primary ray
   bool glimpses = false;                   // one direction for each gather
+  Descendants descendants;                 // limited by continueRay()
   CoarseSolution::Links* links = nullptr;  // of a path from a patch: collects the light that it finds
 };
 

@@ -316,6 +316,14 @@ struct Interpolation {
   RSPHERE_TUNED(Interpolation, int, kReachRays, 16);
 };
 
+// How many rays a gather's ray splits into (ray_limits.cpp).
+struct RayLimits {
+  // The number of descendants, apart from its ancestors, beyond which a descendant of a gather's ray is
+  // followed by Russian roulette: by measurement. Rays in furnished rooms have fewer, so that their answers do
+  // not depend on it. Between two rough metal balls, rays have 36 of them on average.
+  RSPHERE_TUNED(RayLimits, double, kMostDescendants, 64);
+};
+
 // Sharp reflection and refraction (specular_light.cpp).
 struct SpecularLight {
   // The weight below which sharp paths of a gather's rays are followed by Russian roulette, with a probability
