@@ -53,7 +53,8 @@ void CoarseSolution::Links::addEnd(int bounces, const Coefficient& coefficient) 
 // How a part of a surface is divided into patches.
 struct CoarseSolution::Division {
   int level = 0;  // of the widest cells whose side is at most what their surroundings ask for, or the finest
-  double side = 0;  // that the surroundings ask for (world units)
+  double side = 0;          // that the surroundings ask for (world units)
+  bool isEnclosed = false;  // Patch::isEnclosed
 };
 
 struct CoarseSolution::Patch {
@@ -61,6 +62,9 @@ struct CoarseSolution::Patch {
   GatherSite site;
   double reach = 0;
   double share = 0;  // in the light of the other surfaces of the room (Tuning::kUsualShare)
+  // Whether it lies on a ball or a cone within a narrow shell. Nearly all patches are hidden there by the bulge of
+  // the surface, and rays reach so many places from nearby that the finest patches would have no end.
+  bool isEnclosed = false;
   uint64_t seed = 0;
   std::atomic<const Links*> links{nullptr};
   struct Light {
@@ -118,6 +122,8 @@ CoarseSolution::Patch& CoarseSolution::patchOf(const SurfaceChart& chart, const 
       patch.site = *site;
       const Surroundings seen = looker.surroundings(*site);
       patch.reach = seen.harmonicMean;
+      patch.isEnclosed =
+          chart.isCurved() && seen.covered >= 1 && seen.rootMeanSquare < Tuning::kEnclosed * chart.extent();
       const double far = std::max(room_, seen.rootMeanSquare);
       patch.share =
           chart.stepU(grid_, key.level) * chart.stepV(grid_, key.level) * seen.covered / (far * far);
@@ -142,7 +148,7 @@ const CoarseSolution::Division& CoarseSolution::divisionAt(const SurfaceChart& c
     for (int level = std::min(grid_.levelOf(std::min(chart.extent(), open)), finest); level <= finest;
          ++level) {
       const Patch& patch = patchOf(chart, chart.cellAt(grid_, level, u, v), looker);
-      found = {level, patch.usable ? effort_.spacing * std::min(patch.reach, open) : 0};
+      found = {level, patch.usable ? effort_.spacing * std::min(patch.reach, open) : 0, patch.isEnclosed};
       if (grid_.side(level) <= found.side) break;
     }
   });
@@ -173,8 +179,9 @@ CoarseSolution::Patch* CoarseSolution::find(const SurfacePlace& place, double u1
     Patch& patch = patchOf(*chart, chart->cellAt(grid_, level, u, v), looker);
     if (serves(patch)) return &patch;
   }
-  for (int finer = 0; finer <= Tuning::kFiner && level + finer <= CellGrid::kLevels; ++finer) {
-    Patch& patch = patchOf(*chart, chart->cellAt(grid_, level + finer, chart->u(), chart->v()), looker);
+  const int most = division.isEnclosed ? std::max(level, finest) : CellGrid::kLevels;
+  for (int tried = level; tried <= std::min(level + Tuning::kFiner, most); ++tried) {
+    Patch& patch = patchOf(*chart, chart->cellAt(grid_, tried, chart->u(), chart->v()), looker);
     if (serves(patch)) return &patch;
   }
   return nullptr;

@@ -37,7 +37,7 @@ Radiance DirectLight::sourceValue(const Ray& ray, const SourceSample& sample) {
   if (light.isVirtual()) {
     Ray child;
     Coefficient whole(1);
-    if (!continueRay(t_, state_.random, child, kReflectedShadow, ray, whole)) return {};
+    if (!continueRay(t_, state_, child, kReflectedShadow, ray, whole)) return {};
     child.aimedAt = sample.source;
     child.direction = sample.direction;
     child.unobstructed = true;
@@ -101,8 +101,7 @@ Radiance DirectLight::valueFromSource(const Ray& ray, const Contribution& to) {
   const bool through = (ray.cosine > 0) != (ray.normal.dot(direction) > 0);
   Ray child;
   Coefficient whole(1);
-  if (!continueRay(t_, state_.random, child, through ? kTransmittedShadow : kReflectedShadow, ray, whole))
-    return {};
+  if (!continueRay(t_, state_, child, through ? kTransmittedShadow : kReflectedShadow, ray, whole)) return {};
   child.contribution *= to.coefficient;
   child.aimedAt = to.sample->source;
   child.direction = direction;

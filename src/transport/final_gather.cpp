@@ -24,7 +24,7 @@ Ray rootOf(const PreparedScene& prepared, const GatherSite& site, int depth) {
 
 }  // namespace
 
-GatheredLight gatherLight(const PreparedScene& prepared, PathState& state, const Aims& aims,
+GatheredLight gatherLight(const PreparedScene& prepared, PathState& state, const PathSettings& settings,
                           RayFollower& follower, const GatherSite& site, double nearest, int depth) {
   const RayOptions& o = prepared.options();
   const Ray root = rootOf(prepared, site, depth);
@@ -34,8 +34,8 @@ GatheredLight gatherLight(const PreparedScene& prepared, PathState& state, const
   const HemisphereCells cells(count);
   std::vector<Radiance> radiance(cells.count());
   std::vector<double> distance(cells.count(), kFarAway);
-  const GatherDirections directions(aims, site.point, site.normal, site.normal, count);
-  sendOverHemisphere(prepared, directions, state.random, root, kReflectedAmbient, count, Coefficient(1),
+  const GatherDirections directions(settings.aims, site.point, site.normal, site.normal, count);
+  sendOverHemisphere(prepared, directions, settings, state, root, kReflectedAmbient, count, Coefficient(1),
                      Coefficient(kMeanReflectance), [&](Ray& child, const Coefficient& factor) {
                        follower.follow(child);
                        const int cell = cells.cellOf(child.direction, x, y, site.normal);
@@ -45,12 +45,12 @@ GatheredLight gatherLight(const PreparedScene& prepared, PathState& state, const
   return cells.sum(radiance, distance, nearest, x, y, site.normal);
 }
 
-void linkPatch(const PreparedScene& prepared, PathState& state, const Aims& aims, RayFollower& follower,
-               const GatherSite& site, int rays, int depth) {
+void linkPatch(const PreparedScene& prepared, PathState& state, const PathSettings& settings,
+               RayFollower& follower, const GatherSite& site, int rays, int depth) {
   const Ray root = rootOf(prepared, site, depth);
   Radiance sum;
-  const GatherDirections directions(aims, site.point, site.normal, site.normal, rays);
-  sendOverHemisphere(prepared, directions, state.random, root, kReflectedAmbient, rays, Coefficient(1),
+  const GatherDirections directions(settings.aims, site.point, site.normal, site.normal, rays);
+  sendOverHemisphere(prepared, directions, settings, state, root, kReflectedAmbient, rays, Coefficient(1),
                      Coefficient(kMeanReflectance), [&](Ray& child, const Coefficient& factor) {
                        follower.follow(child);
                        sum += child.value * factor;

@@ -63,7 +63,7 @@ void IndirectLight::gather(Ray& ray, const Surroundings& at) {
       ray.value += at.coefficient * part * state_.request.guess->indirect(ray.point, direction, ray.surface);
     });
   const Coefficient weight = settings_.caches.field ? Coefficient(kMeanReflectance) : at.coefficient / rays;
-  sendOverHemisphere(t_, directions, state_.random, ray, at.kind, rays, at.coefficient, weight,
+  sendOverHemisphere(t_, directions, settings_, state_, ray, at.kind, rays, at.coefficient, weight,
                      [&](Ray& child, const Coefficient& factor) {
                        follower_.follow(child);
                        if (state_.links)

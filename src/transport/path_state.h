@@ -27,9 +27,8 @@ struct TracingMode {
   // The light of sources in rough highlights is divided between shadow rays and samples of the lobes
   // (shared_highlights.h). The mean stays the same.
   bool sharesHighlights = false;
-  // The rays that one primary ray may spawn have a bound, so that a record takes a bounded time wherever it lies:
-  // within a closed metal cylinder paths would branch at each surface, into thousands of rays. Beyond
-  // tuning::BoundedPath::kRays rays, weak ones are followed by Russian roulette. The mean stays the same.
+  // The descendants of a primary ray have a bound, so that a record takes a bounded time wherever it lies: within a
+  // closed metal cylinder paths would branch at each surface, into thousands of rays. The mean stays the same.
   bool boundsWork = false;
 };
 
@@ -40,6 +39,15 @@ struct PathSettings {
   TracingMode mode;
 };
 
+// The descendants of one ray: of a gather for interpolation, or of a primary ray in sphere mode.
+struct Descendants {
+  double most = 0;       // beyond which weak ones are followed by Russian roulette; 0: they are not limited
+  double weight = 0;     // of the ray that they descend from
+  int depth = 0;         // of that ray
+  int ambientLevel = 0;  // of that ray
+  int rays = 0;          // followed so far, without shadow rays
+};
+
 // Each path begins with a new state, and so does each gather: no answer can depend on an earlier path.
 struct PathState {
   Random random{0};
@@ -48,7 +56,7 @@ struct PathState {
   ShownSource shown;                       // by the primary ray
   Hit firstHit;                            // of the primary ray
   bool glimpses = false;                   // one direction for each gather
-  int followed = 0;                        // rays so far, without shadow rays, where work is bounded
+  Descendants descendants;                 // limited by continueRay()
   CoarseSolution::Links* links = nullptr;  // of a path from a patch: collects the light that it finds
 };
 

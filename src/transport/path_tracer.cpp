@@ -10,13 +10,11 @@
 #include "transport/participating_media.h"
 #include "transport/ray_functions.h"
 #include "transport/ray_hit.h"
+#include "transport/ray_limits.h"
 #include "transport/surface_shading.h"
-#include "transport/tuning.h"
 
 namespace rsphere {
 namespace {
-
-using Tuning = tuning::BoundedPath;
 
 // -I: distance (world units) from the ray's origin to its imagined surface, as in rtrace.
 constexpr double kMeterLength = 1e-5;
@@ -88,6 +86,8 @@ class PathTracer::Path final : public RayFollower, public SiteGatherer {
     state_.request = request;
     state_.random = Random(seed);
     state_.primaryDirection = direction;
+    state_.descendants = descendantsOfPrimary(
+        settings_.mode, t_.options().ambientDivisions + t_.options().ambientSuperSamples);
   }
   void end(TracedRay& ray) const {
     ray.firstHit = state_.firstHit;
@@ -95,8 +95,6 @@ class PathTracer::Path final : public RayFollower, public SiteGatherer {
   }
   Path& gatherer();
   void find(Ray& ray);
-  double shareThatIsFollowed(const Ray& ray);
-  void shadeByChance(Ray& ray, double share);
   void finish(Ray& ray);
 
   const PreparedScene& t_;
@@ -188,35 +186,8 @@ Ray PathTracer::Path::cast(const V3d& origin, const V3d& direction, double farth
 void PathTracer::Path::follow(Ray& ray) {
   checkDepth(ray);
   find(ray);
-  if (ray.surface != kNone) {
-    if (const double share = shareThatIsFollowed(ray); share < 1)
-      shadeByChance(ray, share);
-    else
-      shading_.shadeHit(ray);
-  }
+  if (ray.surface != kNone) shading_.shadeHit(ray);
   finish(ray);
-}
-
-// Counts the ray, and returns the probability with which the light of what it hit is to be computed. What emits
-// is no beginning of further rays.
-double PathTracer::Path::shareThatIsFollowed(const Ray& ray) {
-  if (!settings_.mode.boundsWork || (ray.kinds & kShadow)) return 1;
-  const double asked = std::max(1, t_.options().ambientDivisions + t_.options().ambientSuperSamples);
-  if (++state_.followed <= Tuning::kRays * asked || t_.lightOf(ray.surface) != kNone) return 1;
-  return std::min(1., ray.weight * Tuning::kBranches * asked);
-}
-
-void PathTracer::Path::shadeByChance(Ray& ray, double share) {
-  if (!(state_.random.uniform() < share)) return;
-  const double weight = ray.weight;
-  const Coefficient contribution = ray.contribution;
-  ray.weight /= share;
-  ray.contribution /= share;
-  shading_.shadeHit(ray);
-  ray.value /= share;
-  ray.mirrored /= share;
-  ray.weight = weight;
-  ray.contribution = contribution;
 }
 
 void PathTracer::Path::pass(Ray& ray) {
@@ -281,7 +252,7 @@ PathTracer::Path& PathTracer::Path::gatherer() {
 GatheredLight PathTracer::Path::gather(const GatherSite& site, double nearest, uint64_t seed, int depth) {
   Path& path = gatherer();
   path.begin(seed ^ rotationBits(t_.options()), site.normal);
-  return gatherLight(t_, path.state_, path.settings_.aims, path, site, nearest, depth);
+  return gatherLight(t_, path.state_, path.settings_, path, site, nearest, depth);
 }
 
 void PathTracer::Path::link(const GatherSite& site, int rays, uint64_t seed, int depth,
@@ -289,7 +260,7 @@ void PathTracer::Path::link(const GatherSite& site, int rays, uint64_t seed, int
   Path& path = gatherer();
   path.begin(seed ^ rotationBits(t_.options()), site.normal);
   path.state_.links = &links;
-  linkPatch(t_, path.state_, path.settings_.aims, path, site, rays, depth);
+  linkPatch(t_, path.state_, path.settings_, path, site, rays, depth);
 }
 
 PathTracer::PathTracer(const PreparedScene& prepared, const Caches& caches, const Aims& aims,

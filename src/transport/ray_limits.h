@@ -1,8 +1,11 @@
 #pragma once
-// How far paths are followed and into how many rays they split: -lr, -lw, -ss.
+// How far paths are followed and into how many rays they split: -lr, -lw, -ss, and the limit for gathers.
+#include <algorithm>
+
 #include "transport/path_state.h"
 #include "transport/prepared_scene.h"
 #include "transport/ray.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
 
@@ -12,11 +15,35 @@ namespace rsphere {
 inline constexpr double kMeanReflectance = .5;
 
 // Makes child a descendant of parent, or returns false if the path ends. It ends beyond -lr reflections, and
-// below the weight limit (-lw): always if -lr is positive, otherwise by Russian roulette. coefficient: of the
-// child's radiance in the parent's. It is increased if the path survived roulette, so that the mean stays
-// unbiased. Throws rad::Error if roulette has no weight limit to compare with (-lw 0).
-bool continueRay(const PreparedScene& prepared, Random& random, Ray& child, RayKind kind, const Ray& parent,
+// below the weight limit (-lw): always if -lr is positive, otherwise by Russian roulette. Roulette also ends
+// paths of a ray that has too many descendants (state.descendants, which the child is added to).
+// coefficient: of the child's radiance in the parent's. It is increased if the path survived roulette, so that
+// the mean stays unbiased. Throws rad::Error if roulette has no weight limit to compare with (-lw 0).
+bool continueRay(const PreparedScene& prepared, PathState& state, Ray& child, RayKind kind, const Ray& parent,
                  Coefficient& coefficient);
+
+// Russian roulette: whether the path of a child goes on. If so, its weight is at least `least`, and its
+// coefficient makes up for the paths that do not go on.
+inline bool survives(Random& random, double least, Ray& child, Coefficient& coefficient) {
+  const double probability = child.weight / least;
+  if (probability >= 1) return true;
+  if (random.uniform() >= probability) return false;
+  coefficient /= probability;
+  child.contribution /= probability;
+  child.weight = least;
+  return true;
+}
+
+// Begins to count the descendants of a primary ray, if work is bounded. rays: -ad + -as.
+inline Descendants descendantsOfPrimary(const TracingMode& mode, int rays) {
+  return {mode.boundsWork ? tuning::RayLimits::kMostDescendants * std::max(rays, 1) : 0, 1, 0, 0, 0};
+}
+
+// The same for a gather's ray, if light is interpolated. Those of a primary ray are counted already.
+inline void countDescendants(const PathSettings& settings, PathState& state, const Ray& ray) {
+  if (settings.caches.field && !settings.mode.boundsWork)
+    state.descendants = {tuning::RayLimits::kMostDescendants, ray.weight, ray.depth, ray.ambientLevel, 0};
+}
 
 // Whether rays reflected at the ray's hit are followed, except those that Russian roulette ends, whose light
 // the others make up for. Otherwise -lr ends them for certain.
@@ -32,9 +59,9 @@ inline bool isOfGather(const PathSettings& settings, const Ray& ray) {
 }
 
 // The number of samples that a ray takes of a lobe, at least 1. wanted: the number for a ray of weight 1.
-inline int samplesOf(const PathSettings& settings, const Ray& ray, double wanted) {
-  if (isOfGather(settings, ray)) return 1;
-  return std::max(1, static_cast<int>(wanted * ray.weight + .5));
+inline int samplesOf(const PreparedScene& prepared, const Ray& ray, double wanted) {
+  if (isOfGather(prepared, ray)) return 1;
+  return std::max(1, static_cast<int>(wanted * std::min(ray.weight, 1.) + .5));
 }
 
 }  // namespace rsphere

@@ -16,18 +16,6 @@ double leastWeight(const PathSettings& settings, const Ray& ray) {
   return std::max(Tuning::kWeakBranch * ray.weight, isOfGather(settings, ray) ? Tuning::kWeakPath : 0);
 }
 
-// Whether the path of a child goes on. If so, its weight is at least `least`, and its coefficient makes up for
-// the paths that do not go on.
-bool survives(Random& random, double least, Ray& child, Coefficient& coefficient) {
-  const double probability = child.weight / least;
-  if (probability >= 1) return true;
-  if (random.uniform() >= probability) return false;
-  coefficient /= probability;
-  child.contribution /= probability;
-  child.weight = least;
-  return true;
-}
-
 }  // namespace
 
 void SpecularLight::follow(Ray& ray, const SharpPaths& sharp) {
@@ -35,7 +23,7 @@ void SpecularLight::follow(Ray& ray, const SharpPaths& sharp) {
     if ((ray.kinds & kShadow) && path.kind == kReflected) continue;
     Ray child;
     Coefficient coefficient = path.coefficient;
-    if (isBlack(coefficient) || !continueRay(t_, state_.random, child, path.kind, ray, coefficient)) continue;
+    if (isBlack(coefficient) || !continueRay(t_, state_, child, path.kind, ray, coefficient)) continue;
     if (!(ray.kinds & kShadow) && ray.ambientLevel > 0 &&
         !survives(state_.random, leastWeight(settings_, ray), child, coefficient))
       continue;
@@ -57,7 +45,7 @@ void SpecularLight::redirect(Ray& ray, const SharpPaths& redirected) {
   for (const SharpPath& path : redirected) {
     Ray child;
     Coefficient coefficient = path.coefficient;
-    if (isBlack(coefficient) || !continueRay(t_, state_.random, child, path.kind, ray, coefficient)) continue;
+    if (isBlack(coefficient) || !continueRay(t_, state_, child, path.kind, ray, coefficient)) continue;
     child.direction = path.direction;
     follower_.follow(child);
     ray.value += child.value * coefficient;
@@ -68,7 +56,7 @@ void SpecularLight::redirect(Ray& ray, const SharpPaths& redirected) {
 void SpecularLight::relay(Ray& ray, const SharpPath& path) {
   Ray child;
   Coefficient coefficient = path.coefficient;
-  if (!continueRay(t_, state_.random, child, path.kind, ray, coefficient)) return;
+  if (!continueRay(t_, state_, child, path.kind, ray, coefficient)) return;
   child.aimedAt = t_.lights().all()[ray.aimedAt].relayed;
   child.unobstructed = ray.unobstructed;
   child.direction = path.direction.normalized();
@@ -88,7 +76,7 @@ void SpecularLight::sampleLobe(Ray& ray, RayKind kind, const Lobe& lobe, LobeSam
     const LobeSample sample = draw(i, samples);
     Coefficient coefficient = sample.coefficient;
     Ray child;
-    if (isBlack(coefficient) || !continueRay(t_, state_.random, child, kind, ray, coefficient)) continue;
+    if (isBlack(coefficient) || !continueRay(t_, state_, child, kind, ray, coefficient)) continue;
     child.direction = sample.direction;
     child.origin += lobe.offset;
     follower_.follow(child);

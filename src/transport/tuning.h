@@ -316,6 +316,15 @@ struct Interpolation {
   RSPHERE_TUNED(Interpolation, int, kReachRays, 16);
 };
 
+// How many rays a ray splits into (ray_limits.h).
+struct RayLimits {
+  // The number of descendants of a gather's ray, apart from the ancestors of the next one, beyond which weak ones
+  // are followed by Russian roulette; for a primary ray of sphere mode, for each of the -ad + -as rays: by
+  // measurement. 99% of the directions in a room with a chrome column have fewer (-ab 6, -ad 4), those in a closed
+  // metal cylinder up to 1000, and gathers between two rough metal balls 36 on average.
+  RSPHERE_TUNED(RayLimits, double, kMostDescendants, 64);
+};
+
 // Sharp reflection and refraction (specular_light.cpp).
 struct SpecularLight {
   // The weight below which sharp paths of a gather's rays are followed by Russian roulette, with a probability
@@ -328,18 +337,6 @@ struct SpecularLight {
   // reflections of a pane is followed. In four daylit rooms without interpolation it saves 3 to 22% of the time
   // to equal noise; at 1, the noise is up to half as much again.
   RSPHERE_TUNED(SpecularLight, double, kWeakBranch, .25);
-};
-
-// The rays that one direction of sphere mode may spawn (path_tracer.cpp), for each of the rays that a gather is
-// asked for (-ad + -as).
-struct BoundedPath {
-  // Rays, without shadow rays, from which on weak ones are followed by Russian roulette: by measurement. With -ab 6
-  // and the default -ad 4, 99% of the directions in a room with a chrome column spawn fewer than 65, in the
-  // open-plan office with mirror spheres fewer than 524, and those in a closed metal cylinder up to 4100.
-  RSPHERE_TUNED(BoundedPath, double, kRays, 64);
-  // The inverse of the weight below which a ray is weak: chosen by experiment. There are at most so many rays at a
-  // time on average, since the weights of a ray's descendants add up to less than its own.
-  RSPHERE_TUNED(BoundedPath, double, kBranches, 4);
 };
 
 }  // namespace rsphere::tuning

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/spectral_sampling.h"
+#include "field/coarse_solution.h"
 #include "tests/unit/transport/transport_fixture.h"
 
 namespace rsphere {
@@ -194,7 +195,8 @@ TEST(RayWeights, WorkWithinClosedMetalHasABoundAndTheSameMean) {
   EXPECT_LT(rays(bound), 700u);
   const auto mean = [&](PathTracer& tracer, uint64_t count, uint64_t seed) {
     Sample sample;
-    for (uint64_t i = 0; i < count; ++i) sample.add(tracer.trace(from, to, 0, mixBits(seed + i)).value.color.x);
+    for (uint64_t i = 0; i < count; ++i)
+      sample.add(tracer.trace(from, to, 0, mixBits(seed + i)).value.color.x);
     return sample;
   };
   const Sample bounded = mean(bound, 1000, 1), all = mean(free, 120, 5000);
@@ -202,6 +204,24 @@ TEST(RayWeights, WorkWithinClosedMetalHasABoundAndTheSameMean) {
             kMostSigmas * std::hypot(bounded.standardError(), all.standardError()));
   EXPECT_LT(kMostSigmas * std::hypot(bounded.standardError(), all.standardError()), .15 * all.mean())
       << "would not see an error of 15%";
+}
+
+// Rays between two rough metal balls split at every hit, and reach all of the surfaces from nearby. With patches
+// as fine as elsewhere there would be 50,000, each of them with the work of a thousand rays.
+TEST(RayWeights, WorkBetweenShellsHasABound) {
+  const std::string shells = R"(
+void light l 0 0 3 100 100 100
+l sphere lamp 0 0 4 0 0 4 .2
+void metal rough 0 0 5 .8 .8 .8 .9 .1
+rough sphere inner 0 0 4 0 0 4 .25
+rough sphere outer 0 0 4 0 0 4 .3
+)";
+  RayOptions o = interpolated(2, 16, {-4, 1e-4});
+  o.leastForPatches = 64;
+  Traced between(shells, o);
+  for (int i = 0; i < 8; ++i)
+    EXPECT_EQ(between.value(V3d(0, 0, 4.275), V3d(.6, 0, .1 * i - .8).normalized()), 0);
+  EXPECT_LT(between.transport().caches().coarse->patches(), 8000U);
 }
 
 }  // namespace
