@@ -82,7 +82,7 @@ struct Setting : SphereSetting {
 struct Choice {
   Setting setting;
   std::vector<SpecialObject> objects = findSpecialObjects(setting.scene, 1);
-  SeenSources sources{*setting.transport};
+  SeenSources sources{setting.transport->prepared()};
 
   Targets at(const V3d& point, double meanBrightness, size_t most, double densityFactor = 1) const {
     return TargetChoice(setting.tracing(), objects, sources, densityFactor)
