@@ -517,15 +517,19 @@ TEST(StopSignals, TheSecondEndsItAtOnce) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, 10s);
 }
 
-// Answers 300 records at once, with two numbers each. The next takes a minute; `busy` gets a line when it
-// begins.
+// Answers 300 records at once, with two numbers each. The next takes a minute; `busy` gets a line when all 300 are
+// answered by any of the threads.
 AnswerRecord slowAfter300(const Pipe& busy) {
-  return [&busy](const Record& record, unsigned, std::string& bytes) {
+  const auto answered = std::make_shared<std::atomic<int>>(0);
+  return [&busy, answered](const Record& record, unsigned, std::string& bytes) {
     if (record.index == 300) {
+      while (*answered < 300) std::this_thread::sleep_for(1ms);
+      std::this_thread::sleep_for(20ms);  // the last of them is still to be handed in
       busy.put("busy\n");
       std::this_thread::sleep_for(60s);
     }
     bytes += fmt::format("{}\n", record.index);
+    if (record.index < 300) ++*answered;
   };
 }
 
