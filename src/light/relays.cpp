@@ -5,11 +5,15 @@
 
 #include "base/constants.h"
 #include "base/overloaded.h"
+#include "light/penumbra.h"
 #include "light/relay_tree.h"
+#include "light/tuning.h"
 #include "shade/scattering.h"
 
 namespace rsphere {
 namespace {
+
+using Tuning = tuning::Relays;
 
 constexpr double kTiny = 1e-6;  // world units, cosines: RADIANCE's own figure for "in the plane"
 // Bounds of relays are enlarged by this share of their distance, so that rounding loses no relay in them.
@@ -35,6 +39,7 @@ struct Relay {
   double offset = 0;         // normal . p for the points p of the plane
   Ball ball;                 // around it
   std::vector<V3d> corners;  // of the polygon, or of the square around the ring
+  std::vector<V3d> hull;     // its points lie in the hull of these: see hullOf()
 };
 
 // What the light of an image has left or come through, in a straight line as seen from behind the last relay:
@@ -43,8 +48,12 @@ struct Relay {
 struct Passage {
   Ball ball;  // around it
   Beam beam;  // holds all that light from it reaches behind the last relay, as seen from the ball's center
+  std::vector<V3d> hull;  // all that the light has left or come through of it lies in the hull of these
 };
-using Way = std::vector<Passage>;
+struct Way {
+  std::vector<Passage> passages;
+  std::vector<HalfSpace> lit;  // each holds all that the light reaches behind the last relay
+};
 
 // The modifier of the mirror or prism that makes the surface a relay, which may be the alternative material
 // of an illum; kNone if the surface is no relay.
@@ -57,6 +66,43 @@ ModifierId relayMaterial(const Scene& scene, const Surface& surface) {
     material = scene.materialAt(modifier);
   }
   return material && imagesMadeBy(*material) > 0 ? modifier : kNone;
+}
+
+// The corners of a box. Four edges on either side join successive corners.
+std::vector<V3d> cornersOf(const Box3d& box) {
+  std::vector<V3d> corners;
+  for (const unsigned k : {0, 1, 3, 2, 6, 7, 5, 4})
+    corners.emplace_back((k & 1 ? box.max : box.min).x, (k & 2 ? box.max : box.min).y,
+                         (k & 4 ? box.max : box.min).z);
+  return corners;
+}
+
+// The corners of the square around a ring.
+std::vector<V3d> cornersOf(const Ring& ring) {
+  V3d x, y;
+  frame(ring.normal, x, y);
+  x *= ring.outer;
+  y *= ring.outer;
+  return {ring.center - x - y, ring.center - x + y, ring.center + x + y, ring.center + x - y};
+}
+
+// Points whose hull holds all points of a shape where rays hit it. A polygon is hit in its mean plane, where
+// its vertices appear along the axis of projection.
+std::vector<V3d> hullOf(ShapeRef shape, std::span<const V3d> vertices) {
+  return match(
+      shape,
+      [&](const Polygon& polygon) {
+        const auto own = vertices.subspan(polygon.firstVertex, polygon.vertices);
+        std::vector<V3d> corners(own.begin(), own.end());
+        if (polygon.hasArea)
+          for (V3d& p : corners)
+            p[polygon.axis] -= (p.dot(polygon.normal) - polygon.offset) / polygon.normal[polygon.axis];
+        return corners;
+      },
+      [](const Ring& ring) { return cornersOf(ring); },
+      [](const OneOf<Sphere, Cone> auto& solid) { return cornersOf(bounds(solid)); },
+      [](const Distant&) { return std::vector<V3d>(); },
+      [](const NestedShape auto&) { return std::vector<V3d>(); });
 }
 
 // The largest distance of the source's points from its center, measured along a unit vector.
@@ -113,7 +159,11 @@ class Images {
   // Adds the images of a real source, and recursively their images, in sequences of up to `relays` relays.
   void addImages(LightId real, int relays) {
     Way way;
-    if (!sources_[real].isDistant()) way.push_back({{sources_[real].center, sources_[real].radius}, {}});
+    const LightSource& source = sources_[real];
+    if (!source.isDistant())
+      way.passages.push_back({{source.center, source.radius},
+                              {},
+                              hullOf(scene_.surfaces[source.surface].shape, scene_.vertices)});
     addImages(real, way, relays);
   }
 
@@ -126,16 +176,20 @@ class Images {
       // A relay makes no image of its own images, nor of light that its own surface emits.
       if (relays_[r].surface == sources_[source].surface) continue;
       if (!lights(source, way, relays_[r])) continue;
+      const std::vector<V3d> part = clipped(relays_[r].hull, way.lit);
+      if (part.empty()) continue;
       for (int image = 0; image < imagesBy(relays_[r]); ++image) {
         const auto projection = project(sources_[source], way, relays_[r], image);
         if (!projection) continue;
         relayOf_.resize(sources_.size());
         relayOf_.push_back(r);
         sources_.push_back(imageOf(sources_[source], relays_[r], *projection));
-        const Way through = wayThrough(sources_.back(), way, relays_[r], *projection);
-        if (!sources_.back().isDistant()) sources_.back().beam = through.front().beam;
         sources_.back().relayed = source;
         sources_.back().image = image;
+        Way through = wayThrough(sources_.back(), way, relays_[r], part, *projection);
+        const auto [away, offset] = sideLit(sources_.last());
+        through.lit.push_back({away, offset});
+        if (!sources_.back().isDistant()) sources_.back().beam = through.passages.front().beam;
         addImages(sources_.last(), through, relays - 1);
       }
     }
@@ -167,14 +221,11 @@ class Images {
         [&](const Ring& ring) {
           relay.ball.center = ring.center;
           relay.ball.radius = ring.outer;
-          V3d x, y;
-          frame(relay.normal, x, y);
-          for (const double a : {-relay.ball.radius, relay.ball.radius})
-            for (const double b : {-relay.ball.radius, relay.ball.radius})
-              relay.corners.push_back(relay.ball.center + a * x + b * y);
+          relay.corners = cornersOf(ring);
         },
         [](const OneOf<Sphere, Cone, Distant> auto&) {},  // not plane
         [](const NestedShape auto&) {});
+    relay.hull = hullOf(surface.shape, scene_.vertices);
     relays_.push_back(relay);
   }
 
@@ -202,7 +253,7 @@ class Images {
     const auto reachesFront = [&](const Passage& passage) {
       return passage.ball.center.dot(relay.normal) - relay.offset + passage.ball.radius > kTiny;
     };
-    if (!std::ranges::all_of(way, reachesFront)) return std::nullopt;
+    if (!std::ranges::all_of(way.passages, reachesFront)) return std::nullopt;
     return Projection{relay.normal, relay.offset, -2. * relay.normal, true};
   }
 
@@ -273,6 +324,8 @@ class Images {
   bool mayLight(LightId index, const Way& way, const RelayTree::Bounds& bounds) const {
     const LightSource& source = sources_[index];
     if (!source.isVirtual()) return true;
+    const auto excludes = [&](const HalfSpace& lit) { return isOutside(bounds.corners, lit); };
+    if (std::ranges::any_of(way.lit, excludes)) return false;
     const auto [away, offset] = sideLit(index);
     const V3d middle = bounds.corners.center(), half = bounds.corners.size() / 2;
     const V3d span(std::abs(away.x), std::abs(away.y), std::abs(away.z));
@@ -280,14 +333,14 @@ class Images {
     if (middle.dot(away) + half.dot(span) - offset + rounding <= kTiny) return false;
     Ball ball{bounds.centers.center(), bounds.centers.size().length() / 2 + bounds.radius};
     double sizes = ball.center.length() + ball.radius;
-    for (const Passage& passage : way) sizes += passage.ball.center.length();
+    for (const Passage& passage : way.passages) sizes += passage.ball.center.length();
     ball.radius += kRounding * sizes;
     return meetsBeams(source, way, ball);
   }
 
   // Whether the light that has come this way can reach anything in the ball.
   static bool meetsBeams(const LightSource& source, const Way& way, const Ball& ball) {
-    return std::ranges::all_of(way, [&](const Passage& passage) {
+    return std::ranges::all_of(way.passages, [&](const Passage& passage) {
       return passage.beam.meets(passage.ball.center, ball) &&
              (!source.isDistant() || meetsDistantLight(source, passage.ball, ball));
     });
@@ -305,22 +358,36 @@ class Images {
     return aside.length() <= radius + spread;
   }
 
-  // The way of an image's light: that of its source's light, as the relay shows it, and the relay.
+  // The way of an image's light: that of its source's light, as the relay shows it, and the relay, of which
+  // the light reaches the hull of `part`.
   static Way wayThrough(const LightSource& image, const Way& before, const Relay& relay,
-                        const Projection& projection) {
+                        const std::vector<V3d>& part, const Projection& projection) {
     Way way;
+    auto& passages = way.passages;
     if (projection.isMirror) {
-      for (const Passage& passage : before)
-        way.push_back({{projection.point(passage.ball.center), passage.ball.radius},
-                       {projection.vector(passage.beam.axis), passage.beam.cosine}});
+      for (const Passage& passage : before.passages) {
+        // Between the source and the last relays the oldest ones are left out: they narrow the light least.
+        const size_t fromEnd = static_cast<size_t>(&before.passages.back() - &passage);
+        if (fromEnd >= Tuning::kMostRelays && !(&passage == &before.passages.front() && !image.isDistant()))
+          continue;
+        passages.push_back({{projection.point(passage.ball.center), passage.ball.radius},
+                            {projection.vector(passage.beam.axis), passage.beam.cosine},
+                            passage.hull});
+        for (V3d& p : passages.back().hull) p = projection.point(p);
+      }
     } else if (!image.isDistant()) {
       // A prism's light seems to come from the image, but not from images of earlier relays. A shear makes
       // the source longer by its shift at most.
-      way.push_back({{image.center, image.radius * (1 + projection.shift.length())}, {}});
+      const double radius = image.radius * (1 + projection.shift.length());
+      const V3d half(radius, radius, radius);
+      passages.push_back(
+          {{image.center, radius}, {}, cornersOf(Box3d(image.center - half, image.center + half))});
     }
-    for (Passage& passage : way)
+    for (Passage& passage : passages) {
       passage.beam = sharedBeam(passage.beam, beamThrough(passage.ball, relay.ball));
-    way.push_back({relay.ball, {}});
+      addPenumbra(passage.hull, part, way.lit);
+    }
+    passages.push_back({relay.ball, {}, part});
     return way;
   }
 

@@ -21,4 +21,12 @@ struct SourceParts {
   RSPHERE_TUNED(SourceParts, double, kTubeNear, 2);
 };
 
+// How the light of virtual sources is bounded (relays.cpp).
+struct Relays {
+  // Light that has passed more relays than this is bounded by its source and by the last of them, because all
+  // relays of a chain of n would take a memory of n^2: chosen by experiment. It changes the number of images
+  // and no answer.
+  RSPHERE_TUNED(Relays, size_t, kMostRelays, 8);
+};
+
 }  // namespace rsphere::tuning
