@@ -34,9 +34,12 @@ PixelTracer::PixelTracer(const V3d& point, const Transport& transport)
 PixelSample PixelTracer::trace(const V3d& direction, uint64_t seed, PixelParts parts) {
   if (!separates_) parts = PixelParts::all;
   const PixelSample sample = traceOnce(direction, seed, parts);
-  const bool incomplete = (parts != PixelParts::all && sample.seen.material == kNone) ||
-                          (parts == PixelParts::restAlone && !sample.sharesGloss);
-  return incomplete && sample.hits ? traceOnce(direction, seed, PixelParts::all) : sample;
+  const bool separated = sample.seen.material != kNone;
+  if (!separated && (sample.leftOut.indirect || sample.leftOut.lobes))
+    return traceOnce(direction, seed, PixelParts::all);
+  if (separated && sample.leftOut.lobes && !sample.sharesGloss)
+    return traceOnce(direction, seed, PixelParts::noIndirect);
+  return sample;
 }
 
 PixelSample PixelTracer::traceOnce(const V3d& direction, uint64_t seed, PixelParts parts) {
@@ -53,7 +56,7 @@ PixelSample PixelTracer::traceOnce(const V3d& direction, uint64_t seed, PixelPar
   const Hit& hit = ray.firstHit;
   const SpectralSampling* const sampling = prepared_.options().sampling;
   PixelSample sample;
-  sample.hits = hit.surface != kNone;
+  sample.leftOut = ray.leftOut;
   sample.shown = ray.shown;
   sample.rest = shownRgb(ray.value.color, sampling);
   sample.pattern = shownRgb(ray.pattern, sampling);

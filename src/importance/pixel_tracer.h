@@ -12,8 +12,8 @@ struct PixelSample {
   V3d pattern{1, 1, 1};   // of the surface
   SeenSurface seen;       // material kNone: `rest` is everything
   bool sharesGloss = false;
-  bool hits = false;  // a surface, directly
   ShownSource shown;  // the source that the ray showed
+  LeftOut leftOut;    // parts that the ray was not asked for
 
   V3d value() const { return rest + pattern * indirect + gloss; }
 };

@@ -17,7 +17,10 @@ void IndirectLight::add(Ray& ray, const V3d& normal, const V3d& trueNormal, RayK
     ray.value += coefficient * o.ambientValue;
     return;
   }
-  if (ray.depth == 0 && state_.request.leavesOutIndirect) return;
+  if (ray.depth == 0 && state_.request.leavesOutIndirect) {
+    state_.leftOut.indirect = true;
+    return;
+  }
   const Surroundings at{normal, trueNormal, kind, coefficient};
   const FirstBounce first = settings_.mode.firstBounce;
   if (ray.ambientLevel > 0 || first == FirstBounce::fromPatches ||

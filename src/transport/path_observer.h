@@ -36,6 +36,11 @@ struct PathRequest {
   bool leavesOutIndirect = false, leavesOutLobes = false;
 };
 
+// What PathRequest::leavesOutIndirect and leavesOutLobes left out of a path.
+struct LeftOut {
+  bool indirect = false, lobes = false;
+};
+
 // A primary ray that was traced.
 struct TracedRay : Ray {
   Hit firstHit;  // as Tracer::nearest found it
@@ -43,6 +48,7 @@ struct TracedRay : Ray {
   // shadow rays, after at most one reflection by a flat surface; a distant one also through slabs of parallel faces.
   // If there are several, the one that was not mirrored, otherwise the first.
   ShownSource shown;
+  LeftOut leftOut;  // what the request left out and the surface has
 };
 
 }  // namespace rsphere

@@ -55,6 +55,7 @@ struct PathState {
   PathRequest request;
   ShownSource shown;                       // by the primary ray
   Hit firstHit;                            // of the primary ray
+  LeftOut leftOut;                         // of the primary ray
   bool glimpses = false;                   // one direction for each gather
   Descendants descendants;                 // limited by continueRay()
   CoarseSolution::Links* links = nullptr;  // of a path from a patch: collects the light that it finds

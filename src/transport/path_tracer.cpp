@@ -92,6 +92,7 @@ class PathTracer::Path final : public RayFollower, public SiteGatherer {
   void end(TracedRay& ray) const {
     ray.firstHit = state_.firstHit;
     ray.shown = state_.shown;
+    ray.leftOut = state_.leftOut;
   }
   Path& gatherer();
   void find(Ray& ray);

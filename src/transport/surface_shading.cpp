@@ -218,7 +218,10 @@ bool SurfaceShading::follow(Ray& ray, S& scattering) {
   const bool followsLobes = ray.depth > 0 || !state_.request.leavesOutLobes;
   for (const Component c : components)
     if (const std::optional<Lobe> lobe = scattering.lobe(c, random)) {
-      if (!followsLobes) continue;
+      if (!followsLobes) {
+        state_.leftOut.lobes = true;
+        continue;
+      }
       const auto draw = [&](int i, int n) { return scattering.draw(c, i, n, random); };
       if (c == Component::transmitted) {
         specular_.sampleLobe(ray, kTransmittedSpecular, *lobe, draw);
