@@ -37,16 +37,24 @@ struct Neighbours {
   std::vector<uint32_t> first, neighbour;
 };
 
-// Variance of the sum of solid angle times radiance over directions. Each contributes its solid angle times the
-// difference between its radiance and the mean of its neighbours: noise of paths, and edges. The sum is multiplied
-// by tuning::ErrorEstimate::kAmongOthers. The first evenOnes of samples are an even set, which integrates smooth
-// light and averages out a part of the edges. Where no others are among them, differences between these
-// differences are taken instead, in which light that bends smoothly has no part, and kEvenSet.
-// regions: of each sample; empty: all are in one region. Only neighbours in the same region are compared, if there
-// are any: the edge of a region is no error, because cells keep to regions. Samples in kNoRegion do not count.
-Variance localVariance(std::span<const DirectionSample> samples, size_t evenOnes,
-                       const Neighbours& neighbours, std::span<const RegionId> regions,
-                       const SpectralSampling* sampling = nullptr);
+// Variance of the sum of solid angle times radiance over even directions. Each contributes its solid angle times
+// the difference between its radiance and the mean of its neighbours, minus the mean of the neighbours' differences:
+// noise of paths, and edges, but not light that slopes or bends smoothly, which an even set integrates. An even set
+// averages out a part of the edges, so that the sum is multiplied by tuning::ErrorEstimate::kEvenSet. regions: of
+// each direction; empty: all are in one region. Only neighbours in the same region are compared, if there are any:
+// the edge of a region is no error, because cells keep to regions. Directions in kNoRegion do not count.
+Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours& neighbours,
+                      std::span<const RegionId> regions, const SpectralSampling* sampling = nullptr);
+
+// The same for a run of dynamic directions, which are evenly spread over a region in this order,
+// but successive ones are not neighbours: the variance of independent directions, reduced because
+// the directions are even, but not where few of them find much, such as a lamp that is mirrored twice.
+Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling = nullptr);
+
+// The same for a run of a single direction in a region: compared with the base directions in the same region.
+// regions: of each of base. If there are none, all of what it found is taken for the error.
+Variance loneVariance(const DirectionSample& sample, RegionId region, std::span<const DirectionSample> base,
+                      std::span<const RegionId> regions, const SpectralSampling* sampling = nullptr);
 
 // The same for what no direction has found in regions other than 0: an obstacle that hides half of what one
 // more direction would represent, in each. Without it, the light of an opening to which few directions were

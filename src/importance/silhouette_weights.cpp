@@ -70,8 +70,7 @@ SilhouetteWeights::SilhouetteWeights(const SphereTracing& tracing, const SphereO
   guidance_->neighbours = neighboursOf(workspace);
 }
 
-SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer,
-                                     VoronoiWorkspace& memory) const {
+SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace&) const {
   const size_t base = base_.directions.size(), most = static_cast<size_t>(options_.mostDirections);
   const Images images = sources_.findImages(
       set.point(), std::max(base / Tuning::kBaseDirectionsPerRayToImages, Tuning::kLeastRaysToImages),
@@ -111,7 +110,7 @@ SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer,
     sampled.clamped =
         clampContributions(others.samples, others.guesses, total, options_.clamp, base_.sampling);
   }
-  if (base_.neighbours) sampled.variance += varianceOf(others, toImages, memory);
+  if (base_.neighbours) sampled.variance += varianceOf(others, toImages);
   sampled.samples.reserve(toImages.size() + others.samples.size());
   for (const SeenSources::Sample& s : toImages) {
     sampled.samples.push_back(s.direction);
@@ -181,11 +180,13 @@ SilhouetteWeights::Others SilhouetteWeights::sampleOthers(const SetAtPoint& set,
   for (const Target& target : targets.all()) {
     due += target.expected;
     const double shift1 = random.uniform(), shift2 = random.uniform();
+    if (!target.continues) others.runs.push_back(others.samples.size());
     for (size_t i = 0; due >= 1; --due, ++i) {
       const Imath::V2d u = evenly(i, shift1, shift2);
       send(target.silhouette.sample(u.x, u.y), averageCell);
     }
   }
+  others.runs.push_back(others.samples.size());
   if (guide) {
     Random own(seedOf(set, Stream::guide));
     for (const V3d& d : guide->directions(guided, own)) send(d, averageCell);
@@ -219,8 +220,7 @@ SilhouetteWeights::Excess SilhouetteWeights::excessOfGlances(const SetAtPoint& s
   };
   for (const V3d& direction : set.turned(guidance_->glances)) look(direction);
   if (guidance_->neighbours)
-    result.variance =
-        localVariance(seen, seen.size(), *guidance_->neighbours, {}, base_.sampling) * Tuning::kEvenGlances;
+    result.variance = evenVariance(seen, *guidance_->neighbours, {}, base_.sampling) * Tuning::kEvenGlances;
   if (!guide) return result;
   Random random(seedOf(set, Stream::guidedGlances));
   std::optional<Irradiance> last;
@@ -232,17 +232,27 @@ SilhouetteWeights::Excess SilhouetteWeights::excessOfGlances(const SetAtPoint& s
   return result;
 }
 
-Variance SilhouetteWeights::varianceOf(const Others& others, std::span<const SeenSources::Sample> toImages,
-                                       VoronoiWorkspace& memory) const {
+Variance SilhouetteWeights::varianceOf(const Others& others,
+                                       std::span<const SeenSources::Sample> toImages) const {
+  const size_t base = base_.directions.size();
   Variance variance;
   std::vector<DirectionSample> unguessed = others.samples;
   for (size_t i = 0; i < others.guesses.size(); ++i) unguessed[i].value -= others.guesses[i];
-  std::vector<V3d> directions;
-  for (const DirectionSample& s : unguessed) directions.push_back(s.direction);
-  cellSolidAngles(directions, memory);
-  variance +=
-      localVariance(unguessed, base_.directions.size(), neighboursOf(memory), others.regions, base_.sampling);
+  const std::span<const DirectionSample> samples(unguessed);
+  variance += evenVariance(samples.first(base), *base_.neighbours, others.regions, base_.sampling);
+  for (size_t i = 1; i < others.runs.size(); ++i) {
+    const size_t first = others.runs[i - 1], count = others.runs[i] - first;
+    variance += count == 1 ? loneVariance(samples[first], others.regions[first], samples.first(base),
+                                          others.regions, base_.sampling)
+                           : spreadVariance(samples.subspan(first, count), base_.sampling);
+  }
   variance += unseenVariance(others.samples, others.regions, base_.sampling);
+  // Successive directions of the guide are near to each other: their differences are errors.
+  for (size_t i = others.runs.back() + 1; i < samples.size(); ++i)
+    variance += Variance::of(irradianceFrom(samples[i].value, samples[i].solidAngle) -
+                                 irradianceFrom(samples[i - 1].value, samples[i - 1].solidAngle),
+                             base_.sampling) *
+                .5;
   for (size_t i = 0, next = 0; i < toImages.size(); i = next) {
     while (next < toImages.size() && toImages[next].image == toImages[i].image) ++next;
     variance += partsVariance(toImages.subspan(i, next - i), base_.sampling);

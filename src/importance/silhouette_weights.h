@@ -67,6 +67,8 @@ class SilhouetteWeights : public SamplingStrategy {
     // kNoRegion: the sample shows an image of a light source, which has its own samples; its solid angle, radiance
     // and guess are then 0.
     std::vector<RegionId> regions;
+    // The first sample of each target, or of all parts of one image; then the first that the guide has sent.
+    std::vector<size_t> runs;
   };
 
   // The steps of sample(), in this order. Each takes values of those before it.
@@ -84,8 +86,7 @@ class SilhouetteWeights : public SamplingStrategy {
   };
   Excess excessOfGlances(const SetAtPoint& set, const Others& others, const LocalGuess& guess,
                          const DirectionGuide* guide) const;
-  Variance varianceOf(const Others& others, std::span<const SeenSources::Sample> toImages,
-                      VoronoiWorkspace& memory) const;
+  Variance varianceOf(const Others& others, std::span<const SeenSources::Sample> toImages) const;
 
   const SphereOptions& options_;
   const BaseSet& base_;

@@ -59,35 +59,76 @@ struct Torus {
       }
     neighbours.first.push_back(static_cast<uint32_t>(neighbours.neighbour.size()));
   }
-  double variance(bool even) const {
-    return localVariance(samples, even ? samples.size() : 0, neighbours, {}).brightness;
-  }
+  double variance() const { return evenVariance(samples, neighbours, {}).brightness; }
 };
 
-TEST(ErrorEstimate, NoiseIsStatedWholeHoweverItIsSeen) {
+TEST(ErrorEstimate, NoiseIsStatedWhole) {
   Random random(1);
-  Sample even, others;
+  Sample stated;
   for (int i = 0; i < 100; ++i) {
     const Torus noise(16, [&](size_t, size_t) { return random.uniform(); });
-    even.add(noise.variance(true) / (256 / 12.));
-    others.add(noise.variance(false) / (256 / 12.));
+    stated.add(noise.variance() / (256 / 12.));
   }
-  expectMean(even, tuning::ErrorEstimate::kEvenSet, 1.05);
-  expectMean(others, tuning::ErrorEstimate::kAmongOthers, 1.05);
+  expectMean(stated, tuning::ErrorEstimate::kEvenSet, 1.05);
 }
 
 // Light that varies smoothly, here by one wave in 16 directions, is integrated by an even set.
 TEST(ErrorEstimate, BendsOfSmoothLightAreNoErrors) {
-  const Torus wave(16, [](size_t x, size_t) { return std::cos(2 * kPi * static_cast<double>(x) / 16); });
-  EXPECT_LT(wave.variance(true), .0005 * 256 / 2);
-  EXPECT_GT(wave.variance(false), .002 * 256 / 2) << "differences alone would not tell them from noise";
+  const auto waves = [](double count) {
+    return Torus(16,
+                 [=](size_t x, size_t) { return std::cos(2 * kPi * count * static_cast<double>(x) / 16); });
+  };
+  EXPECT_LT(waves(1).variance(), .0005 * 256 / 2);
+  EXPECT_GT(waves(4).variance(), .1 * 256 / 2) << "would not see what varies with each direction";
 }
 
-// What few directions find is an error as if they were alone, wherever they are.
+// What one direction finds is an error as if it were alone.
 TEST(ErrorEstimate, WhatOneDirectionFindsIsUncertain) {
   const Torus spark(16, [](size_t x, size_t y) { return x == 3 && y == 5 ? 1. : 0; });
-  EXPECT_NEAR(spark.variance(true), tuning::ErrorEstimate::kEvenSet, .02);
-  EXPECT_NEAR(spark.variance(false), tuning::ErrorEstimate::kAmongOthers, .02);
+  EXPECT_NEAR(spark.variance(), tuning::ErrorEstimate::kEvenSet, .02);
+}
+
+// Of n independent values, 1 / (1 + n^1/2 / 8) of the variance: tuning::ErrorEstimate::kEvenRun.
+TEST(ErrorEstimate, LongRunsOfDirectionsAreTakenForEven) {
+  Random random(1);
+  for (const size_t n : {4, 64, 1024}) {
+    Sample ratio;
+    for (int i = 0; i < 800; ++i) {
+      std::vector<DirectionSample> samples(n);
+      for (DirectionSample& s : samples) {
+        const double value = random.uniform();
+        s.value = Radiance(value);
+        s.solidAngle = 1;
+      }
+      ratio.add(spreadVariance(samples).brightness / (static_cast<double>(n) / 12));
+    }
+    expectMean(ratio, 1 / (1 + std::sqrt(static_cast<double>(n)) / 8), 1.15);
+  }
+}
+
+// Something that is smaller than the distance of directions is found by some of them by chance, however even
+// they are.
+TEST(ErrorEstimate, WhatFewDirectionsFindIsNotTakenForEven) {
+  constexpr size_t kDirections = 3000;
+  constexpr double kFound = 3;  // on average
+  Random random(1);
+  Sample stated, found;
+  for (int i = 0; i < 400; ++i) {
+    std::vector<DirectionSample> samples(kDirections);
+    double sum = 0;
+    for (DirectionSample& s : samples) {
+      const bool hit = random.uniform() < kFound / kDirections;
+      s.value = Radiance(hit ? 1 : 0);
+      s.solidAngle = 1;
+      sum += hit;
+    }
+    stated.add(spreadVariance(samples).brightness);
+    found.add(sum);
+  }
+  // By the number of all directions, the variance would be taken for 1 / (1 + 3000^1/2 / 8) = .13 of what it
+  // is.
+  EXPECT_GT(stated.mean(), .7 * found.variance());
+  EXPECT_LT(stated.mean(), 1 * found.variance());
 }
 
 // Four directions in a row, two of which see a window that is brighter than the wall beside it.
@@ -97,14 +138,25 @@ TEST(ErrorEstimate, EdgesOfRegionsAreNoErrors) {
                                              {V3d(0, 0, 1), 1, Radiance(9)},
                                              {V3d(0, 0, 1), 1, Radiance(9)}};
   const Neighbours row{{0, 1, 3, 5, 6}, {1, 0, 2, 1, 3, 2}};
-  const double factor = tuning::ErrorEstimate::kAmongOthers;
+  const double even = tuning::ErrorEstimate::kEvenSet;
   // The difference of 4 to the mean of two neighbours, twice.
-  EXPECT_NEAR(localVariance(base, 4, row, {}).brightness, factor * 2 * 16 * 2 / 3, 1e-12);
-  EXPECT_EQ(localVariance(base, 4, row, std::vector<RegionId>{0, 0, 5, 5}).brightness, 0);
+  EXPECT_NEAR(evenVariance(base, row, {}).brightness, even * 2 * 16 * 2 / 3, 1e-12);
+  EXPECT_EQ(evenVariance(base, row, std::vector<RegionId>{0, 0, 5, 5}).brightness, 0);
   // A direction that is alone in its region is compared with all neighbours.
-  EXPECT_NEAR(localVariance(base, 4, row, std::vector<RegionId>{0, 0, 5, 6}).brightness,
-              factor * (16 * 2. / 3 + 0), 1e-12);
-  EXPECT_EQ(localVariance(base, 4, row, std::vector<RegionId>{0, 0, kNoRegion, kNoRegion}).brightness, 0);
+  EXPECT_NEAR(evenVariance(base, row, std::vector<RegionId>{0, 0, 5, 6}).brightness, even * 16 * 2 / 3,
+              1e-12);
+  EXPECT_EQ(evenVariance(base, row, std::vector<RegionId>{0, 0, kNoRegion, kNoRegion}).brightness, 0);
+}
+
+// One direction that was sent to a window, beside base directions of which two see it.
+TEST(ErrorEstimate, ALoneDirectionIsComparedWithItsRegion) {
+  const std::vector<DirectionSample> base = {
+      {V3d(0, 0, 1), 1, Radiance(1)}, {V3d(0, 0, 1), 1, Radiance(8)}, {V3d(0, 0, 1), 1, Radiance(10)}};
+  const std::vector<RegionId> regions{0, 5, 5};
+  const DirectionSample lone{V3d(0, 0, 1), 2, Radiance(12)};
+  EXPECT_NEAR(loneVariance(lone, 5, base, regions).brightness, 4 * 9 * 2. / 3, 1e-12);
+  EXPECT_NEAR(loneVariance(lone, 0, base, regions).brightness, 4 * 121 / 2., 1e-12);
+  EXPECT_NEAR(loneVariance(lone, 6, base, regions).brightness, 4 * 144, 1e-12);
 }
 
 // Three directions that see the same sky through a window of 6 sr, and one that sees the wall.
