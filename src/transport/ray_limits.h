@@ -59,8 +59,8 @@ inline bool isOfGather(const PathSettings& settings, const Ray& ray) {
 }
 
 // The number of samples that a ray takes of a lobe, at least 1. wanted: the number for a ray of weight 1.
-inline int samplesOf(const PreparedScene& prepared, const Ray& ray, double wanted) {
-  if (isOfGather(prepared, ray)) return 1;
+inline int samplesOf(const PathSettings& settings, const Ray& ray, double wanted) {
+  if (isOfGather(settings, ray)) return 1;
   return std::max(1, static_cast<int>(wanted * std::min(ray.weight, 1.) + .5));
 }
 
