@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "tests/unit/transport/transport_fixture.h"
+#include "transport/find_openings.h"
 
 namespace rsphere {
 namespace {
