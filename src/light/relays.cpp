@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/constants.h"
 #include "base/overloaded.h"
@@ -164,35 +165,54 @@ class Images {
       way.passages.push_back({{source.center, source.radius},
                               {},
                               hullOf(scene_.surfaces[source.surface].shape, scene_.vertices)});
-    addImages(real, way, relays);
+    addImages(real, std::move(way), relays);
   }
 
  private:
-  void addImages(LightId source, const Way& way, int relays) {
+  // A relay that light reaches, and points whose hull holds the part of it that the light reaches.
+  struct Reached {
+    uint32_t relay;
+    std::vector<V3d> part;
+  };
+
+  void addImages(LightId source, Way way, int relays) {
     if (relays <= 0) return;
-    std::vector<uint32_t> reached;
-    tree_.find([&](const RelayTree::Bounds& bounds) { return mayLight(source, way, bounds); }, reached);
-    for (const uint32_t r : reached) {
+    const std::vector<Reached> reached = relaysReached(source, way);
+    std::vector<HalfSpace>().swap(way.lit);  // it would stay in memory for each relay of a long sequence
+    for (const Reached& r : reached)
+      for (int image = 0; image < imagesBy(relays_[r.relay]); ++image)
+        addImage(source, way, r, image, relays);
+  }
+
+  // The relays that light of a source which has come this way may reach.
+  std::vector<Reached> relaysReached(LightId source, const Way& way) const {
+    std::vector<uint32_t> found;
+    tree_.find([&](const RelayTree::Bounds& bounds) { return mayLight(source, way, bounds); }, found);
+    std::vector<Reached> reached;
+    for (const uint32_t r : found) {
       // A relay makes no image of its own images, nor of light that its own surface emits.
       if (relays_[r].surface == sources_[source].surface) continue;
       if (!lights(source, way, relays_[r])) continue;
-      const std::vector<V3d> part = clipped(relays_[r].hull, way.lit);
-      if (part.empty()) continue;
-      for (int image = 0; image < imagesBy(relays_[r]); ++image) {
-        const auto projection = project(sources_[source], way, relays_[r], image);
-        if (!projection) continue;
-        relayOf_.resize(sources_.size());
-        relayOf_.push_back(r);
-        sources_.push_back(imageOf(sources_[source], relays_[r], *projection));
-        sources_.back().relayed = source;
-        sources_.back().image = image;
-        Way through = wayThrough(sources_.back(), way, relays_[r], part, *projection);
-        const auto [away, offset] = sideLit(sources_.last());
-        through.lit.push_back({away, offset});
-        if (!sources_.back().isDistant()) sources_.back().beam = through.passages.front().beam;
-        addImages(sources_.last(), through, relays - 1);
-      }
+      std::vector<V3d> part = clipped(relays_[r].hull, way.lit);
+      if (!part.empty()) reached.push_back({r, std::move(part)});
     }
+    return reached;
+  }
+
+  void addImage(LightId source, const Way& way, const Reached& reached, int image, int relays) {
+    const Relay& relay = relays_[reached.relay];
+    const auto projection = project(sources_[source], way, relay, image);
+    if (!projection) return;
+    relayOf_.resize(sources_.size());
+    relayOf_.push_back(reached.relay);
+    sources_.push_back(imageOf(sources_[source], relay, *projection));
+    sources_.back().relayed = source;
+    sources_.back().image = image;
+    Way through = wayThrough(sources_.back(), way, relay, reached.part, *projection);
+    const auto [away, offset] = sideLit(sources_.last());
+    through.lit.push_back({away, offset});
+    if (!sources_.back().isDistant()) sources_.back().beam = through.passages.front().beam;
+    addImages(sources_.last(), std::move(through), relays - 1);
   }
 
   void addRelay(SurfaceId index, const rad::Warn& warn) {
