@@ -1115,7 +1115,7 @@ RayOptions pictureDefaults() {
   ray.ambientResolution = 64;
   ray.leastForPatches = 256;
   ray.specularSampling = 8;
-  ray.directJitter = .5;
+  ray.directJitter = .6;
   ray.directThreshold = .03;
   ray.weightLimit = 1e-4;
   return ray;
