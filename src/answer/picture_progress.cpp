@@ -5,22 +5,28 @@
 namespace rsphere {
 namespace {
 
-// The part of a picture that must be done before it says how much time is left: its first rows make the coarse solution.
-constexpr double kEnough = .1;
+// The part of a picture that does not foretell the time of the rest, because its rays make the coarse solution; and the
+// part after it that must be done before the time left is reported.
+constexpr double kStart = .1, kEnough = .05;
 
 }  // namespace
 
 void PictureProgress::at(double done) {
   if (!report_) return;
   const auto now = Clock::now();
+  if (done <= kStart) {
+    started_ = now;
+    doneThen_ = done;
+  }
   const auto since = [&](Clock::time_point then) {
     return std::chrono::duration<double>(now - then).count();
   };
   if (since(last_) < seconds_) return;
   last_ = now;
-  const double seconds = since(start_);
-  std::string text = fmt::format("picture {}: {:.0f}% after {:.1f} seconds", name_, 100 * done, seconds);
-  if (done > kEnough) text += fmt::format(", about {:.0f} seconds left", seconds * (1 / done - 1));
+  std::string text =
+      fmt::format("picture {}: {:.0f}% after {:.1f} seconds", name_, 100 * done, since(start_));
+  if (const double part = done - doneThen_; part > kEnough)
+    text += fmt::format(", about {:.0f} seconds left", since(started_) * (1 - done) / part);
   report_(text);
 }
 

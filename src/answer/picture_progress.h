@@ -27,6 +27,8 @@ class PictureProgress {
   const Report& report_;
   double seconds_;
   Clock::time_point start_ = Clock::now(), last_ = start_;
+  Clock::time_point started_ = start_;  // when the start of the picture was done, and how much that was
+  double doneThen_ = 0;
 };
 
 }  // namespace rsphere

@@ -23,7 +23,18 @@ constexpr Smoothing kOfIndirect{Tuning::kIndirectPasses, Tuning::kCarefulPasses,
 constexpr Smoothing kOfGloss{Tuning::kGlossPasses, 0, 0, Tuning::kSameGlossNormal, Tuning::kSamePlane,
                              Tuning::kNear};
 
-constexpr double kTracingShare = .8;  // of the time of a picture; for progress reports only
+constexpr double kTracingShare = .85;  // of the time of a picture; for progress reports only
+
+// Whether shadow rays find all light: there is neither daylight nor a glowing surface, which indirect rays must meet.
+bool lampsAlone(const PreparedScene& prepared) {
+  for (const LightSource& light : prepared.lights().all())
+    if (light.isDistant()) return false;
+  const auto& modifiers = prepared.scene().modifiers;
+  return std::none_of(modifiers.begin(), modifiers.end(), [](const Modifier& modifier) {
+    const auto* material = std::get_if<Material>(&modifier.content);
+    return material && std::holds_alternative<Glow>(*material);
+  });
+}
 
 // The seeds of a picture, each named after its use.
 class PictureStreams {
@@ -33,8 +44,8 @@ class PictureStreams {
   uint64_t middle(size_t pixel) const { return mixBits(seed_ + 16 + pixel); }
   // beside: index in Tuning::kBeside.
   uint64_t aside(size_t pixel, size_t beside) const { return mixBits(middle(pixel) + 1 + beside); }
-  // part: of the kSide x kSide parts of a pixel.
-  uint64_t part(size_t pixel, size_t part) const { return mixBits(middle(pixel) + 64 + part); }
+  // around: index in Tuning::kAround.
+  uint64_t around(size_t pixel, size_t around) const { return mixBits(middle(pixel) + 64 + around); }
 
  private:
   uint64_t seed_;
@@ -79,7 +90,7 @@ struct Pixels {
   SeenSurfaces seen;
   PixelLight indirect, gloss;
   std::vector<V3d> rest, pattern;
-  std::vector<bool> sharesGloss;
+  std::vector<bool> sharesGloss, isTraced;
 
   explicit Pixels(const PixelMap& map) : seen{map.width(), map.height(), map.wraps(), {}} {
     seen.pixels.resize(map.count());
@@ -90,7 +101,9 @@ struct Pixels {
     rest.assign(map.count(), V3d(0, 0, 0));
     pattern.assign(map.count(), V3d(1, 1, 1));
     sharesGloss.assign(map.count(), false);
+    isTraced.assign(map.count(), false);
   }
+  // Pixels that are not set are black.
   void set(size_t pixel, const PixelSample& sample, bool hasIndirect) {
     seen.pixels[pixel] = sample.seen;
     indirect.light[pixel] = Imath::V3f(sample.indirect);
@@ -100,6 +113,7 @@ struct Pixels {
     rest[pixel] = sample.rest;
     pattern[pixel] = sample.pattern;
     sharesGloss[pixel] = sample.sharesGloss;
+    isTraced[pixel] = true;
   }
   // A sample of a pixel's surface, with the components of this pixel where it lacks them.
   V3d complete(const PixelSample& sample, size_t pixel) const {
@@ -118,6 +132,34 @@ struct Pixels {
   }
 };
 
+// The mean of what the rays of a pixel see, and whether they differ visibly.
+class RaysOfPixel {
+ public:
+  // most: of a color that the picture can show.
+  RaysOfPixel(double exposure, double most) : exposure_(exposure), most_(most) {}
+
+  void add(const V3d& value) {
+    for (int c = 0; c < 3; ++c) {
+      const double shown = std::clamp(value[c], 0., most_), onScreen = sRgb(exposure_ * shown);
+      sum_[c] += shown;
+      darkest_[c] = std::min(darkest_[c], onScreen);
+      brightest_[c] = std::max(brightest_[c], onScreen);
+    }
+    ++count_;
+  }
+  bool differ() const {
+    const V3d range = brightest_ - darkest_;
+    return std::max({range.x, range.y, range.z}) > Tuning::kVisible;
+  }
+  // Empty without rays.
+  std::optional<V3d> mean() const { return count_ > 0 ? std::optional(sum_ / count_) : std::nullopt; }
+
+ private:
+  double exposure_, most_;
+  V3d sum_{0, 0, 0}, darkest_{kFarAway, kFarAway, kFarAway}, brightest_{0, 0, 0};
+  int count_ = 0;
+};
+
 class Painter {
  public:
   Painter(const V3d& point, const PixelMap& map, const Transport& transport, const SeenSources& sources,
@@ -128,17 +170,20 @@ class Painter {
         progress_(progress),
         tracer_(point, transport),
         small_(smallSources(tracer_.paths(), map, sources, streams_.smallSources())),
-        sampling_(transport.prepared().options().sampling) {}
+        sampling_(transport.prepared().options().sampling),
+        sharing_(lampsAlone(transport.prepared()) ? Tuning::kSharingByLamps : Tuning::kSharing) {}
 
   Raster draw(bool forScreen);
 
  private:
   Pixels tracePixels();
   std::optional<PixelSample> look(double x, double y, uint64_t seed, PixelParts parts);
-  PixelSample middle(int column, int row, PixelParts parts);
+  std::optional<PixelSample> middle(int column, int row, PixelParts parts);
   void gatherWhereUnknown(Pixels& pixels);
   std::vector<bool> uneven(const Raster& raster, double exposure) const;
-  V3d average(const Pixels& pixels, int column, int row, double most);
+  bool gathers(int column, int row) const;
+  std::optional<V3d> around(const Pixels& pixels, int column, int row, size_t place);
+  V3d average(const Pixels& pixels, int column, int row, RaysOfPixel rays);
   std::optional<size_t> alike(const Pixels& pixels, const PixelSample& sample, int column, int row) const;
   void refine(const Pixels& pixels, double exposure, bool forScreen, Raster& raster);
   void addSmallSources(Raster& raster) const;
@@ -156,6 +201,7 @@ class Painter {
   PixelTracer tracer_;
   const SmallSources small_;
   const SpectralSampling* const sampling_;
+  const int sharing_;  // one pixel in a square of this side gathers
 };
 
 // Empty beyond the rim, and where a small source is seen, which is added later.
@@ -167,31 +213,36 @@ std::optional<PixelSample> Painter::look(double x, double y, uint64_t seed, Pixe
   return sample;
 }
 
-PixelSample Painter::middle(int column, int row, PixelParts parts) {
+// Empty as look(), if no place beside the middle shows anything else.
+std::optional<PixelSample> Painter::middle(int column, int row, PixelParts parts) {
   const size_t pixel = at(column, row);
-  if (!map_.direction(column + .5, row + .5)) return {};
+  if (!map_.direction(column + .5, row + .5)) return std::nullopt;
   auto sample = look(column + .5, row + .5, streams_.middle(pixel), parts);
   for (size_t i = 0; !sample && i < Tuning::kBeside.size(); ++i)
     sample = look(column + .5 + Tuning::kBeside[i][0], row + .5 + Tuning::kBeside[i][1],
                   streams_.aside(pixel, i), parts);
-  return sample.value_or(PixelSample{});
+  return sample;
+}
+
+// One pixel of each block gathers. Which one it is changes from block to block, lest the blocks show.
+bool Painter::gathers(int column, int row) const {
+  const auto chosen = static_cast<int>(mixBits(streams_.middle(at(column / sharing_, row / sharing_))) %
+                                       static_cast<uint64_t>(sharing_ * sharing_));
+  return column % sharing_ == chosen % sharing_ && row % sharing_ == chosen / sharing_;
 }
 
 Pixels Painter::tracePixels() {
   Pixels pixels(map_);
-  for (int row = 0; row < map_.height(); ++row) {
-    report(kTracingShare * row / map_.height());
-    for (int column = 0; column < map_.width(); ++column) {
-      // One pixel of each block gathers. Which one it is changes from block to block, lest the blocks show.
-      const int blockColumn = column / Tuning::kSharing, blockRow = row / Tuning::kSharing;
-      const auto chosen = static_cast<int>(mixBits(streams_.middle(at(blockColumn, blockRow))) %
-                                           (Tuning::kSharing * Tuning::kSharing));
-      const bool gathers = column % Tuning::kSharing == chosen % Tuning::kSharing &&
-                           row % Tuning::kSharing == chosen / Tuning::kSharing;
-      pixels.set(at(column, row), middle(column, row, gathers ? PixelParts::all : PixelParts::noIndirect),
-                 gathers);
+  int traced = 0;
+  for (int sweep = 0; sweep < Tuning::kSweeps; ++sweep)
+    for (int row = sweep; row < map_.height(); row += Tuning::kSweeps) {
+      report(kTracingShare * traced++ / map_.height());
+      for (int column = 0; column < map_.width(); ++column) {
+        const bool all = gathers(column, row);
+        if (const auto sample = middle(column, row, all ? PixelParts::all : PixelParts::noIndirect))
+          pixels.set(at(column, row), *sample, all);
+      }
     }
-  }
   return pixels;
 }
 
@@ -201,7 +252,8 @@ void Painter::gatherWhereUnknown(Pixels& pixels) {
     for (int column = 0; column < map_.width(); ++column) {
       const size_t pixel = at(column, row);
       if (pixels.seen.pixels[pixel].material == kNone || pixels.indirect.known[pixel] > 0) continue;
-      pixels.indirect.light[pixel] = Imath::V3f(middle(column, row, PixelParts::all).indirect);
+      if (const auto sample = middle(column, row, PixelParts::all))
+        pixels.indirect.light[pixel] = Imath::V3f(sample->indirect);
     }
 }
 
@@ -246,37 +298,41 @@ std::optional<size_t> Painter::alike(const Pixels& pixels, const PixelSample& sa
   return std::nullopt;
 }
 
-V3d Painter::average(const Pixels& pixels, int column, int row, double most) {
-  constexpr int kSide = Tuning::kSide;
-  V3d sum(0, 0, 0);
-  int samples = 0;
-  for (int part = 0; part < kSide * kSide; ++part) {
-    const double x = column + (part % kSide + .5) / kSide, y = row + (part / kSide + .5) / kSide;
-    const uint64_t seed = streams_.part(at(column, row), static_cast<size_t>(part));
-    auto sample = look(x, y, seed, PixelParts::restAlone);
-    if (!sample) continue;
-    V3d value;
-    if (sample->seen.material == kNone) {
-      value = sample->value();
-    } else if (const auto pixel = alike(pixels, *sample, column, row)) {
-      value = pixels.complete(*sample, *pixel);
-    } else {
-      sample = look(x, y, seed, PixelParts::all);
-      value = sample ? sample->value() : V3d(0, 0, 0);
-    }
-    for (int c = 0; c < 3; ++c) sum[c] += std::clamp(value[c], 0., most);
-    ++samples;
+// What is seen at one of Tuning::kAround, with the components of the pixels around it. Empty beyond the rim, and where
+// a small source is seen.
+std::optional<V3d> Painter::around(const Pixels& pixels, int column, int row, size_t place) {
+  const double x = column + .5 + Tuning::kAround[place][0], y = row + .5 + Tuning::kAround[place][1];
+  const uint64_t seed = streams_.around(at(column, row), place);
+  auto sample = look(x, y, seed, PixelParts::restAlone);
+  if (sample && sample->seen.material != kNone) {
+    if (const auto pixel = alike(pixels, *sample, column, row)) return pixels.complete(*sample, *pixel);
+    sample = look(x, y, seed, PixelParts::all);
   }
-  return samples > 0 ? sum / samples : pixels.value(at(column, row));
+  return sample ? std::optional(sample->value()) : std::nullopt;
+}
+
+V3d Painter::average(const Pixels& pixels, int column, int row, RaysOfPixel rays) {
+  const V3d middle = pixels.value(at(column, row));
+  if (pixels.isTraced[at(column, row)]) rays.add(middle);
+  for (size_t place = 0; place < Tuning::kAround.size(); ++place) {
+    if (place == Tuning::kCorners && !rays.differ()) break;
+    if (const auto value = around(pixels, column, row, place)) rays.add(*value);
+  }
+  return rays.mean().value_or(middle);
 }
 
 void Painter::refine(const Pixels& pixels, double exposure, bool forScreen, Raster& raster) {
   const std::vector<bool> marked = uneven(raster, exposure);
-  const double most = forScreen ? 1 / exposure : std::numeric_limits<double>::infinity();
+  const double all = std::max<double>(1, static_cast<double>(std::count(marked.begin(), marked.end(), true)));
+  const RaysOfPixel none(exposure, forScreen ? 1 / exposure : std::numeric_limits<double>::infinity());
+  int done = 0;
   for (int row = 0; row < map_.height(); ++row) {
-    report(kTracingShare + (1 - kTracingShare) * row / map_.height());
-    for (int column = 0; column < map_.width(); ++column)
-      if (marked[at(column, row)]) setValue(raster, at(column, row), average(pixels, column, row, most));
+    report(kTracingShare + (1 - kTracingShare) * done / (all + 1));
+    for (int column = 0; column < map_.width(); ++column) {
+      if (!marked[at(column, row)]) continue;
+      setValue(raster, at(column, row), average(pixels, column, row, none));
+      ++done;
+    }
   }
 }
 

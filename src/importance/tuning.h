@@ -269,7 +269,11 @@ struct Pictures {
   static constexpr std::array<std::array<double, 2>, 4> kBeside = {
       {{-.4, -.4}, {.4, .4}, {-.4, .4}, {.4, -.4}}};
   // One pixel in a square of this side gathers indirect light, and each of those from 32 rays: chosen by experiment.
+  // With 3 the ceiling of the classroom of examples/daylight has clouds.
   RSPHERE_TUNED(Pictures, int, kSharing, 2);
+  // The same where shadow rays find all light (there is neither daylight nor glow), so that gathers are less noisy:
+  // chosen by experiment in the open-plan office.
+  RSPHERE_TUNED(Pictures, int, kSharingByLamps, 3);
   // Passes of smoothing of indirect light and of gloss: chosen by experiment.
   RSPHERE_TUNED(Pictures, int, kIndirectPasses, 3);
   RSPHERE_TUNED(Pictures, int, kGlossPasses, 2);
@@ -282,10 +286,21 @@ struct Pictures {
   // Least roughness of surfaces whose pixels share gloss: derived. The lobe is about as wide as the gloss of two
   // passes is blurred, 2.2 pixels or .014 radians.
   RSPHERE_TUNED(Pictures, double, kLeastRoughness, .02);
-  // Pixels that differ from a neighbor by more than this, of 1 on the sRGB curve, are traced by kSide x kSide rays:
-  // chosen by experiment.
+  // Pixels that differ from a neighbor by more than this, of 1 on the sRGB curve, are traced near their corners as
+  // well, and near the middles of their sides if these rays differ by more: chosen by experiment.
   RSPHERE_TUNED(Pictures, double, kVisible, .05);
-  RSPHERE_TUNED(Pictures, int, kSide, 3);
+  static constexpr std::array<std::array<double, 2>, 8> kAround = {{{-1 / 3., -1 / 3.},
+                                                                    {1 / 3., -1 / 3.},
+                                                                    {-1 / 3., 1 / 3.},
+                                                                    {1 / 3., 1 / 3.},
+                                                                    {0, -1 / 3.},
+                                                                    {-1 / 3., 0},
+                                                                    {1 / 3., 0},
+                                                                    {0, 1 / 3.}}};
+  static constexpr size_t kCorners = 4;
+  // Rows are traced in sweeps that skip all but one in this number, so that each sweep takes about as long as
+  // another and progress reports are honest. It changes no picture.
+  static constexpr int kSweeps = 16;
   // Two pixels share indirect light if the cosine between their normals is at least kSameNormal, the height
   // of one point over the plane of the other at most kSamePlane of their distance, and their distance at
   // most kNear of that from the eye: chosen by experiment. .87 or .93: within noise (picture from point;
