@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "field/tuning.h"
+#include "scene/even_sequence.h"
 
 namespace rsphere {
 namespace {
@@ -22,6 +23,12 @@ constexpr unsigned kLogPatchBuckets = 18, kLogDivisionBuckets = 19;
 // The color of an element, of which bands may be kept beside it.
 Color colorAt(const V3f& channels, const std::vector<Bands>& bands, size_t i) {
   return Color(V3d(channels), i < bands.size() ? bands[i] : Bands());
+}
+
+// Whether a site lies on a ball or a cone and everything that it sees is near, compared to the radius.
+bool isInNarrowShell(const Surroundings& seen, const SurfaceChart& chart) {
+  return chart.isCurved() && seen.covered >= 1 &&
+         seen.rootMeanSquare < Tuning::kEnclosed * 2 * chart.extent();
 }
 
 // Adds a color to an element.
@@ -56,17 +63,16 @@ void CoarseSolution::Links::addEnd(int bounces, const Coefficient& coefficient) 
 struct CoarseSolution::Division {
   int level = 0;  // of the widest cells whose side is at most what their surroundings ask for, or the finest
   double side = 0;          // that the surroundings ask for (world units)
-  bool isEnclosed = false;  // Patch::isEnclosed
+  int finest = 0;           // level of the finest cells that rays from nearby ask for
+  bool isEnclosed = false;  // no finer ones are tried where patches are hidden
 };
 
 struct CoarseSolution::Patch {
   bool usable = false;  // it has a site
   GatherSite site;
   double reach = 0;
-  double share = 0;  // in the light of the other surfaces of the room (Tuning::kUsualShare)
-  // Whether it lies on a ball or a cone within a narrow shell. Nearly all patches are hidden there by the bulge of
-  // the surface, and rays reach so many places from nearby that the finest patches would have no end.
-  bool isEnclosed = false;
+  double share = 0;         // in the light of the other surfaces of the room (Tuning::kUsualShare)
+  bool isEnclosed = false;  // all that it sees is near (isInNarrowShell())
   uint64_t seed = 0;
   std::atomic<const Links*> links{nullptr};
   struct Light {
@@ -91,7 +97,8 @@ CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const Fi
       spectral_(options.spectral),
       ambient_(V3d(V3f(options.ambientValue.color.rgb()))),  // in single precision as all light here
       divisions_(std::make_unique<InsertOnce<CellKey, Division>>(kLogDivisionBuckets)),
-      patches_(std::make_unique<InsertOnce<CellKey, Patch>>(kLogPatchBuckets)) {}
+      patches_(std::make_unique<InsertOnce<CellKey, Patch>>(kLogPatchBuckets)),
+      enclosed_(std::make_unique<InsertOnce<CellKey, bool>>(kLogDivisionBuckets)) {}
 
 CoarseSolution::~CoarseSolution() = default;
 
@@ -124,8 +131,7 @@ CoarseSolution::Patch& CoarseSolution::patchOf(const SurfaceChart& chart, const 
       patch.site = *site;
       const Surroundings seen = looker.surroundings(*site);
       patch.reach = seen.harmonicMean;
-      patch.isEnclosed =
-          chart.isCurved() && seen.covered >= 1 && seen.rootMeanSquare < Tuning::kEnclosed * chart.extent();
+      patch.isEnclosed = isInNarrowShell(seen, chart);
       const double far = std::max(room_, seen.rootMeanSquare);
       patch.share =
           chart.stepU(grid_, key.level) * chart.stepV(grid_, key.level) * seen.covered / (far * far);
@@ -133,9 +139,22 @@ CoarseSolution::Patch& CoarseSolution::patchOf(const SurfaceChart& chart, const 
   });
 }
 
-// The level of the smallest patches of a surface.
-int CoarseSolution::finestLevel(const SurfaceChart& chart) const {
-  return grid_.levelOf(effort_.leastSide * std::min(chart.extent(), Tuning::kWidestExtent * grid_.size));
+// The level of the smallest patches of a surface. leastSide: their side as a share of the surface's extent.
+int CoarseSolution::finestLevel(const SurfaceChart& chart, double leastSide) const {
+  return grid_.levelOf(leastSide * std::min(chart.extent(), Tuning::kWidestExtent * grid_.size));
+}
+
+// Whether all of a side of a surface lies in a narrow gap, as between nested shells. A place where something else
+// comes near does not make it enclosed.
+bool CoarseSolution::isEnclosed(const SurfaceChart& chart, Looker& looker) {
+  return enclosed_->findOrAdd(chart.cell(grid_, 0, 0, 0), [&](bool& enclosed) {
+    for (size_t i = 0; i < Tuning::kEnclosedPlaces; ++i) {
+      const auto site = chart.siteWithin(grid_, evenly(i, .5, .5));
+      if (!site) continue;
+      enclosed = isInNarrowShell(looker.surroundings(*site), chart);
+      if (!enclosed) return;
+    }
+  });
 }
 
 // The widest patches that the surroundings of a place allow, regardless of the distance that it is seen from. All
@@ -143,14 +162,21 @@ int CoarseSolution::finestLevel(const SurfaceChart& chart) const {
 const CoarseSolution::Division& CoarseSolution::divisionAt(const SurfaceChart& chart, int finest,
                                                            Looker& looker) {
   const double open = Tuning::kOpen * grid_.size;
+  const int finestEnclosed = std::min(finest, finestLevel(chart, Tuning::kLeastPatchEnclosed));
   const CellKey key = chart.cellAt(grid_, finest, chart.u(), chart.v());
   return divisions_->findOrAdd(key, [&](Division& found) {
     const double u = (static_cast<double>(key.i) + .5) * chart.stepU(grid_, finest),
                  v = (static_cast<double>(key.j) + .5) * chart.stepV(grid_, finest);
-    for (int level = std::min(grid_.levelOf(std::min(chart.extent(), open)), finest); level <= finest;
+    found.finest = finest;
+    for (int level = std::min(grid_.levelOf(std::min(chart.extent(), open)), finest); level <= found.finest;
          ++level) {
       const Patch& patch = patchOf(chart, chart.cellAt(grid_, level, u, v), looker);
-      found = {level, patch.usable ? effort_.spacing * std::min(patch.reach, open) : 0, patch.isEnclosed};
+      found.level = level;
+      found.side = patch.usable ? effort_.spacing * std::min(patch.reach, open) : 0;
+      if (patch.isEnclosed && isEnclosed(chart, looker)) {
+        found.isEnclosed = true;
+        found.finest = std::max(level, finestEnclosed);
+      }
       if (grid_.side(level) <= found.side) break;
     }
   });
@@ -159,15 +185,14 @@ const CoarseSolution::Division& CoarseSolution::divisionAt(const SurfaceChart& c
 CoarseSolution::Patch* CoarseSolution::find(const SurfacePlace& place, double u1, double u2, Looker& looker) {
   auto chart = SurfaceChart::of(scene_, grid_, place);
   if (!chart) return nullptr;
-  const int finest = finestLevel(*chart);
-  const Division& division = divisionAt(*chart, finest, looker);
+  const Division& division = divisionAt(*chart, finestLevel(*chart, effort_.leastSide), looker);
   const double suffices = effort_.farSide * place.distance;
   if (chart->extent() < Tuning::kOwnPatch * std::max(division.side, suffices)) return nullptr;
   const int enough = grid_.levelOf(std::min(suffices, Tuning::kOpen * grid_.size));
   int level = std::min(division.level, enough);
   if (place.distance < Tuning::kNear * grid_.side(level)) return nullptr;
-  level =
-      std::max(level, std::min(grid_.levelOf(Tuning::kSeenFrom * place.distance), std::min(enough, finest)));
+  level = std::max(
+      level, std::min(grid_.levelOf(Tuning::kSeenFrom * place.distance), std::min(enough, division.finest)));
   // Light changes across slats and other strips that are near to each other, and others hide a part of each.
   if (chart->shorterSide() < grid_.side(level) && division.side < chart->shorterSide())
     chart->divideAcross(Tuning::kPartsAcross);
@@ -181,7 +206,7 @@ CoarseSolution::Patch* CoarseSolution::find(const SurfacePlace& place, double u1
     Patch& patch = patchOf(*chart, chart->cellAt(grid_, level, u, v), looker);
     if (serves(patch)) return &patch;
   }
-  const int most = division.isEnclosed ? std::max(level, finest) : CellGrid::kLevels;
+  const int most = division.isEnclosed ? std::max(level, division.finest) : CellGrid::kLevels;
   for (int tried = level; tried <= std::min(level + Tuning::kFiner, most); ++tried) {
     Patch& patch = patchOf(*chart, chart->cellAt(grid_, tried, chart->u(), chart->v()), looker);
     if (serves(patch)) return &patch;

@@ -100,7 +100,8 @@ class CoarseSolution {
   static Effort effortFor(const FieldOptions& options, bool daylit);
 
   struct Division;
-  int finestLevel(const SurfaceChart& chart) const;
+  int finestLevel(const SurfaceChart& chart, double leastSide) const;
+  bool isEnclosed(const SurfaceChart& chart, Looker& looker);
   const Division& divisionAt(const SurfaceChart& chart, int finest, Looker& looker);
   Patch& patchOf(const SurfaceChart& chart, const CellKey& key, Looker& looker);
   const Links& linksOf(Patch& patch, Looker& looker);
@@ -115,6 +116,7 @@ class CoarseSolution {
   std::atomic<size_t> made_{0};
   std::unique_ptr<InsertOnce<CellKey, Division>> divisions_;
   std::unique_ptr<InsertOnce<CellKey, Patch>> patches_;
+  std::unique_ptr<InsertOnce<CellKey, bool>> enclosed_;  // by the first cell of a chart
 };
 
 }  // namespace rsphere

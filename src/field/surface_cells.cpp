@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/constants.h"
 #include "base/overloaded.h"
 #include "field/tuning.h"
 #include "scene/even_sequence.h"
@@ -258,6 +259,13 @@ std::optional<GatherSite> SurfaceChart::siteAt(const CellGrid& grid, double u, d
   const V3d at = origin_ + u * x_ + v * y_;
   if (!holds(at)) return {};
   return GatherSite{at + grid.lift * normal_, normal_};
+}
+
+std::optional<GatherSite> SurfaceChart::siteWithin(const CellGrid& grid, const Imath::V2d& shares) const {
+  const Imath::V2d around = 2. * shares - Imath::V2d(1, 1);
+  if (ball_) return siteAt(grid, around.x * ball_->radius, around.y * ball_->radius);
+  if (cone_) return siteAt(grid, around.x * kPi * extent(), shares.y * cone_->length);
+  return siteAt(grid, shares.x * width_, shares.y * height_);
 }
 
 std::optional<GatherSite> SurfaceChart::site(const CellGrid& grid, const CellKey& key) const {

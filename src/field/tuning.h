@@ -138,11 +138,14 @@ struct CoarseSolution {
   // The number of finer levels that are tried where a patch is hidden: chosen by experiment. 1 or 3: within
   // noise (sensors by sun; error below 1%, time 6%).
   RSPHERE_TUNED(CoarseSolution, int, kFiner, 2);
-  // A ball or a cone is enclosed if all that a patch on it sees is nearer, in the root mean square, than this
-  // share of its radius: between a shell with a gap of a fifth of the radius, where it is .3, and a ball in a
-  // tight room. Within such a shell, patches finer than the finest that the surface asks for take 50 times as
-  // long: each of them serves a few places only, because the surface's bulge hides its site from others.
-  static constexpr double kEnclosed = .35;
+  // A side of a surface is enclosed if all that is seen from so many places on it, the first number, is nearer in
+  // the root mean square than this share of its width: between shells with a gap of a third of the radius of the
+  // inner one, where it is .24, and furniture, whose sides do not all lie in closed gaps.
+  static constexpr size_t kEnclosedPlaces = 8;
+  static constexpr double kEnclosed = .3;
+  // No patch of an enclosed side is smaller than this share of the surface's extent: by measurement. All rays between
+  // shells reach places from nearby, and each patch is asked for. .05: a hundred thousand patches, a minute.
+  static constexpr double kLeastPatchEnclosed = .2;
   // The number of rays of a patch for each ray that a gather is asked for (-ad and -as): by measurement. In
   // daylit rooms, .1 instead of .07 takes a third more time for a tenth less error.
   RSPHERE_TUNED(CoarseSolution, double, kRays, .06);

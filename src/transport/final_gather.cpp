@@ -48,6 +48,7 @@ GatheredLight gatherLight(const PreparedScene& prepared, PathState& state, const
 void linkPatch(const PreparedScene& prepared, PathState& state, const PathSettings& settings,
                RayFollower& follower, const GatherSite& site, int rays, int depth) {
   const Ray root = rootOf(prepared, site, depth);
+  state.descendants = descendantsOfPatch(rays, depth);
   Radiance sum;
   const GatherDirections directions(settings.aims, site.point, site.normal, site.normal, rays);
   sendOverHemisphere(prepared, directions, settings, state, root, kReflectedAmbient, rays, Coefficient(1),

@@ -39,9 +39,14 @@ inline Descendants descendantsOfPrimary(const TracingMode& mode, int rays) {
   return {mode.boundsWork ? tuning::RayLimits::kMostDescendants * std::max(rays, 1) : 0, 1, 0, 0, 0};
 }
 
-// The same for a gather's ray, if light is interpolated. Those of a primary ray are counted already.
+// The same for all rays of a patch of the coarse solution together. depth: of the imagined ray that they leave.
+inline Descendants descendantsOfPatch(int rays, int depth) {
+  return {tuning::RayLimits::kMostOfPatch * rays, kMeanReflectance, depth + 1, 1, 0};
+}
+
+// The same for a gather's ray, if light is interpolated. Those of a primary ray or of a patch are counted already.
 inline void countDescendants(const PathSettings& settings, PathState& state, const Ray& ray) {
-  if (settings.caches.field && !settings.mode.boundsWork)
+  if (settings.caches.field && !settings.mode.boundsWork && !state.links)
     state.descendants = {tuning::RayLimits::kMostDescendants, ray.weight, ray.depth, ray.ambientLevel, 0};
 }
 

@@ -323,6 +323,8 @@ struct RayLimits {
   // measurement. 99% of the directions in a room with a chrome column have fewer (-ab 6, -ad 4), those in a closed
   // metal cylinder up to 1000, and gathers between two rough metal balls 36 on average.
   RSPHERE_TUNED(RayLimits, double, kMostDescendants, 64);
+  // The same for a patch of the coarse solution, for each of its rays: XXX
+  RSPHERE_TUNED(RayLimits, double, kMostOfPatch, 8);
 };
 
 // Sharp reflection and refraction (specular_light.cpp).
