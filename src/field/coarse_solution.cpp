@@ -27,8 +27,7 @@ Color colorAt(const V3f& channels, const std::vector<Bands>& bands, size_t i) {
 
 // Whether a site lies on a ball or a cone and everything that it sees is near, compared to the radius.
 bool isInNarrowShell(const Surroundings& seen, const SurfaceChart& chart) {
-  return chart.isCurved() && seen.covered >= 1 &&
-         seen.rootMeanSquare < Tuning::kEnclosed * 2 * chart.extent();
+  return chart.isCurved() && seen.covered >= 1 && seen.rootMeanSquare < Tuning::kEnclosed * chart.extent();
 }
 
 // Adds a color to an element.
@@ -72,7 +71,7 @@ struct CoarseSolution::Patch {
   GatherSite site;
   double reach = 0;
   double share = 0;         // in the light of the other surfaces of the room (Tuning::kUsualShare)
-  bool isEnclosed = false;  // all that it sees is near (isInNarrowShell())
+  bool isEnclosed = false;  // isInNarrowShell()
   uint64_t seed = 0;
   std::atomic<const Links*> links{nullptr};
   struct Light {

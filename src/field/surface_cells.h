@@ -70,8 +70,6 @@ class SurfaceChart {
   // with other keys. REQUIRES a finite shorterSide().
   void divideAcross(int parts);
   bool isCurved() const { return ball_ || cone_; }
-  // The shorter side of a bounded flat surface, the diameter of a sphere, the larger one of a cone.
-  double width() const { return isCurved() ? 2 * extent() : shorterSide(); }
   // A site at these shares, in [0, 1], of the extents of the chart, which for a sphere covers a sixth of it; empty
   // beside the surface. REQUIRES a chart that is not of a plane.
   std::optional<GatherSite> siteWithin(const CellGrid& grid, const Imath::V2d& shares) const;

@@ -138,13 +138,15 @@ struct CoarseSolution {
   // The number of finer levels that are tried where a patch is hidden: chosen by experiment. 1 or 3: within
   // noise (sensors by sun; error below 1%, time 6%).
   RSPHERE_TUNED(CoarseSolution, int, kFiner, 2);
-  // A side of a surface is enclosed if all that is seen from so many places on it, the first number, is nearer in
-  // the root mean square than this share of its width: between shells with a gap of a third of the radius of the
-  // inner one, where it is .24, and furniture, whose sides do not all lie in closed gaps.
+  // A side of a ball (a sixth of it) or of a cone is enclosed if all that is seen from so many places on it, the first
+  // number, is nearer in the root mean square than this share of the radius: between shells with a gap of a third of
+  // the inner radius, where it is .47 in the middle, and a ball in a tight room. Without it, gathers between five
+  // shells of rough trans make more than 140,000 patches: the surface's bulge hides most sites from the places
+  // around, so that finer and finer patches are tried, each of which serves few places.
   static constexpr size_t kEnclosedPlaces = 8;
-  static constexpr double kEnclosed = .3;
-  // No patch of an enclosed side is smaller than this share of the surface's extent: by measurement. All rays between
-  // shells reach places from nearby, and each patch is asked for. .05: a hundred thousand patches, a minute.
+  static constexpr double kEnclosed = .6;
+  // No patch of an enclosed side is smaller than this share of the surface's extent: an estimate, tried with those
+  // five shells alone (one point in sphere mode, 4 s instead of minutes).
   static constexpr double kLeastPatchEnclosed = .2;
   // The number of rays of a patch for each ray that a gather is asked for (-ad and -as): by measurement. In
   // daylit rooms, .1 instead of .07 takes a third more time for a tenth less error.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 #include "base/constants.h"
@@ -50,6 +51,7 @@ struct Passage {
   Ball ball;  // around it
   Beam beam;  // holds all that light from it reaches behind the last relay, as seen from the ball's center
   std::vector<V3d> hull;  // all that the light has left or come through of it lies in the hull of these
+  bool isFlat = false;    // the hull is a polygon
 };
 struct Way {
   std::vector<Passage> passages;
@@ -161,10 +163,12 @@ class Images {
   void addImages(LightId real, int relays) {
     Way way;
     const LightSource& source = sources_[real];
+    const Surface& surface = scene_.surfaces[source.surface];
     if (!source.isDistant())
       way.passages.push_back({{source.center, source.radius},
                               {},
-                              hullOf(scene_.surfaces[source.surface].shape, scene_.vertices)});
+                              hullOf(surface.shape, scene_.vertices),
+                              planeNormal(surface.shape) != nullptr});
     addImages(real, std::move(way), relays);
   }
 
@@ -203,15 +207,17 @@ class Images {
     const Relay& relay = relays_[reached.relay];
     const auto projection = project(sources_[source], way, relay, image);
     if (!projection) return;
+    LightSource made = imageOf(sources_[source], relay, *projection);
+    made.relayed = source;
+    made.image = image;
+    Way through = wayThrough(made, way, relay, reached.part, *projection);
+    if (std::ranges::any_of(through.passages, [](const Passage& p) { return p.hull.empty(); })) return;
+    if (!made.isDistant()) made.beam = through.passages.front().beam;
     relayOf_.resize(sources_.size());
     relayOf_.push_back(reached.relay);
-    sources_.push_back(imageOf(sources_[source], relay, *projection));
-    sources_.back().relayed = source;
-    sources_.back().image = image;
-    Way through = wayThrough(sources_.back(), way, relay, reached.part, *projection);
+    sources_.push_back(std::move(made));
     const auto [away, offset] = sideLit(sources_.last());
     through.lit.push_back({away, offset});
-    if (!sources_.back().isDistant()) sources_.back().beam = through.passages.front().beam;
     addImages(sources_.last(), std::move(through), relays - 1);
   }
 
@@ -378,6 +384,24 @@ class Images {
     return aside.length() <= radius + spread;
   }
 
+  // Reduces hulls to what light comes from that reaches the hull of `part` by way of the last passage. One is
+  // empty if there is no such light.
+  static void keepWhatReaches(const std::vector<V3d>& part, std::vector<Passage>& passages) {
+    if (passages.size() < 2) return;
+    std::vector<HalfSpace> seen;
+    addPenumbra(part, passages.back().hull, seen);
+    for (Passage& passage : passages | std::views::take(passages.size() - 1)) {
+      if (passage.isFlat) {
+        passage.hull = clipped(std::move(passage.hull), seen);
+      } else {
+        Box3d box;
+        for (const V3d& p : passage.hull) box.extendBy(p);
+        const auto excludes = [&](const HalfSpace& bound) { return isOutside(box, bound); };
+        if (std::ranges::any_of(seen, excludes)) passage.hull.clear();
+      }
+    }
+  }
+
   // The way of an image's light: that of its source's light, as the relay shows it, and the relay, of which
   // the light reaches the hull of `part`.
   static Way wayThrough(const LightSource& image, const Way& before, const Relay& relay,
@@ -390,10 +414,10 @@ class Images {
         const size_t fromEnd = static_cast<size_t>(&before.passages.back() - &passage);
         if (fromEnd >= Tuning::kMostRelays && !(&passage == &before.passages.front() && !image.isDistant()))
           continue;
-        passages.push_back({{projection.point(passage.ball.center), passage.ball.radius},
-                            {projection.vector(passage.beam.axis), passage.beam.cosine},
-                            passage.hull});
-        for (V3d& p : passages.back().hull) p = projection.point(p);
+        Passage& shown = passages.emplace_back(passage);
+        shown.ball.center = projection.point(shown.ball.center);
+        shown.beam.axis = projection.vector(shown.beam.axis);
+        for (V3d& p : shown.hull) p = projection.point(p);
       }
     } else if (!image.isDistant()) {
       // A prism's light seems to come from the image, but not from images of earlier relays. A shear makes
@@ -403,11 +427,12 @@ class Images {
       passages.push_back(
           {{image.center, radius}, {}, cornersOf(Box3d(image.center - half, image.center + half))});
     }
+    keepWhatReaches(part, passages);
     for (Passage& passage : passages) {
       passage.beam = sharedBeam(passage.beam, beamThrough(passage.ball, relay.ball));
       addPenumbra(passage.hull, part, way.lit);
     }
-    passages.push_back({relay.ball, {}, part});
+    passages.push_back({relay.ball, {}, part, true});
     return way;
   }
 
