@@ -43,7 +43,8 @@ TEST(ErrorEstimate, PartlyHiddenPartsVary) {
   EXPECT_NEAR(partsVariance(std::vector{half}).brightness, .5 * .25 / 4, 1e-12);
 }
 
-// Values on a torus of `side` by `side` cells of solid angle 1 with six neighbours each, as even directions have.
+// Values on a torus of `side` by `side` cells of solid angle 1 with six neighbours each, as even directions
+// have.
 struct Torus {
   std::vector<DirectionSample> samples;
   Neighbours neighbours;
