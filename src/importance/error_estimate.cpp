@@ -41,9 +41,9 @@ Differences differences(std::span<const Radiance> values, const Neighbours& n,
   return result;
 }
 
-// The variance of one of m + 1 independent values over that of a difference between differences. It has the value
-// 1 + 1/m times and each neighbour -2/m + 2/m^2 times, since each shares two neighbours with the direction; the rest,
-// of neighbours of neighbours, is .023 for m = 6.
+// The variance of one of m + 1 independent values over that of a difference between differences. It has the
+// value 1 + 1/m times and each neighbour -2/m + 2/m^2 times, since each shares two neighbours with the
+// direction; the rest, of neighbours of neighbours, is .023 for m = 6.
 double ownPartOfSecond(double m) {
   constexpr double kFarther = .023;
   return 1 / (std::pow(1 + 1 / m, 2) + 4 / m * std::pow(1 - 1 / m, 2) + kFarther);
@@ -78,11 +78,11 @@ Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours
   for (size_t i = 0; i < samples.size(); ++i) {
     const double m = once.neighbours[i];
     if (m == 0) continue;
-    const bool second = m >= Tuning::kFewestAround;
+    const bool second = m >= Tuning::kFewestAround, apart = !regions.empty() && regions[i] != 0;
     sum += Variance::of(irradianceFrom((second ? twice : once).values[i], samples[i].solidAngle), sampling) *
-           (second ? ownPartOfSecond(m) : m / (m + 1));
+           ((second ? ownPartOfSecond(m) : m / (m + 1)) * (apart ? 1 : Tuning::kEvenSet));
   }
-  return sum * Tuning::kEvenSet;
+  return sum;
 }
 
 Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling) {

@@ -37,12 +37,14 @@ struct Neighbours {
   std::vector<uint32_t> first, neighbour;
 };
 
-// Variance of the sum of solid angle times radiance over even directions. Each contributes its solid angle times
-// the difference between its radiance and the mean of its neighbours, minus the mean of the neighbours' differences:
-// noise of paths, and edges, but not light that slopes or bends smoothly, which an even set integrates. An even set
-// averages out a part of the edges, so that the sum is multiplied by tuning::ErrorEstimate::kEvenSet. regions: of
-// each direction; empty: all are in one region. Only neighbours in the same region are compared, if there are any:
-// the edge of a region is no error, because cells keep to regions. Directions in kNoRegion do not count.
+// Variance of the sum of solid angle times radiance over even directions. Each contributes its solid angle
+// times the difference between its radiance and the mean of its neighbours, minus the mean of the neighbours'
+// differences: noise of paths, and edges, but not light that slopes or bends smoothly, which an even set
+// integrates. An even set averages out a part of the edges, so that the sum is multiplied by
+// tuning::ErrorEstimate::kEvenSet. The factor is 1 in regions other than 0, where single directions find much,
+// such as a lamp that a chrome column mirrors. regions: of each direction; empty: all are in region 0. Only
+// neighbours in the same region are compared, if there are any: the edge of a region is no error, because
+// cells keep to regions. Directions in kNoRegion do not count.
 Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours& neighbours,
                       std::span<const RegionId> regions, const SpectralSampling* sampling = nullptr);
 
