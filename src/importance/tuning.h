@@ -269,7 +269,6 @@ struct Pictures {
   static constexpr std::array<std::array<double, 2>, 4> kBeside = {
       {{-.4, -.4}, {.4, .4}, {-.4, .4}, {.4, -.4}}};
   // One pixel in a square of this side gathers indirect light, and each of those from 32 rays: chosen by experiment.
-  // With 3 the ceiling of the classroom of examples/daylight has clouds.
   RSPHERE_TUNED(Pictures, int, kSharing, 2);
   // The same where shadow rays find all light (there is neither daylight nor glow), so that gathers are less noisy:
   // chosen by experiment in the open-plan office.

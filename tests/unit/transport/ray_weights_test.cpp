@@ -224,5 +224,35 @@ rough sphere outer 0 0 4 0 0 4 .3
   EXPECT_LT(between.transport().caches().coarse->patches(), 8000U);
 }
 
+// Balls of rough trans, the outer a third wider than the inner, whose patches and rays have bounds. The light that
+// comes through them stays that of paths without interpolation.
+TEST(RayWeights, LightThroughShellsOfRoughTransIsThatOfPaths) {
+  const std::string shells = R"(
+void light l 0 0 3 100 100 100
+l sphere lamp 0 0 4 0 0 4 .2
+void trans rough 0 0 7 .8 .8 .8 .1 .1 .8 .5
+rough sphere inner 0 0 4 0 0 4 .25
+rough sphere outer 0 0 4 0 0 4 .33
+)";
+  RayOptions o = interpolated(2, 16, {-4, 1e-4}), exact = unbiased(2);
+  o.leastForPatches = 64;
+  exact.ambientDivisions = 4;
+  exact.reflectionLimit = -4;
+  exact.weightLimit = 1e-4;
+  Traced coarse(shells, o), paths(shells, exact);
+  const V3d from(0, 0, 1), to = V3d(.04, .02, 1).normalized();
+  const auto mean = [&](Traced& traced, uint64_t count) {
+    PathTracer tracer = traced.tracerWith({});
+    Sample sample;
+    for (uint64_t i = 0; i < count; ++i) sample.add(tracer.trace(from, to, 0, mixBits(i)).value.color.x);
+    return sample;
+  };
+  const Sample a = mean(coarse, 60), b = mean(paths, 200);
+  EXPECT_LT(std::abs(a.mean() - b.mean()),
+            .1 * b.mean() + kMostSigmas * std::hypot(a.standardError(), b.standardError()));
+  EXPECT_LT(kMostSigmas * std::hypot(a.standardError(), b.standardError()), .2 * b.mean())
+      << "would not see an error of 30%";
+}
+
 }  // namespace
 }  // namespace rsphere
