@@ -75,8 +75,8 @@ void requirePictureNames(const AnswerOptions& options, RecordReader& reader);
 
 // The function that answers points in sphere mode: appends the spherical mean, or a record of every
 // direction (-Sd), and writes pictures of the points (-Si). Warns if nothing in the scene gives light.
-// checkStop: see PointWorkers; it is copied. pictureReport: gets the progress of pictures. The other arguments must live as long as the result. Throws
-// what PointWorkers throws.
+// checkStop: see PointWorkers; it is copied. pictureReport: gets the progress of pictures. The other arguments
+// must live as long as the result. Throws what PointWorkers throws.
 AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& options,
                           const AnswerWriter& writer, const rad::Warn& warn, PointSummary& summary,
                           const std::function<void()>& checkStop,
