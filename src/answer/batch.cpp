@@ -177,6 +177,7 @@ class Batch {
   template <typename Write>
   void guardOutput(const Write& write);
   void writeDue();
+  std::unique_lock<std::mutex> outputForWatcher();
   void writeFinished();
   void watch(uint64_t workers);
   void endForSignal();
@@ -238,7 +239,7 @@ void Batch::run() {
 
 // Writes what is left to be written and returns why the run has ended, or null at the end of the input.
 std::exception_ptr Batch::conclude() {
-  const std::lock_guard output(output_);
+  const std::unique_lock output = outputForWatcher();
   outputEnded_ = true;  // workers that are left write nothing
   try {
     writer_.flush();
@@ -306,7 +307,7 @@ void Batch::watch(uint64_t workers) {
 // grows too large causes both SIGXFSZ and an error of write(2), which has its name.
 void Batch::endForSignal() {
   writeFinished();
-  const std::lock_guard output(output_);
+  const std::unique_lock output = outputForWatcher();
   endInput();
 }
 
@@ -476,9 +477,18 @@ void Batch::writeDue() {
   }
 }
 
+// Locks output_ for the watching thread. It looks again and again instead of waiting for the mutex, which a
+// worker holds as long as nobody reads what it writes: the thread sanitizer delivers no signal to a thread
+// that waits for a mutex, and most signals come to this thread.
+std::unique_lock<std::mutex> Batch::outputForWatcher() {
+  std::unique_lock output(output_, std::try_to_lock);
+  while (!output && !output.try_lock()) poll(nullptr, 0, 5);
+  return output;
+}
+
 // Writes and flushes all records that are finished, up to the first that is not.
 void Batch::writeFinished() {
-  const std::lock_guard output(output_);
+  const std::unique_lock output = outputForWatcher();
   guardOutput([this] {
     for (InWork& work : inWork_) writer_.write(work.take(nextOut_));
     writer_.flush();
