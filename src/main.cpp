@@ -28,7 +28,8 @@ const T& lasting(const T* object) {
   return *kept;
 }
 
-// Pictures report their progress if -t asks for it, or on a terminal; never to a program that reads the messages.
+// Pictures report their progress if -t asks for it, or on a terminal; never to a program that reads the
+// messages.
 PictureProgress::Report pictureReport(const Options& options, const Messages& messages) {
   if (options.progressSeconds <= 0 && isatty(messages.descriptor()) == 0) return {};
   return [&messages](std::string_view text) { messages.report(text); };

@@ -50,9 +50,9 @@ class Area {
 };
 
 // The area of the polygons of these names. If no polygon has a name, it stands for the polygons with the
-// modifier of that name. reversed: the back is measured. upOnly: only those of these polygons that face up, such
-// as the tops of boxes. Throws rad::Error if there is no such polygon, with the names that resemble it, and if
-// the polygons lie in different planes.
+// modifier of that name. reversed: the back is measured. upOnly: only those of these polygons that face up,
+// such as the tops of boxes. Throws rad::Error if there is no such polygon, with the names that resemble it,
+// and if the polygons lie in different planes.
 Area findArea(const rad::Description& scene, std::span<const std::string> names, bool reversed,
               bool upOnly = false);
 

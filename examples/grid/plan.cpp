@@ -225,9 +225,11 @@ void run(const Settings& s) {
     sensors.resize(kept);
   } else if (dark > 0) {
     warn(dark == lit.size()
-             ? fmt::format("0 lx at all {} points; is there a light source, and is -h in the units of the scene?", dark)
-             : fmt::format("0 lx at {} of {} points; if these are inside of furniture, -z leaves them out", dark,
-                           lit.size()));
+             ? fmt::format("0 lx at all {} points; is there a light source, and is -h in the units of the "
+                           "scene?",
+                           dark)
+             : fmt::format("0 lx at {} of {} points; if these are inside of furniture, -z leaves them out",
+                           dark, lit.size()));
     dark = 0;
   }
 

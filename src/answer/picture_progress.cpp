@@ -5,8 +5,8 @@
 namespace rsphere {
 namespace {
 
-// The part of a picture that does not foretell the time of the rest, because its rays make the coarse solution; and the
-// part after it that must be done before the time left is reported.
+// The part of a picture that does not foretell the time of the rest, because its rays make the coarse
+// solution; and the part after it that must be done before the time left is reported.
 constexpr double kStart = .1, kEnough = .05;
 
 }  // namespace

@@ -93,8 +93,8 @@ struct Targets {
   // (none) with 0 .1 .25 .5, in times that are the same within noise; without targets at openings 6.9 and
   // 76%.
   RSPHERE_TUNED(Targets, double, kOpeningDeviation, .5);
-  // The same for spots of daylight, which are lit in part: by measurement. With them, the default directions in
-  // two sunlit rooms have errors of 1.5 and 1.8% instead of 2.75 and 1.9%. .25 or 1: within noise.
+  // The same for spots of daylight, which are lit in part: by measurement. With them, the default directions
+  // in two sunlit rooms have errors of 1.5 and 1.8% instead of 2.75 and 1.9%. .25 or 1: within noise.
   RSPHERE_TUNED(Targets, double, kSunlitDeviation, .5);
   // An opening that would give more than this share of the light at a point, if nothing hid it, gets at least
   // the number of directions below: chosen by experiment. At .1, a far window that happens to be dark in the
@@ -195,15 +195,16 @@ struct Silhouettes {
 
 // The standard error of a mean (error_estimate.cpp).
 struct ErrorEstimate {
-  // Factor on the variance that differences between differences of base directions give: a compromise. It is .6 if
-  // straight edges are all of the variance, of which an even set averages out a part, and 1 if the noise of paths is.
+  // Factor on the variance that differences between differences of base directions give: a compromise. It is
+  // .6 if straight edges are all of the variance, of which an even set averages out a part, and 1 if the
+  // noise of paths is.
   RSPHERE_TUNED(ErrorEstimate, double, kEvenSet, .8);
-  // Neighbours that a direction must have for differences of differences: derived. Among fewer, they are not what
-  // ownPartOfSecond() takes them for.
+  // Neighbours that a direction must have for differences of differences: derived. Among fewer, they are not
+  // what ownPartOfSecond() takes them for.
   static constexpr double kFewestAround = 4;
   // The same for directions to the parts of a light source: chosen by experiment. Differences of successive
-  // parts count an edge too often, because it lies between two parts more often than it crosses one. Where the
-  // light of a source is all of the variance, the standard error is then too small (40 rotations each):
+  // parts count an edge too often, because it lies between two parts more often than it crosses one. Where
+  // the light of a source is all of the variance, the standard error is then too small (40 rotations each):
   //   predicted / actual deviation              .5 (this)    1
   //   luminous ceiling behind 36 balls          .67 to .88   .94 to 1.24
   //   lamp of .1 m, half hidden                 .69          .98
@@ -237,13 +238,15 @@ struct Stopping {
 
 // Points that hardly any light reaches (estimator.cpp, two_halves.cpp).
 struct Dark {
-  // The mean below which -Sa gives up soon, relative to what surfaces of the scene show on average: chosen without
-  // measurement. Within closed furniture of metal one direction in a hundred thousand finds a gap between surfaces;
-  // a million directions would not tell how much light that is within a percent.
+  // The mean below which -Sa gives up soon, relative to what surfaces of the scene show on average: chosen
+  // without measurement. Within closed furniture of metal one direction in a hundred thousand finds a gap
+  // between surfaces; a million directions would not tell how much light that is within a percent.
   RSPHERE_TUNED(Dark, double, kMean, 1e-3);
-  // The sets after which it gives up: chosen by experiment. Within a closed column of metal they take 7 s (-ab 6).
+  // The sets after which it gives up: chosen by experiment. Within a closed column of metal they take 7 s
+  // (-ab 6).
   RSPHERE_TUNED(Dark, size_t, kSets, 8);
-  // Share of the directions that find light below which a warning names the point: chosen without measurement.
+  // Share of the directions that find light below which a warning names the point: chosen without
+  // measurement.
   RSPHERE_TUNED(Dark, double, kLitDirections, 1e-3);
 };
 
@@ -268,10 +271,11 @@ struct Pictures {
   // chosen by experiment.
   static constexpr std::array<std::array<double, 2>, 4> kBeside = {
       {{-.4, -.4}, {.4, .4}, {-.4, .4}, {.4, -.4}}};
-  // One pixel in a square of this side gathers indirect light, and each of those from 32 rays: chosen by experiment.
+  // One pixel in a square of this side gathers indirect light, and each of those from 32 rays: chosen by
+  // experiment.
   RSPHERE_TUNED(Pictures, int, kSharing, 2);
-  // The same where shadow rays find all light (there is neither daylight nor glow), so that gathers are less noisy:
-  // chosen by experiment in the open-plan office.
+  // The same where shadow rays find all light (there is neither daylight nor glow), so that gathers are less
+  // noisy: chosen by experiment in the open-plan office.
   RSPHERE_TUNED(Pictures, int, kSharingByLamps, 3);
   // Passes of smoothing of indirect light and of gloss: chosen by experiment.
   RSPHERE_TUNED(Pictures, int, kIndirectPasses, 3);
@@ -282,11 +286,11 @@ struct Pictures {
   RSPHERE_TUNED(Pictures, float, kSameLight, .14f);
   // Cosine between the normals of pixels that share gloss: 2 degrees, less than the width of a lobe: derived.
   RSPHERE_TUNED(Pictures, float, kSameGlossNormal, .9994f);
-  // Least roughness of surfaces whose pixels share gloss: derived. The lobe is about as wide as the gloss of two
-  // passes is blurred, 2.2 pixels or .014 radians.
+  // Least roughness of surfaces whose pixels share gloss: derived. The lobe is about as wide as the gloss of
+  // two passes is blurred, 2.2 pixels or .014 radians.
   RSPHERE_TUNED(Pictures, double, kLeastRoughness, .02);
-  // Pixels that differ from a neighbor by more than this, of 1 on the sRGB curve, are traced near their corners as
-  // well, and near the middles of their sides if these rays differ by more: chosen by experiment.
+  // Pixels that differ from a neighbor by more than this, of 1 on the sRGB curve, are traced near their
+  // corners as well, and near the middles of their sides if these rays differ by more: chosen by experiment.
   RSPHERE_TUNED(Pictures, double, kVisible, .05);
   static constexpr std::array<std::array<double, 2>, 8> kAround = {{{-1 / 3., -1 / 3.},
                                                                     {1 / 3., -1 / 3.},

@@ -230,9 +230,10 @@ constexpr const char* kTrace = R"(Traces rays: an array of shape (n, 6), origins
 
 Returns an object with an array for each letter of outputs ("v" if not given), and None for others:
 v value (n, 3): radiance (W/sr/m2), or irradiance (W/m2) with irradiance_at_origin (-I) or
-irradiance_at_surface (-i); o origin, d direction, p point, n normal, N unperturbed_normal, L first_length, l effective_length,
-c local_coordinates, w weight, W coefficient, V contribution, r mirrored_value, R mirrored_length,
-x unmirrored_value, X unmirrored_length, s surface, m modifier, M material.
+irradiance_at_surface (-i); o origin, d direction, p point, n normal, N unperturbed_normal,
+L first_length, l effective_length, c local_coordinates, w weight, W coefficient, V contribution,
+r mirrored_value, R mirrored_length, x unmirrored_value, X unmirrored_length, s surface, m modifier,
+M material.
 )";
 
 constexpr const char* kSphere = R"(Computes what passes through points from all directions: an array (n, 3).

@@ -20,8 +20,8 @@ constexpr std::string_view kStyle = R"(
   --line: #353c45; --tint: #1b2c3f; --code: #1e2329; --good: #4cc26b; --open: #d9a62e; --bad: #ff6b63;
   --mark: #ff5c97; } }
 * { box-sizing: border-box; }
-body { margin: 0 auto; max-width: 68rem; padding: 1.5rem 1rem 3rem; background: var(--paper); color: var(--ink);
-  font: 16px/1.5 system-ui, sans-serif; }
+body { margin: 0 auto; max-width: 68rem; padding: 1.5rem 1rem 3rem; background: var(--paper);
+  color: var(--ink); font: 16px/1.5 system-ui, sans-serif; }
 h1 { margin: 0 0 1rem; font-size: 1.7rem; line-height: 1.25; overflow-wrap: anywhere; }
 h2 { margin: 2rem 0 .6rem; font-size: 1.15rem; }
 p { margin: .5rem 0; }

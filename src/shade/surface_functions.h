@@ -210,8 +210,8 @@ class SurfaceFunctions {
   // to be composed for this call, it is stored in scratch.
   const Placement* placementOf(const Function& f, const FunctionPoint& at, FunctionScratch& scratch) const;
   void setInputs(const Function& f, const FunctionPoint& at, FunctionScratch& scratch) const;
-  // Whether no fault has occurred since the faults were cleared, and the values that were computed are finite;
-  // otherwise warns.
+  // Whether no fault has occurred since the faults were cleared, and the values that were computed are
+  // finite; otherwise warns.
   bool computed(ModifierId modifier, const FunctionScratch& scratch, std::span<const double> values) const;
   std::array<double, 3> three(ModifierId modifier, ProgramPointer Scatterer::*program,
                               const FunctionPoint& at, FunctionScratch& scratch) const;

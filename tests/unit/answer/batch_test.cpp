@@ -517,8 +517,8 @@ TEST(StopSignals, TheSecondEndsItAtOnce) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, 10s);
 }
 
-// Answers 300 records at once, with two numbers each. The next takes a minute; `busy` gets a line when all 300 are
-// answered by any of the threads.
+// Answers 300 records at once, with two numbers each. The next takes a minute; `busy` gets a line when all
+// 300 are answered by any of the threads.
 AnswerRecord slowAfter300(const Pipe& busy) {
   const auto answered = std::make_shared<std::atomic<int>>(0);
   return [&busy, answered](const Record& record, unsigned, std::string& bytes) {

@@ -9,8 +9,8 @@
 namespace rsphere {
 namespace {
 
-// The first tenth of a picture makes the coarse solution. In an office it took as long as the next three, and the time
-// left was predicted three times too long.
+// The first tenth of a picture makes the coarse solution. In an office it took as long as the next three, and
+// the time left was predicted three times too long.
 TEST(PictureProgress, TheStartDoesNotForetellTheRest) {
   std::vector<std::string> lines;
   const PictureProgress::Report report = [&](std::string_view line) { lines.emplace_back(line); };

@@ -139,8 +139,8 @@ int raysOfPatch(const Traced& box, const RayOptions& options, double room, doubl
   return looker.raysOfLast;
 }
 
-// A patch has rays in proportion to its area over the square of the room's size, fewer outdoors, and more of them
-// the smaller -aa is.
+// A patch has rays in proportion to its area over the square of the room's size, fewer outdoors, and more of
+// them the smaller -aa is.
 TEST(CoarseSolution, RaysGoWhereTheirNoiseMatters) {
   using Tuning = tuning::CoarseSolution;
   const Traced box(kBox);

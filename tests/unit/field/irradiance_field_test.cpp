@@ -190,7 +190,8 @@ TEST(IrradianceField, ForgetsBeyondItsBoundAndAnswersTheSame) {
   work(0);
   for (std::thread& other : others) other.join();
   EXPECT_GT(needed, 4 * kThreads * kQuestion) << "or nothing is told";
-  EXPECT_GT(field.sitesMade(), 2 * whole.transport().caches().field->sitesMade()) << "something was forgotten";
+  EXPECT_GT(field.sitesMade(), 2 * whole.transport().caches().field->sitesMade())
+      << "something was forgotten";
 }
 
 // Light of second diffuse surfaces has the same mean as with single paths, and less variance.
@@ -268,8 +269,8 @@ double shareBelowPlate(double width, double depth, double height, double x, doub
   return 1 - hidden;
 }
 
-// Two parallel boards close to each other: light comes from the sky through the gap alone, however far the ground
-// below them extends. Interpolated light is not that of the places beside or above the boards.
+// Two parallel boards close to each other: light comes from the sky through the gap alone, however far the
+// ground below them extends. Interpolated light is not that of the places beside or above the boards.
 TEST(IrradianceField, FindsTheLightInGapsOnAWideGround) {
   RayOptions coarse = interpolated(.1, 1);
   coarse.ambientDivisions = 2048;

@@ -114,7 +114,8 @@ TEST(GridArea, MessagesNameTheRemedy) {
             "no polygon and no modifier of a polygon is named \"flor\"; similar names are: floor");
   EXPECT_EQ(
       messageOf("wood polygon floor 0 0 9 0 0 0 1 0 0 0 1 0\n", "ceiling"),
-      "no polygon and no modifier of a polygon is named \"ceiling\"; the largest horizontal polygons are: floor");
+      "no polygon and no modifier of a polygon is named \"ceiling\"; the largest horizontal polygons are: "
+      "floor");
   EXPECT_EQ(messageOf("wood sphere ball 0 0 4 0 0 0 1\n", "ball"),
             "\"ball\" is a sphere; only polygons can have a grid");
   EXPECT_NE(
@@ -124,7 +125,8 @@ TEST(GridArea, MessagesNameTheRemedy) {
 
 TEST(GridArea, BoxesHaveTops) {
   const std::string box =
-      "wood polygon b.top 0 0 12 0 0 1 1 0 1 1 1 1 0 1 1\nwood polygon b.bottom 0 0 12 0 0 0 0 1 0 1 1 0 1 0 0\n"
+      "wood polygon b.top 0 0 12 0 0 1 1 0 1 1 1 1 0 1 1\n"
+      "wood polygon b.bottom 0 0 12 0 0 0 0 1 0 1 1 0 1 0 0\n"
       "wood polygon b.side 0 0 12 0 0 0 1 0 0 1 0 1 0 0 1\n";
   const std::string message = messageOf(box, "wood");
   EXPECT_TRUE(message.ends_with("; -u takes the one that faces up")) << message;

@@ -175,7 +175,8 @@ TEST_F(PictureFiles, ReplaceAFileWithItsLinksAndPermissions) {
 TEST_F(PictureFiles, ASuffixOfNoFormatIsAnError) {
   EXPECT_EQ(
       faultOf("v.jpgg"),
-      "cannot write picture \"v.jpgg\": its suffix is that of no picture format; usual ones are .hdr, .exr, .tif, "
+      "cannot write picture \"v.jpgg\": its suffix is that of no picture format; usual ones are .hdr, .exr, "
+      ".tif, "
       ".png and .jpg");
 }
 

@@ -323,8 +323,9 @@ TEST(Estimator, LampAloneInSpace) {
   }
 }
 
-// Thick glass with two parallel faces refracts rays into and out of it, but the sun is seen in its own direction. Light that
-// is reflected within the glass an even number of times arrives with the rest: 2 n / (n^2 + 1) of all at normal incidence.
+// Thick glass with two parallel faces refracts rays into and out of it, but the sun is seen in its own
+// direction. Light that is reflected within the glass an even number of times arrives with the rest: 2 n /
+// (n^2 + 1) of all at normal incidence.
 TEST(Estimator, SeesTheSunThroughThickGlass) {
   constexpr double kIndex = 1.5, kRadiance = 1e6;
   std::string text = fmt::format("void dielectric glass 0 0 5 1 1 1 {} 0\n", kIndex);
@@ -344,15 +345,17 @@ TEST(Estimator, SeesTheSunThroughThickGlass) {
 std::string daylitRoom() {
   return "void plastic gray 0 0 5 .5 .5 .5 0 0\nvoid glass clear 0 0 3 .96 .96 .96\n"
          "void glow sky_glow 0 0 4 1 1 1 0\nsky_glow source sky 0 0 4 0 0 1 360\n"
-         "gray polygon floor 0 0 12 0 0 0 4 0 0 4 6 0 0 6 0\ngray polygon roof 0 0 12 0 0 3 0 6 3 4 6 3 4 0 3\n"
-         "gray polygon west 0 0 12 0 0 0 0 6 0 0 6 3 0 0 3\ngray polygon east 0 0 12 4 0 0 4 0 3 4 6 3 4 6 0\n"
+         "gray polygon floor 0 0 12 0 0 0 4 0 0 4 6 0 0 6 0\n"
+         "gray polygon roof 0 0 12 0 0 3 0 6 3 4 6 3 4 0 3\n"
+         "gray polygon west 0 0 12 0 0 0 0 6 0 0 6 3 0 0 3\n"
+         "gray polygon east 0 0 12 4 0 0 4 0 3 4 6 3 4 6 0\n"
          "gray polygon north 0 0 12 0 6 0 4 6 0 4 6 3 0 6 3\n"
          "gray polygon south 0 0 30 0 0 0 4 0 0 4 0 3 0 0 3 0 0 0 1 0 1 1 0 2 2 0 2 2 0 1 1 0 1\n"
          "clear polygon window 0 0 12 1 0 1 2 0 1 2 0 2 1 0 2\n";
 }
 
-// With -aa above 0, light comes from the patches of the coarse solution, which other patches share, so that each
-// sample needs a transport of its own.
+// With -aa above 0, light comes from the patches of the coarse solution, which other patches share, so that
+// each sample needs a transport of its own.
 TEST(Estimator, PatchesGiveTheMeanOfPathsWithLessNoise) {
   const V3d point(2.5, 4, 1.2);
   const auto means = [&](double accuracy, int count, double& stated) {
@@ -390,8 +393,8 @@ TEST(Estimator, PatchesGiveTheMeanOfPathsWithLessNoise) {
   EXPECT_LT(trueToStated, 1.25);
 }
 
-// The sun lights a patch of the floor, and nothing else is bright. Where no light is reflected twice, directions
-// are sent to the patch as they are for paths.
+// The sun lights a patch of the floor, and nothing else is bright. Where no light is reflected twice,
+// directions are sent to the patch as they are for paths.
 TEST(Estimator, FindsSunlitPatchesWithoutBounces) {
   const SphereSetting room(
       sceneOf(daylitRoom() + "void light glare 0 0 3 1e5 1e5 1e5\nglare source sun 0 0 4 0 -1 1 .53\n"));

@@ -111,8 +111,10 @@ TEST(SpecialObjects, AreFoundThroughAliases) {
 // An illum is seen as its alternate material, or not at all.
 TEST(SpecialObjects, IllumsAreWhatTheyShow) {
   const Scene scene = sceneOf(
-      "void glass clear 0 0 3 .9 .9 .9\nvoid metal steel 0 0 5 .8 .8 .8 .9 0\nvoid plastic gray 0 0 5 .5 .5 .5 0 0\n"
-      "void illum window 1 clear 0 3 5 5 5\nvoid illum hole 1 void 0 3 5 5 5\nvoid illum plate 1 steel 0 3 5 5 5\n"
+      "void glass clear 0 0 3 .9 .9 .9\nvoid metal steel 0 0 5 .8 .8 .8 .9 0\n"
+      "void plastic gray 0 0 5 .5 .5 .5 0 0\n"
+      "void illum window 1 clear 0 3 5 5 5\nvoid illum hole 1 void 0 3 5 5 5\n"
+      "void illum plate 1 steel 0 3 5 5 5\n"
       "void illum wall 1 gray 0 3 5 5 5\n"
       "window ring a 0 0 8 0 0 1 0 0 1 0 1\nhole ring b 0 0 8 0 0 2 0 0 1 0 1\n"
       "plate ring c 0 0 8 0 0 3 0 0 1 0 1\nwall ring d 0 0 8 0 0 4 0 0 1 0 1\n");

@@ -131,7 +131,8 @@ TEST(StatedErrors, OfLampsThatAreChosenByChance) {
   EXPECT_GT(spoiled.trueOverStated, 1.35) << "would not see half the error";
 }
 
-// A lamp that is tiny lights a white room nearly evenly. How its light bends smoothly over the walls is no error.
+// A lamp that is tiny lights a white room nearly evenly. How its light bends smoothly over the walls is no
+// error.
 TEST(StatedErrors, OfSmoothLightAreNotThoseOfItsBends) {
   const SphereSetting room(
       sceneOf("void plastic white 0 0 5 .6 .6 .6 0 0\n" + roomOf("white", V3d(6, 5, 2.8)) +
@@ -165,8 +166,8 @@ TEST(StatedErrors, OfRoomsWithAWindow) {
   }
 }
 
-// What is seen through a window under an even sky is found exactly, whichever directions happen to hit it. The
-// stated error allows for what the directions may have missed.
+// What is seen through a window under an even sky is found exactly, whichever directions happen to hit it.
+// The stated error allows for what the directions may have missed.
 TEST(StatedErrors, OfAnEvenSkyThroughAWindowAreOfWhatMayBeMissed) {
   const SphereSetting room(sceneOf(kRoomWithAWindow));  // without bounces the room is dark
   const V3d point(1.5, 1, 1.35);

@@ -53,7 +53,8 @@ TEST(Targets, RegionsAreThoseOfTargetsWithTheirOwnEdge) {
 // with more directions is fitted.
 TEST(TargetChoice, FitsTargetsThatDoNotOverlap) {
   const std::string scene =
-      "void plastic wall 0 0 5 .5 .5 .5 0 0\nvoid glass clear 0 0 3 .96 .96 .96\nvoid light lamp 0 0 3 20 20 20\n"
+      "void plastic wall 0 0 5 .5 .5 .5 0 0\nvoid glass clear 0 0 3 .96 .96 .96\n"
+      "void light lamp 0 0 3 20 20 20\n"
       "wall bubble room 0 0 4 0 0 0 9\nlamp sphere l 0 0 4 0 0 5 .3\n"
       "clear polygon inner 0 0 12 0 2 0 1 2 0 1 2 1 0 2 1\n"
       "clear polygon outer 0 0 12 0 2.1 0 1 2.1 0 1 2.1 1 0 2.1 1\n"

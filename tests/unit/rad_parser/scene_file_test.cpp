@@ -218,7 +218,8 @@ TEST(SceneFile, HostileBytes) {
   EXPECT_EQ(errorOfText(longWord), "room.rad:1: word longer than 65536 bytes: \"xxxxxxxxxxxxxxxxxxxx...\"");
   EXPECT_EQ(errorOfText("'" + longWord),
             "room.rad:1: word longer than 65536 bytes: \"xxxxxxxxxxxxxxxxxxxx...\"");
-  EXPECT_EQ(errorOfText("\x01\x02\x1b[31m\xff x y"), "room.rad:1: undefined modifier \"\\x01\\x02\\x1b[31m\\xff\"");
+  EXPECT_EQ(errorOfText("\x01\x02\x1b[31m\xff x y"),
+            "room.rad:1: undefined modifier \"\\x01\\x02\\x1b[31m\\xff\"");
   EXPECT_LT(errorOfText("void sphere " + std::string(60000, 'y') + " 0 0 x").size(), 200u);
   EXPECT_EQ(errorOfText("!" + std::string(2 << 20, 'x')), "room.rad:1: command longer than 1048576 bytes");
 }

@@ -97,7 +97,8 @@ void glow near 0 0 4 1 2 3 5
 void dielectric amber 0 0 5 0.5 0.6 0.7 1.5 0
 void interface skin 0 0 8 0.5 0.6 0.7 1.5 0.9 0.8 0.95 1.3
 void mist fog 2 a>b c 0 7 0.1 0.2 0.3 0.9 0.9 0.9 0.5
-void brighttext sign 2 helvet.fnt hello 0 11 1 0.232050807569 3.59807621135 1 0 0 0 -0.866025403784 -0.5 0.5 0.6
+void brighttext sign 2 helvet.fnt hello 0
+  11 1 0.232050807569 3.59807621135 1 0 0 0 -0.866025403784 -0.5 0.5 0.6
 void brightfunc dirt 6 dirt dirt.cal -i 1 -rx 30 0 1 0.3
 void BSDF blind 10 0 blind.xml 0 0 1 . -i 1 -rx 30 0 0
 spot source sun 0 0 4 0 -0.133974596216 2.23205080757 0.5
@@ -253,7 +254,8 @@ TEST(Xform, FaultsHaveThePlaceOfTheCommand) {
   EXPECT_EQ(fault("-a 0 -mx {0}"), "room.rad:2: xform: missing count for -a");
   EXPECT_EQ(fault("-a {0}"), "room.rad:2: xform: missing count for -a");
   const std::string tooMany =
-      "room.rad:2: xform: more than 10000000 copies: make an octree (oconv -f) of a part, and copy instances of it";
+      "room.rad:2: xform: more than 10000000 copies: make an octree (oconv -f) of a part, and copy instances "
+      "of it";
   EXPECT_EQ(fault("-a 99999999999 {0}"), tooMany);
   // They used to be copied, one after the other, until memory was used up or minutes had passed.
   EXPECT_EQ(fault("-a 100000 -t 1 0 0 -a 100000 {0}"), tooMany);

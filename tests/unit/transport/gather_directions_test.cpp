@@ -56,8 +56,8 @@ TEST(GatherDirections, AreAimedWhereThatPays) {
       << "the window fills half of the view";
 }
 
-// Three bounces, each aimed at the window and at the sunlit floor. The ray ends on the north wall, where no ground
-// is visible through the window.
+// Three bounces, each aimed at the window and at the sunlit floor. The ray ends on the north wall, where no
+// ground is visible through the window.
 TEST(GatherDirections, LeaveTheMeanOfPathsAsItIs) {
   Traced room(kSunlitRoom, unbiased(3));
   PathTracer aimed = room.tracerWith(room.transport().aims());

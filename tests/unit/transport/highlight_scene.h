@@ -1,5 +1,6 @@
 #pragma once
-// What the tests of highlights on balls and cylinders have in common: materials, a source, a floor, and checks.
+// What the tests of highlights on balls and cylinders have in common: materials, a source, a floor, and
+// checks.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,8 +24,8 @@ Highlights highlightsOf(const Traced& t) {
   return Highlights(t.scene(), t.prepared().tracer(), t.prepared().lights(), 1e-9);
 }
 
-// At a point that sees one highlight above it: those that are too weak are left out, and those that are hidden
-// behind the surface.
+// At a point that sees one highlight above it: those that are too weak are left out, and those that are
+// hidden behind the surface.
 template <class Highlights>
 void expectAimedWhereTheyMatter(const Highlights& highlights, const V3d& point) {
   const V3d up(0, 0, 1);

@@ -48,7 +48,8 @@ TEST(Holes, AreWithinOnePolygon) {
   expectBetween(found[0], {1, 0, 1}, {3, 0, 2});
   // Between the lines of the grid.
   const auto odd = holesIn(
-      "gray polygon wall 0 0 30 0 0 0 6.4 0 0 6.4 0 3.2 0 0 3.2 0 0 0 1.03 0 1.01 1.03 0 2.04 3.07 0 2.04 3.07 0 "
+      "gray polygon wall 0 0 30 0 0 0 6.4 0 0 6.4 0 3.2 0 0 3.2 0 0 0 1.03 0 1.01 1.03 0 2.04 3.07 0 2.04 "
+      "3.07 0 "
       "1.01 1.03 0 1.01\n");
   ASSERT_EQ(odd.size(), 1u);
   expectBetween(odd[0], {1.03, 0, 1.01}, {3.07, 0, 2.04});

@@ -84,8 +84,8 @@ TEST(Openings, AreFoundAlthoughTheSunShinesIn) {
   EXPECT_FALSE(openingsOf(kSky + sun + kRoom + kLid + kWindow).empty());
 }
 
-// Sunlit blinds behind the pane are brighter than the sky, so that the room is the brighter side; but the sky is
-// on the other.
+// Sunlit blinds behind the pane are brighter than the sky, so that the room is the brighter side; but the sky
+// is on the other.
 TEST(Openings, AreFoundBehindSunlitBlinds) {
   std::string blinds = "void light sunlight 0 0 3 6e5 6e5 6e5\nsunlight source sun 0 0 4 0 -1 1 .53\n" +
                        std::string("void plastic white 0 0 5 .9 .9 .9 0 0\n");
@@ -111,7 +111,8 @@ TEST(Openings, AreHolesWithoutPanesToo) {
   const size_t south = pieces.find("gray polygon south");
   pieces.erase(south, pieces.find('\n', south) - south);
   const std::string pillars =
-      "gray polygon south1 0 0 12 0 0 0 1 0 0 1 0 3 0 0 3\ngray polygon south2 0 0 12 3 0 0 4 0 0 4 0 3 3 0 3\n"
+      "gray polygon south1 0 0 12 0 0 0 1 0 0 1 0 3 0 0 3\n"
+      "gray polygon south2 0 0 12 3 0 0 4 0 0 4 0 3 3 0 3\n"
       "gray polygon south3 0 0 12 1 0 2 3 0 2 3 0 3 1 0 3\n";
   const Openings door = openingsOf(kSky + pieces + kLid + pillars);
   EXPECT_GT(radianceAt(door, floor, up), 1.2 * radianceAt(holes, floor, up))
@@ -121,9 +122,12 @@ TEST(Openings, AreHolesWithoutPanesToo) {
 // Both faces of a thick wall have a hole, but there is one way in.
 TEST(Openings, AreOneInAThickWall) {
   const std::string outer =
-      "gray polygon outer 0 0 30 0 -.2 0 4 -.2 0 4 -.2 3 0 -.2 3 0 -.2 0 1 -.2 1 1 -.2 2 3 -.2 2 3 -.2 1 1 -.2 1\n"
-      "gray polygon sill 0 0 12 1 -.2 1 3 -.2 1 3 0 1 1 0 1\ngray polygon lintel 0 0 12 1 -.2 2 1 0 2 3 0 2 3 -.2 2\n"
-      "gray polygon jamb1 0 0 12 1 -.2 1 1 0 1 1 0 2 1 -.2 2\ngray polygon jamb2 0 0 12 3 -.2 1 3 -.2 2 3 0 2 3 0 1\n";
+      "gray polygon outer 0 0 30 0 -.2 0 4 -.2 0 4 -.2 3 0 -.2 3 0 -.2 0 1 -.2 1 1 -.2 2 3 -.2 2 3 -.2 1 1 "
+      "-.2 1\n"
+      "gray polygon sill 0 0 12 1 -.2 1 3 -.2 1 3 0 1 1 0 1\n"
+      "gray polygon lintel 0 0 12 1 -.2 2 1 0 2 3 0 2 3 -.2 2\n"
+      "gray polygon jamb1 0 0 12 1 -.2 1 1 0 1 1 0 2 1 -.2 2\n"
+      "gray polygon jamb2 0 0 12 3 -.2 1 3 -.2 2 3 0 2 3 0 1\n";
   const V3d floor(2, 3.5, 0), up(0, 0, 1);
   const double thin = radianceAt(openingsOf(kSky + kRoom + kLid), floor, up),
                thick = radianceAt(openingsOf(kSky + kRoom + kLid + outer), floor, up);

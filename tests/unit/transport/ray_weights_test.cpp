@@ -96,9 +96,9 @@ TEST(RayWeights, LimitOfReflectionsEndsBounces) {
   }
 }
 
-// A gather follows weak sharp paths by Russian roulette. Two concentric balls reflect and transmit 40% each, so
-// that every ray splits in two weak paths at every surface. In terms of the radiance of the sky, the radiance
-// is a inwards and b outwards between the balls, and i within the inner one:
+// A gather follows weak sharp paths by Russian roulette. Two concentric balls reflect and transmit 40% each,
+// so that every ray splits in two weak paths at every surface. In terms of the radiance of the sky, the
+// radiance is a inwards and b outwards between the balls, and i within the inner one:
 // a = .4 + .4 b, b = .4 i + .4 a, i = .4 a + .4 i.
 struct GlazedGather {
   double mean = 0, standardError = 0;
@@ -128,8 +128,9 @@ TEST(RayWeights, GathersFollowWeakSharpPathsByRoulette) {
   EXPECT_LT(cut.mean, kExpected - 4 * cut.standardError);
 }
 
-// In a spectral run, weights follow the band that is absorbed least. In these materials it is one band of 20, and
-// the means of the channels are much darker. The rays are those of a scene where all bands are like that one.
+// In a spectral run, weights follow the band that is absorbed least. In these materials it is one band of 20,
+// and the means of the channels are much darker. The rays are those of a scene where all bands are like that
+// one.
 struct Weighed {
   std::vector<double> weights;  // of the rays, in their order
   double seen = 0;              // radiance in the band that is absorbed least
@@ -181,7 +182,8 @@ TEST(RayWeights, WorkWithinClosedMetalHasABoundAndTheSameMean) {
   o.weightLimit = 1e-5;
   Traced column(
       "void metal m 0 0 5 .8 .8 .8 .5 .1\nm cylinder column 0 0 7 0 0 0 0 0 1 .2\n"
-      "m ring floor 0 0 8 0 0 0 0 0 1 0 .2\nvoid glow g 0 0 4 1 1 1 0\ng ring ceiling 0 0 8 0 0 1 0 0 -1 0 .2\n",
+      "m ring floor 0 0 8 0 0 0 0 0 1 0 .2\nvoid glow g 0 0 4 1 1 1 0\n"
+      "g ring ceiling 0 0 8 0 0 1 0 0 -1 0 .2\n",
       o);
   PathTracer free = column.tracerWith({}), bound = column.tracerWith({}, {.boundsWork = true});
   const V3d from(.03, .02, .3), to = V3d(.6, .3, .4).normalized();
@@ -206,8 +208,8 @@ TEST(RayWeights, WorkWithinClosedMetalHasABoundAndTheSameMean) {
       << "would not see an error of 15%";
 }
 
-// Rays between two rough metal balls split at every hit, and reach all of the surfaces from nearby. With patches
-// as fine as elsewhere there would be 50,000, each of them with the work of a thousand rays.
+// Rays between two rough metal balls split at every hit, and reach all of the surfaces from nearby. With
+// patches as fine as elsewhere there would be 50,000, each of them with the work of a thousand rays.
 TEST(RayWeights, WorkBetweenShellsHasABound) {
   const std::string shells = R"(
 void light l 0 0 3 100 100 100
@@ -224,8 +226,8 @@ rough sphere outer 0 0 4 0 0 4 .3
   EXPECT_LT(between.transport().caches().coarse->patches(), 8000U);
 }
 
-// Balls of rough trans, the outer a third wider than the inner, whose patches and rays have bounds. The light that
-// comes through them stays that of paths without interpolation.
+// Balls of rough trans, the outer a third wider than the inner, whose patches and rays have bounds. The light
+// that comes through them stays that of paths without interpolation.
 TEST(RayWeights, LightThroughShellsOfRoughTransIsThatOfPaths) {
   const std::string shells = R"(
 void light l 0 0 3 100 100 100

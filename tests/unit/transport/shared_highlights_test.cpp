@@ -18,7 +18,8 @@ std::string wallOn(const std::string& material, bool pane) {
                      "wall polygon upright 0 0 12 0 .5 .001 1 .5 .001 1 .5 .5 0 .5 .5\n";
   if (pane)
     text +=
-        "void glass clear 0 0 3 .9 .9 .9\nclear polygon cover 0 0 12 0 0 .001 1 0 .001 1 .49 .001 0 .49 .001\n";
+        "void glass clear 0 0 3 .9 .9 .9\n"
+        "clear polygon cover 0 0 12 0 0 .001 1 0 .001 1 .49 .001 0 .49 .001\n";
   return text;
 }
 
@@ -39,9 +40,10 @@ Both wallSeen(const std::string& scene, int count) {
   for (const bool share : {false, true}) {
     PathTracer tracer = room.tracerWith({}, {.sharesHighlights = share});
     Sample& sample = share ? both.shared : both.apart;
-    for (int i = 0; i < count; ++i)
-      sample.add(
-          tracer.trace(origin, direction, 0, mixBits(static_cast<uint64_t>(i + share * count))).value.color.x);
+    for (int i = 0; i < count; ++i) {
+      const uint64_t seed = mixBits(static_cast<uint64_t>(i + share * count));
+      sample.add(tracer.trace(origin, direction, 0, seed).value.color.x);
+    }
   }
   return both;
 }
