@@ -80,7 +80,8 @@ void PointSummary::add(uint64_t record, const PointAnswer& answer, const Spectra
   ++points_;
   const double mean = photopicOf(answer.mean.color, sampling);
   if (answer.isDark) unlit_.add(record, 0);
-  if (!answer.reached) missed_.add(record, mean > 0 ? answer.brightnessError / mean : kAnyError);
+  if (!answer.reached && !answer.isDark)
+    missed_.add(record, mean > 0 ? answer.brightnessError / mean : kAnyError);
   if (answer.clamped > 0) {
     const double share = mean > 0 ? answer.clamped / (mean + answer.clamped) : 1;
     clamped_.add(record, share);
@@ -94,8 +95,8 @@ std::vector<std::string> PointSummary::warnings(const SphereOptions& options,
   std::vector<std::string> texts;
   if (unlit_.points > 0 && !prepared.isDark())
     texts.push_back(fmt::format(
-        "no {} reaches {} of {} points, or almost none; the first is record {}: check the units of the points, and "
-        "whether they lie inside of something",
+        "no {} reaches {} of {} points, or almost none; the first is record {}: check the units of the "
+        "points, and whether they lie inside of something",
         prepared.scene().importance ? "importance" : "light", unlit_.points, points_, unlit_.worst + 1));
   if (missed_.points > 0)
     texts.push_back(fmt::format(

@@ -45,9 +45,10 @@ class PointSummary {
   // sampling: RayOptions::sampling.
   void add(uint64_t record, const PointAnswer& answer, const SpectralSampling* sampling);
 
-  // Where no direction finds light, or almost none, unless the whole scene is dark, of which answerPoints() warns:
-  //   "no light reaches 3 of 20 points, or almost none; the first is record 7: check the units of the points, ..."
-  // Where the accuracy of -Sa was not reached:
+  // Where no direction finds light, or almost none, unless the whole scene is dark, of which answerPoints()
+  // warns:
+  //   "no light reaches 3 of 20 points, or almost none; the first is record 7: check the units of the ..."
+  // Where the accuracy of -Sa was not reached although there is light:
   //   "-Sa 0.01 was not reached at 3 of 20 points with at most 8192 directions; the worst is record 7: 1.25%"
   // Where -Sf took light:
   //   "-Sf 0.01 clamped 3 of 20 points and took 1.4% of their light on average; the most is record 7: 2.5%"
@@ -75,8 +76,8 @@ void requirePictureNames(const AnswerOptions& options, RecordReader& reader);
 
 // The function that answers points in sphere mode: appends the spherical mean, or a record of every
 // direction (-Sd), and writes pictures of the points (-Si). Warns if nothing in the scene gives light.
-// checkStop: see PointWorkers; it is copied. pictureReport: gets the progress of pictures. The other arguments
-// must live as long as the result. Throws what PointWorkers throws.
+// checkStop: see PointWorkers; it is copied. pictureReport: gets the progress of pictures. The other
+// arguments must live as long as the result. Throws what PointWorkers throws.
 AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& options,
                           const AnswerWriter& writer, const rad::Warn& warn, PointSummary& summary,
                           const std::function<void()>& checkStop,

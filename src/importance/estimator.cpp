@@ -187,7 +187,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
   answer.standardError.color.transform(standardError);
   answer.brightnessError = standardError(variance.brightness);
   answer.clamped = photopicOf(clamped.color, base_.sampling) / (4 * std::numbers::pi);
-  answer.isDark = isDark(answer, lit);
+  answer.isDark = isDark(answer, lit) || decision.gaveUp();
   answer.reached = options_.accuracy <= 0 || decision.isReached();
   return answer;
 }

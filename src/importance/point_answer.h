@@ -18,7 +18,7 @@ struct PointAnswer {
   V3d lightVector{0, 0, 0};          // u  integral of L d, of brightness
   double clamped = 0;                // what -Sf took from the brightness of mean, W/sr/m2
   size_t directions = 0;             // k
-  bool isDark = false;               // no direction has found light, or almost none
+  bool isDark = false;               // almost no direction has found light, or so little that -Sa gave up
   bool reached = true;               // whether the standard error that -Sa asks for was reached
 };
 

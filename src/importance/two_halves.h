@@ -42,6 +42,9 @@ class TwoHalves {
   // Whether the estimated standard error is below the accuracy.
   bool isReached() const;
 
+  // Whether the sets added are enough only because there is hardly any light.
+  bool gaveUp() const { return average() < dark_ && !isReached(); }
+
  private:
   struct Half {
     size_t sets = 0;

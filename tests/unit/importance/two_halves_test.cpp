@@ -121,7 +121,9 @@ TEST(TwoHalves, GiveUpInTheDark) {
   }
   EXPECT_EQ(dark.next(), std::nullopt);
   EXPECT_FALSE(dark.isReached());
+  EXPECT_TRUE(dark.gaveUp());
   EXPECT_TRUE(lit.next());
+  EXPECT_FALSE(lit.gaveUp()) << "it is only not accurate yet";
 }
 
 TEST(TwoHalves, GoOnWhereTheMeanIsNoneOfLight) {
