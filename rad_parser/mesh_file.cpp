@@ -226,14 +226,12 @@ std::optional<Imath::V2d> Mesh::uv(uint32_t vertex) const {
 Mesh readMesh(const std::string& name, const Warn& warn, const FileAccess& access) {
   const std::optional<std::string> path = findFile(name, libraryPath(), {}, access);
   if (!path)
-    throw Error(
-        fmt::format("{}: cannot find mesh file{}", printable(name, kLongestName), access.remark(name)),
-        Status::system);
+    throw Error(fmt::format("{}: cannot find mesh file{}", printableName(name), access.remark(name)),
+                Status::system);
   const OpenFile file(*path);
   if (file.descriptor() < 0)
-    throw Error(
-        fmt::format("{}: cannot open mesh file: {}", printable(*path, kLongestName), std::strerror(errno)),
-        Status::system);
+    throw Error(fmt::format("{}: cannot open mesh file: {}", printableName(*path), std::strerror(errno)),
+                Status::system);
   BinaryReader input(file.descriptor(), *path, "mesh");
   Mesh mesh = Reader(input, warn).read();
   file.requireUnchanged(*path);

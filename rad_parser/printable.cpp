@@ -9,7 +9,7 @@
 namespace rad {
 namespace {
 
-constexpr size_t kLongestWord = 500, kLongestMessage = 4000;
+constexpr size_t kLongestWord = 500, kLongestMessage = 4000, kLongestMissing = 80;
 constexpr std::string_view kCut = "...";
 
 // A character of UTF-8: its number and its length in bytes. The length is 0 if the text does not begin with a
@@ -52,12 +52,12 @@ std::string_view firstShown(std::string_view text, size_t& length, std::string& 
   return escaped;
 }
 
-// The word, which is printable, without its middle if it is too long.
-std::string shortened(std::string_view word) {
-  if (word.size() <= kLongestWord) return std::string(word);
-  constexpr size_t kHalf = (kLongestWord - kCut.size()) / 2;
+// The word, which is printable, without its middle if it has more than `longest` bytes.
+std::string shortened(std::string_view word, size_t longest) {
+  if (word.size() <= longest) return std::string(word);
+  const size_t half = (longest - kCut.size()) / 2;
   const auto continues = [&](size_t at) { return (static_cast<unsigned char>(word[at]) & 0xc0u) == 0x80; };
-  size_t head = kHalf, tail = word.size() - kHalf;
+  size_t head = half, tail = word.size() - half;
   while (continues(head)) --head;
   while (tail < word.size() && continues(tail)) ++tail;
   return fmt::format("{}{}{}", word.substr(0, head), kCut, word.substr(tail));
@@ -75,13 +75,17 @@ std::string printable(std::string_view text, size_t longest) {
   return line;
 }
 
+std::string printableName(std::string_view name) {
+  return shortened(printable(name, std::numeric_limits<size_t>::max()), kLongestMissing);
+}
+
 std::string messageLine(std::string_view text) {
   const std::string line = printable(text, std::numeric_limits<size_t>::max());
   std::string result;
   for (size_t at = 0; at < line.size();) {
     const size_t blank = std::min(line.find(' ', at), line.size());
     const size_t end = std::min(blank + 1, line.size());
-    result += shortened(std::string_view(line).substr(at, blank - at));
+    result += shortened(std::string_view(line).substr(at, blank - at), kLongestWord);
     result.append(line, blank, end - blank);
     at = end;
   }

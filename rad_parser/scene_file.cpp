@@ -61,7 +61,7 @@ class Reader {
     const uint32_t file = builder_.addFile(found.value_or(name));
     const OpenFile input(found.value_or(name));
     if (input.descriptor() < 0)
-      throw Error(fmt::format("{}: cannot open {} file: {}", printable(name, kLongestName),
+      throw Error(fmt::format("{}: cannot open {} file: {}", printableName(name),
                               name.ends_with(".oct") ? "octree" : "scene", std::strerror(errno)),
                   Status::system);
     const std::string ahead = readBeginning(input.descriptor());
@@ -76,13 +76,12 @@ class Reader {
   void octreeFile(const std::string& name) {
     const std::optional<std::string> found = findFile(name, libraryPath(), {}, options_.files);
     if (!found)
-      throw Error(fmt::format("{}: cannot find octree file{}", printable(name, kLongestName),
-                              options_.files.remark(name)),
-                  Status::system);
+      throw Error(
+          fmt::format("{}: cannot find octree file{}", printableName(name), options_.files.remark(name)),
+          Status::system);
     const OpenFile input(*found);
     if (input.descriptor() < 0)
-      throw Error(fmt::format("{}: cannot open octree file: {}", printable(*found, kLongestName),
-                              std::strerror(errno)),
+      throw Error(fmt::format("{}: cannot open octree file: {}", printableName(*found), std::strerror(errno)),
                   Status::system);
     const uint32_t file = builder_.addFile(*found);
     const std::string ahead = readBeginning(input.descriptor());
@@ -215,8 +214,8 @@ class Reader {
           const auto path = findFile(name, libraryPath(), context.directory, options_.files);
           if (!path)
             throw builder_.error(place,
-                                 fmt::format("xform: cannot find file \"{}\"{}",
-                                             printable(name, kLongestName), options_.files.remark(name)),
+                                 fmt::format("xform: cannot find file \"{}\"{}", printableName(name),
+                                             options_.files.remark(name)),
                                  Status::system);
           auto known =
               std::find_if(seen.begin(), seen.end(), [&](const auto& s) { return s.first == *path; });
@@ -224,10 +223,10 @@ class Reader {
           if (!again) known = seen.insert(known, {*path, builder_.addFile(*path, place)});
           const OpenFile input(*path);
           if (input.descriptor() < 0)
-            throw builder_.error(place,
-                                 fmt::format("xform: cannot open file \"{}\": {}",
-                                             printable(name, kLongestName), std::strerror(errno)),
-                                 Status::system);
+            throw builder_.error(
+                place,
+                fmt::format("xform: cannot open file \"{}\": {}", printableName(name), std::strerror(errno)),
+                Status::system);
           TextSource text(input.descriptor(), known->second, builder_);
           const Context inner{pass.changesDirectory ? directoryOf(*path) : context.directory, &nested,
                               context.depth + 1, copies};

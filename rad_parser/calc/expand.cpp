@@ -10,6 +10,7 @@
 
 #include "rad_parser/calc/noise.h"
 #include "rad_parser/error.h"
+#include "rad_parser/printable.h"
 
 namespace rad::calc {
 namespace {
@@ -177,7 +178,7 @@ class Expander {
   Id variable(const Syntax& tree, const Scope& scope) {
     const Symbol& s = symbol(tree.index);
     if (s.definition == nullptr || s.definition->isFunction() || isUnavailable(*s.definition)) {
-      return fail(tree, scope, fmt::format("undefined variable \"{}\"", s.name));
+      return fail(tree, scope, fmt::format("undefined variable \"{}\"", printable(s.name)));
     }
     auto [it, isNew] = variables_.try_emplace(s.definition, kNone);
     if (isNew) {
@@ -185,7 +186,8 @@ class Expander {
       const Id id = compile(s.definition->body, *inner);
       variables_[s.definition] = id;
     } else if (it->second == kNone) {
-      return fail(tree, scope, fmt::format("variable \"{}\" is defined in terms of itself", s.name));
+      return fail(tree, scope,
+                  fmt::format("variable \"{}\" is defined in terms of itself", printable(s.name)));
     }
     const Id id = variables_[s.definition];
     if (scope.frame == &first()) return id;
@@ -207,7 +209,8 @@ class Expander {
     const Argument given = scope.arguments[index];
     if (given.node != kNone) return given.node;
     if (given.tree == nullptr) {
-      return fail(tree, scope, fmt::format("undefined variable \"{}\"", symbol(given.symbol).name));
+      const std::string name = printable(symbol(given.symbol).name);
+      return fail(tree, scope, fmt::format("undefined variable \"{}\"", name));
     }
     const Id id = compile(*given.tree, *given.scope);
     scope.arguments[index].node = id;
@@ -246,7 +249,7 @@ class Expander {
     if (s.definition != nullptr && s.definition->isFunction()) return userCall(tree, scope, *s.definition);
     if (s.library != nullptr) return libraryCall(tree, scope, *s.library);
     if (s.host != nullptr && input_.hasHosts) return hostCall(tree, scope, *s.host);
-    return fail(tree, scope, fmt::format("undefined function \"{}()\"", s.name));
+    return fail(tree, scope, fmt::format("undefined function \"{}()\"", printable(s.name)));
   }
 
   Id userCall(const Syntax& tree, const Scope& scope, const Definition& d) {

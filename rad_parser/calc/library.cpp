@@ -70,11 +70,14 @@ struct Library::Tables {
     begun = true;
   }
 
-  // place: for the message if there is no such file, "room.rad:3: "; may be empty.
+  // place: for the message if the file cannot be read, "room.rad:3: "; may be empty.
   SourceText need(std::string_view file, std::string_view place) const {
-    std::optional<SourceText> source = load(file);
-    if (source) return std::move(*source);
-    throw Error(fmt::format("{}cannot find function file \"{}\"{}", place, printable(file, kLongestName),
+    try {
+      if (std::optional<SourceText> source = load(file)) return std::move(*source);
+    } catch (const Error& error) {
+      throw Error(fmt::format("{}{}", place, error.what()), error.status());
+    }
+    throw Error(fmt::format("{}cannot find function file \"{}\"{}", place, printableName(file),
                             interface.searched ? interface.searched(file) : ""),
                 Status::system);
   }

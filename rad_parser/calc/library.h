@@ -44,7 +44,8 @@ struct Interface {
   std::function<std::string(std::string_view file)> searched{};
 };
 
-// Finds and reads a function file. Empty if there is none. Called while the library is locked, so it
+// Finds and reads a function file. Empty if there is none. Throws Error, without the place of the request, if
+// there is one that cannot be read. Called while the library is locked, so it
 // must not call the library.
 using LoadFile = std::function<std::optional<SourceText>(std::string_view name)>;
 

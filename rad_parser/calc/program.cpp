@@ -36,6 +36,14 @@ double power(double a, double b, uint32_t& faults) {
 
 }  // namespace
 
+const char* faultName(uint32_t faults) {
+  return faults & kDivisionByZero ? "division by zero"
+         : faults & kIllegalPower ? "illegal power"
+         : faults & kDomainError  ? "domain error"
+         : faults & kRangeError   ? "range error"
+                                  : "not finite";
+}
+
 double apply(Op op, double a, double b, double c, uint32_t& faults) {
   switch (op) {
     case Op::negate:

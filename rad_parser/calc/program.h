@@ -18,6 +18,10 @@ struct Point {
 // function whose result is not a finite number.
 enum Fault : uint32_t { kDivisionByZero = 1, kIllegalPower = 2, kDomainError = 4, kRangeError = 8 };
 
+// The first of these faults in words; "not finite" if there is none, since a sum or a product that overflows
+// is no fault in RADIANCE.
+const char* faultName(uint32_t faults);
+
 // A function that the renderer supplies. It is called with all arguments of the call, of which there are at
 // least `arity`. It may depend on the point and its arguments only, and may throw. `needs` has bit i set if
 // it reads input i of Interface::inputs.

@@ -24,11 +24,7 @@ void setNumber(Syntax& tree, double number) {
 
 void refuse(uint32_t faults, const std::string& place) {
   if (faults == 0) return;
-  throw Error(fmt::format("{}: constant expression has no value: {}", place,
-                          faults & kDivisionByZero ? "division by zero"
-                          : faults & kIllegalPower ? "illegal power"
-                          : faults & kDomainError  ? "domain error"
-                                                   : "range error"));
+  throw Error(fmt::format("{}: constant expression has no value: {}", place, faultName(faults)));
 }
 
 // The faults of a library function that is called with numbers.

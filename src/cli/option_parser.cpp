@@ -74,13 +74,14 @@ class Words {
       }
       if (!file.bad()) return words;
     }
-    throw rad::Error(fmt::format("cannot expand '{}': {}", name, std::strerror(errno)), rad::Status::system);
+    throw rad::Error(fmt::format("cannot expand '{}': {}", rad::printableName(name), std::strerror(errno)),
+                     rad::Status::system);
   }
 
   static std::vector<std::string> fromEnvironment(const std::string& name) {
     const char* text = std::getenv(name.c_str() + 1);
     if (text == nullptr)
-      throw rad::Error(fmt::format("cannot expand '{}': {}", name, std::strerror(ENOENT)),
+      throw rad::Error(fmt::format("cannot expand '{}': {}", rad::printableName(name), std::strerror(ENOENT)),
                        rad::Status::system);
     std::istringstream in{std::string(text)};
     return splitWords(in);
@@ -335,7 +336,7 @@ void checkTogether(Options& options, bool mostGiven) {
 }  // namespace
 
 void commandLineError(std::string_view at, std::string_view why) {
-  throw rad::Error(fmt::format("command line error at '{}': {}; see -help", at, why));
+  throw rad::Error(fmt::format("command line error at '{}': {}; see -help", rad::printable(at), why));
 }
 
 void notReal(std::string_view option, std::string_view word, std::string_view range) {
@@ -343,14 +344,14 @@ void notReal(std::string_view option, std::string_view word, std::string_view ra
   if (word.ends_with('%'))
     if (const auto x = rad::parseReal(word.substr(0, word.size() - 1))) hint = percent(*x);
   if (word.find(',') != word.npos) hint = ": use a decimal point";
-  commandLineError(option, fmt::format("\"{}\" is not a number{}{}", word, range, hint));
+  commandLineError(option, fmt::format("\"{}\" is not a number{}{}", rad::printable(word), range, hint));
 }
 
 void notInteger(std::string_view option, std::string_view word, std::string_view range) {
   const auto x = rad::parseReal(word);
   const bool written = x && *x == std::floor(*x);  // 1e6
-  commandLineError(option,
-                   fmt::format("\"{}\" is not a whole number{}{}", word, written ? " in digits" : "", range));
+  commandLineError(option, fmt::format("\"{}\" is not a whole number{}{}", rad::printable(word),
+                                       written ? " in digits" : "", range));
 }
 
 std::optional<bool> switched(std::string_view suffix, bool before) {

@@ -34,8 +34,19 @@ std::optional<std::string> readFile(const std::string& path) {
   return file.contents(path);
 }
 
+bool isFolder(const std::string& path, const rad::FileAccess& access) {
+  std::error_code none;
+  return access.allows(path) && std::filesystem::is_directory(path, none);
+}
+
+std::string folderProblem(std::string_view name, std::string_view kind) {
+  return fmt::format("\"{}\" is a folder, expected a {} file", rad::printableName(name), kind);
+}
+
 std::optional<calc::SourceText> loadFunctionFile(std::string_view name, const rad::FileAccess& access) {
   const auto path = rad::findFile(name, rad::libraryPath(), {}, access);
+  if (isFolder(path.value_or(std::string(name)), access))
+    throw rad::Error(folderProblem(name, "function"), rad::Status::system);
   if (!path) return std::nullopt;
   auto text = readFile(*path);
   if (!text) return std::nullopt;
@@ -114,12 +125,11 @@ class SurfaceFunctions::Maker {
   // find: the path of a file, searched for along RAYPATH. contentsOf: the text of the file at a path.
   std::string find(std::string_view name, std::string_view kind) const {
     const auto path = rad::findFile(name, rad::libraryPath(), {}, scene_.files);
-    const std::string folder = path.value_or(std::string(name));
-    if (std::error_code none; scene_.files.allows(folder) && std::filesystem::is_directory(folder, none))
-      fail(fmt::format("\"{}\" is a folder, expected a {} file", rad::printable(name), kind),
-           rad::Status::system);
+    if (isFolder(path.value_or(std::string(name)), scene_.files))
+      fail(folderProblem(name, kind), rad::Status::system);
     if (!path)
-      fail(fmt::format("cannot find {} file \"{}\"{}", kind, rad::printable(name), scene_.files.remark(name)),
+      fail(fmt::format("cannot find {} file \"{}\"{}", kind, rad::printableName(name),
+                       scene_.files.remark(name)),
            rad::Status::system);
     return *path;
   }
@@ -546,7 +556,10 @@ bool SurfaceFunctions::computed(ModifierId modifier, const FunctionScratch& scra
                                 std::span<const double> values) const {
   const auto isFinite = [](double value) { return std::isfinite(value); };
   if (scratch.state.faults == 0 && std::all_of(values.begin(), values.end(), isFinite)) return true;
-  warn(modifier, "compute error");
+  if (!ready(modifier).warned)
+    warn(modifier,
+         fmt::format("compute error: {}: ignored at such points; the function can exclude them with if()",
+                     calc::faultName(scratch.state.faults)));
   return false;
 }
 

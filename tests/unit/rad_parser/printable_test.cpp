@@ -40,6 +40,16 @@ TEST(Printable, LongTextEndsWithDots) {
   EXPECT_EQ(printable("123\x1b", 5), "123...") << "no half escapes";
 }
 
+TEST(Printable, ANameOfAMissingFileKeepsBothEnds) {
+  EXPECT_EQ(printableName("scenes/room\n.rad"), "scenes/room\\x0a.rad");
+  const std::string name = printableName("/home/" + std::string(200, 'x') + "/room.rad");
+  EXPECT_LE(name.size(), 80u);
+  EXPECT_EQ(name.substr(0, 7), "/home/x");
+  EXPECT_EQ(name.substr(name.size() - 10), "x/room.rad");
+  EXPECT_NE(name.find("x...x"), std::string::npos);
+  EXPECT_EQ(messageLine(name), name) << "the same when it passes again";
+}
+
 TEST(Printable, AMessageKeepsBothEndsOfALongWord) {
   const std::string word = "begin" + std::string(600, 'x') + "end:3:";
   const std::string line = messageLine(word + " no such modifier");

@@ -303,7 +303,9 @@ TEST(SpecfuncPattern, WhatHasNoValueIsIgnoredWithAWarning) {
   EXPECT_EQ(pattern.at(V3d(0, 0, 0)), Color(1, 1, 1));
   EXPECT_TRUE(pattern.at(V3d(1, 0, 0)).bands());
   ASSERT_EQ(pattern.warnings().size(), 1u);
-  EXPECT_EQ(pattern.warnings()[0], "room.rad:1: specfunc \"P\": compute error");
+  EXPECT_EQ(pattern.warnings()[0],
+            "room.rad:1: specfunc \"P\": compute error: division by zero: ignored at such points; the "
+            "function can exclude them with if()");
 }
 
 TEST(SpecfuncPattern, NeedsItsArguments) {
@@ -370,10 +372,10 @@ TEST(SpecdataPattern, NeedsAtLeastTwoDimensions) {
   EXPECT_EQ(
       errorOf("void specdata P 4 noop " + line.path() + " . Px 0 0"),
       "room.rad:1: specdata \"P\": expected data of at least 2 dimensions, the last of them the wavelength");
-  EXPECT_EQ(
-      errorOf("void specdata P 4 noop " + plane.path() + " . Px 0 0"),
-      "room.rad:1: specdata \"P\": expected at least 5 string arguments, with a coordinate for each dimension "
-      "but the wavelength, got 4");
+  EXPECT_EQ(errorOf("void specdata P 4 noop " + plane.path() + " . Px 0 0"),
+            "room.rad:1: specdata \"P\": expected at least 5 string arguments, with a coordinate for each "
+            "dimension "
+            "but the wavelength, got 4");
   EXPECT_EQ(errorOf("void specdata P 3 noop " + plane.path() + " . 0 0"),
             "room.rad:1: specdata \"P\": expected at least 4 string arguments, got 3");
   EXPECT_EQ(errorOf("void specdata P 5 noop " + plane.path() + " . Px Py 0 0"), "no error");

@@ -18,6 +18,9 @@ TEST(CalcScope, FilesDoNotSeeEachOther) {
   EXPECT_EQ(files.value("a.cal", "f(v)"), 2);
   EXPECT_EQ(files.value("b.cal", "f(v)"), 22);
   EXPECT_EQ(files.error(".", "v"), "room.rad:3: undefined variable \"v\"");
+  const std::string name(600, 'v'), shown(80, 'v');
+  EXPECT_EQ(files.error(".", name), "room.rad:3: undefined variable \"" + shown + "...\"");
+  EXPECT_EQ(files.error(".", name + "(1)"), "room.rad:3: undefined function \"" + shown + "...()\"");
   EXPECT_EQ(files.value(".", "v`a` + 10*f`b`(0)"), 21);
   EXPECT_EQ(files.value("a.cal", "v`b`"), 2);
 }
