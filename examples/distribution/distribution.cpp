@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -51,29 +52,37 @@ V3d pixelDirection(int x, int y) {
   return V3d(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar));
 }
 
-// Radiance to display values. The logarithm of luminance, over the three decades below the brightest, sets
-// how bright a pixel is; its colour is kept: lamps and the light that they make are seen in one picture.
-class Exposure {
+// The decades of luminance below the brightest that are told apart.
+constexpr double kDecades = 4;
+
+// Luminance in false color: a lamp and the faintest of the light that it makes are seen in one picture. Even
+// steps of the logarithm are even steps from black by violet, red and yellow to white; without light is
+// black.
+class FalseColor {
  public:
-  explicit Exposure(const std::vector<Sample>& samples) {
+  explicit FalseColor(const std::vector<Sample>& samples) {
     for (const Sample& s : samples) brightest_ = std::max(brightest_, luminance(s.radiance));
   }
   double brightest() const { return brightest_; }
 
   void store(const V3d& radiance, uint8_t* rgb) const {
     const double y = luminance(radiance);
-    const double shown = y > 0 ? std::clamp(1 + std::log10(y / brightest_) / 3, 0., 1.) : 0;
-    for (int c = 0; c < 3; ++c) {
-      const double channel = y > 0 ? shown * std::pow(radiance[c] / y, 1 / 2.2) : 0;
-      rgb[c] = static_cast<uint8_t>(std::lround(255 * std::clamp(channel, 0., 1.)));
-    }
+    const double shown = y > 0 ? std::clamp(1 + std::log10(y / brightest_) / kDecades, 0., 1.) : 0;
+    const double at = shown * (kSteps.size() - 1);
+    const size_t below = std::min(static_cast<size_t>(at), kSteps.size() - 2);
+    const V3d color = kSteps[below] + (kSteps[below + 1] - kSteps[below]) * (at - static_cast<double>(below));
+    for (int c = 0; c < 3; ++c) rgb[c] = static_cast<uint8_t>(std::lround(color[c]));
   }
 
  private:
+  // Each about as much lighter than the one before, also for the color blind.
+  static inline const std::array<V3d, 8> kSteps = {V3d(0, 0, 0),      V3d(45, 15, 95),   V3d(105, 25, 115),
+                                                   V3d(165, 45, 95),  V3d(220, 80, 55),  V3d(248, 140, 20),
+                                                   V3d(250, 205, 70), V3d(255, 255, 255)};
   double brightest_ = 0;
 };
 
-std::vector<uint8_t> draw(const std::vector<Sample>& samples, const Exposure& exposure) {
+std::vector<uint8_t> draw(const std::vector<Sample>& samples, const FalseColor& colors) {
   std::vector<uint8_t> pixels(size_t{3} * kWidth * kHeight);
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
@@ -82,7 +91,7 @@ std::vector<uint8_t> draw(const std::vector<Sample>& samples, const Exposure& ex
         return a.direction.dot(direction) < b.direction.dot(direction);
       };
       const Sample& nearest = *std::max_element(samples.begin(), samples.end(), nearer);
-      exposure.store(nearest.radiance, &pixels[3 * (size_t{kWidth} * y + x)]);
+      colors.store(nearest.radiance, &pixels[3 * (size_t{kWidth} * y + x)]);
     }
   }
   return pixels;
@@ -108,10 +117,10 @@ int main(int argc, char** argv) {
   }
   try {
     const std::vector<Sample> samples = readSamples(std::cin, record);
-    const Exposure exposure(samples);
-    writePicture(argv[2], draw(samples, exposure));
-    fmt::print("{}: {} directions; white is {:.0f} cd/m2, black a thousandth of it\n", argv[2],
-               samples.size(), 179 * exposure.brightest());
+    const FalseColor colors(samples);
+    writePicture(argv[2], draw(samples, colors));
+    fmt::print("{}: {} directions; white is {:.0f} cd/m2, black 1/10,000 of it or less\n", argv[2],
+               samples.size(), 179 * colors.brightest());
   } catch (const std::exception& error) {
     std::cerr << argv[0] << ": " << error.what() << '\n';
     return 1;

@@ -163,8 +163,8 @@ END {
   }
 
   print "\n## Figures 12 to 15: what two points see\n"
-  print "Importance (`-Sg goal -ab 2 -ad 16`, 50 spheres), from zenith to nadir over all azimuths, each pixel with the value of"
-  print "the nearest direction; white is the brightest and black a thousandth of it, with even steps of their ratio between them.\n"
+  print "Importance (`-Sg goal -ab 2 -ad 512`, 50 spheres), from zenith to nadir over all azimuths, each pixel with the value of"
+  print "the nearest direction. The colors are logarithmic: white is the brightest, black 1/10,000 of it or less.\n"
   print "| | point 1 | point 2 |"
   print "|---|---|---|"
   split("previous new ours", names, " ")
