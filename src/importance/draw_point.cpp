@@ -18,10 +18,10 @@ namespace {
 
 using Tuning = tuning::Pictures;
 
-constexpr Smoothing kOfIndirect{Tuning::kIndirectPasses, Tuning::kCarefulPasses, Tuning::kSameLight,
-                                Tuning::kSameNormal,     Tuning::kSamePlane,     Tuning::kNear};
-constexpr Smoothing kOfGloss{Tuning::kGlossPasses, 0, 0, Tuning::kSameGlossNormal, Tuning::kSamePlane,
-                             Tuning::kNear};
+const Smoothing kOfIndirect{Tuning::kIndirectPasses, Tuning::kCarefulPasses, Tuning::kSameLight,
+                            Tuning::kSameNormal,     Tuning::kSamePlane,     Tuning::kNear};
+const Smoothing kOfGloss{Tuning::kGlossPasses, 0, 0, Tuning::kSameGlossNormal, Tuning::kSamePlane,
+                         Tuning::kNear};
 
 constexpr double kTracingShare = .85;  // of the time of a picture; for progress reports only
 
