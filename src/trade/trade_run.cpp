@@ -8,10 +8,12 @@
 #include <ctime>
 #include <exception>
 #include <mutex>
+#include <utility>
 
 #include "answer/load_scene.h"
 #include "answer/record_writer.h"
 #include "answer/threads.h"
+#include "cli/program.h"
 #include "measure/records_file.h"
 #include "report/markup.h"
 #include "report/page.h"
@@ -47,6 +49,14 @@ std::vector<double> chosenPoints(const std::vector<double>& all, int most) {
   return points;
 }
 
+// What has been measured so far: whenever a signal comes, it is reported.
+struct Measured {
+  std::optional<Reference> reference;  // empty before its first rotation
+  bool referenceIsDone = false;
+  std::vector<Figures> settings;  // those measured
+  Trial last;                     // the repeats of the setting in work
+};
+
 class Trade {
  public:
   Trade(const TradeOptions& options, std::span<const UsedOption> used, const Messages& messages,
@@ -59,7 +69,10 @@ class Trade {
   Setting settingOf(std::span<const std::string> words) const;
   // False after a signal; `trial` then has the repeats that were finished.
   bool measure(std::span<const std::string> words, const Setting& given, Trials& trials, Trial& trial) const;
-  std::optional<Reference> makeReference(Trials& trials, double target) const;
+  bool makeReference(Trials& trials, double target, Measured& measured) const;
+  void measureAll(std::span<const std::vector<std::string>> words, std::span<const Setting> settings,
+                  Trials& trials, Measured& measured) const;
+  void conclude(Measured measured, double accuracy) const;
   void progress(const std::string& text) const;
   void report(const std::vector<Figures>& all, size_t repeatsOfLast, const Reference& reference,
               double accuracy) const;
@@ -112,9 +125,6 @@ bool Trade::measure(std::span<const std::string> words, const Setting& given, Tr
     rotation = first + r;
     whole = trials.run(setting, estimates, true, trial);
   }
-  const double count = std::max(1., static_cast<double>(trial.answers.values.size()));
-  trial.seconds /= count;
-  trial.directions /= count;
   for (uint64_t r = repeats + 1; whole && trial.estimates.size() < kEstimates; ++r) {
     rotation = first + r;
     whole = trials.run(setting, true, false, trial);
@@ -122,11 +132,10 @@ bool Trade::measure(std::span<const std::string> words, const Setting& given, Tr
   return whole;
 }
 
-// Empty if a signal ends the program before the first rotation is finished.
-std::optional<Reference> Trade::makeReference(Trials& trials, double target) const {
+// False after a signal.
+bool Trade::makeReference(Trials& trials, double target, Measured& measured) const {
   Setting setting = settingOf(referenceWords());
   Trial trial;
-  std::optional<Reference> reference;
   ReferenceProgress at;
   at.leastRotations = kLeastRotations;
   at.points = trials.points();
@@ -155,14 +164,12 @@ std::optional<Reference> Trade::makeReference(Trials& trials, double target) con
   };
   for (uint64_t r = 0; r < kMostRotations; ++r) {
     setting.options.sphere.rotation = kReferenceRotation + r;
-    if (!trials.run(setting, false, false, trial, r == 0 ? firstPoints : std::function<void()>())) {
-      messages_.warning(fmt::format("no setting has been measured yet: the reference had {} rotations", r));
-      return std::nullopt;
-    }
-    reference.emplace(trial.answers);
+    if (!trials.run(setting, false, false, trial, r == 0 ? firstPoints : std::function<void()>()))
+      return false;
+    measured.reference.emplace(trial.answers);
     at.rotations = static_cast<double>(r + 1);
     at.seconds = elapsed();
-    at.error = reference->error();
+    at.error = measured.reference->error();
     progress(fmt::format(
         "reference: rotation {}{}, about {} left", r + 1,
         canPredict(at) ? fmt::format(", error {:.3f}%, {:.3f}% wanted", 100 * at.error, 100 * target) : "",
@@ -170,7 +177,7 @@ std::optional<Reference> Trade::makeReference(Trials& trials, double target) con
     saySlow();
     if (r + 1 >= kLeastRotations && at.error <= target) break;
   }
-  return reference;
+  return true;
 }
 
 void Trade::progress(const std::string& text) const {
@@ -277,34 +284,53 @@ void Trade::run() {
   withoutPoints.scene.pop_back();  // with -Sc-, the scene may not name files in the folder of the points
   const Scene scene = loadScene(withoutPoints, warn);
   signals_.defer(true);
-  Trials trials(scene, points_, signals_);
+  Measured measured;
+  Trials trials(scene, points_, signals_, [&] {
+    _exit(exitStatus(messages_, [&] {
+      conclude(measured, accuracy);
+      return 0;
+    }));
+  });
   const double target = options_.referenceError > 0 ? options_.referenceError : accuracy / 10;
-  const std::optional<Reference> reference = makeReference(trials, target);
-  if (reference && reference->isDark())
+  measured.referenceIsDone = makeReference(trials, target, measured);
+  if (measured.referenceIsDone) measureAll(settings, parsed, trials, measured);
+  conclude(std::move(measured), accuracy);
+}
+
+// Ends early after a signal.
+void Trade::measureAll(std::span<const std::vector<std::string>> words, std::span<const Setting> settings,
+                       Trials& trials, Measured& measured) const {
+  if (measured.reference->isDark())
     messages_.warning("no light arrives at the points: relative errors are undefined");
-  std::vector<Figures> all;
   std::vector<double> costs;
-  for (const Setting& setting : parsed) costs.push_back(costOf(setting.options));
-  size_t repeatsOfLast = 0;
+  for (const Setting& setting : settings) costs.push_back(costOf(setting.options));
   const auto start = Clock::now();
-  for (size_t i = 0; reference && i < settings.size(); ++i) {
-    Trial trial;
-    const bool whole = measure(settings[i], parsed[i], trials, trial);
-    if (!whole && trial.answers.repeats() < kLeastRepeats) break;
-    all.push_back(figuresOf(trial, *reference));
-    if (!whole) {
-      repeatsOfLast = trial.answers.repeats();
-      break;
-    }
+  for (size_t i = 0; i < settings.size(); ++i) {
+    measured.last = Trial();
+    if (!measure(words[i], settings[i], trials, measured.last)) return;
+    measured.settings.push_back(figuresOf(std::exchange(measured.last, {}), *measured.reference));
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     progress(fmt::format("setting {} of {}: {:.1f} ms a point, {:.3f}%; {} so far, about {} left", i + 1,
-                         settings.size(), 1e3 * all.back().seconds, 100 * all.back().rms,
-                         durationText(seconds), durationText(secondsLeft(costs, i + 1, seconds))));
+                         settings.size(), 1e3 * measured.settings.back().seconds,
+                         100 * measured.settings.back().rms, durationText(seconds),
+                         durationText(secondsLeft(costs, i + 1, seconds))));
   }
-  markBest(all);
-  if (!all.empty()) report(all, repeatsOfLast, *reference, accuracy);
+}
+
+// Reports what was measured. Throws rad::Error (Status::signal) if a signal has ended the measurement.
+void Trade::conclude(Measured measured, double accuracy) const {
+  if (!measured.referenceIsDone)
+    messages_.warning(fmt::format("no setting has been measured yet: the reference had {} rotations",
+                                  measured.reference ? measured.reference->repeats() : 0));
+  size_t repeatsOfLast = measured.last.answers.repeats();
+  if (repeatsOfLast >= kLeastRepeats)
+    measured.settings.push_back(figuresOf(measured.last, *measured.reference));
+  else
+    repeatsOfLast = 0;
+  markBest(measured.settings);
+  if (!measured.settings.empty()) report(measured.settings, repeatsOfLast, *measured.reference, accuracy);
   signals_.defer(false);
-  if (signals_.raised()) throw rad::Error(signals_.name(), rad::Status::signal);
+  signals_.check();
 }
 
 }  // namespace

@@ -26,20 +26,21 @@ bool Trials::run(const Setting& setting, bool standardErrors, bool timed, Trial&
   const size_t count = points_.size() / 3;
   std::vector<PointAnswer> answers(count);
   std::vector<double> seconds(count);
-  const bool whole = forEachIndex(count, options.threads, &signals_, [&](size_t i, unsigned worker) {
+  const auto answer = [&](size_t i, unsigned worker) {
     const double start = threadSeconds();
     answers[i] = workers.answer(V3d(points_[3 * i], points_[3 * i + 1], points_[3 * i + 2]), worker);
     seconds[i] = threadSeconds() - start;
     if (pointAnswered) pointAnswered();
-  });
-  if (!whole) return false;
+  };
+  if (!forEachIndex(count, options.threads, &signals_, answer, leave_)) return false;
   trial.answers.points = count;
   for (size_t i = 0; i < count; ++i) {
     trial.answers.values.push_back(photopicOf(answers[i].mean.color, options.ray.sampling));
     if (standardErrors) trial.estimates.push_back(answers[i].brightnessError);
     if (!timed) continue;
-    trial.seconds += seconds[i];
-    trial.directions += static_cast<double>(answers[i].directions);
+    const auto n = static_cast<double>(++trial.timed);
+    trial.seconds += (seconds[i] - trial.seconds) / n;
+    trial.directions += (static_cast<double>(answers[i].directions) - trial.directions) / n;
   }
   if (timed) trial.setupSeconds = std::max(trial.setupSeconds, setup);
   return true;

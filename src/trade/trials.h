@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "answer/answer_points.h"
@@ -21,15 +22,17 @@ struct Setting {
 // Answers the points of a scene with different settings.
 class Trials {
  public:
-  // points: three numbers each. All arguments must live as long.
-  Trials(const Scene& scene, std::span<const double> points, const StopSignals& signals)
-      : scene_(scene), points_(points), signals_(signals) {}
+  // points: three numbers each. leave: ends the process; called where an answer is still in work .1 s after a
+  // signal. All arguments must live as long, except for leave.
+  Trials(const Scene& scene, std::span<const double> points, const StopSignals& signals,
+         std::function<void()> leave)
+      : scene_(scene), points_(points), signals_(signals), leave_(std::move(leave)) {}
 
   size_t points() const { return points_.size() / 3; }
 
   // Answers all points once, with the rotation of the options, and adds the answers to trial.answers.
-  // standardErrors: also adds the estimated errors to trial.estimates. timed: also adds to trial.seconds and
-  // trial.directions. pointAnswered is called after each point, from several threads. Returns false, and
+  // standardErrors: also adds the estimated errors to trial.estimates. timed: trial.seconds and
+  // trial.directions become the means over these answers and those before. pointAnswered is called after each point, from several threads. Returns false, and
   // adds nothing, after a signal.
   bool run(const Setting& setting, bool standardErrors, bool timed, Trial& trial,
            const std::function<void()>& pointAnswered = {});
@@ -40,6 +43,7 @@ class Trials {
   const Scene& scene_;
   std::span<const double> points_;
   const StopSignals& signals_;
+  std::function<void()> leave_;
   std::map<std::string, std::unique_ptr<Transport>> transports_;  // by Setting::rays
 };
 

@@ -1,10 +1,14 @@
 #include "measure/work.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
+#include <functional>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace rsphere {
@@ -49,6 +53,26 @@ TEST(ForEachIndex, ACallMayThrowAfterASignal) {
     std::raise(SIGTERM);
     signals.check();
   }));
+}
+
+// A call that does neither is left behind: the process ends with what there is.
+TEST(ForEachIndexDeathTest, LeavesACallThatTakesLong) {
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  const auto stopped = [](bool leaves) {
+    StopSignals signals("test");
+    signals.defer(true);
+    const std::function<void()> leave = [] { _exit(7); };
+    forEachIndex(
+        2, 1, &signals,
+        [](size_t, unsigned) {
+          std::raise(SIGTERM);
+          std::this_thread::sleep_for(std::chrono::milliseconds(400));
+        },
+        leaves ? leave : std::function<void()>());
+    _exit(0);
+  };
+  EXPECT_EXIT(stopped(true), testing::ExitedWithCode(7), "");
+  EXPECT_EXIT(stopped(false), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace
