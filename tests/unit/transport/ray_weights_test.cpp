@@ -12,6 +12,7 @@
 #include "base/spectral_sampling.h"
 #include "field/coarse_solution.h"
 #include "tests/unit/transport/transport_fixture.h"
+#include "transport/ray_limits.h"
 
 namespace rsphere {
 namespace {
@@ -206,6 +207,35 @@ TEST(RayWeights, WorkWithinClosedMetalHasABoundAndTheSameMean) {
             kMostSigmas * std::hypot(bounded.standardError(), all.standardError()));
   EXPECT_LT(kMostSigmas * std::hypot(bounded.standardError(), all.standardError()), .15 * all.mean())
       << "would not see an error of 15%";
+}
+
+// Whatever the materials are, all rays of a patch together have a bounded number of descendants. Those that are
+// followed make up for the others.
+TEST(RayWeights, ThePathsOfAPatchHaveABound) {
+  const Traced any("void light l 0 0 3 1 1 1\nl sphere lamp 0 0 4 0 0 4 .2\n",
+                   interpolated(2, 16, {-100, 1e-9}));
+  const int rays = 16, children = 100'000;
+  PathState state;
+  state.random = Random(1);
+  state.descendants = descendantsOfPatch(rays, 0);
+  Ray parent;
+  parent.weight = kMeanReflectance;
+  parent.depth = 1;
+  parent.ambientLevel = 1;
+  int followed = 0;
+  double sum = 0;
+  for (int i = 0; i < children; ++i) {
+    Ray child;
+    Coefficient coefficient{Color(.9, .9, .9)};
+    if (!continueRay(any.prepared(), state, child, kReflected, parent, coefficient)) continue;
+    ++followed;
+    sum += coefficient.color.x;
+  }
+  // The weight that a child needs grows with the square of the number: n^3 / 3 is as large as the children's.
+  const double most = tuning::RayLimits::kMostOfPatch * rays;
+  EXPECT_LT(followed, most * (2 + std::cbrt(3. * children / most)));
+  EXPECT_GT(followed, most);
+  EXPECT_NEAR(sum / children, .9, .9 * kMostSigmas / std::sqrt(followed / 3.));
 }
 
 // Rays between two rough metal balls split at every hit, and reach all of the surfaces from nearby. With
