@@ -39,6 +39,11 @@ inline Descendants descendantsOfPrimary(const TracingMode& mode, int rays) {
   return {mode.boundsWork ? tuning::RayLimits::kMostDescendants * std::max(rays, 1) : 0, 1, 0, 0, 0};
 }
 
+// The same for a ray that only estimates where light comes from. level: its ambientLevel.
+inline Descendants descendantsOfGlimpse(int level) {
+  return {tuning::RayLimits::kMostDescendants, 1, 0, level, 0};
+}
+
 // The same for all rays of a patch of the coarse solution together. depth: of the imagined ray that they leave.
 inline Descendants descendantsOfPatch(int rays, int depth) {
   return {tuning::RayLimits::kMostOfPatch * rays, kMeanReflectance, depth + 1, 1, 0};
