@@ -1022,14 +1022,14 @@ void addInspectionOptions(const Add& add) {
        .paragraph =
            "Draws a picture of the light that arrives at each point from all directions. The extension of "
            "the name gives the format. The answers are those of the same options without -Si. The half "
-           "a million pixels of a picture have defaults of their own: -aa .2 -ad 32 -ar 64 -dj .6 -dt "
+           "a million pixels of a picture have defaults of their own: -aa .2 -ad 32 -ar 64 -dj 1 -dt "
            ".03 -lw 1e-4 -ss 8. Of these and all other options of rtrace, those that are given hold for "
            "pictures as well; -S options do not concern them, except for -Ss, -Sg, -Sb and -Sr. Indirect "
            "light is gathered at one pixel in four, or in nine where lamps alone give light, from -ad + -as "
            "rays, and averaged over nearby pixels of the same surface, as are rough reflections. -aa 0 "
            "follows paths of all bounces, without bias and in several times the time; with any other -aa, "
            "later bounces come from the coarse solution. Pixels at edges have five or nine rays. Light "
-           "sources have their own radiance and size. One core takes 10 to 35 seconds for a picture of a "
+           "sources have their own radiance and size. One core takes 5 to 20 seconds for a picture of a "
            "furnished room with these defaults. Each "
            "picture is drawn by one thread, several points by as many as -n asks for. On a terminal, "
            "and with -t, the program reports how much is done, and the time left. RADIANCE pictures "
@@ -1104,13 +1104,12 @@ Options modeDefaults(bool sphereMode) {
   return options;
 }
 
-// A picture has a tenth of the rays that one gather of interpolated light would have at each of its pixels,
-// and averages them over nearby pixels. Measured in the classroom of examples/daylight (-ab 8, 1024 x 512
-// pixels): 10 s with 32 rays; with 16, the ceiling beside the windows has clouds. Patches with 256 rays at an
-// accuracy of .2 are not visible behind a gather. With full jitter, shadows of luminaires are grainy;
-// without, they have steps. Above .5, rays of gathers do not divide luminaires into parts. Lobes are sampled
-// 8 times, and averaged over 60 pixels. -dt as in ray mode: testing all shadows of 15 luminaires would take
-// as long as all else.
+// A picture has a tenth of the rays that one gather of interpolated light would have at each of its pixels, and
+// averages them over nearby pixels. Measured in the classroom of examples/daylight (-ab 8, 1024 x 512 pixels):
+// 10 s with 32 rays; with 16, the ceiling beside the windows has clouds. Patches with 256 rays at an accuracy of .2
+// are not visible behind a gather. Full jitter, as in the answers: with .6, soft shadows of a lamp of .3 x 1 m have
+// steps. Above .5, rays of gathers do not divide luminaires into parts. Lobes are sampled 8 times, and averaged over
+// 60 pixels. -dt as in ray mode: testing all shadows of 15 luminaires would take as long as all else.
 RayOptions pictureDefaults() {
   RayOptions ray = modeDefaults(true).ray;
   ray.ambientDivisions = 32;
@@ -1118,7 +1117,6 @@ RayOptions pictureDefaults() {
   ray.ambientResolution = 64;
   ray.leastForPatches = 256;
   ray.specularSampling = 8;
-  ray.directJitter = .6;
   ray.directThreshold = .03;
   ray.weightLimit = 1e-4;
   return ray;

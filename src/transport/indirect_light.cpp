@@ -21,11 +21,13 @@ void IndirectLight::add(Ray& ray, const V3d& normal, const V3d& trueNormal, RayK
     state_.leftOut.indirect = true;
     return;
   }
-  const Surroundings at{normal, trueNormal, kind, coefficient};
+  Surroundings at{normal, trueNormal, kind, coefficient};
   const FirstBounce first = settings_.mode.firstBounce;
   if (ray.ambientLevel > 0 || first == FirstBounce::fromPatches ||
       (first == FirstBounce::gathered && (ray.kinds & kSpecular))) {
-    if (settings_.caches.coarse && interpolated_.addFromPatch(ray, normal, trueNormal, coefficient)) return;
+    if (settings_.caches.coarse && (!asksForPatch(state_, ray, at.coefficient) ||
+                                    interpolated_.addFromPatch(ray, normal, trueNormal, at.coefficient)))
+      return;
   } else if (first == FirstBounce::interpolated && settings_.caches.field &&
              interpolated_.add(ray, normal, trueNormal, coefficient)) {
     return;

@@ -46,6 +46,7 @@ struct Descendants {
   int depth = 0;         // of that ray
   int ambientLevel = 0;  // of that ray
   int rays = 0;          // followed so far, without shadow rays
+  int patches = 0;       // that it, or a patch's latest ray, has asked for so far
 };
 
 // Each path begins with a new state, and so does each gather: no answer can depend on an earlier path.

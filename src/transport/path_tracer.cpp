@@ -171,6 +171,7 @@ Radiance PathTracer::Path::glimpse(const V3d& origin, const V3d& direction, uint
   ray.kind = kReflectedAmbient;
   ray.kinds = kPrimary | kReflectedAmbient;
   ray.ambientLevel = t_.options().ambientBounces - 1;
+  state_.descendants = descendantsOfGlimpse(ray.ambientLevel);
   follow(ray);
   return ray.value;
 }

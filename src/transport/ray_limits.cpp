@@ -65,4 +65,18 @@ bool continueRay(const PreparedScene& prepared, PathState& state, Ray& child, Ra
   return !limited || addDescendant(state, child, coefficient);
 }
 
+bool asksForPatch(PathState& state, const Ray& ray, Coefficient& coefficient) {
+  using Tuning = tuning::RayLimits;
+  Descendants& descendants = state.descendants;
+  const bool ofPatch = state.links;
+  const int freely = ofPatch ? Tuning::kAskedByPatch : Tuning::kAsked;
+  if (!(descendants.most > 0) || ++descendants.patches <= freely) return true;
+  const double further = ofPatch ? Tuning::kFurtherByPatch : Tuning::kFurther;
+  const double probability = further * ray.weight * maxChannel(coefficient) / descendants.weight;
+  if (probability >= 1) return true;
+  if (state.random.uniform() >= probability) return false;
+  coefficient /= probability;
+  return true;
+}
+
 }  // namespace rsphere

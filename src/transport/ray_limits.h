@@ -34,9 +34,19 @@ inline bool survives(Random& random, double least, Ray& child, Coefficient& coef
   return true;
 }
 
+// Whether the indirect light at the hit of a ray is asked of a patch of the coarse solution. Beyond some patches
+// for each ray of a gather, Russian roulette chooses further ones in proportion to what they may contribute.
+// coefficient: of the mean radiance over the hemisphere in the ray's radiance; increased as by continueRay().
+bool asksForPatch(PathState& state, const Ray& ray, Coefficient& coefficient);
+
 // Begins to count the descendants of a primary ray, if work is bounded. rays: -ad + -as.
 inline Descendants descendantsOfPrimary(const TracingMode& mode, int rays) {
   return {mode.boundsWork ? tuning::RayLimits::kMostDescendants * std::max(rays, 1) : 0, 1, 0, 0, 0};
+}
+
+// The same for a ray that only estimates where light comes from. level: its ambientLevel.
+inline Descendants descendantsOfGlimpse(int level) {
+  return {tuning::RayLimits::kMostDescendants, 1, 0, level, 0};
 }
 
 // The same for all rays of a patch of the coarse solution together. depth: of the imagined ray that they leave.
@@ -44,9 +54,12 @@ inline Descendants descendantsOfPatch(int rays, int depth) {
   return {tuning::RayLimits::kMostOfPatch * rays, kMeanReflectance, depth + 1, 1, 0};
 }
 
-// The same for a gather's ray, if light is interpolated. Those of a primary ray or of a patch are counted already.
+// The same for a gather's ray, if light is interpolated. Those of a primary ray or of a patch are counted
+// already, except for the patches that each ray of a patch asks for.
 inline void countDescendants(const PathSettings& settings, PathState& state, const Ray& ray) {
-  if (settings.caches.field && !settings.mode.boundsWork && !state.links)
+  if (state.links)
+    state.descendants.patches = 0;
+  else if (settings.caches.field && !settings.mode.boundsWork)
     state.descendants = {tuning::RayLimits::kMostDescendants, ray.weight, ray.depth, ray.ambientLevel, 0};
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/spectral_sampling.h"
@@ -256,34 +257,91 @@ rough sphere outer 0 0 4 0 0 4 .3
   EXPECT_LT(between.transport().caches().coarse->patches(), 8000U);
 }
 
-// Balls of rough trans, the outer a third wider than the inner, whose patches and rays have bounds. The light
-// that comes through them stays that of paths without interpolation.
-TEST(RayWeights, LightThroughShellsOfRoughTransIsThatOfPaths) {
-  const std::string shells = R"(
-void light l 0 0 3 100 100 100
-l sphere lamp 0 0 4 0 0 4 .2
-void trans rough 0 0 7 .8 .8 .8 .1 .1 .8 .5
-rough sphere inner 0 0 4 0 0 4 .25
-rough sphere outer 0 0 4 0 0 4 .33
-)";
+// Surfaces that reflect and transmit in lobes ask for patches at every hit. A gather's rays ask for weak ones, and
+// follow weak paths, by Russian roulette. All of the light of a sky must still come through two boxes of rough trans.
+std::string boxOf(const std::string& modifier, double half) {
+  std::string box;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-half, half}) {
+      box += modifier + fmt::format(" polygon {}{} 0 0 12", axis, side);
+      for (const auto& [u, v] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+        V3d corner;
+        corner[axis] = side;
+        corner[(axis + 1) % 3] = u * half;
+        corner[(axis + 2) % 3] = v * half;
+        box += fmt::format(" {} {} {}", corner.x, corner.y, corner.z);
+      }
+      box += "\n";
+    }
+  return box;
+}
+
+TEST(RayWeights, LightThroughBoxesOfRoughTransIsThatOfPaths) {
+  const std::string boxes =
+      "void glow g 0 0 4 1 1 1 0\ng source sky 0 0 4 0 0 1 360\n"
+      "void trans rough 0 0 7 .9 .9 .9 .1 .1 .8 .5\n" +
+      boxOf("rough", .5) + boxOf("rough", .8);
   RayOptions o = interpolated(2, 16, {-4, 1e-4}), exact = unbiased(2);
   o.leastForPatches = 64;
-  exact.ambientDivisions = 4;
+  exact.ambientDivisions = 1;
   exact.reflectionLimit = -4;
   exact.weightLimit = 1e-4;
-  Traced coarse(shells, o), paths(shells, exact);
-  const V3d from(0, 0, 1), to = V3d(.04, .02, 1).normalized();
-  const auto mean = [&](Traced& traced, uint64_t count) {
-    PathTracer tracer = traced.tracerWith({});
+  Traced coarse(boxes, o), paths(boxes, exact);
+  const auto mean = [](PathTracer tracer, uint64_t count) {
     Sample sample;
-    for (uint64_t i = 0; i < count; ++i) sample.add(tracer.trace(from, to, 0, mixBits(i)).value.color.x);
+    for (uint64_t i = 0; i < count; ++i) {
+      Random random(mixBits(i));
+      const double z = 2 * random.uniform() - 1, around = 2 * std::numbers::pi * random.uniform();
+      const V3d to(std::sqrt(1 - z * z) * std::cos(around), std::sqrt(1 - z * z) * std::sin(around), z);
+      sample.add(tracer.trace(V3d(.1, .05, 0), to, 0, mixBits(count + i)).value.color.x);
+    }
     return sample;
   };
-  const Sample a = mean(coarse, 60), b = mean(paths, 200);
-  EXPECT_LT(std::abs(a.mean() - b.mean()),
-            .1 * b.mean() + kMostSigmas * std::hypot(a.standardError(), b.standardError()));
-  EXPECT_LT(kMostSigmas * std::hypot(a.standardError(), b.standardError()), .2 * b.mean())
-      << "would not see an error of 30%";
+  const Sample a = mean(coarse.tracerWith({}, {FirstBounce::fromPatches, true, true}), 1500),
+               b = mean(paths.tracerWith({}), 1000);
+  const double chance = kMostSigmas * std::hypot(a.standardError(), b.standardError());
+  EXPECT_LT(std::abs(a.mean() - b.mean()), .01 * b.mean() + chance);
+  EXPECT_LT(chance, .04 * b.mean()) << "would not see an error of 5%";
+}
+
+// A glimpse, which looks for openings, splits at every pane in a row. Without a bound, those of ten panes
+// would take hours. These panes absorb nothing, so that the sky of radiance 1 is seen in all of them.
+TEST(RayWeights, GlimpsesThroughPanesInARowHaveABoundAndTheSameMean) {
+  std::string panes =
+      "void glow g 0 0 4 1 1 1 0\ng source sky 0 0 4 0 0 1 360\n"
+      "void BRTDfunc pane 10 .05 .05 .05 .95 .95 .95 0 0 0 . 0 9 0 0 0 0 0 0 0 0 0\n";
+  for (int i = 1; i <= 10; ++i) panes += fmt::format("pane ring pane{0} 0 0 8 0 0 {0} 0 0 1 0 50\n", i);
+  RayOptions o = unbiased(0);
+  o.reflectionLimit = 0;
+  o.weightLimit = 1e-9;
+  Traced row(panes, o);
+  PathTracer tracer = row.tracerWith({});
+  Sample sample;
+  for (uint64_t i = 0; i < 2000; ++i)
+    sample.add(tracer.glimpse(V3d(0, 0, 0), V3d(0, 0, 1), mixBits(i)).color.x);
+  expectMean(sample, 1, 1.2);
+}
+
+// Paths within a closed cylinder of matte plastic gather at each surface.
+TEST(RayWeights, WorkWithinAClosedCylinderOfMattePlasticHasABound) {
+  RayOptions o = unbiased(6);
+  o.ambientDivisions = 4;
+  o.reflectionLimit = -10;
+  o.weightLimit = 1e-5;
+  Traced column(
+      "void light l 0 0 3 100 100 100\nl sphere lamp 0 0 4 0 0 4 .2\nvoid plastic matte 0 0 5 .8 .8 .8 0 0\n"
+      "matte cylinder column 0 0 7 0 0 0 0 0 1 .2\nmatte ring floor 0 0 8 0 0 0 0 0 1 0 .2\n"
+      "matte ring ceiling 0 0 8 0 0 1 0 0 -1 0 .2\n",
+      o);
+  PathTracer tracer = column.tracerWith({}, {.boundsWork = true});
+  for (uint64_t i = 0; i < 20; ++i) {
+    size_t rays = 0;
+    const RayObserver count = [&](const Ray&) { ++rays; };
+    EXPECT_EQ(tracer.trace(V3d(.03, .02, .3), V3d(.6, .3, .4).normalized(), 0, i, {.observer = &count})
+                  .value.color.x,
+              0);
+    EXPECT_LT(rays, 50u);
+  }
 }
 
 }  // namespace
