@@ -87,7 +87,7 @@ class IrradianceField::Cache {
                      (options.resolution > 0 ? options.resolution : Tuning::kUnlimited)),
         bound_(options.memory > 0 ? static_cast<size_t>(options.memory * 1e6) : kNoBound) {}
 
-  bool find(const SurfacePlace& place, FieldReader& reader, SiteLooker& looker, GatheredLight& light);
+  bool find(const SurfacePlace& place, FieldReader& reader, FieldRays& rays, GatheredLight& light);
   void keepIn(std::unique_ptr<AmbientFile> file) { stored_.emplace(std::move(file)); }
   bool isBounded() const { return bound_ != kNoBound; }
   size_t sitesMade() const { return made_.load(std::memory_order_relaxed); }
@@ -97,7 +97,7 @@ class IrradianceField::Cache {
   // The two sides of a query.
   struct Asked {
     FieldMemory& memory;
-    SiteLooker& looker;
+    FieldRays& rays;
   };
 
   void enter(FieldReader& memory);
@@ -148,11 +148,11 @@ Site& IrradianceField::Cache::siteOf(const SurfaceChart& chart, const CellKey& k
     if (const auto at = chart.site(grid_, key)) {
       made.usable = true;
       made.at = *at;
-      const Surroundings seen = asked.looker.surroundings(*at);
+      const Surroundings seen = asked.rays.surroundings(*at);
       made.reach = seen.harmonicMean;
       made.finest = finestShare_ * std::min(grid_.size, Tuning::kRoom * seen.rootMeanSquare);
       made.smallObjectNear = grid_.side(key.level) > made.finest &&
-                             asked.looker.smallObjectNear(*at, grid_.side(key.level), grid_.lift);
+                             asked.rays.smallObjectNear(*at, grid_.side(key.level), grid_.lift);
     }
     asked.memory.add(sizeof(Site) + kNode);
     made_.fetch_add(1, std::memory_order_relaxed);
@@ -165,7 +165,7 @@ const GatheredLight& IrradianceField::Cache::lightOf(Site& site, const Asked& as
   const GatheredLight* const known = stored_ ? stored_->find(site.key) : nullptr;
   auto gathered = std::make_unique<GatheredLight>(
       known ? *known
-            : asked.looker.gather(site.at, std::min(site.finest / 2, site.reach / 4), site.key.hash()));
+            : asked.rays.gather(site.at, std::min(site.finest / 2, site.reach / 4), site.key.hash()));
   const GatheredLight* first = nullptr;
   if (!site.light.compare_exchange_strong(first, gathered.get(), std::memory_order_acq_rel)) return *first;
   const GatheredLight& light = *gathered.release();
@@ -198,8 +198,8 @@ bool IrradianceField::Cache::look(const SurfaceChart& chart, const SurfacePlace&
       const double height =
           grid_.lift +
           (chart.isCurved() ? Tuning::kBulge * way.length() * (place.normal - site->at.normal).length() : 0);
-      if (!asked.looker.sees(site->at.point + (height - grid_.lift) * site->at.normal,
-                             place.point + height * place.normal))
+      if (!asked.rays.sees(site->at.point + (height - grid_.lift) * site->at.normal,
+                           place.point + height * place.normal))
         continue;
       sites[around.count] = site;
       around.site[around.count] = &site->at;
@@ -252,18 +252,18 @@ int IrradianceField::Cache::firstLevel(const SurfaceChart& chart, const SurfaceP
                                        const Asked& asked, double& gap) {
   const int level =
       levelFrom(grid_.levelOf(std::min(chart.extent(), Tuning::kOpen * grid_.size)), chart, asked);
-  gap = asked.looker.clearance({place.point + grid_.lift * place.normal, place.normal},
-                               grid_.side(level) / std::min(Tuning::kGap, Tuning::kFinestInGap));
+  gap = asked.rays.clearance({place.point + grid_.lift * place.normal, place.normal},
+                             grid_.side(level) / std::min(Tuning::kGap, Tuning::kFinestInGap));
   const int resolving = grid_.levelOf(Tuning::kGap * gap);
   return resolving > level ? levelFrom(resolving, chart, asked) : level;
 }
 
-bool IrradianceField::Cache::find(const SurfacePlace& place, FieldReader& reader, SiteLooker& looker,
+bool IrradianceField::Cache::find(const SurfacePlace& place, FieldReader& reader, FieldRays& rays,
                                   GatheredLight& light) {
   auto chart = SurfaceChart::of(scene_, grid_, place);
   if (!chart) return false;
   enter(reader);
-  const Asked asked{*reader, looker};
+  const Asked asked{*reader, rays};
   if (!hasOwnCells(*chart, asked)) {
     if (chart->isCurved()) return false;
     chart = SurfaceChart::ofPlane(grid_, place);
@@ -300,9 +300,9 @@ IrradianceField::IrradianceField(const Scene& scene, const Box3d& bounds, const 
 IrradianceField::~IrradianceField() = default;
 
 void IrradianceField::keepIn(std::unique_ptr<AmbientFile> file) { cache_->keepIn(std::move(file)); }
-bool IrradianceField::find(const SurfacePlace& place, FieldReader& reader, SiteLooker& looker,
+bool IrradianceField::find(const SurfacePlace& place, FieldReader& reader, FieldRays& rays,
                            GatheredLight& light) {
-  return cache_->find(place, reader, looker, light);
+  return cache_->find(place, reader, rays, light);
 }
 void IrradianceField::leave(FieldReader& reader) const {
   if (cache_->isBounded()) reader = {};

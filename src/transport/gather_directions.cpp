@@ -83,16 +83,16 @@ void GatherDirections::draw(int count, Random& random, Each each) const {
   }
 }
 
-void sendOverHemisphere(const PreparedScene& prepared, const GatherDirections& directions,
-                        const PathSettings& settings, PathState& state, const Ray& root, RayKind kind,
-                        int rays, const Coefficient& coefficient, const Coefficient& weight, GatherRay each) {
+void sendOverHemisphere(const PreparedScene& prepared, const GatherDirections& directions, PathState& state,
+                        const Ray& root, RayKind kind, int rays, const Coefficient& coefficient,
+                        const Coefficient& weight, GatherRay each) {
   const Coefficient arriving = root.contribution * passedBy(root);
   directions.draw(rays, state.random, [&](const V3d& direction, double part) {
     Ray child;
     child.direction = direction;
     Coefficient survived = weight;
     if (!continueRay(prepared, state, child, kind, root, survived)) return;
-    if (++child.ambientLevel == 1) countDescendants(settings, state, child);
+    ++child.ambientLevel;
     const Coefficient factor = coefficient * (part * maxChannel(survived) / maxChannel(weight));
     child.contribution = arriving * factor;
     each(child, factor);

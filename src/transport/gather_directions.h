@@ -46,8 +46,8 @@ using GatherRay = FunctionRef<void(Ray& child, const Coefficient& factor)>;
 // Makes rays of directions at the hit of the root. coefficient: of the mean radiance over the hemisphere in
 // the result. weight: of one child relative to the root's, by which the weight limit (-lw) ends paths. An
 // aimed direction has no smaller weight than others, although its factor is smaller.
-void sendOverHemisphere(const PreparedScene& prepared, const GatherDirections& directions,
-                        const PathSettings& settings, PathState& state, const Ray& root, RayKind kind,
-                        int rays, const Coefficient& coefficient, const Coefficient& weight, GatherRay each);
+void sendOverHemisphere(const PreparedScene& prepared, const GatherDirections& directions, PathState& state,
+                        const Ray& root, RayKind kind, int rays, const Coefficient& coefficient,
+                        const Coefficient& weight, GatherRay each);
 
 }  // namespace rsphere

@@ -21,7 +21,8 @@ void IndirectLight::add(Ray& ray, const V3d& normal, const V3d& trueNormal, RayK
     state_.leftOut.indirect = true;
     return;
   }
-  const Surroundings at{normal, trueNormal, kind, coefficient};
+  const Side at{normal, trueNormal, kind, coefficient};
+  if (state_.links) return link(ray, at);
   const FirstBounce first = settings_.mode.firstBounce;
   if (ray.ambientLevel > 0 || first == FirstBounce::fromPatches ||
       (first == FirstBounce::gathered && (ray.kinds & kSpecular))) {
@@ -58,7 +59,7 @@ int IndirectLight::raysOf(const Ray& ray, const Coefficient& coefficient) const 
 
 // Every ray that is followed may be corrected by a control variate: the guess of its radiance is subtracted,
 // and the mean of many guesses added.
-void IndirectLight::gather(Ray& ray, const Surroundings& at) {
+void IndirectLight::gather(Ray& ray, const Side& at) {
   const int rays = raysOf(ray, at.coefficient), guesses = raysToGuess(ray);
   const GatherDirections directions(settings_.aims, ray.point, at.normal, at.trueNormal, rays);
   if (guesses > 0)
@@ -66,14 +67,31 @@ void IndirectLight::gather(Ray& ray, const Surroundings& at) {
       ray.value += at.coefficient * part * state_.request.guess->indirect(ray.point, direction, ray.surface);
     });
   const Coefficient weight = settings_.caches.field ? Coefficient(kMeanReflectance) : at.coefficient / rays;
-  sendOverHemisphere(t_, directions, settings_, state_, ray, at.kind, rays, at.coefficient, weight,
+  sendOverHemisphere(t_, directions, state_, ray, at.kind, rays, at.coefficient, weight,
                      [&](Ray& child, const Coefficient& factor) {
+                       if (child.ambientLevel == 1) countDescendants(settings_, state_, child);
                        follower_.follow(child);
-                       if (state_.links)
-                         state_.links->addLight(child.ambientLevel - 1, child.value * child.contribution);
-                       else
-                         ray.value += child.value * factor;
+                       ray.value += child.value * factor;
                        if (guesses > 0) ray.value -= state_.request.guess->indirect(child) * factor;
+                     });
+}
+
+// What a ray of a patch finds at a diffuse surface: a link to the patch there. Where there is none, the path goes on in
+// one direction, unless the last bounce is reached.
+void IndirectLight::link(const Ray& ray, const Side& at) {
+  PatchLinks& links = *state_.links;
+  const int beyond = ray.ambientLevel - 1;
+  const bool isLast = ray.ambientLevel >= bouncesBeyondPatches(t_.options());
+  Patch* const patch = isLast ? nullptr : interpolated_.patchAt(ray, at.normal, at.trueNormal);
+  const Coefficient whole = at.coefficient * ray.contribution * passedBy(ray);
+  if (patch) return links.add(patch, whole, beyond);
+  links.addEnd(beyond, whole);
+  if (isLast) return;
+  const GatherDirections directions(settings_.aims, ray.point, at.normal, at.trueNormal, 1);
+  sendOverHemisphere(t_, directions, state_, ray, at.kind, 1, at.coefficient, Coefficient(kMeanReflectance),
+                     [&](Ray& child, const Coefficient&) {
+                       follower_.follow(child);
+                       links.addLight(child.ambientLevel - 1, child.value * child.contribution);
                      });
 }
 

@@ -25,7 +25,8 @@ class IndirectLight {
   void add(Ray& ray, const V3d& normal, const V3d& trueNormal, RayKind kind, const Coefficient& coefficient);
 
  private:
-  struct Surroundings {
+  // A side of a diffuse surface.
+  struct Side {
     V3d normal, trueNormal;
     RayKind kind;
     Coefficient coefficient;
@@ -33,7 +34,8 @@ class IndirectLight {
 
   int raysToGuess(const Ray& ray) const;
   int raysOf(const Ray& ray, const Coefficient& coefficient) const;
-  void gather(Ray& ray, const Surroundings& at);
+  void gather(Ray& ray, const Side& at);
+  void link(const Ray& ray, const Side& at);
 
   const PreparedScene& t_;
   const PathSettings& settings_;

@@ -2,7 +2,7 @@
 // The state of a path while it is traced.
 #include <cstdint>
 
-#include "field/coarse_solution.h"
+#include "field/patch_links.h"
 #include "scene/random.h"
 #include "trace/tracer.h"
 #include "transport/aims.h"
@@ -53,12 +53,12 @@ struct PathState {
   Random random{0};
   V3d primaryDirection{0, 0, 1};  // unit
   PathRequest request;
-  ShownSource shown;                       // by the primary ray
-  Hit firstHit;                            // of the primary ray
-  LeftOut leftOut;                         // of the primary ray
-  bool glimpses = false;                   // one direction for each gather
-  Descendants descendants;                 // limited by continueRay()
-  CoarseSolution::Links* links = nullptr;  // of a path from a patch: collects the light that it finds
+  ShownSource shown;            // by the primary ray
+  Hit firstHit;                 // of the primary ray
+  LeftOut leftOut;              // of the primary ray
+  bool glimpses = false;        // one direction for each gather
+  Descendants descendants;      // limited by continueRay()
+  PatchLinks* links = nullptr;  // of a path from a patch: gets the links and the light that it finds
 };
 
 }  // namespace rsphere

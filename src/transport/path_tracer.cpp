@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "transport/final_gather.h"
 #include "transport/participating_media.h"
 #include "transport/ray_functions.h"
 #include "transport/ray_hit.h"
@@ -52,7 +51,7 @@ void checkDepth(const Ray& ray) {
 }  // namespace
 
 // The recursion and its parts.
-class PathTracer::Path final : public RayFollower, public SiteGatherer {
+class PathTracer::Path final : public RayFollower {
  public:
   Path(const PreparedScene& prepared, const PathSettings& settings)
       : t_(prepared),
@@ -75,10 +74,7 @@ class PathTracer::Path final : public RayFollower, public SiteGatherer {
   void pass(Ray& ray) override;
   void passOn(Ray& child, Ray& ray) override;
   bool shade(Ray& ray, ModifierId modifier) override { return shading_.shade(ray, modifier); }
-
-  GatheredLight gather(const GatherSite& site, double nearest, uint64_t seed, int depth) override;
-  void link(const GatherSite& site, int rays, uint64_t seed, int depth,
-            CoarseSolution::Links& links) override;
+  InnerPath beginGather(uint64_t seed, const V3d& normal) override;
 
  private:
   void begin(uint64_t seed, const V3d& direction, const PathRequest& request = {}) {
@@ -94,7 +90,6 @@ class PathTracer::Path final : public RayFollower, public SiteGatherer {
     ray.shown = state_.shown;
     ray.leftOut = state_.leftOut;
   }
-  Path& gatherer();
   void find(Ray& ray);
   void finish(Ray& ray);
 
@@ -243,25 +238,12 @@ void PathTracer::Path::find(Ray& ray) {
   if (ray.depth == 0) state_.firstHit = hit;
 }
 
-// The path for gathers within this path. Nested gathers each use another one.
-PathTracer::Path& PathTracer::Path::gatherer() {
+// Nested gathers each use another path.
+InnerPath PathTracer::Path::beginGather(uint64_t seed, const V3d& normal) {
   if (!gatherer_)
     gatherer_ = std::make_unique<Path>(t_, PathSettings{settings_.caches, settings_.caches.aims, {}});
-  return *gatherer_;
-}
-
-GatheredLight PathTracer::Path::gather(const GatherSite& site, double nearest, uint64_t seed, int depth) {
-  Path& path = gatherer();
-  path.begin(seed ^ rotationBits(t_.options()), site.normal);
-  return gatherLight(t_, path.state_, path.settings_, path, site, nearest, depth);
-}
-
-void PathTracer::Path::link(const GatherSite& site, int rays, uint64_t seed, int depth,
-                            CoarseSolution::Links& links) {
-  Path& path = gatherer();
-  path.begin(seed ^ rotationBits(t_.options()), site.normal);
-  path.state_.links = &links;
-  linkPatch(t_, path.state_, path.settings_, path, site, rays, depth);
+  gatherer_->begin(seed ^ rotationBits(t_.options()), normal);
+  return {gatherer_->state_, gatherer_->settings_, *gatherer_};
 }
 
 PathTracer::PathTracer(const PreparedScene& prepared, const Caches& caches, const Aims& aims,

@@ -5,6 +5,17 @@
 
 namespace rsphere {
 
+struct PathSettings;
+struct PathState;
+class RayFollower;
+
+// A path within another one: it begins with a new state, and does not depend on the path that requested it.
+struct InnerPath {
+  PathState& state;
+  const PathSettings& settings;
+  RayFollower& follower;
+};
+
 class RayFollower {
  public:
   // Traces a ray: sets its hit and its radiance at its origin. REQUIRES that its origin, its direction and
@@ -20,6 +31,9 @@ class RayFollower {
   // Shades a ray that hit a surface with a chain of modifiers (index in Scene::modifiers). False, with
   // nothing done, if the chain has no material.
   virtual bool shade(Ray& ray, ModifierId modifier) = 0;
+
+  // Begins a path for a gather. It is valid until the next one begins. normal: of the gather's site (unit).
+  virtual InnerPath beginGather(uint64_t seed, const V3d& normal) = 0;
 
  protected:
   ~RayFollower() = default;

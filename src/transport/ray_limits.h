@@ -44,9 +44,9 @@ inline Descendants descendantsOfPatch(int rays, int depth) {
   return {tuning::RayLimits::kMostOfPatch * rays, kMeanReflectance, depth + 1, 1, 0};
 }
 
-// The same for a gather's ray, if light is interpolated. Those of a primary ray or of a patch are counted already.
+// The same for a gather's ray, if light is interpolated. Those of a primary ray are counted already.
 inline void countDescendants(const PathSettings& settings, PathState& state, const Ray& ray) {
-  if (settings.caches.field && !settings.mode.boundsWork && !state.links)
+  if (settings.caches.field && !settings.mode.boundsWork)
     state.descendants = {tuning::RayLimits::kMostDescendants, ray.weight, ray.depth, ray.ambientLevel, 0};
 }
 
