@@ -7,7 +7,8 @@
 
 namespace rsphere {
 
-// Implemented by whoever traces rays (transport/final_gather.h). Every answer depends on nothing but the arguments.
+// Implemented by whoever traces rays (transport/final_gather.h). Every answer depends on nothing but the
+// arguments.
 class FieldRays {
  public:
   // The indirect light of a site, estimated with -ad + -as rays. nearest: of HemisphereCells::sum().

@@ -5,8 +5,8 @@
 // irradiance of a place is interpolated bilinearly between the four sites around it. A site that does not see
 // the place is left out, so that no light leaks through walls. The initial cell spacing is proportional to
 // the harmonic mean distance of the surroundings (-aa); cells are subdivided where the irradiance of their
-// sites differs, down to the finest spacing. That is the size of the room around, times -aa, divided by -ar, and
-// never more than a part of the height of a gap that the place lies in.
+// sites differs, down to the finest spacing. That is the size of the room around, times -aa, divided by -ar,
+// and never more than a part of the height of a gap that the place lies in.
 //
 // A site is gathered when it is first needed, with random numbers seeded by its cell. An answer therefore
 // depends only on the place, not on earlier queries or on the thread.

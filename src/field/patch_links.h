@@ -13,9 +13,9 @@ using Imath::V3f;
 // A patch of the coarse solution, which owns it.
 struct Patch;
 
-// Most rays of a patch end at the patch that they hit first. Where no patch serves that hit, the ray is followed;
-// `bounces` is the number of diffuse bounces that it makes beyond it. Coefficients: contribution to the mean radiance
-// that arrives at the patch that owns the links.
+// Most rays of a patch end at the patch that they hit first. Where no patch serves that hit, the ray is
+// followed; `bounces` is the number of diffuse bounces that it makes beyond it. Coefficients: contribution to
+// the mean radiance that arrives at the patch that owns the links.
 struct PatchLinks {
   struct Link {
     Patch* patch;

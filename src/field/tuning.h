@@ -19,18 +19,19 @@ struct IrradianceField {
   // The side of the widest cells, in sizes of the scene: chosen by experiment. 30% less or more: within noise
   // (picture of workshop; error 6%, time 3%).
   RSPHERE_TUNED(IrradianceField, double, kOpen, .1);
-  // -ar relates the finest spacing to the size of the scene, in RADIANCE as here. Where the room around a site is
-  // smaller than the scene (most daylight models have a wide ground), the finest spacing is in proportion to the
-  // room. The size of the room, in root mean square distances of what the site sees: chosen by experiment, in rooms
-  // on a ground of 0 to 5 km, by the error in thin gaps and the number of gathers. 4: the light between louvres is
-  // 3% too dark; 2.5: 3% more gathers in furnished rooms.
+  // -ar relates the finest spacing to the size of the scene, in RADIANCE as here. Where the room around a
+  // site is smaller than the scene (most daylight models have a wide ground), the finest spacing is in
+  // proportion to the room. The size of the room, in root mean square distances of what the site sees: chosen
+  // by experiment, in rooms on a ground of 0 to 5 km, by the error in thin gaps and the number of gathers. 4:
+  // the light between louvres is 3% too dark; 2.5: 3% more gathers in furnished rooms.
   RSPHERE_TUNED(IrradianceField, double, kRoom, 3.2);
-  // The side of the widest cells, in heights of the gap that a place lies in (its distance from what lies above it
-  // along its normal): chosen by experiment. The sites of wider cells may all lie outside of the gap, beside a
-  // narrow shelf. 2: the same number of gathers.
+  // The side of the widest cells, in heights of the gap that a place lies in (its distance from what lies
+  // above it along its normal): chosen by experiment. The sites of wider cells may all lie outside of the
+  // gap, beside a narrow shelf. 2: the same number of gathers.
   RSPHERE_TUNED(IrradianceField, double, kGap, 1);
-  // The finest spacing is at most this, in heights of the gap: by measurement. 1: 2.6% of the places between louvres
-  // are off by a factor of 1.5, instead of .7%; .125: the same errors, 3% more gathers in a furnished room.
+  // The finest spacing is at most this, in heights of the gap: by measurement. 1: 2.6% of the places between
+  // louvres are off by a factor of 1.5, instead of .7%; .125: the same errors, 3% more gathers in a furnished
+  // room.
   RSPHERE_TUNED(IrradianceField, double, kFinestInGap, .25);
   // -ar 0 sets no limit. Cells of this resolution, as -ar would give it, are the finest: chosen so that
   // they resolve crumbs on a table (.15 mm in a room of 10 m, at -aa .15). 30% less or more: the same
@@ -97,9 +98,9 @@ struct SiteInterpolation {
 struct CoarseSolution {
   // The side of a patch in mean distances of what it sees, at -aa .1. Above, it grows with the root of -aa,
   // since the error of an interpolation grows with the square of the spacing: by measurement. Below, it is in
-  // proportion to -aa. .4: sensors in a narrow room are .7% off on average instead of .4%; .2: .3%, in a fifth
-  // more time. Near a window with blinds .6, with .18 for kFarPatch and .1 for kLeastPatch, leaves sensors 17%
-  // too bright.
+  // proportion to -aa. .4: sensors in a narrow room are .7% off on average instead of .4%; .2: .3%, in a
+  // fifth more time. Near a window with blinds .6, with .18 for kFarPatch and .1 for kLeastPatch, leaves
+  // sensors 17% too bright.
   RSPHERE_TUNED(CoarseSolution, double, kSpacing, .3);
   // Above this -aa, patches do not grow: chosen by experiment. 30% less or more: the same
   // answers in all cases.
@@ -114,8 +115,8 @@ struct CoarseSolution {
   // or more: within noise (picture by sun; error 2%, time 4%).
   RSPHERE_TUNED(CoarseSolution, double, kNear, .4);
   // No patch is smaller than this share of its surface's extent: by measurement, together with kSpacing.
-  // Patches in a corner, where everything is near, would otherwise be divided without end. .02: three times the
-  // time.
+  // Patches in a corner, where everything is near, would otherwise be divided without end. .02: three times
+  // the time.
   RSPHERE_TUNED(CoarseSolution, double, kLeastPatch, .05);
   // The same three in scenes without openings for daylight: by measurement. There finer patches take a third
   // more time, and the errors of pictures are the same.
@@ -129,8 +130,8 @@ struct CoarseSolution {
   // ground is wide, rooms are small. 30% less: time +65%; 30% more: within noise (sensors by sun; noise:
   // error below 1%, time 4%).
   RSPHERE_TUNED(CoarseSolution, double, kWidestExtent, .4);
-  // The number of parts across strips that are narrower than their patches and wider than the sides that their
-  // surroundings ask for: by measurement. With 1, sensors near a window with blinds are 33% too bright.
+  // The number of parts across strips that are narrower than their patches and wider than the sides that
+  // their surroundings ask for: by measurement. With 1, sensors near a window with blinds are 33% too bright.
   RSPHERE_TUNED(CoarseSolution, int, kPartsAcross, 4);
   // A surface smaller than this share of a patch's side has no patch: by measurement. 30% less or more:
   // within noise (sensors by sun; error below 1%, time 6%).
@@ -138,42 +139,43 @@ struct CoarseSolution {
   // The number of finer levels that are tried where a patch is hidden: chosen by experiment. 1 or 3: within
   // noise (sensors by sun; error below 1%, time 6%).
   RSPHERE_TUNED(CoarseSolution, int, kFiner, 2);
-  // A side of a ball (a sixth of it) or of a cone is enclosed if all that is seen from so many places on it, the first
-  // number, is nearer in the root mean square than this share of the radius: between shells with a gap of a third of
-  // the inner radius, where it is .47 in the middle, and a ball in a tight room. Without it, gathers between five
-  // shells of rough trans make more than 140,000 patches: the surface's bulge hides most sites from the places
-  // around, so that finer and finer patches are tried, each of which serves few places.
+  // A side of a ball (a sixth of it) or of a cone is enclosed if all that is seen from so many places on it,
+  // the first number, is nearer in the root mean square than this share of the radius: between shells with a
+  // gap of a third of the inner radius, where it is .47 in the middle, and a ball in a tight room. Without
+  // it, gathers between five shells of rough trans make more than 140,000 patches: the surface's bulge hides
+  // most sites from the places around, so that finer and finer patches are tried, each of which serves few
+  // places.
   static constexpr size_t kEnclosedPlaces = 8;
   static constexpr double kEnclosed = .6;
-  // No patch of an enclosed side is smaller than this share of the surface's extent: an estimate, tried with those
-  // five shells alone (one point in sphere mode, 4 s instead of minutes).
+  // No patch of an enclosed side is smaller than this share of the surface's extent: an estimate, tried with
+  // those five shells alone (one point in sphere mode, 4 s instead of minutes).
   static constexpr double kLeastPatchEnclosed = .2;
   // The number of rays of a patch for each ray that a gather is asked for (-ad and -as): by measurement. In
   // daylit rooms, .1 instead of .07 takes a third more time for a tenth less error.
   RSPHERE_TUNED(CoarseSolution, double, kRays, .06);
-  // The same, and the least number of them, in scenes without openings for daylight, where all patches have as
-  // many: by measurement. With the numbers for daylight, pictures of two interiors with lamps take 8 and 19%
-  // more time and have the same error.
+  // The same, and the least number of them, in scenes without openings for daylight, where all patches have
+  // as many: by measurement. With the numbers for daylight, pictures of two interiors with lamps take 8 and
+  // 19% more time and have the same error.
   RSPHERE_TUNED(CoarseSolution, double, kRaysByLamps, .08);
   RSPHERE_TUNED(CoarseSolution, double, kLeastRaysByLamps, 32);
-  // With -aa below .1 they grow in inverse proportion to it, since their noise is shared by all places that see
-  // a patch; but not below this -aa: by measurement. In a sunlit classroom at -aa .05 the noise of sensors
-  // is .65% without this growth.
+  // With -aa below .1 they grow in inverse proportion to it, since their noise is shared by all places that
+  // see a patch; but not below this -aa: by measurement. In a sunlit classroom at -aa .05 the noise of
+  // sensors is .65% without this growth.
   RSPHERE_TUNED(CoarseSolution, double, kFinestAccuracy, .02);
-  // In a room whose surfaces all matter alike, the share of a patch in the light of the others is about its area
-  // divided by the square of the room's size; outdoors, less in proportion to the sky that it sees and to the square
-  // of its distance from other surfaces. A patch of this share, a square of 36 cm in a room of 4 m, has the number
-  // of rays above; others have rays in proportion, which leaves the least noise for the same number of all rays:
-  // by measurement. In four daylit rooms, the mean distance of what a patch sees in place of the room's size gives
-  // patches below desks and in gaps so many rays that the same error takes 1.3 to 3 times the time. .012: 15%
-  // more noise in sunlit rooms, a tenth less time.
+  // In a room whose surfaces all matter alike, the share of a patch in the light of the others is about its
+  // area divided by the square of the room's size; outdoors, less in proportion to the sky that it sees and
+  // to the square of its distance from other surfaces. A patch of this share, a square of 36 cm in a room of
+  // 4 m, has the number of rays above; others have rays in proportion, which leaves the least noise for the
+  // same number of all rays: by measurement. In four daylit rooms, the mean distance of what a patch sees in
+  // place of the room's size gives patches below desks and in gaps so many rays that the same error takes 1.3
+  // to 3 times the time. .012: 15% more noise in sunlit rooms, a tenth less time.
   RSPHERE_TUNED(CoarseSolution, double, kUsualShare, .008);
-  // Bounds on that proportion: by measurement. .1 takes 1.3 times the time at -aa .05, for the same error; at 2.5, a
-  // sunlit classroom has 15% more noise, at 8 the same as at 4 in a sixth more time.
+  // Bounds on that proportion: by measurement. .1 takes 1.3 times the time at -aa .05, for the same error; at
+  // 2.5, a sunlit classroom has 15% more noise, at 8 the same as at 4 in a sixth more time.
   RSPHERE_TUNED(CoarseSolution, double, kFewerRays, .03);
   RSPHERE_TUNED(CoarseSolution, double, kMoreRays, 4);
-  // Bounds on the number of rays of a patch: by measurement. 16 takes up to a sixth more time, for the same error.
-  // More than 4096 are more than other errors justify.
+  // Bounds on the number of rays of a patch: by measurement. 16 takes up to a sixth more time, for the same
+  // error. More than 4096 are more than other errors justify.
   RSPHERE_TUNED(CoarseSolution, double, kLeastRays, 8);
   RSPHERE_TUNED(CoarseSolution, double, kMostRays, 4096);
 };

@@ -15,22 +15,26 @@ namespace {
 using Tuning = tuning::Interpolation;
 
 // An imagined ray that has hit the site, the parent of the gather's rays.
-Ray rootOf(const PreparedScene& prepared, const GatherSite& site, int depth) {
-  Ray root;
-  root.medium = prepared.medium();
-  root.point = site.point;
-  root.normal = site.normal;
-  root.length = 0;
-  root.depth = depth;
-  return root;
-}
+struct Root {
+  RayQuery query;
+  PathContext context;
+  RayEnd end{query, context};
+
+  Root(const PreparedScene& prepared, const GatherSite& site, int depth) {
+    context.space.medium = prepared.medium();
+    context.depth = depth;
+    end.hit.point = site.point;
+    end.hit.normal = site.normal;
+    end.hit.length = 0;
+  }
+};
 
 }  // namespace
 
 GatheredLight TracedFieldRays::gather(const GatherSite& site, double nearest, uint64_t seed) {
   const InnerPath path = path_.beginGather(seed, site.normal);
   const RayOptions& o = t_.options();
-  const Ray root = rootOf(t_, site, depth_);
+  const Root root(t_, site, depth_);
   V3d x, y;
   frame(site.normal, x, y);
   const int count = o.ambientDivisions + o.ambientSuperSamples;
@@ -38,13 +42,13 @@ GatheredLight TracedFieldRays::gather(const GatherSite& site, double nearest, ui
   std::vector<Radiance> radiance(cells.count());
   std::vector<double> distance(cells.count(), kFarAway);
   const GatherDirections directions(path.settings.aims, site.point, site.normal, site.normal, count);
-  sendOverHemisphere(t_, directions, path.state, root, kReflectedAmbient, count, Coefficient(1),
-                     Coefficient(kMeanReflectance), [&](Ray& child, const Coefficient& factor) {
-                       countDescendants(path.settings, path.state, child);
-                       path.follower.follow(child);
-                       const int cell = cells.cellOf(child.direction, x, y, site.normal);
-                       radiance[cell] += child.value * factor * cells.count();
-                       distance[cell] = std::min(distance[cell], apparentLength(child));
+  sendOverHemisphere(t_, directions, path.state, root.end, site.point, kReflectedAmbient, count,
+                     Coefficient(1), Coefficient(kMeanReflectance), [&](const NextRay& next) {
+                       countDescendants(path.settings, path.state, next.context);
+                       const RayResult seen = path.follower.follow(next.query, next.context);
+                       const int cell = cells.cellOf(next.query.direction, x, y, site.normal);
+                       radiance[cell] += seen.value * next.coefficient * cells.count();
+                       distance[cell] = std::min(distance[cell], apparentLength(seen));
                      });
   return cells.sum(radiance, distance, nearest, x, y, site.normal);
 }
@@ -56,12 +60,11 @@ PatchLinks TracedFieldRays::link(const GatherSite& site, int rays, uint64_t seed
   path.state.links = &links;
   path.state.descendants = descendantsOfPatch(rays, depth_);
   Radiance sum;
+  const Root root(t_, site, depth_);
   const GatherDirections directions(path.settings.aims, site.point, site.normal, site.normal, rays);
-  sendOverHemisphere(t_, directions, path.state, rootOf(t_, site, depth_), kReflectedAmbient, rays,
-                     Coefficient(1), Coefficient(kMeanReflectance),
-                     [&](Ray& child, const Coefficient& factor) {
-                       path.follower.follow(child);
-                       sum += child.value * factor;
+  sendOverHemisphere(t_, directions, path.state, root.end, site.point, kReflectedAmbient, rays,
+                     Coefficient(1), Coefficient(kMeanReflectance), [&](const NextRay& next) {
+                       sum += path.follower.follow(next.query, next.context).value * next.coefficient;
                      });
   links.addLight(0, sum);
   return links;

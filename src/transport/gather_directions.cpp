@@ -60,8 +60,8 @@ void GatherDirections::draw(int count, Random& random, Each each) const {
   constexpr double kGolden = .6180339887498949;
   const double shift1 = random.uniform(), shift2 = random.uniform(), shift3 = random.uniform();
   for (int i = 0; i < count; ++i) {
-    // Systematic sampling: consecutive directions are of one kind, whose number differs from its share by less
-    // than 1. Within its kind, u is evenly spaced from 0 to 1.
+    // Systematic sampling: consecutive directions are of one kind, whose number differs from its share by
+    // less than 1. Within its kind, u is evenly spaced from 0 to 1.
     double u = (i + shift1) / count;
     const Imath::V2d even = evenly(static_cast<size_t>(i), shift2, shift3);
     V3d direction;
@@ -72,8 +72,8 @@ void GatherDirections::draw(int count, Random& random, Each each) const {
     } else if ((u -= toSpots_) < toHighlights_) {
       direction = aims_.highlights->sample(highlights_, u / toHighlights_, even.x, even.y);
     } else {
-      // A Fibonacci lattice over the projected hemisphere, shifted at random. It is as evenly distributed as a
-      // jittered grid, for any number of rays.
+      // A Fibonacci lattice over the projected hemisphere, shifted at random. It is as evenly distributed as
+      // a jittered grid, for any number of rays.
       const double around = shift2 + i * kGolden;
       direction = diffuseDirection(normal_, std::min(1., (u - toHighlights_) / unaimed()),
                                    around - std::floor(around));
@@ -84,18 +84,18 @@ void GatherDirections::draw(int count, Random& random, Each each) const {
 }
 
 void sendOverHemisphere(const PreparedScene& prepared, const GatherDirections& directions, PathState& state,
-                        const Ray& root, RayKind kind, int rays, const Coefficient& coefficient,
-                        const Coefficient& weight, GatherRay each) {
-  const Coefficient arriving = root.contribution * passedBy(root);
+                        const RayEnd& root, const V3d& point, RayKind kind, int rays,
+                        const Coefficient& coefficient, const Coefficient& weight, GatherRay each) {
+  const Coefficient arriving = root.context.contribution * passedBy(root);
   directions.draw(rays, state.random, [&](const V3d& direction, double part) {
-    Ray child;
-    child.direction = direction;
-    Coefficient survived = weight;
-    if (!continueRay(prepared, state, child, kind, root, survived)) return;
-    ++child.ambientLevel;
-    const Coefficient factor = coefficient * (part * maxChannel(survived) / maxChannel(weight));
-    child.contribution = arriving * factor;
-    each(child, factor);
+    NextRay next(root, kind, weight);
+    if (!goesOnAlong(next, prepared, state)) return;
+    next.query.origin = point;
+    next.query.direction = direction;
+    ++next.context.ambientLevel;
+    next.coefficient = coefficient * (part * maxChannel(next.coefficient) / maxChannel(weight));
+    next.context.contribution = arriving * next.coefficient;
+    each(next);
   });
 }
 

@@ -10,40 +10,39 @@
 
 namespace rsphere {
 
-void IndirectLight::add(Ray& ray, const V3d& normal, const V3d& trueNormal, RayKind kind,
-                        const Coefficient& coefficient) {
+void IndirectLight::add(const RayEnd& end, const DiffuseSide& side, Radiance& value) {
   const RayOptions& o = t_.options();
-  if (o.ambientDivisions <= 0 || ray.ambientLevel >= o.ambientBounces || !t_.isAmbient(ray.surface)) {
-    ray.value += coefficient * o.ambientValue;
+  const PathContext& ray = end.context;
+  if (o.ambientDivisions <= 0 || ray.ambientLevel >= o.ambientBounces || !t_.isAmbient(end.hit.surface)) {
+    value += side.coefficient * o.ambientValue;
     return;
   }
   if (ray.depth == 0 && state_.request.leavesOutIndirect) {
     state_.leftOut.indirect = true;
     return;
   }
-  const Side at{normal, trueNormal, kind, coefficient};
-  if (state_.links) return link(ray, at);
+  if (state_.links) return link(end, side);
   const FirstBounce first = settings_.mode.firstBounce;
   if (ray.ambientLevel > 0 || first == FirstBounce::fromPatches ||
       (first == FirstBounce::gathered && (ray.kinds & kSpecular))) {
-    if (settings_.caches.coarse && interpolated_.addFromPatch(ray, normal, trueNormal, coefficient)) return;
+    if (settings_.caches.coarse && interpolated_.addFromPatch(end, side, value)) return;
   } else if (first == FirstBounce::interpolated && settings_.caches.field &&
-             interpolated_.add(ray, normal, trueNormal, coefficient)) {
+             interpolated_.add(end, side, value)) {
     return;
   }
-  gather(ray, at);
+  gather(end, side, value);
 }
 
 // The number of guessed rays for each ray that is followed. It is 0 if -lr ends the descendants of the ray
 // for certain instead of by Russian roulette: the guess would then include light that followed rays lack.
-int IndirectLight::raysToGuess(const Ray& ray) const {
+int IndirectLight::raysToGuess(const PathContext& ray) const {
   if (!state_.request.guess || !goesOn(t_, ray)) return 0;
   return state_.request.guess->raysToGuess(ray.ambientLevel);
 }
 
 // The number of directions of a gather. Paths that are to be unbiased have as many as RADIANCE gives them at
 // every bounce: a square, in proportion to their weight. The rays of interpolated gathers are not divided.
-int IndirectLight::raysOf(const Ray& ray, const Coefficient& coefficient) const {
+int IndirectLight::raysOf(const PathContext& ray, const Coefficient& coefficient) const {
   if (state_.glimpses) return 1;
   const RayOptions& o = t_.options();
   const double asked = o.ambientDivisions + o.ambientSuperSamples,
@@ -59,39 +58,40 @@ int IndirectLight::raysOf(const Ray& ray, const Coefficient& coefficient) const 
 
 // Every ray that is followed may be corrected by a control variate: the guess of its radiance is subtracted,
 // and the mean of many guesses added.
-void IndirectLight::gather(Ray& ray, const Side& at) {
-  const int rays = raysOf(ray, at.coefficient), guesses = raysToGuess(ray);
-  const GatherDirections directions(settings_.aims, ray.point, at.normal, at.trueNormal, rays);
+void IndirectLight::gather(const RayEnd& end, const DiffuseSide& side, Radiance& value) {
+  const LocalGuess* const guess = state_.request.guess;
+  const int rays = raysOf(end.context, side.coefficient), guesses = raysToGuess(end.context);
+  const GatherDirections directions(settings_.aims, side.point, side.normal, side.trueNormal, rays);
   if (guesses > 0)
     directions.draw(rays * guesses, state_.random, [&](const V3d& direction, double part) {
-      ray.value += at.coefficient * part * state_.request.guess->indirect(ray.point, direction, ray.surface);
+      value += side.coefficient * part * guess->indirect(side.point, direction, end.hit.surface);
     });
-  const Coefficient weight = settings_.caches.field ? Coefficient(kMeanReflectance) : at.coefficient / rays;
-  sendOverHemisphere(t_, directions, state_, ray, at.kind, rays, at.coefficient, weight,
-                     [&](Ray& child, const Coefficient& factor) {
-                       if (child.ambientLevel == 1) countDescendants(settings_, state_, child);
-                       follower_.follow(child);
-                       ray.value += child.value * factor;
-                       if (guesses > 0) ray.value -= state_.request.guess->indirect(child) * factor;
+  const Coefficient weight = settings_.caches.field ? Coefficient(kMeanReflectance) : side.coefficient / rays;
+  sendOverHemisphere(t_, directions, state_, end, side.point, side.kind, rays, side.coefficient, weight,
+                     [&](const NextRay& next) {
+                       if (next.context.ambientLevel == 1) countDescendants(settings_, state_, next.context);
+                       RayEnd seen(next.query, next.context);
+                       value += follower_.follow(seen).value * next.coefficient;
+                       if (guesses > 0) value -= guess->indirect(seen) * next.coefficient;
                      });
 }
 
-// What a ray of a patch finds at a diffuse surface: a link to the patch there. Where there is none, the path goes on in
-// one direction, unless the last bounce is reached.
-void IndirectLight::link(const Ray& ray, const Side& at) {
+// What a ray of a patch finds at a diffuse surface: a link to the patch there. Where there is none, the path
+// goes on in one direction, unless the last bounce is reached.
+void IndirectLight::link(const RayEnd& end, const DiffuseSide& side) {
   PatchLinks& links = *state_.links;
-  const int beyond = ray.ambientLevel - 1;
-  const bool isLast = ray.ambientLevel >= bouncesBeyondPatches(t_.options());
-  Patch* const patch = isLast ? nullptr : interpolated_.patchAt(ray, at.normal, at.trueNormal);
-  const Coefficient whole = at.coefficient * ray.contribution * passedBy(ray);
-  if (patch) return links.add(patch, whole, beyond);
-  links.addEnd(beyond, whole);
+  const int level = end.context.ambientLevel;
+  const bool isLast = level >= bouncesBeyondPatches(t_.options());
+  Patch* const patch = isLast ? nullptr : interpolated_.patchAt(end, side);
+  const Coefficient whole = side.coefficient * end.context.contribution * passedBy(end);
+  if (patch) return links.add(patch, whole, level - 1);
+  links.addEnd(level - 1, whole);
   if (isLast) return;
-  const GatherDirections directions(settings_.aims, ray.point, at.normal, at.trueNormal, 1);
-  sendOverHemisphere(t_, directions, state_, ray, at.kind, 1, at.coefficient, Coefficient(kMeanReflectance),
-                     [&](Ray& child, const Coefficient&) {
-                       follower_.follow(child);
-                       links.addLight(child.ambientLevel - 1, child.value * child.contribution);
+  const GatherDirections directions(settings_.aims, side.point, side.normal, side.trueNormal, 1);
+  sendOverHemisphere(t_, directions, state_, end, side.point, side.kind, 1, side.coefficient,
+                     Coefficient(kMeanReflectance), [&](const NextRay& next) {
+                       const Radiance found = follower_.follow(next.query, next.context).value;
+                       links.addLight(level, found * next.context.contribution);
                      });
 }
 

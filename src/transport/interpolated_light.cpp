@@ -11,19 +11,22 @@ namespace {
 
 using Tuning = tuning::Interpolation;
 
-// Whether interpolated light is valid at the end of a ray. It was gathered in the whole scene, with nothing
-// cut away by antimatter, and in the medium that fills the scene.
-bool isOrdinary(const Ray& ray, const Medium& medium) {
-  return !ray.mist && !ray.clips && !ray.clipsBeyond && !ray.scatterers.count &&
-         ray.medium.extinction == medium.extinction;
+// Whether interpolated light is valid at a side. It was gathered in the whole scene, with nothing cut away by
+// antimatter, and in the medium that fills the scene. Its moments do not tell the light at very tilted
+// normals.
+bool isOrdinary(const RayEnd& end, const DiffuseSide& side, const Medium& medium) {
+  const RaySpace& space = end.space();
+  return !space.mist && !end.context.clips && !end.clipsBeyond && !space.scatterers.count &&
+         space.medium.extinction == medium.extinction &&
+         !(side.normal.dot(side.trueNormal) < Tuning::kLeastUpright);
 }
 
-SurfacePlace placeOf(const Ray& ray, const V3d& trueNormal) {
-  return {ray.point, trueNormal, ray.surface, &ray.path, ray.length};
+SurfacePlace placeOf(const RayEnd& end, const DiffuseSide& side) {
+  return {side.point, side.trueNormal, end.hit.surface, &end.hit.path, end.hit.length};
 }
 
 // The diffuse bounces that the limits allow beyond the end of a ray.
-int bouncesLeft(const RayOptions& o, const Ray& ray) {
+int bouncesLeft(const RayOptions& o, const PathContext& ray) {
   int left = o.ambientBounces - ray.ambientLevel;
   if (o.reflectionLimit != 0) left = std::min(left, std::abs(o.reflectionLimit) - ray.level);
   if (o.reflectionLimit > 0)
@@ -34,33 +37,30 @@ int bouncesLeft(const RayOptions& o, const Ray& ray) {
 
 }  // namespace
 
-bool InterpolatedLight::add(Ray& ray, const V3d& normal, const V3d& trueNormal,
-                            const Coefficient& coefficient) {
+bool InterpolatedLight::add(const RayEnd& end, const DiffuseSide& side, Radiance& value) {
   // The light at an imagined point (-I) is not interpolated, because no other ray needs it.
-  if (ray.surface == kNone) return false;
-  if (!isOrdinary(ray, t_.medium()) || normal.dot(trueNormal) < Tuning::kLeastUpright) return false;
-  TracedFieldRays rays(t_, follower_, ray.depth);
+  if (end.hit.surface == kNone || !isOrdinary(end, side, t_.medium())) return false;
+  TracedFieldRays rays(t_, follower_, end.context.depth);
   GatheredLight light;
-  if (!settings_.caches.field->find(placeOf(ray, trueNormal), reader_, rays, light)) return false;
-  ray.value += coefficient * light.meanOfTilted(trueNormal, normal);
+  if (!settings_.caches.field->find(placeOf(end, side), reader_, rays, light)) return false;
+  value += side.coefficient * light.meanOfTilted(side.trueNormal, side.normal);
   return true;
 }
 
-bool InterpolatedLight::addFromPatch(Ray& ray, const V3d& normal, const V3d& trueNormal,
-                                     const Coefficient& coefficient) {
-  TracedFieldRays rays(t_, follower_, ray.depth);
-  Patch* const patch = patchAt(ray, normal, trueNormal);
+bool InterpolatedLight::addFromPatch(const RayEnd& end, const DiffuseSide& side, Radiance& value) {
+  Patch* const patch = patchAt(end, side);
   if (!patch) return false;
-  ray.value +=
-      coefficient * Radiance(settings_.caches.coarse->light(*patch, bouncesLeft(t_.options(), ray), rays));
+  TracedFieldRays rays(t_, follower_, end.context.depth);
+  value += side.coefficient *
+           Radiance(settings_.caches.coarse->light(*patch, bouncesLeft(t_.options(), end.context), rays));
   return true;
 }
 
-Patch* InterpolatedLight::patchAt(const Ray& ray, const V3d& normal, const V3d& trueNormal) {
+Patch* InterpolatedLight::patchAt(const RayEnd& end, const DiffuseSide& side) {
   const double u1 = state_.random.uniform(), u2 = state_.random.uniform();
-  if (!isOrdinary(ray, t_.medium()) || normal.dot(trueNormal) < Tuning::kLeastUpright) return nullptr;
-  TracedFieldRays rays(t_, follower_, ray.depth);
-  return settings_.caches.coarse->find(placeOf(ray, trueNormal), u1, u2, rays);
+  if (!isOrdinary(end, side, t_.medium())) return nullptr;
+  TracedFieldRays rays(t_, follower_, end.context.depth);
+  return settings_.caches.coarse->find(placeOf(end, side), u1, u2, rays);
 }
 
 void InterpolatedLight::endPath() {

@@ -1,8 +1,9 @@
 #pragma once
-// Portals of daylight: panes with a bright side and a dark one, and holes in walls. A small window brings most of
-// the light of a room, but few directions of a hemisphere hit it. A share of the rays of each gather is therefore
-// aimed at openings and combined with the others by multiple importance sampling (balance heuristic: Veach and
-// Guibas 1995). Openings that are missed or found in vain change the variance, not the mean.
+// Portals of daylight: panes with a bright side and a dark one, and holes in walls. A small window brings
+// most of the light of a room, but few directions of a hemisphere hit it. A share of the rays of each gather
+// is therefore aimed at openings and combined with the others by multiple importance sampling (balance
+// heuristic: Veach and Guibas 1995). Openings that are missed or found in vain change the variance, not the
+// mean.
 //
 // Source: Bitterli, Novák, Jarosz, "Portal-masked environment map sampling" (Computer Graphics Forum 34,
 // 2015). Differences: portals are found automatically, and sampled by area.

@@ -11,10 +11,10 @@
 
 namespace rsphere {
 
-// Where the indirect light of the first diffuse surface of a path comes from, with -aa above 0. That of later ones
-// comes from the coarse solution. If thousands of directions are averaged, the errors of single patches matter less
-// than what a gather at each surface costs. In a picture, patches would be visible, and cache records would outnumber
-// its pixels where furniture is dense.
+// Where the indirect light of the first diffuse surface of a path comes from, with -aa above 0. That of later
+// ones comes from the coarse solution. If thousands of directions are averaged, the errors of single patches
+// matter less than what a gather at each surface costs. In a picture, patches would be visible, and cache
+// records would outnumber its pixels where furniture is dense.
 enum class FirstBounce : uint8_t {
   interpolated,  // from cache records
   fromPatches,   // from the coarse solution
@@ -27,8 +27,9 @@ struct TracingMode {
   // The light of sources in rough highlights is divided between shadow rays and samples of the lobes
   // (shared_highlights.h). The mean stays the same.
   bool sharesHighlights = false;
-  // The descendants of a primary ray have a bound, so that a record takes a bounded time wherever it lies: within a
-  // closed metal cylinder paths would branch at each surface, into thousands of rays. The mean stays the same.
+  // The descendants of a primary ray have a bound, so that a record takes a bounded time wherever it lies:
+  // within a closed metal cylinder paths would branch at each surface, into thousands of rays. The mean stays
+  // the same.
   bool boundsWork = false;
 };
 

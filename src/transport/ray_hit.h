@@ -4,9 +4,11 @@
 
 namespace rsphere {
 
-// Finds the surface that a ray hits (Tracer::nearest), otherwise the distant source in its direction, and
-// sets the ray's surface, length, point, normal and cosine. An unobstructed shadow ray always hits the source
-// that it is aimed at. Returns the tracer's hit.
-Hit findHit(const PreparedScene& prepared, Ray& ray);
+// What the tracer finds along a ray (Tracer::nearest); nothing for an unobstructed shadow ray.
+Hit nearestHit(const PreparedScene& prepared, const RayQuery& ray);
+
+// Sets the hit of a ray, which has none yet: the tracer's, otherwise the distant source in its direction. An
+// unobstructed shadow ray always hits the source that it is aimed at.
+void setHit(const PreparedScene& prepared, const Hit& nearest, RayEnd& end);
 
 }  // namespace rsphere

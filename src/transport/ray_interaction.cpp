@@ -6,32 +6,36 @@ namespace {
 // A ray is straight if its direction (unit) changed by less than this on its way through panes.
 constexpr double kStraight = 1e-9;
 
-// Whether a ray continues the primary ray in a straight line, except for its reflection by ray.mirror, and
-// passes no surface that blocks shadow rays, so that shadow rays to the source reach it as well.
-bool isStraight(const PreparedScene& t, const Ray& ray, const V3d& primaryDirection) {
-  for (const Ray* before = ray.parent; before; before = before->parent)
-    if (before->surface != kNone && before->surface != ray.mirror &&
-        t.tracer().stopsShadows(before->surface, before->cosine > 0))
+// Whether a ray continues the primary ray in a straight line, except for its reflection by
+// PathContext::mirror, and passes no surface that blocks shadow rays, so that shadow rays to the source reach
+// it as well.
+bool isStraight(const PreparedScene& t, const RayEnd& end, const V3d& primaryDirection) {
+  const SurfaceId mirror = end.context.mirror;
+  for (const RayEnd* before = end.context.parent; before; before = before->context.parent) {
+    const SurfaceHit& hit = before->hit;
+    if (hit.surface != kNone && hit.surface != mirror && t.tracer().stopsShadows(hit.surface, hit.cosine > 0))
       return false;
+  }
   V3d direction = primaryDirection;
-  if (ray.mirror != kNone) {
-    const V3d& normal = *planeNormal(t.scene().surfaces[ray.mirror].shape);
+  if (mirror != kNone) {
+    const V3d& normal = *planeNormal(t.scene().surfaces[mirror].shape);
     direction -= 2 * normal.dot(direction) * normal;
   }
-  return (ray.direction - direction).length2() < kStraight * kStraight;
+  return (end.ray.direction - direction).length2() < kStraight * kStraight;
 }
 
 }  // namespace
 
-void noteShown(const PreparedScene& t, const Ray& ray, PathState& state) {
-  if (t.lightOf(ray.surface) == kNone) return;
-  // The ray shows this source only if it came straight or was mirrored once. Behind a slab, such as thick glass, refraction
-  // displaces the ray, which makes no difference to a distant source.
-  const bool isDistant = t.scene().surfaces[ray.surface].shape.as<Distant>();
-  const unsigned others = ray.kinds & ~(kPrimary | kTransmitted | (isDistant ? kRefracted : 0u));
-  if (others != (ray.mirror == kNone ? 0u : kReflected)) return;
-  if (state.shown.source != kNone && (state.shown.mirror == kNone || ray.mirror != kNone)) return;
-  if (isStraight(t, ray, state.primaryDirection)) state.shown = {ray.surface, ray.mirror};
+void noteShown(const PreparedScene& t, const RayEnd& end, PathState& state) {
+  const SurfaceId surface = end.hit.surface, mirror = end.context.mirror;
+  if (t.lightOf(surface) == kNone) return;
+  // The ray shows this source only if it came straight or was mirrored once. Behind a slab, such as thick
+  // glass, refraction displaces the ray, which makes no difference to a distant source.
+  const bool isDistant = t.scene().surfaces[surface].shape.as<Distant>();
+  const unsigned others = end.context.kinds & ~(kPrimary | kTransmitted | (isDistant ? kRefracted : 0u));
+  if (others != (mirror == kNone ? 0u : kReflected)) return;
+  if (state.shown.source != kNone && (state.shown.mirror == kNone || mirror != kNone)) return;
+  if (isStraight(t, end, state.primaryDirection)) state.shown = {surface, mirror};
 }
 
 }  // namespace rsphere

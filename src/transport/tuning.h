@@ -30,9 +30,9 @@ struct BrightSpots {
   // A spot reflects at least this many times more light per area than surfaces do on average: chosen by
   // experiment. 30% less or more: the same answers in all cases.
   RSPHERE_TUNED(BrightSpots, double, kBrighter, 6);
-  // The same for spots of light that enters through openings, of which patches of the coarse solution know few
-  // rays: by measurement in a sunlit classroom, where spots of 6 and more leave 1.55% of noise at sensors, of 3
-  // 1.16%, of 2 1.27%.
+  // The same for spots of light that enters through openings, of which patches of the coarse solution know
+  // few rays: by measurement in a sunlit classroom, where spots of 6 and more leave 1.55% of noise at
+  // sensors, of 3 1.16%, of 2 1.27%.
   RSPHERE_TUNED(BrightSpots, double, kBrighterInside, 3);
   // Aiming pays for itself if the worth of all spots together (Node::worth) exceeds this multiple of
   // the worth that all surfaces would have if they were lit evenly: by measurement. Aiming makes a
@@ -65,16 +65,17 @@ struct BrightSpots {
 // Portals of daylight that indirect rays are aimed at (openings.cpp).
 // Holes in walls (holes.cpp).
 struct Holes {
-  // Polygons belong to one wall if their normals and their distances from the scene's corner, in sizes of the scene,
-  // agree to this: far more than rounding, far less than a wall's thickness.
+  // Polygons belong to one wall if their normals and their distances from the scene's corner, in sizes of the
+  // scene, agree to this: far more than rounding, far less than a wall's thickness.
   static constexpr double kSameNormal = 1e-6, kSamePlane = 1e-5;
-  // Cells along each side of a wall, within which holes are known: so that the edges of a door in a wall of 10 m are
-  // right within 16 cm. What is missed changes the variance only.
+  // Cells along each side of a wall, within which holes are known: so that the edges of a door in a wall of
+  // 10 m are right within 16 cm. What is missed changes the variance only.
   static constexpr int kCells = 64;
-  // The wall is at this share of a hole's outline at least: at three sides of a door, but not around the space
-  // between the legs of desks in a row.
+  // The wall is at this share of a hole's outline at least: at three sides of a door, but not around the
+  // space between the legs of desks in a row.
   static constexpr double kSurrounded = .6;
-  // Cap on the number of walls that are looked at, of which the largest are chosen, to limit the time at start.
+  // Cap on the number of walls that are looked at, of which the largest are chosen, to limit the time at
+  // start.
   static constexpr size_t kMostWalls = 256;
 };
 
@@ -82,28 +83,28 @@ struct Openings {
   // Panes smaller than this share of the largest face of the scene's box are ignored, because every opening
   // costs time in every gather: chosen by experiment. 30% less or more: the same answers in all cases.
   RSPHERE_TUNED(Openings, double, kLeastArea, 1e-6);
-  // The same for holes without panes: larger, because their walls are then known without smaller polygons. A door of
-  // 2 m2 counts in a scene of up to 450 m.
+  // The same for holes without panes: larger, because their walls are then known without smaller polygons. A
+  // door of 2 m2 counts in a scene of up to 450 m.
   RSPHERE_TUNED(Openings, double, kLeastHole, 1e-5);
-  // Cap on the number of panes and holes that are probed, of which the largest are chosen: by experiment, to limit the
-  // time at start. 30% less or more: the same answers in all cases.
+  // Cap on the number of panes and holes that are probed, of which the largest are chosen: by experiment, to
+  // limit the time at start. 30% less or more: the same answers in all cases.
   RSPHERE_TUNED(Openings, size_t, kMostAsked, 512);
   // Probe rays on each side of a pane: chosen by experiment. 30% less: time +30%; 30% more: time +30%
   // (sensors by panes; noise: error 19%, time 4%), because other panes are then found to be openings.
   RSPHERE_TUNED(Openings, int, kProbes, 32);
   // The bright side of an opening is at least this many times brighter than the dark one: between windows,
   // for which it is 2 to 8 by day, since panes also mirror the bright side, and panes between two rooms, for
-  // which it is about 1. Diffusing windows (1.6) and windows behind sunlit blinds (1.1) are found by the sky that
-  // is seen through them (kMoreSky). At 3, two of four windows of a sunlit classroom are not found, and sensors
-  // have 2.7 times the noise of light from the sky.
+  // which it is about 1. Diffusing windows (1.6) and windows behind sunlit blinds (1.1) are found by the sky
+  // that is seen through them (kMoreSky). At 3, two of four windows of a sunlit classroom are not found, and
+  // sensors have 2.7 times the noise of light from the sky.
   RSPHERE_TUNED(Openings, double, kBrighter, 1.7);
-  // Regardless of brightness, the side from which at least so many times more light of the sky is seen without
-  // reflections is the bright one, if that light is at least this share of all: chosen by experiment. Sunlit
-  // blinds behind a pane are as bright as the sky; through them the sky is hardly seen.
+  // Regardless of brightness, the side from which at least so many times more light of the sky is seen
+  // without reflections is the bright one, if that light is at least this share of all: chosen by experiment.
+  // Sunlit blinds behind a pane are as bright as the sky; through them the sky is hardly seen.
   RSPHERE_TUNED(Openings, double, kMoreSky, 3);
   RSPHERE_TUNED(Openings, double, kLeastSky, .1);
-  // A hole belongs to an opening that is parallel to it (cosine) and whose middle is nearer than this share of the
-  // shortest side: the faces of a wall are nearer to each other than a door is wide.
+  // A hole belongs to an opening that is parallel to it (cosine) and whose middle is nearer than this share
+  // of the shortest side: the faces of a wall are nearer to each other than a door is wide.
   static constexpr double kParallel = .99, kSameHole = .5;
   // Coplanar panes are merged to one opening if they fill at least this share of the rectangle around them:
   // chosen by experiment. 30% less or more: the same answers in all cases.
@@ -185,20 +186,22 @@ struct SharedHighlights {
   RSPHERE_TUNED(SharedHighlights, double, kLeast, .25);
 };
 
-// Which directions of gathers are aimed (gather_directions.cpp): shares of them in proportion to the light that
-// probably comes from openings, from spots and from elsewhere. The figures are the work, variance times time, of
-// paths without interpolation in four daylit rooms: a narrow and a wide one, by an overcast sky and by the sun.
+// Which directions of gathers are aimed (gather_directions.cpp): shares of them in proportion to the light
+// that probably comes from openings, from spots and from elsewhere. The figures are the work, variance times
+// time, of paths without interpolation in four daylit rooms: a narrow and a wide one, by an overcast sky and
+// by the sun.
 struct GatherDirections {
   // The share of directions at openings, for each share of the light that openings probably bring: by
-  // measurement. At .5 the work is 1.3, .9, 1 and 1 times that at .7, at .3 it is 7.8, 2.4, 1.1 and 1.2 times.
+  // measurement. At .5 the work is 1.3, .9, 1 and 1 times that at .7, at .3 it is 7.8, 2.4, 1.1 and 1.2
+  // times.
   RSPHERE_TUNED(GatherDirections, double, kToOpenings, .7);
   // Cap on that share: chosen by experiment. Others then have at most twice the weight that they have without
   // aiming.
   RSPHERE_TUNED(GatherDirections, double, kMostToOpenings, .5);
   // The same for spots: chosen by experiment. From .5 to .9 the work is the same within its noise.
   RSPHERE_TUNED(GatherDirections, double, kToSpots, .5);
-  // The light from elsewhere, relative to the smaller of two estimates that are made near openings, where it is
-  // brighter than farther inside: by measurement. At 1 the work is 4.8, 2.3, .8 and 1 times that at .5.
+  // The light from elsewhere, relative to the smaller of two estimates that are made near openings, where it
+  // is brighter than farther inside: by measurement. At 1 the work is 4.8, 2.3, .8 and 1 times that at .5.
   RSPHERE_TUNED(GatherDirections, double, kFartherInside, .5);
   // The share falls by this multiple of the form factor to all openings, because rays hit openings that fill
   // much of the view without being aimed: chosen by experiment. 30% less or more: within noise (sensors by
@@ -318,28 +321,28 @@ struct Interpolation {
 
 // How many rays a ray splits into (ray_limits.h).
 struct RayLimits {
-  // The number of descendants of a gather's ray, apart from the ancestors of the next one, beyond which weak ones
-  // are followed by Russian roulette; for a primary ray of sphere mode, for each of the -ad + -as rays: by
-  // measurement. 99% of the directions in a room with a chrome column have fewer (-ab 6, -ad 4), those in a closed
-  // metal cylinder up to 1000.
+  // The number of descendants of a gather's ray, apart from the ancestors of the next one, beyond which weak
+  // ones are followed by Russian roulette; for a primary ray of sphere mode, for each of the -ad + -as rays:
+  // by measurement. 99% of the directions in a room with a chrome column have fewer (-ab 6, -ad 4), those in
+  // a closed metal cylinder up to 1000.
   RSPHERE_TUNED(RayLimits, double, kMostDescendants, 64);
-  // The same for a patch of the coarse solution, for each of its rays: by measurement. In an office and a cabin (-ab
-  // 3, -aa .1) no patch has 7 or more; between two boxes of rough trans most would have 16 to 40, between two of
-  // rough metal 7 to 9.
+  // The same for a patch of the coarse solution, for each of its rays: by measurement. In an office and a
+  // cabin (-ab 3, -aa .1) no patch has 7 or more; between two boxes of rough trans most would have 16 to 40,
+  // between two of rough metal 7 to 9.
   RSPHERE_TUNED(RayLimits, double, kMostOfPatch, 8);
 };
 
 // Sharp reflection and refraction (specular_light.cpp).
 struct SpecularLight {
-  // The weight below which sharp paths of a gather's rays are followed by Russian roulette, with a probability
-  // in proportion to their weight: by measurement. Gathers begin with a weight of 1/2, so that one of their
-  // rays has at most 32 descendants at a time on average; without a limit their number doubles at each surface
-  // of nested transparent objects, up to -lr. 1/32: a fifth less time with three nested cylinders that reflect
-  // and transmit a tenth; more noise behind a pane that transmits 5%.
+  // The weight below which sharp paths of a gather's rays are followed by Russian roulette, with a
+  // probability in proportion to their weight: by measurement. Gathers begin with a weight of 1/2, so that
+  // one of their rays has at most 32 descendants at a time on average; without a limit their number doubles
+  // at each surface of nested transparent objects, up to -lr. 1/32: a fifth less time with three nested
+  // cylinders that reflect and transmit a tenth; more noise behind a pane that transmits 5%.
   RSPHERE_TUNED(SpecularLight, double, kWeakPath, 1. / 64);
-  // The same for all indirect rays, relative to the weight of the ray that arrives: by measurement. One in three
-  // reflections of a pane is followed. In four daylit rooms without interpolation it saves 3 to 22% of the time
-  // to equal noise; at 1, the noise is up to half as much again.
+  // The same for all indirect rays, relative to the weight of the ray that arrives: by measurement. One in
+  // three reflections of a pane is followed. In four daylit rooms without interpolation it saves 3 to 22% of
+  // the time to equal noise; at 1, the noise is up to half as much again.
   RSPHERE_TUNED(SpecularLight, double, kWeakBranch, .25);
 };
 

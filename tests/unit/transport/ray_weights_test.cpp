@@ -147,7 +147,9 @@ Weighed weighed(const std::string& material, const Limits& limits, double others
                     "void glow g 0 0 4 1 1 1 0\ng sphere around 0 0 4 0 0 0 -4\n",
                 options);
   Weighed w;
-  const RayObserver observer = [&](const Ray& ray) { w.weights.push_back(ray.weight); };
+  const RayObserver observer = [&](const RayEnd& end, const RayResult&) {
+    w.weights.push_back(end.context.weight);
+  };
   const Color seen = traced.color(V3d(.3, .2, 3), V3d(0, 0, -1), 1, 0, {.observer = &observer});
   w.seen = seen.bandsIn(*options.sampling).values()[kClearBand];
   return w;
@@ -187,7 +189,7 @@ TEST(RayWeights, WorkWithinClosedMetalHasABoundAndTheSameMean) {
   const V3d from(.03, .02, .3), to = V3d(.6, .3, .4).normalized();
   const auto rays = [&](PathTracer& tracer) {
     size_t count = 0;
-    const RayObserver observer = [&](const Ray&) { ++count; };
+    const RayObserver observer = [&](const RayEnd&, const RayResult&) { ++count; };
     tracer.trace(from, to, 0, 7, {.observer = &observer});
     return count;
   };
