@@ -14,6 +14,14 @@ namespace {
 
 using Tuning = tuning::DirectLight;
 
+// Rays of a gather do not divide sources into parts if the jitter (-dj) is larger than this: samples then lie
+// on more than half of their source, so that the parts would overlap.
+constexpr double kWideJitter = .5;
+
+// Up to so many contributions are ranked by comparing all pairs instead of by sorting, by measurement of time
+// alone: that is n^2 / 2 comparisons without branches instead of n log n, half of which are mispredicted.
+constexpr uint32_t kFew = 24;
+
 // Kinds of sources whose visibility is estimated separately, because they are occluded for different reasons.
 constexpr int kSourceKinds = 3;
 int kindOf(const LightSource& light) { return light.isVirtual() ? 2 : light.isDistant() ? 1 : 0; }
@@ -49,10 +57,9 @@ Radiance DirectLight::sourceValue(Receiver at, const SourceSample& sample) {
   const Coefficient passed = passing(medium.extinction * (Color(1, 1, 1) - medium.albedo), sample.distance);
   if (const Radiance* radiance = t_.constantRadiance(sample.source)) return *radiance * passed;
   const RayQuery query{.origin = at.point, .direction = sample.direction, .aimedAt = sample.source};
-  PathContext context;
-  context.kind = kReflectedShadow;
-  context.kinds = at.end.context.kinds | kReflectedShadow;
-  context.pathLength = at.end.context.pathLength + at.end.hit.length;
+  const PathContext context{.kind = kReflectedShadow,
+                            .kinds = at.end.context.kinds | kReflectedShadow,
+                            .pathLength = at.end.context.pathLength + at.end.hit.length};
   RayEnd end(query, context);
   end.hit.surface = light.surface;
   end.hit.length = sample.distance;
@@ -123,14 +130,14 @@ size_t DirectLight::lookAheadOf(size_t count) {
 void DirectLight::rankByBrightness(uint32_t count) {
   // If there are few contributions, the rank of each is found by comparing all pairs without branches. Half
   // of the branches of std::sort would be mispredicted.
-  if (count > Tuning::kFew) {
+  if (count > kFew) {
     std::iota(order_.begin(), order_.begin() + count, 0);
     std::sort(order_.begin(), order_.begin() + count, [&](uint32_t a, uint32_t b) {
       return brightness_[a] != brightness_[b] ? brightness_[a] > brightness_[b] : a < b;
     });
     return;
   }
-  std::array<int64_t, Tuning::kFewRoom> before;
+  std::array<int64_t, kFew> before;
   const double* const all = brightness_.data();
   for (uint32_t i = 0; i < count; ++i) {
     const double bright = all[i];
@@ -152,8 +159,8 @@ uint32_t DirectLight::findContributions(Receiver at, DirectCoefficient coefficie
   const RayOptions& o = t_.options();
   samples_.clear();
   const PathContext& ray = at.end.context;
-  const bool divides = o.sourceSubstructuring > kNegligible &&
-                       !(isOfGather(settings_, ray) && o.directJitter > Tuning::kWideJitter);
+  const bool divides =
+      o.sourceSubstructuring > kNegligible && !(isOfGather(settings_, ray) && o.directJitter > kWideJitter);
   const SourceSampling how{divides ? o.sourceSubstructuring / ray.weight : 0, o.directJitter, front};
   for (const LightId i : t_.lights().all().ids())
     t_.lights().sample(i, at.point, how, state_.random, samples_);
@@ -250,38 +257,34 @@ void DirectLight::add(Receiver at, DirectCoefficient coefficientOf, const V3d& f
 // Estimates the sum over all sources from -Ss sources, drawn in proportion to their weights.
 void DirectLight::addOfChosen(Receiver at, DirectCoefficient coefficientOf, const V3d& front,
                               Radiance& value) {
-  ofLobe_.clear();
   const double sum = t_.choice().weigh(at.point, front, sourceWeights_);
   if (!(sum > 0)) return;
   const int draws = std::max(1, static_cast<int>(t_.options().chosenSources * at.end.context.weight + .5));
   const double step = sum / draws;
   double next = state_.random.uniform() * step, passed = 0;
   for (const LightId i : sourceWeights_.ids()) {
-    for (passed += sourceWeights_[i]; next < passed; next += step) {
-      samples_.clear();
-      t_.lights().sample(i, at.point, {0, 1, front}, state_.random, samples_);
-      for (const SourceSample& sample : samples_) {
-        const Coefficient coefficient = coefficientOf(sample.direction, sample.solidAngle);
-        if (isBlack(coefficient)) continue;
-        Contribution c{&sample, coefficient, sourceValue(at, sample)};
-        Radiance arriving;
-        if (maxChannel(c.value) > 0 && arrives(at, c, arriving))
-          value += arriving * coefficient * (step / sourceWeights_[i]);
-      }
-    }
+    for (passed += sourceWeights_[i]; next < passed; next += step)
+      addSamples(at, i, {0, 1, front}, coefficientOf, step / sourceWeights_[i], value);
   }
 }
 
 void DirectLight::addFromSource(const RayEnd& end, LightId source, DirectCoefficient coefficientOf,
                                 Radiance& value) {
-  const Receiver at{end, end.hit.point};
+  addSamples({end, end.hit.point}, source, {0, t_.options().directJitter}, coefficientOf, 1, value);
+}
+
+// Adds factor times the light of all samples of one source.
+void DirectLight::addSamples(Receiver at, LightId source, const SourceSampling& how,
+                             DirectCoefficient coefficientOf, double factor, Radiance& value) {
   samples_.clear();
   ofLobe_.clear();
-  t_.lights().sample(source, at.point, {0, t_.options().directJitter}, state_.random, samples_);
+  t_.lights().sample(source, at.point, how, state_.random, samples_);
   for (const SourceSample& sample : samples_) {
-    Contribution c{&sample, coefficientOf(sample.direction, sample.solidAngle), sourceValue(at, sample)};
+    const Coefficient coefficient = coefficientOf(sample.direction, sample.solidAngle);
+    if (isBlack(coefficient)) continue;
+    Contribution c{&sample, coefficient, sourceValue(at, sample)};
     Radiance arriving;
-    if (!isBlack(c.value) && arrives(at, c, arriving)) value += arriving * c.coefficient;
+    if (maxChannel(c.value) > 0 && arrives(at, c, arriving)) value += arriving * coefficient * factor;
   }
 }
 

@@ -9,7 +9,6 @@
 #include "transport/path_state.h"
 #include "transport/prepared_scene.h"
 #include "transport/ray_follower.h"
-#include "transport/tuning.h"
 
 namespace rsphere {
 
@@ -22,6 +21,9 @@ using DirectCoefficient = FunctionRef<Coefficient(const V3d& toSource, double so
 using PartOfLobe = FunctionRef<Coefficient(const SourceSample& sample)>;
 
 class DirectLight {
+  // The binary logarithm of the number of blockers that are kept: 16 kB, half of a core's first cache.
+  static constexpr int kBlockerBits = 12;
+
  public:
   // Keeps references. follower: follows shadow rays through surfaces that may transmit light.
   DirectLight(const PreparedScene& prepared, const PathSettings& settings, PathState& state,
@@ -30,7 +32,7 @@ class DirectLight {
         settings_(settings),
         state_(state),
         follower_(follower),
-        blockers_(size_t{1} << tuning::DirectLight::kBlockerBits, Tracer::kNoBlocker) {}
+        blockers_(size_t{1} << kBlockerBits, Tracer::kNoBlocker) {}
 
   // Where light arrives: at the end of a ray, or beyond it for light that a thick surface transmits (world).
   struct Receiver {
@@ -64,6 +66,8 @@ class DirectLight {
   Radiance valueFromSource(Receiver at, const Contribution& to);
   uint32_t findContributions(Receiver at, DirectCoefficient coefficientOf, const V3d& front,
                              const PartOfLobe* partOfLobe);
+  void addSamples(Receiver at, LightId source, const SourceSampling& how, DirectCoefficient coefficientOf,
+                  double factor, Radiance& value);
   void addOneOf(Receiver at, size_t first, uint32_t count, Radiance& value);
   bool arrives(Receiver at, Contribution& to, Radiance& value);
   bool isWhole(const SourceSample& sample) const;
@@ -71,7 +75,7 @@ class DirectLight {
     const uint64_t both =
         (uint64_t{static_cast<uint32_t>(surface.number())} << 32) | static_cast<uint32_t>(source.number());
     // Fibonacci hashing.
-    return blockers_[(both * 0x9e3779b97f4a7c15u) >> (64 - tuning::DirectLight::kBlockerBits)];
+    return blockers_[(both * 0x9e3779b97f4a7c15u) >> (64 - kBlockerBits)];
   }
 
   const PreparedScene& t_;

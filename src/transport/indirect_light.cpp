@@ -3,12 +3,41 @@
 #include <algorithm>
 #include <cmath>
 
+#include "transport/final_gather.h"
 #include "transport/gather_directions.h"
 #include "transport/radiance_guess.h"
 #include "transport/ray_functions.h"
 #include "transport/ray_limits.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
+namespace {
+
+// Whether interpolated light is valid at a side. It was gathered in the whole scene, with nothing cut away by
+// antimatter, and in the medium that fills the scene. Its moments do not tell the light at very tilted
+// normals.
+bool isOrdinary(const RayEnd& end, const DiffuseSide& side, const Medium& medium) {
+  const RaySpace& space = end.space();
+  return !space.mist && !end.context.clips && !end.clipsBeyond && !space.scatterers.count &&
+         space.medium.extinction == medium.extinction &&
+         !(side.normal.dot(side.trueNormal) < tuning::Interpolation::kLeastUpright);
+}
+
+SurfacePlace placeOf(const RayEnd& end, const DiffuseSide& side) {
+  return {side.point, side.trueNormal, end.hit.surface, &end.hit.path, end.hit.length};
+}
+
+// The diffuse bounces that the limits allow beyond the end of a ray.
+int bouncesLeft(const RayOptions& o, const PathContext& ray) {
+  int left = o.ambientBounces - ray.ambientLevel;
+  if (o.reflectionLimit != 0) left = std::min(left, std::abs(o.reflectionLimit) - ray.level);
+  if (o.reflectionLimit <= 0) return std::max(left, 0);
+  int allowed = 0;
+  for (double weight = ray.weight / 2; allowed < left && weight >= o.weightLimit; weight /= 2) ++allowed;
+  return allowed;
+}
+
+}  // namespace
 
 void IndirectLight::add(const RayEnd& end, const DiffuseSide& side, Radiance& value) {
   const RayOptions& o = t_.options();
@@ -25,12 +54,46 @@ void IndirectLight::add(const RayEnd& end, const DiffuseSide& side, Radiance& va
   const FirstBounce first = settings_.mode.firstBounce;
   if (ray.ambientLevel > 0 || first == FirstBounce::fromPatches ||
       (first == FirstBounce::gathered && (ray.kinds & kSpecular))) {
-    if (settings_.caches.coarse && interpolated_.addFromPatch(end, side, value)) return;
+    if (settings_.caches.coarse && addFromPatch(end, side, value)) return;
   } else if (first == FirstBounce::interpolated && settings_.caches.field &&
-             interpolated_.add(end, side, value)) {
+             addInterpolated(end, side, value)) {
     return;
   }
   gather(end, side, value);
+}
+
+// Adds light of the irradiance cache. False, with nothing added, if it cannot be used here.
+bool IndirectLight::addInterpolated(const RayEnd& end, const DiffuseSide& side, Radiance& value) {
+  // The light at an imagined point (-I) is not interpolated, because no other ray needs it.
+  if (end.hit.surface == kNone || !isOrdinary(end, side, t_.medium())) return false;
+  TracedFieldRays rays(t_, follower_, end.context.depth);
+  GatheredLight light;
+  if (!settings_.caches.field->find(placeOf(end, side), reader_, rays, light)) return false;
+  value += side.coefficient * light.meanOfTilted(side.trueNormal, side.normal);
+  return true;
+}
+
+// The same from the coarse solution.
+bool IndirectLight::addFromPatch(const RayEnd& end, const DiffuseSide& side, Radiance& value) {
+  Patch* const patch = patchAt(end, side);
+  if (!patch) return false;
+  TracedFieldRays rays(t_, follower_, end.context.depth);
+  value += side.coefficient *
+           Radiance(settings_.caches.coarse->light(*patch, bouncesLeft(t_.options(), end.context), rays));
+  return true;
+}
+
+// The patch of the coarse solution that gives the light of a side, drawn at random from those around it; null
+// if there is none.
+Patch* IndirectLight::patchAt(const RayEnd& end, const DiffuseSide& side) {
+  const double u1 = state_.random.uniform(), u2 = state_.random.uniform();
+  if (!isOrdinary(end, side, t_.medium())) return nullptr;
+  TracedFieldRays rays(t_, follower_, end.context.depth);
+  return settings_.caches.coarse->find(placeOf(end, side), u1, u2, rays);
+}
+
+void IndirectLight::endPath() {
+  if (settings_.caches.field) settings_.caches.field->leave(reader_);
 }
 
 // The number of guessed rays for each ray that is followed. It is 0 if -lr ends the descendants of the ray
@@ -82,7 +145,7 @@ void IndirectLight::link(const RayEnd& end, const DiffuseSide& side) {
   PatchLinks& links = *state_.links;
   const int level = end.context.ambientLevel;
   const bool isLast = level >= bouncesBeyondPatches(t_.options());
-  Patch* const patch = isLast ? nullptr : interpolated_.patchAt(end, side);
+  Patch* const patch = isLast ? nullptr : patchAt(end, side);
   const Coefficient whole = side.coefficient * end.context.contribution * passedBy(end);
   if (patch) return links.add(patch, whole, level - 1);
   links.addEnd(level - 1, whole);

@@ -47,12 +47,11 @@ void ParticipatingMedia::addScattered(const RayEnd& end, Radiance& value) {
                         : 1;
   // A ray that ends at the point of scattering.
   const RayQuery query{.origin = V3d(0, 0, 0), .direction = end.ray.direction};
-  PathContext context;
-  context.space = end.space();
-  context.kinds = 0;
-  context.depth = end.context.depth;
-  context.pathLength = end.context.pathLength;
-  context.contribution = end.context.contribution;
+  const PathContext context{.kinds = 0,
+                            .depth = end.context.depth,
+                            .pathLength = end.context.pathLength,
+                            .space = end.space(),
+                            .contribution = end.context.contribution};
   RayEnd at(query, context);
   at.hit.cosine = 0;  // there is no surface, hence neither front nor back
   const Coefficient scattered(medium.extinction * medium.albedo * (length / steps / (4 * kPi)));

@@ -58,8 +58,7 @@ class PathTracer::Path final : public RayFollower {
         settings_(settings),
         direct_(prepared, settings_, state_, *this),
         specular_(prepared, settings_, state_, *this),
-        interpolated_(prepared, settings_, state_, *this),
-        indirect_(prepared, settings_, state_, *this, interpolated_),
+        indirect_(prepared, settings_, state_, *this),
         media_(prepared, state_, direct_),
         shading_(prepared, settings_, state_, *this, direct_, specular_, indirect_) {}
 
@@ -82,10 +81,6 @@ class PathTracer::Path final : public RayFollower {
 
   using RayFollower::follow;
   RayResult follow(RayEnd& end) override;
-  RayResult pass(const RayEnd& end) override {
-    NextRay next = straightOn(end);
-    return passOn(next, end);
-  }
   RayResult passOn(NextRay& next, const RayEnd& before) override;
   bool shade(RayEnd& end, ModifierId modifier, RayResult& result) override {
     return shading_.shadeChain(end, modifier, result);
@@ -96,8 +91,7 @@ class PathTracer::Path final : public RayFollower {
   friend class PathTracer;
 
   void find(RayEnd& end) {
-    const Hit nearest = nearestHit(t_, end.ray);
-    setHit(t_, nearest, end);
+    const Hit nearest = findHit(t_, end);
     if (end.context.depth == 0) state_.firstHit = nearest;
   }
   RayResult arrive(RayEnd& end);
@@ -107,7 +101,6 @@ class PathTracer::Path final : public RayFollower {
   PathState state_;
   DirectLight direct_;
   SpecularLight specular_;
-  InterpolatedLight interpolated_;
   IndirectLight indirect_;
   ParticipatingMedia media_;
   SurfaceShading shading_;
@@ -207,7 +200,7 @@ TracedRay PathTracer::trace(const V3d& origin, const V3d& direction, double fart
   } else {
     result = path_->follow(end);
   }
-  path_->interpolated_.endPath();
+  path_->indirect_.endPath();
   return path_->traced(end, result);
 }
 
@@ -215,16 +208,10 @@ TracedRay PathTracer::traceToSource(const V3d& point, const SourceSample& sample
                                     const PathRequest& request) {
   const PreparedScene& prepared = path_->t_;
   const LightSource& light = prepared.lights().all()[sample.source];
-  switch (prepared.tracer().shadow(point, sample.direction, sample.distance,
-                                   light.isDistant() ? kNone : light.surface)) {
-    case Shadow::unsure:
-    case Shadow::refracted:
-      return trace(point, sample.direction, 0, seed, request);
-    case Shadow::blocked:
-      return {};
-    case Shadow::clear:
-      break;
-  }
+  const Shadow shadow = prepared.tracer().shadow(point, sample.direction, sample.distance,
+                                                 light.isDistant() ? kNone : light.surface);
+  if (shadow == Shadow::blocked) return {};
+  if (shadow != Shadow::clear) return trace(point, sample.direction, 0, seed, request);
   path_->begin(seed, sample.direction, request);
   const RayQuery ray{.origin = point, .direction = sample.direction};
   const PathContext context = path_->context();

@@ -77,7 +77,7 @@ struct PathContext {
   SurfaceId mirror = kNone;        // the flat surface that mirrored the primary ray into this one, if nothing
                                    // else deflected it
   const RayEnd* parent = nullptr;  // null: a primary ray, or one that does not depend on earlier rays
-  RaySpace space;
+  RaySpace space{};
   uint64_t clips = 0;           // Surface::clip of the surfaces that are cut away for this ray
   Coefficient contribution{1};  // share of its radiance, at its origin, in that of the primary ray
 };
@@ -108,6 +108,13 @@ struct RayResult {
 struct RayEnd {
   RayEnd(const RayQuery& asked, const PathContext& inherited)
       : ray(asked), context(inherited), clipsBeyond(inherited.clips) {}
+  // The same end of a ray that inherits something else.
+  RayEnd(const RayEnd& other, const PathContext& inherited)
+      : ray(other.ray),
+        context(inherited),
+        hit(other.hit),
+        clipsBeyond(other.clipsBeyond),
+        beganIn(other.beganIn) {}
 
   const RayQuery& ray;
   const PathContext& context;

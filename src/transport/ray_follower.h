@@ -1,7 +1,7 @@
 #pragma once
 // The path tracer's recursion as an interface for its parts: they choose directions that light may come from,
 // and request the radiance along them.
-#include "transport/ray.h"
+#include "transport/ray_functions.h"
 
 namespace rsphere {
 
@@ -27,7 +27,10 @@ class RayFollower {
   virtual RayResult follow(RayEnd& end) = 0;
 
   // The radiance from beyond the surface that a ray hit, as if nothing were there.
-  virtual RayResult pass(const RayEnd& end) = 0;
+  RayResult pass(const RayEnd& end) {
+    NextRay next = straightOn(end);
+    return passOn(next, end);
+  }
   // The same along a ray that continues the other straight on, in a space that may differ.
   virtual RayResult passOn(NextRay& next, const RayEnd& end) = 0;
 

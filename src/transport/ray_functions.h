@@ -8,6 +8,12 @@
 
 namespace rsphere {
 
+// The mean reflectance of surfaces, the usual one of rooms and the same value as in RADIANCE. Where light is
+// interpolated, it is the weight of an indirect ray relative to its parent, instead of the small share of a
+// single direction: the weight limit then ends paths after some bounces and does not depend on the number of
+// directions.
+inline constexpr double kMeanReflectance = .5;
+
 // A diffuse material of reflectance pi. Its radiance is pi times the mean incident radiance, which is the
 // irradiance (-i, -I).
 inline const Opaque kIrradianceMeter{Color(kPi, kPi, kPi), 0, 0, false};

@@ -63,20 +63,18 @@ void setTarget(const PreparedScene& prepared, RayEnd& end) {
 
 }  // namespace
 
-Hit nearestHit(const PreparedScene& prepared, const RayQuery& ray) {
-  if (ray.unobstructed) return {};
-  return prepared.tracer().nearest(ray.origin, ray.direction,
-                                   ray.farthest > kSamePlace ? ray.farthest : kFarAway, ray.from);
-}
-
-void setHit(const PreparedScene& prepared, const Hit& nearest, RayEnd& end) {
+Hit findHit(const PreparedScene& prepared, RayEnd& end) {
   const RayQuery& ray = end.ray;
   SurfaceHit& hit = end.hit;
   hit.point = ray.origin;
   hit.normal = -ray.direction;
   if (ray.unobstructed) {
     setTarget(prepared, end);
-  } else if (nearest.surface != kNone) {
+    return {};
+  }
+  const Hit nearest = prepared.tracer().nearest(
+      ray.origin, ray.direction, ray.farthest > kSamePlace ? ray.farthest : kFarAway, ray.from);
+  if (nearest.surface != kNone) {
     hit.surface = nearest.surface;
     hit.length = nearest.distance;
     hit.point = along(ray.origin, nearest.distance, ray.direction);
@@ -91,6 +89,7 @@ void setHit(const PreparedScene& prepared, const Hit& nearest, RayEnd& end) {
   } else {
     hit.surface = distantSource(prepared, ray, end.context.kinds);
   }
+  return nearest;
 }
 
 }  // namespace rsphere

@@ -4,11 +4,9 @@
 
 namespace rsphere {
 
-// What the tracer finds along a ray (Tracer::nearest); nothing for an unobstructed shadow ray.
-Hit nearestHit(const PreparedScene& prepared, const RayQuery& ray);
-
-// Sets the hit of a ray, which has none yet: the tracer's, otherwise the distant source in its direction. An
-// unobstructed shadow ray always hits the source that it is aimed at.
-void setHit(const PreparedScene& prepared, const Hit& nearest, RayEnd& end);
+// Sets the hit of a ray, which has none yet: the surface that the tracer finds (Tracer::nearest), otherwise
+// the distant source in its direction. An unobstructed shadow ray always hits the source that it is aimed at.
+// Returns the tracer's hit.
+Hit findHit(const PreparedScene& prepared, RayEnd& end);
 
 }  // namespace rsphere

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "shade/material_hit.h"
-#include "transport/path_state.h"
 #include "transport/prepared_scene.h"
 #include "transport/ray.h"
 
@@ -60,9 +59,5 @@ inline FunctionPoint pointOf(const RayEnd& end) {
   at.path = hit.path;
   return at;
 }
-
-// Adds a light source that the ray shows to the state of its path, if the ray is one that shows sources
-// (TracedRay::shown). The ray hit a surface that emits light towards it.
-void noteShown(const PreparedScene& prepared, const RayEnd& end, PathState& state);
 
 }  // namespace rsphere

@@ -9,11 +9,6 @@
 
 namespace rsphere {
 
-// The weight of an indirect ray relative to its parent where light is interpolated. It represents a mean
-// reflectance instead of the small share of a single direction, so that the weight limit ends paths after
-// some bounces and does not depend on the number of directions. The same value as in RADIANCE.
-inline constexpr double kMeanReflectance = .5;
-
 // Whether a path goes on along a ray, which has just begun at the end of its parent. The path ends beyond -lr
 // reflections, and below the weight limit (-lw), always if -lr is positive, otherwise by Russian roulette.
 // Roulette also ends paths of a ray that has too many descendants (state.descendants, which the ray is added

@@ -41,8 +41,8 @@ void SpecularLight::add(const RayEnd& end, const SharpPaths& sharp, RayResult& r
   }
 }
 
-void SpecularLight::addRedirected(const RayEnd& end, const SharpPaths& redirected, RayResult& result) {
-  for (const SharpPath& path : redirected) {
+void SpecularLight::add(const RayEnd& end, const Redirects& redirects, RayResult& result) {
+  for (const SharpPath& path : redirects.paths) {
     if (isBlack(path.coefficient)) continue;
     NextRay next(end, path.kind, path.coefficient);
     if (!goesOnAlong(next, t_, state_)) continue;
@@ -53,7 +53,8 @@ void SpecularLight::addRedirected(const RayEnd& end, const SharpPaths& redirecte
   }
 }
 
-void SpecularLight::addRelayed(const RayEnd& end, const SharpPath& path, RayResult& result) {
+void SpecularLight::add(const RayEnd& end, const Relays& relays, RayResult& result) {
+  const SharpPath& path = relays.path;
   NextRay next(end, path.kind, path.coefficient);
   if (!goesOnAlong(next, t_, state_)) return;
   next.query.aimedAt = t_.lights().all()[end.ray.aimedAt].relayed;

@@ -1,6 +1,6 @@
 #pragma once
 // Light from sharp reflection and refraction, and from glossy lobes by sampling.
-#include "shade/surface_scattering.h"
+#include "shade/material_response.h"
 #include "transport/function_ref.h"
 #include "transport/path_state.h"
 #include "transport/prepared_scene.h"
@@ -22,15 +22,14 @@ class SpecularLight {
                 RayFollower& follower)
       : t_(prepared), settings_(settings), state_(state), follower_(follower) {}
 
-  // Each adds light to the result of a ray (W/sr/m2). First, that of sharp paths from its end.
+  // Each adds light to the result of a ray (W/sr/m2): of sharp paths from its end, of the rays that a prism
+  // redirects, and of the source that is relayed at the virtual one that a shadow ray has reached.
   void add(const RayEnd& end, const SharpPaths& sharp, RayResult& result);
-
-  // The light of a prism's redirected rays.
-  void addRedirected(const RayEnd& end, const SharpPaths& redirected, RayResult& result);
-
-  // The light of the source that is relayed at a virtual source, which a shadow ray was aimed at and has
-  // reached.
-  void addRelayed(const RayEnd& end, const SharpPath& path, RayResult& result);
+  void add(const RayEnd& end, const ReflectsSharply& response, RayResult& result) {
+    add(end, response.scattering.sharp, result);
+  }
+  void add(const RayEnd& end, const Redirects& redirects, RayResult& result);
+  void add(const RayEnd& end, const Relays& relays, RayResult& result);
 
   // The light of one lobe, estimated by samples. kind: of their rays. share: see LobeShare; null: none.
   void addLobe(const RayEnd& end, RayKind kind, const Lobe& lobe, LobeSampler draw, const LobeShare* share,

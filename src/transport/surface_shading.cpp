@@ -21,6 +21,41 @@ MaterialOptions materialOptions(const PreparedScene& prepared) {
           .medium = prepared.medium()};
 }
 
+// A ray is straight if its direction (unit) changed by less than this on its way through panes.
+constexpr double kStraight = 1e-9;
+
+// Whether a ray continues the primary ray in a straight line, except for its reflection by
+// PathContext::mirror, and passes no surface that blocks shadow rays, so that shadow rays to the source reach
+// it as well.
+bool isStraight(const PreparedScene& t, const RayEnd& end, const V3d& primaryDirection) {
+  const SurfaceId mirror = end.context.mirror;
+  for (const RayEnd* before = end.context.parent; before; before = before->context.parent) {
+    const SurfaceHit& hit = before->hit;
+    if (hit.surface != kNone && hit.surface != mirror && t.tracer().stopsShadows(hit.surface, hit.cosine > 0))
+      return false;
+  }
+  V3d direction = primaryDirection;
+  if (mirror != kNone) {
+    const V3d& normal = *planeNormal(t.scene().surfaces[mirror].shape);
+    direction -= 2 * normal.dot(direction) * normal;
+  }
+  return (end.ray.direction - direction).length2() < kStraight * kStraight;
+}
+
+// Adds a light source that the ray shows to the state of its path, if the ray is one that shows sources
+// (TracedRay::shown). The ray hit a surface that emits light towards it.
+void noteShown(const PreparedScene& t, const RayEnd& end, PathState& state) {
+  const SurfaceId surface = end.hit.surface, mirror = end.context.mirror;
+  if (t.lightOf(surface) == kNone) return;
+  // The ray shows this source only if it came straight or was mirrored once. Behind a slab, such as thick
+  // glass, refraction displaces the ray, which makes no difference to a distant source.
+  const bool isDistant = t.scene().surfaces[surface].shape.as<Distant>();
+  const unsigned others = end.context.kinds & ~(kPrimary | kTransmitted | (isDistant ? kRefracted : 0u));
+  if (others != (mirror == kNone ? 0u : kReflected)) return;
+  if (state.shown.source != kNone && (state.shown.mirror == kNone || mirror != kNone)) return;
+  if (isStraight(t, end, state.primaryDirection)) state.shown = {surface, mirror};
+}
+
 }  // namespace
 
 SurfaceShading::SurfaceShading(const PreparedScene& prepared, const PathSettings& settings, PathState& state,
@@ -137,13 +172,6 @@ inline void SurfaceShading::applyModifiers(RayEnd& end, ModifierId modifier) {
 
 namespace {
 
-PathContext partOf(const PathContext& whole, double share) {
-  PathContext part = whole;
-  part.weight *= share;
-  part.contribution *= share;
-  return part;
-}
-
 // A ray that sees one of the two components of a mixture.
 struct Part {
   double share;
@@ -153,14 +181,9 @@ struct Part {
   RayResult result;
 
   Part(const RayEnd& whole, double ofWhole, bool matters, const RayResult& before)
-      : share(ofWhole),
-        counts(matters),
-        context(partOf(whole.context, ofWhole)),
-        end(whole.ray, context),
-        result(before) {
-    end.hit = whole.hit;
-    end.clipsBeyond = whole.clipsBeyond;
-    end.beganIn = whole.beganIn;
+      : share(ofWhole), counts(matters), context(whole.context), end(whole, context), result(before) {
+    context.weight *= share;
+    context.contribution *= share;
   }
 };
 
@@ -311,24 +334,9 @@ bool SurfaceShading::estimate(RayEnd& end, const Emits& emits, RayResult& result
   return true;
 }
 
-bool SurfaceShading::estimate(RayEnd& end, const ReflectsSharply& response, RayResult& result) {
-  specular_.add(end, response.scattering.sharp, result);
-  return true;
-}
-
 bool SurfaceShading::estimate(RayEnd& end, const Boundary& boundary, RayResult& result) {
   end.changedSpace().medium = boundary.scattering.medium;
   specular_.add(end, boundary.scattering.sharp, result);
-  return true;
-}
-
-bool SurfaceShading::estimate(RayEnd& end, const Redirects& redirects, RayResult& result) {
-  specular_.addRedirected(end, redirects.paths, result);
-  return true;
-}
-
-bool SurfaceShading::estimate(RayEnd& end, const Relays& relays, RayResult& result) {
-  specular_.addRelayed(end, relays.path, result);
   return true;
 }
 

@@ -45,10 +45,12 @@ class SurfaceShading {
   bool estimate(RayEnd& end, Passes, RayResult& result);
   bool estimate(RayEnd& end, const Alternate& alternate, RayResult& result);
   bool estimate(RayEnd& end, const Emits& emits, RayResult& result);
-  bool estimate(RayEnd& end, const ReflectsSharply& response, RayResult& result);
   bool estimate(RayEnd& end, const Boundary& boundary, RayResult& result);
-  bool estimate(RayEnd& end, const Redirects& redirects, RayResult& result);
-  bool estimate(RayEnd& end, const Relays& relays, RayResult& result);
+  template <OneOf<ReflectsSharply, Redirects, Relays> Sharp>
+  bool estimate(RayEnd& end, const Sharp& sharp, RayResult& result) {
+    specular_.add(end, sharp, result);
+    return true;
+  }
   bool estimate(RayEnd& end, const CrossesMist& boundary, RayResult& result);
   bool estimate(RayEnd& end, const CrossesAntimatter& boundary, RayResult& result);
   template <ScattersLight S>
