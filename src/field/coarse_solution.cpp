@@ -15,9 +15,12 @@ using Tuning = tuning::CoarseSolution;
 // The -aa at which Tuning::kSpacing is the side of a patch, and Tuning::kRays its rays.
 constexpr double kUsualAccuracy = .1;
 
-// The binary logarithms of the buckets of the tables: 2 and 4 MB. In a picture of an office, 190,000 patches and
-// 370,000 divisions are looked up. With 65,536 buckets, a third of the time was spent waiting for the memory of long
-// chains.
+// Cap on the rays of a patch: their noise is then a sixty-fourth of that of one, less than other errors.
+constexpr double kMostRays = 4096;
+
+// The binary logarithms of the buckets of the tables: 2 and 4 MB. In a picture of an office, 190,000 patches
+// and 370,000 divisions are looked up. With 65,536 buckets, a third of the time was spent waiting for the
+// memory of long chains.
 constexpr unsigned kLogPatchBuckets = 18, kLogDivisionBuckets = 19;
 
 // Whether a site lies on a ball or a cone and everything that it sees is near, compared to the radius.
@@ -75,9 +78,9 @@ CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bo
       std::clamp(options.accuracy, Tuning::kFinestAccuracy, Tuning::kCoarsestAccuracy) / kUsualAccuracy;
   const double finer = std::min(accuracy, std::sqrt(accuracy));
   if (!daylit)
-    return {Tuning::kSpacingByLamps * finer,
-            Tuning::kLeastPatchByLamps,
-            Tuning::kFarPatchByLamps,
+    return {Tuning::kCoarserByLamps * Tuning::kSpacing * finer,
+            Tuning::kCoarserByLamps * Tuning::kLeastPatch,
+            Tuning::kCoarserByLamps * Tuning::kFarPatch,
             Tuning::kRaysByLamps * options.rays,
             1,
             1,
@@ -111,8 +114,8 @@ int CoarseSolution::finestLevel(const SurfaceChart& chart, double leastSide) con
   return grid_.levelOf(leastSide * std::min(chart.extent(), Tuning::kWidestExtent * grid_.size));
 }
 
-// Whether all of a side of a surface lies in a narrow gap, as between nested shells. A place where something else
-// comes near does not make it enclosed.
+// Whether all of a side of a surface lies in a narrow gap, as between nested shells. A place where something
+// else comes near does not make it enclosed.
 bool CoarseSolution::isEnclosed(const SurfaceChart& chart, FieldRays& rays) {
   return enclosed_->findOrAdd(chart.cell(grid_, 0, 0, 0), [&](bool& enclosed) {
     for (size_t i = 0; i < Tuning::kEnclosedPlaces; ++i) {
@@ -124,11 +127,11 @@ bool CoarseSolution::isEnclosed(const SurfaceChart& chart, FieldRays& rays) {
   });
 }
 
-// The widest patches that the surroundings of a place allow, regardless of the distance that it is seen from. All
-// places in a cell of the finest level have the answer for its middle.
+// The widest patches that the surroundings of a place allow, regardless of the distance that it is seen from.
+// All places in a cell of the finest level have the answer for its middle.
 const CoarseSolution::Division& CoarseSolution::divisionAt(const SurfaceChart& chart, int finest,
                                                            FieldRays& rays) {
-  const double open = Tuning::kOpen * grid_.size;
+  const double open = tuning::Fields::kOpen * grid_.size;
   const int finestEnclosed = std::min(finest, finestLevel(chart, Tuning::kLeastPatchEnclosed));
   const CellKey key = chart.cellAt(grid_, finest, chart.u(), chart.v());
   return divisions_->findOrAdd(key, [&](Division& found) {
@@ -155,7 +158,7 @@ Patch* CoarseSolution::find(const SurfacePlace& place, double u1, double u2, Fie
   const Division& division = divisionAt(*chart, finestLevel(*chart, effort_.leastSide), rays);
   const double suffices = effort_.farSide * place.distance;
   if (chart->extent() < Tuning::kOwnPatch * std::max(division.side, suffices)) return nullptr;
-  const int enough = grid_.levelOf(std::min(suffices, Tuning::kOpen * grid_.size));
+  const int enough = grid_.levelOf(std::min(suffices, tuning::Fields::kOpen * grid_.size));
   int level = std::min(division.level, enough);
   if (place.distance < Tuning::kNear * grid_.side(level)) return nullptr;
   level = std::max(
@@ -172,7 +175,7 @@ Patch* CoarseSolution::find(const SurfacePlace& place, double u1, double u2, Fie
     if (serves(patch)) return &patch;
   }
   const int most = division.isEnclosed ? std::max(level, division.finest) : CellGrid::kLevels;
-  for (int tried = level; tried <= std::min(level + Tuning::kFiner, most); ++tried) {
+  for (int tried = level; tried <= std::min(level + tuning::Fields::kFinerWhereHidden, most); ++tried) {
     Patch& patch = patchOf(*chart, chart->cellAt(grid_, tried, chart->u(), chart->v()), rays);
     if (serves(patch)) return &patch;
   }
@@ -183,7 +186,7 @@ const PatchLinks& CoarseSolution::linksOf(Patch& patch, FieldRays& rays) {
   if (const PatchLinks* links = patch.links.load(std::memory_order_acquire)) return *links;
   // The rays go where their noise matters: a patch that is large where it is seen from matters most.
   const double part = std::clamp(patch.share / Tuning::kUsualShare, effort_.fewer, effort_.more);
-  const double count = std::clamp(effort_.usual * part, effort_.least, Tuning::kMostRays);
+  const double count = std::clamp(effort_.usual * part, effort_.least, kMostRays);
   auto made = std::make_unique<PatchLinks>(rays.link(patch.site, static_cast<int>(count), patch.seed));
   const PatchLinks* first = nullptr;
   if (!patch.links.compare_exchange_strong(first, made.get(), std::memory_order_acq_rel)) return *first;

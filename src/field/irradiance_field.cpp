@@ -18,6 +18,14 @@ namespace {
 
 using Tuning = tuning::IrradianceField;
 
+// -ar 0 sets no limit. Cells of this resolution, as -ar would give it, are the finest: they resolve crumbs on
+// a table (.15 mm in a room of 10 m, at -aa .15).
+constexpr int kUnlimited = 65536;
+
+// The height above a curved surface at which one point sees another, in chords times the angle (rad) between
+// the normals. An arc rises by 1/8 of that above its chord; the rest is a margin.
+constexpr double kBulge = .15;
+
 // Approximate overhead of an allocation and of an entry of the table (bytes).
 constexpr size_t kBlock = 16, kNode = 96;
 
@@ -83,8 +91,7 @@ class IrradianceField::Cache {
       : scene_(scene),
         grid_(bounds),
         accuracy_(options.accuracy),
-        finestShare_(std::min(accuracy_, .5) /
-                     (options.resolution > 0 ? options.resolution : Tuning::kUnlimited)),
+        finestShare_(std::min(accuracy_, .5) / (options.resolution > 0 ? options.resolution : kUnlimited)),
         bound_(options.memory > 0 ? static_cast<size_t>(options.memory * 1e6) : kNoBound) {}
 
   bool find(const SurfacePlace& place, FieldReader& reader, FieldRays& rays, GatheredLight& light);
@@ -197,7 +204,7 @@ bool IrradianceField::Cache::look(const SurfaceChart& chart, const SurfacePlace&
       // Above the bulge of a curved surface.
       const double height =
           grid_.lift +
-          (chart.isCurved() ? Tuning::kBulge * way.length() * (place.normal - site->at.normal).length() : 0);
+          (chart.isCurved() ? kBulge * way.length() * (place.normal - site->at.normal).length() : 0);
       if (!asked.rays.sees(site->at.point + (height - grid_.lift) * site->at.normal,
                            place.point + height * place.normal))
         continue;
@@ -246,15 +253,16 @@ int IrradianceField::Cache::levelFrom(int level, const SurfaceChart& chart, cons
   return level;
 }
 
-// The level of the widest cells that the surroundings of the place allow. The sites of wide cells may lie outside
-// of the gap that the place lies in.
+// The level of the widest cells that the surroundings of the place allow. The sites of wide cells may lie
+// outside of the gap that the place lies in.
 int IrradianceField::Cache::firstLevel(const SurfaceChart& chart, const SurfacePlace& place,
                                        const Asked& asked, double& gap) {
   const int level =
-      levelFrom(grid_.levelOf(std::min(chart.extent(), Tuning::kOpen * grid_.size)), chart, asked);
+      levelFrom(grid_.levelOf(std::min(chart.extent(), tuning::Fields::kOpen * grid_.size)), chart, asked);
   gap = asked.rays.clearance({place.point + grid_.lift * place.normal, place.normal},
-                             grid_.side(level) / std::min(Tuning::kGap, Tuning::kFinestInGap));
-  const int resolving = grid_.levelOf(Tuning::kGap * gap);
+                             grid_.side(level) / Tuning::kFinestInGap);
+  // Cells that are wider than the gap is high may all have their sites outside of it, beside a narrow shelf.
+  const int resolving = grid_.levelOf(gap);
   return resolving > level ? levelFrom(resolving, chart, asked) : level;
 }
 
@@ -273,7 +281,7 @@ bool IrradianceField::Cache::find(const SurfacePlace& place, FieldReader& reader
   double missing = 1, allowed = 1;
   int beyond = 0;
   double gap = 0;
-  for (int level = firstLevel(*chart, place, asked, gap); beyond <= Tuning::kBeyondFinest;
+  for (int level = firstLevel(*chart, place, asked, gap); beyond <= tuning::Fields::kFinerWhereHidden;
        ++level, allowed *= Tuning::kMoreError) {
     const bool finest = grid_.side(level) <= Tuning::kFinestInGap * gap && isFinest(*chart, level, asked);
     beyond += finest;

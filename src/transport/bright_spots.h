@@ -30,7 +30,7 @@ class BrightSpots {
   bool empty() const { return count_ == 0; }
   // The mean brightness (W/sr/m2) of all surfaces that are lit by the sources of the spots.
   double usual() const { return usual_; }
-  static constexpr size_t kRoom = tuning::BrightSpots::kMostRoom;
+  static constexpr size_t kRoom = tuning::Caps::kAimedRoom;
 
   // A spot of light that enters through openings.
   struct Sunlit {

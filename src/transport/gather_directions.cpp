@@ -14,6 +14,10 @@ namespace {
 
 using Tuning = tuning::GatherDirections;
 
+// Caps on the shares of directions that are aimed. Other directions then have at most twice the weight that
+// they have without aiming, by highlights a third more, and their variance grows no further.
+constexpr double kMostToOpenings = 1 - 1. / 2, kMostToHighlights = 1 - 3. / 4;
+
 // The mean radiance (W/sr/m2) from directions that are not aimed. Both estimates with openings are made near
 // to them, where rooms are brighter than elsewhere.
 double usualRadiance(const Aims& aims) {
@@ -38,12 +42,11 @@ GatherDirections::GatherDirections(const Aims& aims, const V3d& point, const V3d
   if (aims.highlights) {
     aims.highlights->aim(point, normal, all, rays, highlights_);
     if (highlights_.mean > 0)
-      toHighlights_ = std::min(Tuning::kMostToHighlights, Tuning::kToHighlights * highlights_.mean / all);
+      toHighlights_ = std::min(kMostToHighlights, Tuning::kToHighlights * highlights_.mean / all);
   }
   if (!(aimedAt > 0)) return;
   const double unseen = std::max(0., 1 - Tuning::kSeenAnyway * openings_.seen);
-  toOpenings_ =
-      paying(std::min(Tuning::kMostToOpenings, Tuning::kToOpenings * openings_.mean / all * unseen));
+  toOpenings_ = paying(std::min(kMostToOpenings, Tuning::kToOpenings * openings_.mean / all * unseen));
   toSpots_ = paying(Tuning::kToSpots * spots_.mean / all);
 }
 

@@ -47,8 +47,8 @@ class Openings {
     double mean = 0;   // radiance over the hemisphere from the openings, W/sr/m2, without occlusion
     double seen = 0;   // form factor to all of them
     size_t count = 0;  // of openings that light arrives from; below, their numbers and cumulative weights
-    std::array<uint32_t, tuning::Openings::kMostRoom> opening;
-    std::array<double, tuning::Openings::kMostRoom> upTo;
+    std::array<uint32_t, tuning::Caps::kAimedRoom> opening;
+    std::array<double, tuning::Caps::kAimedRoom> upTo;
   };
 
   // normal: unit, on the side that the light arrives at.
