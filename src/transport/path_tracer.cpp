@@ -145,7 +145,7 @@ RayResult PathTracer::Path::passOn(NextRay& next, const RayEnd& before) {
 }
 
 // What returns along a ray whose hit has been found.
-inline RayResult PathTracer::Path::arrive(RayEnd& end) {
+[[gnu::always_inline]] inline RayResult PathTracer::Path::arrive(RayEnd& end) {
   RayResult result;
   if (const SurfaceId surface = end.hit.surface; surface != kNone) {
     result.unmirroredLength = end.hit.length;

@@ -68,13 +68,13 @@ Hit findHit(const PreparedScene& prepared, RayEnd& end) {
   SurfaceHit& hit = end.hit;
   hit.point = ray.origin;
   hit.normal = -ray.direction;
+  Hit nearest = ray.unobstructed ? Hit()
+                                 : prepared.tracer().nearest(
+                                       ray.origin, ray.direction,
+                                       ray.farthest > kSamePlace ? ray.farthest : kFarAway, ray.from);
   if (ray.unobstructed) {
     setTarget(prepared, end);
-    return {};
-  }
-  const Hit nearest = prepared.tracer().nearest(
-      ray.origin, ray.direction, ray.farthest > kSamePlace ? ray.farthest : kFarAway, ray.from);
-  if (nearest.surface != kNone) {
+  } else if (nearest.surface != kNone) {
     hit.surface = nearest.surface;
     hit.length = nearest.distance;
     hit.point = along(ray.origin, nearest.distance, ray.direction);
