@@ -29,15 +29,15 @@ AnswerRecord answerRays(const Transport& transport, const AnswerOptions& options
     const InputRay in = inputRay(record.numbers.data(), options.irradiance);
     if (record.bogus) return writer.write(bytes, bogusAnswer(in), record.index);
     PathTracer& tracer = (*tracers)[worker];
-    const auto writeBranch = [&](const Ray& ray) {
-      writer.writeBranch(bytes, branchAnswer(transport.prepared(), ray), ray.depth);
+    const auto writeBranch = [&](const RayEnd& end, const RayResult& result) {
+      writer.writeBranch(bytes, branchAnswer(transport.prepared(), end, result), end.context.depth);
     };
     const RayObserver observer = trees ? RayObserver(writeBranch) : RayObserver();
     const PathRequest request{nullptr, trees ? &observer : nullptr, options.treeShadows};
     const double farthest = options.limitDistance ? in.length : 0;
     const uint64_t seed = seedOfRay(record.numbers, record.index, options);
-    const Ray ray = value ? tracer.trace(in.origin, in.direction, farthest, seed, request)
-                          : tracer.cast(in.origin, in.direction, farthest);
+    const TracedRay ray = value ? tracer.trace(in.origin, in.direction, farthest, seed, request)
+                                : tracer.cast(in.origin, in.direction, farthest);
     if (!valueAlone) return writer.write(bytes, answerOf(transport.prepared().scene(), ray), record.index);
     RayAnswer answer;
     answer.value = ray.value;

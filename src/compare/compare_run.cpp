@@ -164,7 +164,7 @@ std::string worstText(const CompareOptions& options, const Comparison& compariso
     for (size_t c = 0; c < per; ++c) text += fmt::format(" {:g}", rays[per * k + c]);
     if (hits) {
       const InputRay in = inputRay(&rays[per * k], options.irradiance);
-      const Ray hit = tracer.cast(in.origin, in.direction, options.limitDistance ? in.length : 0);
+      const TracedRay hit = tracer.cast(in.origin, in.direction, options.limitDistance ? in.length : 0);
       const std::string name = answerOf(transport.prepared().scene(), hit).surface.text();
       text += name == names[k] ? fmt::format("  hits {}", names[k])
                                : fmt::format("  hits {}, original {}", name, names[k]);

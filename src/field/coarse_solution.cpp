@@ -15,48 +15,20 @@ using Tuning = tuning::CoarseSolution;
 // The -aa at which Tuning::kSpacing is the side of a patch, and Tuning::kRays its rays.
 constexpr double kUsualAccuracy = .1;
 
-// The binary logarithms of the buckets of the tables: 2 and 4 MB. In a picture of an office, 190,000 patches and
-// 370,000 divisions are looked up. With 65,536 buckets, a third of the time was spent waiting for the memory of long
-// chains.
-constexpr unsigned kLogPatchBuckets = 18, kLogDivisionBuckets = 19;
+// Cap on the rays of a patch: their noise is then a sixty-fourth of that of one, less than other errors.
+constexpr double kMostRays = 4096;
 
-// The color of an element, of which bands may be kept beside it.
-Color colorAt(const V3f& channels, const std::vector<Bands>& bands, size_t i) {
-  return Color(V3d(channels), i < bands.size() ? bands[i] : Bands());
-}
+// The binary logarithms of the buckets of the tables: 2 and 4 MB. In a picture of an office, 190,000 patches
+// and 370,000 divisions are looked up. With 65,536 buckets, a third of the time was spent waiting for the
+// memory of long chains.
+constexpr unsigned kLogPatchBuckets = 18, kLogDivisionBuckets = 19;
 
 // Whether a site lies on a ball or a cone and everything that it sees is near, compared to the radius.
 bool isInNarrowShell(const Surroundings& seen, const SurfaceChart& chart) {
   return chart.isCurved() && seen.covered >= 1 && seen.rootMeanSquare < Tuning::kEnclosed * chart.extent();
 }
 
-// Adds a color to an element.
-void addAt(std::vector<V3f>& channels, std::vector<Bands>& bands, size_t i, const Color& color) {
-  if (channels.size() <= i) channels.resize(i + 1, V3f(0, 0, 0));
-  if (color.bands() || i < bands.size()) {
-    if (bands.size() <= i) bands.resize(i + 1);
-    bands[i] = (colorAt(channels[i], bands, i) + color).bands();
-  }
-  channels[i] += V3f(color.rgb());
-}
-
 }  // namespace
-
-void CoarseSolution::Links::add(Patch* patch, const Coefficient& coefficient, int bounces) {
-  if (coefficient.color.bands()) {
-    bandsOfLinks.resize(links.size() + 1);
-    bandsOfLinks.back() = coefficient.color.bands();
-  }
-  links.push_back({patch, V3f(coefficient.color.rgb()), bounces});
-}
-
-void CoarseSolution::Links::addLight(int bounces, const Radiance& radiance) {
-  addAt(light, bandsOfLight, static_cast<size_t>(bounces), radiance.color);
-}
-
-void CoarseSolution::Links::addEnd(int bounces, const Coefficient& coefficient) {
-  addAt(ends, bandsOfEnds, static_cast<size_t>(bounces), coefficient.color);
-}
 
 // How a part of a surface is divided into patches.
 struct CoarseSolution::Division {
@@ -66,14 +38,14 @@ struct CoarseSolution::Division {
   bool isEnclosed = false;  // no finer ones are tried where patches are hidden
 };
 
-struct CoarseSolution::Patch {
+struct Patch {
   bool usable = false;  // it has a site
   GatherSite site;
   double reach = 0;
   double share = 0;         // in the light of the other surfaces of the room (Tuning::kUsualShare)
   bool isEnclosed = false;  // isInNarrowShell()
   uint64_t seed = 0;
-  std::atomic<const Links*> links{nullptr};
+  std::atomic<const PatchLinks*> links{nullptr};
   struct Light {
     std::atomic<bool> known{false};
     std::array<std::atomic<float>, 3> mean{};
@@ -106,9 +78,9 @@ CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bo
       std::clamp(options.accuracy, Tuning::kFinestAccuracy, Tuning::kCoarsestAccuracy) / kUsualAccuracy;
   const double finer = std::min(accuracy, std::sqrt(accuracy));
   if (!daylit)
-    return {Tuning::kSpacingByLamps * finer,
-            Tuning::kLeastPatchByLamps,
-            Tuning::kFarPatchByLamps,
+    return {Tuning::kCoarserByLamps * Tuning::kSpacing * finer,
+            Tuning::kCoarserByLamps * Tuning::kLeastPatch,
+            Tuning::kCoarserByLamps * Tuning::kFarPatch,
             Tuning::kRaysByLamps * options.rays,
             1,
             1,
@@ -119,8 +91,7 @@ CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bo
           Tuning::kLeastRays};
 }
 
-CoarseSolution::Patch& CoarseSolution::patchOf(const SurfaceChart& chart, const CellKey& key,
-                                               Looker& looker) {
+Patch& CoarseSolution::patchOf(const SurfaceChart& chart, const CellKey& key, FieldRays& rays) {
   return patches_->findOrAdd(key, [&](Patch& patch) {
     made_.fetch_add(1, std::memory_order_relaxed);
     patch.seed = key.hash();
@@ -128,7 +99,7 @@ CoarseSolution::Patch& CoarseSolution::patchOf(const SurfaceChart& chart, const 
     if (const auto site = chart.site(grid_, key)) {
       patch.usable = true;
       patch.site = *site;
-      const Surroundings seen = looker.surroundings(*site);
+      const Surroundings seen = rays.surroundings(*site);
       patch.reach = seen.harmonicMean;
       patch.isEnclosed = isInNarrowShell(seen, chart);
       const double far = std::max(room_, seen.rootMeanSquare);
@@ -143,24 +114,24 @@ int CoarseSolution::finestLevel(const SurfaceChart& chart, double leastSide) con
   return grid_.levelOf(leastSide * std::min(chart.extent(), Tuning::kWidestExtent * grid_.size));
 }
 
-// Whether all of a side of a surface lies in a narrow gap, as between nested shells. A place where something else
-// comes near does not make it enclosed.
-bool CoarseSolution::isEnclosed(const SurfaceChart& chart, Looker& looker) {
+// Whether all of a side of a surface lies in a narrow gap, as between nested shells. A place where something
+// else comes near does not make it enclosed.
+bool CoarseSolution::isEnclosed(const SurfaceChart& chart, FieldRays& rays) {
   return enclosed_->findOrAdd(chart.cell(grid_, 0, 0, 0), [&](bool& enclosed) {
     for (size_t i = 0; i < Tuning::kEnclosedPlaces; ++i) {
       const auto site = chart.siteWithin(grid_, evenly(i, .5, .5));
       if (!site) continue;
-      enclosed = isInNarrowShell(looker.surroundings(*site), chart);
+      enclosed = isInNarrowShell(rays.surroundings(*site), chart);
       if (!enclosed) return;
     }
   });
 }
 
-// The widest patches that the surroundings of a place allow, regardless of the distance that it is seen from. All
-// places in a cell of the finest level have the answer for its middle.
+// The widest patches that the surroundings of a place allow, regardless of the distance that it is seen from.
+// All places in a cell of the finest level have the answer for its middle.
 const CoarseSolution::Division& CoarseSolution::divisionAt(const SurfaceChart& chart, int finest,
-                                                           Looker& looker) {
-  const double open = Tuning::kOpen * grid_.size;
+                                                           FieldRays& rays) {
+  const double open = tuning::Fields::kOpen * grid_.size;
   const int finestEnclosed = std::min(finest, finestLevel(chart, Tuning::kLeastPatchEnclosed));
   const CellKey key = chart.cellAt(grid_, finest, chart.u(), chart.v());
   return divisions_->findOrAdd(key, [&](Division& found) {
@@ -169,10 +140,10 @@ const CoarseSolution::Division& CoarseSolution::divisionAt(const SurfaceChart& c
     found.finest = finest;
     for (int level = std::min(grid_.levelOf(std::min(chart.extent(), open)), finest); level <= found.finest;
          ++level) {
-      const Patch& patch = patchOf(chart, chart.cellAt(grid_, level, u, v), looker);
+      const Patch& patch = patchOf(chart, chart.cellAt(grid_, level, u, v), rays);
       found.level = level;
       found.side = patch.usable ? effort_.spacing * std::min(patch.reach, open) : 0;
-      if (patch.isEnclosed && isEnclosed(chart, looker)) {
+      if (patch.isEnclosed && isEnclosed(chart, rays)) {
         found.isEnclosed = true;
         found.finest = std::max(level, finestEnclosed);
       }
@@ -181,13 +152,13 @@ const CoarseSolution::Division& CoarseSolution::divisionAt(const SurfaceChart& c
   });
 }
 
-CoarseSolution::Patch* CoarseSolution::find(const SurfacePlace& place, double u1, double u2, Looker& looker) {
+Patch* CoarseSolution::find(const SurfacePlace& place, double u1, double u2, FieldRays& rays) {
   auto chart = SurfaceChart::of(scene_, grid_, place);
   if (!chart) return nullptr;
-  const Division& division = divisionAt(*chart, finestLevel(*chart, effort_.leastSide), looker);
+  const Division& division = divisionAt(*chart, finestLevel(*chart, effort_.leastSide), rays);
   const double suffices = effort_.farSide * place.distance;
   if (chart->extent() < Tuning::kOwnPatch * std::max(division.side, suffices)) return nullptr;
-  const int enough = grid_.levelOf(std::min(suffices, Tuning::kOpen * grid_.size));
+  const int enough = grid_.levelOf(std::min(suffices, tuning::Fields::kOpen * grid_.size));
   int level = std::min(division.level, enough);
   if (place.distance < Tuning::kNear * grid_.side(level)) return nullptr;
   level = std::max(
@@ -196,36 +167,33 @@ CoarseSolution::Patch* CoarseSolution::find(const SurfacePlace& place, double u1
   if (chart->shorterSide() < grid_.side(level) && division.side < chart->shorterSide())
     chart->divideAcross(Tuning::kPartsAcross);
   const V3d above = place.point + grid_.lift * place.normal;
-  const auto serves = [&](const Patch& patch) {
-    return patch.usable && looker.sees(patch.site.point, above);
-  };
+  const auto serves = [&](const Patch& patch) { return patch.usable && rays.sees(patch.site.point, above); };
   {
     const double u = chart->u() + (u1 - .5) * chart->stepU(grid_, level),
                  v = chart->v() + (u2 - .5) * chart->stepV(grid_, level);
-    Patch& patch = patchOf(*chart, chart->cellAt(grid_, level, u, v), looker);
+    Patch& patch = patchOf(*chart, chart->cellAt(grid_, level, u, v), rays);
     if (serves(patch)) return &patch;
   }
   const int most = division.isEnclosed ? std::max(level, division.finest) : CellGrid::kLevels;
-  for (int tried = level; tried <= std::min(level + Tuning::kFiner, most); ++tried) {
-    Patch& patch = patchOf(*chart, chart->cellAt(grid_, tried, chart->u(), chart->v()), looker);
+  for (int tried = level; tried <= std::min(level + tuning::Fields::kFinerWhereHidden, most); ++tried) {
+    Patch& patch = patchOf(*chart, chart->cellAt(grid_, tried, chart->u(), chart->v()), rays);
     if (serves(patch)) return &patch;
   }
   return nullptr;
 }
 
-const CoarseSolution::Links& CoarseSolution::linksOf(Patch& patch, Looker& looker) {
-  if (const Links* links = patch.links.load(std::memory_order_acquire)) return *links;
-  auto made = std::make_unique<Links>();
+const PatchLinks& CoarseSolution::linksOf(Patch& patch, FieldRays& rays) {
+  if (const PatchLinks* links = patch.links.load(std::memory_order_acquire)) return *links;
   // The rays go where their noise matters: a patch that is large where it is seen from matters most.
   const double part = std::clamp(patch.share / Tuning::kUsualShare, effort_.fewer, effort_.more);
-  const double rays = std::clamp(effort_.usual * part, effort_.least, Tuning::kMostRays);
-  looker.link(patch.site, static_cast<int>(rays), patch.seed, *made);
-  const Links* first = nullptr;
+  const double count = std::clamp(effort_.usual * part, effort_.least, kMostRays);
+  auto made = std::make_unique<PatchLinks>(rays.link(patch.site, static_cast<int>(count), patch.seed));
+  const PatchLinks* first = nullptr;
   if (!patch.links.compare_exchange_strong(first, made.get(), std::memory_order_acq_rel)) return *first;
   return *made.release();
 }
 
-Color CoarseSolution::light(Patch& patch, int bounces, Looker& looker) {
+Color CoarseSolution::light(Patch& patch, int bounces, FieldRays& rays) {
   if (bounces <= 0) return ambient_;
   bounces = std::min(bounces, bounces_);
   Patch::Light& kept = patch.light[bounces - 1];
@@ -235,7 +203,7 @@ Color CoarseSolution::light(Patch& patch, int bounces, Looker& looker) {
     const Bands* bands = kept.bands.load(std::memory_order_relaxed);
     return bands ? Color(mean, *bands) : Color(mean);
   }
-  const Links& links = linksOf(patch, looker);
+  const PatchLinks& links = linksOf(patch, rays);
   V3f sum(0, 0, 0);
   Color inBands;  // the same sum where anything has bands
   const auto add = [&](const V3f& part, const auto& color) {
@@ -248,9 +216,9 @@ Color CoarseSolution::light(Patch& patch, int bounces, Looker& looker) {
     add(links.ends[last] * V3f(ambient_.rgb()),
         [&] { return colorAt(links.ends[last], links.bandsOfEnds, last) * ambient_; });
   for (size_t i = 0; i < links.links.size(); ++i) {
-    const Links::Link& link = links.links[i];
+    const PatchLinks::Link& link = links.links[i];
     if (link.bounces >= bounces) continue;
-    const Color arriving = light(*link.patch, bounces - 1 - link.bounces, looker);
+    const Color arriving = light(*link.patch, bounces - 1 - link.bounces, rays);
     add(link.coefficient * V3f(arriving.rgb()),
         [&] { return colorAt(link.coefficient, links.bandsOfLinks, i) * arriving; });
   }

@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "field/field_options.h"
-#include "field/hemisphere.h"
+#include "field/field_rays.h"
 #include "field/insert_once.h"
 #include "field/surface_cells.h"
 #include "scene/scene.h"
@@ -33,43 +33,6 @@ namespace rsphere {
 
 class CoarseSolution {
  public:
-  struct Patch;
-
-  // What the rays of a patch found. Most rays end at the patch that they hit first. Where no patch serves
-  // that hit, the ray is followed; `bounces` is the number of diffuse bounces that it makes beyond it.
-  // Coefficients: contribution to the mean radiance that arrives at the patch that owns the links.
-  struct Links {
-    struct Link {
-      Patch* patch;
-      V3f coefficient;  // factor on the mean radiance that arrives at `patch`
-      int bounces;
-    };
-    std::vector<Link> links;
-    std::vector<V3f> light;  // by bounces: radiance that depends on no patch (W/sr/m2)
-    std::vector<V3f> ends;   // by bounces: factor on -av, used if the path ends there for lack of bounces
-
-    void add(Patch* patch, const Coefficient& coefficient, int bounces);
-    void addLight(int bounces, const Radiance& radiance);
-    void addEnd(int bounces, const Coefficient& coefficient);
-
-    // The bands of each element of those above, empty until one has some.
-    std::vector<Bands> bandsOfLinks, bandsOfLight, bandsOfEnds;
-  };
-
-  // The rays that the solution needs. Answers depend on nothing but the arguments.
-  class Looker {
-   public:
-    // Sends about `rays` rays over the hemisphere of a site.
-    virtual void link(const GatherSite& site, int rays, uint64_t seed, Links& links) = 0;
-    // Estimated in a few directions.
-    virtual Surroundings surroundings(const GatherSite& site) = 0;
-    // Whether the segment between two points is unoccluded.
-    virtual bool sees(const V3d& from, const V3d& to) = 0;
-
-   protected:
-    ~Looker() = default;
-  };
-
   // Keeps a reference to the scene. bounds: of all that can be hit. room: the size of a room into which light
   // comes through openings (world units), so that few rays find it and patches that matter more need more of
   // them. 0: lamps light the surfaces directly, where more rays do not pay.
@@ -79,11 +42,11 @@ class CoarseSolution {
   // The patch that serves a place; null if there is none and the path has to be followed. One of the patches
   // around the place is drawn by the uniform numbers u1, u2 in [0, 1), so that the expected value is
   // interpolated between them.
-  Patch* find(const SurfacePlace& place, double u1, double u2, Looker& looker);
+  Patch* find(const SurfacePlace& place, double u1, double u2, FieldRays& rays);
 
   // The mean radiance that arrives at a patch (irradiance over pi) after at most `bounces` diffuse
   // reflections; -av for 0 of them.
-  Color light(Patch& patch, int bounces, Looker& looker);
+  Color light(Patch& patch, int bounces, FieldRays& rays);
 
   size_t patches() const { return made_.load(std::memory_order_relaxed); }
 
@@ -101,10 +64,10 @@ class CoarseSolution {
 
   struct Division;
   int finestLevel(const SurfaceChart& chart, double leastSide) const;
-  bool isEnclosed(const SurfaceChart& chart, Looker& looker);
-  const Division& divisionAt(const SurfaceChart& chart, int finest, Looker& looker);
-  Patch& patchOf(const SurfaceChart& chart, const CellKey& key, Looker& looker);
-  const Links& linksOf(Patch& patch, Looker& looker);
+  bool isEnclosed(const SurfaceChart& chart, FieldRays& rays);
+  const Division& divisionAt(const SurfaceChart& chart, int finest, FieldRays& rays);
+  Patch& patchOf(const SurfaceChart& chart, const CellKey& key, FieldRays& rays);
+  const PatchLinks& linksOf(Patch& patch, FieldRays& rays);
 
   const Scene& scene_;
   CellGrid grid_;

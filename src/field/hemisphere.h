@@ -24,8 +24,8 @@ struct GatherSite {
 };
 
 // How far the surfaces are that are seen from a site (world units), averaged over the hemisphere by projected
-// solid angle. A direction that hits nothing counts as infinite distance in the harmonic mean, and not at all in
-// the root mean square.
+// solid angle. A direction that hits nothing counts as infinite distance in the harmonic mean, and not at all
+// in the root mean square.
 struct Surroundings {
   double harmonicMean = 0;
   double rootMeanSquare = 0;

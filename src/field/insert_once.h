@@ -30,8 +30,8 @@ class InsertOnce {
     return node ? &node->value : nullptr;
   }
 
-  // The value of the key. If there is none, adds the one that make(value) changes from Value{}; it is discarded if
-  // another thread adds one first.
+  // The value of the key. If there is none, adds the one that make(value) changes from Value{}; it is
+  // discarded if another thread adds one first.
   template <class Make>
   Value& findOrAdd(const Key& key, Make make) {
     std::atomic<Node*>& bucket = buckets_[key.hash() & mask_];

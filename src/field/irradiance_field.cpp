@@ -18,6 +18,14 @@ namespace {
 
 using Tuning = tuning::IrradianceField;
 
+// -ar 0 sets no limit. Cells of this resolution, as -ar would give it, are the finest: they resolve crumbs on
+// a table (.15 mm in a room of 10 m, at -aa .15).
+constexpr int kUnlimited = 65536;
+
+// The height above a curved surface at which one point sees another, in chords times the angle (rad) between
+// the normals. An arc rises by 1/8 of that above its chord; the rest is a margin.
+constexpr double kBulge = .15;
+
 // Approximate overhead of an allocation and of an entry of the table (bytes).
 constexpr size_t kBlock = 16, kNode = 96;
 
@@ -83,11 +91,10 @@ class IrradianceField::Cache {
       : scene_(scene),
         grid_(bounds),
         accuracy_(options.accuracy),
-        finestShare_(std::min(accuracy_, .5) /
-                     (options.resolution > 0 ? options.resolution : Tuning::kUnlimited)),
+        finestShare_(std::min(accuracy_, .5) / (options.resolution > 0 ? options.resolution : kUnlimited)),
         bound_(options.memory > 0 ? static_cast<size_t>(options.memory * 1e6) : kNoBound) {}
 
-  bool find(const SurfacePlace& place, FieldReader& reader, SiteLooker& looker, GatheredLight& light);
+  bool find(const SurfacePlace& place, FieldReader& reader, FieldRays& rays, GatheredLight& light);
   void keepIn(std::unique_ptr<AmbientFile> file) { stored_.emplace(std::move(file)); }
   bool isBounded() const { return bound_ != kNoBound; }
   size_t sitesMade() const { return made_.load(std::memory_order_relaxed); }
@@ -97,7 +104,7 @@ class IrradianceField::Cache {
   // The two sides of a query.
   struct Asked {
     FieldMemory& memory;
-    SiteLooker& looker;
+    FieldRays& rays;
   };
 
   void enter(FieldReader& memory);
@@ -148,11 +155,11 @@ Site& IrradianceField::Cache::siteOf(const SurfaceChart& chart, const CellKey& k
     if (const auto at = chart.site(grid_, key)) {
       made.usable = true;
       made.at = *at;
-      const Surroundings seen = asked.looker.surroundings(*at);
+      const Surroundings seen = asked.rays.surroundings(*at);
       made.reach = seen.harmonicMean;
       made.finest = finestShare_ * std::min(grid_.size, Tuning::kRoom * seen.rootMeanSquare);
       made.smallObjectNear = grid_.side(key.level) > made.finest &&
-                             asked.looker.smallObjectNear(*at, grid_.side(key.level), grid_.lift);
+                             asked.rays.smallObjectNear(*at, grid_.side(key.level), grid_.lift);
     }
     asked.memory.add(sizeof(Site) + kNode);
     made_.fetch_add(1, std::memory_order_relaxed);
@@ -165,7 +172,7 @@ const GatheredLight& IrradianceField::Cache::lightOf(Site& site, const Asked& as
   const GatheredLight* const known = stored_ ? stored_->find(site.key) : nullptr;
   auto gathered = std::make_unique<GatheredLight>(
       known ? *known
-            : asked.looker.gather(site.at, std::min(site.finest / 2, site.reach / 4), site.key.hash()));
+            : asked.rays.gather(site.at, std::min(site.finest / 2, site.reach / 4), site.key.hash()));
   const GatheredLight* first = nullptr;
   if (!site.light.compare_exchange_strong(first, gathered.get(), std::memory_order_acq_rel)) return *first;
   const GatheredLight& light = *gathered.release();
@@ -197,9 +204,9 @@ bool IrradianceField::Cache::look(const SurfaceChart& chart, const SurfacePlace&
       // Above the bulge of a curved surface.
       const double height =
           grid_.lift +
-          (chart.isCurved() ? Tuning::kBulge * way.length() * (place.normal - site->at.normal).length() : 0);
-      if (!asked.looker.sees(site->at.point + (height - grid_.lift) * site->at.normal,
-                             place.point + height * place.normal))
+          (chart.isCurved() ? kBulge * way.length() * (place.normal - site->at.normal).length() : 0);
+      if (!asked.rays.sees(site->at.point + (height - grid_.lift) * site->at.normal,
+                           place.point + height * place.normal))
         continue;
       sites[around.count] = site;
       around.site[around.count] = &site->at;
@@ -246,24 +253,25 @@ int IrradianceField::Cache::levelFrom(int level, const SurfaceChart& chart, cons
   return level;
 }
 
-// The level of the widest cells that the surroundings of the place allow. The sites of wide cells may lie outside
-// of the gap that the place lies in.
+// The level of the widest cells that the surroundings of the place allow. The sites of wide cells may lie
+// outside of the gap that the place lies in.
 int IrradianceField::Cache::firstLevel(const SurfaceChart& chart, const SurfacePlace& place,
                                        const Asked& asked, double& gap) {
   const int level =
-      levelFrom(grid_.levelOf(std::min(chart.extent(), Tuning::kOpen * grid_.size)), chart, asked);
-  gap = asked.looker.clearance({place.point + grid_.lift * place.normal, place.normal},
-                               grid_.side(level) / std::min(Tuning::kGap, Tuning::kFinestInGap));
-  const int resolving = grid_.levelOf(Tuning::kGap * gap);
+      levelFrom(grid_.levelOf(std::min(chart.extent(), tuning::Fields::kOpen * grid_.size)), chart, asked);
+  gap = asked.rays.clearance({place.point + grid_.lift * place.normal, place.normal},
+                             grid_.side(level) / Tuning::kFinestInGap);
+  // Cells that are wider than the gap is high may all have their sites outside of it, beside a narrow shelf.
+  const int resolving = grid_.levelOf(gap);
   return resolving > level ? levelFrom(resolving, chart, asked) : level;
 }
 
-bool IrradianceField::Cache::find(const SurfacePlace& place, FieldReader& reader, SiteLooker& looker,
+bool IrradianceField::Cache::find(const SurfacePlace& place, FieldReader& reader, FieldRays& rays,
                                   GatheredLight& light) {
   auto chart = SurfaceChart::of(scene_, grid_, place);
   if (!chart) return false;
   enter(reader);
-  const Asked asked{*reader, looker};
+  const Asked asked{*reader, rays};
   if (!hasOwnCells(*chart, asked)) {
     if (chart->isCurved()) return false;
     chart = SurfaceChart::ofPlane(grid_, place);
@@ -273,7 +281,7 @@ bool IrradianceField::Cache::find(const SurfacePlace& place, FieldReader& reader
   double missing = 1, allowed = 1;
   int beyond = 0;
   double gap = 0;
-  for (int level = firstLevel(*chart, place, asked, gap); beyond <= Tuning::kBeyondFinest;
+  for (int level = firstLevel(*chart, place, asked, gap); beyond <= tuning::Fields::kFinerWhereHidden;
        ++level, allowed *= Tuning::kMoreError) {
     const bool finest = grid_.side(level) <= Tuning::kFinestInGap * gap && isFinest(*chart, level, asked);
     beyond += finest;
@@ -300,9 +308,9 @@ IrradianceField::IrradianceField(const Scene& scene, const Box3d& bounds, const 
 IrradianceField::~IrradianceField() = default;
 
 void IrradianceField::keepIn(std::unique_ptr<AmbientFile> file) { cache_->keepIn(std::move(file)); }
-bool IrradianceField::find(const SurfacePlace& place, FieldReader& reader, SiteLooker& looker,
+bool IrradianceField::find(const SurfacePlace& place, FieldReader& reader, FieldRays& rays,
                            GatheredLight& light) {
-  return cache_->find(place, reader, looker, light);
+  return cache_->find(place, reader, rays, light);
 }
 void IrradianceField::leave(FieldReader& reader) const {
   if (cache_->isBounded()) reader = {};

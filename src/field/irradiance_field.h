@@ -5,8 +5,8 @@
 // irradiance of a place is interpolated bilinearly between the four sites around it. A site that does not see
 // the place is left out, so that no light leaks through walls. The initial cell spacing is proportional to
 // the harmonic mean distance of the surroundings (-aa); cells are subdivided where the irradiance of their
-// sites differs, down to the finest spacing. That is the size of the room around, times -aa, divided by -ar, and
-// never more than a part of the height of a gap that the place lies in.
+// sites differs, down to the finest spacing. That is the size of the room around, times -aa, divided by -ar,
+// and never more than a part of the height of a gap that the place lies in.
 //
 // A site is gathered when it is first needed, with random numbers seeded by its cell. An answer therefore
 // depends only on the place, not on earlier queries or on the thread.
@@ -21,7 +21,7 @@
 
 #include "field/ambient_file.h"
 #include "field/field_options.h"
-#include "field/hemisphere.h"
+#include "field/field_rays.h"
 #include "field/surface_cells.h"
 #include "scene/scene.h"
 
@@ -31,25 +31,6 @@ struct FieldMemory;
 
 // A thread's hold on the memory that it reads: the memory is not freed before all readers have let go.
 using FieldReader = std::shared_ptr<FieldMemory>;
-
-// The rays that the field needs. Every answer depends on nothing but the arguments.
-class SiteLooker {
- public:
-  // nearest: of HemisphereCells::sum().
-  virtual GatheredLight gather(const GatherSite& site, double nearest, uint64_t seed) = 0;
-  // The distance, at most `farthest`, to what lies above the site along its normal (world units).
-  virtual double clearance(const GatherSite& site, double farthest) = 0;
-  // Estimated in a few directions.
-  virtual Surroundings surroundings(const GatherSite& site) = 0;
-  // Whether the segment between two points is unoccluded.
-  virtual bool sees(const V3d& from, const V3d& to) = 0;
-  // Whether an object narrower than the side of the site's cell (world units) lies within that distance, and
-  // not in the plane of the site, which is the lift above its surface.
-  virtual bool smallObjectNear(const GatherSite& site, double side, double lift) = 0;
-
- protected:
-  ~SiteLooker() = default;
-};
 
 class IrradianceField {
  public:
@@ -63,9 +44,8 @@ class IrradianceField {
 
   // The interpolated light at a place: its mean, and how it depends on the normal. False if no site can be
   // used, as in crevices, on the insides of curved surfaces and on meshes; the caller then gathers directly.
-  // reader: the thread's own. The looker must not call find() of
-  // the same field.
-  bool find(const SurfacePlace& place, FieldReader& reader, SiteLooker& looker, GatheredLight& light);
+  // reader: the thread's own. The rays must not call find() of the same field.
+  bool find(const SurfacePlace& place, FieldReader& reader, FieldRays& rays, GatheredLight& light);
 
   // Lets go of the memory; it is freed if it has been replaced and this was its last reader.
   void leave(FieldReader& reader) const;

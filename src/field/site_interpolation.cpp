@@ -15,6 +15,16 @@ using Tuning = tuning::SiteInterpolation;
 // functions.
 constexpr float kSlopes = .5F;
 
+// The change of the gradient along the way between two sites is divided by this to predict the error of an
+// interpolation: it is f'' h for a quadratic function f, whose linear interpolation is wrong by f'' h^2 / 8
+// at most.
+constexpr double kBySlopes = 8;
+
+// An extrapolation leaves at least this share of the interpolated light. Without a bound above 0, the light
+// beside bright surfaces becomes negative where the cells are wide (-aa 1 -ar 4 in an office: some pixels are
+// black).
+constexpr float kLeast = .05F;
+
 float luminance(const V3f& color) { return static_cast<float>(brightness(Color(color.x, color.y, color.z))); }
 V3f luminanceOf(const V3f (&change)[3]) {
   return static_cast<float>(kRedWeight) * change[0] + static_cast<float>(kGreenWeight) * change[1] +
@@ -42,7 +52,7 @@ double SitesAround::roughness(double tolerance) const {
       const double slopeChance =
           Tuning::kChance * std::hypot(light[a]->noisePerLength, light[b]->noisePerLength) * way.length();
       error =
-          std::max({error, (std::abs(after - before) - slopeChance) / Tuning::kBySlopes,
+          std::max({error, (std::abs(after - before) - slopeChance) / kBySlopes,
                     (std::abs(step - (before + after) / 2) - chance - slopeChance / 2) / Tuning::kByMismatch,
                     (std::abs(step) - chance) / Tuning::kByStep});
     }
@@ -78,8 +88,7 @@ GatheredLight SitesAround::at(const V3d& place, double& extrapolationError) cons
     extrapolationError = std::max(
         linear, Tuning::kBeyond * static_cast<double>(aside.length2()) * inverseReach * inverseReach);
   }
-  for (int k = 0; k < 3; ++k)
-    mean[k] = std::max(mean[k] + result.perLength[k].dot(aside), Tuning::kLeast * mean[k]);
+  for (int k = 0; k < 3; ++k) mean[k] = std::max(mean[k] + result.perLength[k].dot(aside), kLeast * mean[k]);
   result.setMean(mean);
   return result;
 }

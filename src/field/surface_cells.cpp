@@ -5,7 +5,6 @@
 
 #include "base/constants.h"
 #include "base/overloaded.h"
-#include "field/tuning.h"
 #include "scene/even_sequence.h"
 #include "scene/frame.h"
 #include "scene/random.h"
@@ -13,7 +12,13 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::SurfaceCells;
+// The number of points of a cell that are tried as its site, where earlier ones do not lie on the surface. A
+// surface that fills an eighth of the cell is missed by (7/8)^24 = 4% of such cells.
+constexpr int kCandidates = 24;
+
+// The number of a polygon's edges that its frame may be aligned with; the longest of them is chosen. A
+// polygon with more edges is round, and needs no frame along one of them.
+constexpr uint32_t kEdges = 16;
 
 // The number of cells, of at most this side, that an extent is divided into.
 double partsOf(double extent, double side, int least) {
@@ -113,7 +118,7 @@ bool SurfaceChart::setPolygon(const Polygon& polygon, const SurfacePlace& place)
   const V3d* const corner = scene_->vertices.data() + polygon.firstVertex;
   const uint32_t count = polygon.vertices;
   double longest = 0;
-  for (uint32_t i = 0; i < std::min(count, Tuning::kEdges); ++i) {
+  for (uint32_t i = 0; i < std::min(count, kEdges); ++i) {
     const V3d edge = toWorld(corner[(i + 1) % count]) - toWorld(corner[i]);
     // Among edges of equal length within rounding, the first is chosen.
     if (edge.length2() <= longest * (1 + 1e-9)) continue;
@@ -270,7 +275,7 @@ std::optional<GatherSite> SurfaceChart::siteWithin(const CellGrid& grid, const I
 
 std::optional<GatherSite> SurfaceChart::site(const CellGrid& grid, const CellKey& key) const {
   const double du = stepU(grid, key.level), dv = stepV(grid, key.level);
-  for (int c = 0; c < Tuning::kCandidates; ++c) {
+  for (int c = 0; c < kCandidates; ++c) {
     // The first candidate is slightly off the middle. A wall may stand in the exact middle of a floor, and it
     // would not occlude a site that lies in the wall's plane.
     const Imath::V2d in = evenly(static_cast<size_t>(c), .5 + kAside, .5 - kAside);

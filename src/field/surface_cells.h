@@ -66,12 +66,12 @@ class SurfaceChart {
   double extent() const;
   // The shorter side of a bounded flat surface; infinite for others.
   double shorterSide() const { return width_ > 0 ? std::min(width_, height_) : HUGE_VAL; }
-  // From now on, cells divide the shorter side into at least this many parts. They are other cells than before,
-  // with other keys. REQUIRES a finite shorterSide().
+  // From now on, cells divide the shorter side into at least this many parts. They are other cells than
+  // before, with other keys. REQUIRES a finite shorterSide().
   void divideAcross(int parts);
   bool isCurved() const { return ball_ || cone_; }
-  // A site at these shares, in [0, 1], of the extents of the chart, which for a sphere covers a sixth of it; empty
-  // beside the surface. REQUIRES a chart that is not of a plane.
+  // A site at these shares, in [0, 1], of the extents of the chart, which for a sphere covers a sixth of it;
+  // empty beside the surface. REQUIRES a chart that is not of a plane.
   std::optional<GatherSite> siteWithin(const CellGrid& grid, const Imath::V2d& shares) const;
   bool isShared() const { return isShared_; }  // by all surfaces in the plane
 

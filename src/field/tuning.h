@@ -12,37 +12,32 @@
 
 namespace rsphere::tuning {
 
+// The irradiance cache and the coarse solution alike.
+struct Fields {
+  // The distance of open surroundings, in sizes of the scene: the side of the widest cells of the cache, and
+  // for patches the largest mean distance of what they see. Chosen by experiment. 30% less: within noise; 30%
+  // more: time -28% (sensors by sun; noise: error 10%, time 4%).
+  RSPHERE_TUNED(Fields, double, kOpen, .1);
+  // The number of finer levels that are tried where sites or patches are hidden from a place: chosen by
+  // experiment. 1 or 3: within noise (sensors by sun; error below 1%, time 6%).
+  RSPHERE_TUNED(Fields, int, kFinerWhereHidden, 2);
+};
+
 // The irradiance cache at the first diffuse surface (irradiance_field.cpp).
 struct IrradianceField {
   // The side of the widest cells, for each unit of -aa, in harmonic mean distances of their surroundings:
   // chosen by experiment. 30% less or more: within noise (picture of office; error 4%, time 8%).
   RSPHERE_TUNED(IrradianceField, double, kWidest, 3);
-  // The side of the widest cells, in sizes of the scene: chosen by experiment. 30% less or more: within noise
-  // (picture of workshop; error 6%, time 3%).
-  RSPHERE_TUNED(IrradianceField, double, kOpen, .1);
   // -ar relates the finest spacing to the size of the scene, in RADIANCE as here. Where the room around a
   // site is smaller than the scene (most daylight models have a wide ground), the finest spacing is in
   // proportion to the room. The size of the room, in root mean square distances of what the site sees: chosen
   // by experiment, in rooms on a ground of 0 to 5 km, by the error in thin gaps and the number of gathers. 4:
-  // the light between louvres is 3% too dark; 2.5: 3% more gathers in furnished rooms. 30% less or more:
-  // within noise (picture of workshop; error below 1%, time 8%).
+  // the light between louvres is 3% too dark; 2.5: 3% more gathers in furnished rooms.
   RSPHERE_TUNED(IrradianceField, double, kRoom, 3.2);
-  // The side of the widest cells, in heights of the gap that a place lies in (its distance from what lies
-  // above it along its normal): chosen by experiment. The sites of wider cells may all lie outside of the
-  // gap, beside a narrow shelf. 2: the same number of gathers. 30% less or more: within noise (picture of
-  // office; error below 1%, time 1%).
-  RSPHERE_TUNED(IrradianceField, double, kGap, 1);
-  // The finest spacing is at most this, in heights of the gap: by measurement. 1: 2.6% of the places between
-  // louvres are off by a factor of 1.5, instead of .7%; .125: the same errors, 3% more gathers in a furnished
-  // room. 30% less or more: the same answers in all cases.
+  // The finest spacing is at most this, in heights of the gap that a place lies in (its distance from what
+  // lies above it along its normal): by measurement. 1: 2.6% of the places between louvres are off by a
+  // factor of 1.5, instead of .7%; .125: the same errors, 3% more gathers in a furnished room.
   RSPHERE_TUNED(IrradianceField, double, kFinestInGap, .25);
-  // -ar 0 sets no limit. Cells of this resolution, as -ar would give it, are the finest: chosen so that
-  // they resolve crumbs on a table (.15 mm in a room of 10 m, at -aa .15). 30% less or more: the same
-  // answers in all cases.
-  RSPHERE_TUNED(IrradianceField, int, kUnlimited, 65536);
-  // The number of levels beyond the finest spacing that are tried where sites are hidden from the place:
-  // chosen by experiment. 1 or 3: the same answers in all cases.
-  RSPHERE_TUNED(IrradianceField, int, kBeyondFinest, 2);
   // -aa divided by this is the allowed relative error of an interpolation: chosen by experiment. -aa bounds
   // the error of RADIANCE's interpolation, whose mean error is smaller. 30% less or more: within noise
   // (picture of workshop; error 4%, time 6%).
@@ -62,10 +57,6 @@ struct IrradianceField {
   // surfaces, and a room may be smaller than a cell, so that nearly all sites must see the place. .935 or
   // .965: the same answers in all cases.
   RSPHERE_TUNED(IrradianceField, double, kLeastServedOfShared, .95);
-  // The height above a curved surface at which one point sees another, in chords times the angle (rad)
-  // between the normals: derived. An arc rises by 1/8 of that above its chord; the rest is a margin. 30% less
-  // or more: within noise (picture of workshop; error below 1%, time 4%).
-  RSPHERE_TUNED(IrradianceField, double, kBulge, .15);
 };
 
 // Interpolation between the sites around a place (site_interpolation.cpp).
@@ -73,13 +64,10 @@ struct SiteInterpolation {
   // Differences between sites below this number of standard errors are taken for noise: chosen by experiment.
   // 30% less or more: within noise (picture by sun; error 1%, time 4%).
   RSPHERE_TUNED(SiteInterpolation, double, kChance, .7);
-  // The error of an interpolation is predicted from three differences between two sites, each divided by one
-  // of these. The change of the gradient along the way between them: derived. It is f'' h for a quadratic
-  // function f, whose linear interpolation is wrong by f'' h^2 / 8 at most. 30% less or more: within noise
-  // (picture of workshop; error below 1%, time 4%).
-  RSPHERE_TUNED(SiteInterpolation, double, kBySlopes, 8);
-  // The difference of their light beyond the one that their gradients predict: chosen by experiment. 30% less
-  // or more: within noise (picture by sun; error 3%, time 6%).
+  // The error of an interpolation is predicted from three differences between two sites: the change of the
+  // gradient (site_interpolation.cpp) and two that are each divided by one of these. The difference of their
+  // light beyond the one that their gradients predict: chosen by experiment. 30% less or more: within noise
+  // (picture by sun; error 3%, time 6%).
   RSPHERE_TUNED(SiteInterpolation, double, kByMismatch, 4);
   // The difference of their light: chosen by experiment. Gradients know nothing of a shadow's edge between
   // the sites. 30% less or more: within noise (picture by sun; error 2%, time 4%).
@@ -88,10 +76,6 @@ struct SiteInterpolation {
   // surroundings is R, in units of (d / R)^2: chosen by experiment. 30% less or more: within noise (picture
   // of office; error 1%, time 11%).
   RSPHERE_TUNED(SiteInterpolation, double, kBeyond, 1.5);
-  // An extrapolation leaves at least this share of the interpolated light: chosen by experiment. Without it,
-  // the light beside bright surfaces becomes negative where the cells are wide (-aa 1 -ar 4 in an office:
-  // 116 of 4800 pixels are darker, some of them black). 30% less or more: the same answers in all cases.
-  RSPHERE_TUNED(SiteInterpolation, float, kLeast, .05F);
 };
 
 // The coarse solution behind the first diffuse surface (coarse_solution.cpp): chosen in two daylit rooms (a
@@ -120,28 +104,19 @@ struct CoarseSolution {
   // Patches in a corner, where everything is near, would otherwise be divided without end. .02: three times
   // the time.
   RSPHERE_TUNED(CoarseSolution, double, kLeastPatch, .05);
-  // The same three in scenes without openings for daylight: by measurement. There finer patches take a third
-  // more time, and the errors of pictures are the same.
-  RSPHERE_TUNED(CoarseSolution, double, kSpacingByLamps, .6);
-  RSPHERE_TUNED(CoarseSolution, double, kFarPatchByLamps, .18);
-  RSPHERE_TUNED(CoarseSolution, double, kLeastPatchByLamps, .1);
-  // The distance of open surroundings, in sizes of the scene: chosen by experiment. 30% less: within noise;
-  // 30% more: time -28% (sensors by sun; noise: error 10%, time 4%).
-  RSPHERE_TUNED(CoarseSolution, double, kOpen, .1);
+  // Factor on kSpacing, kFarPatch and kLeastPatch in scenes without openings for daylight: by measurement.
+  // There finer patches take a third more time, and the errors of pictures are the same.
+  RSPHERE_TUNED(CoarseSolution, double, kCoarserByLamps, 2);
   // The extent of a surface is at most this, in sizes of the scene: chosen by experiment. Where the
   // ground is wide, rooms are small. 30% less: time +65%; 30% more: within noise (sensors by sun; noise:
   // error below 1%, time 4%).
   RSPHERE_TUNED(CoarseSolution, double, kWidestExtent, .4);
   // The number of parts across strips that are narrower than their patches and wider than the sides that
   // their surroundings ask for: by measurement. With 1, sensors near a window with blinds are 33% too bright.
-  // 3 or 5: within noise (sensors by panes; error 4%, time 2%).
   RSPHERE_TUNED(CoarseSolution, int, kPartsAcross, 4);
   // A surface smaller than this share of a patch's side has no patch: by measurement. 30% less or more:
   // within noise (sensors by sun; error below 1%, time 6%).
   RSPHERE_TUNED(CoarseSolution, double, kOwnPatch, .5);
-  // The number of finer levels that are tried where a patch is hidden: chosen by experiment. 1 or 3: within
-  // noise (sensors by sun; error below 1%, time 6%).
-  RSPHERE_TUNED(CoarseSolution, int, kFiner, 2);
   // A side of a ball (a sixth of it) or of a cone is enclosed if all that is seen from so many places on it,
   // the first number, is nearer in the root mean square than this share of the radius: between shells with a
   // gap of a third of the inner radius, where it is .47 in the middle, and a ball in a tight room. Without
@@ -177,21 +152,9 @@ struct CoarseSolution {
   // 2.5, a sunlit classroom has 15% more noise, at 8 the same as at 4 in a sixth more time.
   RSPHERE_TUNED(CoarseSolution, double, kFewerRays, .03);
   RSPHERE_TUNED(CoarseSolution, double, kMoreRays, 4);
-  // Bounds on the number of rays of a patch: by measurement. 16 takes up to a sixth more time, for the same
-  // error. More than 4096 are more than other errors justify.
+  // The least number of rays of a patch: by measurement. 16 takes up to a sixth more time, for the same
+  // error.
   RSPHERE_TUNED(CoarseSolution, double, kLeastRays, 8);
-  RSPHERE_TUNED(CoarseSolution, double, kMostRays, 4096);
-};
-
-// Cells of surfaces and their sites (surface_cells.cpp).
-struct SurfaceCells {
-  // The number of points of a cell that are tried as its site, where earlier ones do not lie on the surface:
-  // chosen by experiment. A surface that fills an eighth of the cell is missed by 4% of such cells. 30% less
-  // or more: the same answers in all cases.
-  RSPHERE_TUNED(SurfaceCells, int, kCandidates, 24);
-  // The number of a polygon's edges that its frame may be aligned with; the longest of them is chosen: chosen
-  // by experiment, to limit the time. 30% less: the same answers, time +14%; 30% more: the same answers.
-  RSPHERE_TUNED(SurfaceCells, uint32_t, kEdges, 16);
 };
 
 }  // namespace rsphere::tuning

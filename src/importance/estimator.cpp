@@ -192,7 +192,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
   return answer;
 }
 
-RayAnswer directionAnswer(const Scene& scene, const DirectionSample& sample, const Ray& ray) {
+RayAnswer directionAnswer(const Scene& scene, const DirectionSample& sample, const TracedRay& ray) {
   RayAnswer a = answerOf(scene, ray);
   a.direction = sample.direction;
   a.value = sample.value;

@@ -46,7 +46,7 @@ class SphereEstimator {
     // between the integrals of the guess by glances and by directions is added to the radiances, in
     // proportion to their guesses. No radiance is negative unless the answer is.
     std::vector<DirectionSample> samples;
-    std::vector<Ray> rays;  // of the samples, in the same order; kept with -Sd only
+    std::vector<TracedRay> rays;  // of the samples, in the same order; kept with -Sd only
 
    private:
     friend class SphereEstimator;
@@ -79,6 +79,6 @@ class SphereEstimator {
 };
 
 // One direction of a point as -Sd prints it.
-RayAnswer directionAnswer(const Scene& scene, const DirectionSample& sample, const Ray& ray);
+RayAnswer directionAnswer(const Scene& scene, const DirectionSample& sample, const TracedRay& ray);
 
 }  // namespace rsphere

@@ -14,12 +14,12 @@ using Tuning = tuning::Pictures;
 
 // Whether the gloss of neighboring pixels is nearly the same: lobes are wider than a few pixels, and neither a pattern
 // nor a texture changes them from pixel to pixel.
-bool sharesGloss(const Material& material, const Ray& ray) {
-  if (ray.perturbation != V3d(0, 0, 0)) return false;
+bool sharesGloss(const Material& material, const SurfaceHit& hit) {
+  if (hit.perturbation != V3d(0, 0, 0)) return false;
   if (const auto* opaque = std::get_if<Opaque>(&material))
-    return opaque->roughness >= Tuning::kLeastRoughness && (!opaque->metal || ray.pattern == Color(1, 1, 1));
+    return opaque->roughness >= Tuning::kLeastRoughness && (!opaque->metal || hit.pattern == Color(1, 1, 1));
   const auto* trans = std::get_if<Trans>(&material);
-  return trans && trans->roughness >= Tuning::kLeastRoughness && ray.pattern == Color(1, 1, 1);
+  return trans && trans->roughness >= Tuning::kLeastRoughness && hit.pattern == Color(1, 1, 1);
 }
 
 }  // namespace
@@ -44,10 +44,11 @@ PixelSample PixelTracer::trace(const V3d& direction, uint64_t seed, PixelParts p
 
 PixelSample PixelTracer::traceOnce(const V3d& direction, uint64_t seed, PixelParts parts) {
   Radiance indirect, gloss;
-  const RayObserver separate = [&](const Ray& ray) {
+  const RayObserver separate = [&](const RayEnd& end, const RayResult& result) {
+    const PathContext& ray = end.context;
     if (ray.depth != 1) return;
-    if (ray.kind & kAmbient) indirect += ray.value * ray.contribution;
-    if (ray.kind & kSpecular) gloss += ray.value * ray.contribution;
+    if (ray.kind & kAmbient) indirect += result.value * ray.contribution;
+    if (ray.kind & kSpecular) gloss += result.value * ray.contribution;
   };
   const TracedRay ray = tracer_.trace(point_, direction, 0, seed,
                                       {.observer = &separate,

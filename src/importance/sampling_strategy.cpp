@@ -28,7 +28,7 @@ SampledSet traceEach(const SetAtPoint& set, std::span<const V3d> directions,
   SampledSet sampled;
   sampled.samples.reserve(directions.size());
   for (size_t i = 0; i < directions.size(); ++i) {
-    const Ray ray = tracer.trace(set.point(), directions[i], 0, mixBits(set.seed() + i));
+    const TracedRay ray = tracer.trace(set.point(), directions[i], 0, mixBits(set.seed() + i));
     sampled.samples.push_back({directions[i], solidAngles[i], ray.value});
     if (keepRays) sampled.rays.push_back(ray);
   }

@@ -38,7 +38,7 @@ class SetAtPoint {
 // The directions of one set, traced and weighted.
 struct SampledSet {
   std::vector<DirectionSample> samples;
-  std::vector<Ray> rays;          // of the samples, in the same order; kept with -Sd only
+  std::vector<TracedRay> rays;    // of the samples, in the same order; kept with -Sd only
   std::vector<Radiance> guesses;  // of the samples' radiances (radiance_guess.h); empty: none
   Moments excess;      // of the guesses along glances over those along the samples; 0 without guesses
   Irradiance clamped;  // what -Sf took from moments().total

@@ -54,7 +54,7 @@ class SeenSources {
     DirectionSample direction;  // solidAngle: 0 if something hides the source
     double part = 0;            // its solid angle if nothing hid the source, sr
     int aimed = 1, clear = 1;   // shadow rays to its cell, and those that reached the source
-    Ray ray;
+    TracedRay ray;
     size_t image = 0;   // index in images
     size_t row = 0;     // of the image's grid
     double chance = 1;  // that the image is sampled; below 1 for some of many

@@ -62,7 +62,7 @@ class SilhouetteWeights : public SamplingStrategy {
   // The directions that are not sent to images of light sources.
   struct Others {
     std::vector<DirectionSample> samples;  // the base directions, then those to targets
-    std::vector<Ray> rays;                 // of the samples, with -Sd only
+    std::vector<TracedRay> rays;           // of the samples, with -Sd only
     std::vector<Radiance> guesses;         // of the samples; empty: nothing is guessed
     // kNoRegion: the sample shows an image of a light source, which has its own samples; its solid angle, radiance
     // and guess are then 0.

@@ -7,11 +7,6 @@
 #include "transport/ball_reflection.h"
 
 namespace rsphere {
-namespace {
-
-using Tuning = tuning::BallHighlights;
-
-}  // namespace
 
 HighlightLobe BallHighlights::lobeOf(const Ball& ball, const SourcePart& part, const V3d& point) {
   const V3d normal = mirroringNormal(ball.sphere, point, part.center, part.distant);
@@ -23,7 +18,7 @@ HighlightLobe BallHighlights::lobeOf(const Ball& ball, const SourcePart& part, c
 BallHighlights::BallHighlights(const Scene& scene, const Tracer& tracer, const LightSources& lights,
                                double least) {
   const auto size = [](const Sphere& sphere) { return sphere.inward ? 0 : sphere.radius; };
-  for (const auto& r : largestReflectors<Sphere>(scene, Tuning::kMostAsked, size))
+  for (const auto& r : largestReflectors<Sphere>(scene, tuning::Caps::kAsked, size))
     if (Ball ball = lit(*r.shape, *r.material, scene, tracer, lights); ball.intensity > 0)
       balls_.push_back(std::move(ball));
   keepLargest(balls_, balls_.size(), [](const Ball& ball) { return ball.intensity; });
@@ -52,7 +47,7 @@ BallHighlights::Ball BallHighlights::lit(const Sphere& sphere, const Opaque& mat
       const double intensity = part.radiance * reflectance * solidAngle * sphere.radius * sphere.radius / 4;
       if (intensity > 0) candidates.push_back({part, solidAngle, intensity});
     }
-  keepLargest(candidates, Tuning::kMostOfBall, [](const Candidate& c) { return c.intensity; });
+  keepLargest(candidates, tuning::Caps::kAimed, [](const Candidate& c) { return c.intensity; });
   for (const Candidate& c : candidates) {
     const V3d out = c.part.part.towards(sphere.center).normalized();
     if (!seesPart(tracer, c.part, sphere.center + (sphere.radius + 2 * kSamePlace) * out)) continue;
@@ -76,7 +71,7 @@ void BallHighlights::aim(const V3d& point, const V3d& front, double least, Aim& 
     const Ball& ball = balls_[number];
     const V3d way = ball.sphere.center - point;
     const double distance = way.length();
-    if (!(distance > Tuning::kApart * ball.sphere.radius)) continue;
+    if (!(distance > Highlight::kApart * ball.sphere.radius)) continue;
     const double cosine = std::clamp((way.dot(front) + ball.sphere.radius) / distance, 0., 1.);
     const double toImage = distance - ball.sphere.radius / 2, falloff = cosine / (toImage * toImage);
     if (!(ball.hot * falloff > least)) continue;
@@ -85,7 +80,7 @@ void BallHighlights::aim(const V3d& point, const V3d& front, double least, Aim& 
     aim.tangent2[aim.count] =
         (1 - 1e-12) * distance * distance - 1.0001 * ball.sphere.radius * ball.sphere.radius;
     aim.add(number, ball.intensity * falloff);
-    if (aim.count == Tuning::kMostAimed) break;
+    if (aim.count == tuning::Caps::kAimed) break;
   }
   aim.finish(point);
 }
@@ -112,7 +107,7 @@ bool BallHighlights::isNear(const Ball& ball, const SourcePart& part, const V3d&
   if (!(cosine > 0)) return false;
   // bisector has twice the length of its cosine to both directions.
   const double most =
-      (Tuning::kReach * ball.roughness + angle / std::max(cosine, tuning::HighlightLobe::kGrazing)) * cosine;
+      (Highlight::kReach * ball.roughness + angle / std::max(cosine, tuning::Highlights::kEdgeOn)) * cosine;
   return bisector.length2() - cosine * cosine <= most * most;
 }
 

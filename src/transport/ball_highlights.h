@@ -23,7 +23,7 @@ class BallHighlights {
   BallHighlights(const Scene& scene, const Tracer& tracer, const LightSources& lights, double least);
 
   bool empty() const { return balls_.empty(); }
-  static constexpr size_t kRoom = tuning::BallHighlights::kMostAimedRoom;
+  static constexpr size_t kRoom = tuning::Caps::kAimedRoom;
 
   // By balls.
   struct Aim : HighlightAim<kRoom> {

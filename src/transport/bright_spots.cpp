@@ -23,6 +23,22 @@ constexpr float kNarrowest = 1e-6f;
 // power of spots matters.
 constexpr double kTransmittance = .9;
 
+// The number of particles of a spot at least. Its power is then known within 29%, 1/sqrt(12).
+constexpr size_t kFewest = 12;
+
+// Ratio of the radius of a spot to half the diagonal of the box around its particles. The box around n points
+// that are spread evenly is smaller than what they are spread over, on average by (n + 1) / (n - 1): 1.18 for
+// the fewest.
+constexpr double kWider = 1.15;
+
+// No rays are aimed at a spot whose center is nearer than the root of this, in radii. The formula for a small
+// surface makes a disk at that distance half as bright again as it is: 1 / d^2 instead of 1 / (d^2 + r^2).
+constexpr float kApart = 2;
+
+// The surface area of a room, divided by the square of the mean distance across it. The mean chord of a
+// convex body is 4 V/S: in a room of 10 x 7 x 3 m 3.5 m, and the surface area is 20 times its square.
+constexpr double kRoomSurface = 20;
+
 // Square of a negligible distance (world units).
 constexpr float kNearest = 1e-12f;
 
@@ -57,7 +73,7 @@ struct BrightSpots::Node {
     std::sort(sides.begin(), sides.end());
     area = std::max(sides[1], kSamePlace) * std::max(sides[2], kSamePlace);
     spot.center = box.center();
-    spot.radius = std::max(.5 * Tuning::kWider * box.size().length(), 4 * kSamePlace);
+    spot.radius = std::max(.5 * kWider * box.size().length(), 4 * kSamePlace);
     for (const Particle& p : some) {
       if (p.free < spot.radius) continue;  // in a gap, whose light reaches no other surface
       spot.power += p.power;
@@ -148,16 +164,16 @@ BrightSpots::BrightSpots(const Scene& scene, const Tracer& tracer, const LightSo
     std::vector<Particle> inside = particlesThrough(*openings, scene, tracer, lights);
     std::vector<double> free;
     for (const Particle& p : inside) free.push_back(p.free);
-    if (free.size() >= Tuning::kFewest) {
+    if (free.size() >= kFewest) {
       const auto middle = free.begin() + static_cast<ptrdiff_t>(free.size() / 2);
       std::nth_element(free.begin(), middle, free.end());
-      for (const Node& node : find(inside, Tuning::kRoomSurface * *middle * *middle, Tuning::kMostInside,
-                                   Tuning::kBrighterInside, Tuning::kLeastWorthInside))
+      for (const Node& node :
+           find(inside, kRoomSurface * *middle * *middle, tuning::Caps::kAimed / 2, Tuning::kBrighter / 2, 1))
         sunlit_.push_back(node.sunlit());
     }
   }
   std::vector<Particle> everywhere = particles(scene, tracer, lights);
-  find(everywhere, scene.area(), Tuning::kMost, Tuning::kBrighter, Tuning::kLeastWorth);
+  find(everywhere, scene.area(), tuning::Caps::kAimed, Tuning::kBrighter, Tuning::kLeastWorth);
 }
 
 std::vector<BrightSpots::Node> BrightSpots::find(std::span<Particle> all, double area, size_t most,
@@ -176,7 +192,7 @@ std::vector<BrightSpots::Node> BrightSpots::find(std::span<Particle> all, double
   std::vector<Node> nodes{Node(all)};
   std::vector<Split> splits;
   const auto consider = [&](size_t i) {
-    if (nodes[i].particles.size() < 2 * Tuning::kFewest) return;
+    if (nodes[i].particles.size() < 2 * kFewest) return;
     auto into = nodes[i].halves();
     const double gain = into.first.worth() + into.second.worth() - nodes[i].worth();
     splits.push_back({i, gain, std::move(into)});
@@ -211,7 +227,7 @@ void BrightSpots::keep(const Spot& spot) {
   normalY_[i] = static_cast<float>(spot.normal.y);
   normalZ_[i] = static_cast<float>(spot.normal.z);
   radius_[i] = static_cast<float>(spot.radius);
-  anyway_[i] = static_cast<float>(1 - spot.normal.length() + Tuning::kEdgeOn);
+  anyway_[i] = static_cast<float>(1 - spot.normal.length() + tuning::Highlights::kEdgeOn);
   power_[i] = static_cast<float>(spot.power);
 }
 
@@ -230,7 +246,7 @@ __attribute__((target_clones("avx2", "default"))) void BrightSpots::aim(const V3
     const float cosine = (x * frontX + y * frontY + z * frontZ + radius_[i]) * inverse;
     const float facing = anyway_[i] - (x * normalX_[i] + y * normalY_[i] + z * normalZ_[i]) * inverse;
     const float before = std::min(std::max(cosine, 0.f), 1.f), seen = std::min(std::max(facing, 0.f), 1.f);
-    const float apart = squared > Tuning::kApart * radius_[i] * radius_[i] ? 1.f : 0.f;
+    const float apart = squared > kApart * radius_[i] * radius_[i] ? 1.f : 0.f;
     comes[i] = apart * power_[i] * before * seen * inverse * inverse;
     aim.x[i] = x;
     aim.y[i] = y;

@@ -30,7 +30,7 @@ class BrightSpots {
   bool empty() const { return count_ == 0; }
   // The mean brightness (W/sr/m2) of all surfaces that are lit by the sources of the spots.
   double usual() const { return usual_; }
-  static constexpr size_t kRoom = tuning::BrightSpots::kMostRoom;
+  static constexpr size_t kRoom = tuning::Caps::kAimedRoom;
 
   // A spot of light that enters through openings.
   struct Sunlit {
@@ -73,8 +73,8 @@ class BrightSpots {
                                          const LightSources& lights) const;
   static std::optional<Particle> arrived(const Scene& scene, const Tracer& tracer, const V3d& origin,
                                          const V3d& direction, double power, Random& random);
-  // Finds spots, keeps them, and returns the groups of particles that form them. most: maximal number of spots.
-  // area: of the surfaces that receive the light (square world units). brighter, leastWorth: as in
+  // Finds spots, keeps them, and returns the groups of particles that form them. most: maximal number of
+  // spots. area: of the surfaces that receive the light (square world units). brighter, leastWorth: as in
   // tuning::BrightSpots.
   std::vector<Node> find(std::span<Particle> all, double area, size_t most, double brighter,
                          double leastWorth);

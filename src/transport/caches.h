@@ -22,8 +22,8 @@ struct Caches {
   Aims aims;
 };
 
-// The caches that the options ask for, with the light of the ambient file in them (-af). Keeps references to the scene
-// and to what the aims refer to. warn: gets the warnings of the ambient file.
+// The caches that the options ask for, with the light of the ambient file in them (-af). Keeps references to
+// the scene and to what the aims refer to. warn: gets the warnings of the ambient file.
 Caches makeCaches(const PreparedScene& prepared, const Aims& aims, const rad::Warn& warn);
 
 // The number of diffuse bounces beyond a patch of the coarse solution: one less where patches never serve the

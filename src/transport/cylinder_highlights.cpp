@@ -9,7 +9,7 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::CylinderHighlights;
+using Tuning = tuning::Highlights;
 
 // Where along a cylinder it is tested whether it sees a source, as shares of its length.
 constexpr double kPlaces[] = {.5, .1, .9};
@@ -34,7 +34,7 @@ CylinderHighlights::CylinderHighlights(const Scene& scene, const Tracer& tracer,
   const auto size = [](const Cone& cone) {
     return cone.radius0 == cone.radius1 ? cone.radius0 * cone.length : 0;
   };
-  for (const auto& r : largestReflectors<Cone>(scene, Tuning::kMostAsked, size))
+  for (const auto& r : largestReflectors<Cone>(scene, tuning::Caps::kAsked, size))
     if (Cylinder cylinder = lit(*r.shape, *r.material, scene, tracer, lights); !cylinder.parts.empty())
       cylinders_.push_back(std::move(cylinder));
   keepLargest(cylinders_, cylinders_.size(), [](const Cylinder& cylinder) { return cylinder.hot; });
@@ -72,7 +72,7 @@ CylinderHighlights::Cylinder CylinderHighlights::lit(const Cone& shape, const Op
       if (hot > 0) candidates.push_back({{part, radiance, hot}, bright});
     }
   }
-  keepLargest(candidates, Tuning::kMostOfCylinder, [](const Candidate& c) { return c.bright; });
+  keepLargest(candidates, tuning::Caps::kAimed / 2, [](const Candidate& c) { return c.bright; });
   for (const Candidate& c : candidates) {
     const bool seen = std::any_of(std::begin(kPlaces), std::end(kPlaces), [&](double share) {
       const V3d place = shape.base + share * shape.length * shape.axis;
@@ -101,21 +101,23 @@ void CylinderHighlights::aim(const V3d& point, const V3d& front, double least, A
     if (!(way.dot(front) + std::max(0., shape.length * shape.axis.dot(front)) > -radius)) continue;
     const V3d at = across(shape, -way);
     const double height = -way.dot(shape.axis);
-    if (!(at.length2() > Tuning::kApart * Tuning::kApart * radius * radius)) continue;
+    if (!(at.length2() > Highlight::kApart * Highlight::kApart * radius * radius)) continue;
     const double enough = Tuning::kLeastShare * least * (point - nearestOnAxis(shape, point)).length();
     for (const Part& p : cylinder.parts) {
-      if (aim.count == Tuning::kMostAimed) break;
+      if (aim.count == tuning::Caps::kAimed / 2) break;
       if (!(p.hot > enough)) continue;
       const SourcePart& part = p.lighting.part;
       const V3d to = part.distant ? part.center : part.center - shape.base, side = across(shape, to);
       const double beside = side.length();
-      if (!(beside > (part.distant ? Tuning::kLengthwise : Tuning::kApart * radius))) continue;
+      if (!(beside > (part.distant ? Tuning::kEdgeOn : Highlight::kApart * radius))) continue;
       const V3d normal = mirroringNormal({.center = V3d(0, 0, 0), .radius = radius}, at,
                                          part.distant ? side / beside : side, part.distant);
       const double near = (at - radius * normal).length(), far = (side - radius * normal).length();
       const double place = height + near * (part.distant ? to.dot(shape.axis) / beside
                                                          : (to.dot(shape.axis) - height) / (near + far));
-      if (place < -Tuning::kBeyond * shape.length || place > (1 + Tuning::kBeyond) * shape.length) continue;
+      // The edge of a highlight may lie on the cylinder if its middle is not farther beyond the end than
+      // this.
+      if (place < -shape.length || place > 2 * shape.length) continue;
       const V3d mirror = shape.base + place * shape.axis + radius * normal;
       const V3d out = (mirror - point).normalized();
       const double cosine = out.dot(front);
@@ -152,7 +154,7 @@ bool CylinderHighlights::meets(const Cone& cylinder, const V3d& point, const V3d
 V3d CylinderHighlights::sample(const Aim& aim, double u1, double u2, double u3) const {
   const size_t i = aim.chosen(u1);
   const V3d direction = aim.lobe[i].sample(u2, u3);
-  const bool counts = aim.lobe[i].density(direction, Tuning::kReach) > 0 &&
+  const bool counts = aim.lobe[i].density(direction, Highlight::kReach * Highlight::kReach) > 0 &&
                       meets(cylinders_[aim.surface[i]].shape, aim.point, direction);
   return counts ? direction : V3d(0, 0, 0);
 }
@@ -162,7 +164,7 @@ double CylinderHighlights::density(const Aim& aim, const V3d& direction) const {
   uint32_t last = ~0u;
   bool met = false;
   for (size_t i = 0; i < aim.count; ++i) {
-    const double density = aim.lobe[i].density(direction, Tuning::kReach);
+    const double density = aim.lobe[i].density(direction, Highlight::kReach * Highlight::kReach);
     if (!(density > 0)) continue;
     if (aim.surface[i] != last) {
       last = aim.surface[i];

@@ -17,7 +17,7 @@ class CylinderHighlights {
   CylinderHighlights(const Scene& scene, const Tracer& tracer, const LightSources& lights, double least);
 
   bool empty() const { return cylinders_.empty(); }
-  static constexpr size_t kRoom = tuning::CylinderHighlights::kMostAimedRoom;
+  static constexpr size_t kRoom = tuning::Caps::kAimedRoom / 2;
 
   // By highlights of parts of sources on cylinders.
   struct Aim : HighlightAim<kRoom> {

@@ -14,6 +14,14 @@ namespace {
 
 using Tuning = tuning::DirectLight;
 
+// Rays of a gather do not divide sources into parts if the jitter (-dj) is larger than this: samples then lie
+// on more than half of their source, so that the parts would overlap.
+constexpr double kWideJitter = .5;
+
+// Up to so many contributions are ranked by comparing all pairs instead of by sorting, by measurement of time
+// alone: that is n^2 / 2 comparisons without branches instead of n log n, half of which are mispredicted.
+constexpr uint32_t kFew = 24;
+
 // Kinds of sources whose visibility is estimated separately, because they are occluded for different reasons.
 constexpr int kSourceKinds = 3;
 int kindOf(const LightSource& light) { return light.isVirtual() ? 2 : light.isDistant() ? 1 : 0; }
@@ -32,36 +40,36 @@ struct Tests {
 }  // namespace
 
 // The radiance of a source along an unoccluded shadow ray.
-Radiance DirectLight::sourceValue(const Ray& ray, const SourceSample& sample) {
+Radiance DirectLight::sourceValue(Receiver at, const SourceSample& sample) {
   const LightSource& light = t_.lights().all()[sample.source];
   if (light.isVirtual()) {
-    Ray child;
-    Coefficient whole(1);
-    if (!continueRay(t_, state_, child, kReflectedShadow, ray, whole)) return {};
-    child.aimedAt = sample.source;
-    child.direction = sample.direction;
-    child.unobstructed = true;
-    follower_.follow(child);
-    return child.value;
+    NextRay next(at.end, kReflectedShadow, Coefficient(1));
+    if (!goesOnAlong(next, t_, state_)) return {};
+    next.query = {.origin = at.point,
+                  .direction = sample.direction,
+                  .from = at.end.hit.surface,
+                  .aimedAt = sample.source,
+                  .unobstructed = true};
+    return follower_.follow(next.query, next.context).value;
   }
   if (sample.cosine < 0) return {};
-  const Coefficient passed =
-      passing(ray.medium.extinction * (Color(1, 1, 1) - ray.medium.albedo), sample.distance);
+  const Medium& medium = at.end.medium();
+  const Coefficient passed = passing(medium.extinction * (Color(1, 1, 1) - medium.albedo), sample.distance);
   if (const Radiance* radiance = t_.constantRadiance(sample.source)) return *radiance * passed;
-  Ray child;
-  child.origin = ray.point;
-  child.direction = sample.direction;
-  child.kind = kReflectedShadow;
-  child.kinds = ray.kinds | kReflectedShadow;
-  child.aimedAt = sample.source;
-  child.pathLength = ray.pathLength + ray.length;
-  child.surface = light.surface;
-  child.length = sample.distance;
-  child.point = sample.distance < kFarAway ? child.origin + sample.distance * child.direction : child.origin;
-  child.normal = sample.normal;
-  child.cosine = sample.cosine;
-  follower_.shade(child, t_.scene().surfaces[light.surface].modifier);
-  return child.value * passed;
+  const RayQuery query{.origin = at.point, .direction = sample.direction, .aimedAt = sample.source};
+  const PathContext context{.kind = kReflectedShadow,
+                            .kinds = at.end.context.kinds | kReflectedShadow,
+                            .pathLength = at.end.context.pathLength + at.end.hit.length};
+  RayEnd end(query, context);
+  end.hit.surface = light.surface;
+  end.hit.length = sample.distance;
+  end.hit.point =
+      sample.distance < kFarAway ? query.origin + sample.distance * query.direction : query.origin;
+  end.hit.normal = sample.normal;
+  end.hit.cosine = sample.cosine;
+  RayResult result;
+  follower_.shade(end, t_.scene().surfaces[light.surface].modifier, result);
+  return result.value * passed;
 }
 
 // Whether a sample is the only one of its source in samples_.
@@ -71,42 +79,43 @@ bool DirectLight::isWhole(const SourceSample& sample) const {
          (i + 1 == samples_.size() || samples_[i + 1].source != sample.source);
 }
 
-// Sets value to the radiance of a sample that arrives at the ray's end; false if none arrives. to.value: its
+// Sets value to the radiance of a sample that arrives at the receiver; false if none arrives. to.value: its
 // radiance without occlusion. to.coefficient: becomes whole if samples of a lobe do not meet the source as
 // its shadow ray does.
-bool DirectLight::arrives(const Ray& ray, Contribution& to, Radiance& value) {
+bool DirectLight::arrives(Receiver at, Contribution& to, Radiance& value) {
   const SourceSample& sample = *to.sample;
   const LightSource& light = t_.lights().all()[sample.source];
   const bool toSurface = !light.isDistant() || light.isVirtual();
+  const SurfaceId from = at.end.hit.surface;
   Shadow shadow =
-      t_.tracer().shadow(ray.point, sample.direction, sample.distance, toSurface ? light.surface : kNone,
-                         &blockerOf(ray.surface, sample.source), ray.surface);
+      t_.tracer().shadow(at.point, sample.direction, sample.distance, toSurface ? light.surface : kNone,
+                         &blockerOf(from, sample.source), from);
   if (shadow == Shadow::refracted)
     shadow = isWhole(sample) &&
-                     t_.presumedShadows().hide(sample.source, ray.point, sample.direction, sample.distance)
+                     t_.presumedShadows().hide(sample.source, at.point, sample.direction, sample.distance)
                  ? Shadow::blocked
                  : Shadow::unsure;
   const bool follow = shadow == Shadow::unsure || (shadow == Shadow::clear && light.isVirtual());
   if (follow && !ofLobe_.empty()) to.coefficient += ofLobe_[static_cast<size_t>(&to - contributions_.data())];
   if (follow || state_.request.allShadowRays)
-    value = valueFromSource(ray, to);  // even if blocked when all shadow rays are shown to the observer
+    value = valueFromSource(at, to);  // even if blocked when all shadow rays are shown to the observer
   if (shadow == Shadow::blocked) return false;
   if (!follow) value = to.value;
   return !follow || maxChannel(value) > kNegligible;
 }
 
 // The radiance that arrives along a shadow ray through surfaces that may transmit light.
-Radiance DirectLight::valueFromSource(const Ray& ray, const Contribution& to) {
+Radiance DirectLight::valueFromSource(Receiver at, const Contribution& to) {
   const V3d& direction = to.sample->direction;
-  const bool through = (ray.cosine > 0) != (ray.normal.dot(direction) > 0);
-  Ray child;
-  Coefficient whole(1);
-  if (!continueRay(t_, state_, child, through ? kTransmittedShadow : kReflectedShadow, ray, whole)) return {};
-  child.contribution *= to.coefficient;
-  child.aimedAt = to.sample->source;
-  child.direction = direction;
-  follower_.follow(child);
-  return child.value;
+  const SurfaceHit& hit = at.end.hit;
+  const bool through = (hit.cosine > 0) != (hit.normal.dot(direction) > 0);
+  NextRay next(at.end, through ? kTransmittedShadow : kReflectedShadow, Coefficient(1));
+  if (!goesOnAlong(next, t_, state_)) return {};
+  next.context.contribution *= to.coefficient;
+  next.query.origin = at.point;
+  next.query.aimedAt = to.sample->source;
+  next.query.direction = direction;
+  return follower_.follow(next.query, next.context).value;
 }
 
 // count to the power of -dc, from a table, because computing a power takes as long as sampling a source.
@@ -121,14 +130,14 @@ size_t DirectLight::lookAheadOf(size_t count) {
 void DirectLight::rankByBrightness(uint32_t count) {
   // If there are few contributions, the rank of each is found by comparing all pairs without branches. Half
   // of the branches of std::sort would be mispredicted.
-  if (count > Tuning::kFew) {
+  if (count > kFew) {
     std::iota(order_.begin(), order_.begin() + count, 0);
     std::sort(order_.begin(), order_.begin() + count, [&](uint32_t a, uint32_t b) {
       return brightness_[a] != brightness_[b] ? brightness_[a] > brightness_[b] : a < b;
     });
     return;
   }
-  std::array<int64_t, Tuning::kFewRoom> before;
+  std::array<int64_t, kFew> before;
   const double* const all = brightness_.data();
   for (uint32_t i = 0; i < count; ++i) {
     const double bright = all[i];
@@ -145,15 +154,16 @@ void DirectLight::rankByBrightness(uint32_t count) {
 
 // Fills contributions_ and brightness_ with the unoccluded contributions of all source samples that are not
 // black. Returns their number.
-uint32_t DirectLight::findContributions(const Ray& ray, DirectCoefficient coefficientOf, const V3d& front,
+uint32_t DirectLight::findContributions(Receiver at, DirectCoefficient coefficientOf, const V3d& front,
                                         const PartOfLobe* partOfLobe) {
   const RayOptions& o = t_.options();
   samples_.clear();
-  const bool divides = o.sourceSubstructuring > kNegligible &&
-                       !(isOfGather(settings_, ray) && o.directJitter > Tuning::kWideJitter);
+  const PathContext& ray = at.end.context;
+  const bool divides =
+      o.sourceSubstructuring > kNegligible && !(isOfGather(settings_, ray) && o.directJitter > kWideJitter);
   const SourceSampling how{divides ? o.sourceSubstructuring / ray.weight : 0, o.directJitter, front};
   for (const LightId i : t_.lights().all().ids())
-    t_.lights().sample(i, ray.point, how, state_.random, samples_);
+    t_.lights().sample(i, at.point, how, state_.random, samples_);
   if (contributions_.size() < samples_.size()) {
     contributions_.resize(samples_.size());
     brightness_.resize(samples_.size());
@@ -161,7 +171,7 @@ uint32_t DirectLight::findContributions(const Ray& ray, DirectCoefficient coeffi
     remaining_.resize(samples_.size() + 1);
   }
   ofLobe_.clear();
-  const bool clear = !isMedium(ray.medium.extinction);
+  const bool clear = !isMedium(at.end.medium().extinction);
   uint32_t count = 0;
   for (const SourceSample& sample : samples_) {
     Coefficient coefficient = coefficientOf(sample.direction, sample.solidAngle);
@@ -170,7 +180,7 @@ uint32_t DirectLight::findContributions(const Ray& ray, DirectCoefficient coeffi
     if (const Radiance* constant = clear && sample.cosine >= 0 ? t_.constantRadiance(sample.source) : nullptr)
       c.value = *constant;
     else
-      c.value = sourceValue(ray, sample);
+      c.value = sourceValue(at, sample);
     const double bright = brightnessOfProduct(c.value.color, coefficient.color);
     if (!(bright > 0)) continue;
     c.sample = &sample;
@@ -186,19 +196,20 @@ uint32_t DirectLight::findContributions(const Ray& ray, DirectCoefficient coeffi
 
 // Estimates the sum of the contributions from position `first` of order_ on by one of them, which is drawn
 // with a probability proportional to its unoccluded brightness.
-void DirectLight::addOneOf(Ray& ray, size_t first, uint32_t count) {
+void DirectLight::addOneOf(Receiver at, size_t first, uint32_t count, Radiance& value) {
   double rest = state_.random.uniform() * remaining_[first];
   size_t chosen = first;
   while (chosen + 1 < count && (rest -= brightness_[order_[chosen]]) >= 0) ++chosen;
   Contribution& c = contributions_[order_[chosen]];
-  Radiance value;
-  if (arrives(ray, c, value))
-    ray.value += value * c.coefficient * (remaining_[first] / brightness_[order_[chosen]]);
+  Radiance arriving;
+  if (arrives(at, c, arriving))
+    value += arriving * c.coefficient * (remaining_[first] / brightness_[order_[chosen]]);
 }
 
-void DirectLight::add(Ray& ray, DirectCoefficient coefficientOf, const V3d& front,
-                      const PartOfLobe* partOfLobe) {
-  const uint32_t count = findContributions(ray, coefficientOf, front, partOfLobe);
+void DirectLight::add(Receiver at, DirectCoefficient coefficientOf, const V3d& front,
+                      const PartOfLobe* partOfLobe, Radiance& value) {
+  const PathContext& ray = at.end.context;
+  const uint32_t count = findContributions(at, coefficientOf, front, partOfLobe);
   if (count == 0) return;
   const double threshold = t_.options().directThreshold / ray.weight;
 
@@ -214,22 +225,22 @@ void DirectLight::add(Ray& ray, DirectCoefficient coefficientOf, const V3d& fron
   }
   Tests ofKind[kSourceKinds];
   const auto test = [&](Contribution& c, Tests& tests) {
-    Radiance value;
-    const bool visible = arrives(ray, c, value);
+    Radiance arriving;
+    const bool visible = arrives(at, c, arriving);
     tests.add(visible);
-    if (visible) ray.value.color.addProduct(value.color, c.coefficient.color);
+    if (visible) value.color.addProduct(arriving.color, c.coefficient.color);
   };
   size_t tested = 0;
   for (; tested < count; ++tested) {
     if (threshold > 0 && tested >= Tuning::kAlwaysTested) {
       const double ahead = remaining_[tested] - remaining_[std::min<size_t>(tested + lookAhead, count)];
-      if (ahead < threshold * brightness(ray.value)) break;
+      if (ahead < threshold * brightness(value)) break;
     }
     Contribution& c = contributions_[order_[tested]];
     test(c, ofKind[kindOf(t_.lights().all()[c.sample->source])]);
   }
   // After an indirect bounce, an unbiased estimate is better: its noise averages out, and a bias would not.
-  if (tested < count && ray.ambientLevel > 0) return addOneOf(ray, tested, count);
+  if (tested < count && ray.ambientLevel > 0) return addOneOf(at, tested, count, value);
   // The visibility of sources that are too weak to be tested is taken to be the mean of the tested sources of
   // the same kind, because the visibility of lamps does not predict that of the sun, or the reverse. The
   // brightest source of each kind is therefore always tested.
@@ -239,43 +250,41 @@ void DirectLight::add(Ray& ray, DirectCoefficient coefficientOf, const V3d& fron
     if (tests.tested == 0)
       test(c, tests);
     else
-      ray.value += c.value * c.coefficient * tests.share();
+      value += c.value * c.coefficient * tests.share();
   }
 }
 
 // Estimates the sum over all sources from -Ss sources, drawn in proportion to their weights.
-void DirectLight::addOfChosen(Ray& ray, DirectCoefficient coefficientOf, const V3d& front) {
-  ofLobe_.clear();
-  const double sum = t_.choice().weigh(ray.point, front, sourceWeights_);
+void DirectLight::addOfChosen(Receiver at, DirectCoefficient coefficientOf, const V3d& front,
+                              Radiance& value) {
+  const double sum = t_.choice().weigh(at.point, front, sourceWeights_);
   if (!(sum > 0)) return;
-  const int draws = std::max(1, static_cast<int>(t_.options().chosenSources * ray.weight + .5));
+  const int draws = std::max(1, static_cast<int>(t_.options().chosenSources * at.end.context.weight + .5));
   const double step = sum / draws;
   double next = state_.random.uniform() * step, passed = 0;
   for (const LightId i : sourceWeights_.ids()) {
-    for (passed += sourceWeights_[i]; next < passed; next += step) {
-      samples_.clear();
-      t_.lights().sample(i, ray.point, {0, 1, front}, state_.random, samples_);
-      for (const SourceSample& sample : samples_) {
-        const Coefficient coefficient = coefficientOf(sample.direction, sample.solidAngle);
-        if (isBlack(coefficient)) continue;
-        Contribution c{&sample, coefficient, sourceValue(ray, sample)};
-        Radiance value;
-        if (maxChannel(c.value) > 0 && arrives(ray, c, value))
-          ray.value += value * coefficient * (step / sourceWeights_[i]);
-      }
-    }
+    for (passed += sourceWeights_[i]; next < passed; next += step)
+      addSamples(at, i, {0, 1, front}, coefficientOf, step / sourceWeights_[i], value);
   }
 }
 
-void DirectLight::addFromSource(const Ray& at, LightId source, DirectCoefficient coefficientOf,
-                                Radiance& sum) {
+void DirectLight::addFromSource(const RayEnd& end, LightId source, DirectCoefficient coefficientOf,
+                                Radiance& value) {
+  addSamples({end, end.hit.point}, source, {0, t_.options().directJitter}, coefficientOf, 1, value);
+}
+
+// Adds factor times the light of all samples of one source.
+void DirectLight::addSamples(Receiver at, LightId source, const SourceSampling& how,
+                             DirectCoefficient coefficientOf, double factor, Radiance& value) {
   samples_.clear();
   ofLobe_.clear();
-  t_.lights().sample(source, at.point, {0, t_.options().directJitter}, state_.random, samples_);
+  t_.lights().sample(source, at.point, how, state_.random, samples_);
   for (const SourceSample& sample : samples_) {
-    Contribution c{&sample, coefficientOf(sample.direction, sample.solidAngle), sourceValue(at, sample)};
-    Radiance value;
-    if (!isBlack(c.value) && arrives(at, c, value)) sum += value * c.coefficient;
+    const Coefficient coefficient = coefficientOf(sample.direction, sample.solidAngle);
+    if (isBlack(coefficient)) continue;
+    Contribution c{&sample, coefficient, sourceValue(at, sample)};
+    Radiance arriving;
+    if (maxChannel(c.value) > 0 && arrives(at, c, arriving)) value += arriving * coefficient * factor;
   }
 }
 

@@ -9,7 +9,6 @@
 #include "transport/path_state.h"
 #include "transport/prepared_scene.h"
 #include "transport/ray_follower.h"
-#include "transport/tuning.h"
 
 namespace rsphere {
 
@@ -22,6 +21,9 @@ using DirectCoefficient = FunctionRef<Coefficient(const V3d& toSource, double so
 using PartOfLobe = FunctionRef<Coefficient(const SourceSample& sample)>;
 
 class DirectLight {
+  // The binary logarithm of the number of blockers that are kept: 16 kB, half of a core's first cache.
+  static constexpr int kBlockerBits = 12;
+
  public:
   // Keeps references. follower: follows shadow rays through surfaces that may transmit light.
   DirectLight(const PreparedScene& prepared, const PathSettings& settings, PathState& state,
@@ -30,19 +32,26 @@ class DirectLight {
         settings_(settings),
         state_(state),
         follower_(follower),
-        blockers_(size_t{1} << tuning::DirectLight::kBlockerBits, Tracer::kNoBlocker) {}
+        blockers_(size_t{1} << kBlockerBits, Tracer::kNoBlocker) {}
 
-  // Adds the direct light at the ray's hit to its value (W/sr/m2). front: for a surface that transmits no
-  // light its normal, behind which all coefficients are 0; otherwise the null vector.
-  // partOfLobe: null if samples of a lobe estimate nothing of it.
-  void add(Ray& ray, DirectCoefficient coefficientOf, const V3d& front = V3d(0, 0, 0),
-           const PartOfLobe* partOfLobe = nullptr);
+  // Where light arrives: at the end of a ray, or beyond it for light that a thick surface transmits (world).
+  struct Receiver {
+    const RayEnd& end;
+    const V3d& point;
+  };
+
+  // Adds the direct light to the radiance of the ray (W/sr/m2); the brighter that is already, the fewer
+  // sources are tested. front: for a surface that transmits no light its normal, behind which all
+  // coefficients are 0; otherwise the null vector. partOfLobe: null if samples of a lobe estimate nothing of
+  // it.
+  void add(Receiver at, DirectCoefficient coefficientOf, const V3d& front, const PartOfLobe* partOfLobe,
+           Radiance& value);
 
   // The same, but estimated from -Ss sources drawn at random.
-  void addOfChosen(Ray& ray, DirectCoefficient coefficientOf, const V3d& front);
+  void addOfChosen(Receiver at, DirectCoefficient coefficientOf, const V3d& front, Radiance& value);
 
   // Adds the light of one source that is scattered at the end of a ray (W/sr/m2).
-  void addFromSource(const Ray& at, LightId source, DirectCoefficient coefficientOf, Radiance& sum);
+  void addFromSource(const RayEnd& end, LightId source, DirectCoefficient coefficientOf, Radiance& value);
 
  private:
   struct Contribution {
@@ -53,18 +62,20 @@ class DirectLight {
 
   size_t lookAheadOf(size_t count);
   void rankByBrightness(uint32_t count);
-  Radiance sourceValue(const Ray& ray, const SourceSample& sample);
-  Radiance valueFromSource(const Ray& ray, const Contribution& to);
-  uint32_t findContributions(const Ray& ray, DirectCoefficient coefficientOf, const V3d& front,
+  Radiance sourceValue(Receiver at, const SourceSample& sample);
+  Radiance valueFromSource(Receiver at, const Contribution& to);
+  uint32_t findContributions(Receiver at, DirectCoefficient coefficientOf, const V3d& front,
                              const PartOfLobe* partOfLobe);
-  void addOneOf(Ray& ray, size_t first, uint32_t count);
-  bool arrives(const Ray& ray, Contribution& to, Radiance& value);
+  void addSamples(Receiver at, LightId source, const SourceSampling& how, DirectCoefficient coefficientOf,
+                  double factor, Radiance& value);
+  void addOneOf(Receiver at, size_t first, uint32_t count, Radiance& value);
+  bool arrives(Receiver at, Contribution& to, Radiance& value);
   bool isWhole(const SourceSample& sample) const;
   uint32_t& blockerOf(SurfaceId surface, LightId source) {
     const uint64_t both =
         (uint64_t{static_cast<uint32_t>(surface.number())} << 32) | static_cast<uint32_t>(source.number());
     // Fibonacci hashing.
-    return blockers_[(both * 0x9e3779b97f4a7c15u) >> (64 - tuning::DirectLight::kBlockerBits)];
+    return blockers_[(both * 0x9e3779b97f4a7c15u) >> (64 - kBlockerBits)];
   }
 
   const PreparedScene& t_;

@@ -1,62 +1,114 @@
 #include "transport/final_gather.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
-#include "field/irradiance_field.h"
 #include "transport/gather_directions.h"
 #include "transport/ray_functions.h"
 #include "transport/ray_limits.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
 namespace {
 
+using Tuning = tuning::Interpolation;
+
 // An imagined ray that has hit the site, the parent of the gather's rays.
-Ray rootOf(const PreparedScene& prepared, const GatherSite& site, int depth) {
-  Ray root;
-  root.medium = prepared.medium();
-  root.point = site.point;
-  root.normal = site.normal;
-  root.length = 0;
-  root.depth = depth;
-  return root;
-}
+struct Root {
+  RayQuery query;
+  PathContext context;
+  RayEnd end{query, context};
+
+  Root(const PreparedScene& prepared, const GatherSite& site, int depth) {
+    context.space.medium = prepared.medium();
+    context.depth = depth;
+    end.hit.point = site.point;
+    end.hit.normal = site.normal;
+    end.hit.length = 0;
+  }
+};
 
 }  // namespace
 
-GatheredLight gatherLight(const PreparedScene& prepared, PathState& state, const PathSettings& settings,
-                          RayFollower& follower, const GatherSite& site, double nearest, int depth) {
-  const RayOptions& o = prepared.options();
-  const Ray root = rootOf(prepared, site, depth);
+GatheredLight TracedFieldRays::gather(const GatherSite& site, double nearest, uint64_t seed) {
+  const InnerPath path = path_.beginGather(seed, site.normal);
+  const RayOptions& o = t_.options();
+  const Root root(t_, site, depth_);
   V3d x, y;
   frame(site.normal, x, y);
   const int count = o.ambientDivisions + o.ambientSuperSamples;
   const HemisphereCells cells(count);
   std::vector<Radiance> radiance(cells.count());
   std::vector<double> distance(cells.count(), kFarAway);
-  const GatherDirections directions(settings.aims, site.point, site.normal, site.normal, count);
-  sendOverHemisphere(prepared, directions, settings, state, root, kReflectedAmbient, count, Coefficient(1),
-                     Coefficient(kMeanReflectance), [&](Ray& child, const Coefficient& factor) {
-                       follower.follow(child);
-                       const int cell = cells.cellOf(child.direction, x, y, site.normal);
-                       radiance[cell] += child.value * factor * cells.count();
-                       distance[cell] = std::min(distance[cell], apparentLength(child));
+  const GatherDirections directions(path.settings.aims, site.point, site.normal, site.normal, count);
+  sendOverHemisphere(t_, directions, path.state, root.end, site.point, kReflectedAmbient, count,
+                     Coefficient(1), Coefficient(kMeanReflectance), [&](const NextRay& next) {
+                       countDescendants(path.settings, path.state, next.context);
+                       const RayResult seen = path.follower.follow(next.query, next.context);
+                       const int cell = cells.cellOf(next.query.direction, x, y, site.normal);
+                       radiance[cell] += seen.value * next.coefficient * cells.count();
+                       distance[cell] = std::min(distance[cell], apparentLength(seen));
                      });
   return cells.sum(radiance, distance, nearest, x, y, site.normal);
 }
 
-void linkPatch(const PreparedScene& prepared, PathState& state, const PathSettings& settings,
-               RayFollower& follower, const GatherSite& site, int rays, int depth) {
-  const Ray root = rootOf(prepared, site, depth);
-  state.descendants = descendantsOfPatch(rays, depth);
+// IndirectLight::link() adds what the rays find after their first hit.
+PatchLinks TracedFieldRays::link(const GatherSite& site, int rays, uint64_t seed) {
+  const InnerPath path = path_.beginGather(seed, site.normal);
+  PatchLinks links;
+  path.state.links = &links;
+  path.state.descendants = descendantsOfPatch(rays, depth_);
   Radiance sum;
-  const GatherDirections directions(settings.aims, site.point, site.normal, site.normal, rays);
-  sendOverHemisphere(prepared, directions, settings, state, root, kReflectedAmbient, rays, Coefficient(1),
-                     Coefficient(kMeanReflectance), [&](Ray& child, const Coefficient& factor) {
-                       follower.follow(child);
-                       sum += child.value * factor;
+  const Root root(t_, site, depth_);
+  const GatherDirections directions(path.settings.aims, site.point, site.normal, site.normal, rays);
+  sendOverHemisphere(t_, directions, path.state, root.end, site.point, kReflectedAmbient, rays,
+                     Coefficient(1), Coefficient(kMeanReflectance), [&](const NextRay& next) {
+                       sum += path.follower.follow(next.query, next.context).value * next.coefficient;
                      });
-  state.links->addLight(0, sum);
+  links.addLight(0, sum);
+  return links;
+}
+
+double TracedFieldRays::clearance(const GatherSite& site, double farthest) {
+  const Hit hit = t_.tracer().nearest(site.point, site.normal, farthest);
+  return hit.surface == kNone ? farthest : hit.distance;
+}
+
+Surroundings TracedFieldRays::surroundings(const GatherSite& site) {
+  // By projected solid angle, in the frame of the site.
+  static const auto directions = [] {
+    const HemisphereCells cells(Tuning::kReachRays);
+    std::vector<V3d> of(cells.count());
+    for (int i = 0; i < cells.count(); ++i)
+      of[i] = cells.direction(i, .5, .5, V3d(1, 0, 0), V3d(0, 1, 0), V3d(0, 0, 1));
+    return of;
+  }();
+  V3d x, y;
+  frame(site.normal, x, y);
+  double inverse = 0, squares = 0, hits = 0;
+  for (const V3d& d : directions) {
+    const Hit hit = t_.tracer().nearest(site.point, d.x * x + d.y * y + d.z * site.normal);
+    if (hit.surface == kNone) continue;
+    ++hits;
+    inverse += 1 / hit.distance;
+    squares += hit.distance * hit.distance;
+  }
+  if (hits == 0) return {kFarAway, kFarAway, 0};
+  const auto count = static_cast<double>(directions.size());
+  return {count / inverse, std::sqrt(squares / hits), hits / count};
+}
+
+bool TracedFieldRays::sees(const V3d& from, const V3d& to) {
+  const V3d way = to - from;
+  const double length = way.length();
+  return !(length > kSamePlace) || t_.tracer().isClear(from, way / length, length);
+}
+
+bool TracedFieldRays::smallObjectNear(const GatherSite& site, double side, double lift) {
+  // Rounding must not make an object that is as wide as the cell seem smaller.
+  constexpr double kRounding = 1e-6;
+  return t_.tracer().anySmallNear({site.point, site.normal, side, side * (1 - kRounding), 3 * lift});
 }
 
 }  // namespace rsphere

@@ -1,20 +1,30 @@
 #pragma once
 // The rays of sites of the irradiance cache and of patches of the coarse solution.
-#include "field/hemisphere.h"
+#include "field/field_rays.h"
 #include "transport/path_state.h"
 #include "transport/prepared_scene.h"
 #include "transport/ray_follower.h"
 
 namespace rsphere {
 
-// The indirect light of a site, estimated with -ad + -as rays. state: of a path that has just begun. nearest: of
-// HemisphereCells::sum(). depth: of the ray that requests it; only the limit of nesting depends on it.
-GatheredLight gatherLight(const PreparedScene& prepared, PathState& state, const PathSettings& settings,
-                          RayFollower& follower, const GatherSite& site, double nearest, int depth);
+// Traces what fields ask for, on behalf of a path.
+class TracedFieldRays final : public FieldRays {
+ public:
+  // Keeps references. depth: of the ray that needs light; only the limit of nesting depends on it.
+  TracedFieldRays(const PreparedScene& prepared, RayFollower& path, int depth)
+      : t_(prepared), path_(path), depth_(depth) {}
 
-// Sends about `rays` rays from a patch of the coarse solution. Adds the light that they find, and links to
-// the patches that they find, to state.links.
-void linkPatch(const PreparedScene& prepared, PathState& state, const PathSettings& settings,
-               RayFollower& follower, const GatherSite& site, int rays, int depth);
+  GatheredLight gather(const GatherSite& site, double nearest, uint64_t seed) override;
+  PatchLinks link(const GatherSite& site, int rays, uint64_t seed) override;
+  double clearance(const GatherSite& site, double farthest) override;
+  Surroundings surroundings(const GatherSite& site) override;
+  bool sees(const V3d& from, const V3d& to) override;
+  bool smallObjectNear(const GatherSite& site, double side, double lift) override;
+
+ private:
+  const PreparedScene& t_;
+  RayFollower& path_;
+  int depth_;
+};
 
 }  // namespace rsphere

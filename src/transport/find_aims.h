@@ -5,13 +5,13 @@
 
 namespace rsphere {
 
-// For the gathers of indirect light: nothing without indirect light (-ab 0, -ad 0). Openings, not in scenes with
-// goals; bright spots where light is interpolated (-aa above 0) or daylight enters; highlights. Traces some paths to
-// see where daylight enters.
+// For the gathers of indirect light: nothing without indirect light (-ab 0, -ad 0). Openings, not in scenes
+// with goals; bright spots where light is interpolated (-aa above 0) or daylight enters; highlights. Traces
+// some paths to see where daylight enters.
 FoundAims findAimsOfGathers(const PreparedScene& prepared);
 
-// What the directions of a point are aimed at in addition to the aims of gathers: openings without indirect light,
-// and bright spots if gathers have not looked for them.
+// What the directions of a point are aimed at in addition to the aims of gathers: openings without indirect
+// light, and bright spots if gathers have not looked for them.
 FoundAims findAimsOfPoints(const PreparedScene& prepared, const Aims& ofGathers);
 
 }  // namespace rsphere

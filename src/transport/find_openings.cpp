@@ -62,8 +62,8 @@ class Probe {
     return seen;
   }
 
-  // The mean brightness (W/sr/m2) of what is on the normal's side, and its distance (world units; root mean square, 0
-  // if nothing is hit).
+  // The mean brightness (W/sr/m2) of what is on the normal's side, and its distance (world units; root mean
+  // square, 0 if nothing is hit).
   struct Room {
     double brightness = 0, distance = 0;
   };
@@ -131,7 +131,8 @@ std::vector<Opening> doorsOf(const PreparedScene& prepared, double leastArea) {
   return doors;
 }
 
-// Whether a hole leads to another place than the openings so far: the two faces of a thick wall have one each.
+// Whether a hole leads to another place than the openings so far: the two faces of a thick wall have one
+// each.
 bool isNewPlace(const Opening& hole, std::span<const Opening> openings) {
   return std::none_of(openings.begin(), openings.end(), [&](const Opening& o) {
     return std::abs(o.normal.dot(hole.normal)) > Tuning::kParallel &&
@@ -174,15 +175,15 @@ void merge(std::vector<Opening>& panes) {
     }
 }
 
-// Panes and holes that may be openings, the largest first. face: the largest side of the scene's box (square world
-// units).
+// Panes and holes that may be openings, the largest first. face: the largest side of the scene's box (square
+// world units).
 std::vector<Opening> candidates(const PreparedScene& prepared, double face) {
   std::vector<Opening> asked = panesOf(prepared, Tuning::kLeastArea * face);
   const std::vector<Opening> doors = doorsOf(prepared, Tuning::kLeastHole * face);
   asked.insert(asked.end(), doors.begin(), doors.end());
   std::stable_sort(asked.begin(), asked.end(),
                    [](const Opening& a, const Opening& b) { return a.area() > b.area(); });
-  if (asked.size() > Tuning::kMostAsked) asked.resize(Tuning::kMostAsked);
+  if (asked.size() > tuning::Caps::kAsked) asked.resize(tuning::Caps::kAsked);
   return asked;
 }
 
@@ -220,7 +221,7 @@ Openings findOpenings(const PreparedScene& prepared) {
   merge(found);
   const auto byPower = [](const Opening& a, const Opening& b) { return a.power > b.power; };
   std::stable_sort(found.begin(), found.end(), byPower);
-  if (found.size() > Tuning::kMost) found.resize(Tuning::kMost);
+  if (found.size() > tuning::Caps::kAimed) found.resize(tuning::Caps::kAimed);
   return {std::move(found), inside, depth};
 }
 

@@ -14,6 +14,10 @@ namespace {
 
 using Tuning = tuning::GatherDirections;
 
+// Caps on the shares of directions that are aimed. Other directions then have at most twice the weight that
+// they have without aiming, by highlights a third more, and their variance grows no further.
+constexpr double kMostToOpenings = 1 - 1. / 2, kMostToHighlights = 1 - 3. / 4;
+
 // The mean radiance (W/sr/m2) from directions that are not aimed. Both estimates with openings are made near
 // to them, where rooms are brighter than elsewhere.
 double usualRadiance(const Aims& aims) {
@@ -38,12 +42,11 @@ GatherDirections::GatherDirections(const Aims& aims, const V3d& point, const V3d
   if (aims.highlights) {
     aims.highlights->aim(point, normal, all, rays, highlights_);
     if (highlights_.mean > 0)
-      toHighlights_ = std::min(Tuning::kMostToHighlights, Tuning::kToHighlights * highlights_.mean / all);
+      toHighlights_ = std::min(kMostToHighlights, Tuning::kToHighlights * highlights_.mean / all);
   }
   if (!(aimedAt > 0)) return;
   const double unseen = std::max(0., 1 - Tuning::kSeenAnyway * openings_.seen);
-  toOpenings_ =
-      paying(std::min(Tuning::kMostToOpenings, Tuning::kToOpenings * openings_.mean / all * unseen));
+  toOpenings_ = paying(std::min(kMostToOpenings, Tuning::kToOpenings * openings_.mean / all * unseen));
   toSpots_ = paying(Tuning::kToSpots * spots_.mean / all);
 }
 
@@ -60,8 +63,8 @@ void GatherDirections::draw(int count, Random& random, Each each) const {
   constexpr double kGolden = .6180339887498949;
   const double shift1 = random.uniform(), shift2 = random.uniform(), shift3 = random.uniform();
   for (int i = 0; i < count; ++i) {
-    // Systematic sampling: consecutive directions are of one kind, whose number differs from its share by less
-    // than 1. Within its kind, u is evenly spaced from 0 to 1.
+    // Systematic sampling: consecutive directions are of one kind, whose number differs from its share by
+    // less than 1. Within its kind, u is evenly spaced from 0 to 1.
     double u = (i + shift1) / count;
     const Imath::V2d even = evenly(static_cast<size_t>(i), shift2, shift3);
     V3d direction;
@@ -72,8 +75,8 @@ void GatherDirections::draw(int count, Random& random, Each each) const {
     } else if ((u -= toSpots_) < toHighlights_) {
       direction = aims_.highlights->sample(highlights_, u / toHighlights_, even.x, even.y);
     } else {
-      // A Fibonacci lattice over the projected hemisphere, shifted at random. It is as evenly distributed as a
-      // jittered grid, for any number of rays.
+      // A Fibonacci lattice over the projected hemisphere, shifted at random. It is as evenly distributed as
+      // a jittered grid, for any number of rays.
       const double around = shift2 + i * kGolden;
       direction = diffuseDirection(normal_, std::min(1., (u - toHighlights_) / unaimed()),
                                    around - std::floor(around));
@@ -83,19 +86,19 @@ void GatherDirections::draw(int count, Random& random, Each each) const {
   }
 }
 
-void sendOverHemisphere(const PreparedScene& prepared, const GatherDirections& directions,
-                        const PathSettings& settings, PathState& state, const Ray& root, RayKind kind,
-                        int rays, const Coefficient& coefficient, const Coefficient& weight, GatherRay each) {
-  const Coefficient arriving = root.contribution * passedBy(root);
+void sendOverHemisphere(const PreparedScene& prepared, const GatherDirections& directions, PathState& state,
+                        const RayEnd& root, const V3d& point, RayKind kind, int rays,
+                        const Coefficient& coefficient, const Coefficient& weight, GatherRay each) {
+  const Coefficient arriving = root.context.contribution * passedBy(root);
   directions.draw(rays, state.random, [&](const V3d& direction, double part) {
-    Ray child;
-    child.direction = direction;
-    Coefficient survived = weight;
-    if (!continueRay(prepared, state, child, kind, root, survived)) return;
-    if (++child.ambientLevel == 1) countDescendants(settings, state, child);
-    const Coefficient factor = coefficient * (part * maxChannel(survived) / maxChannel(weight));
-    child.contribution = arriving * factor;
-    each(child, factor);
+    NextRay next(root, kind, weight);
+    if (!goesOnAlong(next, prepared, state)) return;
+    next.query.origin = point;
+    next.query.direction = direction;
+    ++next.context.ambientLevel;
+    next.coefficient = coefficient * (part * maxChannel(next.coefficient) / maxChannel(weight));
+    next.context.contribution = arriving * next.coefficient;
+    each(next);
   });
 }
 

@@ -40,14 +40,14 @@ class GatherDirections {
   double toOpenings_ = 0, toSpots_ = 0, toHighlights_ = 0;  // shares of the directions that are aimed
 };
 
-// Gets a child that is ready to be traced, and the factor of its radiance in the result.
-using GatherRay = FunctionRef<void(Ray& child, const Coefficient& factor)>;
+// Gets a ray that is ready to be followed; its coefficient is the factor of its radiance in the result.
+using GatherRay = FunctionRef<void(const NextRay& next)>;
 
-// Makes rays of directions at the hit of the root. coefficient: of the mean radiance over the hemisphere in
-// the result. weight: of one child relative to the root's, by which the weight limit (-lw) ends paths. An
-// aimed direction has no smaller weight than others, although its factor is smaller.
-void sendOverHemisphere(const PreparedScene& prepared, const GatherDirections& directions,
-                        const PathSettings& settings, PathState& state, const Ray& root, RayKind kind,
-                        int rays, const Coefficient& coefficient, const Coefficient& weight, GatherRay each);
+// Makes rays of directions from a point at the end of the root. coefficient: of the mean radiance over the
+// hemisphere in the result. weight: of one child relative to the root's, by which the weight limit (-lw) ends
+// paths. An aimed direction has no smaller weight than others, although its factor is smaller.
+void sendOverHemisphere(const PreparedScene& prepared, const GatherDirections& directions, PathState& state,
+                        const RayEnd& root, const V3d& point, RayKind kind, int rays,
+                        const Coefficient& coefficient, const Coefficient& weight, GatherRay each);
 
 }  // namespace rsphere

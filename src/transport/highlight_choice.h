@@ -1,6 +1,6 @@
 #pragma once
-// How highlights on balls and on cylinders are chosen: the surfaces that are looked at, and those that rays are
-// aimed at from a point.
+// How highlights on balls and on cylinders are chosen: the surfaces that are looked at, and those that rays
+// are aimed at from a point.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -38,8 +38,8 @@ std::vector<Reflector<Shape>> largestReflectors(const Scene& scene, size_t most,
   return found;
 }
 
-// What rays from a point of a diffuse surface are aimed at: the numbers of surfaces, each with its contribution
-// to the light, by which one is chosen.
+// What rays from a point of a diffuse surface are aimed at: the numbers of surfaces, each with its
+// contribution to the light, by which one is chosen.
 template <size_t kRoom>
 struct HighlightAim {
   double mean = 0;  // radiance over the hemisphere from these highlights, W/sr/m2, without occlusion

@@ -30,7 +30,7 @@ Highlight::Highlight(const V3d& at, const V3d& normal, const Bend& bend, double 
   const V3d in = (point - at) / length, way = part.towards(at);
   const double toSource = way.length();
   const V3d out = way / toSource;
-  const double cosine = std::max(normal.dot(in), tuning::HighlightLobe::kGrazing);
+  const double cosine = std::max(normal.dot(in), tuning::Highlights::kEdgeOn);
   // The tangents across the plane of reflection and in it.
   V3d across = normal.cross(in);
   if (across.length2() > 1e-12) {
@@ -59,7 +59,7 @@ Highlight::Highlight(const V3d& at, const V3d& normal, const Bend& bend, double 
   magnified = 1 / (4 * length * length * rate.determinant());
   spread = std::sqrt(apart.determinant()) * cosine / (2 * length * length * rate.determinant());
   // The same directions as seen from the point.
-  const double a = tuning::HighlightLobe::kWider / length, b = a * cosine;
+  const double a = tuning::Highlights::kWider / length, b = a * cosine;
   lobe = HighlightLobe(-in, across, (along - along.dot(in) * in).normalized(), a * a * place.xx,
                        a * b * place.xy, b * b * place.yy);
 }

@@ -56,7 +56,15 @@ struct Bend {
 // Source of the model that defines the roughness: Ward, "Measuring and modeling anisotropic reflection"
 // (SIGGRAPH 1992).
 struct Highlight {
-  HighlightLobe lobe;  // tuning::HighlightLobe::kWider times as wide as the highlight
+  // No direction is aimed where the density of a highlight is below exp(-kReach^2) of its peak, 1e-4. In
+  // Ward's model that is where the angle between the normal and the bisector of the directions to point and
+  // source exceeds this multiple of the roughness, apart from the source's extent.
+  static constexpr double kReach = 3;
+  // No rays are aimed at a ball or cylinder whose center or axis is nearer than this, in radii: on its
+  // surface, the formulas divide by 0.
+  static constexpr double kApart = 1.02;
+
+  HighlightLobe lobe;  // tuning::Highlights::kWider times as wide as the highlight
   // The ratio of the solid angle of the image that a smooth surface would show to that of the part.
   double magnified;
   // The variance of the place on the surface along the direction in which it does not bend (square world

@@ -1,7 +1,7 @@
 #pragma once
-// Holes in walls, floors and roofs, such as doorways and windows without panes. A wall is all polygons in one plane; a
-// hole is a part of the rectangle around them that no polygon covers. Each wall is divided into cells of a grid, which
-// a polygon covers if it contains their middles.
+// Holes in walls, floors and roofs, such as doorways and windows without panes. A wall is all polygons in one
+// plane; a hole is a part of the rectangle around them that no polygon covers. Each wall is divided into
+// cells of a grid, which a polygon covers if it contains their middles.
 #include <vector>
 
 #include "scene/scene.h"

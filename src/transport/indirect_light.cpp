@@ -3,48 +3,118 @@
 #include <algorithm>
 #include <cmath>
 
+#include "transport/final_gather.h"
 #include "transport/gather_directions.h"
 #include "transport/radiance_guess.h"
 #include "transport/ray_functions.h"
 #include "transport/ray_limits.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
+namespace {
 
-void IndirectLight::add(Ray& ray, const V3d& normal, const V3d& trueNormal, RayKind kind,
-                        const Coefficient& coefficient) {
+// Whether interpolated light is valid at a side. It was gathered in the whole scene, with nothing cut away by
+// antimatter, and in the medium that fills the scene. Its moments do not tell the light at very tilted
+// normals.
+bool isOrdinary(const RayEnd& end, const DiffuseSide& side, const Medium& medium) {
+  const RaySpace& space = end.space();
+  return !space.mist && !end.context.clips && !end.clipsBeyond && !space.scatterers.count &&
+         space.medium.extinction == medium.extinction &&
+         !(side.normal.dot(side.trueNormal) < tuning::Interpolation::kLeastUpright);
+}
+
+SurfacePlace placeOf(const RayEnd& end, const DiffuseSide& side) {
+  return {side.point, side.trueNormal, end.hit.surface, &end.hit.path, end.hit.length};
+}
+
+// coefficient: must outlive the result.
+DiffuseSide withCoefficient(const DiffuseSide& side, const Coefficient& coefficient) {
+  return {side.point, side.normal, side.trueNormal, side.kind, coefficient};
+}
+
+// The diffuse bounces that the limits allow beyond the end of a ray.
+int bouncesLeft(const RayOptions& o, const PathContext& ray) {
+  int left = o.ambientBounces - ray.ambientLevel;
+  if (o.reflectionLimit != 0) left = std::min(left, std::abs(o.reflectionLimit) - ray.level);
+  if (o.reflectionLimit <= 0) return std::max(left, 0);
+  int allowed = 0;
+  for (double weight = ray.weight / 2; allowed < left && weight >= o.weightLimit; weight /= 2) ++allowed;
+  return allowed;
+}
+
+}  // namespace
+
+void IndirectLight::add(const RayEnd& end, const DiffuseSide& side, Radiance& value) {
   const RayOptions& o = t_.options();
-  if (o.ambientDivisions <= 0 || ray.ambientLevel >= o.ambientBounces || !t_.isAmbient(ray.surface)) {
-    ray.value += coefficient * o.ambientValue;
+  const PathContext& ray = end.context;
+  if (o.ambientDivisions <= 0 || ray.ambientLevel >= o.ambientBounces || !t_.isAmbient(end.hit.surface)) {
+    value += side.coefficient * o.ambientValue;
     return;
   }
   if (ray.depth == 0 && state_.request.leavesOutIndirect) {
     state_.leftOut.indirect = true;
     return;
   }
-  Surroundings at{normal, trueNormal, kind, coefficient};
+  if (state_.links) return link(end, side);
   const FirstBounce first = settings_.mode.firstBounce;
   if (ray.ambientLevel > 0 || first == FirstBounce::fromPatches ||
       (first == FirstBounce::gathered && (ray.kinds & kSpecular))) {
-    if (settings_.caches.coarse && (!asksForPatch(state_, ray, at.coefficient) ||
-                                    interpolated_.addFromPatch(ray, normal, trueNormal, at.coefficient)))
-      return;
+    Coefficient asked = side.coefficient;
+    if (settings_.caches.coarse && !asksForPatch(state_, ray, asked)) return;
+    const DiffuseSide chosen = withCoefficient(side, asked);
+    if (settings_.caches.coarse && addFromPatch(end, chosen, value)) return;
+    return gather(end, chosen, value);
   } else if (first == FirstBounce::interpolated && settings_.caches.field &&
-             interpolated_.add(ray, normal, trueNormal, coefficient)) {
+             addInterpolated(end, side, value)) {
     return;
   }
-  gather(ray, at);
+  gather(end, side, value);
+}
+
+// Adds light of the irradiance cache. False, with nothing added, if it cannot be used here.
+bool IndirectLight::addInterpolated(const RayEnd& end, const DiffuseSide& side, Radiance& value) {
+  // The light at an imagined point (-I) is not interpolated, because no other ray needs it.
+  if (end.hit.surface == kNone || !isOrdinary(end, side, t_.medium())) return false;
+  TracedFieldRays rays(t_, follower_, end.context.depth);
+  GatheredLight light;
+  if (!settings_.caches.field->find(placeOf(end, side), reader_, rays, light)) return false;
+  value += side.coefficient * light.meanOfTilted(side.trueNormal, side.normal);
+  return true;
+}
+
+// The same from the coarse solution.
+bool IndirectLight::addFromPatch(const RayEnd& end, const DiffuseSide& side, Radiance& value) {
+  Patch* const patch = patchAt(end, side);
+  if (!patch) return false;
+  TracedFieldRays rays(t_, follower_, end.context.depth);
+  value += side.coefficient *
+           Radiance(settings_.caches.coarse->light(*patch, bouncesLeft(t_.options(), end.context), rays));
+  return true;
+}
+
+// The patch of the coarse solution that gives the light of a side, drawn at random from those around it; null
+// if there is none.
+Patch* IndirectLight::patchAt(const RayEnd& end, const DiffuseSide& side) {
+  const double u1 = state_.random.uniform(), u2 = state_.random.uniform();
+  if (!isOrdinary(end, side, t_.medium())) return nullptr;
+  TracedFieldRays rays(t_, follower_, end.context.depth);
+  return settings_.caches.coarse->find(placeOf(end, side), u1, u2, rays);
+}
+
+void IndirectLight::endPath() {
+  if (settings_.caches.field) settings_.caches.field->leave(reader_);
 }
 
 // The number of guessed rays for each ray that is followed. It is 0 if -lr ends the descendants of the ray
 // for certain instead of by Russian roulette: the guess would then include light that followed rays lack.
-int IndirectLight::raysToGuess(const Ray& ray) const {
+int IndirectLight::raysToGuess(const PathContext& ray) const {
   if (!state_.request.guess || !goesOn(t_, ray)) return 0;
   return state_.request.guess->raysToGuess(ray.ambientLevel);
 }
 
 // The number of directions of a gather. Paths that are to be unbiased have as many as RADIANCE gives them at
 // every bounce: a square, in proportion to their weight. The rays of interpolated gathers are not divided.
-int IndirectLight::raysOf(const Ray& ray, const Coefficient& coefficient) const {
+int IndirectLight::raysOf(const PathContext& ray, const Coefficient& coefficient) const {
   if (state_.glimpses) return 1;
   const RayOptions& o = t_.options();
   const double asked = o.ambientDivisions + o.ambientSuperSamples,
@@ -60,22 +130,43 @@ int IndirectLight::raysOf(const Ray& ray, const Coefficient& coefficient) const 
 
 // Every ray that is followed may be corrected by a control variate: the guess of its radiance is subtracted,
 // and the mean of many guesses added.
-void IndirectLight::gather(Ray& ray, const Surroundings& at) {
-  const int rays = raysOf(ray, at.coefficient), guesses = raysToGuess(ray);
-  const GatherDirections directions(settings_.aims, ray.point, at.normal, at.trueNormal, rays);
+void IndirectLight::gather(const RayEnd& end, const DiffuseSide& side, Radiance& value) {
+  const LocalGuess* const guess = state_.request.guess;
+  const int rays = raysOf(end.context, side.coefficient), guesses = raysToGuess(end.context);
+  const GatherDirections directions(settings_.aims, side.point, side.normal, side.trueNormal, rays);
   if (guesses > 0)
     directions.draw(rays * guesses, state_.random, [&](const V3d& direction, double part) {
-      ray.value += at.coefficient * part * state_.request.guess->indirect(ray.point, direction, ray.surface);
+      value += side.coefficient * part * guess->indirect(side.point, direction, end.hit.surface);
     });
-  const Coefficient weight = settings_.caches.field ? Coefficient(kMeanReflectance) : at.coefficient / rays;
-  sendOverHemisphere(t_, directions, settings_, state_, ray, at.kind, rays, at.coefficient, weight,
-                     [&](Ray& child, const Coefficient& factor) {
-                       follower_.follow(child);
-                       if (state_.links)
-                         state_.links->addLight(child.ambientLevel - 1, child.value * child.contribution);
-                       else
-                         ray.value += child.value * factor;
-                       if (guesses > 0) ray.value -= state_.request.guess->indirect(child) * factor;
+  const Coefficient weight = settings_.caches.field ? Coefficient(kMeanReflectance) : side.coefficient / rays;
+  sendOverHemisphere(t_, directions, state_, end, side.point, side.kind, rays, side.coefficient, weight,
+                     [&](const NextRay& next) {
+                       if (next.context.ambientLevel == 1) countDescendants(settings_, state_, next.context);
+                       RayEnd seen(next.query, next.context);
+                       value += follower_.follow(seen).value * next.coefficient;
+                       if (guesses > 0) value -= guess->indirect(seen) * next.coefficient;
+                     });
+}
+
+// What a ray of a patch finds at a diffuse surface: a link to the patch there. Where there is none, the path
+// goes on in one direction, unless the last bounce is reached.
+void IndirectLight::link(const RayEnd& end, const DiffuseSide& at) {
+  Coefficient asked = at.coefficient;
+  if (!asksForPatch(state_, end.context, asked)) return;
+  const DiffuseSide side = withCoefficient(at, asked);
+  PatchLinks& links = *state_.links;
+  const int level = end.context.ambientLevel;
+  const bool isLast = level >= bouncesBeyondPatches(t_.options());
+  Patch* const patch = isLast ? nullptr : patchAt(end, side);
+  const Coefficient whole = side.coefficient * end.context.contribution * passedBy(end);
+  if (patch) return links.add(patch, whole, level - 1);
+  links.addEnd(level - 1, whole);
+  if (isLast) return;
+  const GatherDirections directions(settings_.aims, side.point, side.normal, side.trueNormal, 1);
+  sendOverHemisphere(t_, directions, state_, end, side.point, side.kind, 1, side.coefficient,
+                     Coefficient(kMeanReflectance), [&](const NextRay& next) {
+                       const Radiance found = follower_.follow(next.query, next.context).value;
+                       links.addLight(level, found * next.context.contribution);
                      });
 }
 

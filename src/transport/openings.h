@@ -1,8 +1,9 @@
 #pragma once
-// Portals of daylight: panes with a bright side and a dark one, and holes in walls. A small window brings most of
-// the light of a room, but few directions of a hemisphere hit it. A share of the rays of each gather is therefore
-// aimed at openings and combined with the others by multiple importance sampling (balance heuristic: Veach and
-// Guibas 1995). Openings that are missed or found in vain change the variance, not the mean.
+// Portals of daylight: panes with a bright side and a dark one, and holes in walls. A small window brings
+// most of the light of a room, but few directions of a hemisphere hit it. A share of the rays of each gather
+// is therefore aimed at openings and combined with the others by multiple importance sampling (balance
+// heuristic: Veach and Guibas 1995). Openings that are missed or found in vain change the variance, not the
+// mean.
 //
 // Source: Bitterli, Novák, Jarosz, "Portal-masked environment map sampling" (Computer Graphics Forum 34,
 // 2015). Differences: portals are found automatically, and sampled by area.
@@ -46,8 +47,8 @@ class Openings {
     double mean = 0;   // radiance over the hemisphere from the openings, W/sr/m2, without occlusion
     double seen = 0;   // form factor to all of them
     size_t count = 0;  // of openings that light arrives from; below, their numbers and cumulative weights
-    std::array<uint32_t, tuning::Openings::kMostRoom> opening;
-    std::array<double, tuning::Openings::kMostRoom> upTo;
+    std::array<uint32_t, tuning::Caps::kAimedRoom> opening;
+    std::array<double, tuning::Caps::kAimedRoom> upTo;
   };
 
   // normal: unit, on the side that the light arrives at.

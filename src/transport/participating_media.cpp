@@ -25,47 +25,47 @@ double phase(double g, double cosine) {
 
 }  // namespace
 
-void ParticipatingMedia::passThrough(Ray& ray) {
-  const Medium& medium = ray.medium;
-  const Coefficient passed = passedBy(ray);
-  ray.value *= passed;
-  if ((ray.kinds & kShadow) || !(maxChannel(medium.albedo) > kNegligible)) return;
-  ray.value += Coefficient(medium.albedo) * t_.options().ambientValue * (Coefficient(1) - passed);
-  addScattered(ray);
+void ParticipatingMedia::passThrough(const RayEnd& end, Radiance& value) {
+  const Medium& medium = end.medium();
+  const Coefficient passed = passedBy(end);
+  value *= passed;
+  if ((end.context.kinds & kShadow) || !(maxChannel(medium.albedo) > kNegligible)) return;
+  value += Coefficient(medium.albedo) * t_.options().ambientValue * (Coefficient(1) - passed);
+  addScattered(end, value);
 }
 
 // Adds single scattering of the light from sources. It is sampled at one random point in each step (-ms)
 // along the ray.
-void ParticipatingMedia::addScattered(Ray& ray) {
-  if (ray.scatterers.count == 0 || ray.length >= .99 * kFarAway || ray.medium.eccentricity >= 1 - kNegligible)
+void ParticipatingMedia::addScattered(const RayEnd& end, Radiance& value) {
+  const Medium& medium = end.medium();
+  const double length = end.hit.length;
+  if (end.space().scatterers.count == 0 || length >= .99 * kFarAway || medium.eccentricity >= 1 - kNegligible)
     return;
   const double stepLength = t_.options().mediumSampling;
   const int steps = stepLength > kNegligible
-                        ? static_cast<int>(std::clamp(ray.length / stepLength + .5, 1., double{kMostSteps}))
+                        ? static_cast<int>(std::clamp(length / stepLength + .5, 1., double{kMostSteps}))
                         : 1;
   // A ray that ends at the point of scattering.
-  Ray at;
-  at.direction = ray.direction;
-  at.medium = ray.medium;
-  at.scatterers = ray.scatterers;
-  at.mist = ray.mist;
-  at.kinds = 0;
-  at.depth = ray.depth;
-  at.pathLength = ray.pathLength;
-  at.contribution = ray.contribution;
-  at.cosine = 0;  // there is no surface, hence neither front nor back
-  const Coefficient scattered(ray.medium.extinction * ray.medium.albedo * (ray.length / steps / (4 * kPi)));
-  for (const uint16_t scatterer : ray.scatterers)
+  const RayQuery query{.origin = V3d(0, 0, 0), .direction = end.ray.direction};
+  const PathContext context{.kinds = 0,
+                            .depth = end.context.depth,
+                            .pathLength = end.context.pathLength,
+                            .space = end.space(),
+                            .contribution = end.context.contribution};
+  RayEnd at(query, context);
+  at.hit.cosine = 0;  // there is no surface, hence neither front nor back
+  const Coefficient scattered(medium.extinction * medium.albedo * (length / steps / (4 * kPi)));
+  for (const uint16_t scatterer : end.space().scatterers)
     for (int i = 0; i < steps; ++i) {
-      at.length = ray.length * (i + state_.random.uniform()) / steps;
-      const Coefficient passed = passing(ray.medium.extinction, at.length);
+      at.hit.length = length * (i + state_.random.uniform()) / steps;
+      const Coefficient passed = passing(medium.extinction, at.hit.length);
       if (maxChannel(passed) <= kNegligible * kNegligible) break;
-      at.point = ray.origin + at.length * ray.direction;
+      at.hit.point = end.ray.origin + at.hit.length * end.ray.direction;
       const auto coefficientOf = [&](const V3d& toSource, double solidAngle) {
         return scattered * passed *
-               (solidAngle * phase(ray.medium.eccentricity, ray.direction.dot(toSource)));
+               (solidAngle * phase(medium.eccentricity, end.ray.direction.dot(toSource)));
       };
-      direct_.addFromSource(at, t_.scatterers()[scatterer], coefficientOf, ray.value);
+      direct_.addFromSource(at, t_.scatterers()[scatterer], coefficientOf, value);
     }
 }
 

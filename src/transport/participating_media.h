@@ -13,15 +13,16 @@ class ParticipatingMedia {
   ParticipatingMedia(const PreparedScene& prepared, PathState& state, DirectLight& direct)
       : t_(prepared), state_(state), direct_(direct) {}
 
-  // Attenuates the ray's radiance by the medium between its origin and its hit, and adds the light that the
-  // medium scatters into the ray: that of the uniform ambient value (-av) and of the sources that mist names.
-  void participate(Ray& ray) {
-    if (isMedium(ray.medium.extinction)) passThrough(ray);
+  // Attenuates the radiance at the end of a ray by the medium on the way to its origin, and adds the light
+  // that the medium scatters into the ray: that of the uniform ambient value (-av) and of the sources that
+  // mist names.
+  void participate(const RayEnd& end, Radiance& value) {
+    if (isMedium(end.medium().extinction)) passThrough(end, value);
   }
 
  private:
-  void passThrough(Ray& ray);
-  void addScattered(Ray& ray);
+  void passThrough(const RayEnd& end, Radiance& value);
+  void addScattered(const RayEnd& end, Radiance& value);
 
   const PreparedScene& t_;
   PathState& state_;

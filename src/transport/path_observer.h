@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "trace/tracer.h"
-#include "transport/ray.h"
+#include "transport/ray_functions.h"
 
 namespace rsphere {
 
@@ -18,21 +18,22 @@ struct ShownSource {
 };
 
 // Gets every finished ray of a path (rtrace's -ot, -oT). The attenuation by the medium in front of its hit is
-// not yet in its value.
-using RayObserver = std::function<void(const Ray& ray)>;
+// not yet in its result.
+using RayObserver = std::function<void(const RayEnd& end, const RayResult& result)>;
 
 // What traces a path differently from others. Only what is left out changes the expected radiance.
 struct PathRequest {
-  // A guess of the radiance of indirect rays, used as a control variate: for each indirect ray that is followed,
-  // several are only guessed (radiance_guess.h). The value of one ray may be negative. Null: nothing is guessed.
+  // A guess of the radiance of indirect rays, used as a control variate: for each indirect ray that is
+  // followed, several are only guessed (radiance_guess.h). The value of one ray may be negative. Null:
+  // nothing is guessed.
   const LocalGuess* guess = nullptr;
-  // Is shown every ray: descendants before their ancestors, and the primary ray last (except under -I, where it hits
-  // nothing). Shadow rays are shown if they hit a surface that may transmit light, or any surface if allShadowRays.
-  // Null: no observer. Changes no answer.
+  // Is shown every ray: descendants before their ancestors, and the primary ray last (except under -I, where
+  // it hits nothing). Shadow rays are shown if they hit a surface that may transmit light, or any surface if
+  // allShadowRays. Null: no observer. Changes no answer.
   const RayObserver* observer = nullptr;
   bool allShadowRays = false;
-  // The surface that the primary ray hits is shown without its indirect light, and without the samples of its rough
-  // reflections and transmissions.
+  // The surface that the primary ray hits is shown without its indirect light, and without the samples of its
+  // rough reflections and transmissions.
   bool leavesOutIndirect = false, leavesOutLobes = false;
 };
 
@@ -41,12 +42,21 @@ struct LeftOut {
   bool indirect = false, lobes = false;
 };
 
-// A primary ray that was traced.
-struct TracedRay : Ray {
+// A ray that was traced: the question, what it hit, and the answer.
+struct TracedRay : RayQuery, SurfaceHit, RayResult {
+  TracedRay() = default;
+  TracedRay(const RayEnd& end, const RayResult& result)
+      : RayQuery(end.ray),
+        SurfaceHit(end.hit),
+        RayResult(result),
+        contribution(end.context.contribution * passedBy(end)) {}
+
+  Coefficient contribution{1};  // share of its result in that of the primary ray
+  // Of a primary ray:
   Hit firstHit;  // as Tracer::nearest found it
-  // The light source that the ray showed: one that it hit, directly or straight through panes that also transmit
-  // shadow rays, after at most one reflection by a flat surface; a distant one also through slabs of parallel faces.
-  // If there are several, the one that was not mirrored, otherwise the first.
+  // The light source that the ray showed: one that it hit, directly or straight through panes that also
+  // transmit shadow rays, after at most one reflection by a flat surface; a distant one also through slabs of
+  // parallel faces. If there are several, the one that was not mirrored, otherwise the first.
   ShownSource shown;
   LeftOut leftOut;  // what the request left out and the surface has
 };

@@ -2,7 +2,7 @@
 // The state of a path while it is traced.
 #include <cstdint>
 
-#include "field/coarse_solution.h"
+#include "field/patch_links.h"
 #include "scene/random.h"
 #include "trace/tracer.h"
 #include "transport/aims.h"
@@ -11,10 +11,10 @@
 
 namespace rsphere {
 
-// Where the indirect light of the first diffuse surface of a path comes from, with -aa above 0. That of later ones
-// comes from the coarse solution. If thousands of directions are averaged, the errors of single patches matter less
-// than what a gather at each surface costs. In a picture, patches would be visible, and cache records would outnumber
-// its pixels where furniture is dense.
+// Where the indirect light of the first diffuse surface of a path comes from, with -aa above 0. That of later
+// ones comes from the coarse solution. If thousands of directions are averaged, the errors of single patches
+// matter less than what a gather at each surface costs. In a picture, patches would be visible, and cache
+// records would outnumber its pixels where furniture is dense.
 enum class FirstBounce : uint8_t {
   interpolated,  // from cache records
   fromPatches,   // from the coarse solution
@@ -27,8 +27,9 @@ struct TracingMode {
   // The light of sources in rough highlights is divided between shadow rays and samples of the lobes
   // (shared_highlights.h). The mean stays the same.
   bool sharesHighlights = false;
-  // The descendants of a primary ray have a bound, so that a record takes a bounded time wherever it lies: within a
-  // closed metal cylinder paths would branch at each surface, into thousands of rays. The mean stays the same.
+  // The descendants of a primary ray have a bound, so that a record takes a bounded time wherever it lies:
+  // within a closed metal cylinder paths would branch at each surface, into thousands of rays. The mean stays
+  // the same.
   bool boundsWork = false;
 };
 
@@ -54,12 +55,12 @@ struct PathState {
   Random random{0};
   V3d primaryDirection{0, 0, 1};  // unit
   PathRequest request;
-  ShownSource shown;                       // by the primary ray
-  Hit firstHit;                            // of the primary ray
-  LeftOut leftOut;                         // of the primary ray
-  bool glimpses = false;                   // one direction for each gather
-  Descendants descendants;                 // limited by continueRay()
-  CoarseSolution::Links* links = nullptr;  // of a path from a patch: collects the light that it finds
+  ShownSource shown;            // by the primary ray
+  Hit firstHit;                 // of the primary ray
+  LeftOut leftOut;              // of the primary ray
+  bool glimpses = false;        // one direction for each gather
+  Descendants descendants;      // limited by continueRay()
+  PatchLinks* links = nullptr;  // of a path from a patch: gets the links and the light that it finds
 };
 
 }  // namespace rsphere

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "transport/final_gather.h"
 #include "transport/participating_media.h"
 #include "transport/ray_functions.h"
 #include "transport/ray_hit.h"
@@ -38,7 +37,7 @@ uintptr_t stackEnd() {
   return end;
 }
 
-void checkDepth(const Ray& ray) {
+void checkDepth(const PathContext& ray) {
   if (ray.depth > kDeepest)
     throw rad::Error(fmt::format("a ray goes through more than {} surfaces one after the other", kDeepest));
   if (reinterpret_cast<uintptr_t>(__builtin_frame_address(0)) < stackEnd() + kStackReserve)
@@ -52,35 +51,17 @@ void checkDepth(const Ray& ray) {
 }  // namespace
 
 // The recursion and its parts.
-class PathTracer::Path final : public RayFollower, public SiteGatherer {
+class PathTracer::Path final : public RayFollower {
  public:
   Path(const PreparedScene& prepared, const PathSettings& settings)
       : t_(prepared),
         settings_(settings),
         direct_(prepared, settings_, state_, *this),
         specular_(prepared, settings_, state_, *this),
-        interpolated_(prepared, settings_, state_, *this),
-        indirect_(prepared, settings_, state_, *this, interpolated_),
+        indirect_(prepared, settings_, state_, *this),
         media_(prepared, state_, direct_),
         shading_(prepared, settings_, state_, *this, direct_, specular_, indirect_) {}
 
-  TracedRay trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed,
-                  const PathRequest& request);
-  TracedRay traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed,
-                          const PathRequest& request);
-  Radiance glimpse(const V3d& origin, const V3d& direction, uint64_t seed);
-  Ray cast(const V3d& origin, const V3d& direction, double farthest);
-
-  void follow(Ray& ray) override;
-  void pass(Ray& ray) override;
-  void passOn(Ray& child, Ray& ray) override;
-  bool shade(Ray& ray, ModifierId modifier) override { return shading_.shade(ray, modifier); }
-
-  GatheredLight gather(const GatherSite& site, double nearest, uint64_t seed, int depth) override;
-  void link(const GatherSite& site, int rays, uint64_t seed, int depth,
-            CoarseSolution::Links& links) override;
-
- private:
   void begin(uint64_t seed, const V3d& direction, const PathRequest& request = {}) {
     state_ = {};
     state_.request = request;
@@ -89,180 +70,102 @@ class PathTracer::Path final : public RayFollower, public SiteGatherer {
     state_.descendants = descendantsOfPrimary(
         settings_.mode, t_.options().ambientDivisions + t_.options().ambientSuperSamples);
   }
-  void end(TracedRay& ray) const {
-    ray.firstHit = state_.firstHit;
-    ray.shown = state_.shown;
-    ray.leftOut = state_.leftOut;
+  // What has been found along the primary ray.
+  TracedRay traced(const RayEnd& end, const RayResult& result) const;
+  // Of a primary ray.
+  PathContext context() const {
+    PathContext primary;
+    primary.space.medium = t_.medium();
+    return primary;
   }
-  Path& gatherer();
-  void find(Ray& ray);
-  void finish(Ray& ray);
+
+  using RayFollower::follow;
+  RayResult follow(RayEnd& end) override;
+  RayResult passOn(NextRay& next, const RayEnd& before) override;
+  bool shade(RayEnd& end, ModifierId modifier, RayResult& result) override {
+    return shading_.shadeChain(end, modifier, result);
+  }
+  InnerPath beginGather(uint64_t seed, const V3d& normal) override;
+
+ private:
+  friend class PathTracer;
+
+  void find(RayEnd& end) {
+    const Hit nearest = findHit(t_, end);
+    if (end.context.depth == 0) state_.firstHit = nearest;
+  }
+  RayResult arrive(RayEnd& end);
 
   const PreparedScene& t_;
   const PathSettings settings_;
   PathState state_;
   DirectLight direct_;
   SpecularLight specular_;
-  InterpolatedLight interpolated_;
   IndirectLight indirect_;
   ParticipatingMedia media_;
   SurfaceShading shading_;
   std::unique_ptr<Path> gatherer_;  // a gather is a path of its own, within this one
 };
 
-TracedRay PathTracer::Path::trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed,
-                                  const PathRequest& request) {
-  begin(seed, direction, request);
-  TracedRay ray;
-  ray.medium = t_.medium();
-  ray.origin = origin;
-  ray.direction = direction;
-  if (t_.irradiance() == IrradianceAt::point) {
-    ray.length = ray.unmirroredLength = kMeterLength;
-    ray.point = origin + kMeterLength * direction;
-    ray.normal = -direction;
-    shading_.meter(ray);
-  } else {
-    ray.farthest = farthest;
-    follow(ray);
-  }
-  interpolated_.endPath();
-  end(ray);
-  return ray;
+// ---- the recursion
+
+RayResult PathTracer::Path::follow(RayEnd& end) {
+  checkDepth(end.context);
+  find(end);
+  return arrive(end);
 }
 
-TracedRay PathTracer::Path::traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed,
-                                          const PathRequest& request) {
-  begin(seed, sample.direction, request);
-  const LightSource& light = t_.lights().all()[sample.source];
-  TracedRay ray;
-  switch (t_.tracer().shadow(point, sample.direction, sample.distance,
-                             light.isDistant() ? kNone : light.surface)) {
-    case Shadow::unsure:
-    case Shadow::refracted:
-      return trace(point, sample.direction, 0, seed, request);
-    case Shadow::blocked:
-      break;
-    case Shadow::clear: {
-      ray.origin = point;
-      ray.direction = sample.direction;
-      ray.surface = light.surface;
-      ray.length = ray.unmirroredLength = sample.distance;
-      if (!light.isDistant()) ray.point = point + sample.distance * sample.direction;
-      ray.normal = sample.normal;
-      ray.cosine = sample.cosine;
-      ray.medium = t_.medium();
-      shading_.shadeSurface(ray);
-      media_.participate(ray);
-      end(ray);
-      break;
-    }
-  }
-  return ray;
-}
-
-Radiance PathTracer::Path::glimpse(const V3d& origin, const V3d& direction, uint64_t seed) {
-  begin(seed, direction);
-  state_.glimpses = true;
-  Ray ray;
-  ray.medium = t_.medium();
-  ray.origin = origin;
-  ray.direction = direction;
-  ray.kind = kReflectedAmbient;
-  ray.kinds = kPrimary | kReflectedAmbient;
-  ray.ambientLevel = t_.options().ambientBounces - 1;
-  state_.descendants = descendantsOfGlimpse(ray.ambientLevel);
-  follow(ray);
-  return ray.value;
-}
-
-Ray PathTracer::Path::cast(const V3d& origin, const V3d& direction, double farthest) {
-  Ray ray;
-  ray.origin = origin;
-  ray.direction = direction;
-  ray.farthest = farthest;
-  find(ray);
-  return ray;
-}
-
-void PathTracer::Path::follow(Ray& ray) {
-  checkDepth(ray);
-  find(ray);
-  if (ray.surface != kNone) shading_.shadeHit(ray);
-  finish(ray);
-}
-
-void PathTracer::Path::pass(Ray& ray) {
-  Ray child;
-  inherit(child, ray, kTransmitted);
-  passOn(child, ray);
-}
-
-void PathTracer::Path::passOn(Ray& child, Ray& ray) {
-  child.direction = ray.direction;
-  child.aimedAt = ray.aimedAt;
-  child.mirror = ray.mirror;
-  child.weight = ray.weight;
-  double length = ray.length;
-  const auto shorten = [&](double by) {
-    if (ray.farthest > kSamePlace) child.farthest = std::max(ray.farthest - by, 2 * kSamePlace);
+RayResult PathTracer::Path::passOn(NextRay& next, const RayEnd& before) {
+  double length = before.hit.length;
+  const auto shorten = [&] {
+    if (before.ray.farthest > kSamePlace)
+      next.query.farthest = std::max(before.ray.farthest - length, 2 * kSamePlace);
   };
-  shorten(length);
-  checkDepth(child);
-  find(child);
+  shorten();
+  checkDepth(next.context);
+  RayEnd end(next.query, next.context);
+  find(end);
   // Any number of surfaces without a modifier is passed in this loop instead of by recursion, unless an
   // observer is to be shown each of them.
-  while (!state_.request.observer && child.surface != kNone &&
-         t_.scene().surfaces[child.surface].modifier == kNone && child.length < kFarAway &&
-         !isMedium(child.medium.extinction)) {
-    length += child.length;
-    child.pathLength += child.length;
-    if (child.kinds & kShadow) child.shadowLength += child.length;
-    child.origin = child.point;
-    shorten(length);
-    child.length = kFarAway;
-    find(child);
+  while (!state_.request.observer && end.hit.surface != kNone &&
+         t_.scene().surfaces[end.hit.surface].modifier == kNone && end.hit.length < kFarAway &&
+         !isMedium(next.context.space.medium.extinction)) {
+    length += end.hit.length;
+    next.context.pathLength += end.hit.length;
+    if (next.context.kinds & kShadow) next.context.shadowLength += end.hit.length;
+    next.query.origin = end.hit.point;
+    shorten();
+    end.hit = {};
+    find(end);
   }
-  if (child.surface != kNone) shading_.shadeHit(child);
-  finish(child);
-  ray.value = child.value;
-  ray.mirrored = child.mirrored;
-  ray.mirroredLength = length + child.mirroredLength;
-  ray.unmirroredLength = length + child.unmirroredLength;
+  RayResult result = arrive(end);
+  result.mirroredLength = length + result.mirroredLength;
+  result.unmirroredLength = length + result.unmirroredLength;
+  return result;
 }
 
-void PathTracer::Path::finish(Ray& ray) {
+// What returns along a ray whose hit has been found.
+[[gnu::always_inline]] inline RayResult PathTracer::Path::arrive(RayEnd& end) {
+  RayResult result;
+  if (const SurfaceId surface = end.hit.surface; surface != kNone) {
+    result.unmirroredLength = end.hit.length;
+    if (!shading_.shade(end, result) && !t_.scene().surfaces[surface].shape.as<Distant>()) result = pass(end);
+  }
   // Rays that only determine the light of an unobstructed source are not shown. Shadow rays that hit nothing
   // are not shown either: they miss their source by rounding errors.
-  if (state_.request.observer && !ray.unobstructed && (ray.aimedAt == kNone || ray.surface != kNone))
-    (*state_.request.observer)(ray);
-  media_.participate(ray);
+  if (state_.request.observer && !end.ray.unobstructed &&
+      (end.ray.aimedAt == kNone || end.hit.surface != kNone))
+    (*state_.request.observer)(end, result);
+  media_.participate(end, result.value);
+  return result;
 }
 
-void PathTracer::Path::find(Ray& ray) {
-  const Hit hit = findHit(t_, ray);
-  if (ray.depth == 0) state_.firstHit = hit;
-}
-
-// The path for gathers within this path. Nested gathers each use another one.
-PathTracer::Path& PathTracer::Path::gatherer() {
+// Nested gathers each use another path.
+InnerPath PathTracer::Path::beginGather(uint64_t seed, const V3d& normal) {
   if (!gatherer_)
     gatherer_ = std::make_unique<Path>(t_, PathSettings{settings_.caches, settings_.caches.aims, {}});
-  return *gatherer_;
-}
-
-GatheredLight PathTracer::Path::gather(const GatherSite& site, double nearest, uint64_t seed, int depth) {
-  Path& path = gatherer();
-  path.begin(seed ^ rotationBits(t_.options()), site.normal);
-  return gatherLight(t_, path.state_, path.settings_, path, site, nearest, depth);
-}
-
-void PathTracer::Path::link(const GatherSite& site, int rays, uint64_t seed, int depth,
-                            CoarseSolution::Links& links) {
-  Path& path = gatherer();
-  path.begin(seed ^ rotationBits(t_.options()), site.normal);
-  path.state_.links = &links;
-  linkPatch(t_, path.state_, path.settings_, path, site, rays, depth);
+  gatherer_->begin(seed ^ rotationBits(t_.options()), normal);
+  return {gatherer_->state_, gatherer_->settings_, *gatherer_};
 }
 
 PathTracer::PathTracer(const PreparedScene& prepared, const Caches& caches, const Aims& aims,
@@ -271,19 +174,77 @@ PathTracer::PathTracer(const PreparedScene& prepared, const Caches& caches, cons
 PathTracer::~PathTracer() = default;
 PathTracer::PathTracer(PathTracer&&) noexcept = default;
 
+// ---- primary rays
+
+TracedRay PathTracer::Path::traced(const RayEnd& end, const RayResult& result) const {
+  TracedRay ray(end, result);
+  ray.firstHit = state_.firstHit;
+  ray.shown = state_.shown;
+  ray.leftOut = state_.leftOut;
+  return ray;
+}
+
 TracedRay PathTracer::trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed,
                             const PathRequest& request) {
-  return path_->trace(origin, direction, farthest, seed, request);
+  path_->begin(seed, direction, request);
+  const bool meters = path_->t_.irradiance() == IrradianceAt::point;
+  const RayQuery ray{.origin = origin, .direction = direction, .farthest = meters ? 0 : farthest};
+  const PathContext context = path_->context();
+  RayEnd end(ray, context);
+  RayResult result;
+  if (meters) {
+    end.hit.length = result.unmirroredLength = kMeterLength;
+    end.hit.point = origin + kMeterLength * direction;
+    end.hit.normal = -direction;
+    path_->shading_.meter(end, result);
+  } else {
+    result = path_->follow(end);
+  }
+  path_->indirect_.endPath();
+  return path_->traced(end, result);
 }
+
 TracedRay PathTracer::traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed,
                                     const PathRequest& request) {
-  return path_->traceToSource(point, sample, seed, request);
+  const PreparedScene& prepared = path_->t_;
+  const LightSource& light = prepared.lights().all()[sample.source];
+  const Shadow shadow = prepared.tracer().shadow(point, sample.direction, sample.distance,
+                                                 light.isDistant() ? kNone : light.surface);
+  if (shadow == Shadow::blocked) return {};
+  if (shadow != Shadow::clear) return trace(point, sample.direction, 0, seed, request);
+  path_->begin(seed, sample.direction, request);
+  const RayQuery ray{.origin = point, .direction = sample.direction};
+  const PathContext context = path_->context();
+  RayEnd end(ray, context);
+  end.hit.surface = light.surface;
+  end.hit.length = sample.distance;
+  if (!light.isDistant()) end.hit.point = point + sample.distance * sample.direction;
+  end.hit.normal = sample.normal;
+  end.hit.cosine = sample.cosine;
+  RayResult result;
+  result.unmirroredLength = sample.distance;
+  path_->shading_.shade(end, result);
+  path_->media_.participate(end, result.value);
+  return path_->traced(end, result);
 }
+
 Radiance PathTracer::glimpse(const V3d& origin, const V3d& direction, uint64_t seed) {
-  return path_->glimpse(origin, direction, seed);
+  path_->begin(seed, direction);
+  path_->state_.glimpses = true;
+  PathContext context = path_->context();
+  context.kind = kReflectedAmbient;
+  context.kinds = kPrimary | kReflectedAmbient;
+  context.ambientLevel = path_->t_.options().ambientBounces - 1;
+  path_->state_.descendants = descendantsOfGlimpse(context.ambientLevel);
+  return path_->follow({.origin = origin, .direction = direction}, context).value;
 }
-Ray PathTracer::cast(const V3d& origin, const V3d& direction, double farthest) {
-  return path_->cast(origin, direction, farthest);
+
+TracedRay PathTracer::cast(const V3d& origin, const V3d& direction, double farthest) {
+  const RayQuery ray{.origin = origin, .direction = direction, .farthest = farthest};
+  const PathContext context;
+  RayEnd end(ray, context);
+  path_->find(end);
+  return TracedRay(end, {});
 }
 
 }  // namespace rsphere

@@ -11,12 +11,12 @@
 
 namespace rsphere {
 
-// Traces one ray at a time; each thread needs its own tracer. The answer depends only on the ray, the seed, the
-// prepared scene, the aims and the mode.
+// Traces one ray at a time; each thread needs its own tracer. The answer depends only on the ray, the seed,
+// the prepared scene, the aims and the mode.
 class PathTracer {
  public:
-  // Keeps references to the scene and the caches; caches without fields: nothing is interpolated. aims: of the gathers
-  // that are not for the caches.
+  // Keeps references to the scene and the caches; caches without fields: nothing is interpolated. aims: of
+  // the gathers that are not for the caches.
   PathTracer(const PreparedScene& prepared, const Caches& caches, const Aims& aims,
              const TracingMode& mode = {});
   ~PathTracer();
@@ -33,7 +33,8 @@ class PathTracer {
                   const PathRequest& request = {});
 
   // The radiance along a primary ray to a light source, equal to that of trace(). It costs one shadow ray if
-  // no surface that may transmit light lies in between. TracedRay::shown says whether the ray showed the source.
+  // no surface that may transmit light lies in between. TracedRay::shown says whether the ray showed the
+  // source.
   TracedRay traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed,
                           const PathRequest& request = {});
 
@@ -41,7 +42,7 @@ class PathTracer {
   Radiance glimpse(const V3d& origin, const V3d& direction, uint64_t seed);
 
   // Finds the surface that a ray hits; its value stays 0.
-  Ray cast(const V3d& origin, const V3d& direction, double farthest);
+  TracedRay cast(const V3d& origin, const V3d& direction, double farthest);
 
  private:
   class Path;

@@ -25,16 +25,16 @@ inline uint64_t rotationBits(const RayOptions& options) {
   return options.rotation == 0 ? 0 : mixBits(options.rotation);
 }
 
-// The scene prepared for tracing: its tree, functions, light sources and options. Shared by all threads; constant
-// once constructed. Keeps a reference to the scene.
+// The scene prepared for tracing: its tree, functions, light sources and options. Shared by all threads;
+// constant once constructed. Keeps a reference to the scene.
 class PreparedScene {
  public:
   // basicRadiance: refraction does not scale radiance by the square of the refractive index (-Sb). warn: gets
   // the warnings of SurfaceFunctions and LightSources.
   PreparedScene(const Scene& scene, const RayOptions& options, IrradianceAt irradiance,
                 bool basicRadiance = false, const rad::Warn& warn = {});
-  // The scene of another, with other options and without warnings. They share the tracer, which takes most of the
-  // memory and time in a large scene. REQUIRES: -bv is the same.
+  // The scene of another, with other options and without warnings. They share the tracer, which takes most of
+  // the memory and time in a large scene. REQUIRES: -bv is the same.
   PreparedScene(const PreparedScene& other, const RayOptions& options);
   PreparedScene(const PreparedScene&) = delete;
   PreparedScene& operator=(const PreparedScene&) = delete;

@@ -276,8 +276,9 @@ Radiance LocalGuess::indirect(const V3d& point, const V3d& direction, SurfaceId 
   return from(guess_->placeAlong(point, direction, start), false);
 }
 
-Radiance LocalGuess::indirect(const Ray& traced) const {
-  return from(guess_->placeOf(traced.surface, traced.point, traced.normal, traced.direction), false);
+Radiance LocalGuess::indirect(const RayEnd& traced) const {
+  const SurfaceHit& hit = traced.hit;
+  return from(guess_->placeOf(hit.surface, hit.point, hit.normal, traced.ray.direction), false);
 }
 
 int LocalGuess::raysToGuess(int bounces) const {

@@ -43,7 +43,7 @@ class LocalGuess {
   // indirect rays and each has a small weight. start: the surface that the ray leaves, as an index in
   // Scene::surfaces, or kNone.
   Radiance indirect(const V3d& point, const V3d& direction, SurfaceId start) const;
-  Radiance indirect(const Ray& traced) const;
+  Radiance indirect(const RayEnd& traced) const;
 
   // The number of guessed rays per followed indirect ray, after `bounces` indirect bounces, that minimizes
   // the variance for a given time. It follows from the share of the noise of indirect rays in the variance; 0

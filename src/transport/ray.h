@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "base/radiometry.h"
 #include "scene/scene.h"
@@ -11,8 +12,8 @@
 
 namespace rsphere {
 
-// Light sources whose light is scattered into a ray, as positions in PreparedScene::scatterers(). Unused elements
-// are neither set nor copied.
+// Light sources whose light is scattered into a ray, as positions in PreparedScene::scatterers(). Unused
+// elements are neither set nor copied.
 struct ScatteringSources {
   static constexpr size_t kMost = 32;  // the limit in RADIANCE
   uint8_t count = 0;
@@ -45,45 +46,96 @@ struct ScatteringSources {
   const uint16_t* end() const { return source.data() + count; }
 };
 
-// A ray, its hit, and the radiance that returns along it. It ends at `farthest` even if it hits nothing.
-struct Ray {
-  V3d origin{0, 0, 0}, direction{0, 0, 1};  // world; direction unit
-  double farthest = 0;                      // largest length (-ld, world units); 0: no limit
-  RayKind kind = kPrimary;
-  unsigned kinds = kPrimary;    // its own kind and those of its ancestors
-  double weight = 1;            // largest share that its radiance can have in the answer
-  int level = 0;                // number of reflections that led to it
-  int depth = 0;                // number of its ancestors
-  int ambientLevel = 0;         // number of indirect bounces that led to it
-  double pathLength = 0;        // total length of its ancestors
-  double shadowLength = 0;      // total length of those ancestors that are shadow rays
-  LightId aimedAt;              // light source that a shadow ray is aimed at
-  SurfaceId mirror;             // the flat surface that mirrored the primary ray into this one, if nothing
-                                // else deflected it
-  bool unobstructed = false;    // of a shadow ray: it hits its target, whatever else is in its way
-  const Ray* parent = nullptr;  // null: a primary ray, or one that does not depend on earlier rays
-  Medium medium{};              // that it travels through
-  ScatteringSources scatterers;
-  const Ray* mist = nullptr;    // the ancestor that entered the innermost mist around this ray
-  uint64_t clips = 0;           // Surface::clip of the surfaces that are cut away for this ray
-  uint64_t clipsBeyond = 0;     // the same for a ray that continues beyond the surface that it hits
-  Coefficient contribution{1};  // share of its radiance, at its origin, in that of the primary ray
+struct RayEnd;
 
-  SurfaceId surface;  // hit
+// What fills the space that a ray passes through.
+struct RaySpace {
+  Medium medium{};
+  ScatteringSources scatterers;  // of light that the medium scatters into the ray
+  const RayEnd* mist = nullptr;  // the ancestor that entered the innermost mist around the ray; null: none
+};
+
+// The question: which radiance arrives at a point from a direction?
+struct RayQuery {
+  V3d origin{0, 0, 0}, direction{0, 0, 1};  // world; direction unit
+  double farthest = 0;        // the ray ends there even if it hits nothing (-ld, world units); 0: no limit
+  SurfaceId from = kNone;     // surface that it leaves
+  LightId aimedAt = kNone;    // light source that a shadow ray is aimed at
+  bool unobstructed = false;  // of a shadow ray: it hits its target, whatever else is in its way
+};
+
+// What a ray inherits from its ancestors. It does not change once the ray is followed.
+struct PathContext {
+  RayKind kind = kPrimary;
+  unsigned kinds = kPrimary;       // its own kind and those of its ancestors
+  double weight = 1;               // largest share that its radiance can have in the answer
+  int level = 0;                   // number of reflections that led to it
+  int depth = 0;                   // number of its ancestors
+  int ambientLevel = 0;            // number of indirect bounces that led to it
+  double pathLength = 0;           // total length of its ancestors
+  double shadowLength = 0;         // total length of those ancestors that are shadow rays
+  SurfaceId mirror = kNone;        // the flat surface that mirrored the primary ray into this one, if nothing
+                                   // else deflected it
+  const RayEnd* parent = nullptr;  // null: a primary ray, or one that does not depend on earlier rays
+  RaySpace space{};
+  uint64_t clips = 0;           // Surface::clip of the surfaces that are cut away for this ray
+  Coefficient contribution{1};  // share of its radiance, at its origin, in that of the primary ray
+};
+
+// What a ray hit, as its shading sees it. Modifiers and flips by materials change the last lines.
+struct SurfaceHit {
+  SurfaceId surface;  // kNone: nothing
   double length = kFarAway;
-  V3d point{0, 0, 0};       // the hit or the end (farthest); the origin if no hit or a distant source
+  V3d point{0, 0, 0};  // the hit or the end (RayQuery::farthest); the origin if no hit or a distant source
+  double u = 0, v = 0;
+  PlacementPath path;       // the placements of the surface's modifiers in the world
   V3d normal{0, 0, 0};      // once shaded, on the side that the ray came from
   double cosine = 1;        // -normal . direction; negative for a hit from behind until it is turned round
   bool fromBehind = false;  // normal, cosine and perturbation were flipped because of a hit from behind
   bool insideOut = false;   // they were flipped at a cut by antimatter, whose front is the inside
   V3d perturbation{0, 0, 0};
   Color pattern{1, 1, 1};
-  double u = 0, v = 0;
-  PlacementPath path;  // the placements of the surface's modifiers in the world
+};
 
-  Radiance value;     // that returns along it
+// The answer.
+struct RayResult {
+  Radiance value;     // that returns along the ray
   Radiance mirrored;  // the part of it that was mirrored
   double mirroredLength = kFarAway, unmirroredLength = kFarAway;
+};
+
+// The end of a ray, where it is shaded.
+struct RayEnd {
+  RayEnd(const RayQuery& asked, const PathContext& inherited)
+      : ray(asked), context(inherited), clipsBeyond(inherited.clips) {}
+  // The same end of a ray that inherits something else.
+  RayEnd(const RayEnd& other, const PathContext& inherited)
+      : ray(other.ray),
+        context(inherited),
+        hit(other.hit),
+        clipsBeyond(other.clipsBeyond),
+        beganIn(other.beganIn) {}
+
+  const RayQuery& ray;
+  const PathContext& context;
+  SurfaceHit hit;
+  uint64_t clipsBeyond;  // PathContext::clips of a ray that continues beyond the surface
+  // Set if the surface shows that the ray began in another space than it inherited.
+  std::optional<RaySpace> beganIn;
+
+  const RaySpace& space() const { return beganIn ? *beganIn : context.space; }
+  const Medium& medium() const { return space().medium; }
+  RaySpace& changedSpace() { return beganIn ? *beganIn : beganIn.emplace(context.space); }
+};
+
+// A ray that continues a path, ready to be followed.
+struct NextRay {
+  // With all that the ray inherits, whatever its kind. Its direction is still to be set.
+  NextRay(const RayEnd& parent, RayKind kind, const Coefficient& coefficient);
+
+  RayQuery query;
+  PathContext context;
+  Coefficient coefficient;  // factor on its radiance in that of its parent
 };
 
 }  // namespace rsphere

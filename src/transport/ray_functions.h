@@ -8,14 +8,21 @@
 
 namespace rsphere {
 
+// The mean reflectance of surfaces, the usual one of rooms and the same value as in RADIANCE. Where light is
+// interpolated, it is the weight of an indirect ray relative to its parent, instead of the small share of a
+// single direction: the weight limit then ends paths after some bounces and does not depend on the number of
+// directions.
+inline constexpr double kMeanReflectance = .5;
+
 // A diffuse material of reflectance pi. Its radiance is pi times the mean incident radiance, which is the
 // irradiance (-i, -I).
 inline const Opaque kIrradianceMeter{Color(kPi, kPi, kPi), 0, 0, false};
 
 // The apparent distance of the object seen along the ray: that of the mirrored image if it gives more than
 // half of the light.
-inline double apparentLength(const Ray& ray) {
-  return brightness(ray.mirrored) > .5 * brightness(ray.value) ? ray.mirroredLength : ray.unmirroredLength;
+inline double apparentLength(const RayResult& seen) {
+  return brightness(seen.mirrored) > .5 * brightness(seen.value) ? seen.mirroredLength
+                                                                 : seen.unmirroredLength;
 }
 
 // Whether the extinction is large enough to matter over a distance of kFarAway.
@@ -29,50 +36,57 @@ inline Coefficient passing(const Color& extinction, double length) {
 
 // The transmittance of the medium along a ray. Shadow rays are attenuated by absorption alone: it is assumed
 // that in-scattering replaces the light that is scattered out of them.
-inline Coefficient passedBy(const Ray& ray) {
-  const Medium& medium = ray.medium;
+inline Coefficient passedBy(const RayEnd& end) {
+  const Medium& medium = end.medium();
   if (!isMedium(medium.extinction)) return Coefficient(1);
-  const bool scatteredIn = (ray.kinds & kShadow) != 0;
+  const bool scatteredIn = (end.context.kinds & kShadow) != 0;
   return passing(scatteredIn ? medium.extinction * (Color(1, 1, 1) - medium.albedo) : medium.extinction,
-                 ray.length);
+                 end.hit.length);
 }
 
-// Sets the fields that a child has from its parent, whatever its kind.
-inline void inherit(Ray& child, const Ray& parent, RayKind kind) {
-  child.parent = &parent;
-  child.origin = parent.point;
-  child.kind = kind;
-  child.kinds = parent.kinds | kind;
-  child.level = parent.level;
-  child.ambientLevel = parent.ambientLevel;
-  child.depth = parent.depth + 1;
-  child.pathLength = parent.pathLength + parent.length;
-  if (parent.kinds & kShadow) child.shadowLength = parent.shadowLength + parent.length;
-  child.medium = parent.medium;
-  child.scatterers = parent.scatterers;
-  child.mist = parent.mist;
-  child.clips = (kind & kReflections) ? parent.clips : parent.clipsBeyond;
-  child.clipsBeyond = child.clips;
-  child.unobstructed = parent.unobstructed;
-  child.contribution = parent.contribution;
-  if (isMedium(parent.medium.extinction)) child.contribution *= passedBy(parent);
+inline NextRay::NextRay(const RayEnd& parent, RayKind kind, const Coefficient& ofParent)
+    : query{.origin = parent.hit.point, .from = parent.hit.surface, .unobstructed = parent.ray.unobstructed},
+      context{.kind = kind,
+              .kinds = parent.context.kinds | kind,
+              .level = parent.context.level,
+              .depth = parent.context.depth + 1,
+              .ambientLevel = parent.context.ambientLevel,
+              .pathLength = parent.context.pathLength + parent.hit.length,
+              .shadowLength =
+                  parent.context.kinds & kShadow ? parent.context.shadowLength + parent.hit.length : 0,
+              .parent = &parent,
+              .space = parent.space(),
+              .clips = (kind & kReflections) ? parent.context.clips : parent.clipsBeyond,
+              .contribution = parent.context.contribution},
+      coefficient(ofParent) {
+  if (isMedium(parent.medium().extinction)) context.contribution *= passedBy(parent);
+}
+
+// A ray that continues another straight on, with the same weight.
+inline NextRay straightOn(const RayEnd& end) {
+  NextRay next(end, kTransmitted, Coefficient(1));
+  next.query.direction = end.ray.direction;
+  next.query.aimedAt = end.ray.aimedAt;
+  next.context.mirror = end.context.mirror;
+  next.context.weight = end.context.weight;
+  return next;
 }
 
 // Swaps the front and the back of the surface that was hit.
-inline void flip(Ray& ray) {
-  ray.cosine = -ray.cosine;
-  ray.normal = -ray.normal;
-  ray.perturbation = -ray.perturbation;
+inline void flip(SurfaceHit& hit) {
+  hit.cosine = -hit.cosine;
+  hit.normal = -hit.normal;
+  hit.perturbation = -hit.perturbation;
 }
 
 // Turns a hit from behind into a hit from the front.
-inline void turnRound(Ray& ray) {
-  if (!(ray.cosine < 0)) return;
-  flip(ray);
-  ray.fromBehind = !ray.fromBehind;
+inline void turnRound(SurfaceHit& hit) {
+  if (!(hit.cosine < 0)) return;
+  flip(hit);
+  hit.fromBehind = !hit.fromBehind;
 }
 
 // Whether the ray hit the front of the surface as the scene defines it, regardless of later flips.
-inline bool hitFront(const Ray& ray) { return (ray.cosine > 0) != (ray.fromBehind != ray.insideOut); }
+inline bool hitFront(const SurfaceHit& hit) { return (hit.cosine > 0) != (hit.fromBehind != hit.insideOut); }
 
 }  // namespace rsphere

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "transport/ray_functions.h"
-
 namespace rsphere {
 namespace {
 
@@ -14,17 +12,16 @@ V3d along(const V3d& origin, double distance, const V3d& direction) {
              std::fma(distance, direction.z, origin.z));
 }
 
-// Sets the distant source in the direction of a ray. The first one that is neither a glow nor an illum that
-// transmits light hides the others; if there is none, it is the first glow.
-void findDistant(const PreparedScene& prepared, Ray& ray) {
+// The distant source in the direction of a ray, or kNone. The first one that is neither a glow nor an illum
+// that transmits light hides the others; if there is none, it is the first glow.
+SurfaceId distantSource(const PreparedScene& prepared, const RayQuery& ray, unsigned kinds) {
   const Scene& scene = prepared.scene();
   const auto sees = [&](SurfaceId surface) {
     return scene.surfaces[surface].shape.as<Distant>()->isSeenAlong(ray.direction);
   };
   if (ray.aimedAt != kNone) {
     const LightSource& light = prepared.lights().all()[ray.aimedAt];
-    if (light.isDistant() && !light.isVirtual() && sees(light.surface)) ray.surface = light.surface;
-    return;
+    return light.isDistant() && !light.isVirtual() && sees(light.surface) ? light.surface : kNone;
   }
   SurfaceId glow;
   bool passedIllum = false;
@@ -38,63 +35,61 @@ void findDistant(const PreparedScene& prepared, Ray& ray) {
         passedIllum = true;
         break;
       case Cover::hides:
-        ray.surface = s;
-        return;
+        return s;
     }
   }
   // The illum already includes the light behind it. An indirect ray through it would add that light twice.
-  if (passedIllum && (ray.kinds & (kAmbient | kSpecular))) return;
-  ray.surface = glow;
+  return passedIllum && (kinds & (kAmbient | kSpecular)) ? SurfaceId() : glow;
 }
 
-// Sets the hit of a shadow ray on the source that it is aimed at, and ignores all other surfaces.
-void findTarget(const PreparedScene& prepared, Ray& ray) {
+// Sets the hit of a shadow ray on the source that it is aimed at. All other surfaces are ignored.
+void setTarget(const PreparedScene& prepared, RayEnd& end) {
+  const RayQuery& ray = end.ray;
+  SurfaceHit& hit = end.hit;
   const Scene& scene = prepared.scene();
   const LightSource& target = prepared.lights().all()[ray.aimedAt];
-  ray.point = ray.origin;
-  ray.normal = -ray.direction;
-  ShapeHit hit;
+  ShapeHit found;
   if (target.isDistant() && !target.isVirtual()) {
-    findDistant(prepared, ray);
+    hit.surface = distantSource(prepared, ray, end.context.kinds);
   } else if (intersect(scene.surfaces[target.surface].shape, scene.vertices, ray.origin, ray.direction,
-                       kFarAway, hit)) {
-    ray.surface = target.surface;
-    ray.length = hit.distance;
-    ray.point = along(ray.origin, hit.distance, ray.direction);
-    ray.normal = hit.normal;
-    ray.cosine = hit.cosine;
+                       kFarAway, found)) {
+    hit.surface = target.surface;
+    hit.length = found.distance;
+    hit.point = along(ray.origin, found.distance, ray.direction);
+    hit.normal = found.normal;
+    hit.cosine = found.cosine;
   }
 }
 
 }  // namespace
 
-Hit findHit(const PreparedScene& prepared, Ray& ray) {
+Hit findHit(const PreparedScene& prepared, RayEnd& end) {
+  const RayQuery& ray = end.ray;
+  SurfaceHit& hit = end.hit;
+  hit.point = ray.origin;
+  hit.normal = -ray.direction;
+  Hit nearest = ray.unobstructed ? Hit()
+                                 : prepared.tracer().nearest(
+                                       ray.origin, ray.direction,
+                                       ray.farthest > kSamePlace ? ray.farthest : kFarAway, ray.from);
   if (ray.unobstructed) {
-    findTarget(prepared, ray);
-    return {};
-  }
-  const Hit hit = prepared.tracer().nearest(ray.origin, ray.direction,
-                                            ray.farthest > kSamePlace ? ray.farthest : kFarAway,
-                                            ray.parent ? ray.parent->surface : kNone);
-  ray.surface = hit.surface;
-  ray.point = ray.origin;
-  ray.normal = -ray.direction;
-  ray.cosine = 1;
-  if (hit.surface != kNone) {
-    ray.length = hit.distance;
-    ray.point = along(ray.origin, hit.distance, ray.direction);
-    ray.normal = hit.normal;
-    ray.cosine = hit.cosine;
-    ray.perturbation = hit.perturbation;
-    ray.u = hit.u;
-    ray.v = hit.v;
-    ray.path = hit.path;
+    setTarget(prepared, end);
+  } else if (nearest.surface != kNone) {
+    hit.surface = nearest.surface;
+    hit.length = nearest.distance;
+    hit.point = along(ray.origin, nearest.distance, ray.direction);
+    hit.normal = nearest.normal;
+    hit.cosine = nearest.cosine;
+    hit.perturbation = nearest.perturbation;
+    hit.u = nearest.u;
+    hit.v = nearest.v;
+    hit.path = nearest.path;
   } else if (ray.farthest > kSamePlace) {
-    ray.point = along(ray.origin, ray.farthest, ray.direction);
+    hit.point = along(ray.origin, ray.farthest, ray.direction);
   } else {
-    findDistant(prepared, ray);
+    hit.surface = distantSource(prepared, ray, end.context.kinds);
   }
-  return hit;
+  return nearest;
 }
 
 }  // namespace rsphere

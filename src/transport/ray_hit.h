@@ -4,9 +4,9 @@
 
 namespace rsphere {
 
-// Finds the surface that a ray hits (Tracer::nearest), otherwise the distant source in its direction, and
-// sets the ray's surface, length, point, normal and cosine. An unobstructed shadow ray always hits the source
-// that it is aimed at. Returns the tracer's hit.
-Hit findHit(const PreparedScene& prepared, Ray& ray);
+// Sets the hit of a ray, which has none yet: the surface that the tracer finds (Tracer::nearest), otherwise
+// the distant source in its direction. An unobstructed shadow ray always hits the source that it is aimed at.
+// Returns the tracer's hit.
+Hit findHit(const PreparedScene& prepared, RayEnd& end);
 
 }  // namespace rsphere

@@ -8,64 +8,70 @@
 namespace rsphere {
 namespace {
 
-// The weight below which descendants are followed by Russian roulette. It grows faster than the number of rays
-// that do not lead to the child, so that their number has a bound even where the children of a ray have more
-// weight than the ray. The child's own ancestors are left out: a path that does not split goes on.
-double leastWeight(const Descendants& descendants, const Ray& child) {
+// The weight below which descendants are followed by Russian roulette. It grows faster than the number of
+// rays that do not lead to the child, so that their number has a bound even where the children of a ray have
+// more weight than the ray. The child's own ancestors are left out: a path that does not split goes on.
+double leastWeight(const Descendants& descendants, const PathContext& child) {
   const int others = descendants.rays - (child.depth - descendants.depth);
   const double tooMany = (others - descendants.most) / descendants.most;
   return tooMany > 0 ? descendants.weight * tooMany * tooMany : 0;
 }
 
-// Adds the child to the descendants unless Russian roulette ends it.
-bool addDescendant(PathState& state, Ray& child, Coefficient& coefficient) {
-  if (const double least = leastWeight(state.descendants, child); least > 0)
-    if (!survives(state.random, least, child, coefficient)) return false;
+// Adds a ray to the descendants unless Russian roulette ends it.
+bool addDescendant(PathState& state, NextRay& next) {
+  if (const double least = leastWeight(state.descendants, next.context); least > 0)
+    if (!survives(state.random, least, next)) return false;
   ++state.descendants.rays;
   return true;
 }
 
-// Whether a child goes on in spite of the limits of reflections and weight (-lr, -lw).
-bool isWithinLimits(const RayOptions& o, Random& random, Ray& child, Coefficient& coefficient) {
-  if (o.reflectionLimit > 0) return child.weight >= o.weightLimit && child.level <= o.reflectionLimit;
+// Whether a ray goes on in spite of the limits of reflections and weight (-lr, -lw).
+bool isWithinLimits(const RayOptions& o, Random& random, NextRay& next) {
+  const PathContext& ray = next.context;
+  if (o.reflectionLimit > 0) return ray.weight >= o.weightLimit && ray.level <= o.reflectionLimit;
   if (!(o.weightLimit > 0))
     throw rad::Error("zero ray weight in Russian roulette: -lw must be positive where -lr is not");
-  if (o.reflectionLimit < 0 && child.level > -o.reflectionLimit) return false;
-  return survives(random, o.weightLimit, child, coefficient);
+  if (o.reflectionLimit < 0 && ray.level > -o.reflectionLimit) return false;
+  return survives(random, o.weightLimit, next);
+}
+
+// Sets what depends on whether the ray is reflected or goes on beyond the surface.
+void turnOrGoOn(const Scene& scene, NextRay& next) {
+  const RayEnd& parent = *next.context.parent;
+  const RayKind kind = next.context.kind;
+  if (!(kind & kReflections)) {
+    next.context.mirror = parent.context.mirror;
+    next.query.aimedAt = parent.ray.aimedAt;
+    if (parent.ray.farthest > kSamePlace) next.query.farthest = parent.ray.farthest - parent.hit.length;
+    return;
+  }
+  ++next.context.level;
+  const SurfaceId at = parent.hit.surface;
+  if (kind == kReflected && !(parent.context.kinds & ~(kPrimary | kTransmitted)) && at != kNone &&
+      at.index() < scene.outermost().size() && planeNormal(scene.surfaces[at].shape))
+    next.context.mirror = at;
 }
 
 }  // namespace
 
-bool continueRay(const PreparedScene& prepared, PathState& state, Ray& child, RayKind kind, const Ray& parent,
-                 Coefficient& coefficient) {
-  const RayOptions& o = prepared.options();
-  inherit(child, parent, kind);
-  if (kind & kReflections) {
-    ++child.level;
-    child.farthest = 0;
-    if (kind == kReflected && !(parent.kinds & ~(kPrimary | kTransmitted)) && parent.surface != kNone &&
-        parent.surface.index() < prepared.scene().outermost().size() &&
-        planeNormal(prepared.scene().surfaces[parent.surface].shape))
-      child.mirror = parent.surface;
-  } else {
-    child.mirror = parent.mirror;
-    child.aimedAt = parent.aimedAt;
-    child.farthest = parent.farthest > kSamePlace ? parent.farthest - parent.length : 0;
-  }
-  child.contribution *= coefficient;
-  child.weight = parent.weight * std::min(1., maxChannel(coefficient));
-  const double depth = minChannel(parent.medium.extinction) * parent.length;
+bool goesOnAlong(NextRay& next, const PreparedScene& prepared, PathState& state) {
+  turnOrGoOn(prepared.scene(), next);
+  PathContext& ray = next.context;
+  const RayEnd& parent = *ray.parent;
+  ray.contribution *= next.coefficient;
+  ray.weight = parent.context.weight * std::min(1., maxChannel(next.coefficient));
+  const double depth = minChannel(parent.medium().extinction) * parent.hit.length;
   // RADIANCE's own limit: a thinner medium does not reduce the weight.
-  if (depth > .1) child.weight *= std::exp(-depth);
-  if (!(child.weight > 0)) return false;
-  if (child.kinds & kShadow) return true;
-  if (!isWithinLimits(o, state.random, child, coefficient)) return false;
+  if (depth > .1) ray.weight *= std::exp(-depth);
+  if (!(ray.weight > 0)) return false;
+  if (ray.kinds & kShadow) return true;
+  if (!isWithinLimits(prepared.options(), state.random, next)) return false;
   const Descendants& descendants = state.descendants;
-  const bool limited = descendants.most > 0 && parent.ambientLevel >= descendants.ambientLevel;
-  return !limited || addDescendant(state, child, coefficient);
+  const bool limited = descendants.most > 0 && parent.context.ambientLevel >= descendants.ambientLevel;
+  return !limited || addDescendant(state, next);
 }
 
-bool asksForPatch(PathState& state, const Ray& ray, Coefficient& coefficient) {
+bool asksForPatch(PathState& state, const PathContext& ray, Coefficient& coefficient) {
   using Tuning = tuning::RayLimits;
   Descendants& descendants = state.descendants;
   const bool ofPatch = state.links;

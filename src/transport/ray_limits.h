@@ -9,35 +9,29 @@
 
 namespace rsphere {
 
-// The weight of an indirect ray relative to its parent where light is interpolated. It represents a mean
-// reflectance instead of the small share of a single direction, so that the weight limit ends paths after
-// some bounces and does not depend on the number of directions. The same value as in RADIANCE.
-inline constexpr double kMeanReflectance = .5;
+// Whether a path goes on along a ray, which has just begun at the end of its parent. The path ends beyond -lr
+// reflections, and below the weight limit (-lw), always if -lr is positive, otherwise by Russian roulette.
+// Roulette also ends paths of a ray that has too many descendants (state.descendants, which the ray is added
+// to). NextRay::coefficient is increased if the path survived roulette, so that the mean stays unbiased.
+// Throws rad::Error if roulette has no weight limit to compare with (-lw 0).
+bool goesOnAlong(NextRay& next, const PreparedScene& prepared, PathState& state);
 
-// Makes child a descendant of parent, or returns false if the path ends. It ends beyond -lr reflections, and
-// below the weight limit (-lw): always if -lr is positive, otherwise by Russian roulette. Roulette also ends
-// paths of a ray that has too many descendants (state.descendants, which the child is added to).
-// coefficient: of the child's radiance in the parent's. It is increased if the path survived roulette, so that
-// the mean stays unbiased. Throws rad::Error if roulette has no weight limit to compare with (-lw 0).
-bool continueRay(const PreparedScene& prepared, PathState& state, Ray& child, RayKind kind, const Ray& parent,
-                 Coefficient& coefficient);
-
-// Russian roulette: whether the path of a child goes on. If so, its weight is at least `least`, and its
+// Russian roulette: whether the path of a ray goes on. If so, its weight is at least `least`, and its
 // coefficient makes up for the paths that do not go on.
-inline bool survives(Random& random, double least, Ray& child, Coefficient& coefficient) {
-  const double probability = child.weight / least;
+inline bool survives(Random& random, double least, NextRay& next) {
+  const double probability = next.context.weight / least;
   if (probability >= 1) return true;
   if (random.uniform() >= probability) return false;
-  coefficient /= probability;
-  child.contribution /= probability;
-  child.weight = least;
+  next.coefficient /= probability;
+  next.context.contribution /= probability;
+  next.context.weight = least;
   return true;
 }
 
 // Whether the indirect light at the hit of a ray is asked of a patch of the coarse solution. Beyond some patches
 // for each ray of a gather, Russian roulette chooses further ones in proportion to what they may contribute.
-// coefficient: of the mean radiance over the hemisphere in the ray's radiance; increased as by continueRay().
-bool asksForPatch(PathState& state, const Ray& ray, Coefficient& coefficient);
+// coefficient: of the mean radiance over the hemisphere in the ray's radiance; increased as by goesOnAlong().
+bool asksForPatch(PathState& state, const PathContext& ray, Coefficient& coefficient);
 
 // Begins to count the descendants of a primary ray, if work is bounded. rays: -ad + -as.
 inline Descendants descendantsOfPrimary(const TracingMode& mode, int rays) {
@@ -49,35 +43,36 @@ inline Descendants descendantsOfGlimpse(int level) {
   return {tuning::RayLimits::kMostDescendants, 1, 0, level, 0};
 }
 
-// The same for all rays of a patch of the coarse solution together. depth: of the imagined ray that they leave.
+// The same for all rays of a patch of the coarse solution together. depth: of the imagined ray that they
+// leave.
 inline Descendants descendantsOfPatch(int rays, int depth) {
   return {tuning::RayLimits::kMostOfPatch * rays, kMeanReflectance, depth + 1, 1, 0};
 }
 
 // The same for a gather's ray, if light is interpolated. Those of a primary ray or of a patch are counted
 // already, except for the patches that each ray of a patch asks for.
-inline void countDescendants(const PathSettings& settings, PathState& state, const Ray& ray) {
+inline void countDescendants(const PathSettings& settings, PathState& state, const PathContext& ray) {
   if (state.links)
     state.descendants.patches = 0;
   else if (settings.caches.field && !settings.mode.boundsWork)
     state.descendants = {tuning::RayLimits::kMostDescendants, ray.weight, ray.depth, ray.ambientLevel, 0};
 }
 
-// Whether rays reflected at the ray's hit are followed, except those that Russian roulette ends, whose light
-// the others make up for. Otherwise -lr ends them for certain.
-inline bool goesOn(const PreparedScene& prepared, const Ray& ray) {
+// Whether rays reflected at the end of a ray are followed, except those that Russian roulette ends, whose
+// light the others make up for. Otherwise -lr ends them for certain.
+inline bool goesOn(const PreparedScene& prepared, const PathContext& ray) {
   const int limit = prepared.options().reflectionLimit;
   return limit == 0 || (limit < 0 && ray.level + 1 <= -limit);
 }
 
 // Whether the ray is one of the many rays of a gather for interpolation, or descends from one. Noise averages
 // out over these rays, so that each takes one sample where a primary ray takes several.
-inline bool isOfGather(const PathSettings& settings, const Ray& ray) {
+inline bool isOfGather(const PathSettings& settings, const PathContext& ray) {
   return settings.caches.field && ray.ambientLevel > 0;
 }
 
 // The number of samples that a ray takes of a lobe, at least 1. wanted: the number for a ray of weight 1.
-inline int samplesOf(const PathSettings& settings, const Ray& ray, double wanted) {
+inline int samplesOf(const PathSettings& settings, const PathContext& ray, double wanted) {
   if (isOfGather(settings, ray)) return 1;
   return std::max(1, static_cast<int>(wanted * std::min(ray.weight, 1.) + .5));
 }

@@ -34,8 +34,8 @@ struct RayOptions {
   int ambientSuperSamples = 512;  // -as
   Radiance ambientValue;          // -av
   int ambientWeight = 0;          // -aw
-  // Patches of the coarse solution have as many rays as if -ad + -as were at least this, and serve the first diffuse
-  // surface too (FirstBounce::fromPatches). Not an option: sphere mode sets it, because each of its
+  // Patches of the coarse solution have as many rays as if -ad + -as were at least this, and serve the first
+  // diffuse surface too (FirstBounce::fromPatches). Not an option: sphere mode sets it, because each of its
   // directions has a small -ad and all share one solution. 0: neither.
   int leastForPatches = 0;
   std::string ambientFile;                                    // -af

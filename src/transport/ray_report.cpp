@@ -5,12 +5,12 @@
 
 namespace rsphere {
 
-RayAnswer answerOf(const Scene& scene, const Ray& ray) {
+RayAnswer answerOf(const Scene& scene, const TracedRay& ray) {
   RayAnswer a;
   a.origin = ray.origin;
   a.direction = ray.direction;
   a.value = ray.value;
-  a.contribution = ray.contribution * passedBy(ray);
+  a.contribution = ray.contribution;
   a.mirroredContribution = ray.mirrored;
   a.unmirroredContribution = ray.value - ray.mirrored;
   a.mirroredLength = ray.mirroredLength;
@@ -41,11 +41,13 @@ RayAnswer answerOf(const Scene& scene, const Ray& ray) {
   return a;
 }
 
-RayAnswer branchAnswer(const PreparedScene& prepared, const Ray& ray) {
-  RayAnswer a = answerOf(prepared.scene(), ray);
-  a.rayWeight = ray.weight;
-  const bool dark = ray.value.color.x + ray.value.color.y + ray.value.color.z <= 3 * kNegligible;
-  if (ray.aimedAt != kNone && dark && prepared.lights().all()[ray.aimedAt].surface != ray.surface)
+RayAnswer branchAnswer(const PreparedScene& prepared, const RayEnd& end, const RayResult& result) {
+  RayAnswer a = answerOf(prepared.scene(), TracedRay(end, result));
+  a.rayWeight = end.context.weight;
+  const Color& color = result.value.color;
+  const bool dark = color.x + color.y + color.z <= 3 * kNegligible;
+  const LightId aimedAt = end.ray.aimedAt;
+  if (aimedAt != kNone && dark && prepared.lights().all()[aimedAt].surface != end.hit.surface)
     a.contribution = {};
   return a;
 }

@@ -2,18 +2,18 @@
 // The quantities of a ray that rtrace's output letters report.
 #include <string_view>
 
+#include "transport/path_observer.h"
 #include "transport/prepared_scene.h"
-#include "transport/ray.h"
 #include "transport/ray_answer.h"
 
 namespace rsphere {
 
 // The answer for a ray that was traced.
-RayAnswer answerOf(const Scene& scene, const Ray& ray);
+RayAnswer answerOf(const Scene& scene, const TracedRay& ray);
 
 // The answer for a ray that an observer was shown (RayObserver): answerOf() with the ray's weight and its
 // contribution, which is zero for a shadow ray that receives no light from its source.
-RayAnswer branchAnswer(const PreparedScene& prepared, const Ray& ray);
+RayAnswer branchAnswer(const PreparedScene& prepared, const RayEnd& end, const RayResult& result);
 
 // Whether the letters need a ray's value, and not only its hit.
 bool needsValue(std::string_view letters);

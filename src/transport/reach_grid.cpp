@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "transport/tuning.h"
-
 namespace rsphere {
 namespace {
+
+// Cells along the longest side of the scene. More need more memory (half a megabyte), fewer more time at
+// points where nothing matters.
+constexpr int kCells = 32;
 
 double distance(const V3d& point, const ReachGrid::Reach& reach) {
   const V3d along = reach.end - reach.begin, way = point - reach.begin;
@@ -21,7 +23,7 @@ ReachGrid::ReachGrid(const std::vector<Reach>& reaches, const Box3d& bounds) : l
   if (reaches.empty()) return;
   const V3d size = bounds.size();
   const double widest = std::max({size.x, size.y, size.z});
-  const double cell = widest > 0 ? widest / tuning::ReachGrid::kCells : 1;
+  const double cell = widest > 0 ? widest / kCells : 1;
   perLength_ = 1 / cell;
   for (int i = 0; i < 3; ++i)
     counts_[i] = static_cast<size_t>(std::max(1., std::ceil(size[i] * perLength_ - 1e-9)));

@@ -38,13 +38,13 @@ double shareOfLobe(const LightSource& source, double distance, double cosine, do
   return within > tuning::SharedHighlights::kLeast ? within / (1 + within) : 0;
 }
 
-Radiance sourceSeenBy(const PreparedScene& prepared, const Ray& sample) {
-  if (sample.surface == kNone || !hitFront(sample)) return {};
-  const LightId source = prepared.lightOf(sample.surface);
+Radiance sourceSeenBy(const PreparedScene& prepared, const RayEnd& sample) {
+  if (sample.hit.surface == kNone || !hitFront(sample.hit)) return {};
+  const LightId source = prepared.lightOf(sample.hit.surface);
   if (source == kNone || !sharesHighlights(prepared, source)) return {};
-  const Medium& medium = sample.medium;  // attenuates as it does shadow rays
+  const Medium& medium = sample.medium();  // attenuates as it does shadow rays
   return *prepared.constantRadiance(source) *
-         passing(medium.extinction * (Color(1, 1, 1) - medium.albedo), sample.length);
+         passing(medium.extinction * (Color(1, 1, 1) - medium.albedo), sample.hit.length);
 }
 
 }  // namespace rsphere

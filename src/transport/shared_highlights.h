@@ -21,6 +21,6 @@ double shareOfLobe(const LightSource& source, double distance, double cosine, do
 
 // The radiance of the source that a lobe's sample has hit first of all, without the share; black if it hit
 // none, or one whose light is not divided. sample: as traced; its own value is black there.
-Radiance sourceSeenBy(const PreparedScene& prepared, const Ray& sample);
+Radiance sourceSeenBy(const PreparedScene& prepared, const RayEnd& sample);
 
 }  // namespace rsphere

@@ -6,12 +6,15 @@
 #include "base/constants.h"
 #include "scene/frame.h"
 #include "transport/light_particles.h"
+#include "transport/ray_functions.h"
 #include "transport/tuning.h"
 
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::HighlightParts;
+// A source is divided into this many parts along each side at most: all of them together are then no more
+// than are kept of all sources.
+const double kMostAlong = std::sqrt(static_cast<double>(tuning::Caps::kAimed));
 
 std::vector<SourcePart> partsOf(const LightSource& source, const V3d& from) {
   const V3d way = source.isDistant() ? source.center : source.center - from;
@@ -40,7 +43,7 @@ std::vector<SourcePart> partsOf(const LightSource& source, const V3d& from) {
   if (isRound) whole.variance = 1. / 4;
   const auto divided = [&](const V3d& half) {
     if (isRound) return 1.;
-    return std::clamp(std::ceil(half.length() / (Tuning::kHalf * distance)), 1., Tuning::kMost);
+    return std::clamp(std::ceil(half.length() / (tuning::Highlights::kHalf * distance)), 1., kMostAlong);
   };
   const double columns = divided(whole.u), rows = divided(whole.v);
   whole.u /= columns;
@@ -110,7 +113,7 @@ double usualRadiance(const Scene& scene, const Tracer& tracer, const LightSource
   double power = 0;
   for (const LightSource& light : lights.all())
     if (!light.isVirtual()) power += powerOf(scene, light, size.length() / 2);
-  return Tuning::kMeanReflectance * power / (kPi * area);
+  return kMeanReflectance * power / (kPi * area);
 }
 
 }  // namespace rsphere

@@ -12,76 +12,76 @@ namespace {
 using Tuning = tuning::SpecularLight;
 
 // The weight below which sharp paths of an indirect ray are followed by Russian roulette.
-double leastWeight(const PathSettings& settings, const Ray& ray) {
+double leastWeight(const PathSettings& settings, const PathContext& ray) {
   return std::max(Tuning::kWeakBranch * ray.weight, isOfGather(settings, ray) ? Tuning::kWeakPath : 0);
 }
 
 }  // namespace
 
-void SpecularLight::follow(Ray& ray, const SharpPaths& sharp) {
+void SpecularLight::add(const RayEnd& end, const SharpPaths& sharp, RayResult& result) {
+  const bool isShadow = end.context.kinds & kShadow;
   for (const SharpPath& path : sharp) {
-    if ((ray.kinds & kShadow) && path.kind == kReflected) continue;
-    Ray child;
-    Coefficient coefficient = path.coefficient;
-    if (isBlack(coefficient) || !continueRay(t_, state_, child, path.kind, ray, coefficient)) continue;
-    if (!(ray.kinds & kShadow) && ray.ambientLevel > 0 &&
-        !survives(state_.random, leastWeight(settings_, ray), child, coefficient))
+    if ((isShadow && path.kind == kReflected) || isBlack(path.coefficient)) continue;
+    NextRay next(end, path.kind, path.coefficient);
+    if (!goesOnAlong(next, t_, state_)) continue;
+    if (!isShadow && end.context.ambientLevel > 0 &&
+        !survives(state_.random, leastWeight(settings_, end.context), next))
       continue;
-    child.direction = path.direction;
-    if (path.entersMedium) child.medium = path.medium;
-    follower_.follow(child);
-    child.value *= coefficient;
-    ray.value += child.value;
+    next.query.direction = path.direction;
+    if (path.entersMedium) next.context.space.medium = path.medium;
+    RayResult seen = follower_.follow(next.query, next.context);
+    seen.value *= next.coefficient;
+    result.value += seen.value;
     if (path.kind == kReflected) {
-      ray.mirrored = child.value;
-      ray.mirroredLength = ray.length + (path.lengthCounts ? apparentLength(child) : 0);
+      result.mirrored = seen.value;
+      result.mirroredLength = end.hit.length + (path.lengthCounts ? apparentLength(seen) : 0);
     } else if (path.lengthCounts) {
-      ray.unmirroredLength = ray.length + apparentLength(child);
+      result.unmirroredLength = end.hit.length + apparentLength(seen);
     }
   }
 }
 
-void SpecularLight::redirect(Ray& ray, const SharpPaths& redirected) {
-  for (const SharpPath& path : redirected) {
-    Ray child;
-    Coefficient coefficient = path.coefficient;
-    if (isBlack(coefficient) || !continueRay(t_, state_, child, path.kind, ray, coefficient)) continue;
-    child.direction = path.direction;
-    follower_.follow(child);
-    ray.value += child.value * coefficient;
-    if (path.lengthCounts) ray.unmirroredLength = ray.length + apparentLength(child);
+void SpecularLight::add(const RayEnd& end, const Redirects& redirects, RayResult& result) {
+  for (const SharpPath& path : redirects.paths) {
+    if (isBlack(path.coefficient)) continue;
+    NextRay next(end, path.kind, path.coefficient);
+    if (!goesOnAlong(next, t_, state_)) continue;
+    next.query.direction = path.direction;
+    const RayResult seen = follower_.follow(next.query, next.context);
+    result.value += seen.value * next.coefficient;
+    if (path.lengthCounts) result.unmirroredLength = end.hit.length + apparentLength(seen);
   }
 }
 
-void SpecularLight::relay(Ray& ray, const SharpPath& path) {
-  Ray child;
-  Coefficient coefficient = path.coefficient;
-  if (!continueRay(t_, state_, child, path.kind, ray, coefficient)) return;
-  child.aimedAt = t_.lights().all()[ray.aimedAt].relayed;
-  child.unobstructed = ray.unobstructed;
-  child.direction = path.direction.normalized();
-  follower_.follow(child);
-  ray.value += child.value * coefficient;
+void SpecularLight::add(const RayEnd& end, const Relays& relays, RayResult& result) {
+  const SharpPath& path = relays.path;
+  NextRay next(end, path.kind, path.coefficient);
+  if (!goesOnAlong(next, t_, state_)) return;
+  next.query.aimedAt = t_.lights().all()[end.ray.aimedAt].relayed;
+  next.query.direction = path.direction.normalized();
+  result.value += follower_.follow(next.query, next.context).value * next.coefficient;
 }
 
-void SpecularLight::sampleLobe(Ray& ray, RayKind kind, const Lobe& lobe, LobeSampler draw,
-                               const LobeShare* share) {
+void SpecularLight::addLobe(const RayEnd& end, RayKind kind, const Lobe& lobe, LobeSampler draw,
+                            const LobeShare* share, RayResult& result) {
   const RayOptions& o = t_.options();
   const double spread = o.specularSampling;
-  int samples = samplesOf(settings_, ray, std::max<double>(spread > 1.5 ? spread : 1, lobe.leastSamples));
+  int samples =
+      samplesOf(settings_, end.context, std::max<double>(spread > 1.5 ? spread : 1, lobe.leastSamples));
   if (lobe.share > 0 && o.weightLimit > 0)
-    samples =
-        std::max(1, static_cast<int>(std::min<double>(samples, lobe.share * ray.weight / o.weightLimit)));
+    samples = std::max(
+        1, static_cast<int>(std::min<double>(samples, lobe.share * end.context.weight / o.weightLimit)));
   for (int i = 0; i < samples; ++i) {
     const LobeSample sample = draw(i, samples);
-    Coefficient coefficient = sample.coefficient;
-    Ray child;
-    if (isBlack(coefficient) || !continueRay(t_, state_, child, kind, ray, coefficient)) continue;
-    child.direction = sample.direction;
-    child.origin += lobe.offset;
-    follower_.follow(child);
-    if (share && child.surface != kNone) child.value += (*share)(child);
-    ray.value += child.value * coefficient;
+    if (isBlack(sample.coefficient)) continue;
+    NextRay next(end, kind, sample.coefficient);
+    if (!goesOnAlong(next, t_, state_)) continue;
+    next.query.direction = sample.direction;
+    next.query.origin += lobe.offset;
+    RayEnd seen(next.query, next.context);
+    Radiance value = follower_.follow(seen).value;
+    if (share && seen.hit.surface != kNone) value += (*share)(seen);
+    result.value += value * next.coefficient;
   }
 }
 

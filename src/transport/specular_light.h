@@ -1,6 +1,6 @@
 #pragma once
 // Light from sharp reflection and refraction, and from glossy lobes by sampling.
-#include "shade/surface_scattering.h"
+#include "shade/material_response.h"
 #include "transport/function_ref.h"
 #include "transport/path_state.h"
 #include "transport/prepared_scene.h"
@@ -13,7 +13,7 @@ using LobeSampler = FunctionRef<LobeSample(int i, int n)>;
 
 // The light of a source that a lobe's sample has hit, as far as the lobe's samples are to estimate it
 // (shared_highlights.h).
-using LobeShare = FunctionRef<Radiance(const Ray& sample)>;
+using LobeShare = FunctionRef<Radiance(const RayEnd& sample)>;
 
 class SpecularLight {
  public:
@@ -22,19 +22,18 @@ class SpecularLight {
                 RayFollower& follower)
       : t_(prepared), settings_(settings), state_(state), follower_(follower) {}
 
-  // Follows a ray along sharp paths, and adds their light to its value (W/sr/m2).
-  void follow(Ray& ray, const SharpPaths& sharp);
+  // Each adds light to the result of a ray (W/sr/m2): of sharp paths from its end, of the rays that a prism
+  // redirects, and of the source that is relayed at the virtual one that a shadow ray has reached.
+  void add(const RayEnd& end, const SharpPaths& sharp, RayResult& result);
+  void add(const RayEnd& end, const ReflectsSharply& response, RayResult& result) {
+    add(end, response.scattering.sharp, result);
+  }
+  void add(const RayEnd& end, const Redirects& redirects, RayResult& result);
+  void add(const RayEnd& end, const Relays& relays, RayResult& result);
 
-  // The same for a prism's redirected rays.
-  void redirect(Ray& ray, const SharpPaths& redirected);
-
-  // Continues a shadow ray that has reached the virtual source that it was aimed at towards the source that
-  // is relayed there.
-  void relay(Ray& ray, const SharpPath& path);
-
-  // Adds the light of one lobe, estimated by samples. kind: of their rays. share: see LobeShare; null: none.
-  void sampleLobe(Ray& ray, RayKind kind, const Lobe& lobe, LobeSampler draw,
-                  const LobeShare* share = nullptr);
+  // The light of one lobe, estimated by samples. kind: of their rays. share: see LobeShare; null: none.
+  void addLobe(const RayEnd& end, RayKind kind, const Lobe& lobe, LobeSampler draw, const LobeShare* share,
+               RayResult& result);
 
  private:
   const PreparedScene& t_;

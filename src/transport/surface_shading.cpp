@@ -21,6 +21,41 @@ MaterialOptions materialOptions(const PreparedScene& prepared) {
           .medium = prepared.medium()};
 }
 
+// A ray is straight if its direction (unit) changed by less than this on its way through panes.
+constexpr double kStraight = 1e-9;
+
+// Whether a ray continues the primary ray in a straight line, except for its reflection by
+// PathContext::mirror, and passes no surface that blocks shadow rays, so that shadow rays to the source reach
+// it as well.
+bool isStraight(const PreparedScene& t, const RayEnd& end, const V3d& primaryDirection) {
+  const SurfaceId mirror = end.context.mirror;
+  for (const RayEnd* before = end.context.parent; before; before = before->context.parent) {
+    const SurfaceHit& hit = before->hit;
+    if (hit.surface != kNone && hit.surface != mirror && t.tracer().stopsShadows(hit.surface, hit.cosine > 0))
+      return false;
+  }
+  V3d direction = primaryDirection;
+  if (mirror != kNone) {
+    const V3d& normal = *planeNormal(t.scene().surfaces[mirror].shape);
+    direction -= 2 * normal.dot(direction) * normal;
+  }
+  return (end.ray.direction - direction).length2() < kStraight * kStraight;
+}
+
+// Adds a light source that the ray shows to the state of its path, if the ray is one that shows sources
+// (TracedRay::shown). The ray hit a surface that emits light towards it.
+void noteShown(const PreparedScene& t, const RayEnd& end, PathState& state) {
+  const SurfaceId surface = end.hit.surface, mirror = end.context.mirror;
+  if (t.lightOf(surface) == kNone) return;
+  // The ray shows this source only if it came straight or was mirrored once. Behind a slab, such as thick
+  // glass, refraction displaces the ray, which makes no difference to a distant source.
+  const bool isDistant = t.scene().surfaces[surface].shape.as<Distant>();
+  const unsigned others = end.context.kinds & ~(kPrimary | kTransmitted | (isDistant ? kRefracted : 0u));
+  if (others != (mirror == kNone ? 0u : kReflected)) return;
+  if (state.shown.source != kNone && (state.shown.mirror == kNone || mirror != kNone)) return;
+  if (isStraight(t, end, state.primaryDirection)) state.shown = {surface, mirror};
+}
+
 }  // namespace
 
 SurfaceShading::SurfaceShading(const PreparedScene& prepared, const PathSettings& settings, PathState& state,
@@ -35,167 +70,179 @@ SurfaceShading::SurfaceShading(const PreparedScene& prepared, const PathSettings
       indirect_(indirect),
       context_{prepared.scene(), prepared.functions(), materialOptions(prepared)} {}
 
-// The hit of a ray as its material sees it.
-class SurfaceShading::Hit final : public MaterialHit {
+// The end of a ray as its material sees it.
+class SurfaceShading::Seen final : public MaterialHit {
  public:
-  Hit(SurfaceShading& shading, Ray& ray, ModifierId behind)
-      : MaterialHit(arrivalOf(shading.t_, ray), behind, shading.context_), shading_(shading), ray_(ray) {}
+  Seen(SurfaceShading& shading, RayEnd& end, ModifierId behind)
+      : MaterialHit(arrivalOf(shading.t_, end), behind, shading.context_), shading_(shading), end_(end) {}
 
-  Interaction interaction() const override { return interactionOf(scene(), ray_); }
-  const Color& pattern() const override { return ray_.pattern; }
+  Interaction interaction() const override { return interactionOf(scene(), end_); }
+  const Color& pattern() const override { return end_.hit.pattern; }
   Interaction interactionAfter(ModifierId modifiers) const override {
-    Ray own = ray_;
+    RayEnd own = end_;
     shading_.applyModifiers(own, modifiers);
     return interactionOf(scene(), own);
   }
-  FunctionPoint point() const override { return pointOf(ray_); }
-  const Medium& medium() const override { return ray_.medium; }
+  FunctionPoint point() const override { return pointOf(end_); }
+  const Medium& medium() const override { return end_.medium(); }
   V3d towardsSource() const override {
     const auto& lights = shading_.t_.lights().all();
-    const LightSource& source = lights[lights[ray_.aimedAt].relayed];
-    return (source.isDistant() ? source.center : source.center - ray_.point).normalized();
+    const LightSource& source = lights[lights[end_.ray.aimedAt].relayed];
+    return (source.isDistant() ? source.center : source.center - end_.hit.point).normalized();
   }
-  int samplesOf(double wanted) const override { return rsphere::samplesOf(shading_.settings_, ray_, wanted); }
+  int samplesOf(double wanted) const override {
+    return rsphere::samplesOf(shading_.settings_, end_.context, wanted);
+  }
 
  private:
-  void applyModifiers() override { shading_.applyModifiers(ray_, modifiers()); }
-  void turnToFront() override { rsphere::turnRound(ray_); }
+  void applyModifiers() override { shading_.applyModifiers(end_, modifiers()); }
+  void turnToFront() override { rsphere::turnRound(end_.hit); }
 
   SurfaceShading& shading_;
-  Ray& ray_;
+  RayEnd& end_;
 };
 
 // ---- surfaces and their modifiers
 
-void SurfaceShading::shadeHit(Ray& ray) {
-  ray.unmirroredLength = ray.length;
-  const bool clipped = (t_.scene().surfaces[ray.surface].clip & ray.clips) != 0;
-  if (!clipped && shadeSurface(ray)) return;
-  if (t_.scene().surfaces[ray.surface].shape.as<Distant>()) return;
-  follower_.pass(ray);
-}
-
-bool SurfaceShading::shadeSurface(Ray& ray) {
-  const Surface& surface = t_.scene().surfaces[ray.surface];
-  if (!surface.goal || ray.cosine < 0) return shade(ray, surface.modifier);
-  Ray emitted = ray;
-  Hit hit(*this, emitted, kNone);
-  const LightId light = t_.lightOf(ray.surface);
-  SourceResponse emission = goalResponse(light != kNone, hit);
-  follow(emitted, emission);
-  const bool shaded = (ray.kinds & kShadow) && ray.aimedAt == light ? true : shade(ray, surface.modifier);
-  ray.value += emitted.value;
+// A goal adds its emission.
+bool SurfaceShading::shade(RayEnd& end, RayResult& result) {
+  const Surface& surface = t_.scene().surfaces[end.hit.surface];
+  if (surface.clip & end.context.clips) return false;
+  if (!surface.goal || end.hit.cosine < 0) return shadeChain(end, surface.modifier, result);
+  RayEnd ofGoal = end;
+  RayResult emitted;
+  Seen seen(*this, ofGoal, kNone);
+  const LightId light = t_.lightOf(end.hit.surface);
+  const SourceResponse emission = goalResponse(light != kNone, seen);
+  std::visit([&](const auto& outcome) { estimate(ofGoal, outcome, emitted); }, emission);
+  const bool shaded = ((end.context.kinds & kShadow) && end.ray.aimedAt == light) ||
+                      shadeChain(end, surface.modifier, result);
+  result.value += emitted.value;
   return shaded;
 }
 
-// Shades the ray with a chain of modifiers; false if the chain has no material.
-bool SurfaceShading::shade(Ray& ray, ModifierId modifier) {
-  const bool meters = t_.irradiance() == IrradianceAt::surface && !(ray.kinds & ~(kPrimary | kTransmitted));
+bool SurfaceShading::shadeChain(RayEnd& end, ModifierId modifier, RayResult& result) {
+  const bool meters =
+      t_.irradiance() == IrradianceAt::surface && !(end.context.kinds & ~(kPrimary | kTransmitted));
   for (; modifier != kNone; modifier = t_.scene().modifiers[modifier].next) {
     const Modifier& m = t_.scene().modifiers[modifier];
     const auto* material = std::get_if<Material>(&m.content);
     if (!material) {
-      if (applyModifier(ray, modifier)) {
+      if (applyModifier(end, modifier, result)) {
         // A mixture of materials must be the last modifier of a chain.
         if (m.next != kNone) throw rad::Error(t_.scene().place(m.primitive) + ": inappropriate modifier");
         return true;
       }
       continue;
     }
-    if (meters && isTransparent(*material)) return follow(ray, Passes{});
+    if (meters && isTransparent(*material)) return estimate(end, Passes{}, result);
     if (meters && !isLightSource(*material) && !std::holds_alternative<Antimatter>(*material)) {
-      ray.pattern = Color(1, 1, 1);
-      meter(ray);
+      end.hit.pattern = Color(1, 1, 1);
+      meter(end, result);
       return true;
     }
-    if (std::visit([&](const auto& kind) { return shadeMaterial(ray, kind, m.next); }, *material))
+    if (std::visit([&](const auto& kind) { return shadeMaterial(end, kind, m.next, result); }, *material))
       return true;
   }
   return false;
 }
 
-// Applies a pattern, texture or mixture to the ray. Returns whether a mixture has shaded it with a material.
-inline bool SurfaceShading::applyModifier(Ray& ray, ModifierId modifier) {
+// Applies a pattern, texture or mixture to the hit. Returns whether a mixture has shaded it with a material.
+inline bool SurfaceShading::applyModifier(RayEnd& end, ModifierId modifier, RayResult& result) {
   const Content& content = t_.scene().modifiers[modifier].content;
-  if (const auto* mixture = std::get_if<Mixture>(&content)) return shadeMixture(ray, modifier, *mixture);
-  const FunctionPoint at = pointOf(ray);
+  if (const auto* mixture = std::get_if<Mixture>(&content))
+    return shadeMixture(end, modifier, *mixture, result);
+  const FunctionPoint at = pointOf(end);
   if (std::holds_alternative<Pattern>(content))
-    ray.pattern *= t_.functions().pattern(modifier, at, context_.scratch);
+    end.hit.pattern *= t_.functions().pattern(modifier, at, context_.scratch);
   else
-    ray.perturbation += t_.functions().texture(modifier, at, context_.scratch);
+    end.hit.perturbation += t_.functions().texture(modifier, at, context_.scratch);
   return false;
 }
 
 // Applies the modifiers of a material: patterns, textures, and mixtures of them.
-inline void SurfaceShading::applyModifiers(Ray& ray, ModifierId modifier) {
+inline void SurfaceShading::applyModifiers(RayEnd& end, ModifierId modifier) {
   for (; modifier != kNone; modifier = t_.scene().modifiers[modifier].next) {
     const Modifier& m = t_.scene().modifiers[modifier];
-    if (std::holds_alternative<Material>(m.content) || applyModifier(ray, modifier))
+    RayResult none;
+    if (std::holds_alternative<Material>(m.content) || applyModifier(end, modifier, none))
       throw rad::Error(t_.scene().place(m.primitive) + ": conflicting material");
   }
 }
 
-bool SurfaceShading::shadeMixture(Ray& ray, ModifierId modifier, const Mixture& mixture) {
-  const double share = t_.functions().mixture(modifier, pointOf(ray), context_.scratch);
-  if (share < 0) return false;
-  struct Side {
-    Ray ray;
-    double share;
-    bool counts, shaded = false;
-  };
-  Side sides[2] = {{ray, share, share > kNegligible}, {ray, 1 - share, share < 1 - kNegligible}};
-  const ModifierId chains[2] = {mixture.foreground, mixture.background};
-  for (int i = 0; i < 2; ++i) {
-    Side& side = sides[i];
-    if (!side.counts) continue;
-    side.ray.weight *= side.share;
-    side.ray.contribution *= side.share;
-    side.shaded = shade(side.ray, chains[i]);
+namespace {
+
+// A ray that sees one of the two components of a mixture.
+struct Part {
+  double share;
+  bool counts, shaded = false;
+  PathContext context;
+  RayEnd end;
+  RayResult result;
+
+  Part(const RayEnd& whole, double ofWhole, bool matters, const RayResult& before)
+      : share(ofWhole), counts(matters), context(whole.context), end(whole, context), result(before) {
+    context.weight *= share;
+    context.contribution *= share;
   }
+};
+
+RayResult mixed(const Part& a, const Part& b) {
+  RayResult all{a.result.value * a.share + b.result.value * b.share,
+                a.result.mirrored * a.share + b.result.mirrored * b.share};
+  const double mirroredA = a.share * brightness(a.result.mirrored),
+               mirroredB = b.share * brightness(b.result.mirrored);
+  all.mirroredLength = (mirroredA > mirroredB ? a : b).result.mirroredLength;
+  const double restA = a.share * brightness(a.result.value) - mirroredA,
+               restB = b.share * brightness(b.result.value) - mirroredB;
+  all.unmirroredLength = (restA > restB ? a : b).result.unmirroredLength;
+  return all;
+}
+
+}  // namespace
+
+bool SurfaceShading::shadeMixture(RayEnd& end, ModifierId modifier, const Mixture& mixture,
+                                  RayResult& result) {
+  const double share = t_.functions().mixture(modifier, pointOf(end), context_.scratch);
+  if (share < 0) return false;
+  Part a(end, share, share > kNegligible, result), b(end, 1 - share, share < 1 - kNegligible, result);
+  if (a.counts) a.shaded = shadeChain(a.end, mixture.foreground, a.result);
+  if (b.counts) b.shaded = shadeChain(b.end, mixture.background, b.result);
   // If one component of a mixture is a material, void as the other component is transparent.
-  for (int i = 0; i < 2; ++i)
-    if (sides[i].counts && !sides[i].shaded && sides[1 - i].shaded) follower_.pass(sides[i].ray);
-  const Ray& a = sides[0].ray;
-  const Ray& b = sides[1].ray;
-  const auto mixed = [&](const auto& x, const auto& y) { return x * share + y * (1 - share); };
-  ray.perturbation = mixed(a.perturbation, b.perturbation);
-  ray.pattern = mixed(a.pattern, b.pattern);
-  if (!sides[0].shaded && !sides[1].shaded) return false;
-  ray.value = mixed(a.value, b.value);
-  ray.mirrored = mixed(a.mirrored, b.mirrored);
-  const double mirroredA = share * brightness(a.mirrored), mirroredB = (1 - share) * brightness(b.mirrored);
-  ray.mirroredLength = (mirroredA > mirroredB ? a : b).mirroredLength;
-  const double restA = share * brightness(a.value) - mirroredA;
-  const double restB = (1 - share) * brightness(b.value) - mirroredB;
-  ray.unmirroredLength = (restA > restB ? a : b).unmirroredLength;
+  if (a.counts && !a.shaded && b.shaded) a.result = follower_.pass(a.end);
+  if (b.counts && !b.shaded && a.shaded) b.result = follower_.pass(b.end);
+  end.hit.perturbation = a.end.hit.perturbation * a.share + b.end.hit.perturbation * b.share;
+  end.hit.pattern = a.end.hit.pattern * a.share + b.end.hit.pattern * b.share;
+  if (!a.shaded && !b.shaded) return false;
+  result = mixed(a, b);
   return true;
 }
 
 // ---- materials
 
-void SurfaceShading::meter(Ray& ray) { shadeMaterial(ray, kIrradianceMeter, kNone); }
-
-template <class M>
-bool SurfaceShading::shadeMaterial(Ray& ray, const M& material, ModifierId behind) {
-  Hit hit(*this, ray, behind);
-  auto answer = response(material, hit);
-  return follow(ray, answer);
+void SurfaceShading::meter(RayEnd& end, RayResult& result) {
+  shadeMaterial(end, kIrradianceMeter, kNone, result);
 }
 
-template <class... Outcomes>
-bool SurfaceShading::follow(Ray& ray, std::variant<Outcomes...>& response) {
-  return std::visit([&](auto& outcome) { return follow(ray, outcome); }, response);
+template <class M>
+bool SurfaceShading::shadeMaterial(RayEnd& end, const M& material, ModifierId behind, RayResult& result) {
+  Seen seen(*this, end, behind);
+  auto asked = response(material, seen);
+  if constexpr (requires { asked.index(); })
+    return std::visit([&](auto& outcome) { return estimate(end, outcome, result); }, asked);
+  else
+    return estimate(end, asked, result);
 }
 
 // The light of a source that a sample of the reflected lobe has hit, and the coefficient that shadow rays
 // leave to it.
 template <ScattersLight S>
-Radiance SurfaceShading::lobesPart(const S& scattering, const Ray& sample) const {
+Radiance SurfaceShading::lobesPart(const S& scattering, const RayEnd& sample) const {
   const Radiance seen = sourceSeenBy(t_, sample);
   if (isBlack(seen)) return {};
-  const LightSource& light = t_.lights().all()[t_.lightOf(sample.surface)];
-  return seen * shareOfLobe(light, sample.length, std::abs(sample.cosine),
-                            scattering.lobeDensity(Component::reflected, sample.direction));
+  const LightSource& light = t_.lights().all()[t_.lightOf(sample.hit.surface)];
+  return seen * shareOfLobe(light, sample.hit.length, std::abs(sample.hit.cosine),
+                            scattering.lobeDensity(Component::reflected, sample.ray.direction));
 }
 
 template <ScattersLight S>
@@ -209,104 +256,103 @@ Coefficient SurfaceShading::lobesCoefficient(const S& scattering, const SourceSa
 // The light that a surface scatters towards the ray's origin: sharp paths, lobes, and on each side indirect
 // and direct light.
 template <ScattersLight S>
-bool SurfaceShading::follow(Ray& ray, S& scattering) {
-  Random& random = state_.random;
-  specular_.follow(ray, scattering.sharp());
-  if (ray.kinds & kShadow) return true;
-  const auto components = scattering.components();
-  bool shares = false;
-  const bool followsLobes = ray.depth > 0 || !state_.request.leavesOutLobes;
-  for (const Component c : components)
-    if (const std::optional<Lobe> lobe = scattering.lobe(c, random)) {
-      if (!followsLobes) {
-        state_.leftOut.lobes = true;
-        continue;
-      }
-      const auto draw = [&](int i, int n) { return scattering.draw(c, i, n, random); };
-      if (c == Component::transmitted) {
-        specular_.sampleLobe(ray, kTransmittedSpecular, *lobe, draw);
-        continue;
-      }
-      shares = settings_.mode.sharesHighlights && goesOn(t_, ray);
-      const auto ofSource = [&](const Ray& sample) { return lobesPart(scattering, sample); };
-      const LobeShare share(ofSource);
-      specular_.sampleLobe(ray, kReflectedSpecular, *lobe, draw, shares ? &share : nullptr);
-    }
+bool SurfaceShading::estimate(RayEnd& end, S& scattering, RayResult& result) {
+  specular_.add(end, scattering.sharp(), result);
+  if (end.context.kinds & kShadow) return true;
+  const bool shares = estimateLobes(end, scattering, result);
   const auto partOfLobe = [&](const SourceSample& sample) { return lobesCoefficient(scattering, sample); };
   const PartOfLobe part(partOfLobe);
-  const V3d hit = ray.point;
-  for (const Component c : components) {
-    ray.point = hit + scattering.offset(c);
-    if (const Coefficient indirect = scattering.indirect(c); maxChannel(indirect) > kNegligible) {
-      const V3d &normal = scattering.normal(c), &trueNormal = scattering.trueNormal();
-      if (c == Component::reflected)
-        indirect_.add(ray, normal, trueNormal, kReflectedAmbient, indirect);
-      else
-        indirect_.add(ray, -normal, -trueNormal, kTransmittedAmbient, indirect);
+  for (const Component c : scattering.components())
+    estimateSide(end, scattering, c, shares ? &part : nullptr, result.value);
+  return true;
+}
+
+// Adds the light of lobes. Returns whether samples of the reflected lobe estimate a part of the light of
+// sources.
+template <ScattersLight S>
+[[gnu::always_inline]] inline bool SurfaceShading::estimateLobes(const RayEnd& end, S& scattering,
+                                                                 RayResult& result) {
+  Random& random = state_.random;
+  bool shares = false;
+  const bool followsLobes = end.context.depth > 0 || !state_.request.leavesOutLobes;
+  for (const Component c : scattering.components()) {
+    const std::optional<Lobe> lobe = scattering.lobe(c, random);
+    if (!lobe) continue;
+    if (!followsLobes) {
+      state_.leftOut.lobes = true;
+      continue;
     }
-    if (!scattering.takesDirect(c)) continue;
-    const auto coefficient = [&](const V3d& toSource, double solidAngle) {
-      return scattering.coefficient(c, toSource, solidAngle, random);
-    };
-    if (t_.options().chosenSources > 0 && scattering.isEven())
-      direct_.addOfChosen(ray, coefficient, scattering.front());
-    else
-      direct_.add(ray, coefficient, scattering.front(), shares ? &part : nullptr);
+    const auto draw = [&](int i, int n) { return scattering.draw(c, i, n, random); };
+    if (c == Component::transmitted) {
+      specular_.addLobe(end, kTransmittedSpecular, *lobe, draw, nullptr, result);
+      continue;
+    }
+    shares = settings_.mode.sharesHighlights && goesOn(t_, end.context);
+    const auto ofSource = [&](const RayEnd& sample) { return lobesPart(scattering, sample); };
+    const LobeShare share(ofSource);
+    specular_.addLobe(end, kReflectedSpecular, *lobe, draw, shares ? &share : nullptr, result);
   }
-  ray.point = hit;
+  return shares;
+}
+
+// Adds the indirect and direct light of one side.
+template <ScattersLight S>
+[[gnu::always_inline]] inline void SurfaceShading::estimateSide(const RayEnd& end, S& scattering,
+                                                                Component side, const PartOfLobe* partOfLobe,
+                                                                Radiance& value) {
+  const V3d point = end.hit.point + scattering.offset(side);
+  if (const Coefficient indirect = scattering.indirect(side); maxChannel(indirect) > kNegligible) {
+    const V3d &normal = scattering.normal(side), &trueNormal = scattering.trueNormal();
+    if (side == Component::reflected)
+      indirect_.add(end, {point, normal, trueNormal, kReflectedAmbient, indirect}, value);
+    else
+      indirect_.add(end, {point, -normal, -trueNormal, kTransmittedAmbient, indirect}, value);
+  }
+  if (!scattering.takesDirect(side)) return;
+  const auto coefficient = [&](const V3d& toSource, double solidAngle) {
+    return scattering.coefficient(side, toSource, solidAngle, state_.random);
+  };
+  if (t_.options().chosenSources > 0 && scattering.isEven())
+    direct_.addOfChosen({end, point}, coefficient, scattering.front(), value);
+  else
+    direct_.add({end, point}, coefficient, scattering.front(), partOfLobe, value);
+}
+
+bool SurfaceShading::estimate(RayEnd& end, Passes, RayResult& result) {
+  result = follower_.pass(end);
   return true;
 }
 
-bool SurfaceShading::follow(Ray& ray, Passes) {
-  follower_.pass(ray);
+bool SurfaceShading::estimate(RayEnd& end, const Alternate& alternate, RayResult& result) {
+  if (alternate.kind == Alternate::Kind::modifier) return shadeChain(end, alternate.modifier, result);
+  return estimate(end, Passes{}, result);
+}
+
+bool SurfaceShading::estimate(RayEnd& end, const Emits& emits, RayResult& result) {
+  result.value = emits.radiance;
+  if (!(end.context.kinds & kShadow)) noteShown(t_, end, state_);  // most rays are shadow rays
   return true;
 }
 
-bool SurfaceShading::follow(Ray& ray, const Alternate& alternate) {
-  if (alternate.kind == Alternate::Kind::modifier) return shade(ray, alternate.modifier);
-  return follow(ray, Passes{});
-}
-
-bool SurfaceShading::follow(Ray& ray, const Emits& emits) {
-  ray.value = emits.radiance;
-  if (!(ray.kinds & kShadow)) noteShown(t_, ray, state_);  // most rays are shadow rays
+bool SurfaceShading::estimate(RayEnd& end, const Boundary& boundary, RayResult& result) {
+  end.changedSpace().medium = boundary.scattering.medium;
+  specular_.add(end, boundary.scattering.sharp, result);
   return true;
 }
 
-bool SurfaceShading::follow(Ray& ray, const ReflectsSharply& response) {
-  specular_.follow(ray, response.scattering.sharp);
+bool SurfaceShading::estimate(RayEnd& end, const CrossesMist& boundary, RayResult& result) {
+  NextRay next = beyondMist(t_, boundary, end);
+  result = follower_.passOn(next, end);
   return true;
 }
 
-bool SurfaceShading::follow(Ray& ray, const Boundary& boundary) {
-  ray.medium = boundary.scattering.medium;
-  specular_.follow(ray, boundary.scattering.sharp);
-  return true;
-}
-
-bool SurfaceShading::follow(Ray& ray, const Redirects& redirects) {
-  specular_.redirect(ray, redirects.paths);
-  return true;
-}
-
-bool SurfaceShading::follow(Ray& ray, const Relays& relays) {
-  specular_.relay(ray, relays.path);
-  return true;
-}
-
-bool SurfaceShading::follow(Ray& ray, const CrossesMist& boundary) {
-  Ray child = beyondMist(t_, boundary, ray);
-  follower_.passOn(child, ray);
-  return true;
-}
-
-bool SurfaceShading::follow(Ray& ray, const CrossesAntimatter& boundary) {
-  if (!entersCut(t_.scene(), boundary, ray)) return follow(ray, Passes{});
+bool SurfaceShading::estimate(RayEnd& end, const CrossesAntimatter& boundary, RayResult& result) {
+  if (!entersCut(t_.scene(), boundary, end)) return estimate(end, Passes{}, result);
   // The material lies on the other side of the antimatter's surface: a ray that leaves the antimatter enters
   // a dielectric, and the reverse.
-  flip(ray);
-  ray.insideOut = !ray.insideOut;
-  return shade(ray, boundary.cut.modifier);
+  flip(end.hit);
+  end.hit.insideOut = !end.hit.insideOut;
+  return shadeChain(end, boundary.cut.modifier, result);
 }
 
 }  // namespace rsphere

@@ -18,48 +18,50 @@ class SurfaceShading {
                  RayFollower& follower, DirectLight& direct, SpecularLight& specular,
                  IndirectLight& indirect);
 
-  // Sets the radiance of a ray that hit a surface (W/sr/m2). The ray passes a surface that is cut away by
-  // antimatter or has no material.
-  void shadeHit(Ray& ray);
-
-  // As shade(), for a surface of any kind: adds the emission of a goal. False if it has no material.
-  bool shadeSurface(Ray& ray);
+  // Sets the radiance (W/sr/m2) at the end of a ray that hit a surface, and what is mirrored there. False,
+  // with nothing done, if the surface is cut away by antimatter or has no material, so that the ray passes
+  // it.
+  bool shade(RayEnd& end, RayResult& result);
 
   // RayFollower::shade().
-  bool shade(Ray& ray, ModifierId modifier);
+  bool shadeChain(RayEnd& end, ModifierId modifier, RayResult& result);
 
-  // Shades the ray's hit as a white diffuse surface whose radiance is the irradiance there (-i, -I).
-  void meter(Ray& ray);
+  // Shades the end of a ray as a white diffuse surface whose radiance is the irradiance there (-i, -I).
+  void meter(RayEnd& end, RayResult& result);
 
  private:
-  class Hit;
+  class Seen;
 
-  bool applyModifier(Ray& ray, ModifierId modifier);
-  void applyModifiers(Ray& ray, ModifierId modifier);
-  bool shadeMixture(Ray& ray, ModifierId modifier, const Mixture& mixture);
+  bool applyModifier(RayEnd& end, ModifierId modifier, RayResult& result);
+  void applyModifiers(RayEnd& end, ModifierId modifier);
+  bool shadeMixture(RayEnd& end, ModifierId modifier, const Mixture& mixture, RayResult& result);
 
   // behind: the chain of modifiers that the material has itself.
   template <class M>
-  bool shadeMaterial(Ray& ray, const M& material, ModifierId behind);
+  bool shadeMaterial(RayEnd& end, const M& material, ModifierId behind, RayResult& result);
 
-  // Sets the radiance of the ray according to the response of a material (W/sr/m2). False if the ray hit an
-  // alternate without a material instead.
-  template <class... Outcomes>
-  bool follow(Ray& ray, std::variant<Outcomes...>& response);
-  bool follow(Ray&, Absorbs) { return true; }
-  bool follow(Ray& ray, Passes);
-  bool follow(Ray& ray, const Alternate& alternate);
-  bool follow(Ray& ray, const Emits& emits);
-  bool follow(Ray& ray, const ReflectsSharply& response);
-  bool follow(Ray& ray, const Boundary& boundary);
-  bool follow(Ray& ray, const Redirects& redirects);
-  bool follow(Ray& ray, const Relays& relays);
-  bool follow(Ray& ray, const CrossesMist& boundary);
-  bool follow(Ray& ray, const CrossesAntimatter& boundary);
+  // Each estimates what a material's response asks for. False if it asks for a material that there is not.
+  bool estimate(RayEnd&, Absorbs, RayResult&) { return true; }
+  bool estimate(RayEnd& end, Passes, RayResult& result);
+  bool estimate(RayEnd& end, const Alternate& alternate, RayResult& result);
+  bool estimate(RayEnd& end, const Emits& emits, RayResult& result);
+  bool estimate(RayEnd& end, const Boundary& boundary, RayResult& result);
+  template <OneOf<ReflectsSharply, Redirects, Relays> Sharp>
+  bool estimate(RayEnd& end, const Sharp& sharp, RayResult& result) {
+    specular_.add(end, sharp, result);
+    return true;
+  }
+  bool estimate(RayEnd& end, const CrossesMist& boundary, RayResult& result);
+  bool estimate(RayEnd& end, const CrossesAntimatter& boundary, RayResult& result);
   template <ScattersLight S>
-  bool follow(Ray& ray, S& scattering);
+  bool estimate(RayEnd& end, S& scattering, RayResult& result);
   template <ScattersLight S>
-  Radiance lobesPart(const S& scattering, const Ray& sample) const;
+  bool estimateLobes(const RayEnd& end, S& scattering, RayResult& result);
+  template <ScattersLight S>
+  void estimateSide(const RayEnd& end, S& scattering, Component side, const PartOfLobe* partOfLobe,
+                    Radiance& value);
+  template <ScattersLight S>
+  Radiance lobesPart(const S& scattering, const RayEnd& sample) const;
   template <ScattersLight S>
   Coefficient lobesCoefficient(const S& scattering, const SourceSample& sample) const;
 

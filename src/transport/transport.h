@@ -1,6 +1,6 @@
 #pragma once
-// All that the path tracers of a run share: the scene prepared for tracing, what gathers are aimed at, and the caches
-// of interpolated light.
+// All that the path tracers of a run share: the scene prepared for tracing, what gathers are aimed at, and
+// the caches of interpolated light.
 #include "transport/aims.h"
 #include "transport/caches.h"
 #include "transport/path_tracer.h"
@@ -11,8 +11,8 @@ namespace rsphere {
 // Shared by all threads. Constant once constructed, except for the caches. Keeps a reference to the scene.
 class Transport {
  public:
-  // See PreparedScene. If there is indirect light (-ab) and the scene has panes or holes, the constructor traces some
-  // paths to find the openings that daylight enters through. Throws what PreparedScene throws.
+  // See PreparedScene. If there is indirect light (-ab) and the scene has panes or holes, the constructor
+  // traces some paths to find the openings that daylight enters through. Throws what PreparedScene throws.
   Transport(const Scene& scene, const RayOptions& options, IrradianceAt irradiance,
             bool basicRadiance = false, const rad::Warn& warn = {});
   // The scene of another, with other options and without warnings. REQUIRES: -bv is the same.

@@ -12,28 +12,29 @@
 
 namespace rsphere::tuning {
 
+// Caps that limit time: of each gather, and at start.
+struct Caps {
+  // Openings, spots and highlights on balls that are aimed at from one point, and parts of sources that one
+  // ball shows; the brightest are kept. Half as many spots are of light from openings, and highlights on
+  // cylinders, which cost more: chosen by experiment, because every aimed ray asks all of them for its
+  // density. 30% less or more: within noise (sensors by sun; error 5%, time 4%).
+  RSPHERE_TUNED_ROOM(Caps, size_t, kAimed, 64);
+  // Panes and holes that are probed, balls and cylinders that are looked at; the largest are kept. 30% less
+  // or more: the same answers in all cases.
+  RSPHERE_TUNED(Caps, size_t, kAsked, 1024);
+};
+
 // Patches of strong direct light that indirect rays are aimed at (bright_spots.cpp).
 struct BrightSpots {
   // Particles that are traced from the sources, and as many from distant sources through openings: chosen by
   // experiment. A spot that reflects a hundredth of the light is found by 80 of them. 30% less or more:
   // within noise (sensors by sun; error 9%, time 5%).
   RSPHERE_TUNED(BrightSpots, double, kParticles, 8192);
-  // The minimal number of particles of a spot: chosen by experiment. Its power is then known within 29%,
-  // 1/sqrt(12). 30% less or more: within noise (sensors by sun; error 3%, time 5%).
-  RSPHERE_TUNED(BrightSpots, size_t, kFewest, 12);
-  // Cap on the number of spots: chosen by experiment, because every aimed ray asks all spots for its density.
-  // 30% less or more: the same answers in all cases.
-  RSPHERE_TUNED_ROOM(BrightSpots, size_t, kMost, 64);
-  // The same for spots of light that enters through openings, which are found first: half of all. 30% less or
-  // more: within noise (sensors by sun; error 5%, time 4%).
-  RSPHERE_TUNED(BrightSpots, size_t, kMostInside, 32);
   // A spot reflects at least this many times more light per area than surfaces do on average: chosen by
-  // experiment. 30% less or more: the same answers in all cases.
+  // experiment. 30% less or more: the same answers in all cases. For light that enters through openings, of
+  // which patches of the coarse solution know few rays, it is half of that: by measurement in a sunlit
+  // classroom, where spots of 6 and more leave 1.55% of noise at sensors, of 3 1.16%, of 2 1.27%.
   RSPHERE_TUNED(BrightSpots, double, kBrighter, 6);
-  // The same for spots of light that enters through openings, of which patches of the coarse solution know
-  // few rays: by measurement in a sunlit classroom, where spots of 6 and more leave 1.55% of noise at
-  // sensors, of 3 1.16%, of 2 1.27%.
-  RSPHERE_TUNED(BrightSpots, double, kBrighterInside, 3);
   // Aiming pays for itself if the worth of all spots together (Node::worth) exceeds this multiple of
   // the worth that all surfaces would have if they were lit evenly: by measurement. Aiming makes a
   // path 25% more expensive.
@@ -41,28 +42,11 @@ struct BrightSpots {
   //   room with a lit lampshade                 31   one third
   //   open-plan office, around a goal            8   two thirds
   //   small room, around a goal                  2   slightly less
-  // 30% less or more: the same answers in all cases.
+  // 30% less or more: the same answers in all cases. For light that enters through openings, any gain pays:
+  // the spots of the same classroom are worth 2.3.
   RSPHERE_TUNED(BrightSpots, double, kLeastWorth, 4);
-  // The same for light that enters through openings: by measurement in the same classroom, whose spots are
-  // worth 2.3.
-  RSPHERE_TUNED(BrightSpots, double, kLeastWorthInside, 1);
-  // Ratio of the radius of a spot to half the diagonal of the box around its particles: chosen by experiment.
-  // 30% less or more: within noise (sensors by sun; error 14%, time 5%).
-  RSPHERE_TUNED(BrightSpots, double, kWider, 1.15);
-  // No rays are aimed at a spot whose center is nearer than the root of this, in radii: chosen by
-  // experiment. From nearer, the formula for a small surface fails. 30% less or more: within noise (sensors
-  // by sun; error below 1%, time 7%).
-  RSPHERE_TUNED(BrightSpots, float, kApart, 2);
-  // The share of a spot that is visible edge-on: chosen by experiment. It is not 0 because the normal of a
-  // spot is a mean. 30% less or more: within noise (sensors by sun; error 5%, time 5%).
-  RSPHERE_TUNED(BrightSpots, double, kEdgeOn, .05);
-  // The surface area of a room, divided by the square of the mean distance across it: derived. The mean chord
-  // of a convex body is 4 V/S. In a room of 10 x 7 x 3 m this is 3.5 m, and the surface area is 20 times its
-  // square. 30% less or more: within noise (sensors by sun; error 12%, time 5%).
-  RSPHERE_TUNED(BrightSpots, double, kRoomSurface, 20);
 };
 
-// Portals of daylight that indirect rays are aimed at (openings.cpp).
 // Holes in walls (holes.cpp).
 struct Holes {
   // Polygons belong to one wall if their normals and their distances from the scene's corner, in sizes of the
@@ -79,6 +63,7 @@ struct Holes {
   static constexpr size_t kMostWalls = 256;
 };
 
+// Portals of daylight that indirect rays are aimed at (find_openings.cpp, openings.cpp).
 struct Openings {
   // Panes smaller than this share of the largest face of the scene's box are ignored, because every opening
   // costs time in every gather: chosen by experiment. 30% less or more: the same answers in all cases.
@@ -86,9 +71,6 @@ struct Openings {
   // The same for holes without panes: larger, because their walls are then known without smaller polygons. A
   // door of 2 m2 counts in a scene of up to 450 m.
   RSPHERE_TUNED(Openings, double, kLeastHole, 1e-5);
-  // Cap on the number of panes and holes that are probed, of which the largest are chosen: by experiment, to
-  // limit the time at start. 30% less or more: the same answers in all cases.
-  RSPHERE_TUNED(Openings, size_t, kMostAsked, 512);
   // Probe rays on each side of a pane: chosen by experiment. 30% less: time +30%; 30% more: time +30%
   // (sensors by panes; noise: error 19%, time 4%), because other panes are then found to be openings.
   RSPHERE_TUNED(Openings, int, kProbes, 32);
@@ -109,9 +91,6 @@ struct Openings {
   // Coplanar panes are merged to one opening if they fill at least this share of the rectangle around them:
   // chosen by experiment. 30% less or more: the same answers in all cases.
   RSPHERE_TUNED(Openings, double, kFilled, .7);
-  // Cap on the number of openings; the most powerful are kept: chosen by experiment, to limit the time. 30%
-  // less or more: the same answers in all cases.
-  RSPHERE_TUNED_ROOM(Openings, size_t, kMost, 64);
   // The form factor to an opening is estimated from its middle and from four points that are this share of
   // its sides away from its edges: chosen by experiment. 30% less: error +2%; 30% more: within noise (sensors
   // by sun; noise: error 5%, time 5%).
@@ -155,19 +134,9 @@ struct RadianceGuess {
 
 // Next-event estimation (direct_light.cpp).
 struct DirectLight {
-  // Rays of a gather do not divide sources into parts if the jitter (-dj) is larger than this, because a
-  // sample can then lie nearly anywhere on its source: chosen by experiment. 30% less or more: the same
-  // answers in all cases.
-  RSPHERE_TUNED(DirectLight, double, kWideJitter, .5);
   // The brightest contributions that are tested for shadows whatever -dt says: chosen by experiment. 1 or 3:
   // within noise (picture of workshop; error below 1%, time 5%).
   RSPHERE_TUNED(DirectLight, size_t, kAlwaysTested, 2);
-  // Up to so many contributions are ranked by comparing all pairs instead of by sorting: by measurement. It
-  // changes the time only. 30% less or more: the same answers in all cases.
-  RSPHERE_TUNED_ROOM(DirectLight, uint32_t, kFew, 24);
-  // The binary logarithm of the size of the table of surfaces that blocked the last shadow ray: chosen by
-  // experiment. It changes the time only. 30% less or more: the same answers in all cases.
-  RSPHERE_TUNED(DirectLight, int, kBlockerBits, 12);
 };
 
 // Where surfaces send light from (light_patches.cpp).
@@ -195,9 +164,6 @@ struct GatherDirections {
   // measurement. At .5 the work is 1.3, .9, 1 and 1 times that at .7, at .3 it is 7.8, 2.4, 1.1 and 1.2
   // times.
   RSPHERE_TUNED(GatherDirections, double, kToOpenings, .7);
-  // Cap on that share: chosen by experiment. Others then have at most twice the weight that they have without
-  // aiming.
-  RSPHERE_TUNED(GatherDirections, double, kMostToOpenings, .5);
   // The same for spots: chosen by experiment. From .5 to .9 the work is the same within its noise.
   RSPHERE_TUNED(GatherDirections, double, kToSpots, .5);
   // The light from elsewhere, relative to the smaller of two estimates that are made near openings, where it
@@ -211,28 +177,15 @@ struct GatherDirections {
   // measurement in a room with a chrome ball. From 1 to 8 the noise beside the ball is the same within a
   // fifth.
   RSPHERE_TUNED(GatherDirections, double, kToHighlights, 2);
-  // Cap on that share, as others then have at most a third more weight: chosen by experiment.
-  RSPHERE_TUNED(GatherDirections, double, kMostToHighlights, .25);
   // A smaller share of aimed directions is not worth the work: chosen by experiment. 30% less or more: within
   // noise (sensors by sun; error 4%, time 7%).
   RSPHERE_TUNED(GatherDirections, double, kTooFew, .02);
 };
 
-// Highlights on curved surfaces: this and the five groups below. Values without an origin are estimates that
-// have not been varied. All of them change the variance and the time of answers, not their mean.
-//
-// Light sources as curved surfaces show them (source_parts.cpp).
-struct HighlightParts {
-  // A source is divided so that half the width of a part is at most this, relative to its distance from the
-  // surface, because the highlight of a wider part is noticeably curved; and into this many parts along each
-  // side at most.
-  RSPHERE_TUNED(HighlightParts, double, kHalf, .25);
-  RSPHERE_TUNED(HighlightParts, double, kMost, 8);
-  // The reflectance of all surfaces, by which their mean brightness is estimated: the usual one of rooms.
-  RSPHERE_TUNED(HighlightParts, double, kMeanReflectance, .5);
-};
-
-// Highlights that indirect rays are aimed at (highlights.h).
+// Highlights of light sources on rough balls and cylinders, which indirect rays are aimed at (highlights.h,
+// source_parts.cpp, highlight_lobe.cpp, ball_highlights.cpp, cylinder_highlights.cpp). Values without an
+// origin are estimates that have not been varied. All of them change the variance and the time of answers,
+// not their mean.
 struct Highlights {
   // They are aimed at if they would add this multiple of the squared mean radiance to the variance of a
   // direction that meets them by chance: by measurement in an open-plan office with 50 rough balls and 51
@@ -250,65 +203,22 @@ struct Highlights {
   // The multiple of kLeast for balls in other gathers, whose noise is larger: by measurement of spherical
   // means in the same office, for the same noise. They take 3% more work than without balls; at 1, 6%.
   RSPHERE_TUNED(Highlights, double, kLeastOfFew, 10);
+  // A highlight on a cylinder is aimed at if it adds at least this fraction of kLeast, the threshold for all
+  // of them together.
+  RSPHERE_TUNED(Highlights, double, kLeastShare, .1);
+  // A source is divided so that half the width of a part is at most this, relative to its distance from the
+  // surface, because the highlight of a wider part is noticeably curved.
+  RSPHERE_TUNED(Highlights, double, kHalf, .25);
+  // Ratio of the extent of the aimed directions to that of the highlight: without a margin, directions would
+  // seldom meet its edge.
+  RSPHERE_TUNED(Highlights, double, kWider, 1.3);
+  // Cosines of surfaces seen edge-on are not taken to be smaller than this: of reflections, whose highlight
+  // would have no extent; of bright spots, whose normal is a mean; and the sine between a cylinder and a
+  // distant source along it. 30% less or more: within noise (sensors by sun; error 5%, time 5%).
+  RSPHERE_TUNED(Highlights, double, kEdgeOn, .05);
 };
 
-// Highlights on curved surfaces (highlight_lobe.cpp).
-struct HighlightLobe {
-  // Ratio of the extent of the aimed directions to that of the highlight, so that its edge is not met too
-  // seldom.
-  RSPHERE_TUNED(HighlightLobe, double, kWider, 1.3);
-  // The least cosine of the angle of reflection by which the extent of a highlight is computed: edge-on, it
-  // has none.
-  RSPHERE_TUNED(HighlightLobe, double, kGrazing, .05);
-};
-
-// Highlights of light sources on rough balls that indirect rays are aimed at (ball_highlights.cpp).
-struct BallHighlights {
-  // Cap on the balls that are looked at, of which the largest are chosen, to limit the time at start.
-  static constexpr size_t kMostAsked = 1024;
-  // Cap on the balls that are aimed at from one point, of which the brightest are chosen, to limit the time
-  // of each gather.
-  RSPHERE_TUNED_ROOM(BallHighlights, size_t, kMostAimed, 64);
-  // Cap on the parts of all sources for one ball, of which the brightest as seen from the ball are chosen.
-  RSPHERE_TUNED(BallHighlights, size_t, kMostOfBall, 64);
-  // No rays are aimed at a ball whose center is nearer than this, in radii: on its surface, formulas fail.
-  RSPHERE_TUNED(BallHighlights, double, kApart, 1.02);
-  // No direction is aimed where the angle between the normal and the bisector of the directions to point and
-  // source exceeds this multiple of the roughness, apart from the source's extent: Ward's formula gives 1e-4
-  // of the peak there.
-  RSPHERE_TUNED(BallHighlights, double, kReach, 3);
-};
-
-// The same on rough cylinders (cylinder_highlights.cpp).
-struct CylinderHighlights {
-  // As for balls: caps on the cylinders that are looked at, and on the parts of all sources for each of them.
-  static constexpr size_t kMostAsked = 1024;
-  RSPHERE_TUNED(CylinderHighlights, size_t, kMostOfCylinder, 32);
-  // Cap on the highlights that are aimed at from one point, to limit the time of each gather.
-  RSPHERE_TUNED_ROOM(CylinderHighlights, size_t, kMostAimed, 32);
-  // A highlight is aimed at if it adds this share of what all together must add at least
-  // (Highlights::kLeast).
-  RSPHERE_TUNED(CylinderHighlights, double, kLeastShare, .1);
-  // No rays are aimed at a cylinder whose axis is nearer than this, in radii: on its surface, formulas fail.
-  RSPHERE_TUNED(CylinderHighlights, double, kApart, 1.02);
-  // The least sine of the angle between a distant source and the axis: lengthwise, it lights nothing.
-  RSPHERE_TUNED(CylinderHighlights, double, kLengthwise, .02);
-  // The distance, in lengths of the cylinder, beyond its ends up to which the middle of a highlight may lie
-  // whose edge is on it.
-  RSPHERE_TUNED(CylinderHighlights, double, kBeyond, 1);
-  // No direction is aimed where the density of a highlight is below exp(-kReach) of its peak: 1e-4, as for
-  // balls.
-  RSPHERE_TUNED(CylinderHighlights, double, kReach, 9);
-};
-
-// Which balls and cylinders matter where (reach_grid.cpp).
-struct ReachGrid {
-  // Cells along the longest side of the scene. More need more memory (half a megabyte), fewer more time at
-  // points where nothing matters.
-  static constexpr int kCells = 32;
-};
-
-// When and how light is interpolated (interpolated_light.cpp).
+// When and how light is interpolated (indirect_light.cpp, final_gather.cpp).
 struct Interpolation {
   // The cosine of the greatest tilt of a perturbed normal for which light is interpolated: chosen by
   // experiment. The moments of gathered light give the light at more tilted normals less accurately. 30%

@@ -15,45 +15,48 @@ double without(double extinction, double mist, double around) {
 
 }  // namespace
 
-Ray beyondMist(const PreparedScene& prepared, const CrossesMist& boundary, Ray& ray) {
+NextRay beyondMist(const PreparedScene& prepared, const CrossesMist& boundary, RayEnd& end) {
   const Mist& mist = boundary.mist;
   const auto& sources = prepared.scatterersOf(mist);
-  const auto addTo = [&](Ray& r) {
-    r.medium.extinction += boundary.extinction;
-    if (mist.hasAlbedo) r.medium.albedo = mist.albedo;
-    if (mist.hasEccentricity) r.medium.eccentricity = mist.eccentricity;
+  const auto addTo = [&](RaySpace& space) {
+    space.medium.extinction += boundary.extinction;
+    if (mist.hasAlbedo) space.medium.albedo = mist.albedo;
+    if (mist.hasEccentricity) space.medium.eccentricity = mist.eccentricity;
     for (const uint16_t s : sources)
-      if (!r.scatterers.add(s))
+      if (!space.scatterers.add(s))
         throw rad::Error(fmt::format("more than {} light sources are scattered in the mists around a point",
                                      ScatteringSources::kMost));
   };
-  Ray child;
-  inherit(child, ray, kTransmitted);
+  NextRay next = straightOn(end);
+  RaySpace& beyond = next.context.space;
   if (boundary.enters) {
-    addTo(child);
-    child.mist = &ray;
-    return child;
+    addTo(beyond);
+    beyond.mist = &end;
+    return next;
   }
   size_t removed = 0;
-  for (const uint16_t s : sources) removed += child.scatterers.remove(s);
+  for (const uint16_t s : sources) removed += beyond.scatterers.remove(s);
   // The ray began inside the mist.
-  if (removed < sources.size()) addTo(ray);
+  if (removed < sources.size()) addTo(end.changedSpace());
   const Medium around = prepared.medium();
-  const Medium& before = ray.mist ? ray.mist->medium : around;
-  child.medium.extinction = combined(ray.medium.extinction, boundary.extinction, around.extinction, without);
-  if (mist.hasAlbedo) child.medium.albedo = before.albedo;
-  if (mist.hasEccentricity) child.medium.eccentricity = before.eccentricity;
-  child.mist = ray.mist ? ray.mist->mist : nullptr;
-  return child;
+  const RayEnd* const entry = end.space().mist;
+  const Medium& before = entry ? entry->medium() : around;
+  beyond.medium.extinction =
+      combined(end.medium().extinction, boundary.extinction, around.extinction, without);
+  if (mist.hasAlbedo) beyond.medium.albedo = before.albedo;
+  if (mist.hasEccentricity) beyond.medium.eccentricity = before.eccentricity;
+  beyond.mist = entry ? entry->space().mist : nullptr;
+  return next;
 }
 
-bool entersCut(const Scene& scene, const CrossesAntimatter& boundary, Ray& ray) {
-  ray.clipsBeyond = boundary.enters ? ray.clips | boundary.clips : ray.clips & ~boundary.clips;
+bool entersCut(const Scene& scene, const CrossesAntimatter& boundary, RayEnd& end) {
+  const uint64_t clips = end.context.clips;
+  end.clipsBeyond = boundary.enters ? clips | boundary.clips : clips & ~boundary.clips;
   if (boundary.cut.kind != Alternate::Kind::modifier) return false;
   int inside = 0;
-  for (const Ray* r = &ray; r->parent; r = r->parent) {
-    const Ray& before = *r->parent;
-    if ((r->kind & kReflections) || before.surface == kNone ||
+  for (const RayEnd* e = &end; e->context.parent; e = e->context.parent) {
+    const SurfaceHit& before = e->context.parent->hit;
+    if ((e->context.kind & kReflections) || before.surface == kNone ||
         !(scene.surfaces[before.surface].clip & boundary.clips))
       continue;
     inside += hitFront(before) ? 1 : -1;

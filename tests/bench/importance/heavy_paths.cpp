@@ -39,18 +39,20 @@ struct Single {
 };
 
 // How a ray left the surface before it.
-std::string_view markOf(const Ray& ray) {
+std::string_view markOf(const PathContext& ray) {
   if (ray.kind & (kAmbient | kShadow)) return "";
   return ray.kind & kSpecular ? "~" : "*";
 }
 
 // The surfaces that a path hits, from its beginning to the ray; with their places if asked for.
-std::string pathOf(const Scene& scene, const Ray& ray, bool places) {
+std::string pathOf(const Scene& scene, const RayEnd& end, bool places) {
   std::string path;
-  for (const Ray* r = &ray; r; r = r->parent) {
-    std::string hit(r->surface == kNone ? "nothing" : scene.modifierName(scene.surfaces[r->surface]));
-    if (places) hit += fmt::format(" ({:.2f} {:.2f} {:.2f})", r->point.x, r->point.y, r->point.z);
-    if (r->parent) hit.insert(0, markOf(*r));
+  for (const RayEnd* e = &end; e; e = e->context.parent) {
+    const SurfaceId surface = e->hit.surface;
+    std::string hit(surface == kNone ? "nothing" : scene.modifierName(scene.surfaces[surface]));
+    const V3d& point = e->hit.point;
+    if (places) hit += fmt::format(" ({:.2f} {:.2f} {:.2f})", point.x, point.y, point.z);
+    if (e->context.parent) hit.insert(0, markOf(e->context));
     path = path.empty() ? hit : hit + " > " + path;
   }
   return path;
@@ -88,19 +90,20 @@ int run(int argc, char** argv) {
         const double share = sample.solidAngle / (4 * kPi) / mean;
         // Light arrives where a ray sees a source: its value is then what the source emits. What samples of a
         // lobe estimate of near sources (shared_highlights.h) is not among it.
-        const RayObserver observer = [&](const Ray& ray) {
-          if (ray.surface == kNone || !ray.parent) return;
-          if (transport.prepared().lightOf(ray.surface) == kNone || isBlack(ray.value)) return;
-          const double contribution = brightness(ray.value * (ray.contribution)) * share;
+        const RayObserver observer = [&](const RayEnd& end, const RayResult& result) {
+          const SurfaceId surface = end.hit.surface;
+          if (surface == kNone || !end.context.parent) return;
+          if (transport.prepared().lightOf(surface) == kNone || isBlack(result.value)) return;
+          const double contribution = brightness(result.value * end.context.contribution) * share;
           if (!(contribution > 0)) return;
-          Kind& kind = kinds[pathOf(scene, ray, false)];
+          Kind& kind = kinds[pathOf(scene, end, false)];
           kind.sum += contribution;
           kind.squares += contribution * contribution;
           kind.largest = std::max(kind.largest, contribution);
           sum += contribution;
           squares += contribution * contribution;
           if (singles.size() < kSingles || contribution > singles.back().contribution) {
-            singles.push_back({contribution, pathOf(scene, ray, true)});
+            singles.push_back({contribution, pathOf(scene, end, true)});
             std::sort(singles.begin(), singles.end(),
                       [](const Single& a, const Single& b) { return a.contribution > b.contribution; });
             if (singles.size() > kSingles) singles.pop_back();

@@ -20,10 +20,10 @@ const std::string kBox = "void plastic gray 0 0 5 .6 .6 .6 0 0\n" + roomOf("gray
 constexpr const char* kAcross = "gray polygon across 0 0 12 1.03 0 0 1.03 3 0 1.03 3 2.5 1.03 0 2.5\n";
 
 // Follows rays from surface to surface as the header requires. Every surface emits a radiance.
-class FurnaceLooker final : public CoarseSolution::Looker {
+class FurnaceRays final : public FieldRays {
  public:
   using Shine = std::function<double(const SurfacePlace& place)>;
-  FurnaceLooker(const Tracer& tracer, int bounces, Shine shine)
+  FurnaceRays(const Tracer& tracer, int bounces, Shine shine)
       : tracer_(tracer), bounces_(bounces), shine_(std::move(shine)) {}
   void solve(CoarseSolution& solution) { solution_ = &solution; }
 
@@ -35,7 +35,8 @@ class FurnaceLooker final : public CoarseSolution::Looker {
             hit.surface, nullptr, hit.distance};
   }
 
-  void link(const GatherSite& site, int rays, uint64_t seed, CoarseSolution::Links& links) override {
+  PatchLinks link(const GatherSite& site, int rays, uint64_t seed) override {
+    PatchLinks links;
     ++linked;
     raysOfLast = rays;
     Random random(seed);
@@ -50,7 +51,7 @@ class FurnaceLooker final : public CoarseSolution::Looker {
         const double v1 = random.uniform(), v2 = random.uniform();
         // Some paths are continued, as if there were no patch.
         const bool goesOn = random.uniform() < .3;
-        CoarseSolution::Patch* const patch = solution_->find(place, v1, v2, *this);
+        Patch* const patch = solution_->find(place, v1, v2, *this);
         if (patch && !goesOn) {
           links.links.push_back({patch, V3f(1, 1, 1) * static_cast<float>(coefficient), beyond});
           ++served;
@@ -62,7 +63,11 @@ class FurnaceLooker final : public CoarseSolution::Looker {
         normal = place.normal;
       }
     }
+    return links;
   }
+  GatheredLight gather(const GatherSite&, double, uint64_t) override { return {}; }
+  double clearance(const GatherSite&, double farthest) override { return farthest; }
+  bool smallObjectNear(const GatherSite&, double, double) override { return false; }
   Surroundings surroundings(const GatherSite& site) override {
     const double distance = placeAlong(site.point, site.normal).distance;
     return {distance, mean > 0 ? mean : distance, covered};
@@ -96,47 +101,47 @@ RayOptions optionsOf(int bounces) {
 TEST(CoarseSolution, LightIsTheGeometricSeriesInAFurnace) {
   constexpr int kBounces = 4;
   const Traced box(kBox);
-  FurnaceLooker looker(box.prepared().tracer(), kBounces, [](const SurfacePlace&) { return 1; });
+  FurnaceRays rays(box.prepared().tracer(), kBounces, [](const SurfacePlace&) { return 1; });
   CoarseSolution solution(box.scene(), box.prepared().tracer().bounds(), fieldOptions(optionsOf(kBounces)),
                           1);
-  looker.solve(solution);
+  rays.solve(solution);
   Random random(2);
   int found = 0;
   for (int i = 0; i < 12; ++i) {
     const V3d from(between(random, .5, 3.5), between(random, .5, 2.5), between(random, .5, 2));
-    const SurfacePlace place = looker.placeAlong(from, randomDirection(random));
+    const SurfacePlace place = rays.placeAlong(from, randomDirection(random));
     const double u1 = random.uniform(), u2 = random.uniform();
-    CoarseSolution::Patch* const patch = solution.find(place, u1, u2, looker);
+    Patch* const patch = solution.find(place, u1, u2, rays);
     if (!patch) continue;
     ++found;
-    EXPECT_EQ(solution.find(place, u1, u2, looker), patch) << "the same again";
+    EXPECT_EQ(solution.find(place, u1, u2, rays), patch) << "the same again";
     for (int bounces = kBounces; bounces >= 0; --bounces) {
       double expected = std::pow(kReflectance, bounces) * kAmbient;
       for (int n = 0; n < bounces; ++n) expected += std::pow(kReflectance, n);
-      EXPECT_NEAR(solution.light(*patch, bounces, looker).x, expected, 1e-4) << bounces;
-      EXPECT_GT(std::abs(solution.light(*patch, bounces + 1, looker).x - expected),
+      EXPECT_NEAR(solution.light(*patch, bounces, rays).x, expected, 1e-4) << bounces;
+      EXPECT_GT(std::abs(solution.light(*patch, bounces + 1, rays).x - expected),
                 bounces < kBounces ? .05 : -1)
           << "one bounce more is another";
     }
   }
   EXPECT_GE(found, 4) << "or nothing is told";
-  EXPECT_GT(looker.served, 0);
-  EXPECT_GT(looker.followed, 0);
-  EXPECT_LE(static_cast<size_t>(looker.linked), solution.patches()) << "a patch is linked once";
+  EXPECT_GT(rays.served, 0);
+  EXPECT_GT(rays.followed, 0);
+  EXPECT_LE(static_cast<size_t>(rays.linked), solution.patches()) << "a patch is linked once";
 }
 
 // The rays that the patch of a place on the floor of the box has, for a room of this size.
 int raysOfPatch(const Traced& box, const RayOptions& options, double room, double distance = 0,
                 double covered = 1) {
-  FurnaceLooker looker(box.prepared().tracer(), 1, [](const SurfacePlace&) { return 1; });
-  looker.mean = distance;
-  looker.covered = covered;
+  FurnaceRays rays(box.prepared().tracer(), 1, [](const SurfacePlace&) { return 1; });
+  rays.mean = distance;
+  rays.covered = covered;
   CoarseSolution solution(box.scene(), box.prepared().tracer().bounds(), fieldOptions(options), room);
-  looker.solve(solution);
-  const SurfacePlace place = looker.placeAlong(V3d(2, 1.5, 2), V3d(0, 0, -1));
-  CoarseSolution::Patch* const patch = solution.find(place, .5, .5, looker);
-  if (patch) solution.light(*patch, 1, looker);
-  return looker.raysOfLast;
+  rays.solve(solution);
+  const SurfacePlace place = rays.placeAlong(V3d(2, 1.5, 2), V3d(0, 0, -1));
+  Patch* const patch = solution.find(place, .5, .5, rays);
+  if (patch) solution.light(*patch, 1, rays);
+  return rays.raysOfLast;
 }
 
 // A patch has rays in proportion to its area over the square of the room's size, fewer outdoors, and more of
@@ -170,13 +175,13 @@ TEST(CoarseSolution, RaysGoWhereTheirNoiseMatters) {
 TEST(CoarseSolution, PatchesServeWhatTheySee) {
   constexpr int kBounces = 2;
   const Traced box(kBox + kAcross);
-  FurnaceLooker looker(box.prepared().tracer(), kBounces,
-                       [](const SurfacePlace& p) { return (p.point + 1e-4 * p.normal).x < 1.03 ? 1 : 0; });
+  FurnaceRays rays(box.prepared().tracer(), kBounces,
+                   [](const SurfacePlace& p) { return (p.point + 1e-4 * p.normal).x < 1.03 ? 1 : 0; });
   RayOptions options = optionsOf(kBounces);
   options.ambientValue = Radiance(0);
   options.ambientDivisions = 64;
   CoarseSolution solution(box.scene(), box.prepared().tracer().bounds(), fieldOptions(options), 1);
-  looker.solve(solution);
+  rays.solve(solution);
   Random random(4);
   int found[2] = {0, 0};
   for (int i = 0; i < 200; ++i) {
@@ -185,12 +190,12 @@ TEST(CoarseSolution, PatchesServeWhatTheySee) {
     // Places near the wall, on the floor and on the ceiling.
     const V3d to(dark ? between(random, 1.031, 1.5) : between(random, .6, 1.029), between(random, .1, 2.9),
                  i % 3 ? 0 : 2.5);
-    const SurfacePlace place = looker.placeAlong(from, (to - from).normalized());
+    const SurfacePlace place = rays.placeAlong(from, (to - from).normalized());
     const double u1 = random.uniform(), u2 = random.uniform();
-    CoarseSolution::Patch* const patch = solution.find(place, u1, u2, looker);
+    Patch* const patch = solution.find(place, u1, u2, rays);
     if (!patch) continue;
     ++found[dark];
-    const double light = solution.light(*patch, kBounces, looker).x;
+    const double light = solution.light(*patch, kBounces, rays).x;
     if (dark)
       EXPECT_EQ(light, 0) << place.point;
     else
@@ -203,13 +208,13 @@ TEST(CoarseSolution, PatchesServeWhatTheySee) {
 // The path of a ray from nearby is followed instead, because patches would be visible there.
 TEST(CoarseSolution, NoPatchServesWhatIsSeenFromNear) {
   const Traced box(kBox);
-  FurnaceLooker looker(box.prepared().tracer(), 2, [](const SurfacePlace&) { return 1; });
+  FurnaceRays rays(box.prepared().tracer(), 2, [](const SurfacePlace&) { return 1; });
   CoarseSolution solution(box.scene(), box.prepared().tracer().bounds(), fieldOptions(optionsOf(2)), 1);
-  looker.solve(solution);
+  rays.solve(solution);
   SurfacePlace place{V3d(2, 1.5, 0), V3d(0, 0, 1), SurfaceId(0), nullptr, 2.5};
-  EXPECT_TRUE(solution.find(place, .5, .5, looker));
+  EXPECT_TRUE(solution.find(place, .5, .5, rays));
   place.distance = 1e-3;
-  EXPECT_FALSE(solution.find(place, .5, .5, looker));
+  EXPECT_FALSE(solution.find(place, .5, .5, rays));
 }
 
 }  // namespace

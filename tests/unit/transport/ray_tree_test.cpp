@@ -27,10 +27,10 @@ struct Shown {
 
 std::vector<Shown> treeOf(Traced& room, const V3d& origin, const V3d& direction, bool shadows) {
   std::vector<Shown> tree;
-  const RayObserver observer = [&](const Ray& ray) {
-    const RayAnswer a = branchAnswer(room.prepared(), ray);
-    tree.push_back(
-        {a.surface.text(), ray.depth, ray.value.color, a.contribution.color, (ray.kinds & kShadow) != 0});
+  const RayObserver observer = [&](const RayEnd& end, const RayResult& result) {
+    const RayAnswer a = branchAnswer(room.prepared(), end, result);
+    tree.push_back({a.surface.text(), end.context.depth, result.value.color, a.contribution.color,
+                    (end.context.kinds & kShadow) != 0});
   };
   room.color(origin, direction, 1, 0, {.observer = &observer, .allShadowRays = shadows});
   return tree;
@@ -74,8 +74,7 @@ TEST(RayTree, IsThatOfTheOriginal) {
 TEST(RayTree, LeavesOutShadowRaysInTheClear) {
   Traced room(kRoom);
   int through = 0;
-  for (const Shown& s : treeOf(room, V3d(0, 0, 1), V3d(-1, 0, -.2), false))
-    through += s.shadow;
+  for (const Shown& s : treeOf(room, V3d(0, 0, 1), V3d(-1, 0, -.2), false)) through += s.shadow;
   EXPECT_EQ(through, 2);  // the pane, and the bulb behind it
 }
 
@@ -105,7 +104,7 @@ TEST(RayTree, ChangesNoAnswer) {
     const V3d direction = randomDirection(random);
     const Color before = room.color(V3d(0, 0, 1), direction, 5);
     int shown = 0;
-    const RayObserver observer = [&](const Ray&) { ++shown; };
+    const RayObserver observer = [&](const RayEnd&, const RayResult&) { ++shown; };
     EXPECT_EQ(room.color(V3d(0, 0, 1), direction, 5, 0, {.observer = &observer, .allShadowRays = i % 2 == 0}),
               before);
     EXPECT_GT(shown, 0);

@@ -150,7 +150,9 @@ Weighed weighed(const std::string& material, const Limits& limits, double others
                     "void glow g 0 0 4 1 1 1 0\ng sphere around 0 0 4 0 0 0 -4\n",
                 options);
   Weighed w;
-  const RayObserver observer = [&](const Ray& ray) { w.weights.push_back(ray.weight); };
+  const RayObserver observer = [&](const RayEnd& end, const RayResult&) {
+    w.weights.push_back(end.context.weight);
+  };
   const Color seen = traced.color(V3d(.3, .2, 3), V3d(0, 0, -1), 1, 0, {.observer = &observer});
   w.seen = seen.bandsIn(*options.sampling).values()[kClearBand];
   return w;
@@ -191,7 +193,7 @@ TEST(RayWeights, WorkWithinClosedMetalHasABoundAndTheSameMean) {
   const V3d from(.03, .02, .3), to = V3d(.6, .3, .4).normalized();
   const auto rays = [&](PathTracer& tracer) {
     size_t count = 0;
-    const RayObserver observer = [&](const Ray&) { ++count; };
+    const RayObserver observer = [&](const RayEnd&, const RayResult&) { ++count; };
     tracer.trace(from, to, 0, 7, {.observer = &observer});
     return count;
   };
@@ -219,18 +221,19 @@ TEST(RayWeights, ThePathsOfAPatchHaveABound) {
   PathState state;
   state.random = Random(1);
   state.descendants = descendantsOfPatch(rays, 0);
-  Ray parent;
-  parent.weight = kMeanReflectance;
-  parent.depth = 1;
-  parent.ambientLevel = 1;
+  PathContext ofPatch;
+  ofPatch.weight = kMeanReflectance;
+  ofPatch.depth = 1;
+  ofPatch.ambientLevel = 1;
+  const RayQuery query;
+  const RayEnd parent(query, ofPatch);
   int followed = 0;
   double sum = 0;
   for (int i = 0; i < children; ++i) {
-    Ray child;
-    Coefficient coefficient{Color(.9, .9, .9)};
-    if (!continueRay(any.prepared(), state, child, kReflected, parent, coefficient)) continue;
+    NextRay child(parent, kReflected, Coefficient(Color(.9, .9, .9)));
+    if (!goesOnAlong(child, any.prepared(), state)) continue;
     ++followed;
-    sum += coefficient.color.x;
+    sum += child.coefficient.color.x;
   }
   // The weight that a child needs grows with the square of the number: n^3 / 3 is as large as the children's.
   const double most = tuning::RayLimits::kMostOfPatch * rays;

@@ -32,7 +32,7 @@ class Traced {
   }
   // The name of the surface that a ray sees.
   std::string seen(const V3d& origin, const V3d& direction) {
-    const Ray ray = tracer_.trace(origin, direction.normalized(), 0, 1);
+    const TracedRay ray = tracer_.trace(origin, direction.normalized(), 0, 1);
     return ray.surface == kNone ? "" : std::string(scene_.surfaceName(scene_.surfaces[ray.surface]));
   }
   // Aims at nothing where light is gathered instead of interpolated.

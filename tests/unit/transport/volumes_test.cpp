@@ -288,7 +288,7 @@ TEST(Antimatter, ShowsTheCut) {
   Traced scene(block);
   EXPECT_EQ(scene.seen(kEye, kAhead), "ball");
   expectColor(scene.color(kEye, kAhead), Color(1, 0, 0));
-  const Ray ray = scene.tracer().trace(kEye, kAhead, 0, 1);
+  const TracedRay ray = scene.tracer().trace(kEye, kAhead, 0, 1);
   EXPECT_NEAR(ray.unmirroredLength, 4.5, 1e-9);
   // A ray that only grazes the antimatter sees the block's own surface.
   EXPECT_NEAR(scene.tracer().trace(V3d(-5, .6, 0), kAhead, 0, 1).unmirroredLength, 4.2, 1e-9);

@@ -1,0 +1,34 @@
+#include "field/patch_links.h"
+
+namespace rsphere {
+namespace {
+
+// Adds a color to an element.
+void addAt(std::vector<V3f>& channels, std::vector<Bands>& bands, size_t i, const Color& color) {
+  if (channels.size() <= i) channels.resize(i + 1, V3f(0, 0, 0));
+  if (color.bands() || i < bands.size()) {
+    if (bands.size() <= i) bands.resize(i + 1);
+    bands[i] = (colorAt(channels[i], bands, i) + color).bands();
+  }
+  channels[i] += V3f(color.rgb());
+}
+
+}  // namespace
+
+void PatchLinks::add(Patch* patch, const Coefficient& coefficient, int bounces) {
+  if (coefficient.color.bands()) {
+    bandsOfLinks.resize(links.size() + 1);
+    bandsOfLinks.back() = coefficient.color.bands();
+  }
+  links.push_back({patch, V3f(coefficient.color.rgb()), bounces});
+}
+
+void PatchLinks::addLight(int bounces, const Radiance& radiance) {
+  addAt(light, bandsOfLight, static_cast<size_t>(bounces), radiance.color);
+}
+
+void PatchLinks::addEnd(int bounces, const Coefficient& coefficient) {
+  addAt(ends, bandsOfEnds, static_cast<size_t>(bounces), coefficient.color);
+}
+
+}  // namespace rsphere
