@@ -7,17 +7,16 @@
 
 namespace rsphere {
 
-// Implemented by whoever traces rays (transport/final_gather.h). Every answer depends on nothing but the
-// arguments.
+// Implemented in transport/final_gather.h. Every answer depends on nothing but the arguments.
 class FieldRays {
  public:
   // The indirect light of a site, estimated with -ad + -as rays. nearest: of HemisphereCells::sum().
   virtual GatheredLight gather(const GatherSite& site, double nearest, uint64_t seed) = 0;
-  // Sends about `rays` rays over the hemisphere of a patch's site.
+  // What about `rays` rays over the hemisphere of a patch's site find.
   virtual PatchLinks link(const GatherSite& site, int rays, uint64_t seed) = 0;
   // The distance, at most `farthest`, to what lies above the site along its normal (world units).
   virtual double clearance(const GatherSite& site, double farthest) = 0;
-  // Estimated in a few directions.
+  // How far the surfaces around a site are, estimated in a few directions.
   virtual Surroundings surroundings(const GatherSite& site) = 0;
   // Whether the segment between two points is unoccluded.
   virtual bool sees(const V3d& from, const V3d& to) = 0;

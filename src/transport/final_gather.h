@@ -1,5 +1,5 @@
 #pragma once
-// The rays of sites of the irradiance cache and of patches of the coarse solution.
+// The rays that the irradiance cache and the coarse solution ask for (field/field_rays.h).
 #include "field/field_rays.h"
 #include "transport/path_state.h"
 #include "transport/prepared_scene.h"

@@ -14,8 +14,8 @@ namespace rsphere {
 namespace {
 
 // Whether interpolated light is valid at a side. It was gathered in the whole scene, with nothing cut away by
-// antimatter, and in the medium that fills the scene. Its moments do not tell the light at very tilted
-// normals.
+// antimatter, and in the medium that fills the scene. Its moments give the light at very tilted normals less
+// accurately.
 bool isOrdinary(const RayEnd& end, const DiffuseSide& side, const Medium& medium) {
   const RaySpace& space = end.space();
   return !space.mist && !end.context.clips && !end.clipsBeyond && !space.scatterers.count &&

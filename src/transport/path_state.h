@@ -59,7 +59,7 @@ struct PathState {
   Hit firstHit;                 // of the primary ray
   LeftOut leftOut;              // of the primary ray
   bool glimpses = false;        // one direction for each gather
-  Descendants descendants;      // limited by continueRay()
+  Descendants descendants;      // limited by goesOnAlong()
   PatchLinks* links = nullptr;  // of a path from a patch: gets the links and the light that it finds
 };
 

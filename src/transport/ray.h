@@ -55,7 +55,7 @@ struct RaySpace {
   const RayEnd* mist = nullptr;  // the ancestor that entered the innermost mist around the ray; null: none
 };
 
-// The question: which radiance arrives at a point from a direction?
+// The question that a ray asks: the radiance that arrives at a point from a direction.
 struct RayQuery {
   V3d origin{0, 0, 0}, direction{0, 0, 1};  // world; direction unit
   double farthest = 0;        // the ray ends there even if it hits nothing (-ld, world units); 0: no limit
@@ -82,7 +82,7 @@ struct PathContext {
   Coefficient contribution{1};  // share of its radiance, at its origin, in that of the primary ray
 };
 
-// What a ray hit, as its shading sees it. Modifiers and flips by materials change the last lines.
+// What a ray hit. Shading turns the normal and what depends on it round, and adds textures and patterns.
 struct SurfaceHit {
   SurfaceId surface;  // kNone: nothing
   double length = kFarAway;
@@ -97,14 +97,14 @@ struct SurfaceHit {
   Color pattern{1, 1, 1};
 };
 
-// The answer.
+// The answer: radiance (W/sr/m2) and lengths (world units).
 struct RayResult {
-  Radiance value;     // that returns along the ray
-  Radiance mirrored;  // the part of it that was mirrored
-  double mirroredLength = kFarAway, unmirroredLength = kFarAway;
+  Radiance value;                                                 // all that returns along the ray
+  Radiance mirrored;                                              // the part of it that was mirrored
+  double mirroredLength = kFarAway, unmirroredLength = kFarAway;  // to what is seen
 };
 
-// The end of a ray, where it is shaded.
+// The end of a ray, where it is shaded. Rays that begin there refer to it, so that it must outlive them.
 struct RayEnd {
   RayEnd(const RayQuery& asked, const PathContext& inherited)
       : ray(asked), context(inherited), clipsBeyond(inherited.clips) {}

@@ -40,7 +40,8 @@ class SurfaceShading {
   template <class M>
   bool shadeMaterial(RayEnd& end, const M& material, ModifierId behind, RayResult& result);
 
-  // Each estimates what a material's response asks for. False if it asks for a material that there is not.
+  // Each estimates the light of one outcome of a material's response. False, with nothing done, if that is an
+  // alternate modifier without a material.
   bool estimate(RayEnd&, Absorbs, RayResult&) { return true; }
   bool estimate(RayEnd& end, Passes, RayResult& result);
   bool estimate(RayEnd& end, const Alternate& alternate, RayResult& result);
