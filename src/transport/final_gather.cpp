@@ -64,6 +64,7 @@ PatchLinks TracedFieldRays::link(const GatherSite& site, int rays, uint64_t seed
   const GatherDirections directions(path.settings.aims, site.point, site.normal, site.normal, rays);
   sendOverHemisphere(t_, directions, path.state, root.end, site.point, kReflectedAmbient, rays,
                      Coefficient(1), Coefficient(kMeanReflectance), [&](const NextRay& next) {
+                       countDescendants(path.settings, path.state, next.context);
                        sum += path.follower.follow(next.query, next.context).value * next.coefficient;
                      });
   links.addLight(0, sum);
