@@ -872,9 +872,9 @@ void addDirectionOptions(const Add& add) {
            "Largest number of directions for one point: base directions, directions to special objects, "
            "directions to light sources and, where light is uneven, directions that follow the light. "
            "Directions to light sources are at most a quarter of -Sn unless there are more sources than "
-           "that; they are sent even if they exceed the limit. Shadow rays, and the rays that find the "
-           "surfaces for the control variate of -Sw c, do not count. If -Sx is not given, it is twice -Sn "
-           "where that is more than the default; see -Sa."});
+           "that; they are sent even if they exceed the limit. Where light paths are used (see -Sw), up to "
+           "-Sn of them are sent, but no more than half of what the limit leaves. Shadow rays and glances do "
+           "not count. If -Sx is not given, it is twice -Sn where that is more than the default; see -Sa."});
 }
 
 void addWeightOptions(const Add& add) {
@@ -886,9 +886,9 @@ void addWeightOptions(const Add& add) {
        .remark = "density factor",
        .paragraph =
            "Factor on the density of directions (1/sr) towards special objects. With 0 and -Sw c, all "
-           "directions have equal weights except those to light sources that are seen directly, diffuse "
-           "surfaces have no control variate, no directions follow the light, and no indirect rays are aimed "
-           "at small bright patches."});
+           "directions have equal weights except those to light sources that are seen directly, there are no "
+           "glances and no light paths (see -Sw), no directions follow the light, and no indirect rays are "
+           "aimed at small bright patches."});
   add({.name = "-Sa",
        .arguments = "acc",
        .group = Group::sphere,
@@ -911,7 +911,7 @@ void addWeightOptions(const Add& add) {
        .remark = "clamp: largest share of one direction",
        .paragraph =
            "Clamp of single directions, against outliers (fireflies): what a direction contributes to the "
-           "mean beyond its share of the control variate is limited to this fraction of the mean. "
+           "mean beyond what glances expect of it is limited to this fraction of the mean. "
            "Directions to light sources that are integrated separately are not limited. The clamp makes "
            "the mean too small wherever it takes effect; at the end, a warning gives the number of points "
            "where it did and how much light it took. Standard errors are those of the clamped mean and do "
@@ -926,8 +926,11 @@ void addWeightOptions(const Add& add) {
            "Weights of the directions. h: equal weights for the base directions, and no other directions. "
            "v: the solid angle of each direction's cell in a spherical Voronoi diagram. c: the same, with "
            "cells that end at the silhouettes of special objects, with light sources integrated "
-           "separately by next-event estimation, and with a control variate for diffuse surfaces. With h "
-           "and v, a light source is a surface like any other.",
+           "separately by next-event estimation. Then the light of diffuse surfaces comes from glances, rays "
+           "that only find a surface: with light paths from the sources where these know all surfaces and "
+           "sources (plastic, metal, glass and curved mirrors without patterns, textures and mixtures; light "
+           "without patterns, not distant; -aa 0), otherwise as a control variate. With h and v, a light "
+           "source is a surface like any other.",
        .line = weightsLine});
 }
 
@@ -1104,12 +1107,13 @@ Options modeDefaults(bool sphereMode) {
   return options;
 }
 
-// A picture has a tenth of the rays that one gather of interpolated light would have at each of its pixels, and
-// averages them over nearby pixels. Measured in the classroom of examples/daylight (-ab 8, 1024 x 512 pixels):
-// 10 s with 32 rays; with 16, the ceiling beside the windows has clouds. Patches with 256 rays at an accuracy of .2
-// are not visible behind a gather. Full jitter, as in the answers: with .6, soft shadows of a lamp of .3 x 1 m have
-// steps. Above .5, rays of gathers do not divide luminaires into parts. Lobes are sampled 8 times, and averaged over
-// 60 pixels. -dt as in ray mode: testing all shadows of 15 luminaires would take as long as all else.
+// A picture has a tenth of the rays that one gather of interpolated light would have at each of its pixels,
+// and averages them over nearby pixels. Measured in the classroom of examples/daylight (-ab 8, 1024 x 512
+// pixels): 10 s with 32 rays; with 16, the ceiling beside the windows has clouds. Patches with 256 rays at an
+// accuracy of .2 are not visible behind a gather. Full jitter, as in the answers: with .6, soft shadows of a
+// lamp of .3 x 1 m have steps. Above .5, rays of gathers do not divide luminaires into parts. Lobes are
+// sampled 8 times, and averaged over 60 pixels. -dt as in ray mode: testing all shadows of 15 luminaires
+// would take as long as all else.
 RayOptions pictureDefaults() {
   RayOptions ray = modeDefaults(true).ray;
   ray.ambientDivisions = 32;

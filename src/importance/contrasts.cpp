@@ -32,8 +32,8 @@ class Values {
 };
 
 // What points of the scene's surfaces see, each surface as often as any other. Two paths are traced in each
-// direction to separate the noise of paths, which even directions do not reduce, from the variation with direction,
-// which they do.
+// direction to separate the noise of paths, which even directions do not reduce, from the variation with
+// direction, which they do.
 struct Surroundings {
   double mean = 0;   // of the photopic radiance, W/sr/m2
   double error = 1;  // Contrasts::surroundings
@@ -77,7 +77,7 @@ Surroundings measureSurroundings(const Scene& scene, const SeenSources& sources,
 // Standard deviation of the brightness on objects with the same modifier. Rays start just in front of points
 // of an object and hit it from evenly distributed directions, because it may be seen from anywhere.
 double measureDeviation(const Scene& scene, std::span<const SpecialObject> objects, size_t rays,
-                        const SeenSources& sources, PathTracer& tracer) {
+                        const SeenSources& sources, const PathRequest& request, PathTracer& tracer) {
   Random random(mixBits(objects[0].surface.index()));
   Values values;
   for (size_t k = 0; k < rays; ++k) {
@@ -86,7 +86,7 @@ double measureDeviation(const Scene& scene, std::span<const SpecialObject> objec
     // Objects that are not closed are seen from both sides.
     const bool behind = !isClosed(shapeOf(scene, object)) && k % 2;
     const V3d away = diffuseDirection(behind ? -at.normal : at.normal, random.uniform(), random.uniform());
-    const TracedRay ray = tracer.trace(at.point + at.clearance * away, -away, 0, random.bits());
+    const TracedRay ray = tracer.trace(at.point + at.clearance * away, -away, 0, random.bits(), request);
     if (shows(scene, object, ray.surface) && !sources.isApart(ray.shown)) values.add(brightness(ray.value));
   }
   return values.deviation();
@@ -103,12 +103,15 @@ Contrasts measureContrasts(const SphereTracing& tracing, std::span<const Special
   for (const SpecialObject& object : objects)
     alike[scene.surfaces[object.surface].modifier].push_back(object);
   PathTracer tracer = tracing.tracer();
-  contrasts.surroundings =
-      measureSurroundings(scene, sources, tracing.prepared.options().sampling, tracer).error;
+  PathRequest request;
+  request.vertexLight = tracing.vertexLight;
+  if (!tracing.vertexLight)
+    contrasts.surroundings =
+        measureSurroundings(scene, sources, tracing.prepared.options().sampling, tracer).error;
   if (alike.empty()) return contrasts;
   const size_t rays = std::clamp<size_t>(Tuning::kMostRays / alike.size(), 2, Tuning::kRaysPerModifier);
   for (const auto& [modifier, same] : alike) {
-    const double deviation = measureDeviation(scene, same, rays, sources, tracer);
+    const double deviation = measureDeviation(scene, same, rays, sources, request, tracer);
     for (const SpecialObject& object : same) contrasts.objects.push_back({object, deviation});
   }
   return contrasts;

@@ -28,9 +28,9 @@ struct Contrasts {
 Contrasts measureContrasts(const SphereTracing& tracing, std::span<const SpecialObject> objects,
                            const SeenSources& sources);
 
-// The photopic radiance (W/sr/m2) that points of the scene's surfaces see on average, without sources. It tells what
-// is dark in this scene, within a small factor: it is measured in few directions. 0: they found nothing. It depends
-// on the same as measureContrasts().
+// The photopic radiance (W/sr/m2) that points of the scene's surfaces see on average, without sources. It
+// tells what is dark in this scene, within a small factor: it is measured in few directions. 0: they found
+// nothing. It depends on the same as measureContrasts().
 double typicalRadiance(const SphereTracing& tracing, const SeenSources& sources);
 
 }  // namespace rsphere

@@ -5,8 +5,8 @@
 
 namespace rsphere {
 
-// Equal for directions that lie in the same targets (targets.h), within whose silhouettes cells keep. kNoRegion:
-// the direction does not enter the mean, because others represent its solid angle.
+// Equal for directions that lie in the same targets (targets.h), within whose silhouettes cells keep.
+// kNoRegion: the direction does not enter the mean, because others represent its solid angle.
 using RegionId = uint64_t;
 inline constexpr RegionId kNoRegion = UINT64_MAX;
 

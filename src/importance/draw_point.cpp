@@ -25,7 +25,8 @@ const Smoothing kOfGloss{Tuning::kGlossPasses, 0, 0, Tuning::kSameGlossNormal, T
 
 constexpr double kTracingShare = .85;  // of the time of a picture; for progress reports only
 
-// Whether shadow rays find all light: there is neither daylight nor a glowing surface, which indirect rays must meet.
+// Whether shadow rays find all light: there is neither daylight nor a glowing surface, which indirect rays
+// must meet.
 bool lampsAlone(const PreparedScene& prepared) {
   for (const LightSource& light : prepared.lights().all())
     if (light.isDistant()) return false;
@@ -298,8 +299,8 @@ std::optional<size_t> Painter::alike(const Pixels& pixels, const PixelSample& sa
   return std::nullopt;
 }
 
-// What is seen at one of Tuning::kAround, with the components of the pixels around it. Empty beyond the rim, and where
-// a small source is seen.
+// What is seen at one of Tuning::kAround, with the components of the pixels around it. Empty beyond the rim,
+// and where a small source is seen.
 std::optional<V3d> Painter::around(const Pixels& pixels, int column, int row, size_t place) {
   const double x = column + .5 + Tuning::kAround[place][0], y = row + .5 + Tuning::kAround[place][1];
   const uint64_t seed = streams_.around(at(column, row), place);

@@ -69,6 +69,24 @@ double sharing(std::span<const DirectionSample> samples, const SpectralSampling*
 
 }  // namespace
 
+void SharedError::add(const SharedError& other, double share) {
+  batches.resize(std::max(batches.size(), other.batches.size()));
+  for (size_t i = 0; i < other.batches.size(); ++i) batches[i] += other.batches[i] * share;
+  chosen += other.chosen * (share * share);
+}
+
+Variance sharedVariance(const SharedError& error, const SpectralSampling* sampling) {
+  const auto n = static_cast<double>(error.batches.size());
+  if (n < 2) return {};
+  Irradiance mean;
+  for (const Irradiance& b : error.batches) mean += b / n;
+  Variance spread;
+  for (const Irradiance& b : error.batches) spread += Variance::of(b - mean, sampling) * (n / (n - 1));
+  const auto beyond = [](double all, double part) { return std::max(0., all - part); };
+  return {combined(spread.channels, error.chosen.channels, beyond),
+          beyond(spread.brightness, error.chosen.brightness)};
+}
+
 Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours& n,
                       std::span<const RegionId> regions, const SpectralSampling* sampling) {
   std::vector<Radiance> values(samples.size());

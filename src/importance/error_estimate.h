@@ -11,8 +11,8 @@
 
 namespace rsphere {
 
-// Variance of an integral of radiance, (W/m2)^2, for each channel and band and for the brightness, which in a spectral
-// run is the photopic integral. The variance of the
+// Variance of an integral of radiance, (W/m2)^2, for each channel and band and for the brightness, which in a
+// spectral run is the photopic integral. The variance of the
 // brightness does not follow from those of the channels, because the errors of channels are correlated.
 struct Variance {
   Color channels{0, 0, 0};
@@ -31,6 +31,16 @@ struct Variance {
   Variance operator*(double factor) const { return {channels * factor, brightness * factor}; }
 };
 
+// What all directions of a point, and all points, share: the error of light vertices.
+struct SharedError {
+  std::vector<Irradiance> batches;  // sums of contributions by batch of light paths; empty: there are none
+  Variance chosen;  // the part of the batches' spread that is due to the choice of vertices for each glance
+
+  void add(const SharedError& other, double share);
+};
+// Its variance, by the differences between the batches.
+Variance sharedVariance(const SharedError& error, const SpectralSampling* sampling = nullptr);
+
 // The neighbours of each direction on the sphere: those of direction i are neighbour[first[i]] to
 // neighbour[first[i + 1] - 1].
 struct Neighbours {
@@ -41,10 +51,10 @@ struct Neighbours {
 // times the difference between its radiance and the mean of its neighbours, minus the mean of the neighbours'
 // differences: noise of paths, and edges, but not light that slopes or bends smoothly, which an even set
 // integrates. An even set averages out a part of the edges, so that the sum is multiplied by
-// tuning::ErrorEstimate::kEvenSet. The factor is 1 in regions other than 0, where single directions find much,
-// such as a lamp that a chrome column mirrors. regions: of each direction; empty: all are in region 0. Only
-// neighbours in the same region are compared, if there are any: the edge of a region is no error, because
-// cells keep to regions. Directions in kNoRegion do not count.
+// tuning::ErrorEstimate::kEvenSet. The factor is 1 in regions other than 0, where single directions find
+// much, such as a lamp that a chrome column mirrors. regions: of each direction; empty: all are in region 0.
+// Only neighbours in the same region are compared, if there are any: the edge of a region is no error,
+// because cells keep to regions. Directions in kNoRegion do not count.
 Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours& neighbours,
                       std::span<const RegionId> regions, const SpectralSampling* sampling = nullptr);
 

@@ -62,6 +62,7 @@ struct Half {
   Moments moments;
   Irradiance excess, clamped;
   Variance variance;
+  SharedError shared;
 };
 
 struct KeptSet {
@@ -105,10 +106,12 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
   if (options.weights != Weights::homogeneous)
     special_ = findSpecialObjects(prepared.scene(), options.densityFactor);
   if (options.weights == Weights::silhouettes && options.densityFactor > 0) {
-    aims_ = findAimsOfPoints(prepared, transport.aims());
+    glances_ = DiffuseGlances::make(prepared, options, base_);
+    if (glances_) tracing_.vertexLight = &glances_->light(0);
+    if (!glances_) aims_ = findAimsOfPoints(prepared, transport.aims());
     tracing_.aims = joined(transport.aims(), aims_);
-    // Bright spots show that light is uneven. Openings have other means.
-    if (tracing_.aims.spots && !tracing_.aims.openings) {
+    // Bright spots show that light is uneven. Openings and light vertices have other means.
+    if (!glances_ && tracing_.aims.spots && !tracing_.aims.openings) {
       auto patches = std::make_unique<LightPatches>(prepared);
       if (!patches->all().empty()) patches_ = std::move(patches);
     }
@@ -127,7 +130,8 @@ std::unique_ptr<const SamplingStrategy> SphereEstimator::makeStrategy() const {
     case Weights::silhouettes:
       break;
   }
-  return std::make_unique<SilhouetteWeights>(tracing_, options_, base_, special_, sources_, patches_.get());
+  return std::make_unique<SilhouetteWeights>(tracing_, options_, base_, special_, sources_, patches_.get(),
+                                             glances_.get());
 }
 
 SphereEstimator::Workspace::Workspace(const SphereEstimator& estimator)
@@ -159,16 +163,20 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
     half.excess += set.excess.total;
     half.clamped += set.clamped;
     half.variance += set.variance;
-    decision.add(*next, photopicOf(moments.total.color, base_.sampling), set.variance.brightness);
+    half.shared.add(set.shared, 1);
+    decision.add(*next, photopicOf(moments.total.color, base_.sampling),
+                 set.variance.brightness + sharedVariance(set.shared, base_.sampling).brightness);
     directions += set.samples.size();
     lit += static_cast<size_t>(std::ranges::count_if(
         set.samples, [](const DirectionSample& s) { return maxChannel(s.value.color) != 0; }));
+    lit += set.litGlances;
     largest = std::max(largest, set.samples.size());
     if (keep) kept.push_back({*next, std::move(set)});
   }
   Moments moments;
   Irradiance excess, clamped;
   Variance variance;
+  SharedError shared;
   for (size_t k = 0; k < halves.size(); ++k) {
     const double share = decision.share(k);
     if (!(share > 0)) continue;
@@ -176,7 +184,9 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
     excess += halves[k].excess * share;
     clamped += halves[k].clamped * share;
     variance += halves[k].variance * (share * share);
+    shared.add(halves[k].shared, share);
   }
+  variance += sharedVariance(shared, base_.sampling);
   SampledSet all = joined(std::move(kept), decision, excess);
   workspace.samples = std::move(all.samples);
   workspace.rays = std::move(all.rays);

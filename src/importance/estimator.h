@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "importance/base_set.h"
+#include "importance/diffuse_glances.h"
 #include "importance/direction_sample.h"
 #include "importance/point_answer.h"
 #include "importance/sampling_strategy.h"
@@ -42,9 +43,9 @@ class SphereEstimator {
     // Called before each set of directions; may throw to abandon the point.
     std::function<void()> checkStop;
     // The directions of the last point; with -Sa only if every direction is wanted (-Sd), because there may
-    // be a million. Their radiances times solid angles sum to the integral of the answer: the difference
-    // between the integrals of the guess by glances and by directions is added to the radiances, in
-    // proportion to their guesses. No radiance is negative unless the answer is.
+    // be a million. If it is, their radiances times solid angles sum to the integral of the answer: the
+    // difference between the integrals of the guess by glances and by directions is added to the radiances,
+    // in proportion to their guesses. No radiance is negative unless the answer is.
     std::vector<DirectionSample> samples;
     std::vector<TracedRay> rays;  // of the samples, in the same order; kept with -Sd only
 
@@ -56,8 +57,8 @@ class SphereEstimator {
   // The quantities at a point (world); the directions are left in workspace.samples. The answer depends on
   // the point, the scene and the options alone. With -Sa, sets of directions with different rotations are
   // averaged until the estimated standard error of the brightness of the mean is below that fraction of it
-  // (two_halves.h), or until the next set might exceed SphereOptions::mostOfAllSets(), or at a dark point after
-  // tuning::Dark::kSets sets.
+  // (two_halves.h), or until the next set might exceed SphereOptions::mostOfAllSets(), or at a dark point
+  // after tuning::Dark::kSets sets.
   PointAnswer estimate(const V3d& point, Workspace& workspace) const;
 
   const std::vector<SpecialObject>& specialObjects() const { return special_; }
@@ -73,6 +74,7 @@ class SphereEstimator {
   std::vector<SpecialObject> special_;           // none with -Sw h
   FoundAims aims_;                               // in addition to those of gathers
   std::unique_ptr<const LightPatches> patches_;  // null where light is even
+  std::unique_ptr<const DiffuseGlances> glances_;  // null where light vertices do not bring all of the light
   SphereTracing tracing_;
   std::unique_ptr<const SamplingStrategy> strategy_;
   double dark_ = 0;  // -Sa: points with a smaller integral of radiance are dark, W/m2

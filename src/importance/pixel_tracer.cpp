@@ -12,8 +12,8 @@ namespace {
 
 using Tuning = tuning::Pictures;
 
-// Whether the gloss of neighboring pixels is nearly the same: lobes are wider than a few pixels, and neither a pattern
-// nor a texture changes them from pixel to pixel.
+// Whether the gloss of neighboring pixels is nearly the same: lobes are wider than a few pixels, and neither
+// a pattern nor a texture changes them from pixel to pixel.
 bool sharesGloss(const Material& material, const SurfaceHit& hit) {
   if (hit.perturbation != V3d(0, 0, 0)) return false;
   if (const auto* opaque = std::get_if<Opaque>(&material))
@@ -24,7 +24,8 @@ bool sharesGloss(const Material& material, const SurfaceHit& hit) {
 
 }  // namespace
 
-// Nothing is separated if a medium attenuates light on its way, because the samples are observed before it does.
+// Nothing is separated if a medium attenuates light on its way, because the samples are observed before it
+// does.
 PixelTracer::PixelTracer(const V3d& point, const Transport& transport)
     : point_(point),
       prepared_(transport.prepared()),

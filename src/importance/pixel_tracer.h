@@ -21,8 +21,8 @@ struct PixelSample {
 // Which components a ray is to have. Where they cannot be separated, `rest` has everything in any case.
 enum class PixelParts : uint8_t { all, noIndirect, restAlone };
 
-// Traces the rays of a picture, and separates components that vary little between pixels from all other light, so that
-// pixels may share them.
+// Traces the rays of a picture, and separates components that vary little between pixels from all other
+// light, so that pixels may share them.
 class PixelTracer {
  public:
   // Keeps references.

@@ -1,5 +1,6 @@
 #pragma once
-// Pictures of the view from a point in all directions: projections, exposure and names. draw_point.h draws them.
+// Pictures of the view from a point in all directions: projections, exposure and names. draw_point.h draws
+// them.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -62,8 +63,8 @@ inline void setValue(Raster& raster, size_t pixel, const V3d& value) {
     raster.pixels[3 * pixel + static_cast<size_t>(c)] = static_cast<float>(value[c]);
 }
 
-// The factor by which the median brightness of the pixels that are not black, by solid angle, becomes .5 on the sRGB
-// curve, so that a room is visible however bright the sources in it are.
+// The factor by which the median brightness of the pixels that are not black, by solid angle, becomes .5 on
+// the sRGB curve, so that a room is visible however bright the sources in it are.
 double exposureOf(const Raster& raster, const PixelMap& map);
 
 // Converts radiance to screen colors.

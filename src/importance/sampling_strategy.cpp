@@ -6,12 +6,12 @@ namespace rsphere {
 
 SetAtPoint::SetAtPoint(const V3d& point, uint64_t number, uint64_t rotation)
     : point_(point),
+      number_(number),
       seed_(seedOf(std::initializer_list<double>{point.x, point.y, point.z},
-                   mixBits(rotation + (number << 32)))),
-      first_(number == 0) {}
+                   mixBits(rotation + (number << 32)))) {}
 
 std::vector<V3d> SetAtPoint::turned(std::span<const V3d> directions) const {
-  if (first_) return {directions.begin(), directions.end()};
+  if (isFirst()) return {directions.begin(), directions.end()};
   return rotatedDirections(directions, mixBits(seed_));
 }
 

@@ -20,19 +20,20 @@ class SetAtPoint {
 
   const V3d& point() const { return point_; }
 
+  uint64_t number() const { return number_; }
+
   // Every random number of the set follows from it. Each strategy adds the number of a stream to it.
   uint64_t seed() const { return seed_; }
 
   // Whether it is the first set, which uses all directions as they are given.
-  bool isFirst() const { return first_; }
+  bool isFirst() const { return number_ == 0; }
 
   // The directions as given for the first set; for any other, turned by the random rotation of the set.
   std::vector<V3d> turned(std::span<const V3d> directions) const;
 
  private:
   V3d point_;
-  uint64_t seed_;
-  bool first_;
+  uint64_t number_, seed_;
 };
 
 // The directions of one set, traced and weighted.
@@ -40,9 +41,11 @@ struct SampledSet {
   std::vector<DirectionSample> samples;
   std::vector<TracedRay> rays;    // of the samples, in the same order; kept with -Sd only
   std::vector<Radiance> guesses;  // of the samples' radiances (radiance_guess.h); empty: none
-  Moments excess;      // of the guesses along glances over those along the samples; 0 without guesses
-  Irradiance clamped;  // what -Sf took from moments().total
-  Variance variance;   // of moments().total; 0 unless standard errors are wanted
+  Moments excess;         // what glances have found beyond the guesses along the samples; 0 without glances
+  Irradiance clamped;     // what -Sf took from moments().total
+  Variance variance;      // of moments().total; 0 unless standard errors are wanted
+  SharedError shared;     // in addition to variance
+  size_t litGlances = 0;  // that found light besides the samples (diffuse_glances.h)
 
   // The set's estimate of the integrals over all directions.
   Moments moments(const SpectralSampling* sampling = nullptr) const;  // RayOptions::sampling

@@ -46,6 +46,13 @@ ById<SurfaceId, bool> unguessedSurfaces(const SeenSources& sources) {
   return unguessed;
 }
 
+// beside: the directions that -Sx allows besides the base directions.
+size_t raysToImages(size_t base, size_t beside, bool glances) {
+  const size_t usual = std::max(base / Tuning::kBaseDirectionsPerRayToImages, Tuning::kLeastRaysToImages);
+  return glances ? std::max(usual, std::min(tuning::DiffuseGlances::kRaysToImages * base, beside / 2))
+                 : usual;
+}
+
 std::vector<V3d> glancesFor(const SphereOptions& options) {
   const auto count = static_cast<size_t>(options.baseDirections);
   const size_t glances =
@@ -57,14 +64,16 @@ std::vector<V3d> glancesFor(const SphereOptions& options) {
 
 SilhouetteWeights::SilhouetteWeights(const SphereTracing& tracing, const SphereOptions& options,
                                      const BaseSet& base, std::span<const SpecialObject> special,
-                                     const SeenSources& sources, const LightPatches* patches)
-    : options_(options), base_(base), sources_(sources) {
+                                     const SeenSources& sources, const LightPatches* patches,
+                                     const DiffuseGlances* glances)
+    : options_(options), base_(base), sources_(sources), glances_(glances) {
   if (!(options.densityFactor > 0)) return;
   guidance_.emplace(Guidance{TargetChoice(tracing, special, sources, options.densityFactor),
-                             RadianceGuess(tracing.prepared, unguessedSurfaces(sources)), glancesFor(options),
+                             RadianceGuess(tracing.prepared, unguessedSurfaces(sources)),
+                             glances ? std::vector<V3d>() : glancesFor(options),
                              baseDirections(tuning::RadianceGuess::kFitGlances), std::nullopt,
                              tracing.prepared.tracer(), patches});
-  if (!base.neighbours) return;
+  if (!base.neighbours || glances) return;
   VoronoiWorkspace workspace;
   cellSolidAngles(guidance_->glances, workspace);
   guidance_->neighbours = neighboursOf(workspace);
@@ -72,13 +81,19 @@ SilhouetteWeights::SilhouetteWeights(const SphereTracing& tracing, const SphereO
 
 SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace&) const {
   const size_t base = base_.directions.size(), most = static_cast<size_t>(options_.mostDirections);
-  const Images images = sources_.findImages(
-      set.point(), std::max(base / Tuning::kBaseDirectionsPerRayToImages, Tuning::kLeastRaysToImages),
-      options_.densityFactor);
-  const Surroundings around =
-      guidance_ ? lookAround(set, images, PathsFrom(tracer, set.point())) : Surroundings{};
-  const std::optional<LocalGuess> guess = guidance_ ? std::optional(fitGuess(set, around)) : std::nullopt;
-  const PathsFrom paths(tracer, set.point(), {.guess = guess ? &*guess : nullptr});
+  const Images images =
+      sources_.findImages(set.point(), raysToImages(base, most > base ? most - base : 0, glances_ != nullptr),
+                          options_.densityFactor);
+  DiffuseGlances::Found found = glances_ ? glances_->at(set) : DiffuseGlances::Found{};
+  Surroundings around;
+  std::optional<LocalGuess> guess;
+  if (glances_) {
+    around.meanBrightness = tuning::DiffuseGlances::kLeft * brightness(found.moments.total) / (4 * pi);
+  } else if (guidance_) {
+    around = lookAround(set, images, PathsFrom(tracer, set.point()));
+    guess = fitGuess(set, around);
+  }
+  const PathsFrom paths(tracer, set.point(), requestFor(set, guess));
   const std::vector<SeenSources::Sample> toImages =
       sources_.sample(paths, images, seedOf(set, Stream::imagesOfSources));
   const std::optional<DirectionGuide> guide =
@@ -102,6 +117,7 @@ SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, 
     sampled.excess = excess.moments;
     sampled.variance = excess.variance;
   }
+  if (glances_) addGlances(std::move(found), others, sampled);
   if (options_.clamp > 0) {
     Irradiance total = sampled.excess.total;
     for (const SeenSources::Sample& s : toImages)
@@ -115,12 +131,34 @@ SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, 
   for (const SeenSources::Sample& s : toImages) {
     sampled.samples.push_back(s.direction);
     if (options_.everyDirection) sampled.rays.push_back(s.ray);
-    if (guess) sampled.guesses.emplace_back();
+    if (!others.guesses.empty()) sampled.guesses.emplace_back();
   }
   sampled.samples.insert(sampled.samples.end(), others.samples.begin(), others.samples.end());
   sampled.rays.insert(sampled.rays.end(), others.rays.begin(), others.rays.end());
   sampled.guesses.insert(sampled.guesses.end(), others.guesses.begin(), others.guesses.end());
   return sampled;
+}
+
+PathRequest SilhouetteWeights::requestFor(const SetAtPoint& set,
+                                          const std::optional<LocalGuess>& guess) const {
+  PathRequest request;
+  if (guess) request.guess = &*guess;
+  if (glances_) request.vertexLight = &glances_->light(set.number());
+  return request;
+}
+
+// With -Sd, each sample has the light that a glance in its direction finds, which is a guess here: the mean
+// follows from the many glances.
+void SilhouetteWeights::addGlances(DiffuseGlances::Found found, const Others& others,
+                                   SampledSet& sampled) const {
+  sampled.excess = found.moments;
+  for (size_t i = 0; i < others.guesses.size(); ++i)
+    if (others.regions[i] != kNoRegion)
+      sampled.excess.add(others.samples[i].direction,
+                         irradianceFrom(others.guesses[i], -others.samples[i].solidAngle), base_.sampling);
+  sampled.variance = found.variance;
+  sampled.shared = std::move(found.shared);
+  sampled.litGlances = found.lit;
 }
 
 SilhouetteWeights::Surroundings SilhouetteWeights::lookAround(const SetAtPoint& set, const Images& images,
@@ -165,6 +203,10 @@ SilhouetteWeights::Others SilhouetteWeights::sampleOthers(const SetAtPoint& set,
     cells.add(cell, region, enters);
     others.samples.push_back({d, 0, enters ? ray.value : Radiance()});
     if (options_.everyDirection) others.rays.push_back(ray);
+    if (glances_ && options_.everyDirection) {
+      others.guesses.push_back(enters ? glances_->along(set, d, others.samples.size()) : Radiance());
+      others.samples.back().value += others.guesses.back();
+    }
     if (guess)
       others.guesses.push_back(enters ? guess->from(guidance_->guess.placeOf(set.point(), d, ray.firstHit))
                                       : Radiance());

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "importance/base_set.h"
+#include "importance/diffuse_glances.h"
 #include "importance/direction_guide.h"
 #include "importance/sampling_strategy.h"
 #include "importance/seen_sources.h"
@@ -27,16 +28,19 @@ namespace rsphere {
 // - Where light is uneven, as around a goal, more directions follow it (direction_guide.h).
 // - Indirect rays are aimed at openings that daylight enters through (transport/openings.h), and at diffuse
 //   surfaces that receive much direct light (transport/bright_spots.h).
-// - A control variate reduces the variance of diffuse surfaces (transport/radiance_guess.h). Many glances,
-//   rays that are not followed beyond their first hit, estimate its integral. Directions, and the indirect
-//   rays that they spawn, only estimate the difference.
+// - Where light vertices bring all of the light, the light of diffuse surfaces does not come from these
+//   directions but from many glances, and from shadow rays to light vertices (diffuse_glances.h).
+// - Elsewhere a control variate reduces the variance of diffuse surfaces (transport/radiance_guess.h). Many
+//   glances, rays that are not followed beyond their first hit, estimate its integral. Directions, and the
+//   indirect rays that they spawn, only estimate the difference.
 // With -Sk 0 only the first of these is left.
 class SilhouetteWeights : public SamplingStrategy {
  public:
-  // Keeps references to all of them. patches: null where light is even.
+  // Keeps references to all of them. patches: null where light is even. glances: null where they do not find
+  // all of the light of diffuse surfaces; otherwise they take the place of the guess.
   SilhouetteWeights(const SphereTracing& tracing, const SphereOptions& options, const BaseSet& base,
                     std::span<const SpecialObject> special, const SeenSources& sources,
-                    const LightPatches* patches);
+                    const LightPatches* patches, const DiffuseGlances* glances);
 
   SampledSet sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace& memory) const override;
 
@@ -64,14 +68,15 @@ class SilhouetteWeights : public SamplingStrategy {
     std::vector<DirectionSample> samples;  // the base directions, then those to targets
     std::vector<TracedRay> rays;           // of the samples, with -Sd only
     std::vector<Radiance> guesses;         // of the samples; empty: nothing is guessed
-    // kNoRegion: the sample shows an image of a light source, which has its own samples; its solid angle, radiance
-    // and guess are then 0.
+    // kNoRegion: the sample shows an image of a light source, which has its own samples; its solid angle,
+    // radiance and guess are then 0.
     std::vector<RegionId> regions;
     // The first sample of each target, or of all parts of one image; then the first that the guide has sent.
     std::vector<size_t> runs;
   };
 
   // The steps of sample(), in this order. Each takes values of those before it.
+  PathRequest requestFor(const SetAtPoint& set, const std::optional<LocalGuess>& guess) const;
   Surroundings lookAround(const SetAtPoint& set, const Images& images, const PathsFrom& paths) const;
   LocalGuess fitGuess(const SetAtPoint& set, const Surroundings& around) const;
   // solidAngle: that all of them represent together, sr. guess: null if nothing is guessed.
@@ -79,6 +84,8 @@ class SilhouetteWeights : public SamplingStrategy {
   Others sampleOthers(const SetAtPoint& set, const Images& images, const Targets& targets, double solidAngle,
                       const LocalGuess* guess, const DirectionGuide* guide, size_t guided,
                       const PathsFrom& paths) const;
+  // Adds what glances find to the set.
+  void addGlances(DiffuseGlances::Found found, const Others& others, SampledSet& sampled) const;
   // The moments of the guess by glances, minus those by the directions.
   struct Excess {
     Moments moments;
@@ -91,6 +98,7 @@ class SilhouetteWeights : public SamplingStrategy {
   const SphereOptions& options_;
   const BaseSet& base_;
   const SeenSources& sources_;
+  const DiffuseGlances* glances_;
   std::optional<Guidance> guidance_;  // none with -Sk 0
 };
 

@@ -16,7 +16,8 @@ namespace rsphere {
 // How irregularly a material scatters light, 0 to 1:
 // - 1 if it shows a sharp image of its surroundings in another shape or place: mirror, dielectric, interface,
 //   prisms; aBSDF, whose data are meant to have a peak in the straight direction.
-// - kPane for glass, and for an illum that shows what is behind it; other illums are as their alternate material.
+// - kPane for glass, and for an illum that shows what is behind it; other illums are as their alternate
+//   material.
 // - For other materials the fraction of light that is reflected or transmitted specularly, divided by 1 + (a
 //   / kSharpRoughness)^2 for the roughness a (rms slope of facets), like the height of the peak. With two
 //   roughnesses (plastic2, metal2, trans2, WGMDfunc) the divisor is the geometric mean of both. The powers n

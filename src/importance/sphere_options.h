@@ -22,10 +22,10 @@ struct SphereOptions {
   uint64_t rotation = 0;                   // -Sr
   bool verify = false;                     // -Sv
 
-  // The rays of patches of the coarse solution, as RayOptions::leastForPatches. They grow with what is asked of the
-  // directions, so that the error that all points share falls with theirs. By measurement: in four daylit rooms
-  // (-aa .1, -Sn 512 to 4096) answers have .8 to 1.3 times the error that they state, and the error of directions
-  // alone falls with the power .75 of their number.
+  // The rays of patches of the coarse solution, as RayOptions::leastForPatches. They grow with what is asked
+  // of the directions, so that the error that all points share falls with theirs. By measurement: in four
+  // daylit rooms (-aa .1, -Sn 512 to 4096) answers have .8 to 1.3 times the error that they state, and the
+  // error of directions alone falls with the power .75 of their number.
   int raysForPatches() const {
     constexpr double kUsual = 1024, kUsualDirections = 2048, kUsualAccuracy = .01, kMost = 1e6;
     const double part = baseDirections / kUsualDirections;

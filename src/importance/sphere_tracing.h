@@ -8,6 +8,7 @@ struct SphereTracing {
   const PreparedScene& prepared;
   const Caches& caches;
   Aims aims;  // of indirect rays
+  const VertexLight* vertexLight = nullptr;  // PathRequest::vertexLight
 
   // Each thread needs its own.
   PathTracer tracer() const {

@@ -45,7 +45,8 @@ class Targets {
   SilhouetteIndex index_;  // of targets_, by position
 };
 
-// Chooses the targets at any point. Shared by all threads; keeps references to the prepared scene and to bright spots.
+// Chooses the targets at any point. Shared by all threads; keeps references to the prepared scene and to
+// bright spots.
 class TargetChoice {
  public:
   // Measures how much radiance varies on the objects (contrasts.h). sources: those integrated separately.

@@ -75,11 +75,40 @@ struct DirectionGuide {
 };
 
 // Which regions get directions of their own (targets.cpp).
+// Glances and joins with light vertices (diffuse_glances.h).
+struct DiffuseGlances {
+  // Glances for each base direction. Their number costs most of the time of a point, and the error falls with
+  // its root.
+  RSPHERE_TUNED(DiffuseGlances, int, kPerDirection, 12);
+  // Joins for each base direction. 8: within noise.
+  RSPHERE_TUNED(DiffuseGlances, double, kJoinsPerDirection, 4);
+  // Vertices nearer than this share of the mean length of light paths get no more joins than others. .1 or
+  // .3: within noise.
+  RSPHERE_TUNED(DiffuseGlances, double, kJoinRadius, .17);
+  // Light paths for each base direction, and at least. They take about 3 microseconds each, once for all
+  // points.
+  RSPHERE_TUNED(DiffuseGlances, double, kPathsPerDirection, 64);
+  RSPHERE_TUNED(DiffuseGlances, double, kLeastPaths, 32768);
+  // With -Sa there are as many as suit this accuracy, and more in proportion to its square if more is asked
+  // for.
+  RSPHERE_TUNED(DiffuseGlances, double, kUsualAccuracy, .005);
+  // About 1 GB.
+  RSPHERE_TUNED(DiffuseGlances, double, kMostPaths, 4e6);
+  // Rays to images of light sources for each base direction. A source that is half hidden is found by them
+  // alone, and glances leave its error as the largest: 1/4: error three times as large where the goal shows
+  // behind a partition.
+  RSPHERE_TUNED(DiffuseGlances, size_t, kRaysToImages, 1);
+  // What the surroundings leave to directions, as a share of the mean radiance that glances find: targets are
+  // compared with it. 1: error 5 times as large around the goal, where chrome balls show it; .01: within
+  // noise.
+  RSPHERE_TUNED(DiffuseGlances, double, kLeft, .03);
+};
+
 struct Targets {
   // Cap on the ratio of deviations, and with it on the density of a target's directions over that of the
   // base: chosen by experiment. Without it all other targets would pay for the last factor of two in density
   // of one. 30% less or more: the same answers in all cases.
-  RSPHERE_TUNED(Targets, double, kMostContrast, 200);
+  RSPHERE_TUNED(Targets, double, kMostContrast, 20000);
   // An image of a light source in a ball gets directions of its own if without them it would add more than
   // this share of the variance of all base directions: chosen by experiment. 30% less or more: within noise
   // (points in office; error below 1%, time 7%).

@@ -26,8 +26,8 @@ namespace rsphere {
 // The last rule was refused, because a third of its answers estimate a larger error than was asked for.
 class TwoHalves {
  public:
-  // accuracy: the fraction. 0: one set is enough. dark: if the average is below this, tuning::Dark::kSets sets are
-  // enough, although they may not reach the accuracy.
+  // accuracy: the fraction. 0: one set is enough. dark: if the average is below this, tuning::Dark::kSets
+  // sets are enough, although they may not reach the accuracy.
   explicit TwoHalves(double accuracy, double dark = 0) : accuracy_(accuracy), dark_(dark) {}
 
   // The half, 0 or 1, that the next set belongs to. Empty if there are enough sets.

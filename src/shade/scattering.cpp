@@ -140,6 +140,15 @@ V3d perturbedNormal(const Interaction& at, double& cosine) {
   return n;
 }
 
+double diffuseShare(const Opaque& material, double cosine) {
+  return 1 - gloss(material.specularity, material.roughness, std::max(cosine, .001)).specular;
+}
+
+double enteringShare(const Opaque& material, double cosine) {
+  const Gloss g = gloss(material.specularity, material.roughness, cosine);
+  return g.polished && material.specularity >= kFresnelSpecularity ? 1 - fresnelRise(cosine) : 1;
+}
+
 Scattering scatter(const Opaque& material, const Interaction& at, double specularThreshold) {
   Scattering s;
   beginScattering(s, at, material.roughness);

@@ -120,6 +120,12 @@ double reflectedDensity(const Scattering& scattering, const Interaction& at, con
 double sampleTransmission(const Scattering& scattering, const Interaction& at, double spread, double u1,
                           double u2, V3d& direction);
 
+// The share of the light that plastic or metal reflects diffusely, times its color, towards a direction at
+// this cosine with the normal; and the share of direct light at this cosine that is not reflected before (1
+// unless polished).
+double diffuseShare(const Opaque& material, double cosine);
+double enteringShare(const Opaque& material, double cosine);
+
 // Whether a texture tilts the normal.
 inline bool isPerturbed(const Interaction& at) {
   return at.perturbation.length2() > kNegligible * kNegligible;

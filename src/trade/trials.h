@@ -32,8 +32,8 @@ class Trials {
 
   // Answers all points once, with the rotation of the options, and adds the answers to trial.answers.
   // standardErrors: also adds the estimated errors to trial.estimates. timed: trial.seconds and
-  // trial.directions become the means over these answers and those before. pointAnswered is called after each point, from several threads. Returns false, and
-  // adds nothing, after a signal.
+  // trial.directions become the means over these answers and those before. pointAnswered is called after each
+  // point, from several threads. Returns false, and adds nothing, after a signal.
   bool run(const Setting& setting, bool standardErrors, bool timed, Trial& trial,
            const std::function<void()>& pointAnswered = {});
 

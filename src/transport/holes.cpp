@@ -84,8 +84,8 @@ class Coverage {
     for (std::vector<double>& shares : corners_) std::ranges::sort(shares);
   }
 
-  // The rectangles around connected cells that are not covered, if they fill most of it and the wall surrounds them.
-  // Can be called once.
+  // The rectangles around connected cells that are not covered, if they fill most of it and the wall
+  // surrounds them. Can be called once.
   std::vector<Rectangle> holes() {
     std::vector<Rectangle> found;
     for (int j = 0; j < kCells; ++j)

@@ -12,8 +12,8 @@ namespace rsphere {
 using SentParticle = FunctionRef<void(const V3d& origin, const V3d& direction, double power,
                                       const Surface& source, Random& random)>;
 
-// The light that a real source sends out (W, of brightness). reach: half the extent of the scene (world units),
-// within which distant sources shine.
+// The light that a real source sends out (W, of brightness). reach: half the extent of the scene (world
+// units), within which distant sources shine.
 double powerOf(const Scene& scene, const LightSource& light, double reach);
 
 // Sends about `count` particles from all real sources, in proportion to their power. Those of distant sources

@@ -8,6 +8,7 @@
 namespace rsphere {
 
 class LocalGuess;
+class VertexLight;
 
 // The light source that a primary ray showed, and the surface that mirrored it;
 // kNone if there is none.
@@ -35,6 +36,11 @@ struct PathRequest {
   // The surface that the primary ray hits is shown without its indirect light, and without the samples of its
   // rough reflections and transmissions.
   bool leavesOutIndirect = false, leavesOutLobes = false;
+  // Paths from both ends bring light to the plain surfaces (plain_surfaces.h) that the path meets before its
+  // first diffuse reflection: their indirect light comes from here. One that the primary ray shows straight
+  // or through panes is shown without its diffuse reflection and without the shadow rays of its rough
+  // highlight. Null: they are shaded as others.
+  const VertexLight* vertexLight = nullptr;
 };
 
 // What PathRequest::leavesOutIndirect and leavesOutLobes left out of a path.

@@ -22,8 +22,8 @@ class PathTracer {
   ~PathTracer();
   PathTracer(PathTracer&&) noexcept;
 
-  // Radiance along a primary ray (W/sr/m2), or irradiance (W/m2) if PreparedScene::irradiance asks for it: on the
-  // surface that is hit, or on an imagined one just ahead that faces the ray (see inputRay() for where -I
+  // Radiance along a primary ray (W/sr/m2), or irradiance (W/m2) if PreparedScene::irradiance asks for it: on
+  // the surface that is hit, or on an imagined one just ahead that faces the ray (see inputRay() for where -I
   // starts). direction: unit. farthest: 0 for no limit (-ld, world units). The seed determines every random
   // number of the path. Throws rad::Error
   // - if a path passes through more than 20500 surfaces in succession,

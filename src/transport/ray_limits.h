@@ -28,9 +28,10 @@ inline bool survives(Random& random, double least, NextRay& next) {
   return true;
 }
 
-// Whether the indirect light at the hit of a ray is asked of a patch of the coarse solution. Beyond some patches
-// for each ray of a gather, Russian roulette chooses further ones in proportion to what they may contribute.
-// coefficient: of the mean radiance over the hemisphere in the ray's radiance; increased as by goesOnAlong().
+// Whether the indirect light at the hit of a ray is asked of a patch of the coarse solution. Beyond some
+// patches for each ray of a gather, Russian roulette chooses further ones in proportion to what they may
+// contribute. coefficient: of the mean radiance over the hemisphere in the ray's radiance; increased as by
+// goesOnAlong().
 bool asksForPatch(PathState& state, const PathContext& ray, Coefficient& coefficient);
 
 // Begins to count the descendants of a primary ray, if work is bounded. rays: -ad + -as.

@@ -253,17 +253,55 @@ Coefficient SurfaceShading::lobesCoefficient(const S& scattering, const SourceSa
   return Coefficient(scattering.lobeShare(Component::reflected) * (share * density * sample.solidAngle));
 }
 
+// Takes the light that paths from both ends bring to the eye out of the scattering.
+template <ScattersLight S>
+SurfaceShading::FromBothEnds SurfaceShading::leaveToVertices(const RayEnd& end, S& scattering) const {
+  if constexpr (std::is_same_v<S, RoundScattering>) {
+    const VertexLight* const light = state_.request.vertexLight;
+    if (!light || end.context.ambientLevel > 0 || end.hit.perturbation != V3d(0, 0, 0)) return {};
+    const Opaque* const material = light->surfaces().materialOf(end.hit.surface);
+    if (!material) return {};
+    const bool rough = hasRoughHighlight(*material);
+    if ((end.context.kinds & ~unsigned{kPrimary | kTransmitted}) != 0) {
+      // One shadow ray is not enough for a strong highlight.
+      const bool weak = !rough || material->specularity < tuning::VertexLight::kStrong;
+      return {.indirect = true, .direct = weak, .behind = weak};
+    }
+    scattering.leaveOutDiffuse();
+    return {.direct = rough};
+  }
+  return {};
+}
+
+void SurfaceShading::addFromVertices(const RayEnd& end, const V3d& normal, const Coefficient& coefficient,
+                                     Radiance& value) {
+  const VertexLight& light = *state_.request.vertexLight;
+  const SurfaceId surface = end.hit.surface;
+  const PlainPlace at{end.hit.point, normal, light.surfaces().materialOf(surface), surface};
+  value += coefficient * light.indirectAt(at, {t_.options().ambientBounces}, state_.random, scratch_);
+}
+
+void SurfaceShading::addFromSource(const RayEnd& end, const V3d& normal, Radiance& value) {
+  const VertexLight& light = *state_.request.vertexLight;
+  const SurfaceId surface = end.hit.surface;
+  const PlainPlace at{end.hit.point, normal, light.surfaces().materialOf(surface), surface,
+                      light.surfaces().isFlat(surface)};
+  value += light.directOf(at, {end.ray.direction}, state_.random, scratch_);
+}
+
 // The light that a surface scatters towards the ray's origin: sharp paths, lobes, and on each side indirect
 // and direct light.
 template <ScattersLight S>
 bool SurfaceShading::estimate(RayEnd& end, S& scattering, RayResult& result) {
   specular_.add(end, scattering.sharp(), result);
   if (end.context.kinds & kShadow) return true;
-  const bool shares = estimateLobes(end, scattering, result);
+  const FromBothEnds fromBothEnds = leaveToVertices(end, scattering);
+  if (fromBothEnds.behind) addFromSource(end, scattering.trueNormal(), result.value);
+  const bool shares = estimateLobes(end, scattering, !fromBothEnds.direct, result);
   const auto partOfLobe = [&](const SourceSample& sample) { return lobesCoefficient(scattering, sample); };
   const PartOfLobe part(partOfLobe);
   for (const Component c : scattering.components())
-    estimateSide(end, scattering, c, shares ? &part : nullptr, result.value);
+    estimateSide(end, scattering, c, fromBothEnds, shares ? &part : nullptr, result.value);
   return true;
 }
 
@@ -271,7 +309,7 @@ bool SurfaceShading::estimate(RayEnd& end, S& scattering, RayResult& result) {
 // sources.
 template <ScattersLight S>
 [[gnu::always_inline]] inline bool SurfaceShading::estimateLobes(const RayEnd& end, S& scattering,
-                                                                 RayResult& result) {
+                                                                 bool mayShare, RayResult& result) {
   Random& random = state_.random;
   bool shares = false;
   const bool followsLobes = end.context.depth > 0 || !state_.request.leavesOutLobes;
@@ -287,7 +325,7 @@ template <ScattersLight S>
       specular_.addLobe(end, kTransmittedSpecular, *lobe, draw, nullptr, result);
       continue;
     }
-    shares = settings_.mode.sharesHighlights && goesOn(t_, end.context);
+    shares = mayShare && settings_.mode.sharesHighlights && goesOn(t_, end.context);
     const auto ofSource = [&](const RayEnd& sample) { return lobesPart(scattering, sample); };
     const LobeShare share(ofSource);
     specular_.addLobe(end, kReflectedSpecular, *lobe, draw, shares ? &share : nullptr, result);
@@ -298,17 +336,21 @@ template <ScattersLight S>
 // Adds the indirect and direct light of one side.
 template <ScattersLight S>
 [[gnu::always_inline]] inline void SurfaceShading::estimateSide(const RayEnd& end, S& scattering,
-                                                                Component side, const PartOfLobe* partOfLobe,
+                                                                Component side,
+                                                                const FromBothEnds& fromBothEnds,
+                                                                const PartOfLobe* partOfLobe,
                                                                 Radiance& value) {
   const V3d point = end.hit.point + scattering.offset(side);
   if (const Coefficient indirect = scattering.indirect(side); maxChannel(indirect) > kNegligible) {
     const V3d &normal = scattering.normal(side), &trueNormal = scattering.trueNormal();
-    if (side == Component::reflected)
+    if (fromBothEnds.indirect)
+      addFromVertices(end, normal, indirect, value);
+    else if (side == Component::reflected)
       indirect_.add(end, {point, normal, trueNormal, kReflectedAmbient, indirect}, value);
     else
       indirect_.add(end, {point, -normal, -trueNormal, kTransmittedAmbient, indirect}, value);
   }
-  if (!scattering.takesDirect(side)) return;
+  if (!scattering.takesDirect(side) || fromBothEnds.direct) return;
   const auto coefficient = [&](const V3d& toSource, double solidAngle) {
     return scattering.coefficient(side, toSource, solidAngle, state_.random);
   };

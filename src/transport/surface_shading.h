@@ -8,6 +8,7 @@
 #include "transport/prepared_scene.h"
 #include "transport/ray_follower.h"
 #include "transport/specular_light.h"
+#include "transport/vertex_light.h"
 
 namespace rsphere {
 
@@ -56,11 +57,21 @@ class SurfaceShading {
   bool estimate(RayEnd& end, const CrossesAntimatter& boundary, RayResult& result);
   template <ScattersLight S>
   bool estimate(RayEnd& end, S& scattering, RayResult& result);
+  // Which light of a surface paths from both ends bring.
+  struct FromBothEnds {
+    bool indirect = false;
+    bool direct = false;  // that of the rough highlight, too
+    bool behind = false;  // a shadow ray to one source brings the direct light
+  };
   template <ScattersLight S>
-  bool estimateLobes(const RayEnd& end, S& scattering, RayResult& result);
+  FromBothEnds leaveToVertices(const RayEnd& end, S& scattering) const;
+  void addFromVertices(const RayEnd& end, const V3d& normal, const Coefficient& coefficient, Radiance& value);
+  void addFromSource(const RayEnd& end, const V3d& normal, Radiance& value);
   template <ScattersLight S>
-  void estimateSide(const RayEnd& end, S& scattering, Component side, const PartOfLobe* partOfLobe,
-                    Radiance& value);
+  bool estimateLobes(const RayEnd& end, S& scattering, bool mayShare, RayResult& result);
+  template <ScattersLight S>
+  void estimateSide(const RayEnd& end, S& scattering, Component side, const FromBothEnds& fromBothEnds,
+                    const PartOfLobe* partOfLobe, Radiance& value);
   template <ScattersLight S>
   Radiance lobesPart(const S& scattering, const RayEnd& sample) const;
   template <ScattersLight S>
@@ -74,6 +85,7 @@ class SurfaceShading {
   SpecularLight& specular_;
   IndirectLight& indirect_;
   MaterialContext context_;
+  VertexLight::Scratch scratch_;
 };
 
 }  // namespace rsphere

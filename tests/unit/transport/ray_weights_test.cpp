@@ -212,8 +212,8 @@ TEST(RayWeights, WorkWithinClosedMetalHasABoundAndTheSameMean) {
       << "would not see an error of 15%";
 }
 
-// Whatever the materials are, all rays of a patch together have a bounded number of descendants. Those that are
-// followed make up for the others.
+// Whatever the materials are, all rays of a patch together have a bounded number of descendants. Those that
+// are followed make up for the others.
 TEST(RayWeights, ThePathsOfAPatchHaveABound) {
   const Traced any("void light l 0 0 3 1 1 1\nl sphere lamp 0 0 4 0 0 4 .2\n",
                    interpolated(2, 16, {-100, 1e-9}));
@@ -260,8 +260,9 @@ rough sphere outer 0 0 4 0 0 4 .3
   EXPECT_LT(between.transport().caches().coarse->patches(), 8000U);
 }
 
-// Surfaces that reflect and transmit in lobes ask for patches at every hit. A gather's rays ask for weak ones, and
-// follow weak paths, by Russian roulette. All of the light of a sky must still come through two boxes of rough trans.
+// Surfaces that reflect and transmit in lobes ask for patches at every hit. A gather's rays ask for weak
+// ones, and follow weak paths, by Russian roulette. All of the light of a sky must still come through two
+// boxes of rough trans.
 std::string boxOf(const std::string& modifier, double half) {
   std::string box;
   for (int axis = 0; axis < 3; ++axis)
@@ -339,7 +340,7 @@ TEST(RayWeights, WorkWithinAClosedCylinderOfMattePlasticHasABound) {
   PathTracer tracer = column.tracerWith({}, {.boundsWork = true});
   for (uint64_t i = 0; i < 20; ++i) {
     size_t rays = 0;
-    const RayObserver count = [&](const Ray&) { ++rays; };
+    const RayObserver count = [&](const RayEnd&, const RayResult&) { ++rays; };
     EXPECT_EQ(tracer.trace(V3d(.03, .02, .3), V3d(.6, .3, .4).normalized(), 0, i, {.observer = &count})
                   .value.color.x,
               0);

@@ -1,0 +1,210 @@
+#include "importance/diffuse_glances.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+#include "importance/tuning.h"
+#include "scene/random.h"
+#include "shade/scattering.h"
+#include "sphere/directions.h"
+
+namespace rsphere {
+namespace {
+
+using Tuning = tuning::DiffuseGlances;
+
+enum class Stream : uint64_t { glances = 0x7001, joins, single };
+
+Random randomOf(const SetAtPoint& set, Stream stream, uint64_t number = 0) {
+  return Random(mixBits(mixBits(set.seed() + static_cast<uint64_t>(stream)) + number));
+}
+
+size_t pathsFor(const SphereOptions& options) {
+  const double finer = options.accuracy > 0 ? Tuning::kUsualAccuracy / options.accuracy : 0;
+  const double paths = std::max(Tuning::kLeastPaths, Tuning::kPathsPerDirection * options.baseDirections) *
+                       std::max(1., finer * finer);
+  return static_cast<size_t>(std::min(paths, Tuning::kMostPaths));
+}
+
+}  // namespace
+
+// Which light vertices are joined to a point: each with a probability in proportion to what it would show if
+// reflection were even and nothing stood in the way, up to 1. The probability follows from the place alone,
+// so that glances know it too.
+class DiffuseGlances::Joins {
+ public:
+  Joins(const LightVertices& vertices, const V3d& point, double expected, double glances)
+      : vertices_(vertices), point_(point), density_(glances / (4 * kPi)) {
+    const double radius = Tuning::kJoinRadius * vertices.meanLength();
+    radius2_ = radius * radius;
+    const auto& visible = vertices.visible();
+    shown_.reserve(visible.size());
+    double sum = 0;
+    for (const LightVertices::Visible& v : visible) {
+      shown_.push_back(static_cast<float>(shownBy(v)));
+      sum += shown_.back();
+    }
+    factor_ = sum > 0 ? expected / sum : 0;
+  }
+
+  double shareOf(double shown) const { return std::min(1., factor_ * shown); }
+  // What glances know of a place that they show.
+  VertexLight::Seen seen(const PlainPlace& at, const V3d& direction, double distance) const {
+    const double cosine = -at.normal.dot(direction), square = distance * distance;
+    return {direction, density_ * cosine / square,
+            shareOf(joinedReflectance(*at.material) * cosine / (square + radius2_))};
+  }
+
+  // Calls each(vertex, share, direction, distance) for those that are joined.
+  template <class Each>
+  void draw(Random& random, const Each& each) const {
+    double due = random.uniform();
+    for (size_t i = 0; i < shown_.size(); ++i) {
+      if (!(shown_[i] > 0)) continue;
+      const double share = shareOf(shown_[i]);
+      if ((due += share) < 1) continue;
+      due -= 1;
+      const LightVertices::Visible& v = vertices_.visible()[i];
+      const V3d to = v.vertex.point() - point_;
+      const double distance = to.length();
+      each(v, share, to / distance, distance);
+    }
+  }
+
+  // The contribution of a vertex that is joined, if it is in view.
+  Irradiance partOf(const LightVertices::Visible& v, double share, const V3d& direction,
+                    double distance) const {
+    const double cosine = -direction.dot(v.vertex.normal()), square = distance * distance;
+    if (!(cosine > 0)) return {};
+    if (v.vertex.way != LightVertex::direct)
+      return v.power * (diffuseShare(*v.material, cosine) * cosine / (kPi * square) * v.share / share);
+    PlainPlace at;
+    at.normal = v.vertex.normal();
+    at.material = v.material;
+    at.flat = v.flat;
+    const double arriving = -v.direction.dot(at.normal);
+    const double weight = 1 / (density_ * cosine / square * v.shadowRays + share);
+    return v.power * shownOfSource(at, direction, -v.direction, 1) * (cosine / square * weight / arriving);
+  }
+
+ private:
+  double shownBy(const LightVertices::Visible& v) const {
+    const V3d to = point_ - v.vertex.point();
+    const double square = to.length2(), facing = to.dot(v.vertex.normal());
+    if (!(facing > 0)) return 0;
+    const double reflected = v.vertex.way == LightVertex::direct
+                                 ? joinedReflectance(*v.material)
+                                 : v.share * v.vertex.power / vertices_.pathPower();
+    return reflected * facing / std::sqrt(square) / (square + radius2_);
+  }
+
+  const LightVertices& vertices_;
+  V3d point_;
+  double density_;  // of glances, per sr
+  double radius2_ = 0, factor_ = 0;
+  std::vector<float> shown_;  // of vertices_.visible()
+};
+
+std::unique_ptr<const DiffuseGlances> DiffuseGlances::make(const PreparedScene& prepared,
+                                                           const SphereOptions& options,
+                                                           const BaseSet& base) {
+  if (PlainSurfaces(prepared).obstacle(prepared)) return nullptr;
+  return std::make_unique<const DiffuseGlances>(prepared, options, base);
+}
+
+DiffuseGlances::DiffuseGlances(const PreparedScene& prepared, const SphereOptions& options,
+                               const BaseSet& base)
+    : prepared_(prepared),
+      surfaces_(prepared),
+      paths_(pathsFor(options)),
+      rotation_(options.rotation),
+      glances_(rotatedDirections(baseDirections(static_cast<size_t>(Tuning::kPerDirection) *
+                                                static_cast<size_t>(options.baseDirections)),
+                                 options.rotation)),
+      joins_(Tuning::kJoinsPerDirection * options.baseDirections),
+      averages_(options.accuracy > 0) {
+  if (!base.neighbours) return;
+  VoronoiWorkspace workspace;
+  cellSolidAngles(glances_, workspace);
+  neighbours_ = neighboursOf(workspace);
+}
+
+const VertexLight& DiffuseGlances::light(uint64_t set) const {
+  const size_t pool = averages_ ? set % kPools : 0;
+  std::call_once(made_[pool], [&] {
+    lights_[pool] =
+        std::make_unique<const VertexLight>(prepared_, surfaces_, paths_, mixBits(mixBits(rotation_) + pool));
+  });
+  return *lights_[pool];
+}
+
+DiffuseGlances::Found DiffuseGlances::at(const SetAtPoint& set) const {
+  const VertexLight& both = light(set.number());
+  const SpectralSampling* const sampling = prepared_.options().sampling;
+  const auto n = static_cast<double>(glances_.size());
+  const double cell = 4 * kPi / n;
+  const Joins joins(both.vertices(), set.point(), joins_, n);
+  Found found;
+  VertexLight::Record record;
+  record.sampling = sampling;
+
+  std::optional<Irradiance> last;
+  Random random = randomOf(set, Stream::joins);
+  joins.draw(random,
+             [&](const LightVertices::Visible& v, double share, const V3d& direction, double distance) {
+               const Coefficient passed = surfaces_.passing(set.point(), v.vertex.point(), kNone);
+               const Irradiance part = joins.partOf(v, share, direction, distance) * passed;
+               found.moments.add(direction, part, sampling);
+               record.add(v.vertex.batch, part, 1 - share);
+               // Successive ones are neighbours, so that their differences are what the choice changes.
+               if (last) found.variance += Variance::of(part - *last, sampling) * (.5 * (1 - share));
+               last = part;
+             });
+
+  random = randomOf(set, Stream::glances);
+  VertexLight::Scratch scratch;
+  std::vector<DirectionSample> seen;
+  for (const V3d& direction : set.turned(glances_)) {
+    const Sight sight = surfaces_.look(set.point(), direction, kFarAway, kNone);
+    const PlainPlace at = surfaces_.placeOf(set.point(), direction, sight);
+    Radiance radiance;
+    if (at.material) {
+      const Coefficient color(sight.passed.color * at.material->color *
+                              diffuseShare(*at.material, -at.normal.dot(direction)));
+      radiance = sight.passed * both.directOf(at, joins.seen(at, direction, sight.distance), random, scratch);
+      if (!isBlack(color))
+        radiance += color * both.indirectAt(at,
+                                            {prepared_.options().ambientBounces, true,
+                                             neighbours_ ? &record : nullptr, color * cell},
+                                            random, scratch);
+      found.moments.add(direction, irradianceFrom(radiance, cell), sampling);
+      found.lit += maxChannel(radiance) > 0;
+    }
+    if (neighbours_) seen.push_back({direction, cell, radiance});
+  }
+  if (!neighbours_) {
+    found.variance = {};
+    return found;
+  }
+  found.variance += evenVariance(seen, *neighbours_, {}, sampling);
+  found.shared = {std::vector(record.batches.begin(), record.batches.end()),
+                  {record.squares, record.squaredBrightness}};
+  return found;
+}
+
+Radiance DiffuseGlances::along(const SetAtPoint& set, const V3d& direction, size_t number) const {
+  const Sight sight = surfaces_.look(set.point(), direction, kFarAway, kNone);
+  const PlainPlace at = surfaces_.placeOf(set.point(), direction, sight);
+  if (!at.material) return {};
+  const VertexLight& both = light(set.number());
+  Random random = randomOf(set, Stream::single, number);
+  VertexLight::Scratch scratch;
+  const double share = diffuseShare(*at.material, -at.normal.dot(direction));
+  Radiance sum = both.directOf(at, {direction}, random, scratch);
+  sum += Coefficient(at.material->color * share) *
+         both.indirectAt(at, {prepared_.options().ambientBounces}, random, scratch);
+  return sum * sight.passed;
+}
+
+}  // namespace rsphere

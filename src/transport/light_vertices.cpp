@@ -1,0 +1,350 @@
+#include "transport/light_vertices.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/constants.h"
+#include "light/surface_point.h"
+#include "shade/scattering.h"
+#include "transport/light_particles.h"
+#include "transport/tuning.h"
+
+namespace rsphere {
+namespace {
+
+using Tuning = tuning::LightVertices;
+
+// Every third bit of the result is one of the lowest 10 bits of x.
+uint32_t spread(uint32_t x) {
+  x = (x | x << 16) & 0x030000ff;
+  x = (x | x << 8) & 0x0300f00f;
+  x = (x | x << 4) & 0x030c30c3;
+  return (x | x << 2) & 0x09249249;
+}
+
+// The order of points along Morton's curve through a grid of 1024 cells a side: points that lie near to each
+// other mostly follow each other.
+template <class PointOf>
+std::vector<uint32_t> orderByPlace(size_t count, const PointOf& pointOf) {
+  constexpr double kCells = 1024;
+  Box3d box;
+  for (size_t i = 0; i < count; ++i) box.extendBy(pointOf(i));
+  const V3d size = box.size();
+  std::vector<std::pair<uint32_t, uint32_t>> keys(count);
+  for (size_t i = 0; i < count; ++i) {
+    const V3d at = pointOf(i) - box.min;
+    uint32_t key = 0;
+    for (int k = 0; k < 3; ++k)
+      if (size[k] > 0)
+        key |= spread(static_cast<uint32_t>(std::min(at[k] / size[k] * kCells, kCells - 1))) << k;
+    keys[i] = {key, static_cast<uint32_t>(i)};
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<uint32_t> order(count);
+  for (size_t i = 0; i < count; ++i) order[i] = keys[i].second;
+  return order;
+}
+
+template <class T>
+void permute(std::vector<T>& all, std::span<const uint32_t> order) {
+  std::vector<T> sorted;
+  sorted.reserve(all.size());
+  for (const uint32_t i : order) sorted.push_back(std::move(all[i]));
+  all = std::move(sorted);
+}
+
+LightVertex vertexAt(const PlainPlace& at, double power, int bounces, LightVertex::Way way, size_t batch) {
+  LightVertex v{};
+  for (int k = 0; k < 3; ++k) {
+    v.place[k] = at.point[k];
+    v.facing[k] = static_cast<float>(at.normal[k]);
+  }
+  v.power = static_cast<float>(power);
+  v.bounces = static_cast<uint8_t>(std::min(bounces, 255));
+  v.way = way;
+  v.batch = static_cast<uint8_t>(batch);
+  return v;
+}
+
+}  // namespace
+
+double joinedReflectance(const Opaque& m) {
+  const double color = brightness(m.color);
+  return color * (1 - m.specularity) + (hasRoughHighlight(m) ? m.specularity * (m.metal ? color : 1) : 0);
+}
+
+// One light path on its way. It adds vertices to the lists.
+class LightVertices::Path {
+ public:
+  Path(LightVertices& all, size_t number, uint64_t seed)
+      : all_(all), random_(mixBits(mixBits(seed) + number)), batch_(number % LightVertex::kBatches) {}
+
+  // where: from 0 to 1, of the power of all sources.
+  void send(double where);
+
+  double firstLength() const { return firstLength_; }  // 0 if it met nothing
+
+ private:
+  bool passPane(const Hit& hit);
+  bool meetMirror(const Hit& hit);
+  void arrive(const PlainPlace& at);
+  void addVisible(const PlainPlace& at, double reflected);
+  bool reflect(const PlainPlace& at);
+  bool reflectSpecularly(const PlainPlace& at, const Scattering& s, const Interaction& view, double scale);
+
+  LightVertices& all_;
+  Random random_;
+  size_t batch_;
+  LightId light_;
+  V3d origin_, direction_;
+  SurfaceId start_;
+  double cosineAtSource_ = 0;
+  Irradiance power_;
+  LightVertex::Way way_ = LightVertex::direct;
+  bool fromSource_ = true;  // nothing has reflected it yet
+  int bounces_ = 0;
+  double length_ = 0, firstLength_ = 0;  // since the last reflection; of the first part
+  ById<LightId, double> weights_;
+};
+
+void LightVertices::Path::send(double where) {
+  const auto sender = std::min(std::lower_bound(all_.senders_.begin(), all_.senders_.end(), where,
+                                                [](const Sender& s, double w) { return s.upTo < w; }),
+                               all_.senders_.end() - 1);
+  const PreparedScene& prepared = all_.prepared_;
+  const Scene& scene = prepared.scene();
+  light_ = sender->light;
+  start_ = prepared.lights().all()[light_].surface;
+  const SurfacePoint from = samplePoint(scene.surfaces[start_].shape, scene.vertices, random_);
+  origin_ = from.point + 2 * kSamePlace * from.normal;
+  direction_ = sentFrom(from.normal, random_);
+  cosineAtSource_ = from.normal.dot(direction_);
+  const Radiance& radiance = *prepared.constantRadiance(light_);
+  power_ = Irradiance(radiance.color * (all_.pathPower_ / brightness(radiance)));
+  way_ = all_.aimedDensity(light_, 1, 1) > 0 ? LightVertex::direct : LightVertex::unweighed;
+  for (int hits = 0; hits < Tuning::kMostHits; ++hits) {
+    const Hit hit = prepared.tracer().nearest(origin_, direction_, kFarAway, start_);
+    if (hit.surface == kNone) return;
+    length_ += hit.distance;
+    if (all_.surfaces_.paneOf(hit.surface)) {
+      if (!passPane(hit)) return;
+      continue;
+    }
+    if (all_.surfaces_.mirrorOf(hit.surface)) {
+      if (!meetMirror(hit)) return;
+      continue;
+    }
+    const PlainPlace at = all_.surfaces_.placeOf(origin_, direction_, {hit, hit.distance, Coefficient(1)});
+    if (fromSource_) firstLength_ = length_;
+    if (!at.material) return;
+    arrive(at);
+    if (!reflect(at)) return;
+    fromSource_ = false;
+    length_ = 0;
+    origin_ = at.point;
+    start_ = at.surface;
+  }
+}
+
+// Goes on through a pane, or mirrored by it. False if the path ends there.
+bool LightVertices::Path::passPane(const Hit& hit) {
+  Interaction view = plainInteraction(direction_, hit.normal, true);
+  if (fromSource_) view.kinds = kShadow;  // no reflection
+  const Scattering s = scatter(*all_.surfaces_.paneOf(hit.surface), view);
+  double left = random_.uniform() * brightness(power_);
+  for (const SharpPath& next : s.sharp) {
+    const double share = brightness(power_ * next.coefficient);
+    if ((left -= share) >= 0) continue;
+    origin_ += hit.distance * direction_;
+    start_ = hit.surface;
+    power_ = power_ * next.coefficient * (brightness(power_) / share);
+    if (next.kind == kReflected) {
+      direction_ = next.direction;
+      way_ = LightVertex::sharp;
+      length_ = 0;
+    }
+    return true;
+  }
+  return false;
+}
+
+// The image of a source in a curved mirror lights nothing, and the back of a mirror is black. False if the
+// path ends.
+bool LightVertices::Path::meetMirror(const Hit& hit) {
+  if (fromSource_ || hit.cosine <= 0 || hit.perturbation != V3d(0, 0, 0)) return false;
+  const Scattering s =
+      scatter(*all_.surfaces_.mirrorOf(hit.surface), plainInteraction(direction_, hit.normal, false));
+  const SharpPath& next = s.sharp.path[0];
+  const double share = brightness(power_ * next.coefficient) / brightness(power_);
+  if (random_.uniform() >= share) return false;
+  power_ = power_ * next.coefficient / share;
+  origin_ += hit.distance * direction_;
+  start_ = hit.surface;
+  direction_ = next.direction;
+  way_ = LightVertex::sharp;
+  length_ = 0;
+  return true;
+}
+
+void LightVertices::Path::arrive(const PlainPlace& at) {
+  const Opaque& m = *at.material;
+  Irradiance arriving(power_.color * m.color);
+  if (fromSource_) arriving *= enteringShare(m, -at.normal.dot(direction_));
+  const double reflected = brightness(arriving) * (1 - m.specularity);
+  addVisible(at, reflected);
+  if (!(reflected > 0) || bounces_ + 1 > all_.prepared_.options().ambientBounces) return;
+  all_.all_.push_back(vertexAt(at, reflected, bounces_ + 1, way_, batch_));
+  all_.powers_.push_back(std::move(arriving));
+  all_.hits_.push_back(at.surface);
+}
+
+void LightVertices::Path::addVisible(const PlainPlace& at, double reflected) {
+  const bool direct = way_ == LightVertex::direct;
+  const double share = way_ == LightVertex::diffuse ? all_.closeShare(length_) * all_.nearShare(length_) : 1;
+  if (way_ == LightVertex::unweighed || !(share > 0)) return;
+  if (!(reflected > 0) && !(direct && hasRoughHighlight(*at.material))) return;
+  double shadowRays = 0;
+  if (direct) {
+    const double sum = all_.prepared_.choice().weigh(at.point, at.normal, weights_);
+    SourceSample same;
+    same.direction = -direction_;
+    same.distance = length_;
+    same.cosine = cosineAtSource_;
+    same.source = light_;
+    shadowRays = sum > 0 ? all_.shadowRaysOver(same, at.normal, weights_[light_] / sum) : 0;
+  }
+  const Irradiance power = direct ? power_ : Irradiance(power_.color * at.material->color);
+  all_.visible_.push_back({vertexAt(at, reflected, bounces_ + 1, way_, batch_), power, direction_,
+                           at.material, at.flat, share, shadowRays});
+}
+
+// Chooses between the ways of reflection by their power, by which the path may also end. False if it does.
+bool LightVertices::Path::reflect(const PlainPlace& at) {
+  const Opaque& m = *at.material;
+  const Interaction view = plainInteraction(direction_, at.normal, at.flat);
+  const Scattering s = scatter(m, view, 0);
+  const bool isSharp = s.sharp.count > 0;
+  const double all = brightness(power_);
+  const double diffuse = bounces_ < all_.prepared_.options().ambientBounces
+                             ? brightness(Irradiance(power_.color * s.diffuseReflection))
+                             : 0;
+  const Color& gloss = isSharp ? s.sharp.path[0].coefficient.color : s.specularReflection;
+  const double specular = isSharp && fromSource_ ? 0 : brightness(Irradiance(power_.color * gloss));
+  const double chosen = random_.uniform() * std::max(all, diffuse + specular);
+  if (chosen >= diffuse + specular) return false;
+  // The power is divided by the probability of the choice.
+  if (chosen >= diffuse) return reflectSpecularly(at, s, view, std::max(all, diffuse + specular) / specular);
+  double scale = std::max(all, diffuse + specular) / diffuse;
+  if (fromSource_) scale *= enteringShare(m, view.cosine);
+  direction_ = sentFrom(at.normal, random_);
+  power_ = Irradiance(power_.color * m.color * (diffuseShare(m, at.normal.dot(direction_)) * scale));
+  way_ = LightVertex::diffuse;
+  ++bounces_;
+  return brightness(power_) > 0;
+}
+
+bool LightVertices::Path::reflectSpecularly(const PlainPlace&, const Scattering& s, const Interaction& view,
+                                            double scale) {
+  way_ = LightVertex::sharp;
+  if (s.sharp.count > 0) {
+    direction_ = s.sharp.path[0].direction;
+    power_ = power_ * s.sharp.path[0].coefficient * scale;
+  } else {
+    const double u1 = random_.uniform(), u2 = random_.uniform();
+    V3d next;
+    // The lobe is the same for both directions of the light.
+    const double weight = sampleReflection(s, view, 1, u1, u2, next);
+    direction_ = next;
+    power_ = Irradiance(power_.color * s.specularReflection * (weight * scale));
+  }
+  return brightness(power_) > 0;
+}
+
+LightVertices::LightVertices(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t paths,
+                             uint64_t seed)
+    : prepared_(prepared), surfaces_(surfaces) {
+  findSenders(paths);
+  measure(paths, seed);
+  const auto count = static_cast<double>(paths);
+  for (size_t i = 0; i < paths; ++i) {
+    // Batches have sources alike.
+    const double where = (static_cast<double>(i) + Random(mixBits(seed ^ i)).uniform()) / count;
+    Path(*this, i, seed).send(where);
+  }
+  sort();
+}
+
+void LightVertices::findSenders(size_t paths) {
+  const Scene& scene = prepared_.scene();
+  const auto& lights = prepared_.lights().all();
+  double sum = 0;
+  for (const LightId i : lights.ids()) {
+    const double power = rsphere::powerOf(scene, lights[i], 0);
+    sum += power;
+    senders_.push_back({i, sum, power / areaOf(scene.surfaces[lights[i].surface].shape, scene.vertices)});
+  }
+  for (Sender& s : senders_) {
+    s.upTo /= sum;
+    s.density *= static_cast<double>(paths) / sum;
+  }
+  pathPower_ = sum / static_cast<double>(paths);
+}
+
+// The widths follow from the room: from how far paths go at first.
+void LightVertices::measure(size_t paths, uint64_t seed) {
+  const size_t tried = std::min(paths, Tuning::kTried);
+  double sum = 0;
+  size_t met = 0;
+  for (size_t i = 0; i < tried; ++i) {
+    Path path(*this, i, ~seed);
+    path.send((static_cast<double>(i) + .5) / static_cast<double>(tried));
+    sum += path.firstLength();
+    met += path.firstLength() > 0;
+  }
+  if (met > 0) meanLength_ = sum / static_cast<double>(met);
+  width_ = Tuning::kWidth * meanLength_;
+  close_ = Tuning::kClose * meanLength_;
+  all_.clear();
+  powers_.clear();
+  hits_.clear();
+  visible_.clear();
+}
+
+void LightVertices::sort() {
+  const auto order = orderByPlace(all_.size(), [&](size_t i) { return all_[i].point(); });
+  permute(all_, order);
+  permute(powers_, order);
+  permute(hits_, order);
+  permute(visible_, orderByPlace(visible_.size(), [&](size_t i) { return visible_[i].vertex.point(); }));
+}
+
+double LightVertices::closeShare(double distance) const {
+  // 0 beyond ten times the width, so that few vertices have a share.
+  constexpr double kRest = 1. / 101;
+  const double share = close_ * close_ / (distance * distance + close_ * close_);
+  return std::max(0., (share - kRest) / (1 - kRest));
+}
+
+// Of the points that a shadow ray from a place is aimed at, per area of the source (1/m2). distance, cosine:
+// of the ray, at the source. 0 if it is not known.
+double LightVertices::aimedDensity(LightId light, double distance, double cosine) const {
+  const LightSource& source = prepared_.lights().all()[light];
+  if (const auto* plane = source.as<PlaneLight>()) return 1 / plane->area;
+  if (!source.as<BallLight>()) return 0;
+  // In the cone that the ball subtends. By the law of cosines, its middle is this far away.
+  const double r = source.radius, square = distance * distance + r * r + 2 * distance * r * cosine;
+  const double sine2 = r * r / square;
+  const double solidAngle = 2 * kPi * sine2 / (1 + std::sqrt(std::max(0., 1 - sine2)));
+  return cosine / (distance * distance * solidAngle);
+}
+
+double LightVertices::shadowRaysOver(const SourceSample& sample, const V3d& normal,
+                                     double probability) const {
+  const double cosine = std::abs(sample.cosine), d = sample.distance;
+  const double lightPaths =
+      senders_[sample.source.index()].density * cosine / kPi * normal.dot(sample.direction) / (d * d);
+  return lightPaths > 0 ? probability * aimedDensity(sample.source, d, cosine) / lightPaths : 0;
+}
+
+}  // namespace rsphere

@@ -1,0 +1,111 @@
+#pragma once
+// Light vertices: the places at which light paths from the sources arrive on diffuse surfaces. Joined to
+// paths from the eye (vertex_light.h), they bring light that these alone would meet by chance only.
+//
+// A light path may do what the paths of path_tracer.h may do, in the opposite order:
+// - The light of a source reaches a diffuse surface straight, through panes, or by the rough highlight of a
+//   surface, but by no sharp reflection: shadow rays do not follow these either.
+// - A diffuse surface reflects it diffusely, sharply or by its rough highlight, up to -ab times diffusely.
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "transport/plain_surfaces.h"
+
+namespace rsphere {
+
+struct LightVertex {
+  enum Way : uint8_t {  // by which the light has arrived
+    direct,             // straight from a source
+    unweighed,          // the same, from a source whose shadow rays have no known density
+    diffuse,            // straight from a diffuse reflection
+    sharp               // from a highlight or a sharp reflection
+  };
+  // Paths are dealt out to this number of batches, by whose differences the error of the vertices is
+  // estimated.
+  static constexpr int kBatches = 32;
+
+  double place[3];      // world; in double precision, for scenes far from the origin
+  float facing[3];      // world; the normal (unit) on the side that the light came from
+  float power = 0;      // brightness of what is reflected diffusely, W
+  uint8_t bounces = 0;  // diffuse surfaces on the way from the source, this one included
+  Way way = direct;
+  uint8_t batch = 0;
+
+  V3d point() const { return V3d(place[0], place[1], place[2]); }
+  V3d normal() const { return V3d(facing[0], facing[1], facing[2]); }
+};
+
+// Sums of contributions to an estimate, by the batch of the light path.
+using BatchSums = std::array<Irradiance, LightVertex::kBatches>;
+
+// Shared by all threads; constant.
+class LightVertices {
+ public:
+  // Sends paths from the sources, as many from each as its share of the power of all. Keeps references.
+  // REQUIRES that PlainSurfaces::obstacle() found none.
+  LightVertices(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t paths, uint64_t seed);
+
+  // Vertices whose light goes on to other diffuse surfaces, neighbours next to each other.
+  const std::vector<LightVertex>& all() const { return all_; }
+  // Of vertex i of all(): the light that arrives, times the color of the material (W). diffuseShare() of it
+  // is reflected.
+  const Irradiance& powerOf(size_t i) const { return powers_[i]; }
+  const Opaque& materialOf(size_t i) const { return *surfaces_.materialOf(hits_[i]); }
+
+  // A vertex that the eye itself may be joined to.
+  struct Visible {
+    LightVertex vertex;
+    Irradiance power;  // as powerOf(); of direct light, without the color of the material
+    V3d direction;     // in which the light arrives (unit)
+    const Opaque* material;
+    bool flat;
+    double share;  // of its light: the rest is found by rays from the eye (closeShare())
+    // The density of shadow rays from there to the same place of the source, over the density of light paths
+    // by way of both places (m2). 0 unless the light is direct.
+    double shadowRays;
+  };
+  const std::vector<Visible>& visible() const { return visible_; }
+
+  // Visible::shadowRays for a shadow ray from a place, if its source was drawn with this probability.
+  double shadowRaysOver(const SourceSample& sample, const V3d& normal, double probability) const;
+
+  // The share of the light that one diffuse surface sends to another at this distance (world units) for which
+  // vertices are too uneven, so that rays bring it.
+  double nearShare(double distance) const {
+    return width_ * width_ / (distance * distance + width_ * width_);
+  }
+  // The part of that share that a ray from the eye leaves to joins, because it meets narrow gaps too rarely.
+  double closeShare(double distance) const;
+  double width() const { return width_; }  // at which nearShare() is a half, world units
+
+  double pathPower() const { return pathPower_; }    // brightness of each path, W
+  double meanLength() const { return meanLength_; }  // from the sources to the next surfaces, world units
+
+ private:
+  class Path;
+  struct Sender {
+    LightId light;
+    double upTo;     // share of the power of all sources, of those up to this one
+    double density;  // of paths that begin on it (1/m2)
+  };
+  void findSenders(size_t paths);
+  void measure(size_t paths, uint64_t seed);
+  void sort();
+  double aimedDensity(LightId light, double distance, double cosine) const;
+
+  const PreparedScene& prepared_;
+  const PlainSurfaces& surfaces_;
+  std::vector<Sender> senders_;  // by LightId
+  double pathPower_ = 0, meanLength_ = 1, width_ = 0, close_ = 0;
+  std::vector<LightVertex> all_;
+  std::vector<Irradiance> powers_;
+  std::vector<SurfaceId> hits_;
+  std::vector<Visible> visible_;
+};
+
+// The brightness that a material reflects of the light that arrives, highlights included where they count for
+// joins.
+double joinedReflectance(const Opaque& material);
+
+}  // namespace rsphere

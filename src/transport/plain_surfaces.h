@@ -1,0 +1,72 @@
+#pragma once
+// The surfaces that paths from both ends know (light_vertices.h, vertex_light.h): plastic, metal, glass and
+// curved mirrors without patterns, textures, mixtures or antimatter. Paths from both ends need one rule of
+// what they know, so that each path of light is counted by one of them, or by both with weights that add up
+// to 1.
+#include <vector>
+
+#include "transport/prepared_scene.h"
+
+namespace rsphere {
+
+// A place on a surface of plastic or metal, as seen from one side.
+struct PlainPlace {
+  V3d point{0, 0, 0}, normal{0, 0, 1};  // world; unit, towards the side that it is seen from
+  const Opaque* material = nullptr;     // null: none of the surfaces that are known
+  SurfaceId surface;
+  bool flat = false;  // Interaction::flat
+};
+
+// What a straight line meets first that is not a pane of glass.
+struct Sight {
+  Hit hit;                // its distance is that from the last pane
+  double distance = 0;    // of the hit from the start, world units
+  Coefficient passed{1};  // share of the light that the panes in between let pass
+};
+
+// Shared by all threads. Keeps references to the scene and its tracer.
+class PlainSurfaces {
+ public:
+  explicit PlainSurfaces(const PreparedScene& prepared);
+
+  // Why paths from both ends miss some of the light of a scene with these options; null if they do not.
+  const char* obstacle(const PreparedScene& prepared) const;
+
+  // direction: unit. start: the surface that the line starts on, or kNone.
+  Sight look(const V3d& origin, const V3d& direction, double farthest, SurfaceId start) const;
+  // The share of light that passes straight between two places (world): black if anything but panes lies
+  // between. start: as for look().
+  Coefficient passing(const V3d& from, const V3d& to, SurfaceId start) const;
+
+  // The place that a sight from `origin` along a direction shows.
+  PlainPlace placeOf(const V3d& origin, const V3d& direction, const Sight& sight) const;
+  // Null if the surface is none of plastic or metal, or none that is known.
+  const Opaque* materialOf(SurfaceId surface) const { return opaque_[scene_.surfaces.face(surface).finish]; }
+  bool isFlat(SurfaceId surface) const;  // Interaction::flat
+  // Null if the surface is no pane.
+  const Glass* paneOf(SurfaceId surface) const { return panes_[scene_.surfaces.face(surface).finish]; }
+  // Null if the surface is not of the material mirror.
+  const Mirror* mirrorOf(SurfaceId surface) const { return mirrors_[scene_.surfaces.face(surface).finish]; }
+
+ private:
+  const Scene& scene_;
+  const Tracer& tracer_;
+  std::vector<const Opaque*> opaque_;   // by finish
+  std::vector<const Glass*> panes_;     // by finish
+  std::vector<const Mirror*> mirrors_;  // by finish
+  bool hasPanes_ = false;
+};
+
+// A hit as scatter() of a plain material takes it.
+Interaction plainInteraction(const V3d& direction, const V3d& normal, bool flat);
+
+// Whether the highlights of sources on a material are found by the same samples as its diffuse light.
+inline bool hasRoughHighlight(const Opaque& material) {
+  return material.specularity > kNegligible && material.roughness * material.roughness > kNegligible;
+}
+
+// The share of the radiance of a source in a direction (unit), of this solid angle (sr), that a place shows
+// by its diffuse reflection and its rough highlight. view: direction (unit) of the ray that sees the place.
+Coefficient shownOfSource(const PlainPlace& at, const V3d& view, const V3d& toSource, double solidAngle);
+
+}  // namespace rsphere

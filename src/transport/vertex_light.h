@@ -1,0 +1,74 @@
+#pragma once
+// The light of plain surfaces by paths from both ends: direct light by a shadow ray to one source, indirect
+// light by shadow rays to light vertices.
+//
+// Light of vertices arrives with the kernel 1 / (d^2 + c^2) instead of 1 / d^2, which has no bound. One ray
+// in a random direction brings what that leaves out: the light of the place that it meets counts with the
+// probability c^2 / (d^2 + c^2), d being its distance (Kollig and Keller 2004, "Illumination in the presence
+// of weak singularities"). Such rays do not find light that has come to a vertex by a highlight or a sharp
+// reflection, so that c is 0 for these vertices.
+#include "transport/light_vertices.h"
+
+namespace rsphere {
+
+class VertexLight {
+ public:
+  VertexLight(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t paths, uint64_t seed);
+
+  const PlainSurfaces& surfaces() const { return surfaces_; }
+  const LightVertices& vertices() const { return vertices_; }
+
+  // Memory of one thread, kept for speed alone.
+  struct Scratch {
+    ById<LightId, double> weights;
+    std::vector<SourceSample> samples;
+  };
+
+  // A place that samples of the eye show. The direct light there is also found by light vertices that are
+  // joined to the eye; the two are weighted by the balance heuristic.
+  struct Seen {
+    V3d view;            // direction (unit) of the ray that shows it
+    double density = 0;  // of the eye's samples there, per area of the surface (1/m2)
+    double joined = 0;   // share of the light vertices there that are joined to the eye
+  };
+  // The direct light that the place sends to the eye, diffusely and by a rough highlight (W/sr/m2).
+  Radiance directOf(const PlainPlace& at, const Seen& seen, Random& random, Scratch& scratch) const;
+
+  // Where the contributions of light vertices are recorded.
+  struct Record {
+    BatchSums batches{};
+    // The part of the spread of the batches that is due to the random choice of vertices, not to the
+    // vertices: the sum of the squares of the contributions, each times the share of vertices like it that
+    // was not chosen.
+    Color squares{0, 0, 0};
+    double squaredBrightness = 0;
+    const SpectralSampling* sampling = nullptr;
+
+    void add(uint8_t batch, const Irradiance& part, double notChosen);
+  };
+  struct Indirect {
+    int bounces = 1;           // at most, of the light: -ab, less those between the eye and the place
+    bool toEye = false;        // light vertices at the place are joined to the eye: closeShare() is theirs
+    Record* record = nullptr;  // null: none
+    Coefficient scale{1};      // of what is recorded (sr)
+  };
+  // The mean radiance that arrives over the hemisphere of the place after one bounce or more (W/sr/m2).
+  Radiance indirectAt(const PlainPlace& at, const Indirect& how, Random& random, Scratch& scratch) const;
+
+ private:
+  struct Chosen {
+    SourceSample sample;
+    double probability = 0;  // 0: none arrives
+  };
+  Chosen chooseSource(const PlainPlace& at, double finest, Random& random, Scratch& scratch) const;
+  Coefficient arriving(const PlainPlace& at, const SourceSample& sample) const;
+  Radiance directAt(const PlainPlace& at, Random& random, Scratch& scratch) const;
+  Radiance ofVertices(const PlainPlace& at, const Indirect& how, Random& random) const;
+  Radiance ofNear(const PlainPlace& at, const Indirect& how, Random& random, Scratch& scratch) const;
+
+  const PreparedScene& prepared_;
+  const PlainSurfaces& surfaces_;
+  LightVertices vertices_;
+};
+
+}  // namespace rsphere

@@ -1,0 +1,223 @@
+#include "importance/diffuse_glances.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "base/constants.h"
+#include "tests/unit/support/scene_of.h"
+#include "tests/unit/support/sphere_setting.h"
+#include "tests/unit/support/statistics.h"
+
+namespace rsphere {
+namespace {
+
+struct Setting : SphereSetting {
+  explicit Setting(const std::string& text, int bounces)
+      : SphereSetting(sceneOf(text), [&](RayOptions& o) {
+          o.ambientBounces = bounces;
+          o.sourceSubstructuring = .1;
+        }) {}
+  bool fromBothEnds() const {
+    const PreparedScene& prepared = transport->prepared();
+    return PlainSurfaces(prepared).obstacle(prepared) == nullptr;
+  }
+  // The brightness of the mean radiance at a point.
+  double at(const V3d& point, Weights weights, int directions, uint64_t rotation) const {
+    SphereOptions o = options.sphere;
+    o.weights = weights;
+    o.baseDirections = directions;
+    o.mostDirections = 2 * directions;
+    o.rotation = rotation;
+    const SphereEstimator estimator(*transport, o);
+    SphereEstimator::Workspace workspace(estimator);
+    return brightness(estimator.estimate(point, workspace).mean);
+  }
+};
+
+// In a sphere whose wall reflects the share r, every place of the wall receives the same from every other. A
+// lamp in its middle causes the irradiance E = pi L (a / R)^2, and b bounces (1 + r + ... + r^b) E.
+TEST(DiffuseGlances, IntegratingSphere) {
+  constexpr double kReflectance = .5, kLamp = 100, kLampRadius = .02;
+  const std::string scene =
+      "void plastic white 0 0 5 .5 .5 .5 0 0\nvoid light lamp 0 0 3 100 100 100\n"
+      "white bubble wall 0 0 4 0 0 0 1\nlamp sphere bulb 0 0 4 0 0 0 .02\n";
+  const V3d point(.3, .5, -.2);
+  const double direct = kReflectance * kLamp * kLampRadius * kLampRadius;
+  const double bulb = kLamp * kLampRadius * kLampRadius / (4 * point.length2());  // pi a^2 / d^2 of 4 pi sr
+  for (const int bounces : {0, 1, 2, 3}) {
+    const Setting setting(scene, bounces);
+    ASSERT_TRUE(setting.fromBothEnds());
+    double wall = 0;
+    for (int k = 0; k <= bounces; ++k) wall += direct * std::pow(kReflectance, k);
+    Sample sample;
+    for (uint64_t rotation = 0; rotation < 24; ++rotation)
+      sample.add(setting.at(point, Weights::silhouettes, 128, rotation));
+    SCOPED_TRACE(bounces);
+    // The bulb's shadows and its view of the wall are smaller than a thousandth.
+    expectMean(sample, wall + bulb, 1.02);
+  }
+}
+
+const char* const kClosedRoom =
+    "void light lamp 0 0 3 20 20 20\n"
+    "lamp polygon p 0 0 12 1 1 2.9 1 2 2.9 3 2 2.9 3 1 2.9\n"
+    "void plastic wall 0 0 5 .6 .55 .5 0 0\n"
+    "wall polygon floor 0 0 12 0 0 0 4 0 0 4 3 0 0 3 0\n"
+    "wall polygon ceiling 0 0 12 0 0 3 0 3 3 4 3 3 4 0 3\n"
+    "wall polygon south 0 0 12 0 0 0 0 0 3 4 0 3 4 0 0\n"
+    "wall polygon north 0 0 12 0 3 0 4 3 0 4 3 3 0 3 3\n"
+    "wall polygon west 0 0 12 0 0 0 0 3 0 0 3 3 0 0 3\n"
+    "wall polygon east 0 0 12 4 0 0 4 0 3 4 3 3 4 3 0\n";
+
+// What light may do on its way, each against paths from the eye alone. "closed" is a box around the lamp that
+// lets no light out but by what is tried.
+struct Way {
+  const char* name;
+  const char* surfaces;
+};
+void PrintTo(const Way& way, std::ostream* out) { *out << way.name; }
+
+class WaysOfLight : public ::testing::TestWithParam<Way> {};
+
+TEST_P(WaysOfLight, AgreeWithPathsFromTheEye) {
+  const Setting setting(std::string(kClosedRoom) + GetParam().surfaces, 2);
+  ASSERT_TRUE(setting.fromBothEnds());
+  const V3d point(2.5, 1.2, 1.1);
+  Sample both, eye;
+  for (uint64_t rotation = 0; rotation < 40; ++rotation)
+    both.add(setting.at(point, Weights::silhouettes, 256, rotation));
+  for (uint64_t rotation = 0; rotation < 24; ++rotation)
+    eye.add(setting.at(point, Weights::homogeneous, 6000, rotation));
+  const double error = std::hypot(both.standardError(), eye.standardError());
+  EXPECT_LT(std::abs(both.mean() - eye.mean()), kMostSigmas * error)
+      << both.mean() << " +- " << both.standardError() << " and " << eye.mean() << " +- "
+      << eye.standardError();
+  EXPECT_GT(std::abs(1.045 * both.mean() - eye.mean()), kMostSigmas * error)
+      << "would not see an error of 4.5%";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Plain, WaysOfLight,
+    ::testing::Values(
+        Way{"Diffuse", ""},
+        Way{"ChromeBall", "void metal chrome 0 0 5 .9 .9 .9 1 0\nchrome sphere b 0 0 4 2 1.5 1.5 .5\n"},
+        Way{"MirrorBall", "void mirror silver 0 0 3 .9 .9 .9\nsilver sphere b 0 0 4 2 1.5 1.5 .5\n"},
+        Way{"RoughMetal",
+            "void metal steel 0 0 5 .7 .6 .5 .8 .15\n"
+            "steel polygon s 0 0 12 .5 .5 .4 3 .5 .4 3 2.5 .4 .5 2.5 .4\n"},
+        Way{"PolishedPlastic",
+            "void plastic gloss 0 0 5 .5 .5 .5 .06 0\n"
+            "gloss polygon s 0 0 12 .5 .5 .4 3 .5 .4 3 2.5 .4 .5 2.5 .4\n"},
+        Way{"PolishedThenRough",
+            "void metal steel 0 0 5 .7 .6 .5 .8 .2\n"
+            "steel polygon s 0 0 12 .5 .5 .4 3 .5 .4 3 2.5 .4 .5 2.5 .4\n"
+            "void metal chrome 0 0 5 .9 .9 .9 1 0\nchrome sphere b 0 0 4 2 1.5 1.5 .5\n"},
+        Way{"Pane",
+            "void glass pane 0 0 3 .8 .85 .9\npane polygon g 0 0 12 0 0 1.6 4 0 1.6 4 3 1.6 0 3 1.6\n"},
+        Way{"NearCorner", "wall polygon low 0 0 12 2.3 1 1.09 2.7 1 1.09 2.7 1.4 1.09 2.3 1.4 1.09\n"},
+        Way{"Ball", "lamp sphere bulb 0 0 4 3 2 1.5 .1\n"},
+        Way{"Tube", "lamp cylinder tube 0 0 7 .5 2.5 2 3.5 2.5 2 .03\n"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(DiffuseGlances, EveryDirectionAddsUpToTheAnswer) {
+  const Setting setting(
+      std::string(kClosedRoom) +
+          "void metal chrome 0 0 5 .9 .9 .9 1 0\nchrome sphere b 0 0 4 2 1.5 1.5 .5\n",
+      2);
+  SphereOptions o = setting.options.sphere;
+  o.baseDirections = 200;
+  o.everyDirection = true;
+  const SphereEstimator estimator(*setting.transport, o);
+  SphereEstimator::Workspace workspace(estimator);
+  const PointAnswer answer = estimator.estimate(V3d(1, 1, 1), workspace);
+  double sum = 0, solidAngle = 0;
+  for (const DirectionSample& s : workspace.samples) {
+    sum += brightness(s.value) * s.solidAngle;
+    solidAngle += s.solidAngle;
+    EXPECT_GE(brightness(s.value), 0);
+  }
+  EXPECT_NEAR(solidAngle, 4 * kPi, 1e-6);
+  EXPECT_NEAR(sum / (4 * kPi) / brightness(answer.mean), 1, 1e-9);
+  o.everyDirection = false;
+  const SphereEstimator mean(*setting.transport, o);
+  SphereEstimator::Workspace other(mean);
+  EXPECT_NEAR(brightness(mean.estimate(V3d(1, 1, 1), other).mean) / brightness(answer.mean), 1, 1e-12);
+}
+
+TEST(PlainSurfaces, NameWhatTheyDoNotKnow) {
+  const auto obstacle = [](const std::string& more, int bounces = 1) {
+    const Setting setting(std::string(kClosedRoom) + more, bounces);
+    const char* const why =
+        PlainSurfaces(setting.transport->prepared()).obstacle(setting.transport->prepared());
+    return std::string(why ? why : "none");
+  };
+  EXPECT_EQ(obstacle(""), "none");
+  EXPECT_EQ(obstacle("void trans t 0 0 7 .5 .5 .5 0 0 .5 0\nt polygon q 0 0 9 1 1 1 2 1 1 2 2 1\n"),
+            "surfaces that are not plain");
+  EXPECT_EQ(
+      obstacle(
+          "void brightfunc f 2 1+Px/10 . 0 0\nf plastic t 0 0 5 .5 .5 .5 0 0\n"
+          "t polygon q 0 0 9 1 1 1 2 1 1 2 2 1\n"),
+      "surfaces that are not plain");
+  EXPECT_EQ(obstacle("void mirror m 0 0 3 1 1 1\nm polygon q 0 0 9 1 1 1 2 1 1 2 2 1\n"),
+            "mirrors or distant sources");
+  EXPECT_EQ(obstacle("lamp source sun 0 0 4 0 0 1 .5\n"), "distant sources");
+  EXPECT_EQ(obstacle("void glow g 0 0 4 1 1 1 0\ng polygon q 0 0 9 1 1 1 2 1 1 2 2 1\n"),
+            "surfaces that are not plain");
+  EXPECT_EQ(obstacle("void spotlight s 0 0 7 1 1 1 30 0 0 -1\ns ring q 0 0 8 1 1 2 0 0 -1 0 .1\n"),
+            "sources with a reach or a cone");
+  EXPECT_EQ(obstacle("lamp polygon q 0 0 18 1 1 2 2 1 2 2 1.6 2 1.6 1.6 2 1.6 2 2 1 2 2\n"),
+            "sources that samples may miss");
+}
+
+// The light that arrives first at walls that close the room is all that the lamp sends.
+TEST(LightVertices, FirstOnesHaveThePowerOfTheSources) {
+  const Setting setting(kClosedRoom, 1);
+  const PreparedScene& prepared = setting.transport->prepared();
+  const PlainSurfaces surfaces(prepared);
+  const LightVertices vertices(prepared, surfaces, 20000, 1);
+  double first = 0;
+  for (const LightVertex& v : vertices.all())
+    if (v.bounces == 1) first += v.power;
+  const Color wall(.6, .55, .5);
+  EXPECT_NEAR(first / (20 * kPi * 2 * brightness(wall)), 1, 1e-3);
+  EXPECT_TRUE(std::ranges::all_of(vertices.all(), [](const LightVertex& v) { return v.bounces == 1; }));
+}
+
+TEST(LightVertices, SameForTheSameSeed) {
+  const Setting setting(kClosedRoom, 2);
+  const PreparedScene& prepared = setting.transport->prepared();
+  const PlainSurfaces surfaces(prepared);
+  const LightVertices a(prepared, surfaces, 1000, 1), b(prepared, surfaces, 1000, 1),
+      c(prepared, surfaces, 1000, 2);
+  ASSERT_EQ(a.all().size(), b.all().size());
+  for (size_t i = 0; i < a.all().size(); ++i) EXPECT_EQ(a.all()[i].point(), b.all()[i].point());
+  EXPECT_NE(a.all()[0].point(), c.all()[0].point());
+}
+
+TEST(SharedError, IsTheSpreadOfBatchesBeyondTheirChoice) {
+  SharedError error;
+  for (const double v : {1., 3., 1., 3.}) error.batches.emplace_back(v);
+  // Four batches, each 1 away from the mean: 4 / 3 each if the mean is taken from them.
+  EXPECT_NEAR(sharedVariance(error).brightness, 4 * 4. / 3, 1e-12);
+  error.chosen.brightness = 2;
+  EXPECT_NEAR(sharedVariance(error).brightness, 16. / 3 - 2, 1e-12);
+  error.chosen.brightness = 100;
+  EXPECT_EQ(sharedVariance(error).brightness, 0);
+  EXPECT_EQ(sharedVariance({}).brightness, 0);
+  // Two sets with the same vertices are not better than one; with others they are.
+  SharedError same, other, twice, two;
+  for (const double v : {1., 3., 1., 3.}) same.batches.emplace_back(v);
+  for (const double v : {1., 1., 3., 3.}) other.batches.emplace_back(v);
+  twice.add(same, .5);
+  twice.add(same, .5);
+  two.add(same, .5);
+  two.add(other, .5);
+  EXPECT_NEAR(sharedVariance(twice).brightness, sharedVariance(same).brightness, 1e-12);
+  EXPECT_NEAR(sharedVariance(two).brightness, sharedVariance(same).brightness / 2, 1e-12);
+}
+
+}  // namespace
+}  // namespace rsphere
