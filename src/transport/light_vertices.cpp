@@ -91,7 +91,7 @@ class LightVertices::Path {
   void arrive(const PlainPlace& at);
   void addVisible(const PlainPlace& at, double reflected);
   bool reflect(const PlainPlace& at);
-  bool reflectSpecularly(const PlainPlace& at, const Scattering& s, const Interaction& view, double scale);
+  bool reflectSpecularly(const Scattering& s, const Interaction& view, double scale);
 
   LightVertices& all_;
   Random random_;
@@ -102,16 +102,18 @@ class LightVertices::Path {
   double cosineAtSource_ = 0;
   Irradiance power_;
   LightVertex::Way way_ = LightVertex::direct;
-  bool fromSource_ = true;  // nothing has reflected it yet
+  bool senderIsUnbounded_ = false;  // of diffuse light: the vertex that sent it brings all of it by itself
+  bool fromSource_ = true;          // nothing has reflected it yet
   int bounces_ = 0;
   double length_ = 0, firstLength_ = 0;  // since the last reflection; of the first part
   ById<LightId, double> weights_;
 };
 
 void LightVertices::Path::send(double where) {
-  const auto sender = std::min(std::lower_bound(all_.senders_.begin(), all_.senders_.end(), where,
-                                                [](const Sender& s, double w) { return s.upTo < w; }),
-                               all_.senders_.end() - 1);
+  // A source without power is never chosen: the one before it reaches as far.
+  const auto sender = std::upper_bound(all_.senders_.begin(), all_.senders_.end(), where,
+                                       [](double w, const Sender& s) { return w < s.upTo; });
+  if (sender == all_.senders_.end()) return;
   const PreparedScene& prepared = all_.prepared_;
   const Scene& scene = prepared.scene();
   light_ = sender->light;
@@ -201,7 +203,9 @@ void LightVertices::Path::arrive(const PlainPlace& at) {
 
 void LightVertices::Path::addVisible(const PlainPlace& at, double reflected) {
   const bool direct = way_ == LightVertex::direct;
-  const double share = way_ == LightVertex::diffuse ? all_.closeShare(length_) * all_.nearShare(length_) : 1;
+  double share = 1;
+  if (way_ == LightVertex::diffuse)
+    share = senderIsUnbounded_ ? 0 : all_.closeShare(length_) * all_.nearShare(length_);
   if (way_ == LightVertex::unweighed || !(share > 0)) return;
   if (!(reflected > 0) && !(direct && hasRoughHighlight(*at.material))) return;
   double shadowRays = 0;
@@ -234,18 +238,18 @@ bool LightVertices::Path::reflect(const PlainPlace& at) {
   const double chosen = random_.uniform() * std::max(all, diffuse + specular);
   if (chosen >= diffuse + specular) return false;
   // The power is divided by the probability of the choice.
-  if (chosen >= diffuse) return reflectSpecularly(at, s, view, std::max(all, diffuse + specular) / specular);
+  if (chosen >= diffuse) return reflectSpecularly(s, view, std::max(all, diffuse + specular) / specular);
   double scale = std::max(all, diffuse + specular) / diffuse;
   if (fromSource_) scale *= enteringShare(m, view.cosine);
   direction_ = sentFrom(at.normal, random_);
   power_ = Irradiance(power_.color * m.color * (diffuseShare(m, at.normal.dot(direction_)) * scale));
+  senderIsUnbounded_ = way_ == LightVertex::sharp;
   way_ = LightVertex::diffuse;
   ++bounces_;
   return brightness(power_) > 0;
 }
 
-bool LightVertices::Path::reflectSpecularly(const PlainPlace&, const Scattering& s, const Interaction& view,
-                                            double scale) {
+bool LightVertices::Path::reflectSpecularly(const Scattering& s, const Interaction& view, double scale) {
   way_ = LightVertex::sharp;
   if (s.sharp.count > 0) {
     direction_ = s.sharp.path[0].direction;
@@ -285,7 +289,7 @@ void LightVertices::findSenders(size_t paths) {
     senders_.push_back({i, sum, power / areaOf(scene.surfaces[lights[i].surface].shape, scene.vertices)});
   }
   for (Sender& s : senders_) {
-    s.upTo /= sum;
+    s.upTo = s.upTo < sum ? s.upTo / sum : 1;
     s.density *= static_cast<double>(paths) / sum;
   }
   pathPower_ = sum / static_cast<double>(paths);

@@ -35,14 +35,18 @@ const char* obstacleOfSources(const PreparedScene& prepared) {
   const auto& lights = prepared.lights().all();
   if (lights.empty()) return "no sources";
   if (!prepared.distant().empty()) return "distant sources";
+  double power = 0;
   for (const LightId i : lights.ids()) {
     const LightSource& light = lights[i];
     if (light.isVirtual() || light.isDistant()) return "mirrors or distant sources";
     if (light.reach > 0 || light.spot) return "sources with a reach or a cone";
     if (!light.hitsWhereAimed && !light.as<TubeLight>()) return "sources that samples may miss";
-    if (!prepared.constantRadiance(i)) return "sources with patterns";
+    const Radiance* const radiance = prepared.constantRadiance(i);
+    if (!radiance) return "sources with patterns";
+    if (minChannel(radiance->color) < 0) return "sources that take light away";
+    power += brightness(*radiance);
   }
-  return nullptr;
+  return power > 0 ? nullptr : "sources without light";
 }
 
 Coefficient passedBy(const Glass& pane, const Hit& hit, const V3d& direction) {
