@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/constants.h"
 #include "importance/tuning.h"
@@ -20,11 +21,17 @@ Random randomOf(const SetAtPoint& set, Stream stream, uint64_t number = 0) {
   return Random(mixBits(mixBits(set.seed() + static_cast<uint64_t>(stream)) + number));
 }
 
-size_t pathsFor(const SphereOptions& options) {
+size_t glancesFor(const SphereOptions& options) {
+  const auto base = static_cast<size_t>(options.baseDirections);
+  return std::min(Tuning::kPerDirection * base, std::max(base, Tuning::kMostGlances));
+}
+
+// pools: that may exist at a time.
+size_t pathsFor(const SphereOptions& options, size_t pools) {
   const double finer = options.accuracy > 0 ? Tuning::kUsualAccuracy / options.accuracy : 0;
   const double paths = std::max(Tuning::kLeastPaths, Tuning::kPathsPerDirection * options.baseDirections) *
                        std::max(1., finer * finer);
-  return static_cast<size_t>(std::min(paths, Tuning::kMostPaths));
+  return static_cast<size_t>(std::min(paths, Tuning::kMostPaths / static_cast<double>(pools)));
 }
 
 }  // namespace
@@ -109,21 +116,20 @@ class DiffuseGlances::Joins {
 std::unique_ptr<const DiffuseGlances> DiffuseGlances::make(const PreparedScene& prepared,
                                                            const SphereOptions& options,
                                                            const BaseSet& base) {
-  if (PlainSurfaces(prepared).obstacle(prepared)) return nullptr;
-  return std::make_unique<const DiffuseGlances>(prepared, options, base);
+  PlainSurfaces surfaces(prepared);
+  if (surfaces.obstacle(prepared)) return nullptr;
+  return std::make_unique<const DiffuseGlances>(prepared, std::move(surfaces), options, base);
 }
 
-DiffuseGlances::DiffuseGlances(const PreparedScene& prepared, const SphereOptions& options,
-                               const BaseSet& base)
+DiffuseGlances::DiffuseGlances(const PreparedScene& prepared, PlainSurfaces surfaces,
+                               const SphereOptions& options, const BaseSet& base)
     : prepared_(prepared),
-      surfaces_(prepared),
-      paths_(pathsFor(options)),
+      surfaces_(std::move(surfaces)),
+      pools_(options.accuracy > 0 ? kPools : 1),
+      paths_(pathsFor(options, pools_)),
       rotation_(options.rotation),
-      glances_(rotatedDirections(baseDirections(static_cast<size_t>(Tuning::kPerDirection) *
-                                                static_cast<size_t>(options.baseDirections)),
-                                 options.rotation)),
-      joins_(Tuning::kJoinsPerDirection * options.baseDirections),
-      averages_(options.accuracy > 0) {
+      glances_(rotatedDirections(baseDirections(glancesFor(options)), options.rotation)),
+      joins_(Tuning::kJoinsPerDirection * options.baseDirections) {
   if (!base.neighbours) return;
   VoronoiWorkspace workspace;
   cellSolidAngles(glances_, workspace);
@@ -131,7 +137,7 @@ DiffuseGlances::DiffuseGlances(const PreparedScene& prepared, const SphereOption
 }
 
 const VertexLight& DiffuseGlances::light(uint64_t set) const {
-  const size_t pool = averages_ ? set % kPools : 0;
+  const size_t pool = set % pools_;
   std::call_once(made_[pool], [&] {
     lights_[pool] =
         std::make_unique<const VertexLight>(prepared_, surfaces_, paths_, mixBits(mixBits(rotation_) + pool));
@@ -141,70 +147,64 @@ const VertexLight& DiffuseGlances::light(uint64_t set) const {
 
 DiffuseGlances::Found DiffuseGlances::at(const SetAtPoint& set) const {
   const VertexLight& both = light(set.number());
-  const SpectralSampling* const sampling = prepared_.options().sampling;
   const auto n = static_cast<double>(glances_.size());
-  const double cell = 4 * kPi / n;
   const Joins joins(both.vertices(), set.point(), joins_, n);
-  Found found;
   VertexLight::Record record;
-  record.sampling = sampling;
+  record.sampling = prepared_.options().sampling;
+  Found found;
+  addJoins(set, joins, record, found);
 
+  Glancing glancing{both, randomOf(set, Stream::glances), &joins, neighbours_ ? &record : nullptr,
+                    4 * kPi / n};
+  std::vector<DirectionSample> seen;
+  for (const V3d& direction : set.turned(glances_)) {
+    const Radiance radiance = glance(set.point(), direction, glancing);
+    if (maxChannel(radiance) > 0) ++found.lit;
+    found.moments.add(direction, irradianceFrom(radiance, glancing.cell), record.sampling);
+    if (neighbours_) seen.push_back({direction, glancing.cell, radiance});
+  }
+  if (!neighbours_) return found;
+  found.variance += evenVariance(seen, *neighbours_, {}, record.sampling);
+  found.shared = {std::vector(record.batches.begin(), record.batches.end()),
+                  {record.squares, record.squaredBrightness}};
+  return found;
+}
+
+void DiffuseGlances::addJoins(const SetAtPoint& set, const Joins& joins, VertexLight::Record& record,
+                              Found& found) const {
   std::optional<Irradiance> last;
   Random random = randomOf(set, Stream::joins);
   joins.draw(random,
              [&](const LightVertices::Visible& v, double share, const V3d& direction, double distance) {
                const Coefficient passed = surfaces_.passing(set.point(), v.vertex.point(), kNone);
                const Irradiance part = joins.partOf(v, share, direction, distance) * passed;
-               found.moments.add(direction, part, sampling);
+               found.moments.add(direction, part, record.sampling);
+               if (!neighbours_) return;
                record.add(v.vertex.batch, part, 1 - share);
                // Successive ones are neighbours, so that their differences are what the choice changes.
-               if (last) found.variance += Variance::of(part - *last, sampling) * (.5 * (1 - share));
+               if (last) found.variance += Variance::of(part - *last, record.sampling) * (.5 * (1 - share));
                last = part;
              });
+}
 
-  random = randomOf(set, Stream::glances);
-  VertexLight::Scratch scratch;
-  std::vector<DirectionSample> seen;
-  for (const V3d& direction : set.turned(glances_)) {
-    const Sight sight = surfaces_.look(set.point(), direction, kFarAway, kNone);
-    const PlainPlace at = surfaces_.placeOf(set.point(), direction, sight);
-    Radiance radiance;
-    if (at.material) {
-      const Coefficient color(sight.passed.color * at.material->color *
-                              diffuseShare(*at.material, -at.normal.dot(direction)));
-      radiance = sight.passed * both.directOf(at, joins.seen(at, direction, sight.distance), random, scratch);
-      if (!isBlack(color))
-        radiance += color * both.indirectAt(at,
-                                            {prepared_.options().ambientBounces, true,
-                                             neighbours_ ? &record : nullptr, color * cell},
-                                            random, scratch);
-      found.moments.add(direction, irradianceFrom(radiance, cell), sampling);
-      found.lit += maxChannel(radiance) > 0;
-    }
-    if (neighbours_) seen.push_back({direction, cell, radiance});
-  }
-  if (!neighbours_) {
-    found.variance = {};
-    return found;
-  }
-  found.variance += evenVariance(seen, *neighbours_, {}, sampling);
-  found.shared = {std::vector(record.batches.begin(), record.batches.end()),
-                  {record.squares, record.squaredBrightness}};
-  return found;
+Radiance DiffuseGlances::glance(const V3d& point, const V3d& direction, Glancing& by) const {
+  const Sight sight = surfaces_.look(point, direction, kFarAway, kNone);
+  const PlainPlace at = surfaces_.placeOf(point, direction, sight);
+  if (!at.material) return {};
+  const Coefficient color(sight.passed.color * at.material->color *
+                          diffuseShare(*at.material, -at.normal.dot(direction)));
+  const VertexLight::Seen seen =
+      by.joins ? by.joins->seen(at, direction, sight.distance) : VertexLight::Seen{direction};
+  Radiance radiance = sight.passed * by.both.directOf(at, seen, by.random, by.scratch);
+  if (isBlack(color)) return radiance;
+  const VertexLight::Indirect how{prepared_.options().ambientBounces, by.joins != nullptr, by.record,
+                                  color * by.cell};
+  return radiance + color * by.both.indirectAt(at, how, by.random, by.scratch);
 }
 
 Radiance DiffuseGlances::along(const SetAtPoint& set, const V3d& direction, size_t number) const {
-  const Sight sight = surfaces_.look(set.point(), direction, kFarAway, kNone);
-  const PlainPlace at = surfaces_.placeOf(set.point(), direction, sight);
-  if (!at.material) return {};
-  const VertexLight& both = light(set.number());
-  Random random = randomOf(set, Stream::single, number);
-  VertexLight::Scratch scratch;
-  const double share = diffuseShare(*at.material, -at.normal.dot(direction));
-  Radiance sum = both.directOf(at, {direction}, random, scratch);
-  sum += Coefficient(at.material->color * share) *
-         both.indirectAt(at, {prepared_.options().ambientBounces}, random, scratch);
-  return sum * sight.passed;
+  Glancing alone{light(set.number()), randomOf(set, Stream::single, number)};
+  return glance(set.point(), direction, alone);
 }
 
 }  // namespace rsphere

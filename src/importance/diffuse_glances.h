@@ -25,12 +25,15 @@ class DiffuseGlances {
   // Null if paths from both ends miss some of the light (PlainSurfaces::obstacle()). Keeps references.
   static std::unique_ptr<const DiffuseGlances> make(const PreparedScene& prepared,
                                                     const SphereOptions& options, const BaseSet& base);
-  DiffuseGlances(const PreparedScene& prepared, const SphereOptions& options, const BaseSet& base);
+  // REQUIRES that make() would not return null.
+  DiffuseGlances(const PreparedScene& prepared, PlainSurfaces surfaces, const SphereOptions& options,
+                 const BaseSet& base);
 
+  // What one set of glances and joins finds at its point.
   struct Found {
-    Moments moments;     // of the light, as Moments of radiance
-    Variance variance;   // of moments.total by glances; 0 unless standard errors are wanted
-    SharedError shared;  // of moments.total by light vertices; empty unless standard errors are wanted
+    Moments moments;     // of the light
+    Variance variance;   // of moments.total, by the choice of glances and joins; 0 unless errors are wanted
+    SharedError shared;  // of moments.total, by the light vertices; empty unless errors are wanted
     size_t lit = 0;      // glances that found light
   };
   Found at(const SetAtPoint& set) const;
@@ -43,17 +46,27 @@ class DiffuseGlances {
 
  private:
   class Joins;
+  // What the glances at one point share.
+  struct Glancing {
+    const VertexLight& both;
+    Random random;
+    const Joins* joins = nullptr;           // null: nothing is joined to the point
+    VertexLight::Record* record = nullptr;  // null: errors are not wanted
+    double cell = 0;                        // solid angle of a glance, sr
+    VertexLight::Scratch scratch{};
+  };
+  void addJoins(const SetAtPoint& set, const Joins& joins, VertexLight::Record& record, Found& found) const;
+  Radiance glance(const V3d& point, const V3d& direction, Glancing& by) const;
 
   const PreparedScene& prepared_;
   PlainSurfaces surfaces_;
-  size_t paths_;
+  size_t pools_, paths_;  // sets of light vertices; paths of each
   uint64_t rotation_;
   std::vector<V3d> glances_;
   std::optional<Neighbours> neighbours_;  // if standard errors are wanted
   double joins_;                          // expected at a point
-  bool averages_;                         // several sets at a point (-Sa)
-  // Sets have light vertices of their own, so that the error of these is averaged too; made when they are
-  // first used.
+  // With -Sa, sets of directions have light vertices of their own, so that the error of these is averaged
+  // too. Made when they are first used.
   static constexpr size_t kPools = 8;
   mutable std::array<std::once_flag, kPools> made_;
   mutable std::array<std::unique_ptr<const VertexLight>, kPools> lights_;

@@ -47,6 +47,22 @@ double weightOf(const LightVertex& v, const V3d& point, const float* normal, int
   return static_cast<double>(v.power * here * there) / (square * (square + bound));
 }
 
+// REQUIRES that there are vertices.
+Candidates candidatesFor(const LightVertices& vertices, const PlainPlace& at, int bounces, Random& random) {
+  const auto& all = vertices.all();
+  const float normal[] = {static_cast<float>(at.normal.x), static_cast<float>(at.normal.y),
+                          static_cast<float>(at.normal.z)};
+  const double stride = static_cast<double>(all.size()) / Tuning::kCandidates;
+  Candidates candidates;
+  for (int i = 0; i < Tuning::kCandidates; ++i) {
+    const auto k = static_cast<uint32_t>((i + random.uniform()) * stride);
+    candidates.vertex[i] = std::min(k, static_cast<uint32_t>(all.size() - 1));
+    candidates.weight[i] = weightOf(all[candidates.vertex[i]], at.point, normal, bounces, vertices.width());
+    candidates.upTo[i] = candidates.sum += candidates.weight[i];
+  }
+  return candidates;
+}
+
 }  // namespace
 
 VertexLight::VertexLight(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t paths,
@@ -128,42 +144,40 @@ Radiance VertexLight::indirectAt(const PlainPlace& at, const Indirect& how, Rand
 
 // Chooses some vertices from candidates all over the scene, by the light that they would send.
 Radiance VertexLight::ofVertices(const PlainPlace& at, const Indirect& how, Random& random) const {
-  const auto& all = vertices_.all();
-  if (all.empty()) return {};
-  const float normal[] = {static_cast<float>(at.normal.x), static_cast<float>(at.normal.y),
-                          static_cast<float>(at.normal.z)};
-  const double stride = static_cast<double>(all.size()) / Tuning::kCandidates;
-  Candidates candidates;
-  for (int i = 0; i < Tuning::kCandidates; ++i) {
-    const auto k = static_cast<uint32_t>((i + random.uniform()) * stride);
-    candidates.vertex[i] = std::min(k, static_cast<uint32_t>(all.size() - 1));
-    candidates.weight[i] =
-        weightOf(all[candidates.vertex[i]], at.point, normal, how.bounces, vertices_.width());
-    candidates.upTo[i] = candidates.sum += candidates.weight[i];
-  }
   Radiance sum;
+  if (vertices_.all().empty()) return sum;
+  const Candidates candidates = candidatesFor(vertices_, at, how.bounces, random);
   if (!(candidates.sum > 0)) return sum;
   const double shift = random.uniform();
   for (int i = 0, join = 0; join < Tuning::kJoined; ++join) {
     const double where = (join + shift) / Tuning::kJoined * candidates.sum;
     while (i + 1 < Tuning::kCandidates && candidates.upTo[i] <= where) ++i;
-    const LightVertex& v = all[candidates.vertex[i]];
-    const V3d to = v.point() - at.point;
-    const double square = to.length2(), d = std::sqrt(square);
-    const double here = to.dot(at.normal) / d, there = -to.dot(v.normal()) / d;
-    if (!(candidates.weight[i] > 0) || !(here > 0) || !(there > 0)) continue;
-    const Coefficient passed = surfaces_.passing(at.point, v.point(), at.surface);
-    if (isBlack(passed)) continue;
-    const double kernel = here * there / (kPi * kPi * square) *
-                          (v.way == LightVertex::sharp ? 1 : 1 - vertices_.nearShare(d)) *
-                          diffuseShare(vertices_.materialOf(candidates.vertex[i]), there);
-    const double probability = Tuning::kJoined * candidates.weight[i] / candidates.sum;
-    const Radiance part(vertices_.powerOf(candidates.vertex[i]).color * passed.color *
-                        (kernel * stride / probability));
+    if (!(candidates.weight[i] > 0)) continue;
+    // How many vertices each that is joined stands for.
+    const double stride = static_cast<double>(vertices_.all().size()) / Tuning::kCandidates;
+    const double scale = stride * candidates.sum / (Tuning::kJoined * candidates.weight[i]);
+    const Radiance part = ofVertex(at, candidates.vertex[i]) * scale;
     sum += part;
-    if (how.record) how.record->add(v.batch, Irradiance(part.color * how.scale.color), 1);
+    if (how.record && !isBlack(part))
+      how.record->add(vertices_.all()[candidates.vertex[i]].batch, Irradiance(part.color * how.scale.color),
+                      1);
   }
   return sum;
+}
+
+// What one vertex adds to the mean radiance that arrives.
+Radiance VertexLight::ofVertex(const PlainPlace& at, size_t i) const {
+  const LightVertex& v = vertices_.all()[i];
+  const V3d to = v.point() - at.point;
+  const double square = to.length2(), d = std::sqrt(square);
+  const double here = to.dot(at.normal) / d, there = -to.dot(v.normal()) / d;
+  if (!(here > 0) || !(there > 0)) return {};
+  const Coefficient passed = surfaces_.passing(at.point, v.point(), at.surface);
+  if (isBlack(passed)) return {};
+  const double bounded = v.way == LightVertex::sharp ? 1 : 1 - vertices_.nearShare(d);
+  const double kernel =
+      here * there / (kPi * kPi * square) * bounded * diffuseShare(vertices_.materialOf(i), there);
+  return Radiance(vertices_.powerOf(i).color * passed.color * kernel);
 }
 
 Radiance VertexLight::ofNear(const PlainPlace& at, const Indirect& how, Random& random,

@@ -11,8 +11,10 @@
 
 namespace rsphere {
 
+// Shared by all threads; constant. Keeps references.
 class VertexLight {
  public:
+  // paths, seed: of the light paths. REQUIRES that PlainSurfaces::obstacle() found none.
   VertexLight(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t paths, uint64_t seed);
 
   const PlainSurfaces& surfaces() const { return surfaces_; }
@@ -64,6 +66,7 @@ class VertexLight {
   Coefficient arriving(const PlainPlace& at, const SourceSample& sample) const;
   Radiance directAt(const PlainPlace& at, Random& random, Scratch& scratch) const;
   Radiance ofVertices(const PlainPlace& at, const Indirect& how, Random& random) const;
+  Radiance ofVertex(const PlainPlace& at, size_t i) const;
   Radiance ofNear(const PlainPlace& at, const Indirect& how, Random& random, Scratch& scratch) const;
 
   const PreparedScene& prepared_;
