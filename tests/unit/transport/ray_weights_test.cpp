@@ -242,6 +242,19 @@ TEST(RayWeights, ThePathsOfAPatchHaveABound) {
   EXPECT_NEAR(sum / children, .9, .9 * kMostSigmas / std::sqrt(followed / 3.));
 }
 
+// Each ray of a patch asks for a patch where it meets a diffuse surface: all of them together ask for many:
+// 1900 in this room, and 500 if they could only ask for some together.
+TEST(RayWeights, EachRayOfAPatchAsksForAPatch) {
+  RayOptions o = interpolated(2, 16, {-4, 1e-4});
+  o.leastForPatches = 256;
+  Traced room("void plastic gray 0 0 5 .5 .5 .5 0 0\n" + roomOf("gray", V3d(2, 2, 2)) +
+                  "void light l 0 0 3 9 9 9\nl sphere lamp 0 0 4 1.5 1.5 1.5 .1\n",
+              o);
+  PathTracer tracer = room.tracerWith({}, {FirstBounce::fromPatches, true, true});
+  EXPECT_GT(tracer.trace(V3d(1, 1, 1), V3d(.3, .2, -1).normalized(), 0, 1).value.color.x, 0);
+  EXPECT_GT(room.transport().caches().coarse->patches(), 1000U);
+}
+
 // Rays between two rough metal balls split at every hit, and reach all of the surfaces from nearby. With
 // patches as fine as elsewhere there would be 50,000, each of them with the work of a thousand rays.
 TEST(RayWeights, WorkBetweenShellsHasABound) {
