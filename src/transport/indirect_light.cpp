@@ -64,10 +64,9 @@ void IndirectLight::add(const RayEnd& end, const DiffuseSide& side, Radiance& va
     const DiffuseSide chosen = withCoefficient(side, asked);
     if (settings_.caches.coarse && addFromPatch(end, chosen, value)) return;
     return gather(end, chosen, value);
-  } else if (first == FirstBounce::interpolated && settings_.caches.field &&
-             addInterpolated(end, side, value)) {
-    return;
   }
+  if (first == FirstBounce::interpolated && settings_.caches.field && addInterpolated(end, side, value))
+    return;
   gather(end, side, value);
 }
 
