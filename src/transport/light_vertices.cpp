@@ -110,7 +110,7 @@ class LightVertices::Path {
 };
 
 void LightVertices::Path::send(double where) {
-  // A source without power is never chosen: the one before it reaches as far.
+  // 1 is beyond the last one.
   const auto sender = std::upper_bound(all_.senders_.begin(), all_.senders_.end(), where,
                                        [](double w, const Sender& s) { return w < s.upTo; });
   if (sender == all_.senders_.end()) return;

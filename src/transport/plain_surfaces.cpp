@@ -35,7 +35,6 @@ const char* obstacleOfSources(const PreparedScene& prepared) {
   const auto& lights = prepared.lights().all();
   if (lights.empty()) return "no sources";
   if (!prepared.distant().empty()) return "distant sources";
-  double power = 0;
   for (const LightId i : lights.ids()) {
     const LightSource& light = lights[i];
     if (light.isVirtual() || light.isDistant()) return "mirrors or distant sources";
@@ -44,9 +43,8 @@ const char* obstacleOfSources(const PreparedScene& prepared) {
     const Radiance* const radiance = prepared.constantRadiance(i);
     if (!radiance) return "sources with patterns";
     if (minChannel(radiance->color) < 0) return "sources that take light away";
-    power += brightness(*radiance);
   }
-  return power > 0 ? nullptr : "sources without light";
+  return nullptr;
 }
 
 Coefficient passedBy(const Glass& pane, const Hit& hit, const V3d& direction) {
@@ -87,7 +85,8 @@ const char* PlainSurfaces::obstacle(const PreparedScene& prepared) const {
     const bool lamp = holds<Light>(scene_.materialAt(surface.material));
     if (!lamp && !materialOf(i) && !paneOf(i) && !mirrorOf(i)) return "surfaces that are not plain";
     const bool shines = scene_.importance ? surface.goal : lamp;
-    if (shines && prepared.lightOf(i) == kNone) return "sources that samples cannot be aimed at";
+    if (shines && prepared.lightOf(i) == kNone && !isBlack(sourceRadiance(scene_, surface)))
+      return "sources that samples cannot be aimed at";
   }
   return nullptr;
 }

@@ -155,7 +155,7 @@ TEST(PlainSurfaces, NameWhatTheyDoNotKnow) {
   };
   EXPECT_EQ(obstacle(""), "none");
   EXPECT_EQ(obstacle("void light black 0 0 3 0 0 0\nblack sphere q 0 0 4 1 1 1 .1\n"), "none");
-  EXPECT_EQ(obstacle("void light dark 0 0 3 -1 -1 -1\ndark sphere q 0 0 4 1 1 1 .1\n"),
+  EXPECT_EQ(obstacle("void light dark 0 0 3 -1 9 9\ndark sphere q 0 0 4 1 1 1 .1\n"),
             "sources that take light away");
   EXPECT_EQ(obstacle("void trans t 0 0 7 .5 .5 .5 0 0 .5 0\nt polygon q 0 0 9 1 1 1 2 1 1 2 2 1\n"),
             "surfaces that are not plain");
