@@ -52,7 +52,7 @@ TEST(DiffuseGlances, IntegratingSphere) {
     double wall = 0;
     for (int k = 0; k <= bounces; ++k) wall += direct * std::pow(kReflectance, k);
     Sample sample;
-    for (uint64_t rotation = 0; rotation < 24; ++rotation)
+    for (uint64_t rotation = 0; rotation < 12; ++rotation)
       sample.add(setting.at(point, Weights::silhouettes, 128, rotation));
     SCOPED_TRACE(bounces);
     // The bulb's shadows and its view of the wall are smaller than a thousandth.
