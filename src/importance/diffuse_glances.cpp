@@ -90,6 +90,7 @@ class DiffuseGlances::Joins {
     at.normal = v.vertex.normal();
     at.material = v.material;
     at.flat = v.flat;
+    at.pattern = v.pattern;
     const double arriving = -v.direction.dot(at.normal);
     const double weight = 1 / (density_ * cosine / square * v.shadowRays + share);
     return v.power * shownOfSource(at, direction, -v.direction, 1) * (cosine / square * weight / arriving);
@@ -117,7 +118,7 @@ std::unique_ptr<const DiffuseGlances> DiffuseGlances::make(const PreparedScene& 
                                                            const SphereOptions& options,
                                                            const BaseSet& base) {
   PlainSurfaces surfaces(prepared);
-  if (surfaces.obstacle(prepared)) return nullptr;
+  if (surfaces.obstacle()) return nullptr;
   return std::make_unique<const DiffuseGlances>(prepared, std::move(surfaces), options, base);
 }
 
@@ -189,9 +190,9 @@ void DiffuseGlances::addJoins(const SetAtPoint& set, const Joins& joins, VertexL
 
 Radiance DiffuseGlances::glance(const V3d& point, const V3d& direction, Glancing& by) const {
   const Sight sight = surfaces_.look(point, direction, kFarAway, kNone);
-  const PlainPlace at = surfaces_.placeOf(point, direction, sight);
+  const PlainPlace at = surfaces_.placeOf(point, direction, sight, by.scratch.functions);
   if (!at.material) return {};
-  const Coefficient color(sight.passed.color * at.material->color *
+  const Coefficient color(sight.passed.color * at.color() *
                           diffuseShare(*at.material, -at.normal.dot(direction)));
   const VertexLight::Seen seen =
       by.joins ? by.joins->seen(at, direction, sight.distance) : VertexLight::Seen{direction};

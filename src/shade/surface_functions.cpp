@@ -616,6 +616,11 @@ Color SurfaceFunctions::pattern(ModifierId modifier, const FunctionPoint& at,
   return f.results == 1 ? Color(v[0], v[0], v[0]) : Color(v[0], v[1], v[2]);
 }
 
+bool SurfaceFunctions::dependsOnPlaceAlone(ModifierId pattern) const {
+  using namespace rad::calc;
+  return (ready(pattern).needs & (bits(Dx, 3) | bits(T, 1) | bits(Rdot, 1) | bits(Ts, 1))) == 0;
+}
+
 Color SurfaceFunctions::spectralPattern(ModifierId modifier, const Function& f, const FunctionPoint& at,
                                         FunctionScratch& scratch) const {
   if (const auto* constant = std::get_if<ConstantSpectrum>(&f.what)) return constant->color;

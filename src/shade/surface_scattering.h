@@ -95,8 +95,6 @@ class RoundScattering {
     transmits_ = !isBlack(scattering_.diffuseTransmission) || !isBlack(scattering_.specularTransmission);
   }
 
-  void leaveOutDiffuse() { scattering_.diffuseReflection = scattering_.ambientReflection = Color(0, 0, 0); }
-
   const SharpPaths& sharp() const { return scattering_.sharp; }
   Components components() const { return Components(kComponents).first(mayTransmit_ ? 2 : 1); }
   std::optional<Lobe> lobe(Component component, Random&) const {

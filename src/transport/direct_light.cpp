@@ -45,6 +45,7 @@ Radiance DirectLight::sourceValue(Receiver at, const SourceSample& sample) {
   if (light.isVirtual()) {
     NextRay next(at.end, kReflectedShadow, Coefficient(1));
     if (!goesOnAlong(next, t_, state_)) return {};
+    next.context.known = false;
     next.query = {.origin = at.point,
                   .direction = sample.direction,
                   .from = at.end.hit.surface,
@@ -99,7 +100,7 @@ bool DirectLight::arrives(Receiver at, Contribution& to, Radiance& value) {
   if (follow && !ofLobe_.empty()) to.coefficient += ofLobe_[static_cast<size_t>(&to - contributions_.data())];
   if (follow || state_.request.allShadowRays)
     value = valueFromSource(at, to);  // even if blocked when all shadow rays are shown to the observer
-  if (shadow == Shadow::blocked) return false;
+  if (shadow == Shadow::blocked || (!follow && isLeftOut(at, sample.source))) return false;
   if (!follow) value = to.value;
   return !follow || maxChannel(value) > kNegligible;
 }
@@ -111,6 +112,7 @@ Radiance DirectLight::valueFromSource(Receiver at, const Contribution& to) {
   const bool through = (hit.cosine > 0) != (hit.normal.dot(direction) > 0);
   NextRay next(at.end, through ? kTransmittedShadow : kReflectedShadow, Coefficient(1));
   if (!goesOnAlong(next, t_, state_)) return {};
+  next.context.known = isLeftOut(at, to.sample->source);
   next.context.contribution *= to.coefficient;
   next.query.origin = at.point;
   next.query.aimedAt = to.sample->source;
@@ -163,7 +165,8 @@ uint32_t DirectLight::findContributions(Receiver at, DirectCoefficient coefficie
       o.sourceSubstructuring > kNegligible && !(isOfGather(settings_, ray) && o.directJitter > kWideJitter);
   const SourceSampling how{divides ? o.sourceSubstructuring / ray.weight : 0, o.directJitter, front};
   for (const LightId i : t_.lights().all().ids())
-    t_.lights().sample(i, at.point, how, state_.random, samples_);
+    if (!isLeftOut(at, i) || at.leftToBothEnds->passUnknown())
+      t_.lights().sample(i, at.point, how, state_.random, samples_);
   if (contributions_.size() < samples_.size()) {
     contributions_.resize(samples_.size());
     brightness_.resize(samples_.size());

@@ -7,6 +7,7 @@
 
 #include "transport/function_ref.h"
 #include "transport/path_state.h"
+#include "transport/plain_surfaces.h"
 #include "transport/prepared_scene.h"
 #include "transport/ray_follower.h"
 
@@ -38,6 +39,8 @@ class DirectLight {
   struct Receiver {
     const RayEnd& end;
     const V3d& point;
+    // The light of known sources is left out unless it has met something that is not known. Null: none is.
+    const PlainSurfaces* leftToBothEnds = nullptr;
   };
 
   // Adds the direct light to the radiance of the ray (W/sr/m2); the brighter that is already, the fewer
@@ -71,6 +74,9 @@ class DirectLight {
   void addOneOf(Receiver at, size_t first, uint32_t count, Radiance& value);
   bool arrives(Receiver at, Contribution& to, Radiance& value);
   bool isWhole(const SourceSample& sample) const;
+  static bool isLeftOut(Receiver at, LightId source) {
+    return at.leftToBothEnds && at.leftToBothEnds->knows(source);
+  }
   uint32_t& blockerOf(SurfaceId surface, LightId source) {
     const uint64_t both =
         (uint64_t{static_cast<uint32_t>(surface.number())} << 32) | static_cast<uint32_t>(source.number());

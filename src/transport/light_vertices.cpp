@@ -107,6 +107,7 @@ class LightVertices::Path {
   int bounces_ = 0;
   double length_ = 0, firstLength_ = 0;  // since the last reflection; of the first part
   ById<LightId, double> weights_;
+  FunctionScratch scratch_;
 };
 
 void LightVertices::Path::send(double where) {
@@ -129,6 +130,7 @@ void LightVertices::Path::send(double where) {
     const Hit hit = prepared.tracer().nearest(origin_, direction_, kFarAway, start_);
     if (hit.surface == kNone) return;
     length_ += hit.distance;
+    if (hit.perturbation != V3d(0, 0, 0)) return;
     if (all_.surfaces_.paneOf(hit.surface)) {
       if (!passPane(hit)) return;
       continue;
@@ -137,7 +139,7 @@ void LightVertices::Path::send(double where) {
       if (!meetMirror(hit)) return;
       continue;
     }
-    const PlainPlace at = all_.surfaces_.placeOf(origin_, direction_, {hit, hit.distance, Coefficient(1)});
+    const PlainPlace at = all_.surfaces_.placeOf(origin_, direction_, {hit, hit.distance, Coefficient(1)}, scratch_);
     if (fromSource_) firstLength_ = length_;
     if (!at.material) return;
     arrive(at);
@@ -174,7 +176,7 @@ bool LightVertices::Path::passPane(const Hit& hit) {
 // The image of a source in a curved mirror lights nothing, and the back of a mirror is black. False if the
 // path ends.
 bool LightVertices::Path::meetMirror(const Hit& hit) {
-  if (fromSource_ || hit.cosine <= 0 || hit.perturbation != V3d(0, 0, 0)) return false;
+  if (fromSource_ || hit.cosine <= 0) return false;
   const Scattering s =
       scatter(*all_.surfaces_.mirrorOf(hit.surface), plainInteraction(direction_, hit.normal, false));
   const SharpPath& next = s.sharp.path[0];
@@ -191,9 +193,9 @@ bool LightVertices::Path::meetMirror(const Hit& hit) {
 
 void LightVertices::Path::arrive(const PlainPlace& at) {
   const Opaque& m = *at.material;
-  Irradiance arriving(power_.color * m.color);
+  Irradiance arriving(power_.color * at.color());
   if (fromSource_) arriving *= enteringShare(m, -at.normal.dot(direction_));
-  const double reflected = brightness(arriving) * (1 - m.specularity);
+  const double reflected = std::abs(brightness(arriving)) * (1 - m.specularity);
   addVisible(at, reflected);
   if (!(reflected > 0) || bounces_ + 1 > all_.prepared_.options().ambientBounces) return;
   all_.all_.push_back(vertexAt(at, reflected, bounces_ + 1, way_, batch_));
@@ -210,7 +212,7 @@ void LightVertices::Path::addVisible(const PlainPlace& at, double reflected) {
   if (!(reflected > 0) && !(direct && hasRoughHighlight(*at.material))) return;
   double shadowRays = 0;
   if (direct) {
-    const double sum = all_.prepared_.choice().weigh(at.point, at.normal, weights_);
+    const double sum = all_.surfaces_.weigh(at.point, at.normal, weights_);
     SourceSample same;
     same.direction = -direction_;
     same.distance = length_;
@@ -218,23 +220,23 @@ void LightVertices::Path::addVisible(const PlainPlace& at, double reflected) {
     same.source = light_;
     shadowRays = sum > 0 ? all_.shadowRaysOver(same, at.normal, weights_[light_] / sum) : 0;
   }
-  const Irradiance power = direct ? power_ : Irradiance(power_.color * at.material->color);
+  const Irradiance power = direct ? power_ : Irradiance(power_.color * at.color());
   all_.visible_.push_back({vertexAt(at, reflected, bounces_ + 1, way_, batch_), power, direction_,
-                           at.material, at.flat, share, shadowRays});
+                           at.material, at.pattern, at.flat, share, shadowRays});
 }
 
 // Chooses between the ways of reflection by their power, by which the path may also end. False if it does.
 bool LightVertices::Path::reflect(const PlainPlace& at) {
   const Opaque& m = *at.material;
-  const Interaction view = plainInteraction(direction_, at.normal, at.flat);
+  const Interaction view = plainInteraction(direction_, at.normal, at.flat, at.pattern);
   const Scattering s = scatter(m, view, 0);
   const bool isSharp = s.sharp.count > 0;
-  const double all = brightness(power_);
-  const double diffuse = bounces_ < all_.prepared_.options().ambientBounces
-                             ? brightness(Irradiance(power_.color * s.diffuseReflection))
-                             : 0;
+  const auto strength = [&](const Color& share) { return std::abs(brightness(Irradiance(power_.color * share))); };
+  const double all = std::abs(brightness(power_));
+  const double diffuse =
+      bounces_ < all_.prepared_.options().ambientBounces ? strength(s.diffuseReflection) : 0;
   const Color& gloss = isSharp ? s.sharp.path[0].coefficient.color : s.specularReflection;
-  const double specular = isSharp && fromSource_ ? 0 : brightness(Irradiance(power_.color * gloss));
+  const double specular = isSharp && fromSource_ ? 0 : strength(gloss);
   const double chosen = random_.uniform() * std::max(all, diffuse + specular);
   if (chosen >= diffuse + specular) return false;
   // The power is divided by the probability of the choice.
@@ -242,11 +244,11 @@ bool LightVertices::Path::reflect(const PlainPlace& at) {
   double scale = std::max(all, diffuse + specular) / diffuse;
   if (fromSource_) scale *= enteringShare(m, view.cosine);
   direction_ = sentFrom(at.normal, random_);
-  power_ = Irradiance(power_.color * m.color * (diffuseShare(m, at.normal.dot(direction_)) * scale));
+  power_ = Irradiance(power_.color * at.color() * (diffuseShare(m, at.normal.dot(direction_)) * scale));
   senderIsUnbounded_ = way_ == LightVertex::sharp;
   way_ = LightVertex::diffuse;
   ++bounces_;
-  return brightness(power_) > 0;
+  return std::abs(brightness(power_)) > 0;
 }
 
 bool LightVertices::Path::reflectSpecularly(const Scattering& s, const Interaction& view, double scale) {
@@ -262,7 +264,7 @@ bool LightVertices::Path::reflectSpecularly(const Scattering& s, const Interacti
     direction_ = next;
     power_ = Irradiance(power_.color * s.specularReflection * (weight * scale));
   }
-  return brightness(power_) > 0;
+  return std::abs(brightness(power_)) > 0;
 }
 
 LightVertices::LightVertices(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t paths,
@@ -284,7 +286,7 @@ void LightVertices::findSenders(size_t paths) {
   const auto& lights = prepared_.lights().all();
   double sum = 0;
   for (const LightId i : lights.ids()) {
-    const double power = rsphere::powerOf(scene, lights[i], 0);
+    const double power = surfaces_.knows(i) ? rsphere::powerOf(scene, lights[i], 0) : 0;
     sum += power;
     senders_.push_back({i, sum, power / areaOf(scene.surfaces[lights[i].surface].shape, scene.vertices)});
   }

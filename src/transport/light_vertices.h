@@ -59,6 +59,7 @@ class LightVertices {
     Irradiance power;  // as powerOf(); of direct light, without the color of the material
     V3d direction;     // in which the light arrives (unit)
     const Opaque* material;
+    Color pattern;
     bool flat;
     double share;  // of its light: the rest is found by rays from the eye (closeShare())
     // The density of shadow rays from there to the same place of the source, over the density of light paths

@@ -16,11 +16,24 @@ bool holds(const Material* material) {
   return material && std::holds_alternative<T>(*material);
 }
 
-// The material of a finish that nothing modifies, otherwise null.
-const Material* unmodified(const Scene& scene, const Finish& finish) {
+// The material of a finish that is not cut by antimatter and has all of its modifiers itself, otherwise null.
+const Material* materialOfFinish(const Scene& scene, const Finish& finish) {
   if (finish.modifier != finish.material || finish.clip != 0) return nullptr;
-  const Material* material = scene.materialAt(finish.material);
-  return material && scene.modifiers[finish.modifier].next == kNone ? material : nullptr;
+  return scene.materialAt(finish.material);
+}
+
+// Whether all modifiers from one on are patterns that are the same for all rays. What is wrong with a pattern
+// is said when a ray meets it.
+bool areConstantPatterns(const Scene& scene, const SurfaceFunctions& functions, ModifierId modifier) {
+  for (; modifier != kNone; modifier = scene.modifiers[modifier].next) {
+    if (!std::holds_alternative<Pattern>(scene.modifiers[modifier].content)) return false;
+    try {
+      if (!functions.dependsOnPlaceAlone(modifier)) return false;
+    } catch (const rad::Error&) {
+      return false;
+    }
+  }
+  return true;
 }
 
 bool changeNothing(const RayOptions& o) {
@@ -30,21 +43,13 @@ bool changeNothing(const RayOptions& o) {
          maxChannel(o.mediumExtinction) <= 0;
 }
 
-// Why the light of the scene's sources is not all known; null if it is.
-const char* obstacleOfSources(const PreparedScene& prepared) {
-  const auto& lights = prepared.lights().all();
-  if (lights.empty()) return "no sources";
-  if (!prepared.distant().empty()) return "distant sources";
-  for (const LightId i : lights.ids()) {
-    const LightSource& light = lights[i];
-    if (light.isVirtual() || light.isDistant()) return "mirrors or distant sources";
-    if (light.reach > 0 || light.spot) return "sources with a reach or a cone";
-    if (!light.hitsWhereAimed && !light.as<TubeLight>()) return "sources that samples may miss";
-    const Radiance* const radiance = prepared.constantRadiance(i);
-    if (!radiance) return "sources with patterns";
-    if (minChannel(radiance->color) < 0) return "sources that take light away";
-  }
-  return nullptr;
+// Whether paths from both ends bring the light of a source.
+bool isKnown(const PreparedScene& prepared, LightId source) {
+  const LightSource& light = prepared.lights().all()[source];
+  if (light.isVirtual() || light.isDistant() || light.reach > 0 || light.spot) return false;
+  if (!light.hitsWhereAimed && !light.as<TubeLight>()) return false;  // samples may miss it
+  const Radiance* const radiance = prepared.constantRadiance(source);
+  return radiance && minChannel(radiance->color) >= 0;
 }
 
 Coefficient passedBy(const Glass& pane, const Hit& hit, const V3d& direction) {
@@ -56,8 +61,9 @@ Coefficient passedBy(const Glass& pane, const Hit& hit, const V3d& direction) {
 
 }  // namespace
 
-Interaction plainInteraction(const V3d& direction, const V3d& normal, bool flat) {
+Interaction plainInteraction(const V3d& direction, const V3d& normal, bool flat, const Color& pattern) {
   Interaction at;
+  at.pattern = pattern;
   at.direction = direction;
   at.normal = normal.dot(direction) > 0 ? -normal : normal;
   at.cosine = -at.normal.dot(direction);
@@ -66,29 +72,66 @@ Interaction plainInteraction(const V3d& direction, const V3d& normal, bool flat)
 }
 
 PlainSurfaces::PlainSurfaces(const PreparedScene& prepared)
-    : scene_(prepared.scene()), tracer_(prepared.tracer()) {
+    : prepared_(prepared), scene_(prepared.scene()), tracer_(prepared.tracer()) {
   for (const Finish& finish : scene_.surfaces.finishes()) {
-    const Material* material = unmodified(scene_, finish);
+    const Material* const material = materialOfFinish(scene_, finish);
+    const ModifierId patterns = material ? scene_.modifiers[finish.material].next : ModifierId();
+    const bool plain = material && patterns == kNone;
     opaque_.push_back(material ? std::get_if<Opaque>(material) : nullptr);
-    panes_.push_back(material ? std::get_if<Glass>(material) : nullptr);
+    if (opaque_.back() && !areConstantPatterns(scene_, prepared.functions(), patterns))
+      opaque_.back() = nullptr;
+    patterns_.push_back(patterns);
+    panes_.push_back(plain ? std::get_if<Glass>(material) : nullptr);
     hasPanes_ = hasPanes_ || panes_.back();
-    const Mirror* const mirror = material ? std::get_if<Mirror>(material) : nullptr;
+    const Mirror* const mirror = plain ? std::get_if<Mirror>(material) : nullptr;
     mirrors_.push_back(mirror && mirror->alternate.kind == Alternate::Kind::none ? mirror : nullptr);
+  }
+  findSources();
+  findSurfaces();
+}
+
+void PlainSurfaces::findSources() {
+  const auto& lights = prepared_.lights().all();
+  knownSources_.resize(lights.size());
+  for (const LightId i : lights.ids()) {
+    knownSources_[i] = isKnown(prepared_, i);
+    hasKnownSources_ = hasKnownSources_ || knownSources_[i];
+    bringAllDirect_ = bringAllDirect_ && knownSources_[i];
   }
 }
 
-const char* PlainSurfaces::obstacle(const PreparedScene& prepared) const {
-  if (!changeNothing(prepared.options())) return "options";
-  if (const char* why = obstacleOfSources(prepared)) return why;
+void PlainSurfaces::findSurfaces() {
   for (const SurfaceId i : scene_.surfaces.ids()) {
     const Surface surface = scene_.surfaces[i];
     const bool lamp = holds<Light>(scene_.materialAt(surface.material));
-    if (!lamp && !materialOf(i) && !paneOf(i) && !mirrorOf(i)) return "surfaces that are not plain";
+    const bool known = lamp || knows(i);
     const bool shines = scene_.importance ? surface.goal : lamp;
-    if (shines && prepared.lightOf(i) == kNone && !isBlack(sourceRadiance(scene_, surface)))
-      return "sources that samples cannot be aimed at";
+    const bool isAimedAt = !shines || prepared_.lightOf(i) != kNone || isBlack(sourceRadiance(scene_, surface));
+    bringAll_ = bringAll_ && known && isAimedAt;
+    passUnknown_ = passUnknown_ || (!known && !(tracer_.stopsShadows(i, true) && tracer_.stopsShadows(i, false)));
   }
+  bringAllDirect_ = bringAllDirect_ && !passUnknown_;
+  bringAll_ = bringAll_ && bringAllDirect_;
+}
+
+const char* PlainSurfaces::obstacle() const {
+  if (!changeNothing(prepared_.options())) return "options";
+  if (!prepared_.distant().empty()) return "distant sources";
+  if (!hasKnownSources_) return "no known sources";
+  for (const auto& modifier : scene_.modifiers)
+    if (const auto* material = std::get_if<Material>(&modifier.content); holds<Mist>(material)) return "mist";
   return nullptr;
+}
+
+double PlainSurfaces::weigh(const V3d& point, const V3d& normal, ById<LightId, double>& weights) const {
+  const double all = prepared_.choice().weigh(point, normal, weights);
+  if (bringAllDirect_) return all;
+  double sum = 0;
+  for (const LightId i : weights.ids()) {
+    if (!knownSources_[i]) weights[i] = 0;
+    sum += weights[i];
+  }
+  return sum;
 }
 
 Sight PlainSurfaces::look(const V3d& origin, const V3d& direction, double farthest, SurfaceId start) const {
@@ -97,7 +140,7 @@ Sight PlainSurfaces::look(const V3d& origin, const V3d& direction, double farthe
   sight.distance = sight.hit.distance;
   while (sight.hit.surface != kNone) {
     const Glass* const pane = paneOf(sight.hit.surface);
-    if (!pane) break;
+    if (!pane || sight.hit.perturbation != V3d(0, 0, 0)) break;
     sight.passed *= passedBy(*pane, sight.hit, direction);
     sight.hit = tracer_.nearest(origin + sight.distance * direction, direction, farthest - sight.distance,
                                 sight.hit.surface);
@@ -117,7 +160,8 @@ Coefficient PlainSurfaces::passing(const V3d& from, const V3d& to, SurfaceId sta
   return sight.hit.surface == kNone ? sight.passed : Coefficient();
 }
 
-PlainPlace PlainSurfaces::placeOf(const V3d& origin, const V3d& direction, const Sight& sight) const {
+PlainPlace PlainSurfaces::placeOf(const V3d& origin, const V3d& direction, const Sight& sight,
+                                  FunctionScratch& scratch) const {
   PlainPlace at;
   at.surface = sight.hit.surface;
   at.point = origin + sight.distance * direction;
@@ -126,7 +170,26 @@ PlainPlace PlainSurfaces::placeOf(const V3d& origin, const V3d& direction, const
     return at;
   at.material = materialOf(at.surface);
   at.flat = isFlat(at.surface);
+  if (at.material && patterns_[scene_.surfaces.face(at.surface).finish] != kNone)
+    at.pattern = patternAt(at, direction, sight.hit, scratch);
   return at;
+}
+
+Color PlainSurfaces::patternAt(const PlainPlace& at, const V3d& direction, const Hit& hit,
+                               FunctionScratch& scratch) const {
+  FunctionPoint here;
+  here.direction = direction;
+  here.normal = hit.normal;
+  here.cosine = hit.cosine;
+  here.point = at.point;
+  here.u = hit.u;
+  here.v = hit.v;
+  here.path = hit.path;
+  Color pattern(1, 1, 1);
+  for (ModifierId i = patterns_[scene_.surfaces.face(at.surface).finish]; i != kNone;
+       i = scene_.modifiers[i].next)
+    pattern *= prepared_.functions().pattern(i, here, scratch);
+  return pattern;
 }
 
 bool PlainSurfaces::isFlat(SurfaceId surface) const {
@@ -135,7 +198,7 @@ bool PlainSurfaces::isFlat(SurfaceId surface) const {
 }
 
 Coefficient shownOfSource(const PlainPlace& at, const V3d& view, const V3d& toSource, double solidAngle) {
-  const Interaction seen = plainInteraction(view, at.normal, at.flat);
+  const Interaction seen = plainInteraction(view, at.normal, at.flat, at.pattern);
   return directCoefficient(scatter(*at.material, seen, 0), seen, toSource, solidAngle, 1);
 }
 

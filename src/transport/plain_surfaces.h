@@ -1,8 +1,9 @@
 #pragma once
-// The surfaces that paths from both ends know (light_vertices.h, vertex_light.h): plastic, metal, glass and
-// curved mirrors without patterns, textures, mixtures or antimatter. Paths from both ends need one rule of
-// what they know, so that each path of light is counted by one of them, or by both with weights that add up
-// to 1.
+// The surfaces and light sources that paths from both ends know (light_vertices.h, vertex_light.h): plastic,
+// metal, glass and curved mirrors without textures, mixtures or antimatter, plastic and metal also with patterns
+// that are the same for all rays, and local sources that shadow rays can be aimed at. They bring the light of known sources that has met known surfaces alone. All
+// other light is left to the paths that path_tracer.h follows from the eye. This is the one rule of what is
+// known, so that each path of light is counted by one of them, or by several with weights that add up to 1.
 #include <vector>
 
 #include "transport/prepared_scene.h"
@@ -15,6 +16,9 @@ struct PlainPlace {
   const Opaque* material = nullptr;     // null: none of the surfaces that are known
   SurfaceId surface;
   bool flat = false;  // Interaction::flat
+  Color pattern{1, 1, 1};
+
+  Color color() const { return material->color * pattern; }
 };
 
 // What a straight line meets first that is not a pane of glass.
@@ -29,8 +33,19 @@ class PlainSurfaces {
  public:
   explicit PlainSurfaces(const PreparedScene& prepared);
 
-  // Why paths from both ends miss some of the light of a scene with these options; null if they do not.
-  const char* obstacle(const PreparedScene& prepared) const;
+  // Why paths from both ends cannot be used, or would bring too little; null if they do.
+  const char* obstacle() const;
+
+  bool knows(SurfaceId surface) const { return materialOf(surface) || paneOf(surface) || mirrorOf(surface); }
+  bool knows(LightId source) const { return knownSources_[source]; }
+  // Whether known paths bring all of the light: all surfaces and sources are known.
+  bool bringAll() const { return bringAll_; }
+  // Whether they bring all of the direct light of known surfaces.
+  bool bringAllDirect() const { return bringAllDirect_; }
+  // Whether shadow rays to a known source may bring light of paths that are not known.
+  bool passUnknown() const { return passUnknown_; }
+  // SourceChoice::weigh() for known sources; the others have the weight 0.
+  double weigh(const V3d& point, const V3d& normal, ById<LightId, double>& weights) const;
 
   // direction: unit. start: the surface that the line starts on, or kNone.
   Sight look(const V3d& origin, const V3d& direction, double farthest, SurfaceId start) const;
@@ -39,7 +54,8 @@ class PlainSurfaces {
   Coefficient passing(const V3d& from, const V3d& to, SurfaceId start) const;
 
   // The place that a sight from `origin` along a direction shows.
-  PlainPlace placeOf(const V3d& origin, const V3d& direction, const Sight& sight) const;
+  PlainPlace placeOf(const V3d& origin, const V3d& direction, const Sight& sight,
+                     FunctionScratch& scratch) const;
   // Null if the surface is none of plastic or metal, or none that is known.
   const Opaque* materialOf(SurfaceId surface) const { return opaque_[scene_.surfaces.face(surface).finish]; }
   bool isFlat(SurfaceId surface) const;  // Interaction::flat
@@ -49,16 +65,25 @@ class PlainSurfaces {
   const Mirror* mirrorOf(SurfaceId surface) const { return mirrors_[scene_.surfaces.face(surface).finish]; }
 
  private:
+  void findSources();
+  void findSurfaces();
+  Color patternAt(const PlainPlace& at, const V3d& direction, const Hit& hit, FunctionScratch& scratch) const;
+
+  const PreparedScene& prepared_;
   const Scene& scene_;
   const Tracer& tracer_;
   std::vector<const Opaque*> opaque_;   // by finish
   std::vector<const Glass*> panes_;     // by finish
   std::vector<const Mirror*> mirrors_;  // by finish
-  bool hasPanes_ = false;
+  std::vector<ModifierId> patterns_;    // by finish: the first one; kNone: none
+  ById<LightId, bool> knownSources_;
+  bool hasPanes_ = false, hasKnownSources_ = false;
+  bool bringAll_ = true, bringAllDirect_ = true, passUnknown_ = false;
 };
 
 // A hit as scatter() of a plain material takes it.
-Interaction plainInteraction(const V3d& direction, const V3d& normal, bool flat);
+Interaction plainInteraction(const V3d& direction, const V3d& normal, bool flat,
+                             const Color& pattern = Color(1, 1, 1));
 
 // Whether the highlights of sources on a material are found by the same samples as its diffuse light.
 inline bool hasRoughHighlight(const Opaque& material) {

@@ -76,6 +76,7 @@ struct PathContext {
   double shadowLength = 0;         // total length of those ancestors that are shadow rays
   SurfaceId mirror = kNone;        // the flat surface that mirrored the primary ray into this one, if nothing
                                    // else deflected it
+  bool known = false;  // only what paths from both ends know has led to it (PlainSurfaces)
   const RayEnd* parent = nullptr;  // null: a primary ray, or one that does not depend on earlier rays
   RaySpace space{};
   uint64_t clips = 0;           // Surface::clip of the surfaces that are cut away for this ray
@@ -114,7 +115,8 @@ struct RayEnd {
         context(inherited),
         hit(other.hit),
         clipsBeyond(other.clipsBeyond),
-        beganIn(other.beganIn) {}
+        beganIn(other.beganIn),
+        known(other.known) {}
 
   const RayQuery& ray;
   const PathContext& context;
@@ -122,6 +124,7 @@ struct RayEnd {
   uint64_t clipsBeyond;  // PathContext::clips of a ray that continues beyond the surface
   // Set if the surface shows that the ray began in another space than it inherited.
   std::optional<RaySpace> beganIn;
+  bool known = false;  // PathContext::known, and so is the surface; set when it is shaded
 
   const RaySpace& space() const { return beganIn ? *beganIn : context.space; }
   const Medium& medium() const { return space().medium; }

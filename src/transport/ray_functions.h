@@ -54,6 +54,7 @@ inline NextRay::NextRay(const RayEnd& parent, RayKind kind, const Coefficient& o
               .pathLength = parent.context.pathLength + parent.hit.length,
               .shadowLength =
                   parent.context.kinds & kShadow ? parent.context.shadowLength + parent.hit.length : 0,
+              .known = parent.known,
               .parent = &parent,
               .space = parent.space(),
               .clips = (kind & kReflections) ? parent.context.clips : parent.clipsBeyond,

@@ -108,6 +108,9 @@ class SurfaceShading::Seen final : public MaterialHit {
 bool SurfaceShading::shade(RayEnd& end, RayResult& result) {
   const Surface& surface = t_.scene().surfaces[end.hit.surface];
   if (surface.clip & end.context.clips) return false;
+  if (end.context.known)
+    end.known = state_.request.vertexLight->surfaces().knows(end.hit.surface) &&
+                end.hit.perturbation == V3d(0, 0, 0);
   if (!surface.goal || end.hit.cosine < 0) return shadeChain(end, surface.modifier, result);
   RayEnd ofGoal = end;
   RayResult emitted;
@@ -253,24 +256,19 @@ Coefficient SurfaceShading::lobesCoefficient(const S& scattering, const SourceSa
   return Coefficient(scattering.lobeShare(Component::reflected) * (share * density * sample.solidAngle));
 }
 
-// Takes the light that paths from both ends bring to the eye out of the scattering.
-template <ScattersLight S>
-SurfaceShading::FromBothEnds SurfaceShading::leaveToVertices(const RayEnd& end, S& scattering) const {
-  if constexpr (std::is_same_v<S, RoundScattering>) {
-    const VertexLight* const light = state_.request.vertexLight;
-    if (!light || end.context.ambientLevel > 0 || end.hit.perturbation != V3d(0, 0, 0)) return {};
-    const Opaque* const material = light->surfaces().materialOf(end.hit.surface);
-    if (!material) return {};
-    const bool rough = hasRoughHighlight(*material);
-    if ((end.context.kinds & ~unsigned{kPrimary | kTransmitted}) != 0) {
-      // One shadow ray is not enough for a strong highlight.
-      const bool weak = !rough || material->specularity < tuning::VertexLight::kStrong;
-      return {.indirect = true, .direct = weak, .behind = weak};
-    }
-    scattering.leaveOutDiffuse();
-    return {.direct = rough};
-  }
-  return {};
+SurfaceShading::FromBothEnds SurfaceShading::fromBothEnds(const RayEnd& end) const {
+  if (!end.known) return {};
+  const PlainSurfaces& surfaces = state_.request.vertexLight->surfaces();
+  const Opaque* const material = surfaces.materialOf(end.hit.surface);
+  if (!material) return {};
+  const bool toEye = !(end.context.kinds & ~unsigned{kPrimary | kTransmitted});
+  if (toEye || end.context.ambientLevel > 0) return {.direct = &surfaces, .indirect = &surfaces};
+  // One shadow ray is not enough for a strong highlight.
+  const bool weak = !hasRoughHighlight(*material) || material->specularity < tuning::VertexLight::kStrong;
+  return {.direct = weak ? &surfaces : nullptr,
+          .indirect = &surfaces,
+          .directHere = weak,
+          .indirectHere = true};
 }
 
 void SurfaceShading::addFromVertices(const RayEnd& end, const V3d& normal, const Coefficient& coefficient,
@@ -285,7 +283,7 @@ void SurfaceShading::addFromSource(const RayEnd& end, const V3d& normal, Radianc
   const VertexLight& light = *state_.request.vertexLight;
   const SurfaceId surface = end.hit.surface;
   const PlainPlace at{end.hit.point, normal, light.surfaces().materialOf(surface), surface,
-                      light.surfaces().isFlat(surface)};
+                      light.surfaces().isFlat(surface), end.hit.pattern};
   value += light.directOf(at, {end.ray.direction}, state_.random, scratch_);
 }
 
@@ -295,13 +293,13 @@ template <ScattersLight S>
 bool SurfaceShading::estimate(RayEnd& end, S& scattering, RayResult& result) {
   specular_.add(end, scattering.sharp(), result);
   if (end.context.kinds & kShadow) return true;
-  const FromBothEnds fromBothEnds = leaveToVertices(end, scattering);
-  if (fromBothEnds.behind) addFromSource(end, scattering.trueNormal(), result.value);
-  const bool shares = estimateLobes(end, scattering, !fromBothEnds.direct, result);
+  const FromBothEnds both = fromBothEnds(end);
+  if (both.directHere) addFromSource(end, scattering.trueNormal(), result.value);
+  const bool shares = estimateLobes(end, scattering, !both.direct, result);
   const auto partOfLobe = [&](const SourceSample& sample) { return lobesCoefficient(scattering, sample); };
   const PartOfLobe part(partOfLobe);
   for (const Component c : scattering.components())
-    estimateSide(end, scattering, c, fromBothEnds, shares ? &part : nullptr, result.value);
+    estimateSide(end, scattering, c, both, shares ? &part : nullptr, result.value);
   return true;
 }
 
@@ -337,27 +335,28 @@ template <ScattersLight S>
 template <ScattersLight S>
 [[gnu::always_inline]] inline void SurfaceShading::estimateSide(const RayEnd& end, S& scattering,
                                                                 Component side,
-                                                                const FromBothEnds& fromBothEnds,
+                                                                const FromBothEnds& both,
                                                                 const PartOfLobe* partOfLobe,
                                                                 Radiance& value) {
   const V3d point = end.hit.point + scattering.offset(side);
   if (const Coefficient indirect = scattering.indirect(side); maxChannel(indirect) > kNegligible) {
     const V3d &normal = scattering.normal(side), &trueNormal = scattering.trueNormal();
-    if (fromBothEnds.indirect)
-      addFromVertices(end, normal, indirect, value);
-    else if (side == Component::reflected)
-      indirect_.add(end, {point, normal, trueNormal, kReflectedAmbient, indirect}, value);
-    else
-      indirect_.add(end, {point, -normal, -trueNormal, kTransmittedAmbient, indirect}, value);
+    if (both.indirectHere) addFromVertices(end, normal, indirect, value);
+    if (!both.indirect || !both.indirect->bringAll())
+      indirect_.add(end,
+                    side == Component::reflected
+                        ? DiffuseSide{point, normal, trueNormal, kReflectedAmbient, indirect}
+                        : DiffuseSide{point, -normal, -trueNormal, kTransmittedAmbient, indirect},
+                    value);
   }
-  if (!scattering.takesDirect(side) || fromBothEnds.direct) return;
+  if (!scattering.takesDirect(side) || (both.direct && both.direct->bringAllDirect())) return;
   const auto coefficient = [&](const V3d& toSource, double solidAngle) {
     return scattering.coefficient(side, toSource, solidAngle, state_.random);
   };
   if (t_.options().chosenSources > 0 && scattering.isEven())
     direct_.addOfChosen({end, point}, coefficient, scattering.front(), value);
   else
-    direct_.add({end, point}, coefficient, scattering.front(), partOfLobe, value);
+    direct_.add({end, point, both.direct}, coefficient, scattering.front(), partOfLobe, value);
 }
 
 bool SurfaceShading::estimate(RayEnd& end, Passes, RayResult& result) {
@@ -371,6 +370,7 @@ bool SurfaceShading::estimate(RayEnd& end, const Alternate& alternate, RayResult
 }
 
 bool SurfaceShading::estimate(RayEnd& end, const Emits& emits, RayResult& result) {
+  if (end.context.known && (end.context.kinds & kShadow)) return true;  // left to paths from both ends
   result.value = emits.radiance;
   if (!(end.context.kinds & kShadow)) noteShown(t_, end, state_);  // most rays are shadow rays
   return true;

@@ -57,20 +57,20 @@ class SurfaceShading {
   bool estimate(RayEnd& end, const CrossesAntimatter& boundary, RayResult& result);
   template <ScattersLight S>
   bool estimate(RayEnd& end, S& scattering, RayResult& result);
-  // Which light of a surface paths from both ends bring.
+  // Which light of known paths (PlainSurfaces) paths from both ends bring, so that it is left out of the
+  // surface's own, and whether they do so here: otherwise they bring it to the eye or to an earlier surface.
   struct FromBothEnds {
-    bool indirect = false;
-    bool direct = false;  // that of the rough highlight, too
-    bool behind = false;  // a shadow ray to one source brings the direct light
+    const PlainSurfaces* direct = nullptr;    // null: none; that of the rough highlight, too
+    const PlainSurfaces* indirect = nullptr;  // null: none
+    bool directHere = false, indirectHere = false;
   };
-  template <ScattersLight S>
-  FromBothEnds leaveToVertices(const RayEnd& end, S& scattering) const;
+  FromBothEnds fromBothEnds(const RayEnd& end) const;
   void addFromVertices(const RayEnd& end, const V3d& normal, const Coefficient& coefficient, Radiance& value);
   void addFromSource(const RayEnd& end, const V3d& normal, Radiance& value);
   template <ScattersLight S>
   bool estimateLobes(const RayEnd& end, S& scattering, bool mayShare, RayResult& result);
   template <ScattersLight S>
-  void estimateSide(const RayEnd& end, S& scattering, Component side, const FromBothEnds& fromBothEnds,
+  void estimateSide(const RayEnd& end, S& scattering, Component side, const FromBothEnds& both,
                     const PartOfLobe* partOfLobe, Radiance& value);
   template <ScattersLight S>
   Radiance lobesPart(const S& scattering, const RayEnd& sample) const;

@@ -80,7 +80,7 @@ void VertexLight::Record::add(uint8_t batch, const Irradiance& part, double notC
 VertexLight::Chosen VertexLight::chooseSource(const PlainPlace& at, double finest, Random& random,
                                               Scratch& scratch) const {
   auto& weights = scratch.weights;
-  const double sum = prepared_.choice().weigh(at.point, at.normal, weights);
+  const double sum = surfaces_.weigh(at.point, at.normal, weights);
   const size_t source = chooseOne(
       weights.size(), sum, [&](size_t i) { return weights[LightId(i)]; }, random);
   if (source == weights.size()) return {};
@@ -192,10 +192,10 @@ Radiance VertexLight::ofNear(const PlainPlace& at, const Indirect& how, Random& 
   if (!(farthest > kSamePlace)) return {};
   const Sight sight = surfaces_.look(at.point, direction, farthest, at.surface);
   if (sight.hit.surface == kNone) return {};
-  const PlainPlace there = surfaces_.placeOf(at.point, direction, sight);
+  const PlainPlace there = surfaces_.placeOf(at.point, direction, sight, scratch.functions);
   if (!there.material) return {};
   const double left = how.toEye ? 1 - vertices_.closeShare(sight.distance) : 1;
-  const Coefficient share(sight.passed.color * there.material->color *
+  const Coefficient share(sight.passed.color * there.color() *
                           (left * diffuseShare(*there.material, -there.normal.dot(direction))));
   Radiance sum = directAt(there, random, scratch);
   if (how.bounces > 1)

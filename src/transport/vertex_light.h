@@ -24,6 +24,7 @@ class VertexLight {
   struct Scratch {
     ById<LightId, double> weights;
     std::vector<SourceSample> samples;
+    FunctionScratch functions;
   };
 
   // A place that samples of the eye show. The direct light there is also found by light vertices that are
