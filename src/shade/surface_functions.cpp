@@ -621,6 +621,11 @@ bool SurfaceFunctions::dependsOnPlaceAlone(ModifierId pattern) const {
   return (ready(pattern).needs & (bits(Dx, 3) | bits(T, 1) | bits(Rdot, 1) | bits(Ts, 1))) == 0;
 }
 
+bool SurfaceFunctions::dependsOnDistance(ModifierId pattern) const {
+  using namespace rad::calc;
+  return (ready(pattern).needs & (bits(T, 1) | bits(Ts, 1))) != 0;
+}
+
 Color SurfaceFunctions::spectralPattern(ModifierId modifier, const Function& f, const FunctionPoint& at,
                                         FunctionScratch& scratch) const {
   if (const auto* constant = std::get_if<ConstantSpectrum>(&f.what)) return constant->color;

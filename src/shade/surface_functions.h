@@ -74,6 +74,8 @@ class SurfaceFunctions {
   Color pattern(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
   // Whether a pattern is the same for all rays that arrive at a place.
   bool dependsOnPlaceAlone(ModifierId pattern) const;
+  // Whether it depends on how far they have come.
+  bool dependsOnDistance(ModifierId pattern) const;
   // The perturbation that is added to the surface's normal, in the world. Neutral value: (0, 0, 0).
   V3d texture(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
   // The share of the foreground, 0 to 1. Negative if it cannot be computed; the mixture is then ignored.

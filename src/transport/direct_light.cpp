@@ -45,7 +45,7 @@ Radiance DirectLight::sourceValue(Receiver at, const SourceSample& sample) {
   if (light.isVirtual()) {
     NextRay next(at.end, kReflectedShadow, Coefficient(1));
     if (!goesOnAlong(next, t_, state_)) return {};
-    next.context.known = false;
+    next.context.known = Known::no;
     next.query = {.origin = at.point,
                   .direction = sample.direction,
                   .from = at.end.hit.surface,
@@ -112,7 +112,7 @@ Radiance DirectLight::valueFromSource(Receiver at, const Contribution& to) {
   const bool through = (hit.cosine > 0) != (hit.normal.dot(direction) > 0);
   NextRay next(at.end, through ? kTransmittedShadow : kReflectedShadow, Coefficient(1));
   if (!goesOnAlong(next, t_, state_)) return {};
-  next.context.known = isLeftOut(at, to.sample->source);
+  next.context.known = isLeftOut(at, to.sample->source) ? Known::joined : Known::no;
   next.context.contribution *= to.coefficient;
   next.query.origin = at.point;
   next.query.aimedAt = to.sample->source;

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/constants.h"
-#include "light/surface_point.h"
 #include "shade/scattering.h"
 #include "transport/light_particles.h"
 #include "transport/tuning.h"
@@ -86,6 +85,7 @@ class LightVertices::Path {
   double firstLength() const { return firstLength_; }  // 0 if it met nothing
 
  private:
+  bool leave(double where);
   bool passPane(const Hit& hit);
   bool meetMirror(const Hit& hit);
   void arrive(const PlainPlace& at);
@@ -111,23 +111,9 @@ class LightVertices::Path {
 };
 
 void LightVertices::Path::send(double where) {
-  // 1 is beyond the last one.
-  const auto sender = std::upper_bound(all_.senders_.begin(), all_.senders_.end(), where,
-                                       [](double w, const Sender& s) { return w < s.upTo; });
-  if (sender == all_.senders_.end()) return;
-  const PreparedScene& prepared = all_.prepared_;
-  const Scene& scene = prepared.scene();
-  light_ = sender->light;
-  start_ = prepared.lights().all()[light_].surface;
-  const SurfacePoint from = samplePoint(scene.surfaces[start_].shape, scene.vertices, random_);
-  origin_ = from.point + 2 * kSamePlace * from.normal;
-  direction_ = sentFrom(from.normal, random_);
-  cosineAtSource_ = from.normal.dot(direction_);
-  const Radiance& radiance = *prepared.constantRadiance(light_);
-  power_ = Irradiance(radiance.color * (all_.pathPower_ / brightness(radiance)));
-  way_ = all_.aimedDensity(light_, 1, 1) > 0 ? LightVertex::direct : LightVertex::unweighed;
-  for (int hits = 0; hits < Tuning::kMostHits; ++hits) {
-    const Hit hit = prepared.tracer().nearest(origin_, direction_, kFarAway, start_);
+  if (!leave(where)) return;
+  for (int hits = 0; hits < Tuning::kMostHits && brightness(power_) > 0; ++hits) {
+    const Hit hit = all_.prepared_.tracer().nearest(origin_, direction_, kFarAway, start_);
     if (hit.surface == kNone) return;
     length_ += hit.distance;
     if (hit.perturbation != V3d(0, 0, 0)) return;
@@ -139,8 +125,12 @@ void LightVertices::Path::send(double where) {
       if (!meetMirror(hit)) return;
       continue;
     }
-    const PlainPlace at = all_.surfaces_.placeOf(origin_, direction_, {hit, hit.distance, Coefficient(1)}, scratch_);
-    if (fromSource_) firstLength_ = length_;
+    const PlainPlace at =
+        all_.surfaces_.placeOf(origin_, direction_, {hit, hit.distance, Coefficient(1)}, scratch_);
+    if (fromSource_) {
+      firstLength_ = length_;
+      power_ = power_ * all_.emission_.divergence(light_, length_);
+    }
     if (!at.material) return;
     arrive(at);
     if (!reflect(at)) return;
@@ -149,6 +139,20 @@ void LightVertices::Path::send(double where) {
     origin_ = at.point;
     start_ = at.surface;
   }
+}
+
+bool LightVertices::Path::leave(double where) {
+  light_ = all_.emission_.sourceAt(where);
+  if (light_ == kNone) return false;
+  start_ = all_.prepared_.lights().all()[light_].surface;
+  const SourceEmission::Leaving way = all_.emission_.leave(light_, random_, scratch_);
+  origin_ = way.from.point + 2 * kSamePlace * way.from.normal;
+  direction_ = way.direction;
+  cosineAtSource_ = way.from.normal.dot(direction_);
+  power_ = way.power;
+  const bool weighed = all_.emission_.isEven(light_) && all_.aimedDensity(light_, 1, 1) > 0;
+  way_ = weighed ? LightVertex::direct : LightVertex::unweighed;
+  return true;
 }
 
 // Goes on through a pane, or mirrored by it. False if the path ends there.
@@ -176,7 +180,7 @@ bool LightVertices::Path::passPane(const Hit& hit) {
 // The image of a source in a curved mirror lights nothing, and the back of a mirror is black. False if the
 // path ends.
 bool LightVertices::Path::meetMirror(const Hit& hit) {
-  if (fromSource_ || hit.cosine <= 0) return false;
+  if (hit.cosine <= 0 || (fromSource_ && all_.emission_.imageOf(light_, hit.surface) == kNone)) return false;
   const Scattering s =
       scatter(*all_.surfaces_.mirrorOf(hit.surface), plainInteraction(direction_, hit.normal, false));
   const SharpPath& next = s.sharp.path[0];
@@ -186,6 +190,11 @@ bool LightVertices::Path::meetMirror(const Hit& hit) {
   origin_ += hit.distance * direction_;
   start_ = hit.surface;
   direction_ = next.direction;
+  if (fromSource_) {
+    light_ = all_.emission_.imageOf(light_, hit.surface);
+    way_ = LightVertex::unweighed;
+    return true;
+  }
   way_ = LightVertex::sharp;
   length_ = 0;
   return true;
@@ -204,6 +213,7 @@ void LightVertices::Path::arrive(const PlainPlace& at) {
 }
 
 void LightVertices::Path::addVisible(const PlainPlace& at, double reflected) {
+  if (bounces_ > all_.prepared_.options().ambientBounces) return;
   const bool direct = way_ == LightVertex::direct;
   double share = 1;
   if (way_ == LightVertex::diffuse)
@@ -231,7 +241,9 @@ bool LightVertices::Path::reflect(const PlainPlace& at) {
   const Interaction view = plainInteraction(direction_, at.normal, at.flat, at.pattern);
   const Scattering s = scatter(m, view, 0);
   const bool isSharp = s.sharp.count > 0;
-  const auto strength = [&](const Color& share) { return std::abs(brightness(Irradiance(power_.color * share))); };
+  const auto strength = [&](const Color& share) {
+    return std::abs(brightness(Irradiance(power_.color * share)));
+  };
   const double all = std::abs(brightness(power_));
   const double diffuse =
       bounces_ < all_.prepared_.options().ambientBounces ? strength(s.diffuseReflection) : 0;
@@ -253,6 +265,7 @@ bool LightVertices::Path::reflect(const PlainPlace& at) {
 
 bool LightVertices::Path::reflectSpecularly(const Scattering& s, const Interaction& view, double scale) {
   way_ = LightVertex::sharp;
+  if (fromSource_) ++bounces_;  // only an indirect ray finds the highlight that lights the next surface
   if (s.sharp.count > 0) {
     direction_ = s.sharp.path[0].direction;
     power_ = power_ * s.sharp.path[0].coefficient * scale;
@@ -269,8 +282,7 @@ bool LightVertices::Path::reflectSpecularly(const Scattering& s, const Interacti
 
 LightVertices::LightVertices(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t paths,
                              uint64_t seed)
-    : prepared_(prepared), surfaces_(surfaces) {
-  findSenders(paths);
+    : prepared_(prepared), surfaces_(surfaces), emission_(prepared, surfaces, paths) {
   measure(paths, seed);
   const auto count = static_cast<double>(paths);
   for (size_t i = 0; i < paths; ++i) {
@@ -279,22 +291,6 @@ LightVertices::LightVertices(const PreparedScene& prepared, const PlainSurfaces&
     Path(*this, i, seed).send(where);
   }
   sort();
-}
-
-void LightVertices::findSenders(size_t paths) {
-  const Scene& scene = prepared_.scene();
-  const auto& lights = prepared_.lights().all();
-  double sum = 0;
-  for (const LightId i : lights.ids()) {
-    const double power = surfaces_.knows(i) ? rsphere::powerOf(scene, lights[i], 0) : 0;
-    sum += power;
-    senders_.push_back({i, sum, power / areaOf(scene.surfaces[lights[i].surface].shape, scene.vertices)});
-  }
-  for (Sender& s : senders_) {
-    s.upTo = s.upTo < sum ? s.upTo / sum : 1;
-    s.density *= static_cast<double>(paths) / sum;
-  }
-  pathPower_ = sum / static_cast<double>(paths);
 }
 
 // The widths follow from the room: from how far paths go at first.
@@ -349,7 +345,7 @@ double LightVertices::shadowRaysOver(const SourceSample& sample, const V3d& norm
                                      double probability) const {
   const double cosine = std::abs(sample.cosine), d = sample.distance;
   const double lightPaths =
-      senders_[sample.source.index()].density * cosine / kPi * normal.dot(sample.direction) / (d * d);
+      emission_.density(sample.source) * cosine / kPi * normal.dot(sample.direction) / (d * d);
   return lightPaths > 0 ? probability * aimedDensity(sample.source, d, cosine) / lightPaths : 0;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "transport/plain_surfaces.h"
+#include "transport/source_emission.h"
 
 namespace rsphere {
 
@@ -25,10 +26,11 @@ struct LightVertex {
   // estimated.
   static constexpr int kBatches = 32;
 
-  double place[3];      // world; in double precision, for scenes far from the origin
-  float facing[3];      // world; the normal (unit) on the side that the light came from
-  float power = 0;      // brightness of what is reflected diffusely, W
-  uint8_t bounces = 0;  // diffuse surfaces on the way from the source, this one included
+  double place[3];  // world; in double precision, for scenes far from the origin
+  float facing[3];  // world; the normal (unit) on the side that the light came from
+  float power = 0;  // brightness of what is reflected diffusely, W
+  // Diffuse surfaces on the way from the source, this one included, and a highlight that lights the first.
+  uint8_t bounces = 0;
   Way way = direct;
   uint8_t batch = 0;
 
@@ -80,25 +82,19 @@ class LightVertices {
   double closeShare(double distance) const;
   double width() const { return width_; }  // at which nearShare() is a half, world units
 
-  double pathPower() const { return pathPower_; }    // brightness of each path, W
+  double pathPower() const { return emission_.pathPower(); }  // brightness of each path, W
   double meanLength() const { return meanLength_; }  // from the sources to the next surfaces, world units
 
  private:
   class Path;
-  struct Sender {
-    LightId light;
-    double upTo;     // share of the power of all sources, of those up to this one
-    double density;  // of paths that begin on it (1/m2)
-  };
-  void findSenders(size_t paths);
   void measure(size_t paths, uint64_t seed);
   void sort();
   double aimedDensity(LightId light, double distance, double cosine) const;
 
   const PreparedScene& prepared_;
   const PlainSurfaces& surfaces_;
-  std::vector<Sender> senders_;  // by LightId
-  double pathPower_ = 0, meanLength_ = 1, width_ = 0, close_ = 0;
+  SourceEmission emission_;
+  double meanLength_ = 1, width_ = 0, close_ = 0;
   std::vector<LightVertex> all_;
   std::vector<Irradiance> powers_;
   std::vector<SurfaceId> hits_;

@@ -76,7 +76,7 @@ class PathTracer::Path final : public RayFollower {
   PathContext context() const {
     PathContext primary;
     primary.space.medium = t_.medium();
-    primary.known = state_.request.vertexLight;
+    if (state_.request.vertexLight) primary.known = Known::joined;
     return primary;
   }
 

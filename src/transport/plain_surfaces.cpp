@@ -22,13 +22,14 @@ const Material* materialOfFinish(const Scene& scene, const Finish& finish) {
   return scene.materialAt(finish.material);
 }
 
-// Whether all modifiers from one on are patterns that are the same for all rays. What is wrong with a pattern
-// is said when a ray meets it.
-bool areConstantPatterns(const Scene& scene, const SurfaceFunctions& functions, ModifierId modifier) {
+// Whether all modifiers from one on are patterns of a kind. What is wrong with a pattern is said when a ray
+// meets it.
+template <class IsOfKind>
+bool arePatterns(const Scene& scene, ModifierId modifier, const IsOfKind& isOfKind) {
   for (; modifier != kNone; modifier = scene.modifiers[modifier].next) {
     if (!std::holds_alternative<Pattern>(scene.modifiers[modifier].content)) return false;
     try {
-      if (!functions.dependsOnPlaceAlone(modifier)) return false;
+      if (!isOfKind(modifier)) return false;
     } catch (const rad::Error&) {
       return false;
     }
@@ -41,15 +42,6 @@ bool changeNothing(const RayOptions& o) {
          o.directThreshold <= 0 && o.chosenSources == 0 && o.ambientDivisions > 0 && o.ambientAccuracy <= 0 &&
          o.ambientExcluded.empty() && o.ambientIncluded.empty() && isBlack(o.ambientValue) &&
          maxChannel(o.mediumExtinction) <= 0;
-}
-
-// Whether paths from both ends bring the light of a source.
-bool isKnown(const PreparedScene& prepared, LightId source) {
-  const LightSource& light = prepared.lights().all()[source];
-  if (light.isVirtual() || light.isDistant() || light.reach > 0 || light.spot) return false;
-  if (!light.hitsWhereAimed && !light.as<TubeLight>()) return false;  // samples may miss it
-  const Radiance* const radiance = prepared.constantRadiance(source);
-  return radiance && minChannel(radiance->color) >= 0;
 }
 
 Coefficient passedBy(const Glass& pane, const Hit& hit, const V3d& direction) {
@@ -78,8 +70,8 @@ PlainSurfaces::PlainSurfaces(const PreparedScene& prepared)
     const ModifierId patterns = material ? scene_.modifiers[finish.material].next : ModifierId();
     const bool plain = material && patterns == kNone;
     opaque_.push_back(material ? std::get_if<Opaque>(material) : nullptr);
-    if (opaque_.back() && !areConstantPatterns(scene_, prepared.functions(), patterns))
-      opaque_.back() = nullptr;
+    const auto isEven = [&](ModifierId i) { return prepared.functions().dependsOnPlaceAlone(i); };
+    if (opaque_.back() && !arePatterns(scene_, patterns, isEven)) opaque_.back() = nullptr;
     patterns_.push_back(patterns);
     panes_.push_back(plain ? std::get_if<Glass>(material) : nullptr);
     hasPanes_ = hasPanes_ || panes_.back();
@@ -94,21 +86,38 @@ void PlainSurfaces::findSources() {
   const auto& lights = prepared_.lights().all();
   knownSources_.resize(lights.size());
   for (const LightId i : lights.ids()) {
-    knownSources_[i] = isKnown(prepared_, i);
+    knownSources_[i] = isKnown(i);  // that of an image follows that of its source
     hasKnownSources_ = hasKnownSources_ || knownSources_[i];
     bringAllDirect_ = bringAllDirect_ && knownSources_[i];
   }
 }
 
+bool PlainSurfaces::isKnown(LightId source) const {
+  const LightSource& light = prepared_.lights().all()[source];
+  if (light.isDistant() || light.reach > 0) return false;
+  if (light.isVirtual()) return mirrorOf(light.surface) && knownSources_[light.relayed];
+  if (!light.hitsWhereAimed && !light.as<TubeLight>()) return false;  // samples may miss it
+  if (light.spot && !light.as<PlaneLight>()) return false;
+  const Surface surface = scene_.surfaces[light.surface];
+  if (minChannel(sourceRadiance(scene_, surface).color) < 0) return false;
+  const auto isLocal = [&](ModifierId i) { return !prepared_.functions().dependsOnDistance(i); };
+  return prepared_.constantRadiance(source) ||
+         (surface.modifier == surface.material &&
+          arePatterns(scene_, scene_.modifiers[surface.material].next, isLocal));
+}
+
 void PlainSurfaces::findSurfaces() {
   for (const SurfaceId i : scene_.surfaces.ids()) {
     const Surface surface = scene_.surfaces[i];
-    const bool lamp = holds<Light>(scene_.materialAt(surface.material));
+    const Material* const material = scene_.materialAt(surface.material);
+    const bool lamp = holds<Light>(material) || holds<Spotlight>(material);
     const bool known = lamp || knows(i);
     const bool shines = scene_.importance ? surface.goal : lamp;
-    const bool isAimedAt = !shines || prepared_.lightOf(i) != kNone || isBlack(sourceRadiance(scene_, surface));
+    const bool isAimedAt =
+        !shines || prepared_.lightOf(i) != kNone || isBlack(sourceRadiance(scene_, surface));
     bringAll_ = bringAll_ && known && isAimedAt;
-    passUnknown_ = passUnknown_ || (!known && !(tracer_.stopsShadows(i, true) && tracer_.stopsShadows(i, false)));
+    passUnknown_ =
+        passUnknown_ || (!known && !(tracer_.stopsShadows(i, true) && tracer_.stopsShadows(i, false)));
   }
   bringAllDirect_ = bringAllDirect_ && !passUnknown_;
   bringAll_ = bringAll_ && bringAllDirect_;
@@ -121,6 +130,19 @@ const char* PlainSurfaces::obstacle() const {
   for (const auto& modifier : scene_.modifiers)
     if (const auto* material = std::get_if<Material>(&modifier.content); holds<Mist>(material)) return "mist";
   return nullptr;
+}
+
+Radiance PlainSurfaces::radianceOf(LightId source, const V3d& point, const V3d& normal, const V3d& direction,
+                                   FunctionScratch& scratch) const {
+  if (const Radiance* const constant = prepared_.constantRadiance(source)) return *constant;
+  const Surface surface = scene_.surfaces[prepared_.lights().all()[source].surface];
+  FunctionPoint here;
+  here.direction = direction;
+  here.normal = normal;
+  here.cosine = -normal.dot(direction);
+  here.point = point;
+  return Radiance(sourceRadiance(scene_, surface).color *
+                  patternFrom(scene_.modifiers[surface.material].next, here, scratch));
 }
 
 double PlainSurfaces::weigh(const V3d& point, const V3d& normal, ById<LightId, double>& weights) const {
@@ -185,9 +207,14 @@ Color PlainSurfaces::patternAt(const PlainPlace& at, const V3d& direction, const
   here.u = hit.u;
   here.v = hit.v;
   here.path = hit.path;
+  return patternFrom(patterns_[scene_.surfaces.face(at.surface).finish], here, scratch);
+}
+
+// The product of the patterns of a chain.
+Color PlainSurfaces::patternFrom(ModifierId first, const FunctionPoint& here,
+                                 FunctionScratch& scratch) const {
   Color pattern(1, 1, 1);
-  for (ModifierId i = patterns_[scene_.surfaces.face(at.surface).finish]; i != kNone;
-       i = scene_.modifiers[i].next)
+  for (ModifierId i = first; i != kNone; i = scene_.modifiers[i].next)
     pattern *= prepared_.functions().pattern(i, here, scratch);
   return pattern;
 }
@@ -197,9 +224,12 @@ bool PlainSurfaces::isFlat(SurfaceId surface) const {
   return shape.as<Polygon>() || shape.as<Ring>() || shape.as<MeshFaces>();
 }
 
-Coefficient shownOfSource(const PlainPlace& at, const V3d& view, const V3d& toSource, double solidAngle) {
+Coefficient shownOfSource(const PlainPlace& at, const V3d& view, const V3d& toSource, double solidAngle,
+                          Shown shown) {
   const Interaction seen = plainInteraction(view, at.normal, at.flat, at.pattern);
-  return directCoefficient(scatter(*at.material, seen, 0), seen, toSource, solidAngle, 1);
+  Scattering s = scatter(*at.material, seen, 0);
+  if (shown == Shown::highlight) s.diffuseReflection = Color(0, 0, 0);
+  return directCoefficient(s, seen, toSource, solidAngle, 1);
 }
 
 }  // namespace rsphere

@@ -1,7 +1,7 @@
 #pragma once
 // The surfaces and light sources that paths from both ends know (light_vertices.h, vertex_light.h): plastic,
-// metal, glass and curved mirrors without textures, mixtures or antimatter, plastic and metal also with patterns
-// that are the same for all rays, and local sources that shadow rays can be aimed at. They bring the light of known sources that has met known surfaces alone. All
+// metal, glass and mirrors without textures, mixtures or antimatter, plastic and metal also with patterns that
+// are the same for all rays; local sources that shadow rays can be aimed at, and their images in mirrors. They bring the light of known sources that has met known surfaces alone. All
 // other light is left to the paths that path_tracer.h follows from the eye. This is the one rule of what is
 // known, so that each path of light is counted by one of them, or by several with weights that add up to 1.
 #include <vector>
@@ -38,6 +38,10 @@ class PlainSurfaces {
 
   bool knows(SurfaceId surface) const { return materialOf(surface) || paneOf(surface) || mirrorOf(surface); }
   bool knows(LightId source) const { return knownSources_[source]; }
+  // The radiance (W/sr/m2) that a known source, no image of one, sends from a point of it. normal: unit, of its
+  // front. direction: unit, towards the point.
+  Radiance radianceOf(LightId source, const V3d& point, const V3d& normal, const V3d& direction,
+                      FunctionScratch& scratch) const;
   // Whether known paths bring all of the light: all surfaces and sources are known.
   bool bringAll() const { return bringAll_; }
   // Whether they bring all of the direct light of known surfaces.
@@ -66,7 +70,9 @@ class PlainSurfaces {
 
  private:
   void findSources();
+  bool isKnown(LightId source) const;
   void findSurfaces();
+  Color patternFrom(ModifierId first, const FunctionPoint& here, FunctionScratch& scratch) const;
   Color patternAt(const PlainPlace& at, const V3d& direction, const Hit& hit, FunctionScratch& scratch) const;
 
   const PreparedScene& prepared_;
@@ -90,8 +96,12 @@ inline bool hasRoughHighlight(const Opaque& material) {
   return material.specularity > kNegligible && material.roughness * material.roughness > kNegligible;
 }
 
+// What of the direct light of a place is meant.
+enum class Shown : uint8_t { none, highlight, all };
+
 // The share of the radiance of a source in a direction (unit), of this solid angle (sr), that a place shows
 // by its diffuse reflection and its rough highlight. view: direction (unit) of the ray that sees the place.
-Coefficient shownOfSource(const PlainPlace& at, const V3d& view, const V3d& toSource, double solidAngle);
+Coefficient shownOfSource(const PlainPlace& at, const V3d& view, const V3d& toSource, double solidAngle,
+                          Shown shown = Shown::all);
 
 }  // namespace rsphere

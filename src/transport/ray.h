@@ -64,6 +64,14 @@ struct RayQuery {
   bool unobstructed = false;  // of a shadow ray: it hits its target, whatever else is in its way
 };
 
+// Whether only what paths from both ends know (PlainSurfaces) has led to a ray, and what they bring of the light
+// that arrives at the last diffuse surface by a reflection.
+enum class Known : uint8_t {
+  no,
+  joined,   // all of it: light vertices there are joined to the eye, or to the surface before
+  unjoined  // none of it: a reflection shows the surface, by which no vertices are joined to it
+};
+
 // What a ray inherits from its ancestors. It does not change once the ray is followed.
 struct PathContext {
   RayKind kind = kPrimary;
@@ -76,7 +84,7 @@ struct PathContext {
   double shadowLength = 0;         // total length of those ancestors that are shadow rays
   SurfaceId mirror = kNone;        // the flat surface that mirrored the primary ray into this one, if nothing
                                    // else deflected it
-  bool known = false;  // only what paths from both ends know has led to it (PlainSurfaces)
+  Known known = Known::no;
   const RayEnd* parent = nullptr;  // null: a primary ray, or one that does not depend on earlier rays
   RaySpace space{};
   uint64_t clips = 0;           // Surface::clip of the surfaces that are cut away for this ray
@@ -124,7 +132,7 @@ struct RayEnd {
   uint64_t clipsBeyond;  // PathContext::clips of a ray that continues beyond the surface
   // Set if the surface shows that the ray began in another space than it inherited.
   std::optional<RaySpace> beganIn;
-  bool known = false;  // PathContext::known, and so is the surface; set when it is shaded
+  Known known = Known::no;  // of the rays that begin here; set when the surface is shaded
 
   const RaySpace& space() const { return beganIn ? *beganIn : context.space; }
   const Medium& medium() const { return space().medium; }

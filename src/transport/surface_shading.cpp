@@ -108,9 +108,9 @@ class SurfaceShading::Seen final : public MaterialHit {
 bool SurfaceShading::shade(RayEnd& end, RayResult& result) {
   const Surface& surface = t_.scene().surfaces[end.hit.surface];
   if (surface.clip & end.context.clips) return false;
-  if (end.context.known)
-    end.known = state_.request.vertexLight->surfaces().knows(end.hit.surface) &&
-                end.hit.perturbation == V3d(0, 0, 0);
+  if (end.context.known != Known::no && end.hit.perturbation == V3d(0, 0, 0) &&
+      state_.request.vertexLight->surfaces().knows(end.hit.surface))
+    end.known = end.context.known;
   if (!surface.goal || end.hit.cosine < 0) return shadeChain(end, surface.modifier, result);
   RayEnd ofGoal = end;
   RayResult emitted;
@@ -256,19 +256,36 @@ Coefficient SurfaceShading::lobesCoefficient(const S& scattering, const SourceSa
   return Coefficient(scattering.lobeShare(Component::reflected) * (share * density * sample.solidAngle));
 }
 
+namespace {
+
+// Whether a reflection shows the end of a ray to the eye, or to the last diffuse surface before it.
+bool isMirrored(const PathContext& context) {
+  for (const PathContext* ray = &context; !(ray->kind & kAmbient) && ray->parent; ray = &ray->parent->context)
+    if (ray->kind & (kReflected | kReflectedSpecular)) return true;
+  return false;
+}
+
+}  // namespace
+
 SurfaceShading::FromBothEnds SurfaceShading::fromBothEnds(const RayEnd& end) const {
-  if (!end.known) return {};
+  if (end.known == Known::no) return {};
   const PlainSurfaces& surfaces = state_.request.vertexLight->surfaces();
   const Opaque* const material = surfaces.materialOf(end.hit.surface);
   if (!material) return {};
-  const bool toEye = !(end.context.kinds & ~unsigned{kPrimary | kTransmitted});
-  if (toEye || end.context.ambientLevel > 0) return {.direct = &surfaces, .indirect = &surfaces};
-  // One shadow ray is not enough for a strong highlight.
-  const bool weak = !hasRoughHighlight(*material) || material->specularity < tuning::VertexLight::kStrong;
-  return {.direct = weak ? &surfaces : nullptr,
-          .indirect = &surfaces,
-          .directHere = weak,
-          .indirectHere = true};
+  FromBothEnds both{.direct = &surfaces, .indirect = &surfaces};
+  const bool rough = hasRoughHighlight(*material);
+  const bool unjoined = end.context.ambientLevel == 0 || end.known == Known::unjoined;
+  if (isMirrored(end.context)) {
+    if (!unjoined) return both;
+    // One shadow ray is not enough for a strong highlight.
+    const bool weak = !rough || material->specularity < tuning::VertexLight::kStrong;
+    if (!weak) both.direct = nullptr;
+    both.directHere = weak ? Shown::all : Shown::none;
+    both.indirectHere = true;
+  } else if (end.known == Known::unjoined && rough) {
+    both.directHere = Shown::highlight;
+  }
+  return both;
 }
 
 void SurfaceShading::addFromVertices(const RayEnd& end, const V3d& normal, const Coefficient& coefficient,
@@ -276,15 +293,17 @@ void SurfaceShading::addFromVertices(const RayEnd& end, const V3d& normal, const
   const VertexLight& light = *state_.request.vertexLight;
   const SurfaceId surface = end.hit.surface;
   const PlainPlace at{end.hit.point, normal, light.surfaces().materialOf(surface), surface};
-  value += coefficient * light.indirectAt(at, {t_.options().ambientBounces}, state_.random, scratch_);
+  value += coefficient * light.indirectAt(at, {t_.options().ambientBounces - end.context.ambientLevel},
+                                          state_.random, scratch_);
 }
 
-void SurfaceShading::addFromSource(const RayEnd& end, const V3d& normal, Radiance& value) {
+void SurfaceShading::addFromSource(const RayEnd& end, const V3d& normal, Shown shown, Radiance& value) {
   const VertexLight& light = *state_.request.vertexLight;
   const SurfaceId surface = end.hit.surface;
-  const PlainPlace at{end.hit.point, normal, light.surfaces().materialOf(surface), surface,
-                      light.surfaces().isFlat(surface), end.hit.pattern};
-  value += light.directOf(at, {end.ray.direction}, state_.random, scratch_);
+  const PlainPlace at{
+      end.hit.point,  normal, light.surfaces().materialOf(surface), surface, light.surfaces().isFlat(surface),
+      end.hit.pattern};
+  value += light.directOf(at, {.view = end.ray.direction, .shown = shown}, state_.random, scratch_);
 }
 
 // The light that a surface scatters towards the ray's origin: sharp paths, lobes, and on each side indirect
@@ -294,8 +313,10 @@ bool SurfaceShading::estimate(RayEnd& end, S& scattering, RayResult& result) {
   specular_.add(end, scattering.sharp(), result);
   if (end.context.kinds & kShadow) return true;
   const FromBothEnds both = fromBothEnds(end);
-  if (both.directHere) addFromSource(end, scattering.trueNormal(), result.value);
+  if (both.directHere != Shown::none)
+    addFromSource(end, scattering.trueNormal(), both.directHere, result.value);
   const bool shares = estimateLobes(end, scattering, !both.direct, result);
+  if (both.indirect) end.known = both.indirectHere ? Known::unjoined : Known::joined;
   const auto partOfLobe = [&](const SourceSample& sample) { return lobesCoefficient(scattering, sample); };
   const PartOfLobe part(partOfLobe);
   for (const Component c : scattering.components())
@@ -334,20 +355,24 @@ template <ScattersLight S>
 // Adds the indirect and direct light of one side.
 template <ScattersLight S>
 [[gnu::always_inline]] inline void SurfaceShading::estimateSide(const RayEnd& end, S& scattering,
-                                                                Component side,
-                                                                const FromBothEnds& both,
+                                                                Component side, const FromBothEnds& both,
                                                                 const PartOfLobe* partOfLobe,
                                                                 Radiance& value) {
   const V3d point = end.hit.point + scattering.offset(side);
   if (const Coefficient indirect = scattering.indirect(side); maxChannel(indirect) > kNegligible) {
     const V3d &normal = scattering.normal(side), &trueNormal = scattering.trueNormal();
     if (both.indirectHere) addFromVertices(end, normal, indirect, value);
-    if (!both.indirect || !both.indirect->bringAll())
+    // What paths from both ends leave is little.
+    const double probability = both.indirectHere ? tuning::VertexLight::kFollowed : 1;
+    const bool left = !both.indirect || both.indirectHere || !both.indirect->bringAll();
+    if (left && (probability >= 1 || state_.random.uniform() < probability)) {
+      const Coefficient followed = indirect / probability;
       indirect_.add(end,
                     side == Component::reflected
-                        ? DiffuseSide{point, normal, trueNormal, kReflectedAmbient, indirect}
-                        : DiffuseSide{point, -normal, -trueNormal, kTransmittedAmbient, indirect},
+                        ? DiffuseSide{point, normal, trueNormal, kReflectedAmbient, followed}
+                        : DiffuseSide{point, -normal, -trueNormal, kTransmittedAmbient, followed},
                     value);
+    }
   }
   if (!scattering.takesDirect(side) || (both.direct && both.direct->bringAllDirect())) return;
   const auto coefficient = [&](const V3d& toSource, double solidAngle) {
@@ -370,7 +395,7 @@ bool SurfaceShading::estimate(RayEnd& end, const Alternate& alternate, RayResult
 }
 
 bool SurfaceShading::estimate(RayEnd& end, const Emits& emits, RayResult& result) {
-  if (end.context.known && (end.context.kinds & kShadow)) return true;  // left to paths from both ends
+  if (end.context.known != Known::no && (end.context.kinds & kShadow)) return true;  // left to both ends
   result.value = emits.radiance;
   if (!(end.context.kinds & kShadow)) noteShown(t_, end, state_);  // most rays are shadow rays
   return true;

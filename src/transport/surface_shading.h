@@ -62,11 +62,12 @@ class SurfaceShading {
   struct FromBothEnds {
     const PlainSurfaces* direct = nullptr;    // null: none; that of the rough highlight, too
     const PlainSurfaces* indirect = nullptr;  // null: none
-    bool directHere = false, indirectHere = false;
+    Shown directHere = Shown::none;
+    bool indirectHere = false;
   };
   FromBothEnds fromBothEnds(const RayEnd& end) const;
   void addFromVertices(const RayEnd& end, const V3d& normal, const Coefficient& coefficient, Radiance& value);
-  void addFromSource(const RayEnd& end, const V3d& normal, Radiance& value);
+  void addFromSource(const RayEnd& end, const V3d& normal, Shown shown, Radiance& value);
   template <ScattersLight S>
   bool estimateLobes(const RayEnd& end, S& scattering, bool mayShare, RayResult& result);
   template <ScattersLight S>

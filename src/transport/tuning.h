@@ -245,6 +245,16 @@ struct LightVertices {
   RSPHERE_TUNED(LightVertices, double, kClose, .01);
 };
 
+// Light that leaves sources (source_emission.h).
+struct SourceEmission {
+  // Directions in which light from a source with a pattern or a cone is tried, of which one is followed.
+  RSPHERE_TUNED(SourceEmission, int, kTries, 8);
+  // Those that tell its power, and what is added for light that they may miss, in units of its radiance without
+  // patterns.
+  RSPHERE_TUNED(SourceEmission, int, kTriesForPower, 1024);
+  RSPHERE_TUNED(SourceEmission, double, kMissed, .01);
+};
+
 // Light vertices as seen from a place (vertex_light.h).
 struct VertexLight {
   // Vertices that are compared, and those of them that get a shadow ray. 24 and 1: error +20% around the goal
@@ -255,6 +265,9 @@ struct VertexLight {
   // alone would leave their highlights to chance, and brushed steel beside the goal would bring 14 W/sr/m2
   // from a surface that emits 1.
   RSPHERE_TUNED(VertexLight, double, kStrong, .1);
+  // The share of surfaces that a reflection shows at which a gather looks for light that has come to them by
+  // another reflection, which vertices do not bring.
+  RSPHERE_TUNED(VertexLight, double, kFollowed, .25);
 };
 
 // How many rays a ray splits into (ray_limits.h).

@@ -99,7 +99,7 @@ VertexLight::Chosen VertexLight::chooseSource(const PlainPlace& at, double fines
 }
 
 // The share of the light of a sample that arrives.
-Coefficient VertexLight::arriving(const PlainPlace& at, const SourceSample& sample) const {
+Coefficient VertexLight::passing(const PlainPlace& at, const SourceSample& sample) const {
   const SurfaceId source = prepared_.lights().all()[sample.source].surface;
   switch (
       prepared_.tracer().shadow(at.point, sample.direction, sample.distance, source, nullptr, at.surface)) {
@@ -112,19 +112,51 @@ Coefficient VertexLight::arriving(const PlainPlace& at, const SourceSample& samp
   }
 }
 
+// The radiance of a sample that arrives (W/sr/m2).
+Radiance VertexLight::arriving(const PlainPlace& at, const SourceSample& sample,
+                               FunctionScratch& scratch) const {
+  if (prepared_.lights().all()[sample.source].isVirtual()) return arrivingByMirrors(at, sample, scratch);
+  const Coefficient passed = passing(at, sample);
+  if (isBlack(passed)) return {};
+  const V3d point = at.point + sample.distance * sample.direction;
+  return surfaces_.radianceOf(sample.source, point, sample.normal, sample.direction, scratch) * passed;
+}
+
+// The same of an image, which the mirrors must show.
+Radiance VertexLight::arrivingByMirrors(const PlainPlace& at, const SourceSample& sample,
+                                        FunctionScratch& scratch) const {
+  const auto& lights = prepared_.lights().all();
+  V3d origin = at.point, direction = sample.direction;
+  SurfaceId start = at.surface;
+  Coefficient passed(1);
+  for (LightId source = sample.source;; source = lights[source].relayed) {
+    const Sight sight = surfaces_.look(origin, direction, kFarAway, start);
+    if (sight.hit.surface != lights[source].surface || sight.hit.cosine <= 0) return {};
+    origin += sight.distance * direction;
+    passed *= sight.passed;
+    if (!lights[source].isVirtual())
+      return surfaces_.radianceOf(source, origin, sight.hit.normal, direction, scratch) * passed;
+    start = sight.hit.surface;
+    const Scattering s =
+        scatter(*surfaces_.mirrorOf(start), plainInteraction(direction, sight.hit.normal, true));
+    passed *= s.sharp.path[0].coefficient;
+    direction = s.sharp.path[0].direction;
+  }
+}
+
 Radiance VertexLight::directOf(const PlainPlace& at, const Seen& seen, Random& random,
                                Scratch& scratch) const {
   // A density is known only for samples of the whole source.
   const double finest = seen.density > 0 ? 0 : prepared_.options().sourceSubstructuring;
   const Chosen to = chooseSource(at, finest, random, scratch);
   if (!(to.probability > 0)) return {};
-  const Coefficient passed = arriving(at, to.sample);
-  if (isBlack(passed)) return {};
+  const Radiance arrives = arriving(at, to.sample, scratch.functions);
+  if (isBlack(arrives)) return {};
   const double over =
       seen.density > 0 ? vertices_.shadowRaysOver(to.sample, at.normal, to.probability) * seen.density : 0;
   const double share = over > 0 ? over / (over + seen.joined) : 1;
-  return *prepared_.constantRadiance(to.sample.source) * passed *
-         shownOfSource(at, seen.view, to.sample.direction, to.sample.solidAngle) * (share / to.probability);
+  return arrives * shownOfSource(at, seen.view, to.sample.direction, to.sample.solidAngle, seen.shown) *
+         (share / to.probability);
 }
 
 // The mean radiance that arrives over the hemisphere straight from sources (W/sr/m2).
@@ -132,7 +164,7 @@ Radiance VertexLight::directAt(const PlainPlace& at, Random& random, Scratch& sc
   const Chosen to = chooseSource(at, prepared_.options().sourceSubstructuring, random, scratch);
   if (!(to.probability > 0)) return {};
   const double cosine = at.normal.dot(to.sample.direction);
-  return *prepared_.constantRadiance(to.sample.source) * arriving(at, to.sample) *
+  return arriving(at, to.sample, scratch.functions) *
          (enteringShare(*at.material, cosine) * cosine * to.sample.solidAngle / (kPi * to.probability));
 }
 

@@ -33,6 +33,7 @@ class VertexLight {
     V3d view;            // direction (unit) of the ray that shows it
     double density = 0;  // of the eye's samples there, per area of the surface (1/m2)
     double joined = 0;   // share of the light vertices there that are joined to the eye
+    Shown shown = Shown::all;
   };
   // The direct light that the place sends to the eye, diffusely and by a rough highlight (W/sr/m2).
   Radiance directOf(const PlainPlace& at, const Seen& seen, Random& random, Scratch& scratch) const;
@@ -64,7 +65,10 @@ class VertexLight {
     double probability = 0;  // 0: none arrives
   };
   Chosen chooseSource(const PlainPlace& at, double finest, Random& random, Scratch& scratch) const;
-  Coefficient arriving(const PlainPlace& at, const SourceSample& sample) const;
+  Radiance arriving(const PlainPlace& at, const SourceSample& sample, FunctionScratch& scratch) const;
+  Coefficient passing(const PlainPlace& at, const SourceSample& sample) const;
+  Radiance arrivingByMirrors(const PlainPlace& at, const SourceSample& sample,
+                             FunctionScratch& scratch) const;
   Radiance directAt(const PlainPlace& at, Random& random, Scratch& scratch) const;
   Radiance ofVertices(const PlainPlace& at, const Indirect& how, Random& random) const;
   Radiance ofVertex(const PlainPlace& at, size_t i) const;

@@ -19,9 +19,7 @@ struct Setting : SphereSetting {
           o.ambientBounces = bounces;
           o.sourceSubstructuring = .1;
         }) {}
-  bool fromBothEnds() const {
-    return PlainSurfaces(transport->prepared()).obstacle() == nullptr;
-  }
+  bool fromBothEnds() const { return PlainSurfaces(transport->prepared()).obstacle() == nullptr; }
   // The brightness of the mean radiance at a point.
   double at(const V3d& point, Weights weights, int directions, uint64_t rotation) const {
     SphereOptions o = options.sphere;
@@ -75,20 +73,21 @@ const char* const kClosedRoom =
 struct Way {
   const char* name;
   const char* surfaces;
+  int bounces = 2;
 };
 void PrintTo(const Way& way, std::ostream* out) { *out << way.name; }
 
 class WaysOfLight : public ::testing::TestWithParam<Way> {};
 
 TEST_P(WaysOfLight, AgreeWithPathsFromTheEye) {
-  const Setting setting(std::string(kClosedRoom) + GetParam().surfaces, 2);
+  const Setting setting(std::string(kClosedRoom) + GetParam().surfaces, GetParam().bounces);
   ASSERT_TRUE(setting.fromBothEnds());
   const V3d point(2.5, 1.2, 1.1);
   Sample both, eye;
-  for (uint64_t rotation = 0; rotation < 40; ++rotation)
+  for (uint64_t rotation = 0; rotation < 16; ++rotation)
     both.add(setting.at(point, Weights::silhouettes, 256, rotation));
-  for (uint64_t rotation = 0; rotation < 24; ++rotation)
-    eye.add(setting.at(point, Weights::homogeneous, 6000, rotation));
+  for (uint64_t rotation = 0; rotation < 16; ++rotation)
+    eye.add(setting.at(point, Weights::homogeneous, 1200, rotation));
   const double error = std::hypot(both.standardError(), eye.standardError());
   EXPECT_LT(std::abs(both.mean() - eye.mean()), kMostSigmas * error)
       << both.mean() << " +- " << both.standardError() << " and " << eye.mean() << " +- "
@@ -106,6 +105,12 @@ INSTANTIATE_TEST_SUITE_P(
         Way{"RoughMetal",
             "void metal steel 0 0 5 .7 .6 .5 .8 .15\n"
             "steel polygon s 0 0 12 .5 .5 .4 3 .5 .4 3 2.5 .4 .5 2.5 .4\n"},
+        // A highlight lights other surfaces by indirect rays alone.
+        Way{"RoughMetalWithoutBounces",
+            "void metal steel 0 0 5 .9 .9 .9 .9 .2\n"
+            "steel polygon s 0 0 12 .1 .1 .3 .1 .1 2.9 3.9 .1 2.9 3.9 .1 .3\n"
+            "steel polygon t 0 0 12 3.9 2.9 .3 3.9 2.9 2.9 .1 2.9 2.9 .1 2.9 .3\n",
+            0},
         Way{"PolishedPlastic",
             "void plastic gloss 0 0 5 .5 .5 .5 .06 0\n"
             "gloss polygon s 0 0 12 .5 .5 .4 3 .5 .4 3 2.5 .4 .5 2.5 .4\n"},
@@ -120,6 +125,18 @@ INSTANTIATE_TEST_SUITE_P(
             "void colorfunc g 4 .5+frac(Py)/2 .8 1 . 0 0\ng metal u 0 0 5 .9 .8 .7 .5 .2\n"
             "t polygon q 0 0 12 0 0 .2 4 0 .2 4 3 .2 0 3 .2\n"
             "u polygon r 0 0 12 .1 .1 .3 .1 .1 2.9 3.9 .1 2.9 3.9 .1 .3\n"},
+        Way{"FlatMirror",
+            "void mirror m 0 0 3 .9 .9 .9\nm polygon q 0 0 12 .5 .5 .4 3 .5 .4 3 2.5 .4 .5 2.5 .4\n"},
+        // A mirror shows a wall that another, or itself, lights.
+        Way{"CornerOfMirrors",
+            "void mirror m 0 0 3 .9 .9 .9\nm polygon q 0 0 12 .5 .5 .4 3 .5 .4 3 2.5 .4 .5 2.5 .4\n"
+            "m polygon r 0 0 12 .1 .1 .3 .1 .1 2.9 3.9 .1 2.9 3.9 .1 .3\n"},
+        Way{"Spot", "void spotlight s 0 0 7 100 100 100 60 0 .2 -1\ns ring q 0 0 8 3 2 2.5 0 0 -1 0 .1\n"},
+        Way{"PatternedLamp",
+            "void brightfunc f 2 1+Dx . 0 0\nf light s 0 0 3 40 20 20\ns ring q 0 0 8 3 2 2.5 0 0 -1 0 .2\n"},
+        Way{"NarrowLamp",
+            "void brightfunc f 2 if(-Dz-.95,20,.01) . 0 0\nf light s 0 0 3 20 20 20\ns ring q 0 0 8 3 2 2.5 0 0 -1 0 .2\n"
+            "void mirror m 0 0 3 .9 .9 .9\nm polygon q 0 0 12 .5 .5 .4 3 .5 .4 3 2.5 .4 .5 2.5 .4\n"},
         Way{"NearCorner", "wall polygon low 0 0 12 2.3 1 1.09 2.7 1 1.09 2.7 1.4 1.09 2.3 1.4 1.09\n"},
         Way{"Ball", "lamp sphere bulb 0 0 4 3 2 1.5 .1\n"},
         Way{"Tube", "lamp cylinder tube 0 0 7 .5 2.5 2 3.5 2.5 2 .03\n"}),
@@ -143,20 +160,18 @@ INSTANTIATE_TEST_SUITE_P(
             "t polygon q 0 0 12 0 0 .2 4 0 .2 4 3 .2 0 3 .2\n"},
         Way{"CrystalBall",
             "void dielectric crystal 0 0 5 .9 .9 .9 1.5 0\ncrystal sphere b 0 0 4 2 1.5 1.5 .5\n"},
-        Way{"FlatMirror", "void mirror m 0 0 3 .9 .9 .9\nm polygon q 0 0 12 .5 .5 .4 3 .5 .4 3 2.5 .4 .5 2.5 .4\n"},
         Way{"Glow", "void glow g 0 0 4 5 5 5 0\ng sphere q 0 0 4 3.4 .5 1 .2\n"},
         Way{"GlowWithinReach", "void glow g 0 0 4 50 50 50 1\ng sphere q 0 0 4 3.4 .5 1 .1\n"},
-        Way{"Spot", "void spotlight s 0 0 7 100 100 100 60 0 0 -1\ns ring q 0 0 8 3 2 2.5 0 0 -1 0 .1\n"},
-        Way{"PatternedLamp",
-            "void brightfunc f 2 1+Dx . 0 0\nf light s 0 0 3 20 20 20\ns ring q 0 0 8 3 2 2.5 0 0 -1 0 .2\n"},
-        Way{"ConcaveLamp", "lamp polygon q 0 0 18 2.9 .5 2 2.9 1.5 2 2.3 1.5 2 2.3 1.1 2 1.9 1.1 2 1.9 .5 2\n"},
+        Way{"DistanceLamp",
+            "void brightfunc f 2 T . 0 0\nf light s 0 0 3 20 20 20\ns ring q 0 0 8 3 2 2.5 0 0 -1 0 .2\n"},
+        Way{"ConcaveLamp",
+            "lamp polygon q 0 0 18 2.9 .5 2 2.9 1.5 2 2.3 1.5 2 2.3 1.1 2 1.9 1.1 2 1.9 .5 2\n"},
         Way{"Nothing", "void polygon q 0 0 12 0 0 1.6 4 0 1.6 4 3 1.6 0 3 1.6\n"}),
     [](const auto& info) { return std::string(info.param.name); });
 
 TEST(DiffuseGlances, EveryDirectionAddsUpToTheAnswer) {
   const Setting setting(
-      std::string(kClosedRoom) +
-          "void metal chrome 0 0 5 .9 .9 .9 1 0\nchrome sphere b 0 0 4 2 1.5 1.5 .5\n",
+      std::string(kClosedRoom) + "void metal chrome 0 0 5 .9 .9 .9 1 0\nchrome sphere b 0 0 4 2 1.5 1.5 .5\n",
       2);
   SphereOptions o = setting.options.sphere;
   o.baseDirections = 200;
@@ -181,8 +196,7 @@ TEST(DiffuseGlances, EveryDirectionAddsUpToTheAnswer) {
 TEST(PlainSurfaces, NameWhatTheyDoNotKnow) {
   const auto obstacle = [](const std::string& more, int bounces = 1) {
     const Setting setting(std::string(kClosedRoom) + more, bounces);
-    const char* const why =
-        PlainSurfaces(setting.transport->prepared()).obstacle();
+    const char* const why = PlainSurfaces(setting.transport->prepared()).obstacle();
     return std::string(why ? why : "none");
   };
   EXPECT_EQ(obstacle(""), "none");

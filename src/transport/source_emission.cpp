@@ -1,0 +1,116 @@
+#include "transport/source_emission.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+#include "transport/light_particles.h"
+#include "transport/tuning.h"
+
+namespace rsphere {
+namespace {
+
+using Tuning = tuning::SourceEmission;
+
+// A direction (unit), uniform within a cone of this solid angle (sr).
+V3d withinCone(const V3d& axis, double solidAngle, Random& random) {
+  const double height = 1 - random.uniform() * solidAngle / (2 * kPi), angle = 2 * kPi * random.uniform();
+  const double r = std::sqrt(std::max(0., 1 - height * height));
+  V3d x, y;
+  frame(axis, x, y);
+  return height * axis + r * (std::cos(angle) * x + std::sin(angle) * y);
+}
+
+}  // namespace
+
+SourceEmission::SourceEmission(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t paths)
+    : prepared_(prepared), surfaces_(surfaces) {
+  const Scene& scene = prepared.scene();
+  const auto& lights = prepared.lights().all();
+  senders_.resize(lights.size());
+  double sum = 0;
+  for (const LightId i : lights.ids()) {
+    Sender& s = senders_[i];
+    if (surfaces.knows(i) && !lights[i].isVirtual()) {
+      s.area = areaOf(scene.surfaces[lights[i].surface].shape, scene.vertices);
+      s.even = prepared.constantRadiance(i) && !lights[i].spot;
+      s.power = s.even ? powerOf(scene, lights[i], 0) : triedPower(i);
+    }
+    s.upTo = sum += s.power;
+  }
+  for (Sender& s : senders_) {
+    s.upTo = s.upTo < sum ? s.upTo / sum : 1;
+    if (s.power > 0) s.density = s.power / s.area * static_cast<double>(paths) / sum;
+  }
+  pathPower_ = sum / static_cast<double>(paths);
+}
+
+LightId SourceEmission::sourceAt(double share) const {
+  // 1 is beyond the last one.
+  const auto sender = std::upper_bound(senders_.begin(), senders_.end(), share,
+                                       [](double w, const Sender& s) { return w < s.upTo; });
+  return sender == senders_.end() ? LightId() : LightId(static_cast<size_t>(sender - senders_.begin()));
+}
+
+SourceEmission::Leaving SourceEmission::leave(LightId source, Random& random,
+                                              FunctionScratch& scratch) const {
+  const Sender& sender = senders_[source];
+  const int tries = sender.even ? 1 : Tuning::kTries;
+  Leaving chosen;
+  double sum = 0;
+  for (int i = 0; i < tries; ++i) {
+    const Way tried = way(source, random, scratch);
+    const double bright = std::max(0., brightness(tried.radiance)) * tried.weight;
+    sum += bright;
+    if (!(bright > 0) || (tries > 1 && random.uniform() * sum >= bright)) continue;
+    chosen = {tried.from, tried.direction,
+              Irradiance(tried.radiance.color * (pathPower_ / brightness(tried.radiance)))};
+  }
+  if (!sender.even) chosen.power = chosen.power * (kPi * sender.area * sum / (tries * sender.power));
+  return chosen;
+}
+
+SourceEmission::Way SourceEmission::way(LightId source, Random& random, FunctionScratch& scratch) const {
+  const Scene& scene = prepared_.scene();
+  const LightSource& light = prepared_.lights().all()[source];
+  Way way{samplePoint(scene.surfaces[light.surface].shape, scene.vertices, random)};
+  if (light.spot) {
+    way.direction = withinCone(light.spot->aim, light.spot->solidAngle, random);
+    way.weight = std::max(0., way.from.normal.dot(way.direction)) * light.spot->solidAngle / kPi;
+  } else {
+    way.direction = sentFrom(way.from.normal, random);
+  }
+  way.radiance = surfaces_.radianceOf(source, way.from.point, way.from.normal, -way.direction, scratch);
+  return way;
+}
+
+// The power of an uneven source, as far as tries show it: above 0, since they may miss some of it.
+double SourceEmission::triedPower(LightId source) const {
+  Random random(mixBits(source.index()));
+  FunctionScratch scratch;
+  double sum = 0;
+  for (int i = 0; i < Tuning::kTriesForPower; ++i) {
+    const Way tried = way(source, random, scratch);
+    sum += std::max(0., brightness(tried.radiance)) * tried.weight;
+  }
+  const Scene& scene = prepared_.scene();
+  const double plain =
+      brightness(sourceRadiance(scene, scene.surfaces[prepared_.lights().all()[source].surface]));
+  return kPi * senders_[source].area * (sum / Tuning::kTriesForPower + Tuning::kMissed * plain);
+}
+
+double SourceEmission::divergence(LightId source, double distance) const {
+  const auto& spot = prepared_.lights().all()[source].spot;
+  if (!spot) return 1;
+  const double nearer = distance / (distance + spot->focalLength);
+  return nearer * nearer;
+}
+
+LightId SourceEmission::imageOf(LightId source, SurfaceId mirror) const {
+  const auto& lights = prepared_.lights().all();
+  for (const LightId i : lights.ids())
+    if (lights[i].relayed == source && lights[i].surface == mirror) return i;
+  return kNone;
+}
+
+}  // namespace rsphere
