@@ -34,13 +34,13 @@ class Values {
 // What points of the scene's surfaces see, each surface as often as any other. Two paths are traced in each
 // direction to separate the noise of paths, which even directions do not reduce, from the variation with
 // direction, which they do.
-struct Surroundings {
-  double mean = 0;   // of the photopic radiance, W/sr/m2
-  double error = 1;  // Contrasts::surroundings
+struct TypicalView {
+  double mean = 0;       // of the photopic radiance, W/sr/m2
+  double baseError = 1;  // Contrasts::baseError
 };
-Surroundings measureSurroundings(const Scene& scene, const SeenSources& sources,
-                                 const SpectralSampling* sampling, PathTracer& tracer) {
-  Surroundings result;
+TypicalView measureTypicalView(const Scene& scene, const SeenSources& sources,
+                               const SpectralSampling* sampling, PathTracer& tracer) {
+  TypicalView result;
   Random random(mixBits(scene.outermost().size()));
   Values photopic;
   Values values;
@@ -70,7 +70,7 @@ Surroundings measureSurroundings(const Scene& scene, const SeenSources& sources,
   noise /= static_cast<double>(values.count());
   const double uneven = std::max(0., std::pow(values.deviation(), 2) - noise / 2);
   result.mean = photopic.mean();
-  result.error = std::sqrt(noise + Tuning::kUnevenShare * Tuning::kUnevenShare * uneven) / values.mean();
+  result.baseError = std::sqrt(noise + Tuning::kUnevenShare * Tuning::kUnevenShare * uneven) / values.mean();
   return result;
 }
 
@@ -106,8 +106,8 @@ Contrasts measureContrasts(const SphereTracing& tracing, std::span<const Special
   PathRequest request;
   request.vertexLight = tracing.vertexLight;
   if (!tracing.vertexLight)
-    contrasts.surroundings =
-        measureSurroundings(scene, sources, tracing.prepared.options().sampling, tracer).error;
+    contrasts.baseError =
+        measureTypicalView(scene, sources, tracing.prepared.options().sampling, tracer).baseError;
   if (alike.empty()) return contrasts;
   const size_t rays = std::clamp<size_t>(Tuning::kMostRays / alike.size(), 2, Tuning::kRaysPerModifier);
   for (const auto& [modifier, same] : alike) {
@@ -120,7 +120,7 @@ Contrasts measureContrasts(const SphereTracing& tracing, std::span<const Special
 double typicalRadiance(const SphereTracing& tracing, const SeenSources& sources) {
   PathTracer tracer = tracing.tracer();
   const PreparedScene& prepared = tracing.prepared;
-  return measureSurroundings(prepared.scene(), sources, prepared.options().sampling, tracer).mean;
+  return measureTypicalView(prepared.scene(), sources, prepared.options().sampling, tracer).mean;
 }
 
 }  // namespace rsphere

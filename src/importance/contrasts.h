@@ -19,7 +19,7 @@ struct Contrasts {
   std::vector<Object> objects;
   // The part of the standard deviation of brightness that is an error of one base direction, relative to the
   // mean brightness. 1 if it was not measured.
-  double surroundings = 1;
+  double baseError = 1;
 };
 
 // Measures the contrasts of the scene. Objects with the same modifier share one measurement. The result

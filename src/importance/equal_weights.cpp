@@ -6,7 +6,7 @@ SampledSet EqualWeights::sample(const SetAtPoint& set, PathTracer& tracer, Voron
   const std::vector<V3d> directions = set.turned(base_.directions);
   SampledSet sampled = traceEach(set, directions, base_.solidAngles, options_.everyDirection, tracer);
   if (base_.neighbours)
-    sampled.variance = evenVariance(sampled.samples, *base_.neighbours, {}, base_.sampling);
+    sampled.variance = evenVariance(sampled.samples, *base_.neighbours, base_.sampling);
   return sampled;
 }
 

@@ -11,16 +11,20 @@ namespace {
 
 using Tuning = tuning::ErrorEstimate;
 
+// The radiance that the error of a direction concerns: glances estimate the rest.
+Radiance unguessed(const DirectionSample& s) { return s.value - s.guess; }
+
 // Values minus the means of their neighbours.
 struct Differences {
   std::vector<Radiance> values;  // 0 where there is no neighbour
   std::vector<int> neighbours;   // how many there are
 };
 
-// The neighbours are those in the same region; if there are none there, all that count.
-Differences differences(std::span<const Radiance> values, const Neighbours& n,
-                        std::span<const RegionId> regions) {
-  const auto regionOf = [&](size_t i) { return regions.empty() ? RegionId{0} : regions[i]; };
+// Of values of the samples. The neighbours are those in the same region; if there are none there, all but
+// those in kNoRegion.
+Differences differences(std::span<const Radiance> values, std::span<const DirectionSample> samples,
+                        const Neighbours& n) {
+  const auto regionOf = [&](size_t i) { return samples[i].region; };
   Differences result{std::vector<Radiance>(values.size()), std::vector<int>(values.size())};
   for (size_t i = 0; i < values.size(); ++i) {
     if (regionOf(i) == kNoRegion) continue;
@@ -53,7 +57,7 @@ double ownPartOfSecond(double m) {
 // bounds: by their fourth moment, of brightness. If k of n directions find something small, it is 1.8 k.
 double sharing(std::span<const DirectionSample> samples, const SpectralSampling* sampling) {
   const auto partOf = [&](const DirectionSample& s) {
-    return photopicOf(irradianceFrom(s.value, s.solidAngle).color, sampling);
+    return photopicOf(irradianceFrom(unguessed(s), s.solidAngle).color, sampling);
   };
   const double n = static_cast<double>(samples.size());
   double mean = 0, second = 0, fourth = 0;
@@ -88,15 +92,15 @@ Variance sharedVariance(const SharedError& error, const SpectralSampling* sampli
 }
 
 Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours& n,
-                      std::span<const RegionId> regions, const SpectralSampling* sampling) {
+                      const SpectralSampling* sampling) {
   std::vector<Radiance> values(samples.size());
-  std::ranges::transform(samples, values.begin(), [](const DirectionSample& s) { return s.value; });
-  const Differences once = differences(values, n, regions), twice = differences(once.values, n, regions);
+  std::ranges::transform(samples, values.begin(), unguessed);
+  const Differences once = differences(values, samples, n), twice = differences(once.values, samples, n);
   Variance sum;
   for (size_t i = 0; i < samples.size(); ++i) {
     const double m = once.neighbours[i];
     if (m == 0) continue;
-    const bool second = m >= Tuning::kFewestAround, apart = !regions.empty() && regions[i] != 0;
+    const bool second = m >= Tuning::kFewestAround, apart = samples[i].region != 0;
     sum += Variance::of(irradianceFrom((second ? twice : once).values[i], samples[i].solidAngle), sampling) *
            ((second ? ownPartOfSecond(m) : m / (m + 1)) * (apart ? 1 : Tuning::kEvenSet));
   }
@@ -108,7 +112,7 @@ Variance spreadVariance(std::span<const DirectionSample> samples, const Spectral
   Irradiance sum;
   Variance squares;
   for (const DirectionSample& s : samples) {
-    const Irradiance part = irradianceFrom(s.value, s.solidAngle);
+    const Irradiance part = irradianceFrom(unguessed(s), s.solidAngle);
     sum += part;
     squares += Variance::of(part, sampling);
   }
@@ -120,31 +124,30 @@ Variance spreadVariance(std::span<const DirectionSample> samples, const Spectral
   return squares * (n / (n - 1) * even);
 }
 
-Variance loneVariance(const DirectionSample& sample, RegionId region, std::span<const DirectionSample> base,
-                      std::span<const RegionId> regions, const SpectralSampling* sampling) {
+Variance loneVariance(const DirectionSample& sample, std::span<const DirectionSample> base,
+                      const SpectralSampling* sampling) {
   Radiance sum;
   int count = 0;
-  for (size_t i = 0; i < base.size(); ++i) {
-    if (regions[i] != region) continue;
-    sum += base[i].value;
+  for (const DirectionSample& s : base) {
+    if (s.region != sample.region) continue;
+    sum += unguessed(s);
     ++count;
   }
-  if (count == 0) return Variance::of(irradianceFrom(sample.value, sample.solidAngle), sampling);
+  if (count == 0) return Variance::of(irradianceFrom(unguessed(sample), sample.solidAngle), sampling);
   const double own = static_cast<double>(count) / (count + 1);
-  return Variance::of(irradianceFrom(sample.value - sum / count, sample.solidAngle), sampling) * own;
+  return Variance::of(irradianceFrom(unguessed(sample) - sum / count, sample.solidAngle), sampling) * own;
 }
 
-Variance unseenVariance(std::span<const DirectionSample> samples, std::span<const RegionId> regions,
-                        const SpectralSampling* sampling) {
+Variance unseenVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling) {
   struct Found {
     Irradiance sum;
     int count = 0;
   };
   std::map<RegionId, Found> found;
-  for (size_t i = 0; i < samples.size(); ++i) {
-    if (regions[i] == 0 || regions[i] == kNoRegion) continue;
-    Found& here = found[regions[i]];
-    here.sum += irradianceFrom(samples[i].value, samples[i].solidAngle);
+  for (const DirectionSample& s : samples) {
+    if (s.region == 0 || s.region == kNoRegion) continue;
+    Found& here = found[s.region];
+    here.sum += irradianceFrom(s.value, s.solidAngle);
     ++here.count;
   }
   Variance sum;

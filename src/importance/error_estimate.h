@@ -1,6 +1,6 @@
 #pragma once
-// The variance of an estimate from one set of directions, computed from that set alone. sampling, throughout:
-// RayOptions::sampling.
+// The variance of an estimate from one set of directions, computed from that set alone. Guesses are
+// subtracted from the radiances, because glances estimate them. sampling, throughout: RayOptions::sampling.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -39,7 +39,7 @@ struct SharedError {
   void add(const SharedError& other, double share);
 };
 // Its variance, by the differences between the batches.
-Variance sharedVariance(const SharedError& error, const SpectralSampling* sampling = nullptr);
+Variance sharedVariance(const SharedError& error, const SpectralSampling* sampling);
 
 // The neighbours of each direction on the sphere: those of direction i are neighbour[first[i]] to
 // neighbour[first[i + 1] - 1].
@@ -52,36 +52,34 @@ struct Neighbours {
 // differences: noise of paths, and edges, but not light that slopes or bends smoothly, which an even set
 // integrates. An even set averages out a part of the edges, so that the sum is multiplied by
 // tuning::ErrorEstimate::kEvenSet. The factor is 1 in regions other than 0, where single directions find
-// much, such as a lamp that a chrome column mirrors. regions: of each direction; empty: all are in region 0.
-// Only neighbours in the same region are compared, if there are any: the edge of a region is no error,
-// because cells keep to regions. Directions in kNoRegion do not count.
+// much, such as a lamp that a chrome column mirrors. Only neighbours in the same region are compared, if there
+// are any: the edge of a region is no error, because cells keep to regions. Directions in kNoRegion are left
+// out.
 Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours& neighbours,
-                      std::span<const RegionId> regions, const SpectralSampling* sampling = nullptr);
+                      const SpectralSampling* sampling);
 
 // The same for a run of dynamic directions, which are evenly spread over a region in this order,
 // but successive ones are not neighbours: the variance of independent directions, reduced because
 // the directions are even, but not where few of them find much, such as a lamp that is mirrored twice.
-Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling = nullptr);
+Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling);
 
 // The same for a run of a single direction in a region: compared with the base directions in the same region.
-// regions: of each of base. If there are none, all of what it found is taken for the error.
-Variance loneVariance(const DirectionSample& sample, RegionId region, std::span<const DirectionSample> base,
-                      std::span<const RegionId> regions, const SpectralSampling* sampling = nullptr);
+// If there are none, all of what it found is taken for the error.
+Variance loneVariance(const DirectionSample& sample, std::span<const DirectionSample> base,
+                      const SpectralSampling* sampling);
 
 // The same for what no direction has found in regions other than 0: an obstacle that hides half of what one
 // more direction would represent, in each. Without it, the light of an opening to which few directions were
-// sent would be stated without error whenever all of them see the same sky.
-Variance unseenVariance(std::span<const DirectionSample> samples, std::span<const RegionId> regions,
-                        const SpectralSampling* sampling = nullptr);
+// sent would be stated without error whenever all of them see the same sky. An obstacle also hides what is
+// guessed.
+Variance unseenVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling);
 
 // The same for the samples of one image of a light source, in the order of its grid: from differences between
 // neighbouring cells, because an occluder hides cells that lie together.
-Variance partsVariance(std::span<const SeenSources::Sample> samples,
-                       const SpectralSampling* sampling = nullptr);
+Variance partsVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling);
 
 // The same for the choice of images that are sampled by chance, because there are more images than samples:
 // from differences between images that are chosen in succession. samples: of all images.
-Variance choiceVariance(std::span<const SeenSources::Sample> samples,
-                        const SpectralSampling* sampling = nullptr);
+Variance choiceVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling);
 
 }  // namespace rsphere

@@ -21,13 +21,12 @@ namespace {
 
 // Adds `excess` to the integral over the samples: in proportion to their guesses, or
 // evenly if all guesses are 0.
-void shareOut(const Irradiance& excess, std::span<const Radiance> guesses,
-              std::vector<DirectionSample>& samples) {
+void shareOut(const Irradiance& excess, std::vector<DirectionSample>& samples) {
   Irradiance guessed;
   double solidAngle = 0;
-  for (size_t i = 0; i < samples.size(); ++i) {
-    guessed += irradianceFrom(guesses[i], samples[i].solidAngle);
-    solidAngle += samples[i].solidAngle;
+  for (const DirectionSample& s : samples) {
+    guessed += irradianceFrom(s.guess, s.solidAngle);
+    solidAngle += s.solidAngle;
   }
   // Of one channel or band: those of the guess and of the excess.
   const auto scaleOf = [](double all, double more) { return all > 0 ? more / all : 0; };
@@ -38,7 +37,7 @@ void shareOut(const Irradiance& excess, std::span<const Radiance> guesses,
       combined(excess.color, guessed.color, [&](double e, double g) { return scaleOf(g, e); });
   const Color shift =
       combined(excess.color, guessed.color, [&](double e, double g) { return shiftOf(g, e); });
-  for (size_t i = 0; i < samples.size(); ++i) samples[i].value.color += scale * guesses[i].color + shift;
+  for (DirectionSample& s : samples) s.value.color += scale * s.guess.color + shift;
 }
 
 // Sets radiances to 0 that guesses have made negative, and reduces the others so that the
@@ -78,17 +77,18 @@ void append(std::vector<T>& all, std::vector<T>&& more) {
     all.insert(all.end(), more.begin(), more.end());
 }
 
-// All sets as one, each weighted by its share of the average. excess: average over the sets.
-SampledSet joined(std::vector<KeptSet> sets, const TwoHalves& halves, const Irradiance& excess) {
+// All sets as one, each weighted by its share of the average. excess: average over the sets; it is added to
+// the samples if every direction is printed.
+SampledSet joined(std::vector<KeptSet> sets, const TwoHalves& halves, const Irradiance& excess,
+                  bool everyDirection) {
   SampledSet all;
   for (KeptSet& kept : sets) {
     for (DirectionSample& s : kept.set.samples) s.solidAngle *= halves.share(kept.half);
     append(all.samples, std::move(kept.set.samples));
     append(all.rays, std::move(kept.set.rays));
-    append(all.guesses, std::move(kept.set.guesses));
   }
-  if (!all.guesses.empty()) {
-    shareOut(excess, all.guesses, all.samples);
+  if (everyDirection && !(excess.color == Color(0))) {
+    shareOut(excess, all.samples);
     keepPositive(all.samples);
   }
   return all;
@@ -98,18 +98,18 @@ SampledSet joined(std::vector<KeptSet> sets, const TwoHalves& halves, const Irra
 
 SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions& options, bool standardError)
     : options_(options),
-      base_(makeBaseSet(options, standardError || options.accuracy > 0)),
+      base_(makeBaseSet(options, transport.prepared().options().sampling,
+                        standardError || options.accuracy > 0)),
       sources_(transport.prepared()),
-      tracing_{transport.prepared(), transport.caches(), {}} {
+      tracing_{transport.prepared(), transport.caches()} {
   const PreparedScene& prepared = transport.prepared();
-  base_.sampling = prepared.options().sampling;
   if (options.weights != Weights::homogeneous)
     special_ = findSpecialObjects(prepared.scene(), options.densityFactor);
   if (options.weights == Weights::silhouettes && options.densityFactor > 0) {
     glances_ = DiffuseGlances::make(prepared, options, base_);
     if (glances_) tracing_.vertexLight = &glances_->light(0);
-    if (!glances_) aims_ = findAimsOfPoints(prepared, transport.aims());
-    tracing_.aims = joined(transport.aims(), aims_);
+    if (!glances_) tracing_.ofPoints = findAimsOfPoints(prepared, transport.aims());
+    tracing_.aims = joined(transport.aims(), tracing_.ofPoints);
     // Bright spots show that light is uneven. Openings and light vertices have other means.
     if (!glances_ && tracing_.aims.spots && !tracing_.aims.openings) {
       auto patches = std::make_unique<LightPatches>(prepared);
@@ -187,7 +187,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
     shared.add(halves[k].shared, share);
   }
   variance += sharedVariance(shared, base_.sampling);
-  SampledSet all = joined(std::move(kept), decision, excess);
+  SampledSet all = joined(std::move(kept), decision, excess, options_.everyDirection);
   workspace.samples = std::move(all.samples);
   workspace.rays = std::move(all.rays);
   PointAnswer answer = moments.answer(point, directions);

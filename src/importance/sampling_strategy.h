@@ -39,16 +39,15 @@ class SetAtPoint {
 // The directions of one set, traced and weighted.
 struct SampledSet {
   std::vector<DirectionSample> samples;
-  std::vector<TracedRay> rays;    // of the samples, in the same order; kept with -Sd only
-  std::vector<Radiance> guesses;  // of the samples' radiances (radiance_guess.h); empty: none
-  Moments excess;         // what glances have found beyond the guesses along the samples; 0 without glances
+  std::vector<TracedRay> rays;  // of the samples, in the same order; kept with -Sd only
+  Moments excess;         // what glances have found beyond the guesses of the samples; 0 without glances
   Irradiance clamped;     // what -Sf took from moments().total
   Variance variance;      // of moments().total; 0 unless standard errors are wanted
   SharedError shared;     // in addition to variance
   size_t litGlances = 0;  // that found light besides the samples (diffuse_glances.h)
 
   // The set's estimate of the integrals over all directions.
-  Moments moments(const SpectralSampling* sampling = nullptr) const;  // RayOptions::sampling
+  Moments moments(const SpectralSampling* sampling) const;  // RayOptions::sampling
 };
 
 // Traces each direction once and gives it its solid angle (sr). The random numbers of direction i

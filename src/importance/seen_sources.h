@@ -3,6 +3,7 @@
 // and their places are known, so they are integrated separately instead of being met by chance. Every
 // direction belongs to one of two classes: either it shows such an image, perhaps through panes, or it does
 // not. This file samples the first class. The other directions of a set leave that class out.
+#include <optional>
 #include <vector>
 
 #include "importance/direction_sample.h"
@@ -68,14 +69,23 @@ class SeenSources {
   std::vector<Sample> sample(const PathsFrom& paths, const std::vector<Image>& images, uint64_t seed) const;
 
  private:
+  // The rays that one image gets, and the solid angle that they represent if the source fills its region.
+  struct Share {
+    size_t rays = 0;
+    double solidAngle = 0;  // sr
+  };
+  // A cell of the grid on an image, and the random numbers of its sample.
   struct Cell {
     size_t row = 0, column = 0, rows = 1, columns = 1;
+    Random& random;
   };
   void addMirrored(const V3d& point, std::vector<Image>& images) const;
-  void sampleImage(const PathsFrom& paths, const Image& image, size_t rays, double solidAngle, uint64_t seed,
-                   std::vector<Sample>& samples) const;
-  void sampleCell(const PathsFrom& paths, const Image& image, const Cell& cell, Random& random,
-                  std::vector<Sample>& samples) const;
+  std::vector<Sample> sampleImage(const PathsFrom& paths, const Image& image, const Share& share,
+                                  uint64_t seed) const;
+  double filledShare(const Image& image, const V3d& eye, Random& random) const;
+  // Empty if the cell shows nothing of the source.
+  std::optional<Sample> sampleStraight(const PathsFrom& paths, const Image& image, const Cell& cell) const;
+  std::optional<Sample> sampleMirrored(const PathsFrom& paths, const Image& image, const Cell& cell) const;
 
   const PreparedScene& prepared_;
   ById<SurfaceId, bool> apart_;

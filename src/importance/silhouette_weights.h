@@ -47,7 +47,7 @@ class SilhouetteWeights : public SamplingStrategy {
  private:
   using Images = std::vector<SeenSources::Image>;
 
-  // The means to reduce the variance of light that does not come directly from sources.
+  // Means to reduce the variance of light that does not come directly from sources.
   struct Guidance {
     TargetChoice targets;
     RadianceGuess guess;
@@ -57,43 +57,49 @@ class SilhouetteWeights : public SamplingStrategy {
     const LightPatches* patches;  // null where light is even
   };
 
-  // Findings of separate rays around a point that show no image of a light source.
-  struct Surroundings {
-    std::vector<RadianceGuess::Traced> traced;
-    double meanBrightness = 0;  // W/sr/m2
+  // Stage 1: what is known of the view from a point before directions are chosen.
+  struct View {
+    Images images;              // of sources that are integrated separately
+    double meanBrightness = 0;  // that other directions find, W/sr/m2
+    std::optional<LocalGuess> guess;
+    DiffuseGlances::Found glanced;  // 0 where glances do not find all of the light of diffuse surfaces
   };
+  View viewFrom(const SetAtPoint& set, PathTracer& tracer) const;
+  // Rays whose radiances are used for nothing else. guess is set.
+  void lookAround(const SetAtPoint& set, PathTracer& tracer, View& view) const;
 
-  // The directions that are not sent to images of light sources.
-  struct Others {
-    std::vector<DirectionSample> samples;  // the base directions, then those to targets
-    std::vector<TracedRay> rays;           // of the samples, with -Sd only
-    std::vector<Radiance> guesses;         // of the samples; empty: nothing is guessed
-    // kNoRegion: the sample shows an image of a light source, which has its own samples; its solid angle,
-    // radiance and guess are then 0.
-    std::vector<RegionId> regions;
-    // The first sample of each target, or of all parts of one image; then the first that the guide has sent.
-    std::vector<size_t> runs;
-  };
+  // Stage 2: the directions that are not sent to images of sources.
+  struct Plan {
+    Targets targets{std::vector<Target>()};
+    std::optional<DirectionGuide> guide;
+    size_t guided = 0;  // directions that the guide sends
+    // The base directions, a run for each target or for all parts of one image, and those of the guide.
+    std::vector<V3d> directions;
+    std::vector<size_t> runs;  // where each run begins, then where those of the guide begin
+    double solidAngle = 0;     // that all of them represent together, sr
 
-  // The steps of sample(), in this order. Each takes values of those before it.
-  PathRequest requestFor(const SetAtPoint& set, const std::optional<LocalGuess>& guess) const;
-  Surroundings lookAround(const SetAtPoint& set, const Images& images, const PathsFrom& paths) const;
-  LocalGuess fitGuess(const SetAtPoint& set, const Surroundings& around) const;
-  // solidAngle: that all of them represent together, sr. guess: null if nothing is guessed.
-  // guided: directions that the guide sends; null: none.
-  Others sampleOthers(const SetAtPoint& set, const Images& images, const Targets& targets, double solidAngle,
-                      const LocalGuess* guess, const DirectionGuide* guide, size_t guided,
-                      const PathsFrom& paths) const;
-  // Adds what glances find to the set.
-  void addGlances(DiffuseGlances::Found found, const Others& others, SampledSet& sampled) const;
-  // The moments of the guess by glances, minus those by the directions.
-  struct Excess {
-    Moments moments;
-    Variance variance;  // of the glances; 0 unless standard errors are wanted
+    double guidedDensity(const V3d& direction) const;  // of directions that the guide sends, per sr
   };
-  Excess excessOfGlances(const SetAtPoint& set, const Others& others, const LocalGuess& guess,
-                         const DirectionGuide* guide) const;
-  Variance varianceOf(const Others& others, std::span<const SeenSources::Sample> toImages) const;
+  Plan planFor(const SetAtPoint& set, const View& view, std::span<const SeenSources::Sample> toImages) const;
+  // Sets directions and runs.
+  void chooseDirections(const SetAtPoint& set, Plan& plan) const;
+
+  // Stage 3: traces and weights the directions of the plan. Those that show an image of a light source, which
+  // has samples of its own, are in kNoRegion; their solid angle, radiance and guess are 0.
+  SampledSet traced(const SetAtPoint& set, const View& view, const Plan& plan, const PathsFrom& paths) const;
+  // The part of the light along direction number i that glances estimate.
+  Radiance guessAlong(const SetAtPoint& set, const View& view, size_t i, const V3d& direction,
+                      const TracedRay& ray) const;
+
+  // Stage 4: what glances find, minus the guesses of the directions.
+  DiffuseGlances::Found beyondGuesses(const SetAtPoint& set, const View& view, const Plan& plan,
+                                      std::span<const DirectionSample> others) const;
+  void addGlances(const SetAtPoint& set, const LocalGuess& guess, const Plan& plan,
+                  DiffuseGlances::Found& found) const;
+
+  // Stage 5: the variance of both kinds of directions, without that of glances.
+  Variance varianceOf(std::span<const DirectionSample> others, std::span<const size_t> runs,
+                      std::span<const SeenSources::Sample> toImages) const;
 
   const SphereOptions& options_;
   const BaseSet& base_;

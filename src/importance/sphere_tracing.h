@@ -7,8 +7,9 @@ namespace rsphere {
 struct SphereTracing {
   const PreparedScene& prepared;
   const Caches& caches;
-  Aims aims;  // of indirect rays
+  Aims aims{};                               // of indirect rays
   const VertexLight* vertexLight = nullptr;  // PathRequest::vertexLight
+  FoundAims ofPoints{};                      // those of `aims` that gathers have not looked for
 
   // Each thread needs its own.
   PathTracer tracer() const {

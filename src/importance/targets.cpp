@@ -127,7 +127,7 @@ TargetChoice::TargetChoice(const SphereTracing& tracing, std::span<const Special
 Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDirections, size_t most) const {
   std::vector<Target> targets;
   if (most == 0) return Targets({});
-  const double usual = contrasts_.surroundings * meanBrightness;
+  const double usual = contrasts_.baseError * meanBrightness;
   const double baseDensity = static_cast<double>(baseDirections) / kFullSphere;
   double sum = 0;
   // opening: mean radiance of the daylight that it may show, W/sr/m2; 0: it is no opening.

@@ -123,8 +123,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(DiffuseGlances, EveryDirectionAddsUpToTheAnswer) {
   const Setting setting(
-      std::string(kClosedRoom) +
-          "void metal chrome 0 0 5 .9 .9 .9 1 0\nchrome sphere b 0 0 4 2 1.5 1.5 .5\n",
+      std::string(kClosedRoom) + "void metal chrome 0 0 5 .9 .9 .9 1 0\nchrome sphere b 0 0 4 2 1.5 1.5 .5\n",
       2);
   SphereOptions o = setting.options.sphere;
   o.baseDirections = 200;
@@ -159,11 +158,9 @@ TEST(PlainSurfaces, NameWhatTheyDoNotKnow) {
             "sources that take light away");
   EXPECT_EQ(obstacle("void trans t 0 0 7 .5 .5 .5 0 0 .5 0\nt polygon q 0 0 9 1 1 1 2 1 1 2 2 1\n"),
             "surfaces that are not plain");
-  EXPECT_EQ(
-      obstacle(
-          "void brightfunc f 2 1+Px/10 . 0 0\nf plastic t 0 0 5 .5 .5 .5 0 0\n"
-          "t polygon q 0 0 9 1 1 1 2 1 1 2 2 1\n"),
-      "surfaces that are not plain");
+  EXPECT_EQ(obstacle("void brightfunc f 2 1+Px/10 . 0 0\nf plastic t 0 0 5 .5 .5 .5 0 0\n"
+                     "t polygon q 0 0 9 1 1 1 2 1 1 2 2 1\n"),
+            "surfaces that are not plain");
   EXPECT_EQ(obstacle("void mirror m 0 0 3 1 1 1\nm polygon q 0 0 9 1 1 1 2 1 1 2 2 1\n"),
             "mirrors or distant sources");
   EXPECT_EQ(obstacle("lamp source sun 0 0 4 0 0 1 .5\n"), "distant sources");
@@ -204,12 +201,12 @@ TEST(SharedError, IsTheSpreadOfBatchesBeyondTheirChoice) {
   SharedError error;
   for (const double v : {1., 3., 1., 3.}) error.batches.emplace_back(v);
   // Four batches, each 1 away from the mean: 4 / 3 each if the mean is taken from them.
-  EXPECT_NEAR(sharedVariance(error).brightness, 4 * 4. / 3, 1e-12);
+  EXPECT_NEAR(sharedVariance(error, nullptr).brightness, 4 * 4. / 3, 1e-12);
   error.chosen.brightness = 2;
-  EXPECT_NEAR(sharedVariance(error).brightness, 16. / 3 - 2, 1e-12);
+  EXPECT_NEAR(sharedVariance(error, nullptr).brightness, 16. / 3 - 2, 1e-12);
   error.chosen.brightness = 100;
-  EXPECT_EQ(sharedVariance(error).brightness, 0);
-  EXPECT_EQ(sharedVariance({}).brightness, 0);
+  EXPECT_EQ(sharedVariance(error, nullptr).brightness, 0);
+  EXPECT_EQ(sharedVariance({}, nullptr).brightness, 0);
   // Two sets with the same vertices are not better than one; with others they are.
   SharedError same, other, twice, two;
   for (const double v : {1., 3., 1., 3.}) same.batches.emplace_back(v);
@@ -218,8 +215,8 @@ TEST(SharedError, IsTheSpreadOfBatchesBeyondTheirChoice) {
   twice.add(same, .5);
   two.add(same, .5);
   two.add(other, .5);
-  EXPECT_NEAR(sharedVariance(twice).brightness, sharedVariance(same).brightness, 1e-12);
-  EXPECT_NEAR(sharedVariance(two).brightness, sharedVariance(same).brightness / 2, 1e-12);
+  EXPECT_NEAR(sharedVariance(twice, nullptr).brightness, sharedVariance(same, nullptr).brightness, 1e-12);
+  EXPECT_NEAR(sharedVariance(two, nullptr).brightness, sharedVariance(same, nullptr).brightness / 2, 1e-12);
 }
 
 }  // namespace
