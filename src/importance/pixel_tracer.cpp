@@ -30,7 +30,8 @@ PixelTracer::PixelTracer(const V3d& point, const Transport& transport)
     : point_(point),
       prepared_(transport.prepared()),
       tracer_(transport.pathTracer({FirstBounce::gathered})),
-      separates_(isBlack(prepared_.medium().extinction) && prepared_.scatterers().empty()) {}
+      separates_(isBlack(prepared_.options().medium().extinction) &&
+                 prepared_.lights().ofMists().all().empty()) {}
 
 PixelSample PixelTracer::trace(const V3d& direction, uint64_t seed, PixelParts parts) {
   if (!separates_) parts = PixelParts::all;

@@ -27,7 +27,7 @@ class BrightSpots {
   BrightSpots(const Scene& scene, const Tracer& tracer, const LightSources& lights,
               const Openings* openings = nullptr);
 
-  bool empty() const { return count_ == 0; }
+  bool empty() const { return spots_.count == 0; }
   // The mean brightness (W/sr/m2) of all surfaces that are lit by the sources of the spots.
   double usual() const { return usual_; }
   static constexpr size_t kRoom = tuning::Caps::kAimedRoom;
@@ -80,13 +80,16 @@ class BrightSpots {
                          double leastWorth);
   void keep(const Spot& spot);
 
-  std::vector<Sunlit> sunlit_;
   // The spots, as a structure of arrays.
-  using Numbers = std::array<float, kRoom>;
-  size_t count_ = 0;
-  double usual_ = 0;     // of those that were found first
-  V3d origin_{0, 0, 0};  // origin of the coordinates of the centers
-  Numbers x_{}, y_{}, z_{}, normalX_{}, normalY_{}, normalZ_{}, radius_{}, anyway_{}, power_{};
+  struct Spots {
+    using Numbers = std::array<float, kRoom>;
+    size_t count = 0;
+    V3d origin{0, 0, 0};  // origin of the coordinates of the centers
+    Numbers x{}, y{}, z{}, normalX{}, normalY{}, normalZ{}, radius{}, anyway{}, power{};
+  };
+  Spots spots_;
+  double usual_ = 0;  // of the spots that were found first
+  std::vector<Sunlit> sunlit_;
 };
 
 }  // namespace rsphere

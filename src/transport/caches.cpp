@@ -52,7 +52,7 @@ Caches makeCaches(const PreparedScene& prepared, const Aims& aims, const rad::Wa
   const RayOptions& o = prepared.options();
   Caches caches;
   caches.aims = aims;
-  if (!prepared.hasIndirectLight() || !(o.ambientAccuracy > 0)) return caches;
+  if (!prepared.options().hasIndirectLight() || !(o.ambientAccuracy > 0)) return caches;
   const Scene& scene = prepared.scene();
   const Box3d& bounds = prepared.tracer().bounds();
   caches.field = std::make_unique<IrradianceField>(scene, bounds, fieldOptions(o));

@@ -21,7 +21,7 @@ struct Root {
   RayEnd end{query, context};
 
   Root(const PreparedScene& prepared, const GatherSite& site, int depth) {
-    context.space.medium = prepared.medium();
+    context.space.medium = prepared.options().medium();
     context.depth = depth;
     end.hit.point = site.point;
     end.hit.normal = site.normal;

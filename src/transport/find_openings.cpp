@@ -119,7 +119,7 @@ std::vector<Opening> panesOf(const PreparedScene& prepared, double leastArea) {
 // Holes in walls without panes. Without distant sources there is no sky to see through them.
 std::vector<Opening> doorsOf(const PreparedScene& prepared, double leastArea) {
   std::vector<Opening> doors;
-  if (prepared.distant().empty()) return doors;
+  if (prepared.lights().distant().empty()) return doors;
   const Scene& scene = prepared.scene();
   const auto isWall = [&](const Surface& surface) {
     const Material* material = scene.materialOf(surface);

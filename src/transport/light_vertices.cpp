@@ -122,7 +122,7 @@ void LightVertices::Path::send(double where) {
   origin_ = from.point + 2 * kSamePlace * from.normal;
   direction_ = sentFrom(from.normal, random_);
   cosineAtSource_ = from.normal.dot(direction_);
-  const Radiance& radiance = *prepared.constantRadiance(light_);
+  const Radiance& radiance = *prepared.lights().constantRadiance(light_);
   power_ = Irradiance(radiance.color * (all_.pathPower_ / brightness(radiance)));
   way_ = all_.aimedDensity(light_, 1, 1) > 0 ? LightVertex::direct : LightVertex::unweighed;
   for (int hits = 0; hits < Tuning::kMostHits; ++hits) {
@@ -210,7 +210,7 @@ void LightVertices::Path::addVisible(const PlainPlace& at, double reflected) {
   if (!(reflected > 0) && !(direct && hasRoughHighlight(*at.material))) return;
   double shadowRays = 0;
   if (direct) {
-    const double sum = all_.prepared_.choice().weigh(at.point, at.normal, weights_);
+    const double sum = all_.prepared_.lights().choice().weigh(at.point, at.normal, weights_);
     SourceSample same;
     same.direction = -direction_;
     same.distance = length_;

@@ -34,13 +34,13 @@ bool changeNothing(const RayOptions& o) {
 const char* obstacleOfSources(const PreparedScene& prepared) {
   const auto& lights = prepared.lights().all();
   if (lights.empty()) return "no sources";
-  if (!prepared.distant().empty()) return "distant sources";
+  if (!prepared.lights().distant().empty()) return "distant sources";
   for (const LightId i : lights.ids()) {
     const LightSource& light = lights[i];
     if (light.isVirtual() || light.isDistant()) return "mirrors or distant sources";
     if (light.reach > 0 || light.spot) return "sources with a reach or a cone";
     if (!light.hitsWhereAimed && !light.as<TubeLight>()) return "sources that samples may miss";
-    const Radiance* const radiance = prepared.constantRadiance(i);
+    const Radiance* const radiance = prepared.lights().constantRadiance(i);
     if (!radiance) return "sources with patterns";
     if (minChannel(radiance->color) < 0) return "sources that take light away";
   }
@@ -85,7 +85,7 @@ const char* PlainSurfaces::obstacle(const PreparedScene& prepared) const {
     const bool lamp = holds<Light>(scene_.materialAt(surface.material));
     if (!lamp && !materialOf(i) && !paneOf(i) && !mirrorOf(i)) return "surfaces that are not plain";
     const bool shines = scene_.importance ? surface.goal : lamp;
-    if (shines && prepared.lightOf(i) == kNone && !isBlack(sourceRadiance(scene_, surface)))
+    if (shines && prepared.lights().of(i) == kNone && !isBlack(sourceRadiance(scene_, surface)))
       return "sources that samples cannot be aimed at";
   }
   return nullptr;

@@ -12,7 +12,7 @@
 
 namespace rsphere {
 
-// Light sources whose light is scattered into a ray, as positions in PreparedScene::scatterers(). Unused
+// Light sources whose light is scattered into a ray, as positions in MistSources::all(). Unused
 // elements are neither set nor copied.
 struct ScatteringSources {
   static constexpr size_t kMost = 32;  // the limit in RADIANCE
@@ -93,6 +93,8 @@ struct SurfaceHit {
   double cosine = 1;        // -normal . direction; negative for a hit from behind until it is turned round
   bool fromBehind = false;  // normal, cosine and perturbation were flipped because of a hit from behind
   bool insideOut = false;   // they were flipped at a cut by antimatter, whose front is the inside
+  // Begins with that of a smooth mesh. Apart from turning it round, only applying a modifier changes it, and
+  // only that changes the pattern, which meters (-i) ignore (SurfaceShading).
   V3d perturbation{0, 0, 0};
   Color pattern{1, 1, 1};
 };

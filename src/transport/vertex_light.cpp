@@ -80,7 +80,7 @@ void VertexLight::Record::add(uint8_t batch, const Irradiance& part, double notC
 VertexLight::Chosen VertexLight::chooseSource(const PlainPlace& at, double finest, Random& random,
                                               Scratch& scratch) const {
   auto& weights = scratch.weights;
-  const double sum = prepared_.choice().weigh(at.point, at.normal, weights);
+  const double sum = prepared_.lights().choice().weigh(at.point, at.normal, weights);
   const size_t source = chooseOne(
       weights.size(), sum, [&](size_t i) { return weights[LightId(i)]; }, random);
   if (source == weights.size()) return {};
@@ -123,7 +123,7 @@ Radiance VertexLight::directOf(const PlainPlace& at, const Seen& seen, Random& r
   const double over =
       seen.density > 0 ? vertices_.shadowRaysOver(to.sample, at.normal, to.probability) * seen.density : 0;
   const double share = over > 0 ? over / (over + seen.joined) : 1;
-  return *prepared_.constantRadiance(to.sample.source) * passed *
+  return *prepared_.lights().constantRadiance(to.sample.source) * passed *
          shownOfSource(at, seen.view, to.sample.direction, to.sample.solidAngle) * (share / to.probability);
 }
 
@@ -132,7 +132,7 @@ Radiance VertexLight::directAt(const PlainPlace& at, Random& random, Scratch& sc
   const Chosen to = chooseSource(at, prepared_.options().sourceSubstructuring, random, scratch);
   if (!(to.probability > 0)) return {};
   const double cosine = at.normal.dot(to.sample.direction);
-  return *prepared_.constantRadiance(to.sample.source) * arriving(at, to.sample) *
+  return *prepared_.lights().constantRadiance(to.sample.source) * arriving(at, to.sample) *
          (enteringShare(*at.material, cosine) * cosine * to.sample.solidAngle / (kPi * to.probability));
 }
 
