@@ -28,7 +28,7 @@ void shareOut(const Irradiance& excess, std::vector<DirectionSample>& samples) {
     guessed += irradianceFrom(s.guess, s.solidAngle);
     solidAngle += s.solidAngle;
   }
-  // Of one channel or band: those of the guess and of the excess.
+  // For one channel or band. all: of the guesses; more: of the excess.
   const auto scaleOf = [](double all, double more) { return all > 0 ? more / all : 0; };
   const auto shiftOf = [&](double all, double more) {
     return all > 0 || !(solidAngle > 0) ? 0 : more / solidAngle;
@@ -110,7 +110,8 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
     if (glances_) tracing_.vertexLight = &glances_->light(0);
     if (!glances_) tracing_.ofPoints = findAimsOfPoints(prepared, transport.aims());
     tracing_.aims = joined(transport.aims(), tracing_.ofPoints);
-    // Bright spots show that light is uneven. Openings and light vertices have other means.
+    // Patches are only for scenes where bright spots make light uneven. Openings, and light from both ends,
+    // do without.
     if (!glances_ && tracing_.aims.spots && !tracing_.aims.openings) {
       auto patches = std::make_unique<LightPatches>(prepared);
       if (!patches->all().empty()) patches_ = std::move(patches);
@@ -118,7 +119,7 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
   }
   strategy_ = makeStrategy();
   if (options.accuracy > 0)
-    dark_ = 4 * std::numbers::pi * tuning::Dark::kMean * typicalRadiance(tracing_, sources_);
+    dark_ = 4 * std::numbers::pi * tuning::Dark::kShare * typicalRadiance(tracing_, sources_);
 }
 
 std::unique_ptr<const SamplingStrategy> SphereEstimator::makeStrategy() const {
@@ -137,11 +138,11 @@ std::unique_ptr<const SamplingStrategy> SphereEstimator::makeStrategy() const {
 SphereEstimator::Workspace::Workspace(const SphereEstimator& estimator)
     : tracer(estimator.tracing_.tracer()) {}
 
-// lit: directions that found light. Sources are found by directions of their own with -Sw c alone.
+// lit: directions that found light. Only with -Sw c do sources have directions of their own.
 bool SphereEstimator::isDark(const PointAnswer& answer, size_t lit) const {
   if (maxChannel(answer.mean.color) == 0) return true;
   return options_.weights == Weights::silhouettes &&
-         static_cast<double>(lit) < tuning::Dark::kLitDirections * static_cast<double>(answer.directions);
+         static_cast<double>(lit) < tuning::Dark::kShare * static_cast<double>(answer.directions);
 }
 
 PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) const {

@@ -71,7 +71,6 @@ class SphereEstimator {
   BaseSet base_;
   SeenSources sources_;
   std::vector<SpecialObject> special_;             // none with -Sw h
-  FoundAims aims_;                                 // in addition to those of gathers
   std::unique_ptr<const LightPatches> patches_;    // null where light is even
   std::unique_ptr<const DiffuseGlances> glances_;  // null where light vertices do not bring all of the light
   SphereTracing tracing_;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/overloaded.h"
+#include "importance/special_objects.h"
 #include "importance/tuning.h"
 #include "scene/even_sequence.h"
 
@@ -15,8 +16,8 @@ namespace {
 using std::numbers::pi;
 using Tuning = tuning::SeenSources;
 
-// The fraction of light that a plane surface mirrors without any blur at this cosine of incidence: colors of
-// metals do not count, and panes mirror by both boundaries. 0: it never does.
+// The fraction of light that a plane surface mirrors without any blur at this cosine of incidence, regardless
+// of the color of metals. Both boundaries of panes mirror. 0: the surface never does.
 double sharpReflectance(const Material& material, double cosine = 1) {
   const auto mirrored = mirrorReflection(material);
   if (!mirrored) return 0;
@@ -84,7 +85,8 @@ V3d eyeOf(const Scene& scene, const Image& image, const V3d& point) {
   return image.mirror == kNone ? point : Plane(scene.surfaces[image.mirror].shape).mirrored(point);
 }
 
-// expected: what the ray shows if nothing hides the image. The solid angle is 1 then, or else 0.
+// expected: what the ray shows if nothing hides the image. The solid angle becomes 1 if the ray shows that, 0
+// otherwise; it is scaled later.
 void setRay(SeenSources::Sample& sample, const TracedRay& ray, const ShownSource& expected) {
   sample.ray = ray;
   sample.direction.toSource = true;
@@ -117,7 +119,7 @@ SeenSources::SeenSources(const PreparedScene& prepared) : prepared_(prepared) {
   }
   std::sort(mirrors.begin(), mirrors.end());
   for (const auto& [area, surface] : mirrors)
-    if ((mirrors_.size() + 1) * sources_.size() <= Tuning::kMostMirrored) mirrors_.push_back(surface);
+    if ((mirrors_.size() + 1) * sources_.size() <= kMostPlacedObjects) mirrors_.push_back(surface);
 }
 
 bool SeenSources::isOne(const ShownSource& s, const std::vector<Image>& images) const {
@@ -161,12 +163,12 @@ std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t
     Image& image = images[i];
     const double enough =
         std::max({Tuning::kUsualRays, image.solidAngle / (Tuning::kSmallestPart * Tuning::kSmallestPart),
-                  Tuning::kOfEvenShare * static_cast<double>(most) / static_cast<double>(images.size())});
+                  Tuning::kSmallShare * static_cast<double>(most) / static_cast<double>(images.size())});
     image.rays = std::min(image.rays / sum * static_cast<double>(most), enough);
     if (i < straight && straight <= most) image.rays = std::max(image.rays, 1.);
   }
   images.erase(std::remove_if(images.begin() + straight, images.end(),
-                              [](const Image& i) { return i.rays < Tuning::kFewestRays; }),
+                              [](const Image& i) { return i.rays < Tuning::kSmallShare; }),
                images.end());
   return images;
 }
@@ -214,7 +216,7 @@ std::vector<SeenSources::Sample> SeenSources::sample(const PathsFrom& paths, con
                                                      uint64_t seed) const {
   std::vector<Sample> samples;
   Random random(seed);
-  // Of the images with less than one ray, some are sampled, with the weight of the others.
+  // Some of the images with less than one ray are sampled, and represent the others.
   double due = random.uniform();
   for (size_t i = 0; i < images.size(); ++i) {
     const Image& image = images[i];
@@ -251,7 +253,7 @@ std::vector<SeenSources::Sample> SeenSources::sampleImage(const PathsFrom& paths
           image.mirror == kNone ? sampleStraight(paths, image, cell) : sampleMirrored(paths, image, cell);
       if (s) samples.push_back(std::move(*s));
     }
-  // The known solid angle of the whole is divided among the samples that met the source.
+  // The solid angle of the image is known; it is divided among the samples that met the source.
   int aimed = 0;
   for (const Sample& s : samples) aimed += s.aimed;
   const double each = share.solidAngle * filled / std::max(1, aimed);
@@ -305,9 +307,9 @@ std::optional<SeenSources::Sample> SeenSources::sampleStraight(const PathsFrom& 
   s.aimed = s.clear = 0;
   ShapeHit on, chosen{0, V3d(0, 0, 0), 0};
   for (size_t i = 0; i < Tuning::kShadowsAlong; ++i)
-    for (size_t k = 0; k < Tuning::kShadowsAcross; ++k) {
+    for (size_t k = 0; k < Tuning::kShadowsAlong; ++k) {
       const double u = (cell.row + (i + cell.random.uniform()) / Tuning::kShadowsAlong) / cell.rows,
-                   v = (cell.column + (k + cell.random.uniform()) / Tuning::kShadowsAcross) / cell.columns;
+                   v = (cell.column + (k + cell.random.uniform()) / Tuning::kShadowsAlong) / cell.columns;
       const V3d direction = image.region.sample(u, v);
       const double lot = cell.random.uniform();
       if (!hits(prepared_.scene(), shape, point, direction, on) || !(on.cosine > 0)) continue;

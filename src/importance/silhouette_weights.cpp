@@ -26,7 +26,7 @@ enum class Stream : uint64_t {
   guess = 4,
   guide = 5,
   guidedGlances = 6,
-  firstRay = 16,  // of the base and dynamic directions; those after it belong to the next rays
+  firstRay = 16,  // of the first direction; the following numbers belong to the next directions
 };
 
 uint64_t seedOf(const SetAtPoint& set, Stream stream, uint64_t number = 0) {
@@ -48,7 +48,8 @@ ById<SurfaceId, bool> unguessedSurfaces(const SeenSources& sources) {
 
 // beside: the directions that -Sx allows besides the base directions.
 size_t raysToImages(size_t base, size_t beside, bool glances) {
-  const size_t usual = std::max(base / Tuning::kBaseDirectionsPerRayToImages, Tuning::kLeastRaysToImages);
+  const size_t usual = std::max(base / Tuning::kBaseDirectionsPerRayToImages,
+                                static_cast<size_t>(tuning::SeenSources::kUsualRays));
   return glances ? std::max(usual, std::min(tuning::DiffuseGlances::kRaysToImages * base, beside / 2))
                  : usual;
 }
@@ -60,7 +61,7 @@ std::vector<V3d> glancesFor(const SphereOptions& options) {
   return rotatedDirections(baseDirections(glances), options.rotation);
 }
 
-// One set of both kinds of directions.
+// Directions to images of sources, followed by the others, as one set.
 SampledSet joined(std::span<const SeenSources::Sample> toImages, const SampledSet& others, bool keepRays) {
   SampledSet all;
   all.samples.reserve(toImages.size() + others.samples.size());
@@ -210,7 +211,7 @@ SampledSet SilhouetteWeights::traced(const SetAtPoint& set, const View& view, co
     const Targets::Region region = plan.targets.regionAt(direction);
     const TracedRay ray = paths.trace(direction, seedOf(set, Stream::firstRay, i));
     const bool enters = !sources_.isOne(ray.shown, view.images);
-    // The solid angle of each is the inverse of the density of all directions around it.
+    // The solid angle of each direction is the inverse of the density of directions around it.
     const double baseCell = i < base_.solidAngles.size() ? base_.solidAngles[i] : averageCell;
     const double density = 1 / baseCell + region.density + plan.guidedDensity(direction);
     cells.push_back({1 / density, region.fitted, enters});
@@ -230,8 +231,8 @@ SampledSet SilhouetteWeights::traced(const SetAtPoint& set, const View& view, co
   return sampled;
 }
 
-// Where glances find all of the light of diffuse surfaces, a ray leaves it out. With -Sd, each direction gets
-// the light that one glance along it finds.
+// If glances find all of the light of diffuse surfaces, rays leave it out. With -Sd, one glance along each
+// direction then estimates it.
 Radiance SilhouetteWeights::guessAlong(const SetAtPoint& set, const View& view, size_t i,
                                        const V3d& direction, const TracedRay& ray) const {
   if (view.guess) return view.guess->from(guidance_->guess.placeOf(set.point(), direction, ray.firstHit));
@@ -248,7 +249,7 @@ DiffuseGlances::Found SilhouetteWeights::beyondGuesses(const SetAtPoint& set, co
   return found;
 }
 
-// Adds what many glances find by the guess.
+// Adds the guesses along many glances.
 void SilhouetteWeights::addGlances(const SetAtPoint& set, const LocalGuess& guess, const Plan& plan,
                                    DiffuseGlances::Found& found) const {
   const bool errors = guidance_->neighbours.has_value();
@@ -288,7 +289,8 @@ Variance SilhouetteWeights::varianceOf(std::span<const DirectionSample> others, 
         run.size() == 1 ? loneVariance(run[0], base, base_.sampling) : spreadVariance(run, base_.sampling);
   }
   variance += unseenVariance(others, base_.sampling);
-  // Successive directions of the guide are near to each other: their differences are errors.
+  // Successive directions of the guide are near to each other, so that their differences are taken for
+  // errors.
   const auto guided = others.subspan(runs.back());
   const auto partOf = [](const DirectionSample& s) {
     return irradianceFrom(s.value - s.guess, s.solidAngle);

@@ -23,7 +23,7 @@ constexpr float kNarrowest = 1e-6f;
 // power of spots matters.
 constexpr double kTransmittance = .9;
 
-// The number of particles of a spot at least. Its power is then known within 29%, 1/sqrt(12).
+// The smallest number of particles that form a spot. Its power is then known within 29%, 1/sqrt(12).
 constexpr size_t kFewest = 12;
 
 // Ratio of the radius of a spot to half the diagonal of the box around its particles. The box around n points
@@ -31,8 +31,9 @@ constexpr size_t kFewest = 12;
 // the fewest.
 constexpr double kWider = 1.15;
 
-// No rays are aimed at a spot whose center is nearer than the root of this, in radii. The formula for a small
-// surface makes a disk at that distance half as bright again as it is: 1 / d^2 instead of 1 / (d^2 + r^2).
+// No rays are aimed at a spot whose center is nearer than the square root of this number of radii. The
+// formula for a small surface makes a disk at that distance half as bright again as it is: 1 / d^2 instead of
+// 1 / (d^2 + r^2).
 constexpr float kApart = 2;
 
 // The surface area of a room, divided by the square of the mean distance across it. The mean chord of a
@@ -173,7 +174,7 @@ BrightSpots::BrightSpots(const Scene& scene, const Tracer& tracer, const LightSo
     }
   }
   std::vector<Particle> everywhere = particles(scene, tracer, lights);
-  find(everywhere, scene.area(), tuning::Caps::kAimed, Tuning::kBrighter, Tuning::kLeastWorth);
+  find(everywhere, scene.area(), tuning::Caps::kAimed, Tuning::kBrighter, Tuning::kBrighter);
 }
 
 std::vector<BrightSpots::Node> BrightSpots::find(std::span<Particle> all, double area, size_t most,
