@@ -5,8 +5,9 @@
 
 namespace rsphere {
 
-// Equal for directions that lie in the same targets (targets.h), within whose silhouettes cells keep.
-// kNoRegion: the direction does not enter the mean, because others represent its solid angle.
+// Identifies a part of the sphere: directions that lie in the same targets (targets.h) have the same number,
+// and cells do not extend from one part into another. kNoRegion: the direction does not enter the mean,
+// because others represent its solid angle.
 using RegionId = uint64_t;
 inline constexpr RegionId kNoRegion = UINT64_MAX;
 

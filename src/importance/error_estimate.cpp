@@ -11,7 +11,7 @@ namespace {
 
 using Tuning = tuning::ErrorEstimate;
 
-// The radiance that the error of a direction concerns: glances estimate the rest.
+// The part of a direction's radiance that only directions estimate; glances estimate the rest.
 Radiance unguessed(const DirectionSample& s) { return s.value - s.guess; }
 
 // Values minus the means of their neighbours.
@@ -20,8 +20,8 @@ struct Differences {
   std::vector<int> neighbours;   // how many there are
 };
 
-// Of values of the samples. The neighbours are those in the same region; if there are none there, all but
-// those in kNoRegion.
+// values: of the samples. Neighbours in the same region are used; if there are none, all but those in
+// kNoRegion.
 Differences differences(std::span<const Radiance> values, std::span<const DirectionSample> samples,
                         const Neighbours& n) {
   const auto regionOf = [&](size_t i) { return samples[i].region; };
@@ -45,16 +45,18 @@ Differences differences(std::span<const Radiance> values, std::span<const Direct
   return result;
 }
 
-// The variance of one of m + 1 independent values over that of a difference between differences. It has the
-// value 1 + 1/m times and each neighbour -2/m + 2/m^2 times, since each shares two neighbours with the
-// direction; the rest, of neighbours of neighbours, is .023 for m = 6.
+// Ratio of the variance of one value to that of its second difference, for independent values with m
+// neighbours each. The second difference contains the value itself 1 + 1/m times, and each neighbour -2/m +
+// 2/m^2 times, because each neighbour shares two neighbours with the value. Neighbours of neighbours
+// contribute kFarther, computed for m = 6.
 double ownPartOfSecond(double m) {
   constexpr double kFarther = .023;
   return 1 / (std::pow(1 + 1 / m, 2) + 4 / m * std::pow(1 - 1 / m, 2) + kFarther);
 }
 
-// The number of directions that share in the variance, n for values that are evenly distributed between two
-// bounds: by their fourth moment, of brightness. If k of n directions find something small, it is 1.8 k.
+// The effective number of directions that the variance is due to, from the fourth moment of their brightness:
+// n for values that are evenly distributed between two bounds, 1.8 k if k of n directions find something
+// small.
 double sharing(std::span<const DirectionSample> samples, const SpectralSampling* sampling) {
   const auto partOf = [&](const DirectionSample& s) {
     return photopicOf(irradianceFrom(unguessed(s), s.solidAngle).color, sampling);
@@ -117,8 +119,9 @@ Variance spreadVariance(std::span<const DirectionSample> samples, const Spectral
     squares += Variance::of(part, sampling);
   }
   if (samples.size() < 2) return squares;
-  // If an edge crosses the region, only the cells on the edge contribute, about n^1/2 of n. What few
-  // directions find is smaller than that: directions that are even in the whole region are independent in it.
+  // If an edge crosses the region, only the cells on the edge contribute, about n^1/2 of n. An object that
+  // few directions find is smaller than the spacing of directions; within it, directions that are even in the
+  // whole region are independent.
   const double even = 1 / (1 + std::sqrt(sharing(samples, sampling)) / Tuning::kEvenRun);
   squares += Variance::of(sum, sampling) * (-1 / n);
   return squares * (n / (n - 1) * even);
@@ -157,8 +160,8 @@ Variance unseenVariance(std::span<const DirectionSample> samples, const Spectral
 }
 
 Variance partsVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling) {
-  // The samples are in the order of the rows of the grid. Pairs are neighbours in a row, and samples that lie
-  // one row of the first row's length apart.
+  // The samples are in the order of the rows of the grid. Pairs are neighbours in a row, and samples in
+  // neighbouring rows, if these are as long as the first one.
   Variance sum, edges;
   size_t pairs = 0;
   for (const auto& s : samples) {
@@ -170,7 +173,7 @@ Variance partsVariance(std::span<const SeenSources::Sample> samples, const Spect
       samples.begin(), samples.end(), [&](const auto& s) { return s.row == samples.front().row; }));
   const auto add = [&](size_t i, size_t k) {
     ++pairs;
-    // The part of a difference that shadow rays measured is no variance of the directions.
+    // The part of a difference that is due to visibility is excluded: shadow rays have measured it.
     const double clear = static_cast<double>(samples[i].clear * samples[k].clear) /
                          static_cast<double>(samples[i].aimed * samples[k].aimed);
     sum += Variance::of(irradianceFrom(samples[i].direction.value, samples[i].part) -

@@ -14,8 +14,8 @@ namespace rsphere {
 
 class SeenSources {
  public:
-  // Chooses the sources that are integrated separately, and the flat surfaces that may mirror them. The
-  // sources are all that look like sources (not illum). Keeps a reference to the prepared scene.
+  // Chooses the sources that are integrated separately, and the flat surfaces that may mirror them. All
+  // sources are chosen but illums, which do not look like sources. Keeps a reference to the prepared scene.
   explicit SeenSources(const PreparedScene& prepared);
 
   // An image of a source as seen from a point.
@@ -30,7 +30,7 @@ class SeenSources {
 
   // The images that are integrated separately at a point. About `most` rays are divided among them according
   // to the light that each may send; mirrorFactor multiplies the rays of mirrored ones. Mirrored images that
-  // would get fewer than tuning::SeenSources::kFewestRays are left to the other directions.
+  // would get fewer than tuning::SeenSources::kSmallShare are left to the other directions.
   std::vector<Image> findImages(const V3d& point, size_t most, double mirrorFactor) const;
 
   // Whether what a primary ray showed is one of a point's images.
@@ -58,7 +58,7 @@ class SeenSources {
     TracedRay ray;
     size_t image = 0;   // index in images
     size_t row = 0;     // of the image's grid
-    double chance = 1;  // that the image is sampled; below 1 for some of many
+    double chance = 1;  // probability that the image is sampled; below 1 if there are more images than rays
   };
 
   // Directions to the images, each with the solid angle that it represents and the radiance along it; one in

@@ -14,17 +14,16 @@
 namespace rsphere {
 
 // -Sw c, the default. It differs from the paper's rule (voronoi_weights.h) as follows:
-// - Light sources that are seen directly cause nearly all of the variance, so they are integrated
-//   separately (seen_sources.h).
+// - Light sources that are seen directly cause nearly all of the variance, so they are integrated separately
+//   (seen_sources.h).
 // - Cells keep to the silhouettes. The cell of a base direction is its Voronoi cell on the sphere; inside a
 //   silhouette it is shared with the dynamic directions that were sent there, in proportion to their numbers.
 //   All cells in a silhouette add up to its solid angle, unless others overlap it, and those outside to that
 //   of the rest (cells_in_targets.h). Plain cells reach over the silhouette's edge from the dense side and
 //   bias the mean by a percent.
 // - How many directions a special object gets follows from how much the radiance on it varies, compared with
-//   the surroundings. That is measured by separate rays, so that the mean stays unbiased (targets.h).
-//   Openings that show daylight, and spots of sunlight that enters through them, also get directions of their
-//   own.
+//   what is beside it. Separate rays measure that, so that the mean stays unbiased (targets.h). Openings that
+//   show daylight, and spots of sunlight that enters through them, also get directions of their own.
 // - Where light is uneven, as around a goal, more directions follow it (direction_guide.h).
 // - Indirect rays are aimed at openings that daylight enters through (transport/openings.h), and at diffuse
 //   surfaces that receive much direct light (transport/bright_spots.h).
@@ -33,7 +32,7 @@ namespace rsphere {
 // - Elsewhere a control variate reduces the variance of diffuse surfaces (transport/radiance_guess.h). Many
 //   glances, rays that are not followed beyond their first hit, estimate its integral. Directions, and the
 //   indirect rays that they spawn, only estimate the difference.
-// With -Sk 0 only the first of these is left.
+// With -Sk 0 only the first of these applies.
 class SilhouetteWeights : public SamplingStrategy {
  public:
   // Keeps references to all of them. patches: null where light is even. glances: null where they do not find
@@ -60,12 +59,12 @@ class SilhouetteWeights : public SamplingStrategy {
   // Stage 1: what is known of the view from a point before directions are chosen.
   struct View {
     Images images;              // of sources that are integrated separately
-    double meanBrightness = 0;  // that other directions find, W/sr/m2
+    double meanBrightness = 0;  // of the light that other directions find, W/sr/m2
     std::optional<LocalGuess> guess;
     DiffuseGlances::Found glanced;  // 0 where glances do not find all of the light of diffuse surfaces
   };
   View viewFrom(const SetAtPoint& set, PathTracer& tracer) const;
-  // Rays whose radiances are used for nothing else. guess is set.
+  // Sets meanBrightness and guess, by rays whose radiances are used for nothing else.
   void lookAround(const SetAtPoint& set, PathTracer& tracer, View& view) const;
 
   // Stage 2: the directions that are not sent to images of sources.
@@ -76,7 +75,7 @@ class SilhouetteWeights : public SamplingStrategy {
     // The base directions, a run for each target or for all parts of one image, and those of the guide.
     std::vector<V3d> directions;
     std::vector<size_t> runs;  // where each run begins, then where those of the guide begin
-    double solidAngle = 0;     // that all of them represent together, sr
+    double solidAngle = 0;     // total of these directions, sr
 
     double guidedDensity(const V3d& direction) const;  // of directions that the guide sends, per sr
   };

@@ -74,8 +74,8 @@ class BrightSpots {
   static std::optional<Particle> arrived(const Scene& scene, const Tracer& tracer, const V3d& origin,
                                          const V3d& direction, double power, Random& random);
   // Finds spots, keeps them, and returns the groups of particles that form them. most: maximal number of
-  // spots. area: of the surfaces that receive the light (square world units). brighter, leastWorth: as in
-  // tuning::BrightSpots.
+  // spots. area: of the surfaces that receive the light (square world units). brighter, leastWorth: the
+  // limits that tuning::BrightSpots::kBrighter explains.
   std::vector<Node> find(std::span<Particle> all, double area, size_t most, double brighter,
                          double leastWorth);
   void keep(const Spot& spot);

@@ -12,7 +12,7 @@ namespace {
 uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAccess& access) {
   Fingerprint print;
   print.add(kVersion);
-  print.add(uint64_t{7});  // changes with the method of gathering between two versions
+  print.add(uint64_t{7});  // increase it if the method of gathering changes between two versions
   for (const double x :
        {o.directThreshold, o.directCertainty, o.directJitter, o.sourceSubstructuring, o.specularSampling,
         o.specularThreshold, o.ambientAccuracy, o.weightLimit, o.mediumEccentricity, o.mediumSampling})

@@ -18,8 +18,9 @@ using Tuning = tuning::DirectLight;
 // on more than half of their source, so that the parts would overlap.
 constexpr double kWideJitter = .5;
 
-// Up to so many contributions are ranked by comparing all pairs instead of by sorting, by measurement of time
-// alone: that is n^2 / 2 comparisons without branches instead of n log n, half of which are mispredicted.
+// Up to this number, contributions are ranked by comparing all pairs instead of by sorting: n^2 / 2
+// comparisons without branches take less time than n log n, half of which are mispredicted. By measurement of
+// time.
 constexpr uint32_t kFew = 24;
 
 // Kinds of sources whose visibility is estimated separately, because they are occluded for different reasons.
@@ -79,9 +80,9 @@ bool DirectLight::isWhole(const SourceSample& sample) const {
          (i + 1 == scratch_.samples.size() || scratch_.samples[i + 1].source != sample.source);
 }
 
-// Sets value to the radiance of a sample that arrives at the receiver; false if none arrives. to.value: its
-// radiance without occlusion. to.coefficient: becomes whole if samples of a lobe do not meet the source as
-// its shadow ray does.
+// Sets `value` to the radiance of a sample that arrives at the receiver; false if none arrives. to.value: its
+// radiance without occlusion. to.coefficient: if surfaces in the way may transmit light, samples of a lobe
+// estimate nothing, so that their part is added back.
 bool DirectLight::arrives(Receiver at, Contribution& to, Radiance& value) {
   const SourceSample& sample = *to.sample;
   const LightSource& light = t_.lights().all()[sample.source];

@@ -42,8 +42,7 @@ class DirectLight {
 
   // Adds the direct light to the radiance of the ray (W/sr/m2); the brighter that is already, the fewer
   // sources are tested. front: for a surface that transmits no light its normal, behind which all
-  // coefficients are 0; otherwise the null vector. partOfLobe: null if samples of a lobe estimate nothing of
-  // it.
+  // coefficients are 0; otherwise the null vector. partOfLobe: null if shadow rays estimate all of the light.
   void add(Receiver at, DirectCoefficient coefficientOf, const V3d& front, const PartOfLobe* partOfLobe,
            Radiance& value);
 

@@ -77,7 +77,7 @@ double TracedFieldRays::clearance(const GatherSite& site, double farthest) {
 }
 
 Surroundings TracedFieldRays::surroundings(const GatherSite& site) {
-  // By projected solid angle, in the frame of the site.
+  // Directions distributed by projected solid angle, in the frame of the site.
   static const auto directions = [] {
     const HemisphereCells cells(Tuning::kReachRays);
     std::vector<V3d> of(cells.count());

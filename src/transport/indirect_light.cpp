@@ -111,8 +111,8 @@ int IndirectLight::raysToGuess(const PathContext& ray) const {
   return state_.request.guess->raysToGuess(ray.ambientLevel);
 }
 
-// The number of directions of a gather. Paths that are to be unbiased have as many as RADIANCE gives them at
-// every bounce: a square, in proportion to their weight. The rays of interpolated gathers are not divided.
+// The number of directions of a gather. Unbiased paths have as many as in RADIANCE at every bounce: a square
+// number in proportion to their weight. Rays of gathers for interpolation do not split.
 int IndirectLight::raysOf(const PathContext& ray, const Coefficient& coefficient) const {
   if (state_.glimpses) return 1;
   const RayOptions& o = t_.options();

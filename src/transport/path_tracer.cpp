@@ -98,7 +98,7 @@ class PathTracer::Path final : public RayFollower {
   PathState state_;
   SurfaceShading shading_;
   ParticipatingMedia media_;
-  std::unique_ptr<Path> gatherer_;  // a gather is a path of its own, within this one
+  std::unique_ptr<Path> gatherer_;  // traces gathers, each as a new path within this one
 };
 
 // ---- the recursion

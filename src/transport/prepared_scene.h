@@ -24,8 +24,8 @@ class PreparedScene {
   // the warnings of SurfaceFunctions and LightSources.
   PreparedScene(const Scene& scene, const RayOptions& options, IrradianceAt irradiance,
                 bool basicRadiance = false, const rad::Warn& warn = {});
-  // The scene of another, with other options and without warnings. They share the tracer, which takes most of
-  // the memory and time in a large scene. REQUIRES: -bv is the same.
+  // Prepares the scene of `other` with other options, without warnings. Both share the tracer, which takes
+  // most of the memory and time in a large scene. REQUIRES: -bv is the same.
   PreparedScene(const PreparedScene& other, const RayOptions& options);
   PreparedScene(const PreparedScene&) = delete;
   PreparedScene& operator=(const PreparedScene&) = delete;

@@ -15,7 +15,8 @@ namespace rsphere {
 // The light sources that mists name (the materials of type mist that list sources).
 class MistSources {
  public:
-  // warn: gets names that no light source has. Throws rad::Error if mists name more than 65535 sources.
+  // warn: called with names that no light source has. Throws rad::Error if mists name more than 65535
+  // sources.
   MistSources(const Scene& scene, const LightSources& lights, const rad::Warn& warn);
 
   // Those that any mist names.

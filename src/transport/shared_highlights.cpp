@@ -42,7 +42,7 @@ Radiance sourceSeenBy(const PreparedScene& prepared, const RayEnd& sample) {
   if (sample.hit.surface == kNone || !hitFront(sample.hit)) return {};
   const LightId source = prepared.lights().of(sample.hit.surface);
   if (source == kNone || !sharesHighlights(prepared, source)) return {};
-  const Medium& medium = sample.medium();  // attenuates as it does shadow rays
+  const Medium& medium = sample.medium();  // attenuates the sample as it does shadow rays
   return *prepared.lights().constantRadiance(source) *
          passing(medium.extinction * (Color(1, 1, 1) - medium.albedo), sample.hit.length);
 }

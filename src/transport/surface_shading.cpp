@@ -103,7 +103,7 @@ class SurfaceShading::Seen final : public MaterialHit {
 
 // ---- surfaces and their modifiers
 
-// A goal adds its emission.
+// If the surface is a goal, its emission is added.
 bool SurfaceShading::shade(RayEnd& end, RayResult& result) {
   const Surface& surface = t_.scene().surfaces[end.hit.surface];
   if (surface.clip & end.context.clips) return false;
@@ -213,7 +213,7 @@ SurfaceShading::Mixed SurfaceShading::mix(const RayEnd& end, ModifierId modifier
   Part a(end, share, share > kNegligible, before), b(end, 1 - share, share < 1 - kNegligible, before);
   if (a.counts) a.shaded = shadeChain(a.end, mixture.foreground, a.result);
   if (b.counts) b.shaded = shadeChain(b.end, mixture.background, b.result);
-  // If one component of a mixture is a material, void as the other component is transparent.
+  // If only one component of a mixture is a material, the other one lets the ray pass.
   if (a.counts && !a.shaded && b.shaded) a.result = follower_.pass(a.end);
   if (b.counts && !b.shaded && a.shaded) b.result = follower_.pass(b.end);
   Mixed mixed{a.end.hit.perturbation * a.share + b.end.hit.perturbation * b.share,
@@ -257,7 +257,7 @@ Coefficient SurfaceShading::lobesCoefficient(const S& scattering, const SourceSa
   return Coefficient(scattering.lobeShare(Component::reflected) * (share * density * sample.solidAngle));
 }
 
-// Takes the light that paths from both ends bring to the eye out of the scattering.
+// Decides what paths from both ends estimate, and removes from the scattering what they bring to the eye.
 template <ScattersLight S>
 SurfaceShading::FromBothEnds SurfaceShading::leaveToVertices(const RayEnd& end, S& scattering) const {
   if constexpr (std::is_same_v<S, RoundScattering>) {

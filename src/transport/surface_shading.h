@@ -41,12 +41,12 @@ class SurfaceShading {
   struct Mixed {
     V3d perturbation;
     Color pattern;
-    std::optional<RayResult> light;  // of its components, if one of them is a material
+    std::optional<RayResult> light;  // result of its components, if one of them is a material
   };
   // before: the result of what has been shaded so far.
   Mixed mix(const RayEnd& end, ModifierId modifier, const Mixture& mixture, const RayResult& before);
 
-  // behind: the chain of modifiers that the material has itself.
+  // behind: the modifiers of the material itself, the rest of the chain.
   template <class M>
   bool shadeMaterial(RayEnd& end, const M& material, ModifierId behind, RayResult& result);
 
@@ -66,10 +66,10 @@ class SurfaceShading {
   bool estimate(RayEnd& end, const CrossesAntimatter& boundary, RayResult& result);
   template <ScattersLight S>
   bool estimate(RayEnd& end, S& scattering, RayResult& result);
-  // Which light of a surface paths from both ends bring.
+  // The parts of a surface's light that paths from both ends estimate.
   struct FromBothEnds {
     bool indirect = false;
-    bool direct = false;  // that of the rough highlight, too
+    bool direct = false;  // direct light, that of the rough highlight included
     bool behind = false;  // a shadow ray to one source brings the direct light
   };
   template <ScattersLight S>

@@ -7,7 +7,7 @@
 namespace rsphere {
 namespace {
 
-// An extinction minus that of a mist, but at least that of the medium outside of all mist.
+// An extinction without that of a mist, but not below that of the medium outside of all mist.
 double without(double extinction, double mist, double around) {
   const double rest = extinction - mist;
   return rest < around + 1e-12 * mist ? around : rest;
