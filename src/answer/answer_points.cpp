@@ -93,7 +93,7 @@ std::vector<std::string> PointSummary::warnings(const SphereOptions& options,
                                                 const PreparedScene& prepared) const {
   const std::lock_guard lock(mutex_);
   std::vector<std::string> texts;
-  if (unlit_.points > 0 && !prepared.isDark())
+  if (unlit_.points > 0 && !isDark(prepared))
     texts.push_back(fmt::format(
         "no {} reaches {} of {} points, or almost none; the first is record {}: check the units of the "
         "points, and whether they lie inside of something",
@@ -125,7 +125,7 @@ AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& optio
                           const PictureProgress::Report& pictureReport) {
   const bool standardError = options.outputs.find('e') != std::string::npos;
   const auto workers = std::make_shared<PointWorkers>(transport, options, standardError, checkStop);
-  if (transport.prepared().isDark()) warn("no light sources found");
+  if (isDark(transport.prepared())) warn("no light sources found");
   const auto pictures = options.picture.empty()
                             ? nullptr
                             : std::make_shared<const PictureMaker>(transport, options, pictureReport);

@@ -24,7 +24,7 @@ AnswerRecord answerRays(const Transport& transport, const AnswerOptions& options
   const auto tracers = std::make_shared<std::vector<PathTracer>>(rayTracers(transport, options));
   const bool trees = !options.treeOutputs.empty(), value = trees || needsValue(options.outputs);
   const bool valueAlone = options.outputs == "v";
-  if (value && transport.prepared().lacksSources()) warn("no light sources found");
+  if (value && lacksSources(transport.prepared())) warn("no light sources found");
   return [&, tracers, trees, value, valueAlone](const Record& record, unsigned worker, std::string& bytes) {
     const InputRay in = inputRay(record.numbers.data(), options.irradiance);
     if (record.bogus) return writer.write(bytes, bogusAnswer(in), record.index);

@@ -241,7 +241,7 @@ CompareStatus runCompare(CompareOptions options, std::span<const UsedOption> use
   const Scene scene = loadScene(options, warn);
   const bool isOctree = scene.description.cube.has_value();
   const Transport transport(scene, options.ray, options.irradiance, options.sphere.basicRadiance, warn);
-  if (transport.prepared().isDark()) warn("no light sources found");
+  if (isDark(transport.prepared())) warn("no light sources found");
   const Answers ours =
       points ? answerPoints(transport, options, numbers) : answerRays(transport, options, numbers);
   const double ourSeconds = processSeconds() - start;

@@ -74,17 +74,16 @@ CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const Fi
 CoarseSolution::~CoarseSolution() = default;
 
 CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bool daylit) {
-  const double accuracy =
-      std::clamp(options.accuracy, Tuning::kFinestAccuracy, Tuning::kCoarsestAccuracy) / kUsualAccuracy;
+  const double accuracy = std::max(options.accuracy, Tuning::kFinestAccuracy) / kUsualAccuracy;
   const double finer = std::min(accuracy, std::sqrt(accuracy));
   if (!daylit)
     return {Tuning::kCoarserByLamps * Tuning::kSpacing * finer,
             Tuning::kCoarserByLamps * Tuning::kLeastPatch,
             Tuning::kCoarserByLamps * Tuning::kFarPatch,
-            Tuning::kRaysByLamps * options.rays,
+            Tuning::kRays * options.rays,
             1,
             1,
-            Tuning::kLeastRaysByLamps};
+            Tuning::kCoarserByLamps * Tuning::kCoarserByLamps * Tuning::kLeastRays};
   return {Tuning::kSpacing * finer, Tuning::kLeastPatch,
           Tuning::kFarPatch,        Tuning::kRays * options.rays * std::max(1., 1 / accuracy),
           Tuning::kFewerRays,       Tuning::kMoreRays,
@@ -157,12 +156,12 @@ Patch* CoarseSolution::find(const SurfacePlace& place, double u1, double u2, Fie
   if (!chart) return nullptr;
   const Division& division = divisionAt(*chart, finestLevel(*chart, effort_.leastSide), rays);
   const double suffices = effort_.farSide * place.distance;
-  if (chart->extent() < Tuning::kOwnPatch * std::max(division.side, suffices)) return nullptr;
+  if (chart->extent() < Tuning::kHalf * std::max(division.side, suffices)) return nullptr;
   const int enough = grid_.levelOf(std::min(suffices, tuning::Fields::kOpen * grid_.size));
   int level = std::min(division.level, enough);
-  if (place.distance < Tuning::kNear * grid_.side(level)) return nullptr;
+  if (place.distance < Tuning::kHalf * grid_.side(level)) return nullptr;
   level = std::max(
-      level, std::min(grid_.levelOf(Tuning::kSeenFrom * place.distance), std::min(enough, division.finest)));
+      level, std::min(grid_.levelOf(Tuning::kHalf * place.distance), std::min(enough, division.finest)));
   // Light changes across slats and other strips that are near to each other, and others hide a part of each.
   if (chart->shorterSide() < grid_.side(level) && division.side < chart->shorterSide())
     chart->divideAcross(Tuning::kPartsAcross);

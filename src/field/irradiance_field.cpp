@@ -247,7 +247,7 @@ bool IrradianceField::Cache::isFinest(const SurfaceChart& chart, int level, cons
 int IrradianceField::Cache::levelFrom(int level, const SurfaceChart& chart, const Asked& asked) {
   for (; !isFinest(chart, level, asked); ++level) {
     const Site& site = siteOf(chart, chart.cellAt(grid_, level, chart.u(), chart.v()), asked);
-    if (site.usable && !site.smallObjectNear && grid_.side(level) <= Tuning::kWidest * accuracy_ * site.reach)
+    if (site.usable && !site.smallObjectNear && grid_.side(level) <= Tuning::kRoom * accuracy_ * site.reach)
       break;
   }
   return level;
@@ -282,15 +282,14 @@ bool IrradianceField::Cache::find(const SurfacePlace& place, FieldReader& reader
   int beyond = 0;
   double gap = 0;
   for (int level = firstLevel(*chart, place, asked, gap); beyond <= tuning::Fields::kFinerWhereHidden;
-       ++level, allowed *= Tuning::kMoreError) {
+       ++level, allowed *= Tuning::kNoneAbove) {
     const bool finest = grid_.side(level) <= Tuning::kFinestInGap * gap && isFinest(*chart, level, asked);
     beyond += finest;
     SitesAround around;
     if (!look(*chart, place, level, asked, around)) continue;
     double extrapolationError = 0;
     const GatheredLight here = around.at(place.point, extrapolationError);
-    const double roughness =
-        std::max(around.roughness(tolerance), extrapolationError * Tuning::kShiftError / tolerance) / allowed;
+    const double roughness = std::max(around.roughness(tolerance), extrapolationError / tolerance) / allowed;
     const double share = finest ? 1 : shareOf(roughness);
     blend(light, here, static_cast<float>(missing * share));
     missing *= 1 - share;

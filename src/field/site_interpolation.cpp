@@ -51,10 +51,9 @@ double SitesAround::roughness(double tolerance) const {
       const double chance = Tuning::kChance * std::hypot(light[a]->noise, light[b]->noise);
       const double slopeChance =
           Tuning::kChance * std::hypot(light[a]->noisePerLength, light[b]->noisePerLength) * way.length();
-      error =
-          std::max({error, (std::abs(after - before) - slopeChance) / kBySlopes,
-                    (std::abs(step - (before + after) / 2) - chance - slopeChance / 2) / Tuning::kByMismatch,
-                    (std::abs(step) - chance) / Tuning::kByStep});
+      error = std::max({error, (std::abs(after - before) - slopeChance) / kBySlopes,
+                        (std::abs(step - (before + after) / 2) - chance - slopeChance / 2) / Tuning::kByStep,
+                        (std::abs(step) - chance) / Tuning::kByStep});
     }
   return level > 0 ? error / (tolerance * level) : 0;
 }
@@ -85,8 +84,9 @@ GatheredLight SitesAround::at(const V3d& place, double& extrapolationError) cons
   extrapolationError = 0;
   if (level > 0) {
     const double linear = std::abs(luminanceOf(result.perLength).dot(aside)) / level;
-    extrapolationError = std::max(
-        linear, Tuning::kBeyond * static_cast<double>(aside.length2()) * inverseReach * inverseReach);
+    extrapolationError =
+        Tuning::kBeyond * std::max(linear, Tuning::kBeyond * static_cast<double>(aside.length2()) *
+                                               inverseReach * inverseReach);
   }
   for (int k = 0; k < 3; ++k) mean[k] = std::max(mean[k] + result.perLength[k].dot(aside), kLeast * mean[k]);
   result.setMean(mean);

@@ -25,33 +25,31 @@ struct Fields {
 
 // The irradiance cache at the first diffuse surface (irradiance_field.cpp).
 struct IrradianceField {
-  // The side of the widest cells, for each unit of -aa, in harmonic mean distances of their surroundings:
-  // chosen by experiment. 30% less or more: within noise (picture of office; error 4%, time 8%).
-  RSPHERE_TUNED(IrradianceField, double, kWidest, 3);
   // -ar relates the finest spacing to the size of the scene, in RADIANCE as here. Where the room around a
   // site is smaller than the scene (most daylight models have a wide ground), the finest spacing is in
   // proportion to the room. The size of the room, in root mean square distances of what the site sees: chosen
   // by experiment, in rooms on a ground of 0 to 5 km, by the error in thin gaps and the number of gathers. 4:
   // the light between louvres is 3% too dark; 2.5: 3% more gathers in furnished rooms.
+  //
+  // The side of the widest cells is -aa times the same multiple of the harmonic mean distance of their
+  // surroundings: chosen by experiment. 30% less or more: within noise (picture of office; error 4%, time
+  // 8%).
   RSPHERE_TUNED(IrradianceField, double, kRoom, 3.2);
-  // The finest spacing is at most this, in heights of the gap that a place lies in (its distance from what
-  // lies above it along its normal): by measurement. 1: 2.6% of the places between louvres are off by a
-  // factor of 1.5, instead of .7%; .125: the same errors, 3% more gathers in a furnished room.
+  // The finest spacing is at most this multiple of the height of the gap that a place lies in (the distance
+  // from the place to what lies above it along its normal): by measurement. 1: 2.6% of the places between
+  // louvres are off by a factor of 1.5, instead of .7%; .125: the same errors, 3% more gathers in a furnished
+  // room.
   RSPHERE_TUNED(IrradianceField, double, kFinestInGap, .25);
   // -aa divided by this is the allowed relative error of an interpolation: chosen by experiment. -aa bounds
   // the error of RADIANCE's interpolation, whose mean error is smaller. 30% less or more: within noise
   // (picture of workshop; error 4%, time 6%).
   RSPHERE_TUNED(IrradianceField, double, kAllowed, 2.4);
-  // The factor on the allowed error from level to level: chosen by experiment. The smaller the cells,
-  // the smaller the part of a picture that they cover. 30% less or more: the same answers in all cases.
-  RSPHERE_TUNED(IrradianceField, double, kMoreError, 1.8);
   // A level of cells gives all of an answer if its error is at most the allowed one, and none of it from this
-  // multiple of the allowed error on; in between it is blended with the next level, so that no edge shows:
-  // chosen by experiment. 30% less or more: within noise (picture by sun; error below 1%, time 4%).
+  // multiple of the allowed error on; in between it is blended with the next level, so that no edge shows.
+  // From level to level the allowed error grows by the same factor, because the smaller the cells, the
+  // smaller the part of a picture that they cover. Chosen by experiment. 30% less or more: within noise
+  // (picture by sun; error below 1%, time 4%).
   RSPHERE_TUNED(IrradianceField, double, kNoneAbove, 1.5);
-  // The factor on the predicted error of an extrapolation: chosen by experiment. 30% less or more: within
-  // noise (picture of workshop; error 2%, time 6%).
-  RSPHERE_TUNED(IrradianceField, double, kShiftError, 1.5);
   // On small surfaces that share the cells of their plane, finer cells are tried where the sites that see the
   // place have less than this share of the weights: chosen by experiment. The sites may lie beside all of the
   // surfaces, and a room may be smaller than a cell, so that nearly all sites must see the place. .935 or
@@ -65,16 +63,14 @@ struct SiteInterpolation {
   // 30% less or more: within noise (picture by sun; error 1%, time 4%).
   RSPHERE_TUNED(SiteInterpolation, double, kChance, .7);
   // The error of an interpolation is predicted from three differences between two sites: the change of the
-  // gradient (site_interpolation.cpp) and two that are each divided by one of these. The difference of their
-  // light beyond the one that their gradients predict: chosen by experiment. 30% less or more: within noise
-  // (picture by sun; error 3%, time 6%).
-  RSPHERE_TUNED(SiteInterpolation, double, kByMismatch, 4);
-  // The difference of their light: chosen by experiment. Gradients know nothing of a shadow's edge between
-  // the sites. 30% less or more: within noise (picture by sun; error 2%, time 4%).
-  RSPHERE_TUNED(SiteInterpolation, double, kByStep, 6);
+  // gradient (site_interpolation.cpp), and two that are each divided by this: the difference of their light,
+  // and the part of it that their gradients do not predict. Chosen by experiment. Gradients know nothing of a
+  // shadow's edge between the sites. 30% less or more: within noise (picture by sun; error 3%, time 6%).
+  RSPHERE_TUNED(SiteInterpolation, double, kByStep, 5);
   // The relative error of an extrapolation by a distance d where the harmonic mean distance of the
-  // surroundings is R, in units of (d / R)^2: chosen by experiment. 30% less or more: within noise (picture
-  // of office; error 1%, time 11%).
+  // surroundings is R: in units of (d / R)^2, and then, like the change that gradients predict over d, times
+  // this once more, to be on the safe side. Chosen by experiment. 30% less or more: within noise (picture of
+  // office; error 1%, time 11%).
   RSPHERE_TUNED(SiteInterpolation, double, kBeyond, 1.5);
 };
 
@@ -88,35 +84,30 @@ struct CoarseSolution {
   // fifth more time. Near a window with blinds .6, with .18 for kFarPatch and .1 for kLeastPatch, leaves
   // sensors 17% too bright.
   RSPHERE_TUNED(CoarseSolution, double, kSpacing, .3);
-  // Above this -aa, patches do not grow: chosen by experiment. 30% less or more: the same
-  // answers in all cases.
-  RSPHERE_TUNED(CoarseSolution, double, kCoarsestAccuracy, .4);
-  // The side of a patch is at most this share of the distance that it is seen from: chosen by experiment. 30%
-  // less or more: within noise (picture by sun; error below 1%, time 6%).
-  RSPHERE_TUNED(CoarseSolution, double, kSeenFrom, .5);
+  // The side of a patch is at most this share of the distance that it is seen from; a place that is seen from
+  // nearer than this many sides of the smallest patches is not served, so that the path is followed; and a
+  // surface smaller than this share of a patch's side has no patch. Chosen by experiment. 30% less or more:
+  // within noise (picture by sun; error 2%, time 6%).
+  RSPHERE_TUNED(CoarseSolution, double, kHalf, .5);
   // The side of a patch need not be smaller than this share of the distance that it is seen from: by
   // measurement, together with kSpacing.
   RSPHERE_TUNED(CoarseSolution, double, kFarPatch, .09);
-  // A place that is seen from nearer than this many patch sides is not served: the path is followed. 30% less
-  // or more: within noise (picture by sun; error 2%, time 4%).
-  RSPHERE_TUNED(CoarseSolution, double, kNear, .4);
-  // No patch is smaller than this share of its surface's extent: by measurement, together with kSpacing.
+  // No patch is smaller than this share of the extent of its surface: by measurement, together with kSpacing.
   // Patches in a corner, where everything is near, would otherwise be divided without end. .02: three times
   // the time.
   RSPHERE_TUNED(CoarseSolution, double, kLeastPatch, .05);
   // Factor on kSpacing, kFarPatch and kLeastPatch in scenes without openings for daylight: by measurement.
-  // There finer patches take a third more time, and the errors of pictures are the same.
+  // There finer patches take a third more time, and the errors of pictures are the same. Patches have more
+  // area by its square, and so has the least number of their rays.
   RSPHERE_TUNED(CoarseSolution, double, kCoarserByLamps, 2);
   // The extent of a surface is at most this, in sizes of the scene: chosen by experiment. Where the
   // ground is wide, rooms are small. 30% less: time +65%; 30% more: within noise (sensors by sun; noise:
   // error below 1%, time 4%).
   RSPHERE_TUNED(CoarseSolution, double, kWidestExtent, .4);
-  // The number of parts across strips that are narrower than their patches and wider than the sides that
-  // their surroundings ask for: by measurement. With 1, sensors near a window with blinds are 33% too bright.
+  // The number of patches across a strip, such as a slat, that is narrower than its usual patches although
+  // its surroundings require patches smaller than the strip: by measurement. With 1, sensors near a window
+  // with blinds are 33% too bright.
   RSPHERE_TUNED(CoarseSolution, int, kPartsAcross, 4);
-  // A surface smaller than this share of a patch's side has no patch: by measurement. 30% less or more:
-  // within noise (sensors by sun; error below 1%, time 6%).
-  RSPHERE_TUNED(CoarseSolution, double, kOwnPatch, .5);
   // A side of a ball (a sixth of it) or of a cone is enclosed if all that is seen from so many places on it,
   // the first number, is nearer in the root mean square than this share of the radius: between shells with a
   // gap of a third of the inner radius, where it is .47 in the middle, and a ball in a tight room. Without
@@ -131,14 +122,9 @@ struct CoarseSolution {
   // The number of rays of a patch for each ray that a gather is asked for (-ad and -as): by measurement. In
   // daylit rooms, .1 instead of .07 takes a third more time for a tenth less error.
   RSPHERE_TUNED(CoarseSolution, double, kRays, .06);
-  // The same, and the least number of them, in scenes without openings for daylight, where all patches have
-  // as many: by measurement. With the numbers for daylight, pictures of two interiors with lamps take 8 and
-  // 19% more time and have the same error.
-  RSPHERE_TUNED(CoarseSolution, double, kRaysByLamps, .08);
-  RSPHERE_TUNED(CoarseSolution, double, kLeastRaysByLamps, 32);
-  // With -aa below .1 they grow in inverse proportion to it, since their noise is shared by all places that
-  // see a patch; but not below this -aa: by measurement. In a sunlit classroom at -aa .05 the noise of
-  // sensors is .65% without this growth.
+  // With -aa below .1, the number of rays grows in inverse proportion to -aa, because all places that see a
+  // patch share its noise. It stops growing below this -aa: by measurement. In a sunlit classroom at -aa .05
+  // the noise of sensors is .65% without this growth.
   RSPHERE_TUNED(CoarseSolution, double, kFinestAccuracy, .02);
   // In a room whose surfaces all matter alike, the share of a patch in the light of the others is about its
   // area divided by the square of the room's size; outdoors, less in proportion to the sky that it sees and
@@ -148,8 +134,9 @@ struct CoarseSolution {
   // place of the room's size gives patches below desks and in gaps so many rays that the same error takes 1.3
   // to 3 times the time. .012: 15% more noise in sunlit rooms, a tenth less time.
   RSPHERE_TUNED(CoarseSolution, double, kUsualShare, .008);
-  // Bounds on that proportion: by measurement. .1 takes 1.3 times the time at -aa .05, for the same error; at
-  // 2.5, a sunlit classroom has 15% more noise, at 8 the same as at 4 in a sixth more time.
+  // Bounds on the number of rays, as a multiple of the usual one: by measurement. .1 takes 1.3 times the time
+  // at -aa .05, for the same error; at 2.5, a sunlit classroom has 15% more noise, at 8 the same as at 4 in a
+  // sixth more time.
   RSPHERE_TUNED(CoarseSolution, double, kFewerRays, .03);
   RSPHERE_TUNED(CoarseSolution, double, kMoreRays, 4);
   // The least number of rays of a patch: by measurement. 16 takes up to a sixth more time, for the same

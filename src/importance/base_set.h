@@ -10,15 +10,15 @@ namespace rsphere {
 
 // The even directions that every strategy starts from.
 struct BaseSet {
-  std::vector<V3d> directions;                 // unit, world
-  std::vector<double> solidAngles;             // that they represent, sr
-  std::optional<Neighbours> neighbours;        // if standard errors are wanted
-  const SpectralSampling* sampling = nullptr;  // RayOptions::sampling
+  std::vector<V3d> directions;           // unit, world
+  std::vector<double> solidAngles;       // that they represent, sr
+  std::optional<Neighbours> neighbours;  // if standard errors are wanted
+  const SpectralSampling* sampling;      // RayOptions::sampling
 };
 
 // -Sn directions, rotated as -Sr says. Their solid angles are all the same with -Sw h, otherwise those of
 // their Voronoi cells. Throws rad::Error if the cells fail the check of -Sv.
-BaseSet makeBaseSet(const SphereOptions& options, bool standardErrors);
+BaseSet makeBaseSet(const SphereOptions& options, const SpectralSampling* sampling, bool standardErrors);
 
 // Which directions share a side of their Voronoi cells in the workspace's last query.
 Neighbours neighboursOf(const VoronoiWorkspace& workspace);

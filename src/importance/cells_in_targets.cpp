@@ -5,32 +5,40 @@
 #include "importance/tuning.h"
 
 namespace rsphere {
+namespace {
 
 using Tuning = tuning::CellsInTargets;
 
-void CellsInTargets::add(double cell, const Targets::Region& region, bool enters) {
-  cells_.push_back({cell, region.fitted, enters});
-}
-
-void CellsInTargets::fit(const Targets& targets) {
+void fit(std::vector<CellInTarget>& cells, const Targets& targets) {
   std::vector<double> factors(targets.all().size() + 1);
-  for (const Cell& cell : cells_) factors[cell.target] += cell.solidAngle;
+  for (const CellInTarget& cell : cells) factors[cell.fitted] += cell.solidAngle;
   factors[0] = 1;
   for (size_t i = 1; i < factors.size(); ++i)
     if (factors[i] > 0) factors[i] = targets.all()[i - 1].silhouette.regionSolidAngle() / factors[i];
-  for (Cell& cell : cells_) cell.solidAngle *= factors[cell.target];
+  for (CellInTarget& cell : cells) cell.solidAngle *= factors[cell.fitted];
 }
 
-void CellsInTargets::scale(double solidAngle) {
+void scale(std::vector<CellInTarget>& cells, double total) {
   double inside = 0, outside = 0;
-  for (const Cell& cell : cells_)
-    if (cell.enters) (cell.target == 0 ? outside : inside) += cell.solidAngle;
-  const double left = solidAngle - inside;
+  for (const CellInTarget& cell : cells)
+    if (cell.enters) (cell.fitted == 0 ? outside : inside) += cell.solidAngle;
+  const double left = total - inside;
   const bool byOutside = left > 0 && std::abs(left - outside) < Tuning::kMostScaled * outside;
   const double all = inside + outside;
-  const double factor = byOutside ? left / outside : all > 0 ? solidAngle / all : 0;
-  for (Cell& cell : cells_)
-    if (!byOutside || cell.target == 0) cell.solidAngle *= factor;
+  const double factor = byOutside ? left / outside : all > 0 ? total / all : 0;
+  for (CellInTarget& cell : cells)
+    if (!byOutside || cell.fitted == 0) cell.solidAngle *= factor;
+}
+
+}  // namespace
+
+std::vector<double> cellsInTargets(std::vector<CellInTarget> cells, const Targets& targets, double total) {
+  fit(cells, targets);
+  scale(cells, total);
+  std::vector<double> solidAngles;
+  solidAngles.reserve(cells.size());
+  for (const CellInTarget& cell : cells) solidAngles.push_back(cell.enters ? cell.solidAngle : 0);
+  return solidAngles;
 }
 
 }  // namespace rsphere

@@ -2,35 +2,26 @@
 // The solid angles of the cells of one point's directions, as -Sw c has them: a direction in a target
 // represents the inverse of the density of all directions there.
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "importance/targets.h"
 
 namespace rsphere {
 
-class CellsInTargets {
- public:
-  // Adds the cell (sr) of a direction. region: of the direction. enters: whether it enters the mean.
-  void add(double cell, const Targets::Region& region, bool enters);
-
-  // Scales the cells in each target that is to be fitted, so that they add up to its solid angle. How many
-  // directions happen to lie in a target, and which cells its edge divides, then is no error anymore.
-  void fit(const Targets& targets);
-
-  // Scales the cells that enter the mean, so that they add up to solidAngle (sr). If that can be met by those
-  // outside the targets that were fitted, the others keep their size.
-  void scale(double solidAngle);
-
-  // Of the direction that was added as number i, sr. 0 if it does not enter the mean.
-  double solidAngle(size_t i) const { return cells_[i].enters ? cells_[i].solidAngle : 0; }
-
- private:
-  struct Cell {
-    double solidAngle;  // sr
-    uint32_t target;    // Targets::Region::fitted
-    bool enters;
-  };
-  std::vector<Cell> cells_;
+// The cell of one direction.
+struct CellInTarget {
+  double solidAngle = 0;  // sr
+  uint32_t fitted = 0;    // Targets::Region::fitted, of the direction
+  bool enters = true;     // whether the direction enters the mean
 };
+
+// The solid angles (sr) with which the directions enter the mean, in the same order; 0 for those that do not
+// enter it. Two steps scale the cells:
+// - In each target that is to be fitted, they add up to its solid angle. This removes the error due to how
+//   many directions fall inside the target, and to cells that its edge divides.
+// - Those that enter the mean add up to `total` (sr). Only those outside the fitted targets are scaled,
+//   unless they would have to change too much.
+std::vector<double> cellsInTargets(std::vector<CellInTarget> cells, const Targets& targets, double total);
 
 }  // namespace rsphere

@@ -4,24 +4,23 @@
 
 namespace rsphere {
 
-Irradiance clampContributions(std::span<DirectionSample> samples, std::span<const Radiance> guesses,
-                              const Irradiance& total, double share, const SpectralSampling* sampling) {
-  const auto guessOf = [&](size_t i) { return guesses.empty() ? Radiance() : guesses[i]; };
-  const auto beyondGuess = [&](size_t i) {
-    return photopicOf(irradianceFrom(samples[i].value - guessOf(i), samples[i].solidAngle).color, sampling);
+Irradiance clampContributions(std::span<DirectionSample> samples, const Irradiance& total, double share,
+                              const SpectralSampling* sampling) {
+  const auto beyondGuess = [&](const DirectionSample& s) {
+    return photopicOf(irradianceFrom(s.value - s.guess, s.solidAngle).color, sampling);
   };
   const double all = photopicOf(total.color, sampling);
   double excess = 0;
-  for (size_t i = 0; i < samples.size(); ++i) excess += std::max(0., beyondGuess(i) - share * all);
+  for (const DirectionSample& s : samples) excess += std::max(0., beyondGuess(s) - share * all);
   const double limit = share * (all - excess);
   Irradiance taken;
   if (!(limit > 0)) return taken;
-  for (size_t i = 0; i < samples.size(); ++i) {
-    const double contribution = beyondGuess(i);
+  for (DirectionSample& s : samples) {
+    const double contribution = beyondGuess(s);
     if (contribution <= limit) continue;
-    const Radiance before = samples[i].value;
-    samples[i].value = guessOf(i) + (before - guessOf(i)) * (limit / contribution);
-    taken += irradianceFrom(before - samples[i].value, samples[i].solidAngle);
+    const Radiance before = s.value;
+    s.value = s.guess + (before - s.guess) * (limit / contribution);
+    taken += irradianceFrom(before - s.value, s.solidAngle);
   }
   return taken;
 }

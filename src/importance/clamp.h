@@ -12,13 +12,11 @@ namespace rsphere {
 // bright direction would raise its own limit. The color of what is left is kept. Contributions below the
 // guess are not changed. Returns what the integral lost, which is a bias (W/m2).
 //
-// total: the integral that the samples belong to, with all that is not among them (W/m2). guesses: of the
-// samples; empty: 0.
+// total: the integral that the samples belong to, with all that is not among them (W/m2).
 //
 // Rejected alternatives: a limit of radiance, which is different in each scene; and a share of exactly what
 // is left, which takes everything where many directions contribute more than their share.
-Irradiance clampContributions(std::span<DirectionSample> samples, std::span<const Radiance> guesses,
-                              const Irradiance& total, double share,
-                              const SpectralSampling* sampling = nullptr);
+Irradiance clampContributions(std::span<DirectionSample> samples, const Irradiance& total, double share,
+                              const SpectralSampling* sampling);
 
 }  // namespace rsphere

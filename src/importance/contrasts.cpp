@@ -7,6 +7,7 @@
 #include "base/spectral_sampling.h"
 #include "importance/tuning.h"
 #include "light/surface_point.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
 namespace {
@@ -31,21 +32,21 @@ class Values {
   int count_ = 0;
 };
 
-// What points of the scene's surfaces see, each surface as often as any other. Two paths are traced in each
-// direction to separate the noise of paths, which even directions do not reduce, from the variation with
-// direction, which they do.
-struct Surroundings {
-  double mean = 0;   // of the photopic radiance, W/sr/m2
-  double error = 1;  // Contrasts::surroundings
+// What random points of the scene's surfaces see; every surface is equally probable. Two paths in each
+// direction separate the noise of paths, which even spacing of directions does not reduce, from the variation
+// with direction, which it does.
+struct TypicalView {
+  double mean = 0;       // of the photopic radiance, W/sr/m2
+  double baseError = 1;  // Contrasts::baseError
 };
-Surroundings measureSurroundings(const Scene& scene, const SeenSources& sources,
-                                 const SpectralSampling* sampling, PathTracer& tracer) {
-  Surroundings result;
+TypicalView measureTypicalView(const Scene& scene, const SeenSources& sources,
+                               const SpectralSampling* sampling, PathTracer& tracer) {
+  TypicalView result;
   Random random(mixBits(scene.outermost().size()));
   Values photopic;
   Values values;
   double noise = 0;
-  for (size_t k = 0; k < Tuning::kDirectionsAround; ++k) {
+  for (size_t k = 0; k < Tuning::kRays; ++k) {
     const auto surfaces = static_cast<double>(scene.outermost().size());
     const SurfaceId i(static_cast<size_t>(random.uniform() * surfaces));
     if (scene.surfaces[i].shape.as<Distant>()) continue;
@@ -70,7 +71,7 @@ Surroundings measureSurroundings(const Scene& scene, const SeenSources& sources,
   noise /= static_cast<double>(values.count());
   const double uneven = std::max(0., std::pow(values.deviation(), 2) - noise / 2);
   result.mean = photopic.mean();
-  result.error = std::sqrt(noise + Tuning::kUnevenShare * Tuning::kUnevenShare * uneven) / values.mean();
+  result.baseError = std::sqrt(noise + Tuning::kUnevenShare * Tuning::kUnevenShare * uneven) / values.mean();
   return result;
 }
 
@@ -106,10 +107,10 @@ Contrasts measureContrasts(const SphereTracing& tracing, std::span<const Special
   PathRequest request;
   request.vertexLight = tracing.vertexLight;
   if (!tracing.vertexLight)
-    contrasts.surroundings =
-        measureSurroundings(scene, sources, tracing.prepared.options().sampling, tracer).error;
+    contrasts.baseError =
+        measureTypicalView(scene, sources, tracing.prepared.options().sampling, tracer).baseError;
   if (alike.empty()) return contrasts;
-  const size_t rays = std::clamp<size_t>(Tuning::kMostRays / alike.size(), 2, Tuning::kRaysPerModifier);
+  const size_t rays = std::clamp<size_t>(tuning::Caps::kAsked / alike.size(), 2, Tuning::kRays);
   for (const auto& [modifier, same] : alike) {
     const double deviation = measureDeviation(scene, same, rays, sources, request, tracer);
     for (const SpecialObject& object : same) contrasts.objects.push_back({object, deviation});
@@ -120,7 +121,7 @@ Contrasts measureContrasts(const SphereTracing& tracing, std::span<const Special
 double typicalRadiance(const SphereTracing& tracing, const SeenSources& sources) {
   PathTracer tracer = tracing.tracer();
   const PreparedScene& prepared = tracing.prepared;
-  return measureSurroundings(prepared.scene(), sources, prepared.options().sampling, tracer).mean;
+  return measureTypicalView(prepared.scene(), sources, prepared.options().sampling, tracer).mean;
 }
 
 }  // namespace rsphere

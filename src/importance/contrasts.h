@@ -17,9 +17,9 @@ struct Contrasts {
     double deviation = 0;  // standard deviation of the brightness on it, W/sr/m2
   };
   std::vector<Object> objects;
-  // The part of the standard deviation of brightness that is an error of one base direction, relative to the
-  // mean brightness. 1 if it was not measured.
-  double surroundings = 1;
+  // The standard deviation of brightness over directions that remains as the error of one base direction,
+  // relative to the mean brightness. 1 if it was not measured.
+  double baseError = 1;
 };
 
 // Measures the contrasts of the scene. Objects with the same modifier share one measurement. The result
@@ -28,9 +28,9 @@ struct Contrasts {
 Contrasts measureContrasts(const SphereTracing& tracing, std::span<const SpecialObject> objects,
                            const SeenSources& sources);
 
-// The photopic radiance (W/sr/m2) that points of the scene's surfaces see on average, without sources. It
-// tells what is dark in this scene, within a small factor: it is measured in few directions. 0: they found
-// nothing. It depends on the same as measureContrasts().
+// The photopic radiance (W/sr/m2) that points of the scene's surfaces see on average, without sources.
+// Darkness is judged by it. It is right within a small factor, because few directions measure it; 0 if they
+// found nothing. It depends on the scene and the options alone.
 double typicalRadiance(const SphereTracing& tracing, const SeenSources& sources);
 
 }  // namespace rsphere

@@ -165,7 +165,7 @@ DiffuseGlances::Found DiffuseGlances::at(const SetAtPoint& set) const {
     if (neighbours_) seen.push_back({direction, glancing.cell, radiance});
   }
   if (!neighbours_) return found;
-  found.variance += evenVariance(seen, *neighbours_, {}, record.sampling);
+  found.variance += evenVariance(seen, *neighbours_, record.sampling);
   found.shared = {std::vector(record.batches.begin(), record.batches.end()),
                   {record.squares, record.squaredBrightness}};
   return found;

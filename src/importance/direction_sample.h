@@ -5,8 +5,9 @@
 
 namespace rsphere {
 
-// Equal for directions that lie in the same targets (targets.h), within whose silhouettes cells keep.
-// kNoRegion: the direction does not enter the mean, because others represent its solid angle.
+// Identifies a part of the sphere: directions that lie in the same targets (targets.h) have the same number,
+// and cells do not extend from one part into another. kNoRegion: the direction does not enter the mean,
+// because others represent its solid angle.
 using RegionId = uint64_t;
 inline constexpr RegionId kNoRegion = UINT64_MAX;
 
@@ -14,8 +15,10 @@ inline constexpr RegionId kNoRegion = UINT64_MAX;
 struct DirectionSample {
   V3d direction{0, 0, 1};  // unit, world
   double solidAngle = 0;   // that it represents, sr
-  Radiance value;          // from there
+  Radiance value{};        // from there
   bool toSource = false;   // whether it was sent to a light source that is integrated separately
+  Radiance guess{};        // the part of the value that many glances estimate better; 0: none
+  RegionId region = 0;
 };
 
 }  // namespace rsphere

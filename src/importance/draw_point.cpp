@@ -18,10 +18,9 @@ namespace {
 
 using Tuning = tuning::Pictures;
 
-const Smoothing kOfIndirect{Tuning::kIndirectPasses, Tuning::kCarefulPasses, Tuning::kSameLight,
-                            Tuning::kSameNormal,     Tuning::kSamePlane,     Tuning::kNear};
-const Smoothing kOfGloss{Tuning::kGlossPasses, 0, 0, Tuning::kSameGlossNormal, Tuning::kSamePlane,
-                         Tuning::kNear};
+const Smoothing kOfIndirect{Tuning::kIndirectPasses, Tuning::kFinePasses, Tuning::kSameLight,
+                            Tuning::kSameNormal,     Tuning::kNear,       Tuning::kNear};
+const Smoothing kOfGloss{Tuning::kFinePasses, 0, 0, Tuning::kSameGlossNormal, Tuning::kNear, Tuning::kNear};
 
 constexpr double kTracingShare = .85;  // of the time of a picture; for progress reports only
 
@@ -71,8 +70,7 @@ SmallSources smallSources(const PathsFrom& paths, const PixelMap& map, const See
   for (SeenSources::Image& image : small.images) {
     const double there = map.solidAngle(map.pixelOf(image.region.sample(.5, .5)));
     const double pixels = there > 0 ? image.solidAngle / there : Tuning::kSmallest;
-    image.rays =
-        pixels < Tuning::kSmallest ? std::max(Tuning::kLeastSamples, Tuning::kSamplesPerPixel * pixels) : 0;
+    image.rays = pixels < Tuning::kSmallest ? std::max(Tuning::kLeastSamples, Tuning::kSmallest * pixels) : 0;
   }
   small.images.erase(std::remove_if(small.images.begin(), small.images.end(),
                                     [](const auto& image) { return image.rays == 0; }),
@@ -116,7 +114,7 @@ struct Pixels {
     sharesGloss[pixel] = sample.sharesGloss;
     isTraced[pixel] = true;
   }
-  // A sample of a pixel's surface, with the components of this pixel where it lacks them.
+  // The whole light of a sample. Components that it lacks are taken from the given pixel.
   V3d complete(const PixelSample& sample, size_t pixel) const {
     V3d value = sample.rest;
     if (sample.seen.material != kNone) value += sample.pattern * V3d(indirect.light[pixel]);
@@ -205,7 +203,7 @@ class Painter {
   const int sharing_;  // one pixel in a square of this side gathers
 };
 
-// Empty beyond the rim, and where a small source is seen, which is added later.
+// Empty beyond the rim, and where a small source is seen, whose light is added later.
 std::optional<PixelSample> Painter::look(double x, double y, uint64_t seed, PixelParts parts) {
   const auto direction = map_.direction(x, y);
   if (!direction) return std::nullopt;
@@ -214,7 +212,7 @@ std::optional<PixelSample> Painter::look(double x, double y, uint64_t seed, Pixe
   return sample;
 }
 
-// Empty as look(), if no place beside the middle shows anything else.
+// Empty like look(), unless a place beside the middle shows something else.
 std::optional<PixelSample> Painter::middle(int column, int row, PixelParts parts) {
   const size_t pixel = at(column, row);
   if (!map_.direction(column + .5, row + .5)) return std::nullopt;
@@ -299,8 +297,8 @@ std::optional<size_t> Painter::alike(const Pixels& pixels, const PixelSample& sa
   return std::nullopt;
 }
 
-// What is seen at one of Tuning::kAround, with the components of the pixels around it. Empty beyond the rim,
-// and where a small source is seen.
+// What is seen at one of the places kAround of a pixel, completed with components of pixels around it. Empty
+// beyond the rim, and where a small source is seen.
 std::optional<V3d> Painter::around(const Pixels& pixels, int column, int row, size_t place) {
   const double x = column + .5 + Tuning::kAround[place][0], y = row + .5 + Tuning::kAround[place][1];
   const uint64_t seed = streams_.around(at(column, row), place);

@@ -9,7 +9,8 @@
 
 namespace rsphere {
 
-// Gets the part of the work that is done, 0 to 1, before each row; may throw to abandon the picture.
+// Called before each row with the fraction of the work that is done, 0 to 1; may throw to abandon the
+// picture.
 using DrawingProgress = std::function<void(double done)>;
 
 // Draws the radiance (W/sr/m2) that arrives at a point (world), in red, green and blue.

@@ -11,16 +11,20 @@ namespace {
 
 using Tuning = tuning::ErrorEstimate;
 
+// The part of a direction's radiance that only directions estimate; glances estimate the rest.
+Radiance unguessed(const DirectionSample& s) { return s.value - s.guess; }
+
 // Values minus the means of their neighbours.
 struct Differences {
   std::vector<Radiance> values;  // 0 where there is no neighbour
   std::vector<int> neighbours;   // how many there are
 };
 
-// The neighbours are those in the same region; if there are none there, all that count.
-Differences differences(std::span<const Radiance> values, const Neighbours& n,
-                        std::span<const RegionId> regions) {
-  const auto regionOf = [&](size_t i) { return regions.empty() ? RegionId{0} : regions[i]; };
+// values: of the samples. Neighbours in the same region are used; if there are none, all but those in
+// kNoRegion.
+Differences differences(std::span<const Radiance> values, std::span<const DirectionSample> samples,
+                        const Neighbours& n) {
+  const auto regionOf = [&](size_t i) { return samples[i].region; };
   Differences result{std::vector<Radiance>(values.size()), std::vector<int>(values.size())};
   for (size_t i = 0; i < values.size(); ++i) {
     if (regionOf(i) == kNoRegion) continue;
@@ -41,19 +45,21 @@ Differences differences(std::span<const Radiance> values, const Neighbours& n,
   return result;
 }
 
-// The variance of one of m + 1 independent values over that of a difference between differences. It has the
-// value 1 + 1/m times and each neighbour -2/m + 2/m^2 times, since each shares two neighbours with the
-// direction; the rest, of neighbours of neighbours, is .023 for m = 6.
+// Ratio of the variance of one value to that of its second difference, for independent values with m
+// neighbours each. The second difference contains the value itself 1 + 1/m times, and each neighbour -2/m +
+// 2/m^2 times, because each neighbour shares two neighbours with the value. Neighbours of neighbours
+// contribute kFarther, computed for m = 6.
 double ownPartOfSecond(double m) {
   constexpr double kFarther = .023;
   return 1 / (std::pow(1 + 1 / m, 2) + 4 / m * std::pow(1 - 1 / m, 2) + kFarther);
 }
 
-// The number of directions that share in the variance, n for values that are evenly distributed between two
-// bounds: by their fourth moment, of brightness. If k of n directions find something small, it is 1.8 k.
+// The effective number of directions that the variance is due to, from the fourth moment of their brightness:
+// n for values that are evenly distributed between two bounds, 1.8 k if k of n directions find something
+// small.
 double sharing(std::span<const DirectionSample> samples, const SpectralSampling* sampling) {
   const auto partOf = [&](const DirectionSample& s) {
-    return photopicOf(irradianceFrom(s.value, s.solidAngle).color, sampling);
+    return photopicOf(irradianceFrom(unguessed(s), s.solidAngle).color, sampling);
   };
   const double n = static_cast<double>(samples.size());
   double mean = 0, second = 0, fourth = 0;
@@ -88,15 +94,15 @@ Variance sharedVariance(const SharedError& error, const SpectralSampling* sampli
 }
 
 Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours& n,
-                      std::span<const RegionId> regions, const SpectralSampling* sampling) {
+                      const SpectralSampling* sampling) {
   std::vector<Radiance> values(samples.size());
-  std::ranges::transform(samples, values.begin(), [](const DirectionSample& s) { return s.value; });
-  const Differences once = differences(values, n, regions), twice = differences(once.values, n, regions);
+  std::ranges::transform(samples, values.begin(), unguessed);
+  const Differences once = differences(values, samples, n), twice = differences(once.values, samples, n);
   Variance sum;
   for (size_t i = 0; i < samples.size(); ++i) {
     const double m = once.neighbours[i];
     if (m == 0) continue;
-    const bool second = m >= Tuning::kFewestAround, apart = !regions.empty() && regions[i] != 0;
+    const bool second = m >= Tuning::kFewestAround, apart = samples[i].region != 0;
     sum += Variance::of(irradianceFrom((second ? twice : once).values[i], samples[i].solidAngle), sampling) *
            ((second ? ownPartOfSecond(m) : m / (m + 1)) * (apart ? 1 : Tuning::kEvenSet));
   }
@@ -108,43 +114,43 @@ Variance spreadVariance(std::span<const DirectionSample> samples, const Spectral
   Irradiance sum;
   Variance squares;
   for (const DirectionSample& s : samples) {
-    const Irradiance part = irradianceFrom(s.value, s.solidAngle);
+    const Irradiance part = irradianceFrom(unguessed(s), s.solidAngle);
     sum += part;
     squares += Variance::of(part, sampling);
   }
   if (samples.size() < 2) return squares;
-  // If an edge crosses the region, only the cells on the edge contribute, about n^1/2 of n. What few
-  // directions find is smaller than that: directions that are even in the whole region are independent in it.
+  // If an edge crosses the region, only the cells on the edge contribute, about n^1/2 of n. An object that
+  // few directions find is smaller than the spacing of directions; within it, directions that are even in the
+  // whole region are independent.
   const double even = 1 / (1 + std::sqrt(sharing(samples, sampling)) / Tuning::kEvenRun);
   squares += Variance::of(sum, sampling) * (-1 / n);
   return squares * (n / (n - 1) * even);
 }
 
-Variance loneVariance(const DirectionSample& sample, RegionId region, std::span<const DirectionSample> base,
-                      std::span<const RegionId> regions, const SpectralSampling* sampling) {
+Variance loneVariance(const DirectionSample& sample, std::span<const DirectionSample> base,
+                      const SpectralSampling* sampling) {
   Radiance sum;
   int count = 0;
-  for (size_t i = 0; i < base.size(); ++i) {
-    if (regions[i] != region) continue;
-    sum += base[i].value;
+  for (const DirectionSample& s : base) {
+    if (s.region != sample.region) continue;
+    sum += unguessed(s);
     ++count;
   }
-  if (count == 0) return Variance::of(irradianceFrom(sample.value, sample.solidAngle), sampling);
+  if (count == 0) return Variance::of(irradianceFrom(unguessed(sample), sample.solidAngle), sampling);
   const double own = static_cast<double>(count) / (count + 1);
-  return Variance::of(irradianceFrom(sample.value - sum / count, sample.solidAngle), sampling) * own;
+  return Variance::of(irradianceFrom(unguessed(sample) - sum / count, sample.solidAngle), sampling) * own;
 }
 
-Variance unseenVariance(std::span<const DirectionSample> samples, std::span<const RegionId> regions,
-                        const SpectralSampling* sampling) {
+Variance unseenVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling) {
   struct Found {
     Irradiance sum;
     int count = 0;
   };
   std::map<RegionId, Found> found;
-  for (size_t i = 0; i < samples.size(); ++i) {
-    if (regions[i] == 0 || regions[i] == kNoRegion) continue;
-    Found& here = found[regions[i]];
-    here.sum += irradianceFrom(samples[i].value, samples[i].solidAngle);
+  for (const DirectionSample& s : samples) {
+    if (s.region == 0 || s.region == kNoRegion) continue;
+    Found& here = found[s.region];
+    here.sum += irradianceFrom(s.value, s.solidAngle);
     ++here.count;
   }
   Variance sum;
@@ -154,8 +160,8 @@ Variance unseenVariance(std::span<const DirectionSample> samples, std::span<cons
 }
 
 Variance partsVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling) {
-  // The samples are in the order of the rows of the grid. Pairs are neighbours in a row, and samples that lie
-  // one row of the first row's length apart.
+  // The samples are in the order of the rows of the grid. Pairs are neighbours in a row, and samples in
+  // neighbouring rows, if these are as long as the first one.
   Variance sum, edges;
   size_t pairs = 0;
   for (const auto& s : samples) {
@@ -167,7 +173,7 @@ Variance partsVariance(std::span<const SeenSources::Sample> samples, const Spect
       samples.begin(), samples.end(), [&](const auto& s) { return s.row == samples.front().row; }));
   const auto add = [&](size_t i, size_t k) {
     ++pairs;
-    // The part of a difference that shadow rays measured is no variance of the directions.
+    // The part of a difference that is due to visibility is excluded: shadow rays have measured it.
     const double clear = static_cast<double>(samples[i].clear * samples[k].clear) /
                          static_cast<double>(samples[i].aimed * samples[k].aimed);
     sum += Variance::of(irradianceFrom(samples[i].direction.value, samples[i].part) -

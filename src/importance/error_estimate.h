@@ -1,6 +1,6 @@
 #pragma once
-// The variance of an estimate from one set of directions, computed from that set alone. sampling, throughout:
-// RayOptions::sampling.
+// The variance of an estimate from one set of directions, computed from that set alone. Guesses are
+// subtracted from the radiances, because glances estimate them. sampling, throughout: RayOptions::sampling.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -31,7 +31,7 @@ struct Variance {
   Variance operator*(double factor) const { return {channels * factor, brightness * factor}; }
 };
 
-// What all directions of a point, and all points, share: the error of light vertices.
+// The error of light vertices, which all directions of a point, and all points, share.
 struct SharedError {
   std::vector<Irradiance> batches;  // sums of contributions by batch of light paths; empty: there are none
   Variance chosen;  // the part of the batches' spread that is due to the choice of vertices for each glance
@@ -39,7 +39,7 @@ struct SharedError {
   void add(const SharedError& other, double share);
 };
 // Its variance, by the differences between the batches.
-Variance sharedVariance(const SharedError& error, const SpectralSampling* sampling = nullptr);
+Variance sharedVariance(const SharedError& error, const SpectralSampling* sampling);
 
 // The neighbours of each direction on the sphere: those of direction i are neighbour[first[i]] to
 // neighbour[first[i + 1] - 1].
@@ -48,40 +48,38 @@ struct Neighbours {
 };
 
 // Variance of the sum of solid angle times radiance over even directions. Each contributes its solid angle
-// times the difference between its radiance and the mean of its neighbours, minus the mean of the neighbours'
-// differences: noise of paths, and edges, but not light that slopes or bends smoothly, which an even set
-// integrates. An even set averages out a part of the edges, so that the sum is multiplied by
-// tuning::ErrorEstimate::kEvenSet. The factor is 1 in regions other than 0, where single directions find
-// much, such as a lamp that a chrome column mirrors. regions: of each direction; empty: all are in region 0.
-// Only neighbours in the same region are compared, if there are any: the edge of a region is no error,
-// because cells keep to regions. Directions in kNoRegion do not count.
+// times its second difference: the difference between its radiance and the mean of its neighbours, minus the
+// mean of the neighbours' differences. This contains the noise of paths, and edges, but not light that varies
+// smoothly, which an even set integrates. An even set averages out a part of the edges, so that the sum is
+// multiplied by tuning::ErrorEstimate::kEvenSet. The factor is 1 in regions other than 0, where single
+// directions find much, such as a lamp that a chrome column mirrors. Only neighbours in the same region are
+// compared, if there are any: the edge of a region is no error, because cells keep to regions. Directions in
+// kNoRegion are left out.
 Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours& neighbours,
-                      std::span<const RegionId> regions, const SpectralSampling* sampling = nullptr);
+                      const SpectralSampling* sampling);
 
-// The same for a run of dynamic directions, which are evenly spread over a region in this order,
-// but successive ones are not neighbours: the variance of independent directions, reduced because
-// the directions are even, but not where few of them find much, such as a lamp that is mirrored twice.
-Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling = nullptr);
+// The same for a run of dynamic directions. They are spread evenly over a region, but successive ones are not
+// neighbours. It is the variance of independent directions, reduced because they are even, except where few
+// of them find most of the light, such as a lamp that is mirrored twice.
+Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling);
 
 // The same for a run of a single direction in a region: compared with the base directions in the same region.
-// regions: of each of base. If there are none, all of what it found is taken for the error.
-Variance loneVariance(const DirectionSample& sample, RegionId region, std::span<const DirectionSample> base,
-                      std::span<const RegionId> regions, const SpectralSampling* sampling = nullptr);
+// If there are none, all of what it found is taken for the error.
+Variance loneVariance(const DirectionSample& sample, std::span<const DirectionSample> base,
+                      const SpectralSampling* sampling);
 
-// The same for what no direction has found in regions other than 0: an obstacle that hides half of what one
-// more direction would represent, in each. Without it, the light of an opening to which few directions were
-// sent would be stated without error whenever all of them see the same sky.
-Variance unseenVariance(std::span<const DirectionSample> samples, std::span<const RegionId> regions,
-                        const SpectralSampling* sampling = nullptr);
+// The same for obstacles that no direction has hit, in regions other than 0. In each region, an obstacle is
+// assumed that hides half of what one more direction would represent. Without it, the light of an opening to
+// which few directions were sent would be stated without error whenever all of them see the same sky. An
+// obstacle also hides what is guessed.
+Variance unseenVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling);
 
 // The same for the samples of one image of a light source, in the order of its grid: from differences between
 // neighbouring cells, because an occluder hides cells that lie together.
-Variance partsVariance(std::span<const SeenSources::Sample> samples,
-                       const SpectralSampling* sampling = nullptr);
+Variance partsVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling);
 
 // The same for the choice of images that are sampled by chance, because there are more images than samples:
 // from differences between images that are chosen in succession. samples: of all images.
-Variance choiceVariance(std::span<const SeenSources::Sample> samples,
-                        const SpectralSampling* sampling = nullptr);
+Variance choiceVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling);
 
 }  // namespace rsphere

@@ -21,15 +21,14 @@ namespace {
 
 // Adds `excess` to the integral over the samples: in proportion to their guesses, or
 // evenly if all guesses are 0.
-void shareOut(const Irradiance& excess, std::span<const Radiance> guesses,
-              std::vector<DirectionSample>& samples) {
+void shareOut(const Irradiance& excess, std::vector<DirectionSample>& samples) {
   Irradiance guessed;
   double solidAngle = 0;
-  for (size_t i = 0; i < samples.size(); ++i) {
-    guessed += irradianceFrom(guesses[i], samples[i].solidAngle);
-    solidAngle += samples[i].solidAngle;
+  for (const DirectionSample& s : samples) {
+    guessed += irradianceFrom(s.guess, s.solidAngle);
+    solidAngle += s.solidAngle;
   }
-  // Of one channel or band: those of the guess and of the excess.
+  // For one channel or band. all: of the guesses; more: of the excess.
   const auto scaleOf = [](double all, double more) { return all > 0 ? more / all : 0; };
   const auto shiftOf = [&](double all, double more) {
     return all > 0 || !(solidAngle > 0) ? 0 : more / solidAngle;
@@ -38,7 +37,7 @@ void shareOut(const Irradiance& excess, std::span<const Radiance> guesses,
       combined(excess.color, guessed.color, [&](double e, double g) { return scaleOf(g, e); });
   const Color shift =
       combined(excess.color, guessed.color, [&](double e, double g) { return shiftOf(g, e); });
-  for (size_t i = 0; i < samples.size(); ++i) samples[i].value.color += scale * guesses[i].color + shift;
+  for (DirectionSample& s : samples) s.value.color += scale * s.guess.color + shift;
 }
 
 // Sets radiances to 0 that guesses have made negative, and reduces the others so that the
@@ -78,17 +77,18 @@ void append(std::vector<T>& all, std::vector<T>&& more) {
     all.insert(all.end(), more.begin(), more.end());
 }
 
-// All sets as one, each weighted by its share of the average. excess: average over the sets.
-SampledSet joined(std::vector<KeptSet> sets, const TwoHalves& halves, const Irradiance& excess) {
+// All sets as one, each weighted by its share of the average. excess: average over the sets; it is added to
+// the samples if every direction is printed.
+SampledSet joined(std::vector<KeptSet> sets, const TwoHalves& halves, const Irradiance& excess,
+                  bool everyDirection) {
   SampledSet all;
   for (KeptSet& kept : sets) {
     for (DirectionSample& s : kept.set.samples) s.solidAngle *= halves.share(kept.half);
     append(all.samples, std::move(kept.set.samples));
     append(all.rays, std::move(kept.set.rays));
-    append(all.guesses, std::move(kept.set.guesses));
   }
-  if (!all.guesses.empty()) {
-    shareOut(excess, all.guesses, all.samples);
+  if (everyDirection && !(excess.color == Color(0))) {
+    shareOut(excess, all.samples);
     keepPositive(all.samples);
   }
   return all;
@@ -98,19 +98,20 @@ SampledSet joined(std::vector<KeptSet> sets, const TwoHalves& halves, const Irra
 
 SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions& options, bool standardError)
     : options_(options),
-      base_(makeBaseSet(options, standardError || options.accuracy > 0)),
+      base_(makeBaseSet(options, transport.prepared().options().sampling,
+                        standardError || options.accuracy > 0)),
       sources_(transport.prepared()),
-      tracing_{transport.prepared(), transport.caches(), {}} {
+      tracing_{transport.prepared(), transport.caches()} {
   const PreparedScene& prepared = transport.prepared();
-  base_.sampling = prepared.options().sampling;
   if (options.weights != Weights::homogeneous)
     special_ = findSpecialObjects(prepared.scene(), options.densityFactor);
   if (options.weights == Weights::silhouettes && options.densityFactor > 0) {
     glances_ = DiffuseGlances::make(prepared, options, base_);
     if (glances_) tracing_.vertexLight = &glances_->light(0);
-    if (!glances_) aims_ = findAimsOfPoints(prepared, transport.aims());
-    tracing_.aims = joined(transport.aims(), aims_);
-    // Bright spots show that light is uneven. Openings and light vertices have other means.
+    if (!glances_) tracing_.ofPoints = findAimsOfPoints(prepared, transport.aims());
+    tracing_.aims = joined(transport.aims(), tracing_.ofPoints);
+    // Patches are only for scenes where bright spots make light uneven. Openings, and light from both ends,
+    // do without.
     if (!glances_ && tracing_.aims.spots && !tracing_.aims.openings) {
       auto patches = std::make_unique<LightPatches>(prepared);
       if (!patches->all().empty()) patches_ = std::move(patches);
@@ -118,7 +119,7 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
   }
   strategy_ = makeStrategy();
   if (options.accuracy > 0)
-    dark_ = 4 * std::numbers::pi * tuning::Dark::kMean * typicalRadiance(tracing_, sources_);
+    dark_ = 4 * std::numbers::pi * tuning::Dark::kShare * typicalRadiance(tracing_, sources_);
 }
 
 std::unique_ptr<const SamplingStrategy> SphereEstimator::makeStrategy() const {
@@ -137,11 +138,11 @@ std::unique_ptr<const SamplingStrategy> SphereEstimator::makeStrategy() const {
 SphereEstimator::Workspace::Workspace(const SphereEstimator& estimator)
     : tracer(estimator.tracing_.tracer()) {}
 
-// lit: directions that found light. Sources are found by directions of their own with -Sw c alone.
+// lit: directions that found light. Only with -Sw c do sources have directions of their own.
 bool SphereEstimator::isDark(const PointAnswer& answer, size_t lit) const {
   if (maxChannel(answer.mean.color) == 0) return true;
   return options_.weights == Weights::silhouettes &&
-         static_cast<double>(lit) < tuning::Dark::kLitDirections * static_cast<double>(answer.directions);
+         static_cast<double>(lit) < tuning::Dark::kShare * static_cast<double>(answer.directions);
 }
 
 PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) const {
@@ -187,7 +188,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
     shared.add(halves[k].shared, share);
   }
   variance += sharedVariance(shared, base_.sampling);
-  SampledSet all = joined(std::move(kept), decision, excess);
+  SampledSet all = joined(std::move(kept), decision, excess, options_.everyDirection);
   workspace.samples = std::move(all.samples);
   workspace.rays = std::move(all.rays);
   PointAnswer answer = moments.answer(point, directions);

@@ -61,7 +61,6 @@ class SphereEstimator {
   // after tuning::Dark::kSets sets.
   PointAnswer estimate(const V3d& point, Workspace& workspace) const;
 
-  const std::vector<SpecialObject>& specialObjects() const { return special_; }
   const SeenSources& sources() const { return sources_; }
 
  private:
@@ -71,9 +70,8 @@ class SphereEstimator {
   SphereOptions options_;
   BaseSet base_;
   SeenSources sources_;
-  std::vector<SpecialObject> special_;           // none with -Sw h
-  FoundAims aims_;                               // in addition to those of gathers
-  std::unique_ptr<const LightPatches> patches_;  // null where light is even
+  std::vector<SpecialObject> special_;             // none with -Sw h
+  std::unique_ptr<const LightPatches> patches_;    // null where light is even
   std::unique_ptr<const DiffuseGlances> glances_;  // null where light vertices do not bring all of the light
   SphereTracing tracing_;
   std::unique_ptr<const SamplingStrategy> strategy_;

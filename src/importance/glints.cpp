@@ -6,6 +6,7 @@
 
 #include "importance/tuning.h"
 #include "transport/ball_reflection.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
 namespace {
@@ -13,18 +14,18 @@ namespace {
 using std::numbers::pi;
 using Tuning = tuning::Glints;
 
-// The fraction of the brightness that a ball mirrors at normal incidence, and only by its outer boundary.
-// Images in balls of trans are ignored.
+// The fraction of the brightness that the outer boundary of a ball mirrors at normal incidence. Images in
+// balls of trans are ignored.
 double reflectanceOf(const Material& material) {
   const auto mirrored = mirrorReflection(material);
   if (!mirrored) return 0;
   if (mirrored->boundaries > 0) return Tuning::kFresnel;
-  if (isTransparent(material) || mirrored->roughness > Tuning::kSmooth) return 0;
+  if (isTransparent(material) || mirrored->roughness > kSharpRoughness) return 0;
   return mirrored->brightness;
 }
 
-// A part of a source as seen from a ball, so small that its image is hardly curved. Places, or directions
-// (unit) if the source is distant.
+// A part of a source, so small that its image in a ball is hardly curved. Its members are places, or
+// directions (unit) if the source is distant.
 struct Part {
   V3d middle;
   std::vector<V3d> corners;
@@ -34,7 +35,7 @@ std::vector<Part> partsOf(const Scene& scene, const LightSource& source, const S
   const auto* polygon = scene.surfaces[source.surface].shape.as<Polygon>();
   const auto* plane = source.as<PlaneLight>();
   const bool outlined = polygon && !std::holds_alternative<PlaneLight::Parallelogram>(plane->map);
-  if (outlined && polygon->vertices <= Tuning::kMostCorners) {
+  if (outlined && polygon->vertices <= static_cast<size_t>(tuning::Silhouettes::kCorners)) {
     const auto first = scene.vertices.begin() + polygon->firstVertex;
     return {{source.center, std::vector<V3d>(first, first + polygon->vertices)}};
   }
@@ -61,8 +62,8 @@ std::vector<Part> partsOf(const Scene& scene, const LightSource& source, const S
       [&](const DistantLight& cone) { setRound(away.normalized(), cone.sinHalfAngle); });
   const auto divided = [&](const V3d& half) {
     if (source.isDistant()) return 1;
-    return static_cast<int>(
-        std::min(std::ceil(half.length() / (Tuning::kHalfPart * distance)), Tuning::kMostParts));
+    return static_cast<int>(std::min(std::ceil(half.length() / (Tuning::kHalfPart * distance)),
+                                     static_cast<double>(tuning::Silhouettes::kCorners)));
   };
   const int columns = divided(u), rows = divided(v);
   u /= columns;
@@ -145,8 +146,8 @@ std::vector<Glint> Glints::find(const V3d& point, double least) const {
       const double distance =
           source.isDistant() ? kFarAway : (source.center - ball.center).length() - ball.radius;
       if (!(distance > 0) || (source.reach > 0 && distance - source.radius > source.reach)) continue;
-      // A ball spreads distant light evenly over the sphere. The image therefore fills the solid angle of the
-      // source as seen from the ball, times the square of the ball's radius over the distance to it, over 4.
+      // A ball of radius r spreads distant light evenly over the sphere. At a distance d, the image therefore
+      // has (r / 2d)^2 times the solid angle that the source has as seen from the ball.
       const double reached = ball.radius / nearest, radiance = light.brightness * reflectance;
       if (!(radiance * radiance * solidAngleFrom(source, ball, distance) * reached * reached / 4 > least))
         continue;
@@ -164,7 +165,7 @@ std::vector<Glint> Glints::find(const V3d& point, double least) const {
           const V3d corner = part.corners[i], next = part.corners[(i + 1) % part.corners.size()];
           for (const double share : {0., .5}) {
             const V3d place =
-                part.middle + Tuning::kEnlarged * (corner + share * (next - corner) - part.middle);
+                part.middle + tuning::Highlights::kWider * (corner + share * (next - corner) - part.middle);
             around.push_back(ball.center +
                              ball.radius * mirroringNormal(ball, point, place, source.isDistant()));
           }

@@ -16,13 +16,13 @@ namespace rsphere {
 struct Glint {
   Silhouette region;       // approximate
   double brightness = 0;   // upper bound, W/sr/m2
-  bool continues = false;  // it is another part of the image before it
+  bool continues = false;  // part of the same image as the glint before it
 };
 
 class Glints {
  public:
   // Uses those objects that are spheres of mirror, of glass or another dielectric, or of metal or
-  // plastic that is smoother than tuning::Glints::kSmooth; and all sources that are not virtual. Keeps
+  // plastic that is smoother than kSharpRoughness; and all sources that are not virtual. Keeps
   // a reference to the prepared scene.
   Glints(const PreparedScene& prepared, std::span<const SpecialObject> objects);
 

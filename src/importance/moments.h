@@ -12,7 +12,7 @@ struct Moments {
   V3d light{0, 0, 0};      // of photopicOf(L) d, W/m2
 
   // Adds one direction. part: its radiance times its solid angle. sampling: RayOptions::sampling.
-  void add(const V3d& direction, const Irradiance& part, const SpectralSampling* sampling = nullptr);
+  void add(const V3d& direction, const Irradiance& part, const SpectralSampling* sampling);
   void add(const Moments& other, double share);
 
   // The quantities at a point (world), without their standard errors. Definitions: point_answer.h.

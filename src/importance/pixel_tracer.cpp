@@ -24,13 +24,13 @@ bool sharesGloss(const Material& material, const SurfaceHit& hit) {
 
 }  // namespace
 
-// Nothing is separated if a medium attenuates light on its way, because the samples are observed before it
-// does.
+// Components are not separated in a medium, because they are observed before it attenuates them.
 PixelTracer::PixelTracer(const V3d& point, const Transport& transport)
     : point_(point),
       prepared_(transport.prepared()),
       tracer_(transport.pathTracer({FirstBounce::gathered})),
-      separates_(isBlack(prepared_.medium().extinction) && prepared_.scatterers().empty()) {}
+      separates_(isBlack(prepared_.options().medium().extinction) &&
+                 prepared_.lights().ofMists().all().empty()) {}
 
 PixelSample PixelTracer::trace(const V3d& direction, uint64_t seed, PixelParts parts) {
   if (!separates_) parts = PixelParts::all;
@@ -62,7 +62,7 @@ PixelSample PixelTracer::traceOnce(const V3d& direction, uint64_t seed, PixelPar
   sample.shown = ray.shown;
   sample.rest = shownRgb(ray.value.color, sampling);
   sample.pattern = shownRgb(ray.pattern, sampling);
-  // Light is not separated from a pattern that is black in a channel, which it cannot be divided by.
+  // Light cannot be divided by a pattern that is black in a channel, and is then not separated.
   const V3d& pattern = sample.pattern;
   if (hit.surface == kNone || !separates_ || !(std::min({pattern.x, pattern.y, pattern.z}) > 0))
     return sample;

@@ -8,7 +8,7 @@ namespace rsphere {
 struct PixelSample {
   V3d rest{0, 0, 0};      // radiance (W/sr/m2) but for the two components below
   V3d indirect{0, 0, 0};  // reflected indirect light of the surface that is seen, divided by its pattern
-  V3d gloss{0, 0, 0};     // its rough reflections and transmissions, where sharesGloss
+  V3d gloss{0, 0, 0};     // rough reflections and transmissions, where neighboring pixels may share them
   V3d pattern{1, 1, 1};   // of the surface
   SeenSurface seen;       // material kNone: `rest` is everything
   bool sharesGloss = false;

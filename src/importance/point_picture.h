@@ -28,11 +28,8 @@ class PixelMap {
       : projection_(projection), width_(width), height_(height) {}
   // With about half a million pixels, one per .35 degrees (latitudeLongitude) or .45 degrees.
   explicit PixelMap(Projection projection)
-      : PixelMap(projection,
-                 projection == Projection::angularFisheye ? tuning::Pictures::kFisheyeSide
-                                                          : 2 * tuning::Pictures::kLatitudeLongitudeHeight,
-                 projection == Projection::angularFisheye ? tuning::Pictures::kFisheyeSide
-                                                          : tuning::Pictures::kLatitudeLongitudeHeight) {}
+      : PixelMap(projection, projection == Projection::angularFisheye ? tuning::Pictures::kFisheyeSide : 1024,
+                 projection == Projection::angularFisheye ? tuning::Pictures::kFisheyeSide : 512) {}
 
   int width() const { return width_; }
   int height() const { return height_; }

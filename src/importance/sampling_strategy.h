@@ -39,16 +39,15 @@ class SetAtPoint {
 // The directions of one set, traced and weighted.
 struct SampledSet {
   std::vector<DirectionSample> samples;
-  std::vector<TracedRay> rays;    // of the samples, in the same order; kept with -Sd only
-  std::vector<Radiance> guesses;  // of the samples' radiances (radiance_guess.h); empty: none
-  Moments excess;         // what glances have found beyond the guesses along the samples; 0 without glances
-  Irradiance clamped;     // what -Sf took from moments().total
-  Variance variance;      // of moments().total; 0 unless standard errors are wanted
-  SharedError shared;     // in addition to variance
-  size_t litGlances = 0;  // that found light besides the samples (diffuse_glances.h)
+  std::vector<TracedRay> rays;  // of the samples, in the same order; kept with -Sd only
+  Moments excess;               // what glances find minus the guesses of the samples; 0 without glances
+  Irradiance clamped;           // what -Sf took from moments().total
+  Variance variance;            // of moments().total; 0 unless standard errors are wanted
+  SharedError shared;           // in addition to variance
+  size_t litGlances = 0;        // glances that found light (diffuse_glances.h)
 
   // The set's estimate of the integrals over all directions.
-  Moments moments(const SpectralSampling* sampling = nullptr) const;  // RayOptions::sampling
+  Moments moments(const SpectralSampling* sampling) const;  // RayOptions::sampling
 };
 
 // Traces each direction once and gives it its solid angle (sr). The random numbers of direction i
@@ -61,9 +60,8 @@ class SamplingStrategy {
  public:
   virtual ~SamplingStrategy() = default;
 
-  // Depends on the set, the scene and the options alone. tracer: the thread's; its settings are
-  // the same afterwards. memory: the thread's, kept for speed alone. Throws rad::Error if solid
-  // angles fail the check of -Sv.
+  // Depends on the set, the scene and the options alone. tracer, memory: the thread's; memory is kept for
+  // speed alone. Throws rad::Error if solid angles fail the check of -Sv.
   virtual SampledSet sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace& memory) const = 0;
 };
 

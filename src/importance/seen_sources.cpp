@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/overloaded.h"
+#include "importance/special_objects.h"
 #include "importance/tuning.h"
 #include "scene/even_sequence.h"
 
@@ -15,8 +16,8 @@ namespace {
 using std::numbers::pi;
 using Tuning = tuning::SeenSources;
 
-// The fraction of light that a plane surface mirrors without any blur at this cosine of incidence: colors of
-// metals do not count, and panes mirror by both boundaries. 0: it never does.
+// The fraction of light that a plane surface mirrors without any blur at this cosine of incidence, regardless
+// of the color of metals. Both boundaries of panes mirror. 0: the surface never does.
 double sharpReflectance(const Material& material, double cosine = 1) {
   const auto mirrored = mirrorReflection(material);
   if (!mirrored) return 0;
@@ -68,6 +69,32 @@ struct Plane {
   V3d mirroredDirection(const V3d& d) const { return d - 2 * normal.dot(d) * normal; }
 };
 
+using Image = SeenSources::Image;
+
+// What a ray to the image shows if nothing hides it.
+ShownSource shownBy(const PreparedScene& prepared, const Image& image) {
+  return {prepared.lights().all()[image.source].surface, image.mirror};
+}
+
+ShapeRef shapeOf(const PreparedScene& prepared, const Image& image) {
+  return prepared.scene().surfaces[shownBy(prepared, image).source].shape;
+}
+
+// Where the source is seen from: a point, or its mirror image behind the mirror.
+V3d eyeOf(const Scene& scene, const Image& image, const V3d& point) {
+  return image.mirror == kNone ? point : Plane(scene.surfaces[image.mirror].shape).mirrored(point);
+}
+
+// expected: what the ray shows if nothing hides the image. The solid angle becomes 1 if the ray shows that, 0
+// otherwise; it is scaled later.
+void setRay(SeenSources::Sample& sample, const TracedRay& ray, const ShownSource& expected) {
+  sample.ray = ray;
+  sample.direction.toSource = true;
+  if (!(ray.shown == expected)) return;
+  sample.direction.value = ray.value;
+  sample.direction.solidAngle = 1;
+}
+
 }  // namespace
 
 SeenSources::SeenSources(const PreparedScene& prepared) : prepared_(prepared) {
@@ -92,7 +119,7 @@ SeenSources::SeenSources(const PreparedScene& prepared) : prepared_(prepared) {
   }
   std::sort(mirrors.begin(), mirrors.end());
   for (const auto& [area, surface] : mirrors)
-    if ((mirrors_.size() + 1) * sources_.size() <= Tuning::kMostMirrored) mirrors_.push_back(surface);
+    if ((mirrors_.size() + 1) * sources_.size() <= kMostPlacedObjects) mirrors_.push_back(surface);
 }
 
 bool SeenSources::isOne(const ShownSource& s, const std::vector<Image>& images) const {
@@ -136,12 +163,12 @@ std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t
     Image& image = images[i];
     const double enough =
         std::max({Tuning::kUsualRays, image.solidAngle / (Tuning::kSmallestPart * Tuning::kSmallestPart),
-                  Tuning::kOfEvenShare * static_cast<double>(most) / static_cast<double>(images.size())});
+                  Tuning::kSmallShare * static_cast<double>(most) / static_cast<double>(images.size())});
     image.rays = std::min(image.rays / sum * static_cast<double>(most), enough);
     if (i < straight && straight <= most) image.rays = std::max(image.rays, 1.);
   }
   images.erase(std::remove_if(images.begin() + straight, images.end(),
-                              [](const Image& i) { return i.rays < Tuning::kFewestRays; }),
+                              [](const Image& i) { return i.rays < Tuning::kSmallShare; }),
                images.end());
   return images;
 }
@@ -189,108 +216,105 @@ std::vector<SeenSources::Sample> SeenSources::sample(const PathsFrom& paths, con
                                                      uint64_t seed) const {
   std::vector<Sample> samples;
   Random random(seed);
-  // Of the images with less than one ray, some are sampled, with the weight of the others.
+  // Some of the images with less than one ray are sampled, and represent the others.
   double due = random.uniform();
   for (size_t i = 0; i < images.size(); ++i) {
     const Image& image = images[i];
-    size_t rays = static_cast<size_t>(image.rays);
-    double solidAngle = image.solidAngle;
+    Share share{static_cast<size_t>(image.rays), image.solidAngle};
     if (image.rays < 1) {
       due += image.rays;
       if (due < 1) continue;
       --due;
-      rays = 1;
-      solidAngle /= image.rays;
+      share = {1, image.solidAngle / image.rays};
     }
-    const size_t first = samples.size();
-    sampleImage(paths, image, rays, solidAngle, random.bits(), samples);
-    for (size_t k = first; k < samples.size(); ++k) {
-      samples[k].image = i;
-      samples[k].chance = std::min(image.rays, 1.);
+    for (Sample& s : sampleImage(paths, image, share, random.bits())) {
+      s.image = i;
+      s.chance = std::min(image.rays, 1.);
+      samples.push_back(std::move(s));
     }
   }
   return samples;
 }
 
-void SeenSources::sampleImage(const PathsFrom& paths, const Image& image, size_t rays, double solidAngle,
-                              uint64_t seed, std::vector<Sample>& samples) const {
-  const V3d& point = paths.point();
-  const Scene& scene = prepared_.scene();
-  const LightSource& light = prepared_.lights().all()[image.source];
-  const ShapeRef shape = scene.surfaces[light.surface].shape;
+std::vector<SeenSources::Sample> SeenSources::sampleImage(const PathsFrom& paths, const Image& image,
+                                                          const Share& share, uint64_t seed) const {
   Random random(seed);
-  const bool mirrored = image.mirror != kNone;
-  const ShapeRef mirror = mirrored ? scene.surfaces[image.mirror].shape : shape;
-  const V3d eye = mirrored ? Plane(mirror).mirrored(point) : point;
-  double share = 1;
-  ShapeHit on;
-  if (!image.filled) {
-    const double shift1 = random.uniform(), shift2 = random.uniform();
-    size_t met = 0;
-    for (size_t i = 0; i < Tuning::kShareTries; ++i) {
-      const Imath::V2d u = evenly(i, shift1, shift2);
-      met += hits(scene, shape, eye, image.region.sample(u.x, u.y), on) && on.cosine > 0;
-    }
-    if (met == 0) return;
-    share = static_cast<double>(met) / Tuning::kShareTries;
-  }
-  const size_t tries = std::max<size_t>(1, static_cast<size_t>(static_cast<double>(rays) / share));
+  const V3d eye = eyeOf(prepared_.scene(), image, paths.point());
+  const double filled = image.filled ? 1 : filledShare(image, eye, random);
+  std::vector<Sample> samples;
+  if (filled == 0) return samples;
+  const size_t tries = std::max<size_t>(1, static_cast<size_t>(static_cast<double>(share.rays) / filled));
   const auto rows = static_cast<size_t>(std::sqrt(static_cast<double>(tries)));
-  const size_t columns = tries / rows, first = samples.size();
+  const size_t columns = tries / rows;
   for (size_t row = 0; row < rows; ++row)
     for (size_t column = 0; column < columns; ++column) {
-      if (!mirrored) {
-        sampleCell(paths, image, {row, column, rows, columns}, random, samples);
-        continue;
-      }
-      Sample s;
-      s.row = row;
-      V3d& direction = s.direction.direction;
-      direction = image.region.sample((row + random.uniform()) / rows, (column + random.uniform()) / columns);
-      const uint64_t raySeed = random.bits();
-      if (!hits(scene, shape, eye, direction, on) || !(on.cosine > 0)) continue;
-      direction = Plane(mirror).mirroredDirection(direction);
-      const TracedRay ray = paths.trace(direction, raySeed);
-      s.ray = ray;
-      s.direction.toSource = true;
-      s.direction.value = {};
-      if (ray.shown == ShownSource{light.surface, image.mirror}) {
-        s.direction.value = s.ray.value;
-        s.direction.solidAngle = 1;
-      }
-      samples.push_back(s);
+      const Cell cell{row, column, rows, columns, random};
+      auto s =
+          image.mirror == kNone ? sampleStraight(paths, image, cell) : sampleMirrored(paths, image, cell);
+      if (s) samples.push_back(std::move(*s));
     }
-  // The known solid angle of the whole is divided among the samples that met the source.
+  // The solid angle of the image is known; it is divided among the samples that met the source.
   int aimed = 0;
-  for (size_t i = first; i < samples.size(); ++i) aimed += samples[i].aimed;
-  const double each = solidAngle * share / std::max(1, aimed);
-  for (size_t i = first; i < samples.size(); ++i) {
-    samples[i].part = each * samples[i].aimed;
-    samples[i].direction.solidAngle *= each * samples[i].clear;
+  for (const Sample& s : samples) aimed += s.aimed;
+  const double each = share.solidAngle * filled / std::max(1, aimed);
+  for (Sample& s : samples) {
+    s.part = each * s.aimed;
+    s.direction.solidAngle *= each * s.clear;
   }
+  return samples;
+}
+
+// The fraction of an image's region that shows the source if nothing hides it. eye: the point, or its mirror
+// image.
+double SeenSources::filledShare(const Image& image, const V3d& eye, Random& random) const {
+  const ShapeRef shape = shapeOf(prepared_, image);
+  const double shift1 = random.uniform(), shift2 = random.uniform();
+  size_t met = 0;
+  ShapeHit on;
+  for (size_t i = 0; i < Tuning::kShareTries; ++i) {
+    const Imath::V2d u = evenly(i, shift1, shift2);
+    met += hits(prepared_.scene(), shape, eye, image.region.sample(u.x, u.y), on) && on.cosine > 0;
+  }
+  return static_cast<double>(met) / Tuning::kShareTries;
+}
+
+std::optional<SeenSources::Sample> SeenSources::sampleMirrored(const PathsFrom& paths, const Image& image,
+                                                               const Cell& cell) const {
+  const Scene& scene = prepared_.scene();
+  const double v = (cell.column + cell.random.uniform()) / cell.columns,
+               u = (cell.row + cell.random.uniform()) / cell.rows;
+  const V3d direction = image.region.sample(u, v);
+  const uint64_t seed = cell.random.bits();
+  ShapeHit on;
+  const V3d eye = eyeOf(scene, image, paths.point());
+  if (!hits(scene, shapeOf(prepared_, image), eye, direction, on) || !(on.cosine > 0)) return std::nullopt;
+  Sample s;
+  s.row = cell.row;
+  s.direction.direction = Plane(scene.surfaces[image.mirror].shape).mirroredDirection(direction);
+  setRay(s, paths.trace(s.direction.direction, seed), shownBy(prepared_, image));
+  return s;
 }
 
 // Sends shadow rays to places all over one cell of the image's grid. The sample is one of those that reached
 // the source, or one of all if something opaque stopped each of them.
-void SeenSources::sampleCell(const PathsFrom& paths, const Image& image, const Cell& cell, Random& random,
-                             std::vector<Sample>& samples) const {
+std::optional<SeenSources::Sample> SeenSources::sampleStraight(const PathsFrom& paths, const Image& image,
+                                                               const Cell& cell) const {
   const V3d& point = paths.point();
-  const LightSource& light = prepared_.lights().all()[image.source];
-  const ShapeRef shape = prepared_.scene().surfaces[light.surface].shape;
+  const SurfaceId source = shownBy(prepared_, image).source;
+  const ShapeRef shape = shapeOf(prepared_, image);
   Sample s;
   s.row = cell.row;
   s.aimed = s.clear = 0;
   ShapeHit on, chosen{0, V3d(0, 0, 0), 0};
   for (size_t i = 0; i < Tuning::kShadowsAlong; ++i)
-    for (size_t k = 0; k < Tuning::kShadowsAcross; ++k) {
-      const double u = (cell.row + (i + random.uniform()) / Tuning::kShadowsAlong) / cell.rows,
-                   v = (cell.column + (k + random.uniform()) / Tuning::kShadowsAcross) / cell.columns;
+    for (size_t k = 0; k < Tuning::kShadowsAlong; ++k) {
+      const double u = (cell.row + (i + cell.random.uniform()) / Tuning::kShadowsAlong) / cell.rows,
+                   v = (cell.column + (k + cell.random.uniform()) / Tuning::kShadowsAlong) / cell.columns;
       const V3d direction = image.region.sample(u, v);
-      const double lot = random.uniform();
+      const double lot = cell.random.uniform();
       if (!hits(prepared_.scene(), shape, point, direction, on) || !(on.cosine > 0)) continue;
       ++s.aimed;
-      const bool clear =
-          prepared_.tracer().shadow(point, direction, on.distance, light.surface) != Shadow::blocked;
+      const bool clear = prepared_.tracer().shadow(point, direction, on.distance, source) != Shadow::blocked;
       s.clear += clear;
       // The nth ray replaces the choice so far with probability 1/n, which makes all n equally probable.
       if (clear ? lot * s.clear < 1 : s.clear == 0 && lot * s.aimed < 1) {
@@ -298,18 +322,11 @@ void SeenSources::sampleCell(const PathsFrom& paths, const Image& image, const C
         chosen = on;
       }
     }
-  if (s.aimed == 0) return;
-  const TracedRay ray = paths.traceToSource(
-      {s.direction.direction, 0, chosen.distance, chosen.cosine, chosen.normal, image.source}, random.bits());
-  s.ray = ray;
-  s.direction.toSource = true;
-  s.direction.value = {};
-  s.direction.solidAngle = 0;
-  if (ray.shown == ShownSource{light.surface, kNone}) {
-    s.direction.value = s.ray.value;
-    s.direction.solidAngle = 1;
-  }
-  samples.push_back(s);
+  if (s.aimed == 0) return std::nullopt;
+  const SourceSample at{s.direction.direction, 0,           chosen.distance, chosen.cosine,
+                        chosen.normal,         image.source};
+  setRay(s, paths.traceToSource(at, cell.random.bits()), shownBy(prepared_, image));
+  return s;
 }
 
 }  // namespace rsphere

@@ -3,6 +3,7 @@
 // and their places are known, so they are integrated separately instead of being met by chance. Every
 // direction belongs to one of two classes: either it shows such an image, perhaps through panes, or it does
 // not. This file samples the first class. The other directions of a set leave that class out.
+#include <optional>
 #include <vector>
 
 #include "importance/direction_sample.h"
@@ -13,8 +14,8 @@ namespace rsphere {
 
 class SeenSources {
  public:
-  // Chooses the sources that are integrated separately, and the flat surfaces that may mirror them. The
-  // sources are all that look like sources (not illum). Keeps a reference to the prepared scene.
+  // Chooses the sources that are integrated separately, and the flat surfaces that may mirror them. All
+  // sources are chosen but illums, which do not look like sources. Keeps a reference to the prepared scene.
   explicit SeenSources(const PreparedScene& prepared);
 
   // An image of a source as seen from a point.
@@ -29,7 +30,7 @@ class SeenSources {
 
   // The images that are integrated separately at a point. About `most` rays are divided among them according
   // to the light that each may send; mirrorFactor multiplies the rays of mirrored ones. Mirrored images that
-  // would get fewer than tuning::SeenSources::kFewestRays are left to the other directions.
+  // would get fewer than tuning::SeenSources::kSmallShare are left to the other directions.
   std::vector<Image> findImages(const V3d& point, size_t most, double mirrorFactor) const;
 
   // Whether what a primary ray showed is one of a point's images.
@@ -57,7 +58,7 @@ class SeenSources {
     TracedRay ray;
     size_t image = 0;   // index in images
     size_t row = 0;     // of the image's grid
-    double chance = 1;  // that the image is sampled; below 1 for some of many
+    double chance = 1;  // probability that the image is sampled; below 1 if there are more images than rays
   };
 
   // Directions to the images, each with the solid angle that it represents and the radiance along it; one in
@@ -68,14 +69,23 @@ class SeenSources {
   std::vector<Sample> sample(const PathsFrom& paths, const std::vector<Image>& images, uint64_t seed) const;
 
  private:
+  // The rays that one image gets, and the solid angle that they represent if the source fills its region.
+  struct Share {
+    size_t rays = 0;
+    double solidAngle = 0;  // sr
+  };
+  // A cell of the grid on an image, and the random numbers of its sample.
   struct Cell {
     size_t row = 0, column = 0, rows = 1, columns = 1;
+    Random& random;
   };
   void addMirrored(const V3d& point, std::vector<Image>& images) const;
-  void sampleImage(const PathsFrom& paths, const Image& image, size_t rays, double solidAngle, uint64_t seed,
-                   std::vector<Sample>& samples) const;
-  void sampleCell(const PathsFrom& paths, const Image& image, const Cell& cell, Random& random,
-                  std::vector<Sample>& samples) const;
+  std::vector<Sample> sampleImage(const PathsFrom& paths, const Image& image, const Share& share,
+                                  uint64_t seed) const;
+  double filledShare(const Image& image, const V3d& eye, Random& random) const;
+  // Empty if the cell shows nothing of the source.
+  std::optional<Sample> sampleStraight(const PathsFrom& paths, const Image& image, const Cell& cell) const;
+  std::optional<Sample> sampleMirrored(const PathsFrom& paths, const Image& image, const Cell& cell) const;
 
   const PreparedScene& prepared_;
   ById<SurfaceId, bool> apart_;

@@ -30,7 +30,7 @@ bool liesInPlane(double height, double coordinates) {
 
 double largestCoordinate(const V3d& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
-// The largest distance by which a corner lies outside a side. In a convex polygon it is rounding.
+// The largest distance by which a corner lies outside a side. It is due to rounding if the polygon is convex.
 double largestReentrance(const std::vector<V3d>& corners, const std::vector<V3d>& sides) {
   double outside = 0;
   for (const V3d& side : sides)
@@ -88,7 +88,7 @@ void Silhouette::setBall(const V3d& center, double radius, const V3d& point) {
 }
 
 // Sets the region to a convex polygon whose corners (world) are given in order. False if it is too small or
-// not convex; axis and versine are set even then.
+// not convex; only axis and versine are set then.
 bool Silhouette::setConvex(std::span<const V3d> corners, const V3d& point) {
   corners_.clear();
   sides_.clear();

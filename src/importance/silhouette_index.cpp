@@ -48,7 +48,7 @@ std::array<Cell, 6 * side * side> cellsOf() {
 void SilhouetteIndex::add(uint32_t number, const Silhouette& silhouette) {
   static const auto kCells = cellsOf<kSide>();
   static const auto kFaces = cellsOf<1>();
-  constexpr double kRounding = 1e-6;  // of a cosine: far more than the errors of directions and caps
+  constexpr double kRounding = 1e-6;  // tolerance of a cosine, far above the errors of directions and caps
   const auto [axis, angle] = silhouette.surroundingCap();
   const double cosine = std::cos(angle), sine = std::sin(angle);
   // The angle between the middles is at most the sum of the half angles.

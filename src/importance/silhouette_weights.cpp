@@ -21,12 +21,12 @@ using Tuning = tuning::SilhouetteWeights;
 // more numbers does not change the others.
 enum class Stream : uint64_t {
   imagesOfSources = 1,
-  surroundings = 2,
+  raysAround = 2,
   dynamicDirections = 3,
   guess = 4,
   guide = 5,
   guidedGlances = 6,
-  firstRay = 16,  // of the base and dynamic directions; those after it belong to the next rays
+  firstRay = 16,  // of the first direction; the following numbers belong to the next directions
 };
 
 uint64_t seedOf(const SetAtPoint& set, Stream stream, uint64_t number = 0) {
@@ -48,7 +48,8 @@ ById<SurfaceId, bool> unguessedSurfaces(const SeenSources& sources) {
 
 // beside: the directions that -Sx allows besides the base directions.
 size_t raysToImages(size_t base, size_t beside, bool glances) {
-  const size_t usual = std::max(base / Tuning::kBaseDirectionsPerRayToImages, Tuning::kLeastRaysToImages);
+  const size_t usual = std::max(base / Tuning::kBaseDirectionsPerRayToImages,
+                                static_cast<size_t>(tuning::SeenSources::kUsualRays));
   return glances ? std::max(usual, std::min(tuning::DiffuseGlances::kRaysToImages * base, beside / 2))
                  : usual;
 }
@@ -58,6 +59,25 @@ std::vector<V3d> glancesFor(const SphereOptions& options) {
   const size_t glances =
       std::min(Tuning::kGlancesPerDirection * count, std::max(count, Tuning::kMostGlances));
   return rotatedDirections(baseDirections(glances), options.rotation);
+}
+
+// Directions to images of sources, followed by the others, as one set.
+SampledSet joined(std::span<const SeenSources::Sample> toImages, const SampledSet& others, bool keepRays) {
+  SampledSet all;
+  all.samples.reserve(toImages.size() + others.samples.size());
+  for (const SeenSources::Sample& s : toImages) {
+    all.samples.push_back(s.direction);
+    if (keepRays) all.rays.push_back(s.ray);
+  }
+  all.samples.insert(all.samples.end(), others.samples.begin(), others.samples.end());
+  all.rays.insert(all.rays.end(), others.rays.begin(), others.rays.end());
+  return all;
+}
+
+Irradiance totalOf(const SampledSet& set) {
+  Irradiance total = set.excess.total;
+  for (const DirectionSample& s : set.samples) total += irradianceFrom(s.value, s.solidAngle);
+  return total;
 }
 
 }  // namespace
@@ -80,221 +100,203 @@ SilhouetteWeights::SilhouetteWeights(const SphereTracing& tracing, const SphereO
 }
 
 SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace&) const {
-  const size_t base = base_.directions.size(), most = static_cast<size_t>(options_.mostDirections);
-  const Images images =
-      sources_.findImages(set.point(), raysToImages(base, most > base ? most - base : 0, glances_ != nullptr),
-                          options_.densityFactor);
-  DiffuseGlances::Found found = glances_ ? glances_->at(set) : DiffuseGlances::Found{};
-  Surroundings around;
-  std::optional<LocalGuess> guess;
-  if (glances_) {
-    around.meanBrightness = tuning::DiffuseGlances::kLeft * brightness(found.moments.total) / (4 * pi);
-  } else if (guidance_) {
-    around = lookAround(set, images, PathsFrom(tracer, set.point()));
-    guess = fitGuess(set, around);
-  }
-  const PathsFrom paths(tracer, set.point(), requestFor(set, guess));
+  const View view = viewFrom(set, tracer);
+  PathRequest request;
+  if (view.guess) request.guess = &*view.guess;
+  if (glances_) request.vertexLight = &glances_->light(set.number());
+  const PathsFrom paths(tracer, set.point(), request);
   const std::vector<SeenSources::Sample> toImages =
-      sources_.sample(paths, images, seedOf(set, Stream::imagesOfSources));
-  const std::optional<DirectionGuide> guide =
-      guidance_ && guidance_->patches
-          ? std::optional(DirectionGuide(*guidance_->patches, guidance_->tracer, set.point()))
-          : std::nullopt;
-  const size_t used = base + toImages.size();
-  size_t left = most > used ? most - used : 0;
-  const size_t guided =
-      guide ? std::min(left, static_cast<size_t>(Tuning::kGuided * static_cast<double>(base))) : 0;
-  left -= guided;
-  const Targets targets =
-      guidance_ ? guidance_->targets.at(set.point(), around.meanBrightness, base, left) : Targets({});
-  const double besideImages = std::max(0., 4 * pi - solidAngleOf(toImages));
-  Others others = sampleOthers(set, images, targets, besideImages, guess ? &*guess : nullptr,
-                               guided > 0 ? &*guide : nullptr, guided, paths);
+      sources_.sample(paths, view.images, seedOf(set, Stream::imagesOfSources));
+  const Plan plan = planFor(set, view, toImages);
+  const SampledSet others = traced(set, view, plan, paths);
+  DiffuseGlances::Found beyond = beyondGuesses(set, view, plan, others.samples);
 
-  SampledSet sampled;
-  if (guess) {
-    const Excess excess = excessOfGlances(set, others, *guess, guided > 0 ? &*guide : nullptr);
-    sampled.excess = excess.moments;
-    sampled.variance = excess.variance;
-  }
-  if (glances_) addGlances(std::move(found), others, sampled);
-  if (options_.clamp > 0) {
-    Irradiance total = sampled.excess.total;
-    for (const SeenSources::Sample& s : toImages)
-      total += irradianceFrom(s.direction.value, s.direction.solidAngle);
-    for (const DirectionSample& s : others.samples) total += irradianceFrom(s.value, s.solidAngle);
-    sampled.clamped =
-        clampContributions(others.samples, others.guesses, total, options_.clamp, base_.sampling);
-  }
-  if (base_.neighbours) sampled.variance += varianceOf(others, toImages);
-  sampled.samples.reserve(toImages.size() + others.samples.size());
-  for (const SeenSources::Sample& s : toImages) {
-    sampled.samples.push_back(s.direction);
-    if (options_.everyDirection) sampled.rays.push_back(s.ray);
-    if (!others.guesses.empty()) sampled.guesses.emplace_back();
-  }
-  sampled.samples.insert(sampled.samples.end(), others.samples.begin(), others.samples.end());
-  sampled.rays.insert(sampled.rays.end(), others.rays.begin(), others.rays.end());
-  sampled.guesses.insert(sampled.guesses.end(), others.guesses.begin(), others.guesses.end());
+  SampledSet sampled = joined(toImages, others, options_.everyDirection);
+  const auto othersOf = std::span(sampled.samples).subspan(toImages.size());
+  sampled.excess = beyond.moments;
+  sampled.shared = std::move(beyond.shared);
+  sampled.litGlances = beyond.lit;
+  if (options_.clamp > 0)
+    sampled.clamped = clampContributions(othersOf, totalOf(sampled), options_.clamp, base_.sampling);
+  sampled.variance = beyond.variance;
+  if (base_.neighbours) sampled.variance += varianceOf(othersOf, plan.runs, toImages);
   return sampled;
 }
 
-PathRequest SilhouetteWeights::requestFor(const SetAtPoint& set,
-                                          const std::optional<LocalGuess>& guess) const {
-  PathRequest request;
-  if (guess) request.guess = &*guess;
-  if (glances_) request.vertexLight = &glances_->light(set.number());
-  return request;
+SilhouetteWeights::View SilhouetteWeights::viewFrom(const SetAtPoint& set, PathTracer& tracer) const {
+  const size_t base = base_.directions.size(), most = static_cast<size_t>(options_.mostDirections);
+  View view;
+  view.images =
+      sources_.findImages(set.point(), raysToImages(base, most > base ? most - base : 0, glances_ != nullptr),
+                          options_.densityFactor);
+  if (glances_) {
+    view.glanced = glances_->at(set);
+    view.meanBrightness = tuning::DiffuseGlances::kLeft * brightness(view.glanced.moments.total) / (4 * pi);
+  } else if (guidance_) {
+    lookAround(set, tracer, view);
+  }
+  return view;
 }
 
-// With -Sd, each sample has the light that a glance in its direction finds, which is a guess here: the mean
-// follows from the many glances.
-void SilhouetteWeights::addGlances(DiffuseGlances::Found found, const Others& others,
-                                   SampledSet& sampled) const {
-  sampled.excess = found.moments;
-  for (size_t i = 0; i < others.guesses.size(); ++i)
-    if (others.regions[i] != kNoRegion)
-      sampled.excess.add(others.samples[i].direction,
-                         irradianceFrom(others.guesses[i], -others.samples[i].solidAngle), base_.sampling);
-  sampled.variance = found.variance;
-  sampled.shared = std::move(found.shared);
-  sampled.litGlances = found.lit;
-}
-
-SilhouetteWeights::Surroundings SilhouetteWeights::lookAround(const SetAtPoint& set, const Images& images,
-                                                              const PathsFrom& paths) const {
-  Surroundings around;
-  Random random(mixBits(seedOf(set, Stream::surroundings)));
+void SilhouetteWeights::lookAround(const SetAtPoint& set, PathTracer& tracer, View& view) const {
+  const PathsFrom paths(tracer, set.point());
+  std::vector<RadianceGuess::Traced> traced;
+  Random random(mixBits(seedOf(set, Stream::raysAround)));
   for (int i = 0; i < Tuning::kRaysAround; ++i) {
     // Stratified in height: slices of the sphere with equal areas.
     const double z = 1 - 2 * (i + random.uniform()) / Tuning::kRaysAround, angle = 2 * pi * random.uniform();
     const double r = std::sqrt(std::max(0., 1 - z * z));
     const V3d direction(r * std::cos(angle), r * std::sin(angle), z);
     const TracedRay ray = paths.trace(direction, random.bits());
-    if (sources_.isOne(ray.shown, images)) continue;
+    if (sources_.isOne(ray.shown, view.images)) continue;
     const Hit& hit = ray.firstHit;
-    around.traced.push_back({guidance_->guess.placeOf(set.point(), direction, hit), hit.surface, ray.value});
-    around.meanBrightness += brightness(ray.value) / Tuning::kRaysAround;
+    traced.push_back({guidance_->guess.placeOf(set.point(), direction, hit), hit.surface, ray.value});
+    view.meanBrightness += brightness(ray.value) / Tuning::kRaysAround;
   }
-  return around;
-}
-
-LocalGuess SilhouetteWeights::fitGuess(const SetAtPoint& set, const Surroundings& around) const {
   const uint64_t seed = seedOf(set, Stream::guess);
   const std::vector<V3d> glances = rotatedDirections(guidance_->fitGlances, mixBits(seed));
-  return guidance_->guess.fit(set.point(), glances, around.traced, mixBits(seed + 1));
+  view.guess = guidance_->guess.fit(set.point(), glances, traced, mixBits(seed + 1));
 }
 
-SilhouetteWeights::Others SilhouetteWeights::sampleOthers(const SetAtPoint& set, const Images& images,
-                                                          const Targets& targets, double solidAngle,
-                                                          const LocalGuess* guess,
-                                                          const DirectionGuide* guide, size_t guided,
-                                                          const PathsFrom& paths) const {
-  Others others;
-  CellsInTargets cells;
-  const auto guidedDensity = static_cast<double>(guided);
-  // The solid angle of each is the inverse of the density of all directions around it.
-  const auto send = [&](const V3d& d, double baseCell) {
-    const Targets::Region region = targets.regionAt(d);
-    const double cell = 1 / (1 / baseCell + region.density + (guide ? guidedDensity * guide->density(d) : 0));
-    const TracedRay ray = paths.trace(d, seedOf(set, Stream::firstRay, others.samples.size()));
-    const bool enters = !sources_.isOne(ray.shown, images);
-    others.regions.push_back(enters ? region.id : kNoRegion);
-    cells.add(cell, region, enters);
-    others.samples.push_back({d, 0, enters ? ray.value : Radiance()});
-    if (options_.everyDirection) others.rays.push_back(ray);
-    if (glances_ && options_.everyDirection) {
-      others.guesses.push_back(enters ? glances_->along(set, d, others.samples.size()) : Radiance());
-      others.samples.back().value += others.guesses.back();
-    }
-    if (guess)
-      others.guesses.push_back(enters ? guess->from(guidance_->guess.placeOf(set.point(), d, ray.firstHit))
-                                      : Radiance());
-  };
-  const std::vector<V3d> base = set.turned(base_.directions);
-  others.samples.reserve(base.size());
-  for (size_t i = 0; i < base.size(); ++i) send(base[i], base_.solidAngles[i]);
+double SilhouetteWeights::Plan::guidedDensity(const V3d& direction) const {
+  return guided > 0 ? static_cast<double>(guided) * guide->density(direction) : 0;
+}
 
+SilhouetteWeights::Plan SilhouetteWeights::planFor(const SetAtPoint& set, const View& view,
+                                                   std::span<const SeenSources::Sample> toImages) const {
+  Plan plan;
+  const size_t base = base_.directions.size(), used = base + toImages.size();
+  const size_t most = static_cast<size_t>(options_.mostDirections), left = most > used ? most - used : 0;
+  if (guidance_ && guidance_->patches) {
+    plan.guide.emplace(*guidance_->patches, guidance_->tracer, set.point());
+    plan.guided = std::min(left, static_cast<size_t>(Tuning::kGuided * static_cast<double>(base)));
+  }
+  if (guidance_)
+    plan.targets = guidance_->targets.at(set.point(), view.meanBrightness, base, left - plan.guided);
+  plan.solidAngle = std::max(0., 4 * pi - solidAngleOf(toImages));
+  chooseDirections(set, plan);
+  return plan;
+}
+
+void SilhouetteWeights::chooseDirections(const SetAtPoint& set, Plan& plan) const {
+  plan.directions = set.turned(base_.directions);
   Random random(seedOf(set, Stream::dynamicDirections));
-  const double averageCell = 4 * pi / static_cast<double>(base.size());
   // A running sum over all targets gives each a whole number of directions with the right average.
   double due = random.uniform();
-  for (const Target& target : targets.all()) {
+  for (const Target& target : plan.targets.all()) {
     due += target.expected;
     const double shift1 = random.uniform(), shift2 = random.uniform();
-    if (!target.continues) others.runs.push_back(others.samples.size());
+    if (!target.continues) plan.runs.push_back(plan.directions.size());
     for (size_t i = 0; due >= 1; --due, ++i) {
       const Imath::V2d u = evenly(i, shift1, shift2);
-      send(target.silhouette.sample(u.x, u.y), averageCell);
+      plan.directions.push_back(target.silhouette.sample(u.x, u.y));
     }
   }
-  others.runs.push_back(others.samples.size());
-  if (guide) {
-    Random own(seedOf(set, Stream::guide));
-    for (const V3d& d : guide->directions(guided, own)) send(d, averageCell);
-  }
-  cells.fit(targets);
-  cells.scale(solidAngle);
-  for (size_t i = 0; i < others.samples.size(); ++i) others.samples[i].solidAngle = cells.solidAngle(i);
-  return others;
+  plan.runs.push_back(plan.directions.size());
+  if (plan.guided == 0) return;
+  Random own(seedOf(set, Stream::guide));
+  const std::vector<V3d> guided = plan.guide->directions(plan.guided, own);
+  plan.directions.insert(plan.directions.end(), guided.begin(), guided.end());
 }
 
-SilhouetteWeights::Excess SilhouetteWeights::excessOfGlances(const SetAtPoint& set, const Others& others,
-                                                             const LocalGuess& guess,
-                                                             const DirectionGuide* guide) const {
-  Excess result;
-  Moments& excess = result.moments;
-  for (size_t i = 0; i < others.samples.size(); ++i)
-    if (others.regions[i] != kNoRegion)
-      excess.add(others.samples[i].direction,
-                 irradianceFrom(others.guesses[i], -others.samples[i].solidAngle), base_.sampling);
+SampledSet SilhouetteWeights::traced(const SetAtPoint& set, const View& view, const Plan& plan,
+                                     const PathsFrom& paths) const {
+  SampledSet sampled;
+  std::vector<CellInTarget> cells;
+  sampled.samples.reserve(plan.directions.size());
+  cells.reserve(plan.directions.size());
+  const double averageCell = 4 * pi / static_cast<double>(base_.directions.size());
+  for (size_t i = 0; i < plan.directions.size(); ++i) {
+    const V3d& direction = plan.directions[i];
+    const Targets::Region region = plan.targets.regionAt(direction);
+    const TracedRay ray = paths.trace(direction, seedOf(set, Stream::firstRay, i));
+    const bool enters = !sources_.isOne(ray.shown, view.images);
+    // The solid angle of each direction is the inverse of the density of directions around it.
+    const double baseCell = i < base_.solidAngles.size() ? base_.solidAngles[i] : averageCell;
+    const double density = 1 / baseCell + region.density + plan.guidedDensity(direction);
+    cells.push_back({1 / density, region.fitted, enters});
+    DirectionSample sample;
+    sample.direction = direction;
+    sample.region = enters ? region.id : kNoRegion;
+    if (enters) {
+      sample.value = ray.value;
+      sample.guess = guessAlong(set, view, i, direction, ray);
+      if (glances_) sample.value += sample.guess;
+    }
+    sampled.samples.push_back(sample);
+    if (options_.everyDirection) sampled.rays.push_back(ray);
+  }
+  const std::vector<double> solidAngles = cellsInTargets(std::move(cells), plan.targets, plan.solidAngle);
+  for (size_t i = 0; i < solidAngles.size(); ++i) sampled.samples[i].solidAngle = solidAngles[i];
+  return sampled;
+}
+
+// If glances find all of the light of diffuse surfaces, rays leave it out. With -Sd, one glance along each
+// direction then estimates it.
+Radiance SilhouetteWeights::guessAlong(const SetAtPoint& set, const View& view, size_t i,
+                                       const V3d& direction, const TracedRay& ray) const {
+  if (view.guess) return view.guess->from(guidance_->guess.placeOf(set.point(), direction, ray.firstHit));
+  return glances_ && options_.everyDirection ? glances_->along(set, direction, i + 1) : Radiance();
+}
+
+DiffuseGlances::Found SilhouetteWeights::beyondGuesses(const SetAtPoint& set, const View& view,
+                                                       const Plan& plan,
+                                                       std::span<const DirectionSample> others) const {
+  DiffuseGlances::Found found = view.glanced;
+  for (const DirectionSample& s : others)
+    found.moments.add(s.direction, irradianceFrom(s.guess, -s.solidAngle), base_.sampling);
+  if (view.guess) addGlances(set, *view.guess, plan, found);
+  return found;
+}
+
+// Adds the guesses along many glances.
+void SilhouetteWeights::addGlances(const SetAtPoint& set, const LocalGuess& guess, const Plan& plan,
+                                   DiffuseGlances::Found& found) const {
+  const bool errors = guidance_->neighbours.has_value();
+  const auto count = static_cast<double>(guidance_->glances.size());
+  const double even = count / (4 * pi);  // per sr
+  const size_t guided = plan.guided > 0 ? static_cast<size_t>(Tuning::kGuided * count) : 0;
   std::vector<DirectionSample> seen;
-  const double even = static_cast<double>(guidance_->glances.size()) / (4 * pi);  // per sr
-  const auto guided =
-      guide ? static_cast<size_t>(Tuning::kGuided * static_cast<double>(guidance_->glances.size())) : 0;
   const auto look = [&](const V3d& direction) {
-    const double density = even + (guide ? static_cast<double>(guided) * guide->density(direction) : 0);
+    const double density =
+        even + (guided > 0 ? static_cast<double>(guided) * plan.guide->density(direction) : 0);
     const Radiance radiance = guess.along(set.point(), direction);
     const Irradiance part = irradianceFrom(radiance, 1 / density);
-    excess.add(direction, part, base_.sampling);
-    if (guidance_->neighbours) seen.push_back({direction, 1 / density, radiance});
+    found.moments.add(direction, part, base_.sampling);
+    if (errors) seen.push_back({direction, 1 / density, radiance});
     return part;
   };
   for (const V3d& direction : set.turned(guidance_->glances)) look(direction);
-  if (guidance_->neighbours)
-    result.variance = evenVariance(seen, *guidance_->neighbours, {}, base_.sampling) * Tuning::kEvenGlances;
-  if (!guide) return result;
+  if (errors)
+    found.variance = evenVariance(seen, *guidance_->neighbours, base_.sampling) * Tuning::kEvenGlances;
+  if (guided == 0) return;
   Random random(seedOf(set, Stream::guidedGlances));
   std::optional<Irradiance> last;
-  for (const V3d& direction : guide->directions(guided, random)) {
+  for (const V3d& direction : plan.guide->directions(guided, random)) {
     const Irradiance part = look(direction);
-    if (last && guidance_->neighbours) result.variance += Variance::of(part - *last, base_.sampling) * .5;
+    if (last && errors) found.variance += Variance::of(part - *last, base_.sampling) * .5;
     last = part;
   }
-  return result;
 }
 
-Variance SilhouetteWeights::varianceOf(const Others& others,
+Variance SilhouetteWeights::varianceOf(std::span<const DirectionSample> others, std::span<const size_t> runs,
                                        std::span<const SeenSources::Sample> toImages) const {
-  const size_t base = base_.directions.size();
-  Variance variance;
-  std::vector<DirectionSample> unguessed = others.samples;
-  for (size_t i = 0; i < others.guesses.size(); ++i) unguessed[i].value -= others.guesses[i];
-  const std::span<const DirectionSample> samples(unguessed);
-  variance += evenVariance(samples.first(base), *base_.neighbours, others.regions, base_.sampling);
-  for (size_t i = 1; i < others.runs.size(); ++i) {
-    const size_t first = others.runs[i - 1], count = others.runs[i] - first;
-    variance += count == 1 ? loneVariance(samples[first], others.regions[first], samples.first(base),
-                                          others.regions, base_.sampling)
-                           : spreadVariance(samples.subspan(first, count), base_.sampling);
+  const auto base = others.first(base_.directions.size());
+  Variance variance = evenVariance(base, *base_.neighbours, base_.sampling);
+  for (size_t i = 1; i < runs.size(); ++i) {
+    const auto run = others.subspan(runs[i - 1], runs[i] - runs[i - 1]);
+    variance +=
+        run.size() == 1 ? loneVariance(run[0], base, base_.sampling) : spreadVariance(run, base_.sampling);
   }
-  variance += unseenVariance(others.samples, others.regions, base_.sampling);
-  // Successive directions of the guide are near to each other: their differences are errors.
-  for (size_t i = others.runs.back() + 1; i < samples.size(); ++i)
-    variance += Variance::of(irradianceFrom(samples[i].value, samples[i].solidAngle) -
-                                 irradianceFrom(samples[i - 1].value, samples[i - 1].solidAngle),
-                             base_.sampling) *
-                .5;
+  variance += unseenVariance(others, base_.sampling);
+  // Successive directions of the guide are near to each other, so that their differences are taken for
+  // errors.
+  const auto guided = others.subspan(runs.back());
+  const auto partOf = [](const DirectionSample& s) {
+    return irradianceFrom(s.value - s.guess, s.solidAngle);
+  };
+  for (size_t i = 1; i < guided.size(); ++i)
+    variance += Variance::of(partOf(guided[i]) - partOf(guided[i - 1]), base_.sampling) * .5;
   for (size_t i = 0, next = 0; i < toImages.size(); i = next) {
     while (next < toImages.size() && toImages[next].image == toImages[i].image) ++next;
     variance += partsVariance(toImages.subspan(i, next - i), base_.sampling);

@@ -14,17 +14,16 @@
 namespace rsphere {
 
 // -Sw c, the default. It differs from the paper's rule (voronoi_weights.h) as follows:
-// - Light sources that are seen directly cause nearly all of the variance, so they are integrated
-//   separately (seen_sources.h).
+// - Light sources that are seen directly cause nearly all of the variance, so they are integrated separately
+//   (seen_sources.h).
 // - Cells keep to the silhouettes. The cell of a base direction is its Voronoi cell on the sphere; inside a
 //   silhouette it is shared with the dynamic directions that were sent there, in proportion to their numbers.
 //   All cells in a silhouette add up to its solid angle, unless others overlap it, and those outside to that
 //   of the rest (cells_in_targets.h). Plain cells reach over the silhouette's edge from the dense side and
 //   bias the mean by a percent.
 // - How many directions a special object gets follows from how much the radiance on it varies, compared with
-//   the surroundings. That is measured by separate rays, so that the mean stays unbiased (targets.h).
-//   Openings that show daylight, and spots of sunlight that enters through them, also get directions of their
-//   own.
+//   what is beside it. Separate rays measure that, so that the mean stays unbiased (targets.h). Openings that
+//   show daylight, and spots of sunlight that enters through them, also get directions of their own.
 // - Where light is uneven, as around a goal, more directions follow it (direction_guide.h).
 // - Indirect rays are aimed at openings that daylight enters through (transport/openings.h), and at diffuse
 //   surfaces that receive much direct light (transport/bright_spots.h).
@@ -33,7 +32,7 @@ namespace rsphere {
 // - Elsewhere a control variate reduces the variance of diffuse surfaces (transport/radiance_guess.h). Many
 //   glances, rays that are not followed beyond their first hit, estimate its integral. Directions, and the
 //   indirect rays that they spawn, only estimate the difference.
-// With -Sk 0 only the first of these is left.
+// With -Sk 0 only the first of these applies.
 class SilhouetteWeights : public SamplingStrategy {
  public:
   // Keeps references to all of them. patches: null where light is even. glances: null where they do not find
@@ -47,7 +46,7 @@ class SilhouetteWeights : public SamplingStrategy {
  private:
   using Images = std::vector<SeenSources::Image>;
 
-  // The means to reduce the variance of light that does not come directly from sources.
+  // Means to reduce the variance of light that does not come directly from sources.
   struct Guidance {
     TargetChoice targets;
     RadianceGuess guess;
@@ -57,43 +56,49 @@ class SilhouetteWeights : public SamplingStrategy {
     const LightPatches* patches;  // null where light is even
   };
 
-  // Findings of separate rays around a point that show no image of a light source.
-  struct Surroundings {
-    std::vector<RadianceGuess::Traced> traced;
-    double meanBrightness = 0;  // W/sr/m2
+  // Stage 1: what is known of the view from a point before directions are chosen.
+  struct View {
+    Images images;              // of sources that are integrated separately
+    double meanBrightness = 0;  // of the light that other directions find, W/sr/m2
+    std::optional<LocalGuess> guess;
+    DiffuseGlances::Found glanced;  // 0 where glances do not find all of the light of diffuse surfaces
   };
+  View viewFrom(const SetAtPoint& set, PathTracer& tracer) const;
+  // Sets meanBrightness and guess, by rays whose radiances are used for nothing else.
+  void lookAround(const SetAtPoint& set, PathTracer& tracer, View& view) const;
 
-  // The directions that are not sent to images of light sources.
-  struct Others {
-    std::vector<DirectionSample> samples;  // the base directions, then those to targets
-    std::vector<TracedRay> rays;           // of the samples, with -Sd only
-    std::vector<Radiance> guesses;         // of the samples; empty: nothing is guessed
-    // kNoRegion: the sample shows an image of a light source, which has its own samples; its solid angle,
-    // radiance and guess are then 0.
-    std::vector<RegionId> regions;
-    // The first sample of each target, or of all parts of one image; then the first that the guide has sent.
-    std::vector<size_t> runs;
-  };
+  // Stage 2: the directions that are not sent to images of sources.
+  struct Plan {
+    Targets targets{std::vector<Target>()};
+    std::optional<DirectionGuide> guide;
+    size_t guided = 0;  // directions that the guide sends
+    // The base directions, a run for each target or for all parts of one image, and those of the guide.
+    std::vector<V3d> directions;
+    std::vector<size_t> runs;  // where each run begins, then where those of the guide begin
+    double solidAngle = 0;     // total of these directions, sr
 
-  // The steps of sample(), in this order. Each takes values of those before it.
-  PathRequest requestFor(const SetAtPoint& set, const std::optional<LocalGuess>& guess) const;
-  Surroundings lookAround(const SetAtPoint& set, const Images& images, const PathsFrom& paths) const;
-  LocalGuess fitGuess(const SetAtPoint& set, const Surroundings& around) const;
-  // solidAngle: that all of them represent together, sr. guess: null if nothing is guessed.
-  // guided: directions that the guide sends; null: none.
-  Others sampleOthers(const SetAtPoint& set, const Images& images, const Targets& targets, double solidAngle,
-                      const LocalGuess* guess, const DirectionGuide* guide, size_t guided,
-                      const PathsFrom& paths) const;
-  // Adds what glances find to the set.
-  void addGlances(DiffuseGlances::Found found, const Others& others, SampledSet& sampled) const;
-  // The moments of the guess by glances, minus those by the directions.
-  struct Excess {
-    Moments moments;
-    Variance variance;  // of the glances; 0 unless standard errors are wanted
+    double guidedDensity(const V3d& direction) const;  // of directions that the guide sends, per sr
   };
-  Excess excessOfGlances(const SetAtPoint& set, const Others& others, const LocalGuess& guess,
-                         const DirectionGuide* guide) const;
-  Variance varianceOf(const Others& others, std::span<const SeenSources::Sample> toImages) const;
+  Plan planFor(const SetAtPoint& set, const View& view, std::span<const SeenSources::Sample> toImages) const;
+  // Sets directions and runs.
+  void chooseDirections(const SetAtPoint& set, Plan& plan) const;
+
+  // Stage 3: traces and weights the directions of the plan. Those that show an image of a light source, which
+  // has samples of its own, are in kNoRegion; their solid angle, radiance and guess are 0.
+  SampledSet traced(const SetAtPoint& set, const View& view, const Plan& plan, const PathsFrom& paths) const;
+  // The part of the light along direction number i that glances estimate.
+  Radiance guessAlong(const SetAtPoint& set, const View& view, size_t i, const V3d& direction,
+                      const TracedRay& ray) const;
+
+  // Stage 4: what glances find, minus the guesses of the directions.
+  DiffuseGlances::Found beyondGuesses(const SetAtPoint& set, const View& view, const Plan& plan,
+                                      std::span<const DirectionSample> others) const;
+  void addGlances(const SetAtPoint& set, const LocalGuess& guess, const Plan& plan,
+                  DiffuseGlances::Found& found) const;
+
+  // Stage 5: the variance of both kinds of directions, without that of glances.
+  Variance varianceOf(std::span<const DirectionSample> others, std::span<const size_t> runs,
+                      std::span<const SeenSources::Sample> toImages) const;
 
   const SphereOptions& options_;
   const BaseSet& base_;

@@ -22,16 +22,15 @@ struct SeenSurfaces {
 // One component of the light of all pixels.
 struct PixelLight {
   std::vector<Imath::V3f> light;
-  std::vector<float>
-      known;  // how much of a pixel's surroundings has its light sampled, 0 to 1; 0: light is void
+  std::vector<float> known;  // share of the pixels around whose light is sampled, 0 to 1; 0: light is void
 };
 
 // How pixels share light.
 struct Smoothing {
   int passes = 0;   // each reaches twice as far as the one before
   int careful = 0;  // the number of further passes, in which pixels share light only if it is nearly the same
-  float sameLight = 0;                            // by this part of it: tuning::Pictures::kSameLight
-  float sameNormal = 0, samePlane = 0, near = 0;  // tuning::Pictures::kSameNormal, ...
+  float sameLight = 0;                            // largest relative difference: tuning::Pictures::kSameLight
+  float sameNormal = 0, samePlane = 0, near = 0;  // tuning::Pictures::kSameNormal, kNear
 };
 
 // Whether two pixels show the same material on the same flat or slightly curved surface.

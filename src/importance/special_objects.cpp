@@ -145,7 +145,7 @@ class Finder {
   }
 
  private:
-  // The special surfaces in an instance or a mesh without a modifier of its own.
+  // Summary of the special surfaces in an instance or a mesh that has no modifier of its own.
   struct Contents {
     size_t objects = 0;
     SurfaceId mostIrregular;
@@ -209,8 +209,8 @@ class Finder {
   Sphere ballOf(const Instance& instance) { return balls_.ofGroup(instance.group); }
   Sphere ballOf(const MeshInstance& mesh) { return balls_.ofMesh(mesh.mesh); }
 
-  // Adds the special surfaces in a surface, each as an object. at: the placement of the group that the
-  // surface belongs to; null: the world.
+  // Adds the surface, or the surfaces that it contains, as far as they are special, each as an object. at:
+  // the placement of the group that the surface belongs to; null: the world.
   void add(SurfaceId index, const Placement* at) {
     const Surface& s = scene_.surfaces[index];
     match(

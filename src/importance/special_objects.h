@@ -28,40 +28,41 @@ namespace rsphere {
 // - 0 for diffuse materials, BSDF and light sources.
 double irregularity(const Material& material);
 
-// The constants of special objects. The paper gives neither densities nor the limit of its criterion, but the
-// resulting numbers of directions: 2048 and 1030 +- 176 more, 2200 to 3500 in all, with 1 to 100 small
-// spheres in a furnished open-plan office. The following values are fitted so that examples/openplan has 2200
-// to 3500 directions too, at each of its points (accuracy_test.cpp, SendsAsManyDirectionsAsThePaper; the
-// distribution is in tests/bench/importance/runs/2026-11-21-histogram.txt). They set the numbers of
-// directions of -Sw v, and choose the special objects of both -Sw v and -Sw c.
-// The last sentence of each comment is from tests/bench/sensitivity/runs/2026-11-22.txt.
+// The constants of special objects. The paper states neither densities nor the threshold of its criterion,
+// only the resulting numbers of directions: 2048 and 1030 +- 176 more, 2200 to 3500 in all, with 1 to 100
+// small spheres in a furnished open-plan office. The following values are fitted so that examples/openplan
+// has 2200 to 3500 directions too, at each of its points (accuracy_test.cpp, SendsAsManyDirectionsAsThePaper;
+// the distribution is in tests/bench/importance/runs/2026-11-21-histogram.txt). They set the numbers of
+// directions of -Sw v, and choose the special objects of both -Sw v and -Sw c. The last sentence of each
+// comment is from tests/bench/sensitivity/runs/2026-11-22.txt.
 //
 // Directions per sr for an irregularity of 1, times -Sk. A hundred spheres of 0.1 m then get 1000. 30% less:
 // time -17%; 30% more: time +15% (Voronoi cells; noise: error 8%, time 4%).
 RSPHERE_TUNED(SpecialObjects, double, kDirectionsPerSr, 32000);
-// Roughness (rms slope) of a highlight that is half as irregular as a mirror: derived. It fills 4 pi a^2 sr,
-// so that it gets about 16 of these directions, four across. 30% less: within noise; 30% more: time +23%
-// (Voronoi cells; noise: error 5%, time 4%).
-RSPHERE_TUNED(SpecialObjects, double, kSharpRoughness, .0065);
+// Roughness a (rms slope) of a highlight that is half as irregular as a mirror: derived. It fills 4 pi a^2
+// sr, so that it gets about 16 of these directions, four across. 30% more: time +23% (Voronoi cells; noise:
+// error 5%, time 4%). Balls that are rougher show no images of light sources (glints.h).
+inline constexpr double kSharpRoughness = .0065;
 // Irregularity of glass panes. Objects behind a pane look as large as without it, and its mirror image is
 // faint. A pane gets 64 directions per sr, a few hundred at most; as a mirror it took all directions. 30%
 // less or more: within noise (Voronoi cells; error 1%, time 5%).
 RSPHERE_TUNED(SpecialObjects, double, kPane, .002);
-// Less irregular objects are treated as diffuse: their 16 directions per sr are a tenth of the base's. 30%
-// less or more: within noise (Voronoi cells; error 1%, time 5%).
-RSPHERE_TUNED(SpecialObjects, double, kSpecialIrregularity, .0005);
+// Less irregular objects are treated as diffuse: derived. Their 16 directions per sr are a tenth of those of
+// the default base set.
+inline const double kSpecialIrregularity = 16 / kDirectionsPerSr;
 
 struct SpecialObject {
   SurfaceId surface;
   double irregularity = 0;
   double density = 0;                   // directions per sr
   std::optional<PlacedShape> placed{};  // in world coordinates; empty: the surface's own shape
-  bool several = false;                 // whether `placed` is a ball around other surfaces too
+  bool several = false;                 // whether `placed` is a ball around several surfaces
 };
 
 // With more special objects in octrees and meshes than this, each outermost instance is one object, to limit
-// the time, because silhouettes of all objects are computed at every point. Chosen by experiment. 30% less or
-// more: the same answers in all cases.
+// the time, because silhouettes of all objects are computed at every point. So are those of pairs of a mirror
+// and a light source, of which no more are tested; the largest mirrors are kept. Chosen by experiment. 30%
+// less or more: the same answers in all cases.
 RSPHERE_TUNED(SpecialObjects, size_t, kMostPlacedObjects, 4096);
 
 // All surfaces, except distant sources, whose material or one of whose alternatives in mixtures has at least

@@ -12,7 +12,7 @@ enum class Weights : uint8_t { homogeneous /* h */, voronoi /* v */, silhouettes
 struct SphereOptions {
   int baseDirections = 2048;               // -Sn  1 to 1,000,000
   int mostDirections = 4096;               // -Sx  of one set
-  int mostForAccuracy = 0;                 // of all sets that -Sa averages, where this is more than -Sx
+  int mostForAccuracy = 0;                 // total of the sets that -Sa averages, if it is larger than -Sx
   double densityFactor = 1;                // -Sk
   double accuracy = 0;                     // -Sa  0: off
   double clamp = 0;                        // -Sf  largest share of one direction; 0: off
@@ -22,10 +22,10 @@ struct SphereOptions {
   uint64_t rotation = 0;                   // -Sr
   bool verify = false;                     // -Sv
 
-  // The rays of patches of the coarse solution, as RayOptions::leastForPatches. They grow with what is asked
-  // of the directions, so that the error that all points share falls with theirs. By measurement: in four
-  // daylit rooms (-aa .1, -Sn 512 to 4096) answers have .8 to 1.3 times the error that they state, and the
-  // error of directions alone falls with the power .75 of their number.
+  // The rays of patches of the coarse solution, as RayOptions::leastForPatches. Their number grows with that
+  // of the directions and with the accuracy, so that the error that all points share falls with the error of
+  // directions. By measurement: in four daylit rooms (-aa .1, -Sn 512 to 4096) answers have .8 to 1.3 times
+  // the error that they state, and the error of directions alone falls with the power .75 of their number.
   int raysForPatches() const {
     constexpr double kUsual = 1024, kUsualDirections = 2048, kUsualAccuracy = .01, kMost = 1e6;
     const double part = baseDirections / kUsualDirections;

@@ -3,12 +3,13 @@
 
 namespace rsphere {
 
-// What the paths of sphere mode are traced with. Shared by all threads; keeps references.
+// What the tracers of sphere mode refer to. Shared by all threads; keeps references.
 struct SphereTracing {
   const PreparedScene& prepared;
   const Caches& caches;
-  Aims aims;  // of indirect rays
+  Aims aims{};                               // of indirect rays
   const VertexLight* vertexLight = nullptr;  // PathRequest::vertexLight
+  FoundAims ofPoints{};                      // owns those of `aims` that were found for points alone
 
   // Each thread needs its own.
   PathTracer tracer() const {

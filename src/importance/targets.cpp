@@ -15,7 +15,7 @@ using Tuning = tuning::Targets;
 
 constexpr double kFullSphere = 4 * std::numbers::pi;  // sr
 
-// Thinner boxes, relative to their diagonal, are flat but for rounding.
+// Boxes that are thinner than this share of their diagonal are flat but for rounding.
 constexpr double kFlat = 1e-6;
 
 // The corners of a box, each once: boxes around flat surfaces are flat.
@@ -50,15 +50,15 @@ bool overlap(const Silhouette& a, const Silhouette& b) {
   if (capA.angle + capB.angle < std::numbers::pi &&
       capA.axis.dot(capB.axis) < std::cos(capA.angle + capB.angle))
     return false;
-  // Panes side by side share an edge. Of other regions than polygons, within() gives the smaller.
+  // Panes side by side share an edge. If the regions are not both polygons, within() returns the smaller one.
   constexpr double kEdge = 1e-6;
   return a.within(b).regionSolidAngle() > kEdge * std::min(a.regionSolidAngle(), b.regionSolidAngle());
 }
 
-// Targets that do not overlap, those with most directions first, among those in which enough directions are
-// expected. That is not decided by the number found, which would bias the mean. Where targets overlap, how
-// many directions find the part that is in one of them alone is uncertain; cells that met both solid angles
-// would have to meet them in the other part.
+// Chooses targets that do not overlap, those with most directions first, among those in which enough
+// directions are expected. The number that was found must not decide, because that would bias the mean.
+// Overlapping targets cannot all be fitted: few directions may lie in the part that belongs to one of them
+// alone, and cells in the common part would have to make up for both.
 void chooseFitted(std::vector<Target>& targets, double baseDensity) {
   std::vector<Target*> chosen, large;
   const auto expected = [&](const Target& target) {
@@ -127,7 +127,7 @@ TargetChoice::TargetChoice(const SphereTracing& tracing, std::span<const Special
 Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDirections, size_t most) const {
   std::vector<Target> targets;
   if (most == 0) return Targets({});
-  const double usual = contrasts_.surroundings * meanBrightness;
+  const double usual = contrasts_.baseError * meanBrightness;
   const double baseDensity = static_cast<double>(baseDirections) / kFullSphere;
   double sum = 0;
   // opening: mean radiance of the daylight that it may show, W/sr/m2; 0: it is no opening.
@@ -150,15 +150,15 @@ Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDir
   }
   if (usual > 0)
     for (Glint& g : glints_.find(point, Tuning::kLeastGlint * kFullSphere * usual * usual))
-      add(std::move(g.region), Tuning::kGlintDeviation * g.brightness, g.continues);
+      add(std::move(g.region), Tuning::kPartlyLit * g.brightness, g.continues);
   for (const auto& [place, radiance] : openings_) {
     if (!((point - place.corner).dot(place.normal) > 0)) continue;
     const std::array corners{place.at(0, 0), place.at(1, 0), place.at(1, 1), place.at(0, 1)};
-    add(hullOf(corners, point), Tuning::kOpeningDeviation * radiance, false, radiance);
+    add(hullOf(corners, point), Tuning::kPartlyLit * radiance, false, radiance);
   }
   for (const BrightSpots::Sunlit& spot : sunlit_)
-    if (Tuning::kSunlitDeviation * spot.radiance > usual && isVisible(prepared_.tracer(), spot, point))
-      add(hullOf(cornersOf(spot.box), point), Tuning::kSunlitDeviation * spot.radiance, false);
+    if (Tuning::kPartlyLit * spot.radiance > usual && isVisible(prepared_.tracer(), spot, point))
+      add(hullOf(cornersOf(spot.box), point), Tuning::kPartlyLit * spot.radiance, false);
   if (sum > static_cast<double>(most)) {
     const double scale = static_cast<double>(most) / sum;
     for (Target& target : targets) {

@@ -17,10 +17,11 @@ struct Target {
   Silhouette silhouette;
   double density = 0;      // of its own directions, per sr of its region
   double expected = 0;     // their average number
-  bool continues = false;  // it and the target before it are parts of one image
+  bool continues = false;  // part of the same image as the target before it
   // Whether cells are fitted to its solid angle (cells_in_targets.h). No two of these targets overlap.
   bool fitted = false;
-  // Whether its edge is no error of the base directions: it is fitted, or has more directions of its own.
+  // Whether cells keep to its edge, so that the edge adds no variance: it is fitted, or has more directions
+  // of its own than base directions.
   bool hasOwnEdge = false;
 };
 
@@ -33,9 +34,8 @@ class Targets {
 
   // The targets that contain a direction (unit).
   struct Region {
-    double density = 0;  // of their own directions there, per sr
-    RegionId id =
-        0;  // equal for directions in the same targets of those that have their own edge; 0: in none
+    double density = 0;   // of their own directions there, per sr
+    RegionId id = 0;      // identifies the set of targets with an edge of their own; 0: in none of these
     uint32_t fitted = 0;  // 1 + the position in all() of the one that is fitted; 0: none is
   };
   Region regionAt(const V3d& direction) const;
@@ -57,9 +57,9 @@ class TargetChoice {
   // The targets at a point (world): special objects, images of light sources in them, openings that show
   // daylight (transport/openings.h), and visible spots of daylight (transport/bright_spots.h). Their
   // directions are as many as bring the density up to Neyman's allocation, in proportion to the deviation of
-  // radiance on them, where the base directions already have the density that suits the surroundings. If that
-  // needs more than `most` directions on average, all densities are reduced by the same factor, so that no
-  // target is dropped. meanBrightness: of the view from the point, W/sr/m2.
+  // radiance on them. The base directions are taken for the optimal density elsewhere. If that needs more
+  // than `most` directions on average, all densities are reduced by the same factor, so that no target is
+  // dropped. meanBrightness: of the view from the point, W/sr/m2.
   Targets at(const V3d& point, double meanBrightness, size_t baseDirections, size_t most) const;
 
  private:

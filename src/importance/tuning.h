@@ -24,18 +24,12 @@ struct Contrasts {
   // set integrates it: measured in furnished interiors, .5 to .7. 30% less: time +3%; 30% more: within noise
   // (points in office; noise: error 7%, time 1%).
   RSPHERE_TUNED(Contrasts, double, kUnevenShare, .6);
-  // Rays to the special objects of one modifier: chosen by experiment. For normally distributed values
-  // the deviation is then known within 9%, 1/sqrt(2 x 63). 30% less or more: within noise (points in
-  // office; error 5%, time 6%).
-  RSPHERE_TUNED(Contrasts, size_t, kRaysPerModifier, 64);
-  // Rays to all special objects, but at least 2 per modifier: chosen by experiment, to limit the time at
-  // start. Rays for each object instead of each modifier took 1.1 s instead of .05 s. 30% less or more: the
-  // same answers in all cases.
-  RSPHERE_TUNED(Contrasts, size_t, kMostRays, 1024);
-  // Directions in which the surroundings are sampled, with two paths in each: chosen by experiment. For
-  // normally distributed values the deviation is then known within 4.4%, 1/sqrt(2 x 255). 30% less or more:
-  // within noise (points in office; error 7%, time 6%).
-  RSPHERE_TUNED(Contrasts, size_t, kDirectionsAround, 256);
+  // Rays to the special objects of one modifier, and directions in which the typical view is sampled, with
+  // two paths in each: chosen by experiment. For normally distributed values the deviation is then known
+  // within 9%, 1/sqrt(2 x 63). All modifiers together get Caps::kAsked rays, but at least 2 each, to limit
+  // the time at start: rays for each object instead of each modifier took 1.1 s instead of .05 s. 30% less or
+  // more: within noise (points in office; error 7%, time 6%).
+  RSPHERE_TUNED(Contrasts, size_t, kRays, 64);
 };
 
 // The strategy -Sw c as a whole (silhouette_weights.cpp).
@@ -61,11 +55,10 @@ struct SilhouetteWeights {
   // one: by measurement. Around a goal in the open-plan office, 0 .25 .5 1 2 leave errors of 4.0 3.0 2.9 2.4
   // 2.1% in 16 22 26 35 52 ms a point.
   RSPHERE_TUNED(SilhouetteWeights, double, kGuided, .5);
-  // Directions to images of light sources are one per so many base directions, and at least the second
-  // number: both chosen by experiment. 30% less or more: within noise (points in office; error 8%, time 6%).
+  // Directions to images of light sources are one per so many base directions, and at least
+  // SeenSources::kUsualRays: chosen by experiment. 30% less or more: within noise (points in office; error
+  // 8%, time 6%).
   RSPHERE_TUNED(SilhouetteWeights, size_t, kBaseDirectionsPerRayToImages, 4);
-  // 30% less or more: the same answers in all cases.
-  RSPHERE_TUNED(SilhouetteWeights, size_t, kLeastRaysToImages, 16);
 };
 
 // Directions that follow the light (direction_guide.cpp).
@@ -114,23 +107,23 @@ struct Targets {
   // this share of the variance of all base directions: chosen by experiment. 30% less or more: within noise
   // (points in office; error below 1%, time 7%).
   RSPHERE_TUNED(Targets, double, kLeastGlint, 1e-3);
-  // Standard deviation of the brightness within the region of such an image, relative to the brightness of
-  // the image: the most that values between 0 and 1 can have, if half of the region shows the image. 30% less
-  // or more: within noise (points beside chrome; error 4%, time 1%).
-  RSPHERE_TUNED(Targets, double, kGlintDeviation, .5);
-  // The same for openings that show daylight: by measurement. In a room with a window that shows a house
-  // below an uneven sky, 512 directions have errors of 3.8 2.9 2.7 2.5% (two bounces) and 51 5.9 3.8 2.3%
-  // (none) with 0 .1 .25 .5, in times that are the same within noise; without targets at openings 6.9 and
-  // 76%.
-  RSPHERE_TUNED(Targets, double, kOpeningDeviation, .5);
-  // The same for spots of daylight, which are lit in part: by measurement. With them, the default directions
-  // in two sunlit rooms have errors of 1.5 and 1.8% instead of 2.75 and 1.9%. .25 or 1: within noise.
-  RSPHERE_TUNED(Targets, double, kSunlitDeviation, .5);
+  // Standard deviation of the brightness within a region that is lit in part, relative to the brightness of
+  // what lights it: the largest that values between 0 and 1 can have, if half of the region is lit. By
+  // measurement for the three kinds of regions:
+  // - Images of light sources in balls. 30% less: error +12%; 30% more: error -20% (points beside chrome;
+  //   noise: error 5%).
+  // - Openings that show daylight. In a room with a window that shows a house below an uneven sky, 512
+  //   directions have errors of 3.8 2.9 2.7 2.5% (two bounces) and 51 5.9 3.8 2.3% (none) with 0 .1 .25 .5,
+  //   in times that are the same within noise; without targets at openings 6.9 and 76%.
+  // - Spots of daylight. With them, the default directions in two sunlit rooms have errors of 1.5 and 1.8%
+  //   instead of 2.75 and 1.9%. .25 or 1: within noise.
+  RSPHERE_TUNED(Targets, double, kPartlyLit, .5);
   // An opening that would give more than this share of the light at a point, if nothing hid it, gets at least
   // the number of directions below: chosen by experiment. At .1, a far window that happens to be dark in the
   // rays around a point causes errors of up to 10% instead of 5%.
   RSPHERE_TUNED(Targets, double, kLeastOpening, .01);
-  // With 8, an opening of which an eighth is hidden often looks open.
+  // The least number of directions to such an opening: chosen by experiment. With 8, an opening of which an
+  // eighth is hidden often looks open.
   RSPHERE_TUNED(Targets, double, kDirectionsToOpening, 32);
   // Expected directions in a target from which on its cells are fitted to its solid angle: chosen by
   // experiment. With 4 or 16 the errors in rooms with a window are the same; with fewer, the fit would bias
@@ -153,21 +146,11 @@ struct CellsInTargets {
 struct Glints {
   // Reflectance of dielectrics at normal incidence: Fresnel's for the index 1.5.
   static constexpr double kFresnel = .04;
-  // Largest roughness (rms slope) of a ball that shows images; rougher ones spread an image wider than the
-  // region that is computed for it: chosen by experiment. 30% less or more: the same answers in all cases.
-  RSPHERE_TUNED(Glints, double, kSmooth, .005);
   // A source is divided so that half the width of a part is at most this, relative to its distance from the
-  // ball, because the image of a wider part is noticeably curved; and into this many parts along each side at
-  // most: chosen by experiment. 30% less or more: within noise (points beside chrome; error 2%, time 5%).
+  // ball, because the image of a wider part is noticeably curved: chosen by experiment. There are at most
+  // Silhouettes::kCorners parts along each side. 30% less or more: within noise (points beside chrome; error
+  // 2%, time 5%).
   RSPHERE_TUNED(Glints, double, kHalfPart, .12);
-  // 30% less or more: within noise (points in office; error below 1%, time 7%).
-  RSPHERE_TUNED(Glints, double, kMostParts, 16);
-  // Polygons with more corners than this are replaced by squares around them, to limit the time: chosen by
-  // experiment. 30% less or more: the same answers in all cases.
-  RSPHERE_TUNED(Glints, size_t, kMostCorners, 16);
-  // The region around an image is that of a source enlarged by this factor, so that no edge of the image is
-  // left out: chosen by experiment. 30% less or more: within noise (points beside chrome; error 9%, time 1%).
-  RSPHERE_TUNED(Glints, double, kEnlarged, 1.1);
 };
 
 // Light sources that are integrated separately (seen_sources.cpp).
@@ -179,31 +162,24 @@ struct SeenSources {
   // Wide sources need it: without it, the error below a luminous ceiling that 36 balls hide partly is 2.9%
   // instead of .5% (2048 base directions). 30% less or more: the same answers in all cases.
   RSPHERE_TUNED(SeenSources, double, kSmallestPart, .02);
-  // The error of a small lamp that is half hidden falls with the number of base directions only by this: from
-  // 4.2% with 256 to .33% with 16384, where it would stay at 4.2%. 30% less or more: the same answers in all
-  // cases.
-  RSPHERE_TUNED(SeenSources, double, kOfEvenShare, .125);
+  // Without it, the error of a small lamp that is half hidden would stay at 4.2% with any number of base
+  // directions. With it, the error falls from 4.2% with 256 to .33% with 16384.
+  //
   // Images in mirrors that would get fewer rays than this, on average, are left to the base directions:
   // chosen by experiment. A tenth of a ray means a ray at one of ten points, with ten times the weight. 30%
   // less or more: within noise (points in workshop; error 17%, time 7%).
-  RSPHERE_TUNED(SeenSources, double, kFewestRays, .1);
+  RSPHERE_TUNED(SeenSources, double, kSmallShare, .1);
   // Exponent of the light of an image to which its number of rays is proportional: derived. Of n parts of a
   // half hidden image only those on the shadow's edge are uncertain, so that the error of light L is
   // proportional to L n^-3/4. The sum of L^2 n^-3/2 over all images, for a given sum of n, is smallest for n
-  // proportional to L^(4/5). 30% less or more: within noise (points beside mirror; error 6%, time 1%).
-  RSPHERE_TUNED(SeenSources, double, kByLight, .8);
-  // Cap on the pairs of mirror and light source that are tested at each point: chosen by experiment, to limit
-  // the time. The largest mirrors are kept. 30% less or more: the same answers in all cases.
-  RSPHERE_TUNED(SeenSources, size_t, kMostMirrored, 4096);
-  // Directions, without rays, that measure the fraction of a region that its source fills: chosen by
-  // experiment. The solid angle of the source is then within .1%. 30% less or more: within noise (points in
-  // workshop; error below 1%, time 7%).
-  RSPHERE_TUNED(SeenSources, size_t, kShareTries, 1024);
-  // Shadow rays per direction to a source that is seen straight: by measurement, with kGlancesPerDirection. 1
-  // or 3: within noise (points in office; error 10%, time 4%).
+  // proportional to L^(4/5).
+  static constexpr double kByLight = 4. / 5;
+  // Directions, without rays, that measure the fraction of a region that its source fills: derived. An edge
+  // divides about n^1/2 of n even cells, whose errors, of .3 each, add up to .3 n^-3/4 of the region: .2%.
+  static constexpr size_t kShareTries = 1024;
+  // Shadow rays along each side of the cell of a direction to a source that is seen straight: by measurement,
+  // with kGlancesPerDirection. 1 or 3: within noise (points in office; error 38%, time 4%).
   RSPHERE_TUNED(SeenSources, size_t, kShadowsAlong, 2);
-  // 1 or 3: within noise (points in office; error 38%, time 4%).
-  RSPHERE_TUNED(SeenSources, size_t, kShadowsAcross, 2);
   // Reflectance of glass at normal incidence: Fresnel's for the index 1.5.
   static constexpr double kFresnel = .04;
 };
@@ -214,7 +190,8 @@ struct Silhouettes {
   // by experiment. Hulls are computed on a plane, which cannot hold a hemisphere (1.57). 30% less or more:
   // within noise (points beside chrome; error 10%, time 8%).
   RSPHERE_TUNED(Silhouettes, double, kWidestHull, 1.2);
-  // Corners of the polygon around a circle: chosen by experiment. The area of the polygon is 1.3% larger. 30%
+  // Corners of the polygon around a circle: chosen by experiment. The area of the polygon is 1.3% larger.
+  // Light sources with more corners are replaced by squares around them where balls show their images. 30%
   // less or more: within noise (points beside chrome; error below 1%, time 8%).
   RSPHERE_TUNED(Silhouettes, int, kCorners, 16);
   // Cells along the edge of a face of the cube map that names the silhouettes near a direction: chosen by
@@ -225,14 +202,14 @@ struct Silhouettes {
 
 // The standard error of a mean (error_estimate.cpp).
 struct ErrorEstimate {
-  // Factor on the variance that differences between differences of base directions give: a compromise. It is
-  // .6 if straight edges are all of the variance, of which an even set averages out a part, and 1 if the
-  // noise of paths is.
+  // Factor on the variance that follows from second differences of base directions: a compromise. It is .6 if
+  // straight edges are all of the variance, of which an even set averages out a part, and 1 if the noise of
+  // paths is.
   RSPHERE_TUNED(ErrorEstimate, double, kEvenSet, .8);
-  // Neighbours that a direction must have for differences of differences: derived. Among fewer, they are not
-  // what ownPartOfSecond() takes them for.
+  // The smallest number of neighbours with which second differences are used: derived. With fewer,
+  // ownPartOfSecond() does not hold for their variance.
   static constexpr double kFewestAround = 4;
-  // The same for directions to the parts of a light source: chosen by experiment. Differences of successive
+  // The factor for directions to the parts of a light source: chosen by experiment. Differences of successive
   // parts count an edge too often, because it lies between two parts more often than it crosses one. Where
   // the light of a source is all of the variance, the standard error is then too small (40 rotations each):
   //   predicted / actual deviation              .5 (this)    1
@@ -241,61 +218,61 @@ struct ErrorEstimate {
   //   ceiling with a pattern of stripes         .70 to .76   .99 to 1.08
   // 30% less or more: the same answers in all cases.
   RSPHERE_TUNED(ErrorEstimate, double, kEvenParts, .5);
-  // The fraction for n dynamic directions to a target is 1 / (1 + n^1/2 / this): the root because an edge
-  // crosses about n^1/2 of the n cells; the number chosen by experiment. n are those that share in the
-  // variance. With all directions of the target instead, at a point beside a chrome ball where 1 to 5 of 3400
-  // find lamps that are mirrored twice, the actual deviation was 1.6 times the predicted standard error, and
-  // 2% of the answers were further off than six; now it is .9 times, and none is. 30% less or more: the same
-  // answers in all cases.
+  // The factor for n dynamic directions to a target is 1 / (1 + n^1/2 / kEvenRun): the root because an edge
+  // crosses about n^1/2 of the n cells; the number chosen by experiment. n is the effective number of
+  // directions that the variance is due to. With all directions of the target instead, at a point beside a
+  // chrome ball where 1 to 5 of 3400 find lamps that are mirrored twice, the actual deviation was 1.6 times
+  // the predicted standard error, and 2% of the answers were further off than six; now it is .9 times, and
+  // none is. 30% less or more: the same answers in all cases.
   RSPHERE_TUNED(ErrorEstimate, double, kEvenRun, 8);
-  // The share of what one more direction in a target would represent that may be hidden unseen: a compromise.
-  // An obstacle of the share s is missed by n directions with the probability (1 - s)^n, a third if s is 1/n.
+  // The size of an obstacle that no direction has hit, as a share of what one more direction in a target
+  // would represent: a compromise. n directions miss an obstacle of the share s with the probability (1 -
+  // s)^n, a third if s is 1/n.
   RSPHERE_TUNED(ErrorEstimate, double, kUnseen, .5);
 };
 
 // When -Sa has enough sets (two_halves.cpp).
 struct Stopping {
-  // Each half asks for this multiple of the standard error that is wanted: by measurement. One answer in 50,
-  // rather than one in 25, then needs more sets because of its own estimate. Those sets cause the remaining
-  // bias. 30% less or more: within noise (stopping; error 1%, time 6%).
+  // Each half requests sets until its standard error is this multiple of the one that is wanted: by
+  // measurement. Only one answer in 50, rather than one in 25, then needs more sets because its own estimate
+  // is too large. Those sets cause the remaining bias. 30% less or more: within noise (stopping; error 1%,
+  // time 6%).
   RSPHERE_TUNED(Stopping, double, kMargin, .95);
-  // Cap on the ratio of the sets of the halves: chosen by experiment. If one set finds something very bright,
+  // Cap on the ratio of the sets of the halves: derived. If one set finds something very bright,
   // the other half asks for many sets; the cap then gives some to the half of that set, which outweigh it
   // sooner. With 1, each half would depend on its own sets, and the bias would be that of stopping without
-  // halves. 1 or 3: the same answers in all cases.
-  RSPHERE_TUNED(Stopping, size_t, kMostRatio, 2);
+  // halves, so that it is the smallest number above 1.
+  static constexpr size_t kMostRatio = 2;
 };
 
-// Points that hardly any light reaches (estimator.cpp, two_halves.cpp).
+// Points that almost no light reaches (estimator.cpp, two_halves.cpp).
 struct Dark {
-  // The mean below which -Sa gives up soon, relative to what surfaces of the scene show on average: chosen
-  // without measurement. Within closed furniture of metal one direction in a hundred thousand finds a gap
-  // between surfaces; a million directions would not tell how much light that is within a percent.
-  RSPHERE_TUNED(Dark, double, kMean, 1e-3);
+  // The mean below which -Sa gives up soon, relative to what surfaces of the scene show on average; and the
+  // share of the directions that find light below which a warning names the point. Chosen without
+  // measurement. Within closed furniture of metal one direction in a hundred thousand finds a gap between
+  // surfaces; a million directions would not tell how much light that is within a percent. 30% less or more:
+  // the same answers in all cases.
+  RSPHERE_TUNED(Dark, double, kShare, 1e-3);
   // The sets after which it gives up: chosen by experiment. Within a closed column of metal they take 7 s
   // (-ab 6).
   RSPHERE_TUNED(Dark, size_t, kSets, 8);
-  // Share of the directions that find light below which a warning names the point: chosen without
-  // measurement.
-  RSPHERE_TUNED(Dark, double, kLitDirections, 1e-3);
 };
 
 // Pictures of the view from a point (draw_point.cpp, pixel_tracer.cpp, smooth_light.cpp).
 struct Pictures {
-  // Pixels along the height: about half a million pixels in all, one per .45 degrees and one per .35 degrees.
-  // Chosen by experiment.
+  // Pixels along the height of a fisheye: about half a million pixels in all. It trades no error for time;
+  // tests/bench/sensitivity draws smaller pictures.
   RSPHERE_TUNED(Pictures, int, kFisheyeSide, 800);
-  RSPHERE_TUNED(Pictures, int, kLatitudeLongitudeHeight, 512);
   // Light sources that cover fewer pixels than this are sampled separately: derived. A disc of 16 pixels
   // holds the middles of 14 to 21 of them, so that its light has a standard deviation of 6%. The light of a
-  // lamp of 1.4 pixels would have one of 38% instead of .1%. 30% less or more: the same answers in all cases.
+  // lamp of 1.4 pixels would have one of 38% instead of .1%.
+  //
+  // Such a source gets as many samples for each pixel that it covers: by measurement. With 4 per pixel, lamps
+  // of 4 to 16 pixels lose 3 to 9% of their light in the picture, with 16 they lose 1 to 3.5%. 30% less or
+  // more: the same answers in all cases.
   RSPHERE_TUNED(Pictures, double, kSmallest, 16);
-  // Samples of such a source per pixel, and at least: both by measurement. With 4 per pixel, lamps of 4 to 16
-  // pixels lose 3 to 9% of their light in the picture, with 16 they lose 1 to 3.5%. 30% less or more: the
-  // same answers in all cases.
-  RSPHERE_TUNED(Pictures, double, kSamplesPerPixel, 16);
-  // The light of a minute lamp that is half hidden has a standard deviation of 12%; with one sample it is
-  // 34%. 30% less or more: the same answers in all cases.
+  // Samples of such a source at least. The light of a minute lamp that is half hidden then has a standard
+  // deviation of 12%; with one sample it is 34%. 30% less or more: the same answers in all cases.
   RSPHERE_TUNED(Pictures, double, kLeastSamples, 4);
   // Places at which the background of a small source is looked for, in pixels from the middle of one:
   // chosen by experiment.
@@ -308,19 +285,20 @@ struct Pictures {
   // noisy: chosen by experiment in the open-plan office. 2: error -21%; 4: error +26% (picture from point,
   // which has 1% of the pixels; noise: error 4%, time 6%).
   RSPHERE_TUNED(Pictures, int, kSharingByLamps, 3);
-  // Passes of smoothing of indirect light and of gloss: chosen by experiment. With 2 of indirect light: error
-  // +10%; 4: within noise (picture from point; noise: error 1%, time 6%).
+  // Passes of smoothing of indirect light: chosen by experiment. 2: error +10%; 4: within noise (picture from
+  // point; noise: error 1%, time 6%).
   RSPHERE_TUNED(Pictures, int, kIndirectPasses, 3);
-  RSPHERE_TUNED(Pictures, int, kGlossPasses, 2);
-  // Further passes for indirect light, and the difference of light by which they are limited: chosen by
-  // experiment. The noise that the first passes leave is 2 to 5%.
-  RSPHERE_TUNED(Pictures, int, kCarefulPasses, 2);
+  // Further passes for indirect light, limited by the difference of light below, and passes for gloss: chosen
+  // by experiment. The noise that the first passes leave is 2 to 5%. 1 or 3: within noise (picture from
+  // point; error below 1%, time 6%).
+  RSPHERE_TUNED(Pictures, int, kFinePasses, 2);
   RSPHERE_TUNED(Pictures, float, kSameLight, .14f);
-  // Cosine between the normals of pixels that share gloss: 2 degrees, less than the width of a lobe: derived.
-  RSPHERE_TUNED(Pictures, float, kSameGlossNormal, .9994f);
   // Least roughness of surfaces whose pixels share gloss: derived. The lobe is about as wide as the gloss of
   // two passes is blurred, 2.2 pixels or .014 radians.
-  RSPHERE_TUNED(Pictures, double, kLeastRoughness, .02);
+  static constexpr double kLeastRoughness = .02;
+  // Cosine between the normals of pixels that share gloss: derived. They are 2 degrees apart, less than the
+  // width of such a lobe.
+  static constexpr float kSameGlossNormal = .9994f;
   // Pixels that differ from a neighbor by more than this, of 1 on the sRGB curve, are traced near their
   // corners as well, and near the middles of their sides if these rays differ by more: chosen by experiment.
   // 30% less: error -2%; 30% more: error +3% (picture from point; noise: error below 1%, time 6%).
@@ -337,15 +315,13 @@ struct Pictures {
   // Rows are traced in sweeps that skip all but one in this number, so that each sweep takes about as long as
   // another and progress reports are honest. It changes no picture.
   static constexpr int kSweeps = 16;
-  // Two pixels share indirect light if the cosine between their normals is at least kSameNormal, the height
-  // of one point over the plane of the other at most kSamePlane of their distance, and their distance at
-  // most kNear of that from the eye: chosen by experiment. .87 or .93: within noise (picture from point;
-  // error below 1%, time 6%).
+  // Two pixels share indirect light if the cosine between their normals is at least this: chosen by
+  // experiment. .87 or .93: within noise (picture from point; error below 1%, time 6%).
   RSPHERE_TUNED(Pictures, float, kSameNormal, .9f);
-  // 30% less or more: within noise (picture from point; error below 1%, time 6%).
-  RSPHERE_TUNED(Pictures, float, kSamePlane, .25f);
-  // 30% less: error +25%; 30% more: error -13% (picture from point, which has 1% of the pixels, so that edges
-  // count more; noise: error 2%, time 6%).
+  // Furthermore, their distance must be at most this share of that from the eye, and the height of one point
+  // over the plane of the other at most this share of their distance. 30% less: error +25%; 30% more: error
+  // -13% (picture from point, which has 1% of the pixels, so that edges count more; noise: error 2%, time
+  // 6%).
   RSPHERE_TUNED(Pictures, float, kNear, .25f);
 };
 

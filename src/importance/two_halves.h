@@ -42,7 +42,7 @@ class TwoHalves {
   // Whether the estimated standard error is below the accuracy.
   bool isReached() const;
 
-  // Whether the sets added are enough only because there is hardly any light.
+  // Whether the sets are enough only because there is almost no light.
   bool gaveUp() const { return average() < dark_ && !isReached(); }
 
  private:

@@ -44,7 +44,7 @@ SampledSet VoronoiWeights::sample(const SetAtPoint& set, PathTracer& tracer, Vor
   if (options_.verify) checkCells(memory);
   SampledSet sampled = traceEach(set, directions, solidAngles, options_.everyDirection, tracer);
   if (base_.neighbours)
-    sampled.variance = evenVariance(sampled.samples, neighboursOf(memory), {}, base_.sampling);
+    sampled.variance = evenVariance(sampled.samples, neighboursOf(memory), base_.sampling);
   return sampled;
 }
 

@@ -28,7 +28,7 @@ class VoronoiWeights : public SamplingStrategy {
   const SphereOptions& options_;
   const BaseSet& base_;
   const std::vector<SpecialObject>& special_;
-  BaseTriangulation triangulation_;  // of the base directions as they are
+  BaseTriangulation triangulation_;  // of the base directions before rotation
 };
 
 }  // namespace rsphere

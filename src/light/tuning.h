@@ -15,10 +15,6 @@ struct SourceParts {
   // relative to its distance: chosen by experiment. Over a narrower part, cosine / distance^2 varies little.
   // 30% less or more: within noise (points in workshop; error below 1%, time 4%).
   RSPHERE_TUNED(SourceParts, double, kNear, .5);
-  // A tube is divided along its axis if the point is farther from the axis than this many of its radii:
-  // chosen by experiment. Nearer, its width matters as much as its length, and dividing it does not pay. 30%
-  // less or more: the same answers in all cases.
-  RSPHERE_TUNED(SourceParts, double, kTubeNear, 2);
 };
 
 // How the light of virtual sources is bounded (relays.cpp).

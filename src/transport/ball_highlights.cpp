@@ -29,9 +29,9 @@ BallHighlights::BallHighlights(const Scene& scene, const Tracer& tracer, const L
   if (!reaches.empty()) near_ = ReachGrid(reaches, tracer.bounds());
 }
 
-// The sources that light a ball. A ball sends distant light on evenly in all directions: the image of a
-// source fills its solid angle as seen from the ball, times the square of the ball's radius over twice the
-// distance to it.
+// Finds the sources that light a ball. A mirroring ball of radius r spreads the light of a distant source
+// evenly over all directions. At a distance d, the image of the source has (r / 2d)^2 times the solid angle
+// that the source has as seen from the ball.
 BallHighlights::Ball BallHighlights::lit(const Sphere& sphere, const Opaque& material, const Scene& scene,
                                          const Tracer& tracer, const LightSources& lights) {
   Ball ball{sphere, material.roughness, 0, 0, {}};
@@ -53,8 +53,8 @@ BallHighlights::Ball BallHighlights::lit(const Sphere& sphere, const Opaque& mat
     if (!seesPart(tracer, c.part, sphere.center + (sphere.radius + 2 * kSamePlace) * out)) continue;
     ball.intensity += c.intensity;
     ball.parts.push_back({c.part.part, ball.intensity});
-    // By the mean square of a normal distribution, whose variance is that of a disk of the source's solid
-    // angle.
+    // The highlight is taken for a normal distribution of directions; its variance includes that of a disk of
+    // the source's solid angle.
     const double spread =
         sphere.radius * sphere.radius * (ball.roughness * ball.roughness + c.solidAngle / (8 * kPi));
     ball.hot += c.intensity * c.intensity / (2 * kPi * kPi * spread);
@@ -63,8 +63,8 @@ BallHighlights::Ball BallHighlights::lit(const Sphere& sphere, const Opaque& mat
   return ball;
 }
 
-// As from a small source. From nearby, an image is as far behind the ball's surface as the focus, half its
-// radius.
+// Each ball is treated as a small source. Seen from nearby, its images lie at the focus, half a radius behind
+// its surface.
 void BallHighlights::aim(const V3d& point, const V3d& front, double least, Aim& aim) const {
   aim.clear();
   for (const uint32_t number : near_.at(point)) {

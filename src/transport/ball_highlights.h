@@ -18,7 +18,7 @@ namespace rsphere {
 class BallHighlights {
  public:
   // Uses spheres of plastic or metal. Shadow rays find which sources each of them sees. Keeps no references.
-  // least: nothing is aimed at where a ball's highlights add less than this to the variance, as for aim();
+  // least: a ball is ignored at points where its highlights add less than this to the variance, as in aim();
   // above 0.
   BallHighlights(const Scene& scene, const Tracer& tracer, const LightSources& lights, double least);
 
@@ -49,7 +49,7 @@ class BallHighlights {
     Sphere sphere;
     double roughness = 0;
     double intensity = 0;  // W/sr, of brightness, sent into every direction
-    double hot = 0;        // mean square of its radiance, as a factor of cosine / distance^2
+    double hot = 0;        // the mean square of its radiance is this times cosine / distance^2
     std::vector<Part> parts;
   };
 

@@ -23,7 +23,7 @@ constexpr float kNarrowest = 1e-6f;
 // power of spots matters.
 constexpr double kTransmittance = .9;
 
-// The number of particles of a spot at least. Its power is then known within 29%, 1/sqrt(12).
+// The smallest number of particles that form a spot. Its power is then known within 29%, 1/sqrt(12).
 constexpr size_t kFewest = 12;
 
 // Ratio of the radius of a spot to half the diagonal of the box around its particles. The box around n points
@@ -31,8 +31,9 @@ constexpr size_t kFewest = 12;
 // the fewest.
 constexpr double kWider = 1.15;
 
-// No rays are aimed at a spot whose center is nearer than the root of this, in radii. The formula for a small
-// surface makes a disk at that distance half as bright again as it is: 1 / d^2 instead of 1 / (d^2 + r^2).
+// No rays are aimed at a spot whose center is nearer than the square root of this number of radii. The
+// formula for a small surface makes a disk at that distance half as bright again as it is: 1 / d^2 instead of
+// 1 / (d^2 + r^2).
 constexpr float kApart = 2;
 
 // The surface area of a room, divided by the square of the mean distance across it. The mean chord of a
@@ -159,7 +160,7 @@ std::vector<BrightSpots::Particle> BrightSpots::particles(const Scene& scene, co
 BrightSpots::BrightSpots(const Scene& scene, const Tracer& tracer, const LightSources& lights,
                          const Openings* openings) {
   if (tracer.bounds().isEmpty()) return;
-  origin_ = tracer.bounds().center();
+  spots_.origin = tracer.bounds().center();
   if (openings) {
     std::vector<Particle> inside = particlesThrough(*openings, scene, tracer, lights);
     std::vector<double> free;
@@ -173,7 +174,7 @@ BrightSpots::BrightSpots(const Scene& scene, const Tracer& tracer, const LightSo
     }
   }
   std::vector<Particle> everywhere = particles(scene, tracer, lights);
-  find(everywhere, scene.area(), tuning::Caps::kAimed, Tuning::kBrighter, Tuning::kLeastWorth);
+  find(everywhere, scene.area(), tuning::Caps::kAimed, Tuning::kBrighter, Tuning::kBrighter);
 }
 
 std::vector<BrightSpots::Node> BrightSpots::find(std::span<Particle> all, double area, size_t most,
@@ -198,7 +199,7 @@ std::vector<BrightSpots::Node> BrightSpots::find(std::span<Particle> all, double
     splits.push_back({i, gain, std::move(into)});
   };
   consider(0);
-  while (count_ + nodes.size() < most && !splits.empty()) {
+  while (spots_.count + nodes.size() < most && !splits.empty()) {
     const auto best = std::max_element(splits.begin(), splits.end(),
                                        [](const Split& a, const Split& b) { return a.gain < b.gain; });
     const size_t i = best->node;
@@ -218,46 +219,48 @@ std::vector<BrightSpots::Node> BrightSpots::find(std::span<Particle> all, double
 }
 
 void BrightSpots::keep(const Spot& spot) {
-  const size_t i = count_++;
-  const V3d center = spot.center - origin_;
-  x_[i] = static_cast<float>(center.x);
-  y_[i] = static_cast<float>(center.y);
-  z_[i] = static_cast<float>(center.z);
-  normalX_[i] = static_cast<float>(spot.normal.x);
-  normalY_[i] = static_cast<float>(spot.normal.y);
-  normalZ_[i] = static_cast<float>(spot.normal.z);
-  radius_[i] = static_cast<float>(spot.radius);
-  anyway_[i] = static_cast<float>(1 - spot.normal.length() + tuning::Highlights::kEdgeOn);
-  power_[i] = static_cast<float>(spot.power);
+  const size_t i = spots_.count++;
+  const V3d center = spot.center - spots_.origin;
+  spots_.x[i] = static_cast<float>(center.x);
+  spots_.y[i] = static_cast<float>(center.y);
+  spots_.z[i] = static_cast<float>(center.z);
+  spots_.normalX[i] = static_cast<float>(spot.normal.x);
+  spots_.normalY[i] = static_cast<float>(spot.normal.y);
+  spots_.normalZ[i] = static_cast<float>(spot.normal.z);
+  spots_.radius[i] = static_cast<float>(spot.radius);
+  spots_.anyway[i] = static_cast<float>(1 - spot.normal.length() + tuning::Highlights::kEdgeOn);
+  spots_.power[i] = static_cast<float>(spot.power);
 }
 
 // The contribution of a spot is that of a small flat surface with the spot's normal. Spots that contain the
 // point or are near to it are left out.
 __attribute__((target_clones("avx2", "default"))) void BrightSpots::aim(const V3d& point, const V3d& front,
                                                                         Aim& aim) const {
-  const auto atX = static_cast<float>(point.x - origin_.x), atY = static_cast<float>(point.y - origin_.y),
-             atZ = static_cast<float>(point.z - origin_.z);
+  const auto atX = static_cast<float>(point.x - spots_.origin.x),
+             atY = static_cast<float>(point.y - spots_.origin.y),
+             atZ = static_cast<float>(point.z - spots_.origin.z);
   const auto frontX = static_cast<float>(front.x), frontY = static_cast<float>(front.y),
              frontZ = static_cast<float>(front.z);
-  Numbers comes;
-  for (size_t i = 0; i < count_; ++i) {
-    const float x = x_[i] - atX, y = y_[i] - atY, z = z_[i] - atZ;
+  Spots::Numbers comes;
+  for (size_t i = 0; i < spots_.count; ++i) {
+    const float x = spots_.x[i] - atX, y = spots_.y[i] - atY, z = spots_.z[i] - atZ;
     const float squared = x * x + y * y + z * z + kNearest, inverse = 1 / std::sqrt(squared);
-    const float cosine = (x * frontX + y * frontY + z * frontZ + radius_[i]) * inverse;
-    const float facing = anyway_[i] - (x * normalX_[i] + y * normalY_[i] + z * normalZ_[i]) * inverse;
+    const float cosine = (x * frontX + y * frontY + z * frontZ + spots_.radius[i]) * inverse;
+    const float facing =
+        spots_.anyway[i] - (x * spots_.normalX[i] + y * spots_.normalY[i] + z * spots_.normalZ[i]) * inverse;
     const float before = std::min(std::max(cosine, 0.f), 1.f), seen = std::min(std::max(facing, 0.f), 1.f);
-    const float apart = squared > kApart * radius_[i] * radius_[i] ? 1.f : 0.f;
-    comes[i] = apart * power_[i] * before * seen * inverse * inverse;
+    const float apart = squared > kApart * spots_.radius[i] * spots_.radius[i] ? 1.f : 0.f;
+    comes[i] = apart * spots_.power[i] * before * seen * inverse * inverse;
     aim.x[i] = x;
     aim.y[i] = y;
     aim.z[i] = z;
-    const float sine2 = radius_[i] * radius_[i] * inverse * inverse;
+    const float sine2 = spots_.radius[i] * spots_.radius[i] * inverse * inverse;
     aim.sine2[i] = std::max(sine2, kNarrowest);
     aim.squared[i] = squared;
   }
   float sum = 0;
-  for (size_t i = 0; i < count_; ++i) aim.sum[i] = sum += comes[i];
-  aim.count = count_;
+  for (size_t i = 0; i < spots_.count; ++i) aim.sum[i] = sum += comes[i];
+  aim.count = spots_.count;
   aim.mean = sum / (kPi * kPi);
 }
 

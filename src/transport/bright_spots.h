@@ -27,7 +27,7 @@ class BrightSpots {
   BrightSpots(const Scene& scene, const Tracer& tracer, const LightSources& lights,
               const Openings* openings = nullptr);
 
-  bool empty() const { return count_ == 0; }
+  bool empty() const { return spots_.count == 0; }
   // The mean brightness (W/sr/m2) of all surfaces that are lit by the sources of the spots.
   double usual() const { return usual_; }
   static constexpr size_t kRoom = tuning::Caps::kAimedRoom;
@@ -74,19 +74,22 @@ class BrightSpots {
   static std::optional<Particle> arrived(const Scene& scene, const Tracer& tracer, const V3d& origin,
                                          const V3d& direction, double power, Random& random);
   // Finds spots, keeps them, and returns the groups of particles that form them. most: maximal number of
-  // spots. area: of the surfaces that receive the light (square world units). brighter, leastWorth: as in
-  // tuning::BrightSpots.
+  // spots. area: of the surfaces that receive the light (square world units). brighter, leastWorth: the
+  // limits that tuning::BrightSpots::kBrighter explains.
   std::vector<Node> find(std::span<Particle> all, double area, size_t most, double brighter,
                          double leastWorth);
   void keep(const Spot& spot);
 
-  std::vector<Sunlit> sunlit_;
   // The spots, as a structure of arrays.
-  using Numbers = std::array<float, kRoom>;
-  size_t count_ = 0;
-  double usual_ = 0;     // of those that were found first
-  V3d origin_{0, 0, 0};  // origin of the coordinates of the centers
-  Numbers x_{}, y_{}, z_{}, normalX_{}, normalY_{}, normalZ_{}, radius_{}, anyway_{}, power_{};
+  struct Spots {
+    using Numbers = std::array<float, kRoom>;
+    size_t count = 0;
+    V3d origin{0, 0, 0};  // origin of the coordinates of the centers
+    Numbers x{}, y{}, z{}, normalX{}, normalY{}, normalZ{}, radius{}, anyway{}, power{};
+  };
+  Spots spots_;
+  double usual_ = 0;  // of the spots that were found first
+  std::vector<Sunlit> sunlit_;
 };
 
 }  // namespace rsphere

@@ -12,7 +12,7 @@ namespace {
 uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAccess& access) {
   Fingerprint print;
   print.add(kVersion);
-  print.add(uint64_t{7});  // changes with the method of gathering between two versions
+  print.add(uint64_t{7});  // increase it if the method of gathering changes between two versions
   for (const double x :
        {o.directThreshold, o.directCertainty, o.directJitter, o.sourceSubstructuring, o.specularSampling,
         o.specularThreshold, o.ambientAccuracy, o.weightLimit, o.mediumEccentricity, o.mediumSampling})
@@ -52,7 +52,7 @@ Caches makeCaches(const PreparedScene& prepared, const Aims& aims, const rad::Wa
   const RayOptions& o = prepared.options();
   Caches caches;
   caches.aims = aims;
-  if (!prepared.hasIndirectLight() || !(o.ambientAccuracy > 0)) return caches;
+  if (!prepared.options().hasIndirectLight() || !(o.ambientAccuracy > 0)) return caches;
   const Scene& scene = prepared.scene();
   const Box3d& bounds = prepared.tracer().bounds();
   caches.field = std::make_unique<IrradianceField>(scene, bounds, fieldOptions(o));

@@ -18,7 +18,7 @@ struct Caches {
   std::unique_ptr<IrradianceField> field;
   // Light at second and later diffuse surfaces; null where paths are followed instead (-aa 0, -ab 1).
   std::unique_ptr<CoarseSolution> coarse;
-  // What the rays that they ask for are aimed at: the same, whichever tracer asks.
+  // The aims of gathers for the caches. They do not depend on the tracer that needs the light.
   Aims aims;
 };
 

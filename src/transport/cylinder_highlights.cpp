@@ -11,7 +11,7 @@ namespace {
 
 using Tuning = tuning::Highlights;
 
-// Where along a cylinder it is tested whether it sees a source, as shares of its length.
+// Places along a cylinder from which shadow rays are sent to a source, as shares of its length.
 constexpr double kPlaces[] = {.5, .1, .9};
 
 V3d across(const Cone& cylinder, const V3d& way) { return way - way.dot(cylinder.axis) * cylinder.axis; }
@@ -48,9 +48,9 @@ CylinderHighlights::CylinderHighlights(const Scene& scene, const Tracer& tracer,
   if (!reaches.empty()) near_ = ReachGrid(reaches, tracer.bounds());
 }
 
-// The sources that light a cylinder. The image of a distant source fills its solid angle as seen from the
-// cylinder, times half the radius over the distance from the cylinder where the plane of reflection is across
-// the axis; elsewhere, as much within a factor of the cosines.
+// Finds the sources that light a cylinder. If the plane of reflection is perpendicular to the axis, the image
+// of a distant source has, at a distance d, r / 2d times the solid angle that the source has as seen from the
+// cylinder of radius r. In other planes, cosines change this by a factor near 1.
 CylinderHighlights::Cylinder CylinderHighlights::lit(const Cone& shape, const Opaque& material,
                                                      const Scene& scene, const Tracer& tracer,
                                                      const LightSources& lights) {
@@ -88,10 +88,12 @@ CylinderHighlights::Cylinder CylinderHighlights::lit(const Cone& shape, const Op
   return cylinder;
 }
 
-// The path by way of the mirroring place is the shortest. Across the axis, it is therefore that of a circle,
-// whatever the heights of its ends are; and along the axis, it is straight where the circle is unrolled.
+// The mirroring place makes the path from the source to the point as short as possible. Projected along the
+// axis, it is therefore the mirroring place of a circle, whatever the heights of both ends are. Its height is
+// that of a straight path if the circle is unrolled.
 void CylinderHighlights::aim(const V3d& point, const V3d& front, double least, Aim& aim) const {
   aim.clear();
+  const double leastOfOne = least / Tuning::kLeastOfFew;
   double variance = 0;
   for (const uint32_t number : near_.at(point)) {
     const Cylinder& cylinder = cylinders_[number];
@@ -102,7 +104,7 @@ void CylinderHighlights::aim(const V3d& point, const V3d& front, double least, A
     const V3d at = across(shape, -way);
     const double height = -way.dot(shape.axis);
     if (!(at.length2() > Highlight::kApart * Highlight::kApart * radius * radius)) continue;
-    const double enough = Tuning::kLeastShare * least * (point - nearestOnAxis(shape, point)).length();
+    const double enough = leastOfOne * (point - nearestOnAxis(shape, point)).length();
     for (const Part& p : cylinder.parts) {
       if (aim.count == tuning::Caps::kAimed / 2) break;
       if (!(p.hot > enough)) continue;
@@ -115,8 +117,8 @@ void CylinderHighlights::aim(const V3d& point, const V3d& front, double least, A
       const double near = (at - radius * normal).length(), far = (side - radius * normal).length();
       const double place = height + near * (part.distant ? to.dot(shape.axis) / beside
                                                          : (to.dot(shape.axis) - height) / (near + far));
-      // The edge of a highlight may lie on the cylinder if its middle is not farther beyond the end than
-      // this.
+      // If the middle lies within one length beyond an end, the edge of the highlight may still lie on the
+      // cylinder.
       if (place < -shape.length || place > 2 * shape.length) continue;
       const V3d mirror = shape.base + place * shape.axis + radius * normal;
       const V3d out = (mirror - point).normalized();
@@ -128,7 +130,7 @@ void CylinderHighlights::aim(const V3d& point, const V3d& front, double least, A
       const double whole = p.radiance * p.lighting.solidAngle(mirror) * highlight.magnified,
                    bright = whole * share;
       const double adds = whole * bright * cosine / (4 * kPi * kPi * highlight.spread);
-      if (!(adds > Tuning::kLeastShare * least)) continue;
+      if (!(adds > leastOfOne)) continue;
       aim.lobe[aim.count] = highlight.lobe;
       aim.add(number, bright * cosine);
       variance += adds;

@@ -19,7 +19,8 @@ class CylinderHighlights {
   bool empty() const { return cylinders_.empty(); }
   static constexpr size_t kRoom = tuning::Caps::kAimedRoom / 2;
 
-  // By highlights of parts of sources on cylinders.
+  // The sampling distribution for a point of a diffuse surface. Each element is the highlight of a part of a
+  // source on a cylinder.
   struct Aim : HighlightAim<kRoom> {
     std::array<HighlightLobe, kRoom> lobe;
   };
@@ -37,13 +38,13 @@ class CylinderHighlights {
   struct Part {
     LightingPart lighting;
     double radiance;  // of its image, W/sr/m2, of brightness
-    double hot;       // a bound, as of the whole cylinder
+    double hot;       // upper bound, as `Cylinder::hot`
   };
   struct Cylinder {
     Cone shape;
     double roughness = 0;
-    // A bound of what its highlights add to the variance of the radiance from a direction that is chosen by
-    // projected solid angle, times the distance from the cylinder (W2/sr2/m4 * world units).
+    // Upper bound of what its highlights add to the variance of the radiance from a direction that is chosen
+    // by projected solid angle, times the distance from the cylinder (W2/sr2/m4 * world units).
     double hot = 0;
     std::vector<Part> parts;
   };

@@ -18,8 +18,9 @@ using Tuning = tuning::DirectLight;
 // on more than half of their source, so that the parts would overlap.
 constexpr double kWideJitter = .5;
 
-// Up to so many contributions are ranked by comparing all pairs instead of by sorting, by measurement of time
-// alone: that is n^2 / 2 comparisons without branches instead of n log n, half of which are mispredicted.
+// Up to this number, contributions are ranked by comparing all pairs instead of by sorting: n^2 / 2
+// comparisons without branches take less time than n log n, half of which are mispredicted. By measurement of
+// time.
 constexpr uint32_t kFew = 24;
 
 // Kinds of sources whose visibility is estimated separately, because they are occluded for different reasons.
@@ -56,7 +57,7 @@ Radiance DirectLight::sourceValue(Receiver at, const SourceSample& sample) {
   if (sample.cosine < 0) return {};
   const Medium& medium = at.end.medium();
   const Coefficient passed = passing(medium.extinction * (Color(1, 1, 1) - medium.albedo), sample.distance);
-  if (const Radiance* radiance = t_.constantRadiance(sample.source)) return *radiance * passed;
+  if (const Radiance* radiance = t_.lights().constantRadiance(sample.source)) return *radiance * passed;
   const RayQuery query{.origin = at.point, .direction = sample.direction, .aimedAt = sample.source};
   const PathContext context{.kind = kReflectedShadow,
                             .kinds = at.end.context.kinds | kReflectedShadow,
@@ -73,16 +74,16 @@ Radiance DirectLight::sourceValue(Receiver at, const SourceSample& sample) {
   return result.value * passed;
 }
 
-// Whether a sample is the only one of its source in samples_.
+// Whether a sample is the only one of its source in scratch_.samples.
 bool DirectLight::isWhole(const SourceSample& sample) const {
-  const size_t i = static_cast<size_t>(&sample - samples_.data());
-  return (i == 0 || samples_[i - 1].source != sample.source) &&
-         (i + 1 == samples_.size() || samples_[i + 1].source != sample.source);
+  const size_t i = static_cast<size_t>(&sample - scratch_.samples.data());
+  return (i == 0 || scratch_.samples[i - 1].source != sample.source) &&
+         (i + 1 == scratch_.samples.size() || scratch_.samples[i + 1].source != sample.source);
 }
 
-// Sets value to the radiance of a sample that arrives at the receiver; false if none arrives. to.value: its
-// radiance without occlusion. to.coefficient: becomes whole if samples of a lobe do not meet the source as
-// its shadow ray does.
+// Sets `value` to the radiance of a sample that arrives at the receiver; false if none arrives. to.value: its
+// radiance without occlusion. to.coefficient: if surfaces in the way may transmit light, samples of a lobe
+// estimate nothing, so that their part is added back.
 bool DirectLight::arrives(Receiver at, Contribution& to, Radiance& value) {
   const SourceSample& sample = *to.sample;
   const LightSource& light = t_.lights().all()[sample.source];
@@ -92,12 +93,13 @@ bool DirectLight::arrives(Receiver at, Contribution& to, Radiance& value) {
       t_.tracer().shadow(at.point, sample.direction, sample.distance, toSurface ? light.surface : kNone,
                          &blockerOf(from, sample.source), from);
   if (shadow == Shadow::refracted)
-    shadow = isWhole(sample) &&
-                     t_.presumedShadows().hide(sample.source, at.point, sample.direction, sample.distance)
+    shadow = isWhole(sample) && t_.lights().presumedShadows().hide(sample.source, at.point, sample.direction,
+                                                                   sample.distance)
                  ? Shadow::blocked
                  : Shadow::unsure;
   const bool follow = shadow == Shadow::unsure || (shadow == Shadow::clear && light.isVirtual());
-  if (follow && !ofLobe_.empty()) to.coefficient += ofLobe_[static_cast<size_t>(&to - contributions_.data())];
+  if (follow && !scratch_.ofLobe.empty())
+    to.coefficient += scratch_.ofLobe[static_cast<size_t>(&to - scratch_.contributions.data())];
   if (follow || state_.request.allShadowRays)
     value = valueFromSource(at, to);  // even if blocked when all shadow rays are shown to the observer
   if (shadow == Shadow::blocked || (!follow && isLeftOut(at, sample.source))) return false;
@@ -128,19 +130,21 @@ size_t DirectLight::lookAheadOf(size_t count) {
   return lookAheads_[count];
 }
 
-// Sorts order_ by brightness, brightest first; equal contributions keep their order.
+// Sorts the contributions by brightness, brightest first; equal contributions keep their order.
 void DirectLight::rankByBrightness(uint32_t count) {
   // If there are few contributions, the rank of each is found by comparing all pairs without branches. Half
   // of the branches of std::sort would be mispredicted.
   if (count > kFew) {
-    std::iota(order_.begin(), order_.begin() + count, 0);
-    std::sort(order_.begin(), order_.begin() + count, [&](uint32_t a, uint32_t b) {
-      return brightness_[a] != brightness_[b] ? brightness_[a] > brightness_[b] : a < b;
+    std::iota(scratch_.order.begin(), scratch_.order.begin() + count, 0);
+    std::sort(scratch_.order.begin(), scratch_.order.begin() + count, [&](uint32_t a, uint32_t b) {
+      return scratch_.brightness[a] != scratch_.brightness[b]
+                 ? scratch_.brightness[a] > scratch_.brightness[b]
+                 : a < b;
     });
     return;
   }
   std::array<int64_t, kFew> before;
-  const double* const all = brightness_.data();
+  const double* const all = scratch_.brightness.data();
   for (uint32_t i = 0; i < count; ++i) {
     const double bright = all[i];
     int64_t darker = 0;
@@ -151,36 +155,37 @@ void DirectLight::rankByBrightness(uint32_t count) {
     }
     before[i] = i - darker;
   }
-  for (uint32_t i = 0; i < count; ++i) order_[before[i]] = i;
+  for (uint32_t i = 0; i < count; ++i) scratch_.order[before[i]] = i;
 }
 
-// Fills contributions_ and brightness_ with the unoccluded contributions of all source samples that are not
+// Fills the scratch memory with the unoccluded contributions of all source samples that are not
 // black. Returns their number.
 uint32_t DirectLight::findContributions(Receiver at, DirectCoefficient coefficientOf, const V3d& front,
                                         const PartOfLobe* partOfLobe) {
   const RayOptions& o = t_.options();
-  samples_.clear();
+  scratch_.samples.clear();
   const PathContext& ray = at.end.context;
   const bool divides =
       o.sourceSubstructuring > kNegligible && !(isOfGather(settings_, ray) && o.directJitter > kWideJitter);
   const SourceSampling how{divides ? o.sourceSubstructuring / ray.weight : 0, o.directJitter, front};
   for (const LightId i : t_.lights().all().ids())
     if (!isLeftOut(at, i) || at.leftToBothEnds->passUnknown())
-      t_.lights().sample(i, at.point, how, state_.random, samples_);
-  if (contributions_.size() < samples_.size()) {
-    contributions_.resize(samples_.size());
-    brightness_.resize(samples_.size());
-    order_.resize(samples_.size());
-    remaining_.resize(samples_.size() + 1);
+      t_.lights().sample(i, at.point, how, state_.random, scratch_.samples);
+  if (scratch_.contributions.size() < scratch_.samples.size()) {
+    scratch_.contributions.resize(scratch_.samples.size());
+    scratch_.brightness.resize(scratch_.samples.size());
+    scratch_.order.resize(scratch_.samples.size());
+    scratch_.remaining.resize(scratch_.samples.size() + 1);
   }
-  ofLobe_.clear();
+  scratch_.ofLobe.clear();
   const bool clear = !isMedium(at.end.medium().extinction);
   uint32_t count = 0;
-  for (const SourceSample& sample : samples_) {
+  for (const SourceSample& sample : scratch_.samples) {
     Coefficient coefficient = coefficientOf(sample.direction, sample.solidAngle);
     if (isBlack(coefficient)) continue;
-    Contribution& c = contributions_[count];
-    if (const Radiance* constant = clear && sample.cosine >= 0 ? t_.constantRadiance(sample.source) : nullptr)
+    Contribution& c = scratch_.contributions[count];
+    if (const Radiance* constant =
+            clear && sample.cosine >= 0 ? t_.lights().constantRadiance(sample.source) : nullptr)
       c.value = *constant;
     else
       c.value = sourceValue(at, sample);
@@ -189,24 +194,24 @@ uint32_t DirectLight::findContributions(Receiver at, DirectCoefficient coefficie
     c.sample = &sample;
     c.coefficient = std::move(coefficient);
     if (partOfLobe) {
-      ofLobe_.push_back((*partOfLobe)(sample));
-      c.coefficient -= ofLobe_.back();
+      scratch_.ofLobe.push_back((*partOfLobe)(sample));
+      c.coefficient -= scratch_.ofLobe.back();
     }
-    brightness_[count++] = bright;
+    scratch_.brightness[count++] = bright;
   }
   return count;
 }
 
-// Estimates the sum of the contributions from position `first` of order_ on by one of them, which is drawn
+// Estimates the sum of the contributions from the one ranked `first` on by one of them, which is drawn
 // with a probability proportional to its unoccluded brightness.
 void DirectLight::addOneOf(Receiver at, size_t first, uint32_t count, Radiance& value) {
-  double rest = state_.random.uniform() * remaining_[first];
+  double rest = state_.random.uniform() * scratch_.remaining[first];
   size_t chosen = first;
-  while (chosen + 1 < count && (rest -= brightness_[order_[chosen]]) >= 0) ++chosen;
-  Contribution& c = contributions_[order_[chosen]];
+  while (chosen + 1 < count && (rest -= rankedBrightness(chosen)) >= 0) ++chosen;
+  Contribution& c = ranked(chosen);
   Radiance arriving;
   if (arrives(at, c, arriving))
-    value += arriving * c.coefficient * (remaining_[first] / brightness_[order_[chosen]]);
+    value += arriving * c.coefficient * (scratch_.remaining[first] / rankedBrightness(chosen));
 }
 
 void DirectLight::add(Receiver at, DirectCoefficient coefficientOf, const V3d& front,
@@ -220,11 +225,11 @@ void DirectLight::add(Receiver at, DirectCoefficient coefficientOf, const V3d& f
   size_t lookAhead = count;
   if (threshold > 0) {
     rankByBrightness(count);
-    remaining_[count] = 0;
-    for (size_t i = count; i-- > 0;) remaining_[i] = remaining_[i + 1] + brightness_[order_[i]];
+    scratch_.remaining[count] = 0;
+    for (size_t i = count; i-- > 0;) scratch_.remaining[i] = scratch_.remaining[i + 1] + rankedBrightness(i);
     lookAhead = lookAheadOf(count);
   } else {
-    std::iota(order_.begin(), order_.begin() + count, 0);
+    std::iota(scratch_.order.begin(), scratch_.order.begin() + count, 0);
   }
   Tests ofKind[kSourceKinds];
   const auto test = [&](Contribution& c, Tests& tests) {
@@ -236,10 +241,11 @@ void DirectLight::add(Receiver at, DirectCoefficient coefficientOf, const V3d& f
   size_t tested = 0;
   for (; tested < count; ++tested) {
     if (threshold > 0 && tested >= Tuning::kAlwaysTested) {
-      const double ahead = remaining_[tested] - remaining_[std::min<size_t>(tested + lookAhead, count)];
+      const double ahead =
+          scratch_.remaining[tested] - scratch_.remaining[std::min<size_t>(tested + lookAhead, count)];
       if (ahead < threshold * brightness(value)) break;
     }
-    Contribution& c = contributions_[order_[tested]];
+    Contribution& c = ranked(tested);
     test(c, ofKind[kindOf(t_.lights().all()[c.sample->source])]);
   }
   // After an indirect bounce, an unbiased estimate is better: its noise averages out, and a bias would not.
@@ -248,7 +254,7 @@ void DirectLight::add(Receiver at, DirectCoefficient coefficientOf, const V3d& f
   // the same kind, because the visibility of lamps does not predict that of the sun, or the reverse. The
   // brightest source of each kind is therefore always tested.
   for (; tested < count; ++tested) {
-    Contribution& c = contributions_[order_[tested]];
+    Contribution& c = ranked(tested);
     Tests& tests = ofKind[kindOf(t_.lights().all()[c.sample->source])];
     if (tests.tested == 0)
       test(c, tests);
@@ -260,14 +266,14 @@ void DirectLight::add(Receiver at, DirectCoefficient coefficientOf, const V3d& f
 // Estimates the sum over all sources from -Ss sources, drawn in proportion to their weights.
 void DirectLight::addOfChosen(Receiver at, DirectCoefficient coefficientOf, const V3d& front,
                               Radiance& value) {
-  const double sum = t_.choice().weigh(at.point, front, sourceWeights_);
+  const double sum = t_.lights().choice().weigh(at.point, front, scratch_.sourceWeights);
   if (!(sum > 0)) return;
   const int draws = std::max(1, static_cast<int>(t_.options().chosenSources * at.end.context.weight + .5));
   const double step = sum / draws;
   double next = state_.random.uniform() * step, passed = 0;
-  for (const LightId i : sourceWeights_.ids()) {
-    for (passed += sourceWeights_[i]; next < passed; next += step)
-      addSamples(at, i, {0, 1, front}, coefficientOf, step / sourceWeights_[i], value);
+  for (const LightId i : scratch_.sourceWeights.ids()) {
+    for (passed += scratch_.sourceWeights[i]; next < passed; next += step)
+      addSamples(at, i, {0, 1, front}, coefficientOf, step / scratch_.sourceWeights[i], value);
   }
 }
 
@@ -279,10 +285,10 @@ void DirectLight::addFromSource(const RayEnd& end, LightId source, DirectCoeffic
 // Adds factor times the light of all samples of one source.
 void DirectLight::addSamples(Receiver at, LightId source, const SourceSampling& how,
                              DirectCoefficient coefficientOf, double factor, Radiance& value) {
-  samples_.clear();
-  ofLobe_.clear();
-  t_.lights().sample(source, at.point, how, state_.random, samples_);
-  for (const SourceSample& sample : samples_) {
+  scratch_.samples.clear();
+  scratch_.ofLobe.clear();
+  t_.lights().sample(source, at.point, how, state_.random, scratch_.samples);
+  for (const SourceSample& sample : scratch_.samples) {
     const Coefficient coefficient = coefficientOf(sample.direction, sample.solidAngle);
     if (isBlack(coefficient)) continue;
     Contribution c{&sample, coefficient, sourceValue(at, sample)};

@@ -45,8 +45,7 @@ class DirectLight {
 
   // Adds the direct light to the radiance of the ray (W/sr/m2); the brighter that is already, the fewer
   // sources are tested. front: for a surface that transmits no light its normal, behind which all
-  // coefficients are 0; otherwise the null vector. partOfLobe: null if samples of a lobe estimate nothing of
-  // it.
+  // coefficients are 0; otherwise the null vector. partOfLobe: null if shadow rays estimate all of the light.
   void add(Receiver at, DirectCoefficient coefficientOf, const V3d& front, const PartOfLobe* partOfLobe,
            Radiance& value);
 
@@ -88,16 +87,22 @@ class DirectLight {
   const PathSettings& settings_;
   PathState& state_;
   RayFollower& follower_;
-  // Scratch memory of one call. Calls do not nest, because shadow rays never compute direct light. Elements
-  // beyond those of the current call are left over from earlier calls.
-  std::vector<SourceSample> samples_;
-  std::vector<Contribution> contributions_;
-  std::vector<double> brightness_;  // of the contributions
-  // What PartOfLobe has taken from the coefficient of each contribution; empty if nothing is taken.
-  std::vector<Coefficient> ofLobe_;
-  std::vector<uint32_t> order_;  // of the contributions, brightest first where not all are tested
-  std::vector<double> remaining_;
-  ById<LightId, double> sourceWeights_;
+  // Memory of one call. Calls do not nest, because shadow rays never compute direct light. Elements beyond
+  // those of the current call are left over from earlier calls.
+  struct Scratch {
+    std::vector<SourceSample> samples;
+    std::vector<Contribution> contributions;
+    std::vector<double> brightness;  // of the contributions
+    // What PartOfLobe has taken from the coefficient of each contribution; empty if nothing is taken.
+    std::vector<Coefficient> ofLobe;
+    std::vector<uint32_t> order;  // of the contributions, brightest first where not all are tested
+    std::vector<double> remaining;
+    ById<LightId, double> sourceWeights;
+  };
+  Contribution& ranked(size_t i) { return scratch_.contributions[scratch_.order[i]]; }
+  double rankedBrightness(size_t i) const { return scratch_.brightness[scratch_.order[i]]; }
+
+  Scratch scratch_;
   // The surface that blocked the last shadow ray from a surface to a source, at a hash of the two.
   std::vector<uint32_t> blockers_;
   std::vector<size_t> lookAheads_;  // values of lookAheadOf(), by its argument; computed as far as needed

@@ -21,7 +21,7 @@ struct Root {
   RayEnd end{query, context};
 
   Root(const PreparedScene& prepared, const GatherSite& site, int depth) {
-    context.space.medium = prepared.medium();
+    context.space.medium = prepared.options().medium();
     context.depth = depth;
     end.hit.point = site.point;
     end.hit.normal = site.normal;
@@ -77,7 +77,7 @@ double TracedFieldRays::clearance(const GatherSite& site, double farthest) {
 }
 
 Surroundings TracedFieldRays::surroundings(const GatherSite& site) {
-  // By projected solid angle, in the frame of the site.
+  // Directions distributed by projected solid angle, in the frame of the site.
   static const auto directions = [] {
     const HemisphereCells cells(Tuning::kReachRays);
     std::vector<V3d> of(cells.count());

@@ -22,7 +22,7 @@ bool looksForSpots(const PreparedScene& prepared, const Openings* openings) {
 
 FoundAims findAimsOfGathers(const PreparedScene& prepared) {
   FoundAims found;
-  if (!prepared.hasIndirectLight()) return found;
+  if (!prepared.options().hasIndirectLight()) return found;
   const Scene& scene = prepared.scene();
   if (!scene.importance) found.openings = unlessEmpty(findOpenings(prepared));
   if (looksForSpots(prepared, found.openings.get())) found.spots = spotsOf(prepared, found.openings.get());
@@ -32,8 +32,8 @@ FoundAims findAimsOfGathers(const PreparedScene& prepared) {
 
 FoundAims findAimsOfPoints(const PreparedScene& prepared, const Aims& ofGathers) {
   FoundAims found;
-  if (prepared.hasIndirectLight() && looksForSpots(prepared, ofGathers.openings)) return found;
-  if (!prepared.hasIndirectLight() && !prepared.scene().importance)
+  if (prepared.options().hasIndirectLight() && looksForSpots(prepared, ofGathers.openings)) return found;
+  if (!prepared.options().hasIndirectLight() && !prepared.scene().importance)
     found.openings = unlessEmpty(findOpenings(prepared));
   found.spots = spotsOf(prepared, found.openings ? found.openings.get() : ofGathers.openings);
   return found;

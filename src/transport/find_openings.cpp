@@ -52,7 +52,7 @@ class Probe {
   Probe(const PreparedScene& prepared, double lift)
       : t_(prepared), tracer_(prepared, noCaches_, Aims{}), lift_(lift) {}
 
-  // What is seen in the directions around a normal of the rectangle (either of both) through what is in it.
+  // What is seen through the rectangle, over the hemisphere around one of its two normals.
   Seen through(const Rectangle& r, const V3d& normal) {
     Seen seen;
     look(r, normal, -lift_, [&](const V3d& point, const V3d& direction, uint64_t seed) {
@@ -119,7 +119,7 @@ std::vector<Opening> panesOf(const PreparedScene& prepared, double leastArea) {
 // Holes in walls without panes. Without distant sources there is no sky to see through them.
 std::vector<Opening> doorsOf(const PreparedScene& prepared, double leastArea) {
   std::vector<Opening> doors;
-  if (prepared.distant().empty()) return doors;
+  if (prepared.lights().distant().empty()) return doors;
   const Scene& scene = prepared.scene();
   const auto isWall = [&](const Surface& surface) {
     const Material* material = scene.materialOf(surface);
@@ -131,8 +131,8 @@ std::vector<Opening> doorsOf(const PreparedScene& prepared, double leastArea) {
   return doors;
 }
 
-// Whether a hole leads to another place than the openings so far: the two faces of a thick wall have one
-// each.
+// Whether a hole is none of the openings found so far. The two faces of a thick wall have a hole each for the
+// same opening.
 bool isNewPlace(const Opening& hole, std::span<const Opening> openings) {
   return std::none_of(openings.begin(), openings.end(), [&](const Opening& o) {
     return std::abs(o.normal.dot(hole.normal)) > Tuning::kParallel &&
@@ -179,7 +179,7 @@ void merge(std::vector<Opening>& panes) {
 // world units).
 std::vector<Opening> candidates(const PreparedScene& prepared, double face) {
   std::vector<Opening> asked = panesOf(prepared, Tuning::kLeastArea * face);
-  const std::vector<Opening> doors = doorsOf(prepared, Tuning::kLeastHole * face);
+  const std::vector<Opening> doors = doorsOf(prepared, Tuning::kLeastArea * face);
   asked.insert(asked.end(), doors.begin(), doors.end());
   std::stable_sort(asked.begin(), asked.end(),
                    [](const Opening& a, const Opening& b) { return a.area() > b.area(); });

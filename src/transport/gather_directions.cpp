@@ -15,7 +15,7 @@ namespace {
 using Tuning = tuning::GatherDirections;
 
 // Caps on the shares of directions that are aimed. Other directions then have at most twice the weight that
-// they have without aiming, by highlights a third more, and their variance grows no further.
+// they have without aiming (with highlights, another third more), which bounds the growth of their variance.
 constexpr double kMostToOpenings = 1 - 1. / 2, kMostToHighlights = 1 - 3. / 4;
 
 // The mean radiance (W/sr/m2) from directions that are not aimed. Both estimates with openings are made near
@@ -41,16 +41,15 @@ GatherDirections::GatherDirections(const Aims& aims, const V3d& point, const V3d
   const double all = aimedAt + usualRadiance(aims);
   if (aims.highlights) {
     aims.highlights->aim(point, normal, all, rays, highlights_);
-    if (highlights_.mean > 0)
-      toHighlights_ = std::min(kMostToHighlights, Tuning::kToHighlights * highlights_.mean / all);
+    if (highlights_.mean > 0) toHighlights_ = std::min(kMostToHighlights, highlights_.mean / all);
   }
   if (!(aimedAt > 0)) return;
   const double unseen = std::max(0., 1 - Tuning::kSeenAnyway * openings_.seen);
-  toOpenings_ = paying(std::min(kMostToOpenings, Tuning::kToOpenings * openings_.mean / all * unseen));
-  toSpots_ = paying(Tuning::kToSpots * spots_.mean / all);
+  toOpenings_ = paying(std::min(kMostToOpenings, Tuning::kAimed * openings_.mean / all * unseen));
+  toSpots_ = paying(Tuning::kAimed * spots_.mean / all);
 }
 
-// Relative to the density by projected solid angle.
+// The density of a direction, relative to that of sampling by projected solid angle.
 double GatherDirections::density(const V3d& direction) const {
   double aimed = 0;
   if (toOpenings_ > 0) aimed += toOpenings_ * aims_.openings->density(openings_, point_, direction);

@@ -20,7 +20,7 @@ class GatherDirections {
   // there. rays: about how many directions will be drawn. Keeps references to what the aims refer to.
   GatherDirections(const Aims& aims, const V3d& point, const V3d& normal, const V3d& trueNormal, int rays);
 
-  // Gets a direction (unit), and its share of the mean over the hemisphere.
+  // Called for each direction (unit), with its share of the mean over the hemisphere.
   using Each = FunctionRef<void(const V3d& direction, double part)>;
 
   // Draws `count` directions, whose parts sum to 1 on average over a hemisphere that lies in front of the
@@ -40,12 +40,13 @@ class GatherDirections {
   double toOpenings_ = 0, toSpots_ = 0, toHighlights_ = 0;  // shares of the directions that are aimed
 };
 
-// Gets a ray that is ready to be followed; its coefficient is the factor of its radiance in the result.
+// Called for each ray, ready to be followed. Its coefficient is the factor of its radiance in the result.
 using GatherRay = FunctionRef<void(const NextRay& next)>;
 
-// Makes rays of directions from a point at the end of the root. coefficient: of the mean radiance over the
-// hemisphere in the result. weight: of one child relative to the root's, by which the weight limit (-lw) ends
-// paths. An aimed direction has no smaller weight than others, although its factor is smaller.
+// Makes a ray of each direction, from a point at the end of the root. coefficient: the factor of the mean
+// radiance over the hemisphere in the result. weight: that of one child, relative to the root's, which is
+// compared with the weight limit (-lw). An aimed direction has no smaller weight than others, although its
+// factor is smaller.
 void sendOverHemisphere(const PreparedScene& prepared, const GatherDirections& directions, PathState& state,
                         const RayEnd& root, const V3d& point, RayKind kind, int rays,
                         const Coefficient& coefficient, const Coefficient& weight, GatherRay each);

@@ -40,7 +40,8 @@ Highlight::Highlight(const V3d& at, const V3d& normal, const Bend& bend, double 
     frame(normal, across, other);
   }
   const V3d along = across.cross(normal);
-  // Twice the covariance of the normal's distance from the bisectors of all points of the source.
+  // Twice the covariance of the difference between the normal and the bisector, over all points of the
+  // source.
   Symmetric apart{roughness * roughness, 0, roughness * roughness};
   for (const V3d& half : {part.u, part.v}) {
     const V3d angle = (half - half.dot(out) * out) / (part.distant ? 1 : toSource);
@@ -49,7 +50,7 @@ Highlight::Highlight(const V3d& at, const V3d& normal, const Bend& bend, double 
     apart.xy += 2 * part.variance * x * y;
     apart.yy += 2 * part.variance * y * y;
   }
-  // How fast the bisector and the normal part, per length on the surface.
+  // How fast the bisector departs from the normal along the surface (per length).
   const double bends = 1 / length + (part.distant ? 0 : 1 / toSource), curved = 1 / bend.radius;
   const double x = bend.straight.dot(across), y = bend.straight.dot(along);
   const Symmetric rate{curved * (1 - x * x) + bends / (2 * cosine), -curved * x * y,

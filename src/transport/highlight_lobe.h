@@ -49,9 +49,10 @@ struct Bend {
   V3d straight{0, 0, 0};
 };
 
-// The highlight of a part of a source on a rough curved surface, as seen from a point. Directions, and the
-// vector between the normal and the bisector of the directions to the point and to the source, by which the
-// roughness is defined, are taken for linear functions of the place on the surface.
+// The highlight of a part of a source on a rough curved surface, as seen from a point. The model: roughness
+// is a property of the vector between the surface's normal and the bisector of the directions to the point
+// and to the source. This vector, and the directions, are taken for linear functions of the place on the
+// surface.
 //
 // Source of the model that defines the roughness: Ward, "Measuring and modeling anisotropic reflection"
 // (SIGGRAPH 1992).

@@ -27,9 +27,9 @@ class Highlights {
     CylinderHighlights::Aim cylinders;
   };
 
-  // front: unit normal. all: the mean radiance over the hemisphere (W/sr/m2), beside which highlights are
-  // left out that add little to the variance. rays: of the gather; if they are few, only the brightest balls
-  // are aimed at, because to find highlights takes as long as some rays.
+  // front: unit normal. all: the mean radiance over the hemisphere (W/sr/m2); highlights that add little
+  // variance compared with it are left out. rays: of the gather; if they are few, only the brightest balls
+  // are aimed at, because finding highlights takes as long as tracing some rays.
   void aim(const V3d& point, const V3d& front, double all, int rays, Aim& aim) const {
     const bool few = rays < tuning::Highlights::kMany;
     balls_.aim(point, front, (few ? tuning::Highlights::kLeastOfFew : 1) * least(all), aim.balls);
@@ -45,7 +45,8 @@ class Highlights {
     return cylinders_.sample(aim.cylinders, (u1 - toBalls) / (1 - toBalls), u2, u3);
   }
 
-  // The density of aimed directions, per sr. It integrates to less than 1 by those that miss.
+  // The density of aimed directions, per sr. Its integral is less than 1, because some samples miss the
+  // highlight.
   double density(const Aim& aim, const V3d& direction) const {
     double sum = 0;
     if (aim.balls.mean > 0) sum += aim.balls.mean * balls_.density(aim.balls, direction);

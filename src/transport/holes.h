@@ -15,8 +15,8 @@ using IsWall = FunctionRef<bool(const Surface&)>;
 
 // The rectangles around holes of at least this area (square world units), the largest first. Their edges go
 // through corners of the walls' polygons if there are any within a cell (tuning::Holes::kCells). Left out:
-// holes that fill little of their rectangle or that end with the wall on most sides, polygons of less than
-// the area, all but the largest walls, and what is in instances. bounds: of the scene.
+// holes covering little of their bounding rectangle or open on most sides, polygons smaller than the given
+// area, all but the largest walls, and the contents of instances. bounds: of the scene.
 std::vector<Rectangle> holesOf(const Scene& scene, const Box3d& bounds, double leastArea, IsWall isWall);
 
 }  // namespace rsphere

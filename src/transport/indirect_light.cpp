@@ -73,7 +73,7 @@ void IndirectLight::add(const RayEnd& end, const DiffuseSide& side, Radiance& va
 // Adds light of the irradiance cache. False, with nothing added, if it cannot be used here.
 bool IndirectLight::addInterpolated(const RayEnd& end, const DiffuseSide& side, Radiance& value) {
   // The light at an imagined point (-I) is not interpolated, because no other ray needs it.
-  if (end.hit.surface == kNone || !isOrdinary(end, side, t_.medium())) return false;
+  if (end.hit.surface == kNone || !isOrdinary(end, side, t_.options().medium())) return false;
   TracedFieldRays rays(t_, follower_, end.context.depth);
   GatheredLight light;
   if (!settings_.caches.field->find(placeOf(end, side), reader_, rays, light)) return false;
@@ -95,7 +95,7 @@ bool IndirectLight::addFromPatch(const RayEnd& end, const DiffuseSide& side, Rad
 // if there is none.
 Patch* IndirectLight::patchAt(const RayEnd& end, const DiffuseSide& side) {
   const double u1 = state_.random.uniform(), u2 = state_.random.uniform();
-  if (!isOrdinary(end, side, t_.medium())) return nullptr;
+  if (!isOrdinary(end, side, t_.options().medium())) return nullptr;
   TracedFieldRays rays(t_, follower_, end.context.depth);
   return settings_.caches.coarse->find(placeOf(end, side), u1, u2, rays);
 }
@@ -111,8 +111,8 @@ int IndirectLight::raysToGuess(const PathContext& ray) const {
   return state_.request.guess->raysToGuess(ray.ambientLevel);
 }
 
-// The number of directions of a gather. Paths that are to be unbiased have as many as RADIANCE gives them at
-// every bounce: a square, in proportion to their weight. The rays of interpolated gathers are not divided.
+// The number of directions of a gather. Unbiased paths have as many as in RADIANCE at every bounce: a square
+// number in proportion to their weight. Rays of gathers for interpolation do not split.
 int IndirectLight::raysOf(const PathContext& ray, const Coefficient& coefficient) const {
   if (state_.glimpses) return 1;
   const RayOptions& o = t_.options();

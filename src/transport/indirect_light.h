@@ -3,8 +3,8 @@
 //
 // With -aa above 0, the light at the first diffuse surface of a path is interpolated (irradiance_field.h),
 // and that of later ones comes from the coarse solution (coarse_solution.h); in sphere mode that of the
-// first, too. Otherwise it is gathered: -ad + -as stratified directions at the first diffuse surface, and as
-// RADIANCE at later ones.
+// first, too. Otherwise it is gathered from -ad + -as stratified directions at the first diffuse surface, and
+// from as many as in RADIANCE at later ones.
 #include "field/coarse_solution.h"
 #include "field/irradiance_field.h"
 #include "transport/path_state.h"
@@ -16,9 +16,9 @@ namespace rsphere {
 // A side of a diffuse surface at the end of a ray, where indirect light arrives.
 struct DiffuseSide {
   const V3d& point;                // world
-  const V3d &normal, &trueNormal;  // unit, perturbed by textures and of the surface, both on this side
-  RayKind kind;                    // of the rays that it sends
-  const Coefficient& coefficient;  // of the mean radiance that arrives, in the radiance of the ray
+  const V3d &normal, &trueNormal;  // unit normals on this side: perturbed by textures, and the surface's own
+  RayKind kind;                    // kind of the rays that are sent from here
+  const Coefficient& coefficient;  // factor of the mean arriving radiance in the radiance of the ray
 };
 
 class IndirectLight {
@@ -28,11 +28,11 @@ class IndirectLight {
                 RayFollower& follower)
       : t_(prepared), settings_(settings), state_(state), follower_(follower) {}
 
-  // Adds the light of a side to the radiance of a ray (W/sr/m2), beyond -ab bounces the ambient value (-av).
-  // No light comes from behind the surface.
+  // Adds the light of a side to the radiance of a ray (W/sr/m2), or the ambient value (-av) beyond -ab
+  // bounces. No light comes from behind the surface.
   void add(const RayEnd& end, const DiffuseSide& side, Radiance& value);
 
-  // Lets go of the cache's memory; to be called at the end of each primary ray.
+  // Lets the cache free memory that the path has used. To be called at the end of each primary ray.
   void endPath();
 
  private:

@@ -7,8 +7,8 @@
 
 namespace rsphere {
 
-// Gets a particle that leaves a source: where it starts (world), its direction (unit), its power (W, of
-// brightness), the source's surface, and the random numbers for what becomes of it.
+// Called for each emitted particle: its origin (world), direction (unit), power (W, of brightness) and the
+// source's surface. `random` continues its stream of random numbers.
 using SentParticle = FunctionRef<void(const V3d& origin, const V3d& direction, double power,
                                       const Surface& source, Random& random)>;
 

@@ -20,7 +20,7 @@ namespace rsphere {
 struct Opening : Rectangle {
   double filled = 0;  // area of the panes in it, or of the hole (square world units)
   bool isHole = false;
-  double power = 0;  // mean radiance towards the dark side times filled
+  double power = 0;  // mean radiance towards the dark side, times `filled`
 };
 
 class Openings {
@@ -32,10 +32,10 @@ class Openings {
   bool empty() const { return openings_.empty(); }
   // The mean brightness (W/sr/m2) behind the openings, on their dark sides.
   double inside() const { return inside_; }
-  // How far the surfaces behind them are (world units): a mean for the size of the rooms.
+  // The mean distance of the surfaces behind the openings (world units), a measure of the size of rooms.
   double depth() const { return depth_; }
 
-  // How they look from their dark sides.
+  // An opening as seen from its dark side.
   struct View {
     Rectangle place;      // its normal points to the dark side
     double radiance = 0;  // W/sr/m2, mean
@@ -45,8 +45,8 @@ class Openings {
   // The sampling distribution for a point of a diffuse surface.
   struct Aim {
     double mean = 0;   // radiance over the hemisphere from the openings, W/sr/m2, without occlusion
-    double seen = 0;   // form factor to all of them
-    size_t count = 0;  // of openings that light arrives from; below, their numbers and cumulative weights
+    double seen = 0;   // form factor from the point to all openings
+    size_t count = 0;  // number of contributing openings; their indices and cumulative weights follow
     std::array<uint32_t, tuning::Caps::kAimedRoom> opening;
     std::array<double, tuning::Caps::kAimedRoom> upTo;
   };

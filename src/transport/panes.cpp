@@ -4,7 +4,8 @@
 
 namespace rsphere {
 
-// No building has as many in a row; tracing ends even where rounding keeps a ray from leaving a pane.
+// Cap on the panes that a line passes, far above those of any building. It ends lines that rounding keeps
+// from leaving a pane.
 constexpr int kMostPanes = 1000;
 
 bool lightPasses(const PreparedScene& prepared, const Surface& surface) {

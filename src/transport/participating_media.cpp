@@ -65,7 +65,7 @@ void ParticipatingMedia::addScattered(const RayEnd& end, Radiance& value) {
         return scattered * passed *
                (solidAngle * phase(medium.eccentricity, end.ray.direction.dot(toSource)));
       };
-      direct_.addFromSource(at, t_.scatterers()[scatterer], coefficientOf, value);
+      direct_.addFromSource(at, t_.lights().ofMists().all()[scatterer], coefficientOf, value);
     }
 }
 

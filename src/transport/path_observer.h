@@ -18,11 +18,12 @@ struct ShownSource {
   bool operator==(const ShownSource&) const = default;
 };
 
-// Gets every finished ray of a path (rtrace's -ot, -oT). The attenuation by the medium in front of its hit is
-// not yet in its result.
+// Called with every finished ray of a path (rtrace's -ot, -oT). The attenuation by the medium in front of its
+// hit is not yet in its result.
 using RayObserver = std::function<void(const RayEnd& end, const RayResult& result)>;
 
-// What traces a path differently from others. Only what is left out changes the expected radiance.
+// What differs from path to path. Leaving something out changes the expected radiance; nothing else here
+// does.
 struct PathRequest {
   // A guess of the radiance of indirect rays, used as a control variate: for each indirect ray that is
   // followed, several are only guessed (radiance_guess.h). The value of one ray may be negative. Null:
@@ -64,7 +65,7 @@ struct TracedRay : RayQuery, SurfaceHit, RayResult {
   // transmit shadow rays, after at most one reflection by a flat surface; a distant one also through slabs of
   // parallel faces. If there are several, the one that was not mirrored, otherwise the first.
   ShownSource shown;
-  LeftOut leftOut;  // what the request left out and the surface has
+  LeftOut leftOut;  // the parts that the request left out, if the surface has them
 };
 
 }  // namespace rsphere

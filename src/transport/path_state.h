@@ -47,7 +47,7 @@ struct Descendants {
   int depth = 0;         // of that ray
   int ambientLevel = 0;  // of that ray
   int rays = 0;          // followed so far, without shadow rays
-  int patches = 0;       // that it, or a patch's latest ray, has asked for so far
+  int patches = 0;       // that the ray, or the latest ray of a patch, has used so far
 };
 
 // Each path begins with a new state, and so does each gather: no answer can depend on an earlier path.
@@ -58,9 +58,9 @@ struct PathState {
   ShownSource shown;            // by the primary ray
   Hit firstHit;                 // of the primary ray
   LeftOut leftOut;              // of the primary ray
-  bool glimpses = false;        // one direction for each gather
+  bool glimpses = false;        // gathers send one direction each (PathTracer::glimpse())
   Descendants descendants;      // limited by goesOnAlong()
-  PatchLinks* links = nullptr;  // of a path from a patch: gets the links and the light that it finds
+  PatchLinks* links = nullptr;  // set for a path from a patch: collects the links and the light that it finds
 };
 
 }  // namespace rsphere

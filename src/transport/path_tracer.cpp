@@ -56,11 +56,8 @@ class PathTracer::Path final : public RayFollower {
   Path(const PreparedScene& prepared, const PathSettings& settings)
       : t_(prepared),
         settings_(settings),
-        direct_(prepared, settings_, state_, *this),
-        specular_(prepared, settings_, state_, *this),
-        indirect_(prepared, settings_, state_, *this),
-        media_(prepared, state_, direct_),
-        shading_(prepared, settings_, state_, *this, direct_, specular_, indirect_) {}
+        shading_(prepared, settings_, state_, *this),
+        media_(prepared, state_, shading_.direct()) {}
 
   void begin(uint64_t seed, const V3d& direction, const PathRequest& request = {}) {
     state_ = {};
@@ -75,7 +72,7 @@ class PathTracer::Path final : public RayFollower {
   // Of a primary ray.
   PathContext context() const {
     PathContext primary;
-    primary.space.medium = t_.medium();
+    primary.space.medium = t_.options().medium();
     if (state_.request.vertexLight) primary.known = Known::joined;
     return primary;
   }
@@ -100,12 +97,9 @@ class PathTracer::Path final : public RayFollower {
   const PreparedScene& t_;
   const PathSettings settings_;
   PathState state_;
-  DirectLight direct_;
-  SpecularLight specular_;
-  IndirectLight indirect_;
-  ParticipatingMedia media_;
   SurfaceShading shading_;
-  std::unique_ptr<Path> gatherer_;  // a gather is a path of its own, within this one
+  ParticipatingMedia media_;
+  std::unique_ptr<Path> gatherer_;  // traces gathers, each as a new path within this one
 };
 
 // ---- the recursion
@@ -201,7 +195,7 @@ TracedRay PathTracer::trace(const V3d& origin, const V3d& direction, double fart
   } else {
     result = path_->follow(end);
   }
-  path_->indirect_.endPath();
+  path_->shading_.indirect().endPath();
   return path_->traced(end, result);
 }
 

@@ -101,7 +101,7 @@ bool PlainSurfaces::isKnown(LightId source) const {
   const Surface surface = scene_.surfaces[light.surface];
   if (minChannel(sourceRadiance(scene_, surface).color) < 0) return false;
   const auto isLocal = [&](ModifierId i) { return !prepared_.functions().dependsOnDistance(i); };
-  return prepared_.constantRadiance(source) ||
+  return prepared_.lights().constantRadiance(source) ||
          (surface.modifier == surface.material &&
           arePatterns(scene_, scene_.modifiers[surface.material].next, isLocal));
 }
@@ -114,7 +114,7 @@ void PlainSurfaces::findSurfaces() {
     const bool known = lamp || knows(i);
     const bool shines = scene_.importance ? surface.goal : lamp;
     const bool isAimedAt =
-        !shines || prepared_.lightOf(i) != kNone || isBlack(sourceRadiance(scene_, surface));
+        !shines || prepared_.lights().of(i) != kNone || isBlack(sourceRadiance(scene_, surface));
     bringAll_ = bringAll_ && known && isAimedAt;
     passUnknown_ =
         passUnknown_ || (!known && !(tracer_.stopsShadows(i, true) && tracer_.stopsShadows(i, false)));
@@ -125,7 +125,7 @@ void PlainSurfaces::findSurfaces() {
 
 const char* PlainSurfaces::obstacle() const {
   if (!changeNothing(prepared_.options())) return "options";
-  if (!prepared_.distant().empty()) return "distant sources";
+  if (!prepared_.lights().distant().empty()) return "distant sources";
   if (!hasKnownSources_) return "no known sources";
   for (const auto& modifier : scene_.modifiers)
     if (const auto* material = std::get_if<Material>(&modifier.content); holds<Mist>(material)) return "mist";
@@ -134,7 +134,7 @@ const char* PlainSurfaces::obstacle() const {
 
 Radiance PlainSurfaces::radianceOf(LightId source, const V3d& point, const V3d& normal, const V3d& direction,
                                    FunctionScratch& scratch) const {
-  if (const Radiance* const constant = prepared_.constantRadiance(source)) return *constant;
+  if (const Radiance* const constant = prepared_.lights().constantRadiance(source)) return *constant;
   const Surface surface = scene_.surfaces[prepared_.lights().all()[source].surface];
   FunctionPoint here;
   here.direction = direction;
@@ -146,7 +146,7 @@ Radiance PlainSurfaces::radianceOf(LightId source, const V3d& point, const V3d& 
 }
 
 double PlainSurfaces::weigh(const V3d& point, const V3d& normal, ById<LightId, double>& weights) const {
-  const double all = prepared_.choice().weigh(point, normal, weights);
+  const double all = prepared_.lights().choice().weigh(point, normal, weights);
   if (bringAllDirect_) return all;
   double sum = 0;
   for (const LightId i : weights.ids()) {

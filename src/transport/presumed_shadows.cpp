@@ -6,7 +6,7 @@
 namespace rsphere {
 namespace {
 
-constexpr int kCells = 20;  // along a side, twice as many for distant sources; as in RADIANCE
+constexpr int kCells = 20;  // cells along a side, twice as many for distant sources; as in RADIANCE
 
 // If -1 to 1 is divided into `count` cells, the middle of the cell that contains x.
 double middle(double x, int count) {

@@ -12,7 +12,7 @@
 
 namespace rsphere {
 
-// Light sources whose light is scattered into a ray, as positions in PreparedScene::scatterers(). Unused
+// Light sources whose light is scattered into a ray, as positions in MistSources::all(). Unused
 // elements are neither set nor copied.
 struct ScatteringSources {
   static constexpr size_t kMost = 32;  // the limit in RADIANCE
@@ -61,7 +61,7 @@ struct RayQuery {
   double farthest = 0;        // the ray ends there even if it hits nothing (-ld, world units); 0: no limit
   SurfaceId from = kNone;     // surface that it leaves
   LightId aimedAt = kNone;    // light source that a shadow ray is aimed at
-  bool unobstructed = false;  // of a shadow ray: it hits its target, whatever else is in its way
+  bool unobstructed = false;  // for shadow rays: surfaces between the origin and the source are ignored
 };
 
 // Whether only what paths from both ends know (PlainSurfaces) has led to a ray, and what they bring of the light
@@ -95,13 +95,17 @@ struct PathContext {
 struct SurfaceHit {
   SurfaceId surface;  // kNone: nothing
   double length = kFarAway;
-  V3d point{0, 0, 0};  // the hit or the end (RayQuery::farthest); the origin if no hit or a distant source
+  // Of the hit, or the end of the ray (RayQuery::farthest); the origin if nothing, or a distant source, is
+  // hit.
+  V3d point{0, 0, 0};
   double u = 0, v = 0;
   PlacementPath path;       // the placements of the surface's modifiers in the world
-  V3d normal{0, 0, 0};      // once shaded, on the side that the ray came from
+  V3d normal{0, 0, 0};      // shading turns it towards the ray's origin
   double cosine = 1;        // -normal . direction; negative for a hit from behind until it is turned round
   bool fromBehind = false;  // normal, cosine and perturbation were flipped because of a hit from behind
   bool insideOut = false;   // they were flipped at a cut by antimatter, whose front is the inside
+  // Begins with that of a smooth mesh. Apart from turning it round, only applying a modifier changes it, and
+  // only that changes the pattern, which meters (-i) ignore (SurfaceShading).
   V3d perturbation{0, 0, 0};
   Color pattern{1, 1, 1};
 };
@@ -110,14 +114,14 @@ struct SurfaceHit {
 struct RayResult {
   Radiance value;                                                 // all that returns along the ray
   Radiance mirrored;                                              // the part of it that was mirrored
-  double mirroredLength = kFarAway, unmirroredLength = kFarAway;  // to what is seen
+  double mirroredLength = kFarAway, unmirroredLength = kFarAway;  // of the path to what is seen
 };
 
 // The end of a ray, where it is shaded. Rays that begin there refer to it, so that it must outlive them.
 struct RayEnd {
   RayEnd(const RayQuery& asked, const PathContext& inherited)
       : ray(asked), context(inherited), clipsBeyond(inherited.clips) {}
-  // The same end of a ray that inherits something else.
+  // A copy of another end, for a ray with another context.
   RayEnd(const RayEnd& other, const PathContext& inherited)
       : ray(other.ray),
         context(inherited),
@@ -141,7 +145,7 @@ struct RayEnd {
 
 // A ray that continues a path, ready to be followed.
 struct NextRay {
-  // With all that the ray inherits, whatever its kind. Its direction is still to be set.
+  // Sets what rays of all kinds inherit. The direction is still to be set.
   NextRay(const RayEnd& parent, RayKind kind, const Coefficient& coefficient);
 
   RayQuery query;

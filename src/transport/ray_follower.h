@@ -26,16 +26,16 @@ class RayFollower {
   // The same; sets the hit of the ray's end too.
   virtual RayResult follow(RayEnd& end) = 0;
 
-  // The radiance from beyond the surface that a ray hit, as if nothing were there.
+  // The radiance that arrives from behind the surface that a ray hit, as if the surface were not there.
   RayResult pass(const RayEnd& end) {
     NextRay next = straightOn(end);
     return passOn(next, end);
   }
-  // The same along a ray that continues the other straight on, in a space that may differ.
+  // The same along a given continuation of the ray, which may enter another medium.
   virtual RayResult passOn(NextRay& next, const RayEnd& end) = 0;
 
   // Shades the end of a ray that hit a surface with a chain of modifiers (index in Scene::modifiers). False,
-  // with nothing done, if the chain has no material. result: of the ray, which nothing was added to.
+  // with nothing done, if the chain has no material. result: that of the ray, with nothing added yet.
   virtual bool shade(RayEnd& end, ModifierId modifier, RayResult& result) = 0;
 
   // Begins a path for a gather. It is valid until the next one begins. normal: of the gather's site (unit).

@@ -25,7 +25,7 @@ SurfaceId distantSource(const PreparedScene& prepared, const RayQuery& ray, unsi
   }
   SurfaceId glow;
   bool passedIllum = false;
-  for (const SurfaceId s : prepared.distant()) {
+  for (const SurfaceId s : prepared.lights().distant()) {
     if (!sees(s)) continue;
     switch (coverOf(*scene.materialOf(scene.surfaces[s]))) {
       case Cover::yields:

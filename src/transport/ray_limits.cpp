@@ -9,8 +9,8 @@ namespace rsphere {
 namespace {
 
 // The weight below which descendants are followed by Russian roulette. It grows faster than the number of
-// rays that do not lead to the child, so that their number has a bound even where the children of a ray have
-// more weight than the ray. The child's own ancestors are left out: a path that does not split goes on.
+// descendants, which is therefore bounded even where children have more weight than their parents. The
+// ancestors of the new ray do not count, so that a path without branches goes on.
 double leastWeight(const Descendants& descendants, const PathContext& child) {
   const int others = descendants.rays - (child.depth - descendants.depth);
   const double tooMany = (others - descendants.most) / descendants.most;
@@ -77,7 +77,7 @@ bool asksForPatch(PathState& state, const PathContext& ray, Coefficient& coeffic
   const bool ofPatch = state.links;
   const int freely = ofPatch ? Tuning::kAskedByPatch : Tuning::kAsked;
   if (!(descendants.most > 0) || ++descendants.patches <= freely) return true;
-  const double further = ofPatch ? Tuning::kFurtherByPatch : Tuning::kFurther;
+  const double further = ofPatch ? Tuning::kAskedByPatch : Tuning::kFurther;
   const double probability = further * ray.weight * maxChannel(coefficient) / descendants.weight;
   if (probability >= 1) return true;
   if (state.random.uniform() >= probability) return false;

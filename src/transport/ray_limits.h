@@ -28,10 +28,10 @@ inline bool survives(Random& random, double least, NextRay& next) {
   return true;
 }
 
-// Whether the indirect light at the hit of a ray is asked of a patch of the coarse solution. Beyond some
-// patches for each ray of a gather, Russian roulette chooses further ones in proportion to what they may
-// contribute. coefficient: of the mean radiance over the hemisphere in the ray's radiance; increased as by
-// goesOnAlong().
+// Whether a patch of the coarse solution is used for the indirect light where a ray hits. Each ray of a
+// gather may use some patches; Russian roulette allows further ones in proportion to what they may
+// contribute. coefficient: the factor of the mean radiance over the hemisphere in the ray's radiance. It is
+// increased if the patch survived roulette.
 bool asksForPatch(PathState& state, const PathContext& ray, Coefficient& coefficient);
 
 // Begins to count the descendants of a primary ray, if work is bounded. rays: -ad + -as.
@@ -50,8 +50,9 @@ inline Descendants descendantsOfPatch(int rays, int depth) {
   return {tuning::RayLimits::kMostOfPatch * rays, kMeanReflectance, depth + 1, 1, 0};
 }
 
-// The same for a gather's ray, if light is interpolated. Those of a primary ray or of a patch are counted
-// already, except for the patches that each ray of a patch asks for.
+// The same for a gather's ray, if light is interpolated. With a bound on work, the count of the primary ray
+// goes on instead, and so does that of a patch; but each ray of a patch begins a new count of the patches
+// that it uses.
 inline void countDescendants(const PathSettings& settings, PathState& state, const PathContext& ray) {
   if (state.links)
     state.descendants.patches = 0;
@@ -59,8 +60,8 @@ inline void countDescendants(const PathSettings& settings, PathState& state, con
     state.descendants = {tuning::RayLimits::kMostDescendants, ray.weight, ray.depth, ray.ambientLevel, 0};
 }
 
-// Whether rays reflected at the end of a ray are followed, except those that Russian roulette ends, whose
-// light the others make up for. Otherwise -lr ends them for certain.
+// Whether -lr allows reflections at the end of a ray. Rays that Russian roulette ends do not count: those
+// that survive make up for their light.
 inline bool goesOn(const PreparedScene& prepared, const PathContext& ray) {
   const int limit = prepared.options().reflectionLimit;
   return limit == 0 || (limit < 0 && ray.level + 1 <= -limit);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/radiometry.h"
+#include "shade/scattering.h"
 #include "shade/shared_definitions.h"
 
 namespace rsphere {
@@ -55,6 +56,11 @@ struct RayOptions {
   // random numbers
   bool uncorrelated = true;  // -u  changes nothing by itself; see AnswerOptions::numberedRays
   uint64_t rotation = 0;     // -Sr
+
+  // The medium of the space outside of mist and dielectrics (-me -ma -mg).
+  Medium medium() const { return {mediumExtinction, mediumAlbedo, mediumEccentricity}; }
+  // Whether there is indirect light at all (-ab, -ad).
+  bool hasIndirectLight() const { return ambientBounces > 0 && ambientDivisions > 0; }
 };
 
 // Whether the answer for a ray is radiance or irradiance, and of which surface.

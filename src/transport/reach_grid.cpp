@@ -6,8 +6,8 @@
 namespace rsphere {
 namespace {
 
-// Cells along the longest side of the scene. More need more memory (half a megabyte), fewer more time at
-// points where nothing matters.
+// Cells along the longest side of the scene. More cells take more memory (these take half a megabyte); fewer
+// take more time at points where no object matters.
 constexpr int kCells = 32;
 
 double distance(const V3d& point, const ReachGrid::Reach& reach) {

@@ -27,7 +27,7 @@ double apparentSize(const LightSource& source, double distance, double cosine) {
 bool sharesHighlights(const PreparedScene& prepared, LightId source) {
   const LightSource& light = prepared.lights().all()[source];
   if (light.isVirtual() || light.reach > 0 || light.spot || light.as<TubeLight>() ||
-      !prepared.constantRadiance(source))
+      !prepared.lights().constantRadiance(source))
     return false;
   const Surface& surface = prepared.scene().surfaces[light.surface];
   return surface.goal || !std::holds_alternative<Illum>(*prepared.scene().materialOf(surface));
@@ -40,10 +40,10 @@ double shareOfLobe(const LightSource& source, double distance, double cosine, do
 
 Radiance sourceSeenBy(const PreparedScene& prepared, const RayEnd& sample) {
   if (sample.hit.surface == kNone || !hitFront(sample.hit)) return {};
-  const LightId source = prepared.lightOf(sample.hit.surface);
+  const LightId source = prepared.lights().of(sample.hit.surface);
   if (source == kNone || !sharesHighlights(prepared, source)) return {};
-  const Medium& medium = sample.medium();  // attenuates as it does shadow rays
-  return *prepared.constantRadiance(source) *
+  const Medium& medium = sample.medium();  // attenuates the sample as it does shadow rays
+  return *prepared.lights().constantRadiance(source) *
          passing(medium.extinction * (Color(1, 1, 1) - medium.albedo), sample.hit.length);
 }
 

@@ -19,8 +19,9 @@ bool sharesHighlights(const PreparedScene& prepared, LightId source);
 // per sr. 0 where the lobe is so much wider than the source that shadow rays do better.
 double shareOfLobe(const LightSource& source, double distance, double cosine, double density);
 
-// The radiance of the source that a lobe's sample has hit first of all, without the share; black if it hit
-// none, or one whose light is not divided. sample: as traced; its own value is black there.
+// The radiance of the source that is the first hit of a lobe's sample, before it is multiplied by the share;
+// black if the sample hit no source, or one whose light is not divided. sample: after tracing, where its own
+// value excludes the source.
 Radiance sourceSeenBy(const PreparedScene& prepared, const RayEnd& sample);
 
 }  // namespace rsphere

@@ -33,7 +33,7 @@ SourceEmission::SourceEmission(const PreparedScene& prepared, const PlainSurface
     Sender& s = senders_[i];
     if (surfaces.knows(i) && !lights[i].isVirtual()) {
       s.area = areaOf(scene.surfaces[lights[i].surface].shape, scene.vertices);
-      s.even = prepared.constantRadiance(i) && !lights[i].spot;
+      s.even = prepared.lights().constantRadiance(i) && !lights[i].spot;
       s.power = s.even ? powerOf(scene, lights[i], 0) : triedPower(i);
     }
     s.upTo = sum += s.power;

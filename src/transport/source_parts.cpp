@@ -12,8 +12,8 @@
 namespace rsphere {
 namespace {
 
-// A source is divided into this many parts along each side at most: all of them together are then no more
-// than are kept of all sources.
+// Cap on the parts along each side of a source, so that one source has no more parts than are kept of all
+// sources (Caps::kAimed).
 const double kMostAlong = std::sqrt(static_cast<double>(tuning::Caps::kAimed));
 
 std::vector<SourcePart> partsOf(const LightSource& source, const V3d& from) {

@@ -13,8 +13,8 @@ struct SourcePart {
   bool distant = false;
   V3d center{0, 0, 0};         // a direction (unit) if distant
   V3d u{0, 0, 0}, v{0, 0, 0};  // half its extent (world units; sines if distant)
-  double variance = 1. / 3;    // along u and v, relative to the squares of their lengths
-  double radius = 0;           // up to which it extends from the center
+  double variance = 1. / 3;    // of its points along u and v, relative to the squared lengths of these
+  double radius = 0;           // of the ball around the center that contains the part
 
   V3d towards(const V3d& from) const { return distant ? center : center - from; }
 };

@@ -13,7 +13,8 @@ using Tuning = tuning::SpecularLight;
 
 // The weight below which sharp paths of an indirect ray are followed by Russian roulette.
 double leastWeight(const PathSettings& settings, const PathContext& ray) {
-  return std::max(Tuning::kWeakBranch * ray.weight, isOfGather(settings, ray) ? Tuning::kWeakPath : 0);
+  return std::max(Tuning::kWeakBranch * ray.weight,
+                  isOfGather(settings, ray) ? 1 / tuning::RayLimits::kMostDescendants : 0);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace rsphere {
 // Draws sample i of n of a lobe.
 using LobeSampler = FunctionRef<LobeSample(int i, int n)>;
 
-// The light of a source that a lobe's sample has hit, as far as the lobe's samples are to estimate it
+// The part of the light of the source that a lobe's sample has hit that is left to such samples
 // (shared_highlights.h).
 using LobeShare = FunctionRef<Radiance(const RayEnd& sample)>;
 

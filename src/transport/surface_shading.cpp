@@ -18,7 +18,7 @@ MaterialOptions materialOptions(const PreparedScene& prepared) {
           .specularSampling = o.specularSampling,
           .directJitter = o.directJitter,
           .basicRadiance = prepared.basicRadiance(),
-          .medium = prepared.medium()};
+          .medium = prepared.options().medium()};
 }
 
 // A ray is straight if its direction (unit) changed by less than this on its way through panes.
@@ -46,7 +46,7 @@ bool isStraight(const PreparedScene& t, const RayEnd& end, const V3d& primaryDir
 // (TracedRay::shown). The ray hit a surface that emits light towards it.
 void noteShown(const PreparedScene& t, const RayEnd& end, PathState& state) {
   const SurfaceId surface = end.hit.surface, mirror = end.context.mirror;
-  if (t.lightOf(surface) == kNone) return;
+  if (t.lights().of(surface) == kNone) return;
   // The ray shows this source only if it came straight or was mirrored once. Behind a slab, such as thick
   // glass, refraction displaces the ray, which makes no difference to a distant source.
   const bool isDistant = t.scene().surfaces[surface].shape.as<Distant>();
@@ -59,15 +59,14 @@ void noteShown(const PreparedScene& t, const RayEnd& end, PathState& state) {
 }  // namespace
 
 SurfaceShading::SurfaceShading(const PreparedScene& prepared, const PathSettings& settings, PathState& state,
-                               RayFollower& follower, DirectLight& direct, SpecularLight& specular,
-                               IndirectLight& indirect)
+                               RayFollower& follower)
     : t_(prepared),
       settings_(settings),
       state_(state),
       follower_(follower),
-      direct_(direct),
-      specular_(specular),
-      indirect_(indirect),
+      light_{{prepared, settings, state, follower},
+             {prepared, settings, state, follower},
+             {prepared, settings, state, follower}},
       context_{prepared.scene(), prepared.functions(), materialOptions(prepared)} {}
 
 // The end of a ray as its material sees it.
@@ -104,7 +103,7 @@ class SurfaceShading::Seen final : public MaterialHit {
 
 // ---- surfaces and their modifiers
 
-// A goal adds its emission.
+// If the surface is a goal, its emission is added.
 bool SurfaceShading::shade(RayEnd& end, RayResult& result) {
   const Surface& surface = t_.scene().surfaces[end.hit.surface];
   if (surface.clip & end.context.clips) return false;
@@ -115,7 +114,7 @@ bool SurfaceShading::shade(RayEnd& end, RayResult& result) {
   RayEnd ofGoal = end;
   RayResult emitted;
   Seen seen(*this, ofGoal, kNone);
-  const LightId light = t_.lightOf(end.hit.surface);
+  const LightId light = t_.lights().of(end.hit.surface);
   const SourceResponse emission = goalResponse(light != kNone, seen);
   std::visit([&](const auto& outcome) { estimate(ofGoal, outcome, emitted); }, emission);
   const bool shaded = ((end.context.kinds & kShadow) && end.ray.aimedAt == light) ||
@@ -153,13 +152,19 @@ bool SurfaceShading::shadeChain(RayEnd& end, ModifierId modifier, RayResult& res
 // Applies a pattern, texture or mixture to the hit. Returns whether a mixture has shaded it with a material.
 inline bool SurfaceShading::applyModifier(RayEnd& end, ModifierId modifier, RayResult& result) {
   const Content& content = t_.scene().modifiers[modifier].content;
-  if (const auto* mixture = std::get_if<Mixture>(&content))
-    return shadeMixture(end, modifier, *mixture, result);
+  SurfaceHit& hit = end.hit;
+  if (const auto* mixture = std::get_if<Mixture>(&content)) {
+    const Mixed mixed = mix(end, modifier, *mixture, result);
+    hit.perturbation = mixed.perturbation;
+    hit.pattern = mixed.pattern;
+    if (mixed.light) result = *mixed.light;
+    return mixed.light.has_value();
+  }
   const FunctionPoint at = pointOf(end);
   if (std::holds_alternative<Pattern>(content))
-    end.hit.pattern *= t_.functions().pattern(modifier, at, context_.scratch);
+    hit.pattern *= t_.functions().pattern(modifier, at, context_.scratch);
   else
-    end.hit.perturbation += t_.functions().texture(modifier, at, context_.scratch);
+    hit.perturbation += t_.functions().texture(modifier, at, context_.scratch);
   return false;
 }
 
@@ -190,7 +195,7 @@ struct Part {
   }
 };
 
-RayResult mixed(const Part& a, const Part& b) {
+RayResult mixedLight(const Part& a, const Part& b) {
   RayResult all{a.result.value * a.share + b.result.value * b.share,
                 a.result.mirrored * a.share + b.result.mirrored * b.share};
   const double mirroredA = a.share * brightness(a.result.mirrored),
@@ -204,21 +209,20 @@ RayResult mixed(const Part& a, const Part& b) {
 
 }  // namespace
 
-bool SurfaceShading::shadeMixture(RayEnd& end, ModifierId modifier, const Mixture& mixture,
-                                  RayResult& result) {
+SurfaceShading::Mixed SurfaceShading::mix(const RayEnd& end, ModifierId modifier, const Mixture& mixture,
+                                          const RayResult& before) {
   const double share = t_.functions().mixture(modifier, pointOf(end), context_.scratch);
-  if (share < 0) return false;
-  Part a(end, share, share > kNegligible, result), b(end, 1 - share, share < 1 - kNegligible, result);
+  if (share < 0) return {end.hit.perturbation, end.hit.pattern, std::nullopt};
+  Part a(end, share, share > kNegligible, before), b(end, 1 - share, share < 1 - kNegligible, before);
   if (a.counts) a.shaded = shadeChain(a.end, mixture.foreground, a.result);
   if (b.counts) b.shaded = shadeChain(b.end, mixture.background, b.result);
-  // If one component of a mixture is a material, void as the other component is transparent.
+  // If only one component of a mixture is a material, the other one lets the ray pass.
   if (a.counts && !a.shaded && b.shaded) a.result = follower_.pass(a.end);
   if (b.counts && !b.shaded && a.shaded) b.result = follower_.pass(b.end);
-  end.hit.perturbation = a.end.hit.perturbation * a.share + b.end.hit.perturbation * b.share;
-  end.hit.pattern = a.end.hit.pattern * a.share + b.end.hit.pattern * b.share;
-  if (!a.shaded && !b.shaded) return false;
-  result = mixed(a, b);
-  return true;
+  Mixed mixed{a.end.hit.perturbation * a.share + b.end.hit.perturbation * b.share,
+              a.end.hit.pattern * a.share + b.end.hit.pattern * b.share, std::nullopt};
+  if (a.shaded || b.shaded) mixed.light = mixedLight(a, b);
+  return mixed;
 }
 
 // ---- materials
@@ -243,7 +247,7 @@ template <ScattersLight S>
 Radiance SurfaceShading::lobesPart(const S& scattering, const RayEnd& sample) const {
   const Radiance seen = sourceSeenBy(t_, sample);
   if (isBlack(seen)) return {};
-  const LightSource& light = t_.lights().all()[t_.lightOf(sample.hit.surface)];
+  const LightSource& light = t_.lights().all()[t_.lights().of(sample.hit.surface)];
   return seen * shareOfLobe(light, sample.hit.length, std::abs(sample.hit.cosine),
                             scattering.lobeDensity(Component::reflected, sample.ray.direction));
 }
@@ -310,7 +314,7 @@ void SurfaceShading::addFromSource(const RayEnd& end, const V3d& normal, Shown s
 // and direct light.
 template <ScattersLight S>
 bool SurfaceShading::estimate(RayEnd& end, S& scattering, RayResult& result) {
-  specular_.add(end, scattering.sharp(), result);
+  light_.specular.add(end, scattering.sharp(), result);
   if (end.context.kinds & kShadow) return true;
   const FromBothEnds both = fromBothEnds(end);
   if (both.directHere != Shown::none)
@@ -341,13 +345,13 @@ template <ScattersLight S>
     }
     const auto draw = [&](int i, int n) { return scattering.draw(c, i, n, random); };
     if (c == Component::transmitted) {
-      specular_.addLobe(end, kTransmittedSpecular, *lobe, draw, nullptr, result);
+      light_.specular.addLobe(end, kTransmittedSpecular, *lobe, draw, nullptr, result);
       continue;
     }
     shares = mayShare && settings_.mode.sharesHighlights && goesOn(t_, end.context);
     const auto ofSource = [&](const RayEnd& sample) { return lobesPart(scattering, sample); };
     const LobeShare share(ofSource);
-    specular_.addLobe(end, kReflectedSpecular, *lobe, draw, shares ? &share : nullptr, result);
+    light_.specular.addLobe(end, kReflectedSpecular, *lobe, draw, shares ? &share : nullptr, result);
   }
   return shares;
 }
@@ -367,7 +371,7 @@ template <ScattersLight S>
     const bool left = !both.indirect || both.indirectHere || !both.indirect->bringAll();
     if (left && (probability >= 1 || state_.random.uniform() < probability)) {
       const Coefficient followed = indirect / probability;
-      indirect_.add(end,
+      light_.indirect.add(end,
                     side == Component::reflected
                         ? DiffuseSide{point, normal, trueNormal, kReflectedAmbient, followed}
                         : DiffuseSide{point, -normal, -trueNormal, kTransmittedAmbient, followed},
@@ -379,9 +383,9 @@ template <ScattersLight S>
     return scattering.coefficient(side, toSource, solidAngle, state_.random);
   };
   if (t_.options().chosenSources > 0 && scattering.isEven())
-    direct_.addOfChosen({end, point}, coefficient, scattering.front(), value);
+    light_.direct.addOfChosen({end, point}, coefficient, scattering.front(), value);
   else
-    direct_.add({end, point, both.direct}, coefficient, scattering.front(), partOfLobe, value);
+    light_.direct.add({end, point, both.direct}, coefficient, scattering.front(), partOfLobe, value);
 }
 
 bool SurfaceShading::estimate(RayEnd& end, Passes, RayResult& result) {
@@ -403,7 +407,7 @@ bool SurfaceShading::estimate(RayEnd& end, const Emits& emits, RayResult& result
 
 bool SurfaceShading::estimate(RayEnd& end, const Boundary& boundary, RayResult& result) {
   end.changedSpace().medium = boundary.scattering.medium;
-  specular_.add(end, boundary.scattering.sharp, result);
+  light_.specular.add(end, boundary.scattering.sharp, result);
   return true;
 }
 

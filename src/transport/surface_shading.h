@@ -16,8 +16,10 @@ class SurfaceShading {
  public:
   // Keeps references.
   SurfaceShading(const PreparedScene& prepared, const PathSettings& settings, PathState& state,
-                 RayFollower& follower, DirectLight& direct, SpecularLight& specular,
-                 IndirectLight& indirect);
+                 RayFollower& follower);
+
+  DirectLight& direct() { return light_.direct; }
+  IndirectLight& indirect() { return light_.indirect; }
 
   // Sets the radiance (W/sr/m2) at the end of a ray that hit a surface, and what is mirrored there. False,
   // with nothing done, if the surface is cut away by antimatter or has no material, so that the ray passes
@@ -35,9 +37,16 @@ class SurfaceShading {
 
   bool applyModifier(RayEnd& end, ModifierId modifier, RayResult& result);
   void applyModifiers(RayEnd& end, ModifierId modifier);
-  bool shadeMixture(RayEnd& end, ModifierId modifier, const Mixture& mixture, RayResult& result);
+  // What a mixture makes of the end of a ray.
+  struct Mixed {
+    V3d perturbation;
+    Color pattern;
+    std::optional<RayResult> light;  // result of its components, if one of them is a material
+  };
+  // before: the result of what has been shaded so far.
+  Mixed mix(const RayEnd& end, ModifierId modifier, const Mixture& mixture, const RayResult& before);
 
-  // behind: the chain of modifiers that the material has itself.
+  // behind: the modifiers of the material itself, the rest of the chain.
   template <class M>
   bool shadeMaterial(RayEnd& end, const M& material, ModifierId behind, RayResult& result);
 
@@ -50,7 +59,7 @@ class SurfaceShading {
   bool estimate(RayEnd& end, const Boundary& boundary, RayResult& result);
   template <OneOf<ReflectsSharply, Redirects, Relays> Sharp>
   bool estimate(RayEnd& end, const Sharp& sharp, RayResult& result) {
-    specular_.add(end, sharp, result);
+    light_.specular.add(end, sharp, result);
     return true;
   }
   bool estimate(RayEnd& end, const CrossesMist& boundary, RayResult& result);
@@ -82,9 +91,12 @@ class SurfaceShading {
   const PathSettings& settings_;
   PathState& state_;
   RayFollower& follower_;
-  DirectLight& direct_;
-  SpecularLight& specular_;
-  IndirectLight& indirect_;
+  struct Parts {
+    DirectLight direct;
+    SpecularLight specular;
+    IndirectLight indirect;
+  };
+  Parts light_;
   MaterialContext context_;
   VertexLight::Scratch scratch_;
 };

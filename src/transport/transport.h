@@ -15,7 +15,7 @@ class Transport {
   // traces some paths to find the openings that daylight enters through. Throws what PreparedScene throws.
   Transport(const Scene& scene, const RayOptions& options, IrradianceAt irradiance,
             bool basicRadiance = false, const rad::Warn& warn = {});
-  // The scene of another, with other options and without warnings. REQUIRES: -bv is the same.
+  // Prepares the scene of `other` with other options, without warnings. REQUIRES: -bv is the same.
   Transport(const Transport& other, const RayOptions& options);
 
   const PreparedScene& prepared() const { return prepared_; }

@@ -31,20 +31,20 @@ struct BrightSpots {
   // within noise (sensors by sun; error 9%, time 5%).
   RSPHERE_TUNED(BrightSpots, double, kParticles, 8192);
   // A spot reflects at least this many times more light per area than surfaces do on average: chosen by
-  // experiment. 30% less or more: the same answers in all cases. For light that enters through openings, of
-  // which patches of the coarse solution know few rays, it is half of that: by measurement in a sunlit
-  // classroom, where spots of 6 and more leave 1.55% of noise at sensors, of 3 1.16%, of 2 1.27%.
-  RSPHERE_TUNED(BrightSpots, double, kBrighter, 6);
-  // Aiming pays for itself if the worth of all spots together (Node::worth) exceeds this multiple of
-  // the worth that all surfaces would have if they were lit evenly: by measurement. Aiming makes a
-  // path 25% more expensive.
+  // experiment. For light that enters through openings, which few rays of a patch of the coarse solution
+  // meet, it is half of that: by measurement in a sunlit classroom, where spots of 6 and more leave 1.55% of
+  // noise at sensors, of 3 1.16%, of 2 1.27%.
+  //
+  // Aiming also has to pay for itself, because it makes a path 25% more expensive. Directions are aimed only
+  // if the worth of all spots together (Node::worth) exceeds the same multiple of the worth that all surfaces
+  // would have if they were lit evenly: by measurement.
   //   scene                                  worth   noise with aiming
   //   room with a lit lampshade                 31   one third
   //   open-plan office, around a goal            8   two thirds
   //   small room, around a goal                  2   slightly less
   // 30% less or more: the same answers in all cases. For light that enters through openings, any gain pays:
   // the spots of the same classroom are worth 2.3.
-  RSPHERE_TUNED(BrightSpots, double, kLeastWorth, 4);
+  RSPHERE_TUNED(BrightSpots, double, kBrighter, 5);
 };
 
 // Holes in walls (holes.cpp).
@@ -65,12 +65,10 @@ struct Holes {
 
 // Portals of daylight that indirect rays are aimed at (find_openings.cpp, openings.cpp).
 struct Openings {
-  // Panes smaller than this share of the largest face of the scene's box are ignored, because every opening
-  // costs time in every gather: chosen by experiment. 30% less or more: the same answers in all cases.
+  // Panes, and holes without panes, that are smaller than this share of the largest face of the scene's box
+  // are ignored, because every opening costs time in every gather: chosen by experiment. A door of 2 m2 is
+  // found in a scene of up to 1400 m. 30% less or more: the same answers in all cases.
   RSPHERE_TUNED(Openings, double, kLeastArea, 1e-6);
-  // The same for holes without panes: larger, because their walls are then known without smaller polygons. A
-  // door of 2 m2 counts in a scene of up to 450 m.
-  RSPHERE_TUNED(Openings, double, kLeastHole, 1e-5);
   // Probe rays on each side of a pane: chosen by experiment. 30% less: time +30%; 30% more: time +30%
   // (sensors by panes; noise: error 19%, time 4%), because other panes are then found to be openings.
   RSPHERE_TUNED(Openings, int, kProbes, 32);
@@ -88,9 +86,10 @@ struct Openings {
   // A hole belongs to an opening that is parallel to it (cosine) and whose middle is nearer than this share
   // of the shortest side: the faces of a wall are nearer to each other than a door is wide.
   static constexpr double kParallel = .99, kSameHole = .5;
-  // Coplanar panes are merged to one opening if they fill at least this share of the rectangle around them:
-  // chosen by experiment. 30% less or more: the same answers in all cases.
-  RSPHERE_TUNED(Openings, double, kFilled, .7);
+  // Coplanar panes are merged to one opening, and the cells of a hole are taken for one, if they fill at
+  // least this share, half, of the rectangle around them, so that most directions to it meet them. .91: the
+  // same answers in all cases.
+  static constexpr double kFilled = .5;
   // The form factor to an opening is estimated from its middle and from four points that are this share of
   // its sides away from its edges: chosen by experiment. 30% less: error +2%; 30% more: within noise (sensors
   // by sun; noise: error 5%, time 5%).
@@ -147,11 +146,12 @@ struct LightPatches {
   static constexpr double kSmooth = .005;
 };
 
-// Light of sources in rough highlights, by shadow rays or by samples of the lobe (shared_highlights.cpp).
+// Whether shadow rays or samples of the lobe estimate the light of sources in rough highlights
+// (shared_highlights.cpp).
 struct SharedHighlights {
-  // Shadow rays alone estimate the light from directions in which a source holds less than this share of the
-  // lobe's samples, had all of it this direction's density: chosen by experiment. Shadow rays then bring at
-  // most this multiple of the lobe's share in one sample.
+  // If the lobe's density in a direction (per sr) times the solid angle of the source is below this, shadow
+  // rays alone estimate the light from there: chosen by experiment. One shadow ray then brings at most this
+  // multiple of the lobe's whole light.
   RSPHERE_TUNED(SharedHighlights, double, kLeast, .25);
 };
 
@@ -160,23 +160,18 @@ struct SharedHighlights {
 // time, of paths without interpolation in four daylit rooms: a narrow and a wide one, by an overcast sky and
 // by the sun.
 struct GatherDirections {
-  // The share of directions at openings, for each share of the light that openings probably bring: by
-  // measurement. At .5 the work is 1.3, .9, 1 and 1 times that at .7, at .3 it is 7.8, 2.4, 1.1 and 1.2
-  // times.
-  RSPHERE_TUNED(GatherDirections, double, kToOpenings, .7);
-  // The same for spots: chosen by experiment. From .5 to .9 the work is the same within its noise.
-  RSPHERE_TUNED(GatherDirections, double, kToSpots, .5);
-  // The light from elsewhere, relative to the smaller of two estimates that are made near openings, where it
-  // is brighter than farther inside: by measurement. At 1 the work is 4.8, 2.3, .8 and 1 times that at .5.
+  // The share of directions at openings, and of those at spots, for each share of the light that these
+  // probably bring: by measurement. For openings, the work at .5 is 1.3, .9, 1 and 1 times that at .7, at .3
+  // it is 7.8, 2.4, 1.1 and 1.2 times. For spots it is the same within its noise from .5 to .9.
+  RSPHERE_TUNED(GatherDirections, double, kAimed, .7);
+  // The light from elsewhere, relative to the smaller of two estimates that are made near openings, where
+  // rooms are brighter than farther inside: by measurement. At 1 the work is 4.8, 2.3, .8 and 1 times that at
+  // .5.
   RSPHERE_TUNED(GatherDirections, double, kFartherInside, .5);
   // The share falls by this multiple of the form factor to all openings, because rays hit openings that fill
   // much of the view without being aimed: chosen by experiment. 30% less or more: within noise (sensors by
   // sun; error 6%, time 5%).
   RSPHERE_TUNED(GatherDirections, double, kSeenAnyway, 2);
-  // The share of directions at highlights, for each share of the light that they probably bring: by
-  // measurement in a room with a chrome ball. From 1 to 8 the noise beside the ball is the same within a
-  // fifth.
-  RSPHERE_TUNED(GatherDirections, double, kToHighlights, 2);
   // A smaller share of aimed directions is not worth the work: chosen by experiment. 30% less or more: within
   // noise (sensors by sun; error 4%, time 7%).
   RSPHERE_TUNED(GatherDirections, double, kTooFew, .02);
@@ -202,16 +197,17 @@ struct Highlights {
   RSPHERE_TUNED(Highlights, int, kMany, 16);
   // The multiple of kLeast for balls in other gathers, whose noise is larger: by measurement of spherical
   // means in the same office, for the same noise. They take 3% more work than without balls; at 1, 6%.
+  // Conversely, kLeast divided by this is the threshold for a single highlight on a cylinder, of which many
+  // add up. 30% less or more: within noise (picture of office; error below 1%, time 6%).
   RSPHERE_TUNED(Highlights, double, kLeastOfFew, 10);
-  // A highlight on a cylinder is aimed at if it adds at least this fraction of kLeast, the threshold for all
-  // of them together.
-  RSPHERE_TUNED(Highlights, double, kLeastShare, .1);
   // A source is divided so that half the width of a part is at most this, relative to its distance from the
   // surface, because the highlight of a wider part is noticeably curved.
   RSPHERE_TUNED(Highlights, double, kHalf, .25);
-  // Ratio of the extent of the aimed directions to that of the highlight: without a margin, directions would
-  // seldom meet its edge.
-  RSPHERE_TUNED(Highlights, double, kWider, 1.3);
+  // Ratio of the extent of the aimed directions to that of the highlight, and of the region around the image
+  // of a source in a mirroring ball (importance/glints.h) to that of the image. Without a margin, directions
+  // would seldom meet the edge, and a part of the image would be left out. 30% less or more: within noise
+  // (points beside chrome; error 9%, time 1%).
+  RSPHERE_TUNED(Highlights, double, kWider, 1.2);
   // Cosines of surfaces seen edge-on are not taken to be smaller than this: of reflections, whose highlight
   // would have no extent; of bright spots, whose normal is a mean; and the sine between a cylinder and a
   // distant source along it. 30% less or more: within noise (sensors by sun; error 5%, time 5%).
@@ -224,8 +220,9 @@ struct Interpolation {
   // experiment. The moments of gathered light give the light at more tilted normals less accurately. 30%
   // less: within noise; 30% more: time -23% (picture of workshop; noise: error 13%, time 4%).
   RSPHERE_TUNED(Interpolation, double, kLeastUpright, .7);
-  // Rays that measure the mean distance of the surroundings of a site, and their harmonic mean: chosen by
-  // experiment. 30% less or more: within noise (picture by sun; error 3%, time 5%).
+  // The number of rays by which the mean distance, and the harmonic mean distance, of the surroundings of a
+  // site are estimated: chosen by experiment. 30% less or more: within noise (picture by sun; error 3%, time
+  // 5%).
   RSPHERE_TUNED(Interpolation, int, kReachRays, 16);
 };
 
@@ -276,6 +273,12 @@ struct RayLimits {
   // ones are followed by Russian roulette; for a primary ray of sphere mode, for each of the -ad + -as rays:
   // by measurement. 99% of the directions in a room with a chrome column have fewer (-ab 6, -ad 4), those in
   // a closed metal cylinder up to 1000.
+  //
+  // Sharp paths of a gather's ray are followed by Russian roulette once their weight is below the inverse of
+  // this, with a probability in proportion to their weight. Gathers begin with a weight of 1/2, so that one
+  // of their rays has at most half as many descendants at a time on average; without a limit their number
+  // doubles at each surface of nested transparent objects, up to -lr. 32: a fifth less time with three nested
+  // cylinders that reflect and transmit a tenth; more noise behind a pane that transmits 5%.
   RSPHERE_TUNED(RayLimits, double, kMostDescendants, 64);
   // The same for a patch of the coarse solution, for each of its rays: by measurement. Between two boxes of
   // rough trans most patches would have 16 to 40, between two of rough metal 7 to 9. With 8, a point before
@@ -289,23 +292,17 @@ struct RayLimits {
   // deviation of 6%, with 1 and 1 of 90%, with 2 and 4 of 37%.
   RSPHERE_TUNED(RayLimits, int, kAsked, 2);
   RSPHERE_TUNED(RayLimits, double, kFurther, 8);
-  // The same for a ray of a patch, of which there are many: by measurement. With 4 and no further ones, the
-  // point before the boxes takes twice the time, for the same noise.
-  RSPHERE_TUNED(RayLimits, int, kAskedByPatch, 1);
-  RSPHERE_TUNED(RayLimits, double, kFurtherByPatch, 1);
+  // Both for a ray of a patch, of which there are many: the least. With 4 and no further ones, the point
+  // before the boxes takes twice the time, for the same noise.
+  static constexpr int kAskedByPatch = 1;
 };
 
 // Sharp reflection and refraction (specular_light.cpp).
 struct SpecularLight {
-  // The weight below which sharp paths of a gather's rays are followed by Russian roulette, with a
-  // probability in proportion to their weight: by measurement. Gathers begin with a weight of 1/2, so that
-  // one of their rays has at most 32 descendants at a time on average; without a limit their number doubles
-  // at each surface of nested transparent objects, up to -lr. 1/32: a fifth less time with three nested
-  // cylinders that reflect and transmit a tenth; more noise behind a pane that transmits 5%.
-  RSPHERE_TUNED(SpecularLight, double, kWeakPath, 1. / 64);
-  // The same for all indirect rays, relative to the weight of the ray that arrives: by measurement. One in
-  // three reflections of a pane is followed. In four daylit rooms without interpolation it saves 3 to 22% of
-  // the time to equal noise; at 1, the noise is up to half as much again.
+  // Sharp paths of indirect rays are followed by Russian roulette if their weight is below this share of the
+  // weight of the ray that arrives: by measurement. One in three reflections of a pane is followed. In four
+  // daylit rooms without interpolation it saves 3 to 22% of the time to equal noise; at 1, the noise is up to
+  // half as much again.
   RSPHERE_TUNED(SpecularLight, double, kWeakBranch, .25);
 };
 

@@ -7,7 +7,7 @@
 namespace rsphere {
 namespace {
 
-// An extinction minus that of a mist, but at least that of the medium outside of all mist.
+// An extinction without that of a mist, but not below that of the medium outside of all mist.
 double without(double extinction, double mist, double around) {
   const double rest = extinction - mist;
   return rest < around + 1e-12 * mist ? around : rest;
@@ -17,7 +17,7 @@ double without(double extinction, double mist, double around) {
 
 NextRay beyondMist(const PreparedScene& prepared, const CrossesMist& boundary, RayEnd& end) {
   const Mist& mist = boundary.mist;
-  const auto& sources = prepared.scatterersOf(mist);
+  const auto& sources = prepared.lights().ofMists().of(mist);
   const auto addTo = [&](RaySpace& space) {
     space.medium.extinction += boundary.extinction;
     if (mist.hasAlbedo) space.medium.albedo = mist.albedo;
@@ -38,7 +38,7 @@ NextRay beyondMist(const PreparedScene& prepared, const CrossesMist& boundary, R
   for (const uint16_t s : sources) removed += beyond.scatterers.remove(s);
   // The ray began inside the mist.
   if (removed < sources.size()) addTo(end.changedSpace());
-  const Medium around = prepared.medium();
+  const Medium around = prepared.options().medium();
   const RayEnd* const entry = end.space().mist;
   const Medium& before = entry ? entry->medium() : around;
   beyond.medium.extinction =

@@ -93,7 +93,7 @@ int run(int argc, char** argv) {
         const RayObserver observer = [&](const RayEnd& end, const RayResult& result) {
           const SurfaceId surface = end.hit.surface;
           if (surface == kNone || !end.context.parent) return;
-          if (transport.prepared().lightOf(surface) == kNone || isBlack(result.value)) return;
+          if (transport.prepared().lights().of(surface) == kNone || isBlack(result.value)) return;
           const double contribution = brightness(result.value * end.context.contribution) * share;
           if (!(contribution > 0)) return;
           Kind& kind = kinds[pathOf(scene, end, false)];

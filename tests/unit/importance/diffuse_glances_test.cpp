@@ -234,12 +234,12 @@ TEST(SharedError, IsTheSpreadOfBatchesBeyondTheirChoice) {
   SharedError error;
   for (const double v : {1., 3., 1., 3.}) error.batches.emplace_back(v);
   // Four batches, each 1 away from the mean: 4 / 3 each if the mean is taken from them.
-  EXPECT_NEAR(sharedVariance(error).brightness, 4 * 4. / 3, 1e-12);
+  EXPECT_NEAR(sharedVariance(error, nullptr).brightness, 4 * 4. / 3, 1e-12);
   error.chosen.brightness = 2;
-  EXPECT_NEAR(sharedVariance(error).brightness, 16. / 3 - 2, 1e-12);
+  EXPECT_NEAR(sharedVariance(error, nullptr).brightness, 16. / 3 - 2, 1e-12);
   error.chosen.brightness = 100;
-  EXPECT_EQ(sharedVariance(error).brightness, 0);
-  EXPECT_EQ(sharedVariance({}).brightness, 0);
+  EXPECT_EQ(sharedVariance(error, nullptr).brightness, 0);
+  EXPECT_EQ(sharedVariance({}, nullptr).brightness, 0);
   // Two sets with the same vertices are not better than one; with others they are.
   SharedError same, other, twice, two;
   for (const double v : {1., 3., 1., 3.}) same.batches.emplace_back(v);
@@ -248,8 +248,8 @@ TEST(SharedError, IsTheSpreadOfBatchesBeyondTheirChoice) {
   twice.add(same, .5);
   two.add(same, .5);
   two.add(other, .5);
-  EXPECT_NEAR(sharedVariance(twice).brightness, sharedVariance(same).brightness, 1e-12);
-  EXPECT_NEAR(sharedVariance(two).brightness, sharedVariance(same).brightness / 2, 1e-12);
+  EXPECT_NEAR(sharedVariance(twice, nullptr).brightness, sharedVariance(same, nullptr).brightness, 1e-12);
+  EXPECT_NEAR(sharedVariance(two, nullptr).brightness, sharedVariance(same, nullptr).brightness / 2, 1e-12);
 }
 
 }  // namespace

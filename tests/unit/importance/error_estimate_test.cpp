@@ -29,7 +29,7 @@ std::vector<SeenSources::Sample> grid(size_t side, Random& random) {
 TEST(ErrorEstimate, PartsOfASourceHaveHalfTheVarianceOfIndependentOnes) {
   Random random(1);
   Sample ratio;
-  for (int i = 0; i < 400; ++i) ratio.add(partsVariance(grid(8, random)).brightness / (64 / 12.));
+  for (int i = 0; i < 400; ++i) ratio.add(partsVariance(grid(8, random), nullptr).brightness / (64 / 12.));
   expectMean(ratio, .5, 1.1);
 }
 
@@ -40,7 +40,7 @@ TEST(ErrorEstimate, PartlyHiddenPartsVary) {
   half.part = 1;
   half.aimed = 4;
   half.clear = 2;
-  EXPECT_NEAR(partsVariance(std::vector{half}).brightness, .5 * .25 / 4, 1e-12);
+  EXPECT_NEAR(partsVariance(std::vector{half}, nullptr).brightness, .5 * .25 / 4, 1e-12);
 }
 
 // Values on a torus of `side` by `side` cells of solid angle 1 with six neighbours each, as even directions
@@ -60,7 +60,7 @@ struct Torus {
       }
     neighbours.first.push_back(static_cast<uint32_t>(neighbours.neighbour.size()));
   }
-  double variance() const { return evenVariance(samples, neighbours, {}).brightness; }
+  double variance() const { return evenVariance(samples, neighbours, nullptr).brightness; }
 };
 
 TEST(ErrorEstimate, NoiseIsStatedWhole) {
@@ -101,7 +101,7 @@ TEST(ErrorEstimate, LongRunsOfDirectionsAreTakenForEven) {
         s.value = Radiance(value);
         s.solidAngle = 1;
       }
-      ratio.add(spreadVariance(samples).brightness / (static_cast<double>(n) / 12));
+      ratio.add(spreadVariance(samples, nullptr).brightness / (static_cast<double>(n) / 12));
     }
     expectMean(ratio, 1 / (1 + std::sqrt(static_cast<double>(n)) / 8), 1.15);
   }
@@ -123,13 +123,19 @@ TEST(ErrorEstimate, WhatFewDirectionsFindIsNotTakenForEven) {
       s.solidAngle = 1;
       sum += hit;
     }
-    stated.add(spreadVariance(samples).brightness);
+    stated.add(spreadVariance(samples, nullptr).brightness);
     found.add(sum);
   }
   // By the number of all directions, the variance would be taken for 1 / (1 + 3000^1/2 / 8) = .13 of what it
   // is.
   EXPECT_GT(stated.mean(), .7 * found.variance());
   EXPECT_LT(stated.mean(), 1 * found.variance());
+}
+
+std::vector<DirectionSample> inRegions(std::vector<DirectionSample> samples,
+                                       const std::vector<RegionId>& regions) {
+  for (size_t i = 0; i < samples.size(); ++i) samples[i].region = regions[i];
+  return samples;
 }
 
 // Four directions in a row, two of which see a window that is brighter than the wall beside it.
@@ -141,22 +147,26 @@ TEST(ErrorEstimate, EdgesOfRegionsAreNoErrors) {
   const Neighbours row{{0, 1, 3, 5, 6}, {1, 0, 2, 1, 3, 2}};
   const double even = tuning::ErrorEstimate::kEvenSet;
   // The difference of 4 to the mean of two neighbours, twice.
-  EXPECT_NEAR(evenVariance(base, row, {}).brightness, even * 2 * 16 * 2 / 3, 1e-12);
-  EXPECT_EQ(evenVariance(base, row, std::vector<RegionId>{0, 0, 5, 5}).brightness, 0);
+  EXPECT_NEAR(evenVariance(base, row, nullptr).brightness, even * 2 * 16 * 2 / 3, 1e-12);
+  EXPECT_EQ(evenVariance(inRegions(base, {0, 0, 5, 5}), row, nullptr).brightness, 0);
   // A direction that is alone in its region is compared with all neighbours.
-  EXPECT_NEAR(evenVariance(base, row, std::vector<RegionId>{0, 0, 5, 6}).brightness, 16 * 2. / 3, 1e-12);
-  EXPECT_EQ(evenVariance(base, row, std::vector<RegionId>{0, 0, kNoRegion, kNoRegion}).brightness, 0);
+  EXPECT_NEAR(evenVariance(inRegions(base, {0, 0, 5, 6}), row, nullptr).brightness, 16 * 2. / 3, 1e-12);
+  EXPECT_EQ(evenVariance(inRegions(base, {0, 0, kNoRegion, kNoRegion}), row, nullptr).brightness, 0);
 }
 
 // One direction that was sent to a window, beside base directions of which two see it.
 TEST(ErrorEstimate, ALoneDirectionIsComparedWithItsRegion) {
-  const std::vector<DirectionSample> base = {
-      {V3d(0, 0, 1), 1, Radiance(1)}, {V3d(0, 0, 1), 1, Radiance(8)}, {V3d(0, 0, 1), 1, Radiance(10)}};
-  const std::vector<RegionId> regions{0, 5, 5};
-  const DirectionSample lone{V3d(0, 0, 1), 2, Radiance(12)};
-  EXPECT_NEAR(loneVariance(lone, 5, base, regions).brightness, 4 * 9 * 2. / 3, 1e-12);
-  EXPECT_NEAR(loneVariance(lone, 0, base, regions).brightness, 4 * 121 / 2., 1e-12);
-  EXPECT_NEAR(loneVariance(lone, 6, base, regions).brightness, 4 * 144, 1e-12);
+  const std::vector<DirectionSample> base = inRegions(
+      {{V3d(0, 0, 1), 1, Radiance(1)}, {V3d(0, 0, 1), 1, Radiance(8)}, {V3d(0, 0, 1), 1, Radiance(10)}},
+      {0, 5, 5});
+  const auto varianceIn = [&](RegionId region) {
+    DirectionSample lone{V3d(0, 0, 1), 2, Radiance(12)};
+    lone.region = region;
+    return loneVariance(lone, base, nullptr).brightness;
+  };
+  EXPECT_NEAR(varianceIn(5), 4 * 9 * 2. / 3, 1e-12);
+  EXPECT_NEAR(varianceIn(0), 4 * 121 / 2., 1e-12);
+  EXPECT_NEAR(varianceIn(6), 4 * 144, 1e-12);
 }
 
 // Three directions that see the same sky through a window of 6 sr, and one that sees the wall.
@@ -166,8 +176,8 @@ TEST(ErrorEstimate, SomethingMayHaveBeenMissedInARegion) {
                                                 {V3d(0, 0, 1), 2, Radiance(4)},
                                                 {V3d(0, 0, 1), 2, Radiance(1)}};
   const double missed = tuning::ErrorEstimate::kUnseen * 24 / 4;
-  EXPECT_NEAR(unseenVariance(samples, std::vector<RegionId>{1, 1, 1, 0}).brightness, missed * missed, 1e-12);
-  EXPECT_EQ(unseenVariance(samples, std::vector<RegionId>{0, 0, kNoRegion, 0}).brightness, 0);
+  EXPECT_NEAR(unseenVariance(inRegions(samples, {1, 1, 1, 0}), nullptr).brightness, missed * missed, 1e-12);
+  EXPECT_EQ(unseenVariance(inRegions(samples, {0, 0, kNoRegion, 0}), nullptr).brightness, 0);
 }
 
 }  // namespace

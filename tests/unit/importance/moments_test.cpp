@@ -14,7 +14,7 @@ TEST(Moments, OfOneDirection) {
   const V3d direction = V3d(2, -3, 6) / 7;
   const Color part(1, 2, 4);
   Moments moments;
-  moments.add(direction, Irradiance(part));
+  moments.add(direction, Irradiance(part), nullptr);
   const PointAnswer a = moments.answer(V3d(1, 2, 3), 5);
   EXPECT_EQ(a.point, V3d(1, 2, 3));
   EXPECT_EQ(a.directions, 5u);
@@ -32,10 +32,10 @@ TEST(Moments, OfOneDirection) {
 TEST(Moments, AreLinear) {
   const V3d up(0, 0, 1), east(1, 0, 0);
   Moments one, other, both;
-  one.add(up, Irradiance(Color(1, 2, 3)));
-  other.add(east, Irradiance(Color(8, 8, 8)));
-  both.add(up, Irradiance(Color(1, 2, 3)));
-  both.add(east, Irradiance(Color(2, 2, 2)));
+  one.add(up, Irradiance(Color(1, 2, 3)), nullptr);
+  other.add(east, Irradiance(Color(8, 8, 8)), nullptr);
+  both.add(up, Irradiance(Color(1, 2, 3)), nullptr);
+  both.add(east, Irradiance(Color(2, 2, 2)), nullptr);
   one.add(other, .25);
   EXPECT_EQ(one.total.color, both.total.color);
   EXPECT_EQ(one.cylindrical.color, both.cylindrical.color);

@@ -268,7 +268,7 @@ TEST(PointPicture, ReportsHowMuchIsDone) {
 // ---- averages of light
 
 constexpr Smoothing kThreePasses{
-    3, 0, 0, tuning::Pictures::kSameNormal, tuning::Pictures::kSamePlane, tuning::Pictures::kNear};
+    3, 0, 0, tuning::Pictures::kSameNormal, tuning::Pictures::kNear, tuning::Pictures::kNear};
 
 struct Plane {
   SeenSurfaces seen{64, 64, false, {}};

@@ -179,7 +179,7 @@ TEST(Contrasts, NoneOfDiffuseScenes) {
   const SeenSources sources(setting.transport->prepared());
   const Contrasts contrasts = measureContrasts(setting.tracing(), {}, sources);
   EXPECT_TRUE(contrasts.objects.empty());
-  EXPECT_EQ(contrasts.surroundings, 1);
+  EXPECT_EQ(contrasts.baseError, 1);
 }
 
 // Under a sky that is 1 above and 0 below a mirror shows .9 or 0, with a deviation of at most .45.
@@ -192,7 +192,7 @@ TEST(Contrasts, OfAMirrorUnderHalfASphereOfLight) {
   const Contrasts contrasts = measureContrasts(setting.tracing(), objects, sources);
   ASSERT_EQ(contrasts.objects.size(), 1u);
   EXPECT_NEAR(contrasts.objects[0].deviation, .45, .05);
-  EXPECT_GT(contrasts.surroundings, 0);
+  EXPECT_GT(contrasts.baseError, 0);
 }
 
 }  // namespace

@@ -43,11 +43,11 @@ TEST(Light, IsMissedOnlyWhereNothingCanGiveIt) {
   const std::string walls = plastic("paint", .5) + floor("paint");
   RayOptions ambient;
   ambient.ambientValue = Radiance(Color(0, .1, 0));
-  EXPECT_TRUE(Traced(walls).prepared().isDark());
-  EXPECT_FALSE(Traced(walls, ambient).prepared().isDark());
-  EXPECT_FALSE(Traced(walls + light(1) + "lamp sphere bulb\n0\n0\n4 0 0 5 .5\n").prepared().isDark());
-  EXPECT_FALSE(Traced(walls + glow(1, 0) + "sky source all\n0\n0\n4 0 0 1 360\n").prepared().isDark());
-  EXPECT_TRUE(Traced(walls + light(1)).prepared().isDark());  // not used
+  EXPECT_TRUE(isDark(Traced(walls).prepared()));
+  EXPECT_FALSE(isDark(Traced(walls, ambient).prepared()));
+  EXPECT_FALSE(isDark(Traced(walls + light(1) + "lamp sphere bulb\n0\n0\n4 0 0 5 .5\n").prepared()));
+  EXPECT_FALSE(isDark(Traced(walls + glow(1, 0) + "sky source all\n0\n0\n4 0 0 1 360\n").prepared()));
+  EXPECT_TRUE(isDark(Traced(walls + light(1)).prepared()));  // not used
 }
 
 // ---- enclosures
