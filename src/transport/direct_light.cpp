@@ -161,7 +161,10 @@ uint32_t DirectLight::findContributions(Receiver at, DirectCoefficient coefficie
   const PathContext& ray = at.end.context;
   const bool divides =
       o.sourceSubstructuring > kNegligible && !(isOfGather(settings_, ray) && o.directJitter > kWideJitter);
-  const SourceSampling how{divides ? o.sourceSubstructuring / ray.weight : 0, o.directJitter, front};
+  // The noise of later bounces, and of the directions of sphere mode, averages out.
+  const bool splitsBalls = settings_.mode.firstBounce == FirstBounce::interpolated && ray.ambientLevel == 0;
+  const SourceSampling how{divides ? o.sourceSubstructuring / ray.weight : 0, o.directJitter, front,
+                           splitsBalls};
   for (const LightId i : t_.lights().all().ids())
     t_.lights().sample(i, at.point, how, state_.random, samples_);
   if (contributions_.size() < samples_.size()) {
