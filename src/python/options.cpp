@@ -32,8 +32,8 @@ struct Keyword {
   }
 };
 
-// Whether the name cannot be that of an option of the command: none has an underscore within, and what follows
-// -f, -o, -te and -ti without a blank is their value, which is not part of a keyword.
+// Whether the name cannot be that of an option of the command: none has an underscore within, and what
+// follows -f, -o, -te and -ti without a blank is their value, which is not part of a keyword.
 bool isNoOption(std::string_view name) {
   const size_t at = name.find('_');
   if (at != name.npos && at + 1 < name.size()) return true;

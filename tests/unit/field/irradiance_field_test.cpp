@@ -292,8 +292,9 @@ TEST(IrradianceField, FindsTheLightInGapsOnAWideGround) {
     }
 }
 
-// The light of a bright strip along the foot of a wall changes over a few centimetres of the floor. In a black
-// room on a wide ground, the finest spacing of -ar is that of the room (1 cm) and not of the ground (.8 m).
+// The light of a bright strip along the foot of a wall changes over a few centimetres of the floor. In a
+// black room on a wide ground, the finest spacing of -ar is that of the room (1 cm), not of the ground
+// (.8 m).
 TEST(IrradianceField, FindsTheLightOfASkirtingOnAWideGround) {
   constexpr double kHeight = .05;
   RayOptions coarse = interpolated(.1, 1);

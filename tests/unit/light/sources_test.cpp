@@ -336,8 +336,8 @@ TEST(Source, SolidAnglesOfSamplesSumUpToTheSources) {
   expectMean(mean(sceneOf(light("polygon s\n0\n0\n9 0 0 1 0 1 1 1 0 1\n"))), omega, 1.01);
 }
 
-// A ball of radius 1 at a distance of 2: in parts it lights as it does whole, but the samples of what is seen of
-// it beside an edge through its middle are spread evenly. Without jitter it stays whole, as in rtrace.
+// A ball of radius 1 at a distance of 2: in parts it lights as it does whole, but the samples of what is seen
+// of it beside an edge through its middle are spread evenly. Without jitter it stays whole, as in rtrace.
 TEST(Source, BallsInPartsMakeEvenPenumbras) {
   const Scene scene = sceneOf(light("sphere s\n0\n0\n4 0 0 2 1\n"));
   const auto litHalf = [&](const SourceSampling& how, double turned) {

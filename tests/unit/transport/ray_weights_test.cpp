@@ -322,8 +322,9 @@ TEST(RayWeights, LightThroughBoxesOfRoughTransIsThatOfPaths) {
   EXPECT_LT(chance, .04 * b.mean()) << "would not see an error of 5%";
 }
 
-// One box in another: a ray splits at every hit, into a diffuse and two rough paths, and the boxes reflect what
-// gets between them to and fro. However many there are, each ray of a gather has a bounded number of others.
+// One box in another: a ray splits at every hit, into a diffuse and two rough paths, and the boxes reflect
+// what gets between them to and fro. However many there are, each ray of a gather has a bounded number of
+// others.
 TEST(RayWeights, WorkBetweenFiveBoxesHasABound) {
   RayOptions o = interpolated(2, 16, {-10, 1e-4});
   o.leastForPatches = 64;
