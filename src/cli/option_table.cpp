@@ -455,7 +455,8 @@ void addSourceOptions(const Add& add) {
        .remark = "direct sampling",
        .paragraph =
            "Light sources are divided into parts until the size of each part is below this fraction of "
-           "its distance. 0 leaves light sources undivided."});
+           "its distance. 0 leaves light sources undivided. Balls are divided in ray mode alone, for rays "
+           "that have not been reflected diffusely, and with -dj above 0."});
   add({.name = "-dr",
        .arguments = "N",
        .group = Group::direct,

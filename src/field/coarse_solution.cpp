@@ -189,6 +189,8 @@ const PatchLinks& CoarseSolution::linksOf(Patch& patch, FieldRays& rays) {
   auto made = std::make_unique<PatchLinks>(rays.link(patch.site, static_cast<int>(count), patch.seed));
   const PatchLinks* first = nullptr;
   if (!patch.links.compare_exchange_strong(first, made.get(), std::memory_order_acq_rel)) return *first;
+  linked_.fetch_add(1, std::memory_order_relaxed);
+  rays_.fetch_add(static_cast<size_t>(made->rays), std::memory_order_relaxed);
   return *made.release();
 }
 

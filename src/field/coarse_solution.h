@@ -49,6 +49,13 @@ class CoarseSolution {
   Color light(Patch& patch, int bounces, FieldRays& rays);
 
   size_t patches() const { return made_.load(std::memory_order_relaxed); }
+  // The patches of these that were linked, and the rays that were followed for them.
+  struct Work {
+    size_t patches = 0, rays = 0;
+  };
+  Work work() const {
+    return {linked_.load(std::memory_order_relaxed), rays_.load(std::memory_order_relaxed)};
+  }
 
  private:
   // How finely surfaces are divided, and how many rays a patch has.
@@ -76,7 +83,7 @@ class CoarseSolution {
   int bounces_;  // -ab
   bool spectral_;
   Color ambient_;
-  std::atomic<size_t> made_{0};
+  std::atomic<size_t> made_{0}, linked_{0}, rays_{0};
   std::unique_ptr<InsertOnce<CellKey, Division>> divisions_;
   std::unique_ptr<InsertOnce<CellKey, Patch>> patches_;
   std::unique_ptr<InsertOnce<CellKey, bool>> enclosed_;  // by the first cell of a chart

@@ -25,6 +25,7 @@ struct PatchLinks {
   std::vector<Link> links;
   std::vector<V3f> light;  // by bounces: radiance that depends on no patch (W/sr/m2)
   std::vector<V3f> ends;   // by bounces: factor on -av, used if the path ends there for lack of bounces
+  int rays = 0;            // that were followed, with their descendants, without shadow rays
 
   void add(Patch* patch, const Coefficient& coefficient, int bounces);
   void addLight(int bounces, const Radiance& radiance);

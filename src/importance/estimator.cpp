@@ -94,6 +94,14 @@ SampledSet joined(std::vector<KeptSet> sets, const TwoHalves& halves, const Irra
   return all;
 }
 
+// An allowance for the error of the coarse solution, which all points of a run share.
+Variance coarseVariance(const Irradiance& total, const RayOptions& o) {
+  using Tuning = tuning::ErrorEstimate;
+  const double rays = std::max(o.ambientDivisions + o.ambientSuperSamples, o.leastForPatches);
+  const double ofRays = Tuning::kRaysOfPatches * std::sqrt(Tuning::kUsualRays / std::max(rays, 1.));
+  return Variance::of(total, o.sampling) * (ofRays * ofRays + Tuning::kPatches * Tuning::kPatches);
+}
+
 }  // namespace
 
 SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions& options, bool standardError)
@@ -188,6 +196,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
     shared.add(halves[k].shared, share);
   }
   variance += sharedVariance(shared, base_.sampling);
+  if (tracing_.caches.coarse) variance += coarseVariance(moments.total, tracing_.prepared.options());
   SampledSet all = joined(std::move(kept), decision, excess, options_.everyDirection);
   workspace.samples = std::move(all.samples);
   workspace.rays = std::move(all.rays);

@@ -131,6 +131,7 @@ class PartSampler {
         point_(point),
         jitter_(how.jitter),
         allowed_(how.largest / 2),
+        splitsBalls_(how.splitsBalls && how.jitter > 0 && how.largest > 0),
         random_(random),
         samples_(samples) {}
 
@@ -146,6 +147,8 @@ class PartSampler {
   bool hit(const V3d& direction, double length, SourceSample& sample) const;
 
   void addRound(const V3d& middle, double sine, double distance);
+  void addPartsOfBall(const V3d& middle, double sine, double distance);
+  void addBall(const V3d& towards, double distance);
   void addDistant(const DistantLight& cone, double distance);
   void addTube(const TubeLight& tube, const V3d& towards);
   void addMiddle(const PlaneLight& plane, const V3d& aim, double length, double area);
@@ -161,6 +164,7 @@ class PartSampler {
   const V3d& point_;
   double jitter_;   // -dj
   double allowed_;  // the limit for the half-extents of parts relative to their distance (-ds)
+  bool splitsBalls_;
   Random& random_;
   std::vector<SourceSample>& samples_;
 };
@@ -218,6 +222,36 @@ void PartSampler::addRound(const V3d& middle, double sine, double distance) {
   if (source_.reach > 0) length += jitter_ * source_.radius * depthInBall(random_);
   if (c > kEdgeOn)
     add(s * (std::cos(angle) * x + std::sin(angle) * y) + c * middle, kPi * sine * sine / c, length);
+}
+
+// The same for parts of the disk that the ball is seen as: each has a share of the solid angle.
+void PartSampler::addPartsOfBall(const V3d& middle, double sine, double distance) {
+  V3d x, y;
+  frame(middle, x, y);
+  const auto onSeenDisk = [&](double s, double t) {
+    double a = 2 * s - 1, b = 2 * t - 1;
+    toDisk(a, b);
+    return a * x + b * y;
+  };
+  const auto at = [&](double s, double t) { return source_.center + source_.radius * onSeenDisk(s, t); };
+  const auto use = [&](const SourcePart& part, const V3d&) {
+    const V3d aside = sine * onSeenDisk(jittered(part.s0, part.s1, jitter_, random_),
+                                        jittered(part.t0, part.t1, jitter_, random_));
+    const double c = std::sqrt(std::max(0., 1 - aside.length2()));
+    const double share = (part.s1 - part.s0) * (part.t1 - part.t0);
+    // The reach is measured as for a whole ball.
+    double length = distance;
+    if (source_.reach > 0) length += jitter_ * source_.radius * depthInBall(random_);
+    if (c > kEdgeOn) add(aside + c * middle, share * kPi * sine * sine / c, length);
+  };
+  split(SourcePart{}, kMostParts, source_.radius, source_.radius, allowed_, point_, at, use);
+}
+
+void PartSampler::addBall(const V3d& towards, double distance) {
+  if (distance <= source_.radius) return;
+  const bool isSplit = splitsBalls_ && source_.radius > allowed_ * distance;
+  if (isSplit) return addPartsOfBall(towards / distance, source_.radius / distance, distance);
+  addRound(towards / distance, source_.radius / distance, distance);
 }
 
 void PartSampler::addDistant(const DistantLight& cone, double distance) {
@@ -362,9 +396,7 @@ void PartSampler::sample(const V3d& towards) {
   if (source_.isVirtual() && -towards.dot(source_.beam.axis) < source_.beam.cosine * distance) return;
   match(
       source_.shape, [&](const PlaneLight& plane) { addPlane(plane, towards); },
-      [&](const BallLight&) {
-        if (distance > source_.radius) addRound(towards / distance, source_.radius / distance, distance);
-      },
+      [&](const BallLight&) { addBall(towards, distance); },
       [&](const TubeLight& tube) { addTube(tube, towards); },
       [&](const DistantLight& cone) { addDistant(cone, distance); });
 }

@@ -29,6 +29,9 @@ struct SourceSampling {
   // Sources that lie entirely behind the plane through the point with this normal (unit) are omitted. If it
   // is 0, none is omitted.
   V3d front{0, 0, 0};
+  // Balls are split as well if they are jittered. rtrace never splits them, and where many rays are averaged
+  // it would not pay.
+  bool splitsBalls = false;
 };
 
 class LightSources {

@@ -32,10 +32,13 @@ struct Keyword {
   }
 };
 
-// Whether the name cannot be that of an option of the command, of which none has an underscore within.
+// Whether the name cannot be that of an option of the command: none has an underscore within, and what
+// follows -f, -o, -te and -ti without a blank is their value, which is not part of a keyword.
 bool isNoOption(std::string_view name) {
   const size_t at = name.find('_');
-  return at != name.npos && at + 1 < name.size();
+  if (at != name.npos && at + 1 < name.size()) return true;
+  if (name[0] == 'f' || name[0] == 'o') return name.size() > 1;
+  return name.size() > 2 && (name.starts_with("te") || name.starts_with("ti"));
 }
 
 bool isSequence(const py::handle& value) {

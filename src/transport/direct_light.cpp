@@ -167,7 +167,10 @@ uint32_t DirectLight::findContributions(Receiver at, DirectCoefficient coefficie
   const PathContext& ray = at.end.context;
   const bool divides =
       o.sourceSubstructuring > kNegligible && !(isOfGather(settings_, ray) && o.directJitter > kWideJitter);
-  const SourceSampling how{divides ? o.sourceSubstructuring / ray.weight : 0, o.directJitter, front};
+  // The noise of later bounces, and of the directions of sphere mode, averages out.
+  const bool splitsBalls = settings_.mode.firstBounce == FirstBounce::interpolated && ray.ambientLevel == 0;
+  const SourceSampling how{divides ? o.sourceSubstructuring / ray.weight : 0, o.directJitter, front,
+                           splitsBalls};
   for (const LightId i : t_.lights().all().ids())
     if (!isLeftOut(at, i) || at.leftToBothEnds->passUnknown())
       t_.lights().sample(i, at.point, how, state_.random, scratch_.samples);

@@ -68,6 +68,7 @@ PatchLinks TracedFieldRays::link(const GatherSite& site, int rays, uint64_t seed
                        sum += path.follower.follow(next.query, next.context).value * next.coefficient;
                      });
   links.addLight(0, sum);
+  links.rays = path.state.descendants.rays;
   return links;
 }
 

@@ -160,6 +160,9 @@ class Faults(unittest.TestCase):
                 scene.trace([[0, 0, 0, 1, 0, 0]], **options)
         with self.assertRaisesRegex(TypeError, r"^'ambient_bounce' is not an option; help\(rsphere.Scene\) lists"):
             scene.sphere([[0, 0, 0]], ambient_bounce=3)
+        for name in ["foo", "out", "f1", "time"]:  # not -f oo, -o ut and -ti me
+            with self.assertRaisesRegex(TypeError, f"^'{name}' is not an option; help"):
+                scene.trace([[0, 0, 0, 1, 0, 0]], **{name: 1})
         for short in [{"ab": 1}, {"as_": 1, "ambient_super_samples": 0}]:
             with self.assertRaisesRegex(TypeError, "are the same option: give one of them$"):
                 scene.trace([[0, 0, 0, 1, 0, 0]], ambient_bounces=0, **short)

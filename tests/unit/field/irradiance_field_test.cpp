@@ -292,6 +292,34 @@ TEST(IrradianceField, FindsTheLightInGapsOnAWideGround) {
     }
 }
 
+// The light of a bright strip along the foot of a wall changes over a few centimetres of the floor. In a
+// black room on a wide ground, the finest spacing of -ar is that of the room (1 cm), not of the ground
+// (.8 m).
+TEST(IrradianceField, FindsTheLightOfASkirtingOnAWideGround) {
+  constexpr double kHeight = .05;
+  RayOptions coarse = interpolated(.1, 1);
+  coarse.ambientDivisions = 2048;
+  for (const double half : {3., 250., 2500.}) {
+    Traced traced(
+        fmt::format("void glow g 0 0 4 1 1 1 0\nvoid plastic gray 0 0 5 .5 .5 .5 0 0\n"
+                    "void plastic black 0 0 5 0 0 0 0 0\n"
+                    "g polygon skirting 0 0 12 0 0 0 0 0 {0} 4 0 {0} 4 0 0\n"
+                    "black polygon south 0 0 12 0 0 {0} 4 0 {0} 4 0 3 0 0 3\n"
+                    "black polygon north 0 0 12 0 4 0 0 4 3 4 4 3 4 4 0\n"
+                    "black polygon west 0 0 12 0 0 0 0 0 3 0 4 3 0 4 0\n"
+                    "black polygon east 0 0 12 4 0 0 4 4 0 4 4 3 4 0 3\n"
+                    "black polygon ceiling 0 0 12 0 0 3 0 4 3 4 4 3 4 0 3\n"
+                    "gray polygon floor 0 0 12 0 0 0 4 0 0 4 4 0 0 4 0\n"
+                    "black polygon ground 0 0 12 -{1} -{1} -.3 {1} -{1} -.3 {1} {1} -.3 -{1} {1} -.3\n",
+                    kHeight, half),
+        coarse);
+    for (const double y : {.01, .02, .04, .08, .15}) {
+      const double expected = .5 * (1 - y / std::hypot(y, kHeight)) / 2;
+      EXPECT_NEAR(traced.value(V3d(2, y, 1), V3d(0, 0, -1)) / expected, 1, .1) << half << ": " << y;
+    }
+  }
+}
+
 // A shelf over the ground is narrower than the sites of the ground are apart, and longer.
 TEST(IrradianceField, FindsTheShadowOfANarrowShelfOnAWideGround) {
   for (const double height : {.3, .05, .01}) {

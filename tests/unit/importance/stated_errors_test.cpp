@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/constants.h"
+#include "importance/tuning.h"
 #include "rad_parser/scene_file.h"
 #include "scene/build_scene.h"
 #include "scene/random.h"
@@ -164,6 +165,53 @@ TEST(StatedErrors, OfRoomsWithAWindow) {
     EXPECT_GT(spoiled.trueOverStated, 1.35) << "would not see half the error";
     EXPECT_LT(honest.rms, .02);
   }
+}
+
+// With -aa above 0 the coarse solution has an error of its own, which all directions share. In rooms with even
+// light it is as large as that of the directions. expected: by -aa 0, -Sn 4096 and six rotations.
+TEST(StatedErrors, ContainThatOfTheCoarseSolution) {
+  const std::string lit = "void plastic white 0 0 5 .6 .6 .6 0 0\n" + roomOf("white", V3d(6, 5, 2.8)) +
+                          "void light lamp 0 0 3 9 9 9\nlamp polygon l 0 0 12 2.4 2.3 2.7 2.4 2.7 2.7 "
+                          "3.6 2.7 2.7 3.6 2.3 2.7\n";
+  const std::string desk =
+      "void plastic wood 0 0 5 .3 .25 .2 0 0\n"
+      "wood polygon desk 0 0 12 1 1 .75 2.6 1 .75 2.6 1.8 .75 1 1.8 .75\n"
+      "wood polygon under 0 0 12 1 1.8 .72 2.6 1.8 .72 2.6 1 .72 1 1 .72\n";
+  const V3d points[] = {V3d(1.5, 1, 1.2), V3d(.5, 3, 1.2), V3d(2.5, 4.5, 2), V3d(1, .5, .5)};
+  const struct {
+    std::string scene;
+    double expected[4];  // in red
+  } rooms[] = {{lit, {.078820, .069559, .070523, .061900}},
+               {lit + desk, {.069415, .067444, .069399, .052894}}};
+  double without[2] = {0, 0};
+  for (int k = 0; k < 2; ++k) {
+    double square = 0, stated = 0, allowed = 0;
+    for (uint64_t run = 1; run <= 5; ++run) {
+      SphereSetting room(sceneOf(rooms[k].scene), [&](RayOptions& o) {
+        o.ambientBounces = 3;
+        o.ambientAccuracy = .1;
+        o.rotation = run;
+        o.leastForPatches = 512;  // as -Sn 1024 asks for
+      });
+      room.options.sphere.rotation = run;
+      room.options.sphere.baseDirections = 1024;
+      const SphereEstimator estimator(*room.transport, room.options.sphere, true);
+      SphereEstimator::Workspace workspace(estimator);
+      for (size_t i = 0; i < std::size(points); ++i) {
+        const PointAnswer a = estimator.estimate(points[i], workspace);
+        const double expected = rooms[k].expected[i];
+        square += std::pow(a.mean.color.x / expected - 1, 2);
+        stated += std::pow(a.standardError.color.x / expected, 2);
+        allowed += 2 * std::pow(tuning::ErrorEstimate::kRaysOfPatches, 2) +
+                   std::pow(tuning::ErrorEstimate::kPatches, 2);
+      }
+    }
+    EXPECT_GT(std::sqrt(square / stated), .8) << k;
+    EXPECT_LT(std::sqrt(square / stated), 1.25) << k;
+    EXPECT_LT(std::sqrt(square / stated) / 2, .8) << "would not see twice the error";
+    without[k] = std::sqrt(square / (stated - allowed));
+  }
+  EXPECT_GT(without[0], 1.25) << "would not see that the error of the coarse solution is left out";
 }
 
 // What is seen through a window under an even sky is found exactly, whichever directions happen to hit it.

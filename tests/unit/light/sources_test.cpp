@@ -336,6 +336,35 @@ TEST(Source, SolidAnglesOfSamplesSumUpToTheSources) {
   expectMean(mean(sceneOf(light("polygon s\n0\n0\n9 0 0 1 0 1 1 1 0 1\n"))), omega, 1.01);
 }
 
+// A ball of radius 1 at a distance of 2: in parts it lights as it does whole, but the samples of what is seen
+// of it beside an edge through its middle are spread evenly. Without jitter it stays whole, as in rtrace.
+TEST(Source, BallsInPartsMakeEvenPenumbras) {
+  const Scene scene = sceneOf(light("sphere s\n0\n0\n4 0 0 2 1\n"));
+  const auto litHalf = [&](const SourceSampling& how, double turned) {
+    Sample e;
+    for (uint64_t i = 0; i < 1000; ++i) {
+      double half = 0;
+      for (const SourceSample& s : samplesAt(scene, V3d(0, 0, 0), how, i))
+        if (s.direction.x * std::cos(turned) + s.direction.y * std::sin(turned) > 0)
+          half += s.solidAngle * s.direction.z;
+      e.add(half);
+    }
+    return e;
+  };
+  const SourceSampling whole{.2, 1}, split{.2, 1, {}, true};
+  EXPECT_EQ(samplesAt(scene, V3d(0, 0, 0), whole).size(), 1u);
+  EXPECT_EQ(samplesAt(scene, V3d(0, 0, 0), {.2, 0, {}, true}).size(), 1u);
+  EXPECT_EQ(samplesAt(scene, V3d(0, 0, -9), split).size(), 1u) << "small as seen from there";
+  EXPECT_EQ(samplesAt(scene, V3d(0, 0, 0), split).size(), 64u);
+  for (const double turned : {0., .4}) {
+    const Sample one = litHalf(whole, turned), parts = litHalf(split, turned);
+    expectMean(one, kPi / 8, 1.15);
+    expectMean(parts, kPi / 8, 1.01);
+    EXPECT_LT(parts.standardError(), .1 * one.standardError()) << turned;
+  }
+  expectMean(meanIrradiance(scene, V3d(0, 0, 0), V3d(.6, 0, .8), split), kPi / 4 * .8, 1.01);
+}
+
 // A millimetre before a panel of a metre, by area, single samples would count 1/distance^2: a deviation
 // of 40.
 TEST(Sources, RightBeforeALargeSource) {

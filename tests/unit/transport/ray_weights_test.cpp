@@ -12,6 +12,7 @@
 
 #include "base/spectral_sampling.h"
 #include "field/coarse_solution.h"
+#include "field/tuning.h"
 #include "tests/unit/transport/transport_fixture.h"
 #include "transport/ray_limits.h"
 
@@ -319,6 +320,34 @@ TEST(RayWeights, LightThroughBoxesOfRoughTransIsThatOfPaths) {
   const double chance = kMostSigmas * std::hypot(a.standardError(), b.standardError());
   EXPECT_LT(std::abs(a.mean() - b.mean()), .01 * b.mean() + chance);
   EXPECT_LT(chance, .04 * b.mean()) << "would not see an error of 5%";
+}
+
+// One box in another: a ray splits at every hit, into a diffuse and two rough paths, and the boxes reflect
+// what gets between them to and fro. However many there are, each ray of a gather has a bounded number of
+// others.
+TEST(RayWeights, WorkBetweenFiveBoxesHasABound) {
+  RayOptions o = interpolated(2, 16, {-10, 1e-4});
+  o.leastForPatches = 64;
+  std::string boxes =
+      "void light l 0 0 3 100 100 100\nl sphere lamp 0 0 4 0 0 0 .05\n"
+      "void trans rough 0 0 7 .8 .8 .8 .1 .1 .6 .4\n";
+  const V3d to = V3d(-.98, .05, .1).normalized();
+  for (int count = 1; count <= 5; ++count) {
+    boxes += boxOf("rough", .2 + .05 * count);
+    Traced nested(boxes, o);
+    int seen = 0;
+    const RayObserver counting = [&](const RayEnd&, const RayResult&) { ++seen; };
+    PathRequest request;
+    request.observer = &counting;
+    nested.tracerWith({}, {FirstBounce::fromPatches, true, true}).trace(V3d(1, 0, 0), to, 0, 1, request);
+    // Shadow rays through a box are shown as well, one for each hit.
+    EXPECT_LT(seen, 2 * (1 + count) * tuning::RayLimits::kMostDescendants * 16) << count;
+    const CoarseSolution::Work work = nested.transport().caches().coarse->work();
+    ASSERT_GT(work.patches, 10U) << count;
+    const double ofRay = static_cast<double>(work.rays) / static_cast<double>(work.patches) /
+                         tuning::CoarseSolution::kLeastRaysByLamps;
+    EXPECT_LT(ofRay, 2.5 * tuning::RayLimits::kMostOfPatch) << count;
+  }
 }
 
 // A glimpse, which looks for openings, splits at every pane in a row. Without a bound, those of ten panes
