@@ -271,11 +271,11 @@ bool hasSubfeatures(std::string_view feature, std::string_view wanted) {
 
 }  // namespace
 
-std::string defaultsText(const Options& options) {
+std::string defaultsText(const Options& options, bool (*takes)(const OptionEntry&)) {
   Options values = options;
   std::string text;
   for (const OptionEntry& entry : optionTable())
-    if (const std::string line = lineOf(entry, values); !line.empty())
+    if (const std::string line = lineOf(entry, values); !line.empty() && (!takes || takes(entry)))
       text += fmt::format("{}# {}\n", line, remarkOf(entry, options));
   return text;
 }
@@ -341,7 +341,7 @@ std::string companionHelp(const Companion& companion, Options& options) {
 }
 
 std::string companionDefaults(const Companion& companion, Options& options) {
-  std::string text = defaultsText(options);
+  std::string text = defaultsText(options, companion.takes);
   for (const OptionEntry& entry : companion.own) {
     if (const std::string line = lineOf(entry, options); !line.empty()) {
       const auto* value = std::get_if<SwitchValue>(&entry.value);
