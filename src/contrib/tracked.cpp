@@ -36,16 +36,17 @@ int Tracked::components() const {
 // Whether the surface of a ray is what the ray brings light from. A source that is not black looks black to
 // rays whose light next-event estimation brings instead, and to shadow rays that are aimed at another. An
 // illum shows its own light to shadow rays alone; others bring the light of what they find in its place. As
-// in RADIANCE, a coefficient includes paths to the dark back of a source, whose value is 0.
+// in RADIANCE, coefficients include paths through an illum, and to the dark back of a source.
 bool Tracked::counts(const RayEnd& end, const RayResult& result) const {
   const LightId aimedAt = end.ray.aimedAt;
   if (aimedAt != kNone && prepared_.lights().all()[aimedAt].surface != end.hit.surface) return false;
   const Scene& scene = prepared_.scene();
   const Surface& surface = scene.surfaces[end.hit.surface];
+  const bool fromBehind = aimedAt == kNone && end.hit.cosine < 0;
   if (const Material* material = scene.materialOf(surface);
       aimedAt == kNone && material && std::holds_alternative<Illum>(*material))
-    return false;
-  const bool fromBehind = aimedAt == kNone && end.hit.cosine < 0;
+    return what_ == Contributed::coefficients &&
+           (fromBehind || !(end.context.kinds & (kAmbient | kSpecular)));
   return fromBehind || !isBlack(result.value) || isBlack(sourceRadiance(scene, surface));
 }
 

@@ -93,7 +93,7 @@ TEST(Tracked, SumLacksWhatTheObserverIsNotShown) {
   EXPECT_LT(sumOf(list).x, .9 * answer.x);
 }
 
-// A floor and a wall in the open, under a sky and a lamp.
+// A floor in the open, under a sky and a lamp.
 const std::string kPlain =
     "void plastic white 0 0 5 .6 .5 .4 0 0\nvoid glow sky 0 0 4 1 1 1 0\nsky source heaven 0 0 4 0 0 1 360\n"
     "void light lamp 0 0 3 5 4 3\nlamp sphere bulb 0 0 4 2 2 9 .1\n"
@@ -127,6 +127,21 @@ TEST(Tracked, BackOfASourceHasACoefficientAndNoValue) {
                 what == Contributed::values ? Color(0, 0, 0) : Color(1, 1, 1), 0);
     expectEqual(sumOf(tracer.trace(V3d(0, 0, 0), V3d(0, 0, 1), 0, 1)),
                 what == Contributed::values ? Color(5, 4, 3) : Color(1, 1, 1), 0);
+  }
+}
+
+// As in RADIANCE, a coefficient of an illum includes a view through it; its value is its own light alone.
+TEST(Tracked, IllumSeenThroughHasACoefficientAndNoValue) {
+  Traced room(
+      "void illum sheet 0 0 3 1 2 3\nsheet ring disk 0 0 8 0 0 1 0 0 -1 0 1\n"
+      "void glow sky 0 0 4 1 1 1 0\nsky source heaven 0 0 4 0 0 1 360\n",
+      rayOptions(0));
+  for (const Contributed what : {Contributed::coefficients, Contributed::values}) {
+    const Tracked all(room.prepared(), tracked({"sheet"}), what);
+    ContributionTracer tracer(room.transport().pathTracer(), all);
+    for (const double side : {-1., 1.})
+      expectEqual(sumOf(tracer.trace(V3d(0, 0, 1 - side), V3d(0, 0, side), 0, 1)),
+                  what == Contributed::values ? Color(0, 0, 0) : Color(1, 1, 1), 0);
   }
 }
 
