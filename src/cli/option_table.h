@@ -117,6 +117,7 @@ struct Companion {
   void (*defaults)(Options&) = nullptr;
   // Which of rsphere's options it takes. Null: all.
   bool (*takes)(const OptionEntry&) = nullptr;
+  std::span<const std::string_view> features{};  // what -features lists; empty: those of rtrace
 };
 
 // An option on a command line, and its words, of which the first is the option itself.
@@ -142,11 +143,13 @@ std::string defaultsText(const Options& options, bool (*takes)(const OptionEntry
 // The text of -help: one line for every option.
 std::string helpText(const Options& options);
 
-// The text of -features for the words after it, and the first of them that this program lacks.
+// The text of -features for the words after it, and the first of them that this program lacks. features: as
+// Companion::features.
 struct FeatureReport {
   std::string text, missing;
 };
-FeatureReport featureReport(std::span<const std::string> wanted);
+FeatureReport featureReport(std::span<const std::string> wanted,
+                            std::span<const std::string_view> features = {});
 
 // The options as a part of man/rsphere.1, in man(7) macros.
 std::string manualText();

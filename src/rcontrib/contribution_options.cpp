@@ -149,7 +149,38 @@ void addOutputs(const Add& add) {
            "of an uninterrupted run. Not with text, nor with -c 0."});
 }
 
-// A defaultless option of sphere mode, of trees or of the output of rtrace is not one of rcontrib.
+// In the words of RADIANCE's rcontrib.
+constexpr std::string_view kFeatures[] = {
+    "VirtualSources",
+    "SecondarySources",
+    "SourceSubsampling",
+    "SourceVisibility",
+    "AmbientModifierSelection",
+    "PathTracing",
+    "RussianRoulette",
+    "SpecularSampling",
+    "MaterialMixtures",
+    "Antimatter",
+    "BackFaceVisibility",
+    "ScatteringModels=WGMD,Ashikhmin-Shirley",
+    "TabulatedBSDFs=DataFile,KlemsXML,TensorTreeXML,+ViewPeakExtraction",
+    "Instancing=Octree,TriangleMesh",
+    "Aliases",
+    "Hyperspectral",
+    "ShadowCache",
+    "Multiprocessing",
+    "Accumulation",
+    "Summation",
+    "Recovery",
+    "ImmediateIrradiance",
+    "ProgressReporting",
+    "DistanceLimiting",
+    "InputFormats=a,f,d",
+    "OutputFormats=a,f,d,c",
+    "Outputs=V,W",
+    "OutputCS=RGB,spec"};
+
+// Options of sphere mode, of ray trees and of the contents of a record are none of rcontrib.
 bool takes(const OptionEntry& entry) {
   if (entry.name == "-Sr" || entry.name == "-Sc" || entry.name == "-cs" || entry.name == "-cw") return true;
   const bool refused = entry.group == Group::sphere || entry.group == Group::trees ||
@@ -240,7 +271,8 @@ const Companion& contributionCompanion() {
                                    .sphereMode = false,
                                    .name = "rcontrib",
                                    .defaults = setDefaults,
-                                   .takes = takes};
+                                   .takes = takes,
+                                   .features = kFeatures};
   return companion;
 }
 
