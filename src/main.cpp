@@ -17,6 +17,7 @@
 #include "cli/option_table.h"
 #include "cli/print_request.h"
 #include "cli/program.h"
+#include "rcontrib/contribution_run.h"
 
 namespace rsphere {
 namespace {
@@ -69,6 +70,18 @@ void answer(const Options& options, const Messages& messages, StopSignals& signa
              end);
 }
 
+// Called by the name rcontrib.
+int contributions(int argc, char** argv) {
+  limitMemory();
+  ContributionOptions options;
+  return runCompanion(contributionCompanion(), argc, argv, options,
+                      [&](std::span<const UsedOption>, const Messages& messages, StopSignals& signals) {
+                        finish(options);
+                        runContributions(options, messages, signals);
+                        return 0;
+                      });
+}
+
 }  // namespace
 }  // namespace rsphere
 
@@ -76,6 +89,7 @@ int main(int argc, char** argv) {
   using namespace rsphere;
   const std::string called = argc > 0 ? argv[0] : "rsphere";
   const std::string program = called.substr(called.rfind('/') + 1);
+  if (program == "rcontrib") return contributions(argc, argv);
   Messages messages(program);
   return exitStatus(messages, [&] {
     limitMemory();

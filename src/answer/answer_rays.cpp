@@ -23,9 +23,11 @@ AnswerRecord answerRays(const Transport& transport, const AnswerOptions& options
                         const rad::Warn& warn) {
   const auto tracers = std::make_shared<std::vector<PathTracer>>(rayTracers(transport, options));
   const bool trees = !options.treeOutputs.empty(), value = trees || needsValue(options.outputs);
+  const ShownShadows shadows = options.treeShadows ? ShownShadows::all : ShownShadows::thatPassSurfaces;
   const bool valueAlone = options.outputs == "v";
   if (value && lacksSources(transport.prepared())) warn("no light sources found");
-  return [&, tracers, trees, value, valueAlone](const Record& record, unsigned worker, std::string& bytes) {
+  return [&, tracers, trees, value, valueAlone, shadows](const Record& record, unsigned worker,
+                                                         std::string& bytes) {
     const InputRay in = inputRay(record.numbers.data(), options.irradiance);
     if (record.bogus) return writer.write(bytes, bogusAnswer(in), record.index);
     PathTracer& tracer = (*tracers)[worker];
@@ -33,7 +35,7 @@ AnswerRecord answerRays(const Transport& transport, const AnswerOptions& options
       writer.writeBranch(bytes, branchAnswer(transport.prepared(), end, result), end.context.depth);
     };
     const RayObserver observer = trees ? RayObserver(writeBranch) : RayObserver();
-    const PathRequest request{nullptr, trees ? &observer : nullptr, options.treeShadows};
+    const PathRequest request{nullptr, trees ? &observer : nullptr, shadows};
     const double farthest = options.limitDistance ? in.length : 0;
     const uint64_t seed = seedOfRay(record.numbers, record.index, options);
     const TracedRay ray = value ? tracer.trace(in.origin, in.direction, farthest, seed, request)

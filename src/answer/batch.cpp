@@ -144,7 +144,7 @@ class Event {
 // signal. Lock order: input_, output_, that of InWork.
 class Batch {
  public:
-  Batch(RecordReader& reader, RecordWriter& writer, const AnswerOptions& options, const Messages& messages,
+  Batch(RecordReader& reader, RecordSink& writer, const AnswerOptions& options, const Messages& messages,
         const StopSignals* signals, const AnswerRecord& answer, const RunEnd& end)
       : reader_(reader),
         writer_(writer),
@@ -191,7 +191,7 @@ class Batch {
   bool isBogus(const double* record) const { return perRecord_ == 6 && hasNoDirection({record, 6}); }
 
   RecordReader& reader_;
-  RecordWriter& writer_;
+  RecordSink& writer_;
   const AnswerOptions& options_;
   const Messages& messages_;
   const StopSignals* signals_;
@@ -250,7 +250,10 @@ std::exception_ptr Batch::conclude() {
   if (error_) return error_;
   if (signals_ != nullptr && signals_->raised())
     return std::make_exception_ptr(rad::Error(signals_->name(), rad::Status::signal));
-  if (remaining_ != kNoLimit && remaining_ > 0) messages_.warning("unexpected EOF on input");
+  if (remaining_ == kNoLimit || remaining_ == 0) return nullptr;
+  constexpr std::string_view kShort = "unexpected EOF on input";
+  if (end_.shortInputIsFault) return std::make_exception_ptr(rad::Error(kShort));
+  messages_.warning(kShort);
   return nullptr;
 }
 
@@ -554,7 +557,7 @@ void Batch::stop(std::exception_ptr error) {
 
 }  // namespace
 
-void runRecords(RecordReader& reader, RecordWriter& writer, const AnswerOptions& options,
+void runRecords(RecordReader& reader, RecordSink& writer, const AnswerOptions& options,
                 const Messages& messages, StopSignals* signals, const AnswerRecord& answer,
                 const RunEnd& end) {
   if (signals != nullptr) signals->defer(true);

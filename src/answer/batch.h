@@ -35,6 +35,8 @@ struct RunEnd {
   // signal or a closed output ends the run and a record is still in work after .1 s: no thread can be stopped
   // within a record, and the threads use what the caller holds. If it is empty, the run ends with the record.
   std::function<void(const std::exception_ptr& fault)> leave;
+  // Whether it is a fault, and not only worth a warning, that the input ends before -y scanlines.
+  bool shortInputIsFault = false;
 };
 
 // Reads records to the end of the input (or of the -y'th scanline of -x records), calls `answer` for each on
@@ -54,7 +56,7 @@ struct RunEnd {
 // - Writes a progress report to `messages` about every -t seconds.
 // Throws what reader, writer and answer throw, and rad::Error (Status::system) if no thread can be
 // started. `signals` may be null.
-void runRecords(RecordReader& reader, RecordWriter& writer, const AnswerOptions& options,
+void runRecords(RecordReader& reader, RecordSink& writer, const AnswerOptions& options,
                 const Messages& messages, StopSignals* signals, const AnswerRecord& answer,
                 const RunEnd& end = {});
 

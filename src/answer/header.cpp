@@ -49,9 +49,9 @@ std::string_view formatName(NumberFormat format, const ColorOptions& color) {
 std::string versionLine() { return fmt::format("rsphere {}", kVersion); }
 
 std::string versionAnswer(std::string_view program) {
-  if (program != "rtrace") return versionLine();
-  return fmt::format("matches {0}: this is {1}, compatible with rtrace of RADIANCE {0}", kRadianceVersion,
-                     versionLine());
+  if (program != "rtrace" && program != "rcontrib") return versionLine();
+  return fmt::format("matches {0}: this is {1}, compatible with {2} of RADIANCE {0}", kRadianceVersion,
+                     versionLine(), program);
 }
 
 std::string commandLine(const AnswerOptions& options, bool withScene) {
@@ -71,16 +71,16 @@ std::string provenance(const AnswerOptions& options, std::span<const std::string
 }
 
 void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<const std::string> sceneHeader,
-                 std::time_t now) {
+                 std::time_t now, const RecordLayout& layout) {
   std::string text;
   if (options.header) {
     text += provenance(options, sceneHeader);
     std::tm date{};
     if (localtime_r(&now, &date) != nullptr) text += fmt::format("CAPDATE= {}\n", dateText(date));
     if (gmtime_r(&now, &date) != nullptr) text += fmt::format("GMT= {}\n", dateText(date));
-    if (options.treeOutputs.empty() && !options.outputs.empty())
-      text += fmt::format("NCOMP={}\n", componentCount(options));
+    if (layout.components > 0) text += fmt::format("NCOMP={}\n", layout.components);
     text += OutputColors(options.color).headerLines();
+    text += layout.lines;
     size_t alignment = 1;
     if (options.out == NumberFormat::float32) alignment = sizeof(float);
     if (options.out == NumberFormat::float64) alignment = sizeof(double);
@@ -94,6 +94,12 @@ void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<c
   if (options.width > 0 && options.height > 0)
     text += fmt::format("-Y {:8} +X {:8}\n", options.height, options.width);
   writer.write(text);
+}
+
+void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<const std::string> sceneHeader,
+                 std::time_t now) {
+  const bool counts = options.treeOutputs.empty() && !options.outputs.empty();
+  writeHeader(writer, options, sceneHeader, now, {counts ? componentCount(options) : 0});
 }
 
 }  // namespace rsphere

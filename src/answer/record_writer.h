@@ -14,20 +14,31 @@ class ClosedPipe : public rad::Error {
   ClosedPipe() : rad::Error("Broken pipe", rad::Status::signal) {}
 };
 
+// Where the answers of a run go, in the order of the records.
+class RecordSink {
+ public:
+  virtual ~RecordSink() = default;
+  // Gets the answers to any number of records, whole.
+  virtual void write(std::string_view bytes) = 0;
+  // What was given before must arrive.
+  virtual void flush() = 0;
+  // Keeps all bytes until flush(), regardless of their number. This is for a program that writes a group of
+  // records before it reads the answers: earlier writes would block both programs.
+  virtual void holdUntilFlush(bool hold) = 0;
+};
+
 // Collects bytes and writes them to a file descriptor in blocks of 64 KiB, or only at flush().
-class RecordWriter {
+class RecordWriter final : public RecordSink {
  public:
   // The caller keeps the descriptor open, and closes it. The destructor discards bytes that were not flushed.
   explicit RecordWriter(int fd) : fd_(fd) {}
 
-  // Keeps all bytes until flush(), regardless of their number. This is for a program that writes a group of
-  // records before it reads the answers: earlier writes would block both programs.
-  void holdUntilFlush(bool hold) { hold_ = hold; }
+  void holdUntilFlush(bool hold) override { hold_ = hold; }
 
   // Both throw ClosedPipe if the reader has closed its end (SIGPIPE must be ignored), and rad::Error with
   // Status::system if write(2) fails otherwise, as on a full disk.
-  void write(std::string_view bytes);
-  void flush();
+  void write(std::string_view bytes) override;
+  void flush() override;
 
   // The offset of the next byte in the file; empty if the output cannot seek.
   std::optional<int64_t> position() const;

@@ -1,11 +1,11 @@
-# Completion for bash of rsphere and its companions, and of rtrace where that is rsphere's: their options as -help lists
-# them, which comes from the table that the program reads them by; and files. It is installed under each of the names.
+# Completion for bash of rsphere and its companions, and of rtrace and rcontrib where they are rsphere's: their options as
+# -help lists them, which comes from the table that the program reads them by; and files. It is installed under each name.
 _rsphere() {
   local word=${COMP_WORDS[COMP_CWORD]} program
   COMPREPLY=()
   program=$(type -P "${1/#\~\//${HOME-}/}") || return
-  # Another rtrace is neither run nor known; bash completes files for it, as it does without this function.
-  [[ ${program##*/} != rtrace || $(readlink -f "$program") == */rsphere ]] || return
+  # Another one is neither run nor known; bash completes files for it, as it does without this function.
+  [[ ${program##*/} != r[tc]* || $(readlink -f "$program") == */rsphere ]] || return
   if [[ $word == -* ]]; then
     mapfile -t COMPREPLY < <(compgen -W "-version -help -defaults $("$program" -help 2>/dev/null |
       sed -n 's/^ *\(-[A-Za-z][A-Za-z]*\).*/\1/p')" -- "$word")
@@ -14,4 +14,4 @@ _rsphere() {
     compopt -o filenames 2>/dev/null
   fi
 }
-complete -o bashdefault -o default -F _rsphere rsphere rsphere-compare rsphere-trade rtrace
+complete -o bashdefault -o default -F _rsphere rsphere rsphere-compare rsphere-trade rtrace rcontrib

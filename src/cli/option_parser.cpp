@@ -94,17 +94,19 @@ class Words {
 bool startsWith(std::string_view text, std::string_view head) { return text.substr(0, head.size()) == head; }
 
 // The option that a word names: the whole word, or else a switch with its state, or else a name with its
-// value glued to it. Null if there is none.
-const OptionEntry* findOption(std::span<const OptionEntry> table, std::string_view word) {
+// value glued to it. Null if there is none. takes: Companion::takes.
+const OptionEntry* findOption(std::span<const OptionEntry> table, std::string_view word,
+                              bool (*takes)(const OptionEntry&) = nullptr) {
+  const auto isTaken = [&](const OptionEntry& entry) { return !takes || takes(entry); };
   for (const OptionEntry& entry : table)
-    if (!entry.glued && entry.name == word) return &entry;
+    if (!entry.glued && entry.name == word && isTaken(entry)) return &entry;
   for (const OptionEntry& entry : table)
     if (std::holds_alternative<SwitchValue>(entry.value) && startsWith(word, entry.name) &&
-        switched(word.substr(entry.name.size()), false))
+        switched(word.substr(entry.name.size()), false) && isTaken(entry))
       return &entry;
   const OptionEntry* found = nullptr;
   for (const OptionEntry& entry : table)
-    if ((entry.glued || entry.alsoGlued) && startsWith(word, entry.name) &&
+    if ((entry.glued || entry.alsoGlued) && startsWith(word, entry.name) && isTaken(entry) &&
         (found == nullptr || found->name.size() < entry.name.size()))
       found = &entry;
   return found;
@@ -190,16 +192,23 @@ std::string colorOutputs() {
   return fmt::format("; the colors of the output are {}; -pY is luminance, or illuminance in lux", names);
 }
 
+// The option of a companion, or the one of rsphere that the companion takes, that a word names.
+const OptionEntry* findOption(const Companion& companion, std::string_view word) {
+  const OptionEntry* entry = findOption(companion.own, word);
+  return entry ? entry : findOption(optionTable(), word, companion.takes);
+}
+
 // The reason why a word that begins with a hyphen names no option.
-std::string whyUnknown(std::span<const OptionEntry> own, std::string_view word) {
-  if (startsWith(word, "--") &&
-      (findOption(own, word.substr(1)) != nullptr || findOption(optionTable(), word.substr(1)) != nullptr))
+std::string whyUnknown(const Companion& companion, std::string_view word) {
+  if (startsWith(word, "--") && findOption(companion, word.substr(1)) != nullptr)
     return fmt::format("options begin with one hyphen: {}", word.substr(1));
-  if (startsWith(word, "-p")) return "there is no such option" + colorOutputs();
+  if (startsWith(word, "-p") && findOption(companion, "-pY") != nullptr)
+    return "there is no such option" + colorOutputs();
   rad::NearestName nearest(word);
-  for (const std::span<const OptionEntry> table : {own, optionTable()})
-    for (const OptionEntry& entry : table)
-      if (entry.support != Support::refused) nearest.consider(entry.name);
+  for (const OptionEntry& entry : companion.own) nearest.consider(entry.name);
+  for (const OptionEntry& entry : optionTable())
+    if (entry.support != Support::refused && (!companion.takes || companion.takes(entry)))
+      nearest.consider(entry.name);
   return "there is no such option" + nearest.hint();
 }
 
@@ -377,9 +386,8 @@ struct Given {
 
 // Takes the option that `word` names, with the words after it.
 Use takeUse(Words& words, const Companion& companion, const std::string& word) {
-  const OptionEntry* entry = findOption(companion.own, word);
-  if (entry == nullptr) entry = findOption(optionTable(), word);
-  if (entry == nullptr) commandLineError(word, whyUnknown(companion.own, word));
+  const OptionEntry* entry = findOption(companion, word);
+  if (entry == nullptr) commandLineError(word, whyUnknown(companion, word));
   Use use{entry, word.substr(entry->name.size()), {}};
   if (entry->alsoGlued && !use.rest.empty()) use.words.push_back(use.rest);
   while (use.words.size() < static_cast<size_t>(arity(*entry))) {
@@ -450,6 +458,7 @@ std::vector<Use> parse(std::span<const std::string> commandLine, const Companion
   }
   Given given = takeOptions(words, companion, companion.sphereMode && program != "rtrace");
   options = modeDefaults(given.sphereMode);
+  if (companion.defaults) companion.defaults(options);
   options.program = program;
   options.request = given.request;
   options.words.assign(words.before().begin(), words.before().end());

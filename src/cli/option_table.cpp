@@ -4,18 +4,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <functional>
-#include <iomanip>
 #include <iterator>
 
 #include "answer/output_colors.h"
 #include "cli/option_words.h"
+#include "cli/word_file.h"
 #include "rad_parser/error.h"
-#include "rad_parser/file_path.h"
 #include "rad_parser/number.h"
 
 namespace rsphere {
@@ -26,31 +22,6 @@ constexpr double kLargestInt = std::numeric_limits<int>::max();
 constexpr Range kNotNegative{0, kInfinity};
 constexpr Range kFraction{0, 1};
 constexpr Range kCount{0, kLargestInt};
-constexpr int kLongestModifier = 65536;  // bytes, as in scene text
-constexpr size_t kMostModifiers = 1000000;
-
-// The words of a file that the command line names. As in rtrace, it is searched for along RAYPATH.
-std::vector<std::string> modifierFile(const OptionEntry& entry, const std::string& name) {
-  const auto what = [&] {
-    return fmt::format("{} {} file \"{}\"", entry.name[1] == 'a' ? "ambient" : "trace",
-                       entry.name[2] == 'E' ? "exclude" : "include", name);
-  };
-  const auto path = rad::findFile(name, rad::libraryPath());
-  errno = path ? 0 : ENOENT;
-  std::ifstream file(path.value_or(name));
-  std::vector<std::string> words;
-  for (std::string word; path && file >> std::setw(kLongestModifier + 1) >> word;) {
-    words.push_back(word);
-    // An endless device exceeds these limits.
-    if (words.size() > kMostModifiers || word.size() > size_t{kLongestModifier})
-      throw rad::Error(
-          fmt::format("{} has {}", what(),
-                      word.size() > kLongestModifier ? "a word that is too long" : "too many words"));
-  }
-  if (errno != 0 && (!path || !file.is_open() || file.bad()))
-    throw rad::Error(fmt::format("cannot open {}: {}", what(), std::strerror(errno)), rad::Status::system);
-  return words;
-}
 
 // -ae and -aE name modifiers without indirect light; -ai and -aI name the only modifiers with it. -te and so
 // on do the same for ray trees. An option of one kind discards the names of the other kind before it.
@@ -64,7 +35,8 @@ void setModifiers(Options& options, const OptionEntry& entry, std::span<const st
   if (entry.name[2] == 'e' || entry.name[2] == 'i') {
     list.push_back(words[0]);
   } else {
-    const auto more = modifierFile(entry, words[0]);
+    const auto more = wordsOfFile(
+        fmt::format("{} {} file", ambient ? "ambient" : "trace", exclude ? "exclude" : "include"), words[0]);
     list.insert(list.end(), more.begin(), more.end());
   }
 }

@@ -113,6 +113,11 @@ struct Companion {
   bool sphereMode = true;    // the mode without -S
   std::string_view name{};   // begins its messages
   int faultStatus = 0;       // exit status of every fault but a signal; 0: as rtrace(1) gives it
+  // Changes the defaults of the mode. Null: they are the companion's.
+  void (*defaults)(Options&) = nullptr;
+  // Which of rsphere's options it takes. Null: all.
+  bool (*takes)(const OptionEntry&) = nullptr;
+  std::span<const std::string_view> features{};  // what -features lists; empty: those of rtrace
 };
 
 // An option on a command line, and its words, of which the first is the option itself.
@@ -132,17 +137,19 @@ std::string companionDefaults(const Companion& companion, Options& options);
 std::string companionManual(const Companion& companion, Options& defaults);
 
 // The text of -defaults: every option with its present value, in option syntax. Without the remarks, which
-// begin with '#', it can be read back by @file.
-std::string defaultsText(const Options& options);
+// begin with '#', it can be read back by @file. takes: Companion::takes.
+std::string defaultsText(const Options& options, bool (*takes)(const OptionEntry&) = nullptr);
 
 // The text of -help: one line for every option.
 std::string helpText(const Options& options);
 
-// The text of -features for the words after it, and the first of them that this program lacks.
+// The text of -features for the words after it, and the first of them that this program lacks. features: as
+// Companion::features.
 struct FeatureReport {
   std::string text, missing;
 };
-FeatureReport featureReport(std::span<const std::string> wanted);
+FeatureReport featureReport(std::span<const std::string> wanted,
+                            std::span<const std::string_view> features = {});
 
 // The options as a part of man/rsphere.1, in man(7) macros.
 std::string manualText();

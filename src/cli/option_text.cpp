@@ -271,11 +271,11 @@ bool hasSubfeatures(std::string_view feature, std::string_view wanted) {
 
 }  // namespace
 
-std::string defaultsText(const Options& options) {
+std::string defaultsText(const Options& options, bool (*takes)(const OptionEntry&)) {
   Options values = options;
   std::string text;
   for (const OptionEntry& entry : optionTable())
-    if (const std::string line = lineOf(entry, values); !line.empty())
+    if (const std::string line = lineOf(entry, values); !line.empty() && (!takes || takes(entry)))
       text += fmt::format("{}# {}\n", line, remarkOf(entry, options));
   return text;
 }
@@ -298,16 +298,17 @@ std::string helpText(const Options& options) {
                      "rsphere");
 }
 
-FeatureReport featureReport(std::span<const std::string> wanted) {
+FeatureReport featureReport(std::span<const std::string> wanted, std::span<const std::string_view> features) {
+  if (features.empty()) features = kFeatures;
   FeatureReport report;
   if (wanted.empty())
-    for (const std::string_view feature : kFeatures) report.text += fmt::format("{}\n", feature);
+    for (const std::string_view feature : features) report.text += fmt::format("{}\n", feature);
   for (const std::string& want : wanted) {
     if (want.empty()) continue;
     const size_t equals = want.find('=');
     const std::string_view name = std::string_view(want).substr(0, equals);
     std::string_view found;
-    for (const std::string_view feature : kFeatures)
+    for (const std::string_view feature : features)
       if (feature.substr(0, feature.find('=')) == name) found = feature;
     const bool has = !found.empty() && (equals == std::string::npos ||
                                         hasSubfeatures(found, std::string_view(want).substr(equals + 1)));
@@ -341,7 +342,7 @@ std::string companionHelp(const Companion& companion, Options& options) {
 }
 
 std::string companionDefaults(const Companion& companion, Options& options) {
-  std::string text = defaultsText(options);
+  std::string text = defaultsText(options, companion.takes);
   for (const OptionEntry& entry : companion.own) {
     if (const std::string line = lineOf(entry, options); !line.empty()) {
       const auto* value = std::get_if<SwitchValue>(&entry.value);

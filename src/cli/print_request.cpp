@@ -6,13 +6,15 @@
 
 namespace rsphere {
 
-int printRequest(const Options& options, const Messages& messages) {
+namespace {
+
+int print(const Options& options, std::span<const std::string_view> features, const Messages& messages) {
   RecordWriter writer(1);
   if (options.request == Request::version) writer.write(versionAnswer(options.program) + "\n");
   if (options.request == Request::defaults) writer.write(defaultsText(options));
   if (options.request == Request::help) writer.write(helpText(options));
   if (options.request == Request::features) {
-    const FeatureReport report = featureReport(options.features);
+    const FeatureReport report = featureReport(options.features, features);
     writer.write(report.text);
     if (!report.missing.empty()) {
       writer.flush();
@@ -24,6 +26,10 @@ int printRequest(const Options& options, const Messages& messages) {
   return 0;
 }
 
+}  // namespace
+
+int printRequest(const Options& options, const Messages& messages) { return print(options, {}, messages); }
+
 int printRequest(const Companion& companion, Options& options, const Messages& messages) {
   RecordWriter writer(1);
   if (options.request == Request::defaults)
@@ -31,7 +37,7 @@ int printRequest(const Companion& companion, Options& options, const Messages& m
   else if (options.request == Request::help)
     writer.write(companionHelp(companion, options));
   else
-    return printRequest(options, messages);
+    return print(options, companion.features, messages);
   writer.flush();
   return 0;
 }

@@ -12,6 +12,7 @@
 #include "rad_parser/file_path.h"
 #include "rad_parser/open_file.h"
 #include "rad_parser/printable.h"
+#include "shade/function_file.h"
 
 namespace rsphere {
 namespace {
@@ -41,16 +42,6 @@ bool isFolder(const std::string& path, const rad::FileAccess& access) {
 
 std::string folderProblem(std::string_view name, std::string_view kind) {
   return fmt::format("\"{}\" is a folder, expected a {} file", rad::printableName(name), kind);
-}
-
-std::optional<calc::SourceText> loadFunctionFile(std::string_view name, const rad::FileAccess& access) {
-  const auto path = rad::findFile(name, rad::libraryPath(), {}, access);
-  if (isFolder(path.value_or(std::string(name)), access))
-    throw rad::Error(folderProblem(name, "function"), rad::Status::system);
-  if (!path) return std::nullopt;
-  auto text = readFile(*path);
-  if (!text) return std::nullopt;
-  return calc::SourceText{*path, std::move(*text)};
 }
 
 // Coordinates that are not numbers are a fault; data are 0 infinitely far away.
@@ -478,6 +469,16 @@ class SurfaceFunctions::Maker {
   PrimitiveArguments arguments_;
   uint64_t available_ = calc::kPointInputs;
 };
+
+std::optional<calc::SourceText> loadFunctionFile(std::string_view name, const rad::FileAccess& access) {
+  const auto path = rad::findFile(name, rad::libraryPath(), {}, access);
+  if (isFolder(path.value_or(std::string(name)), access))
+    throw rad::Error(folderProblem(name, "function"), rad::Status::system);
+  if (!path) return std::nullopt;
+  auto text = readFile(*path);
+  if (!text) return std::nullopt;
+  return calc::SourceText{*path, std::move(*text)};
+}
 
 SurfaceFunctions::SurfaceFunctions(const Scene& scene, const SpectralSampling* sampling, rad::Warn warn,
                                    std::span<const SharedDefinitions> definitions,

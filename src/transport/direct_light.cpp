@@ -27,6 +27,12 @@ constexpr uint32_t kFew = 24;
 constexpr int kSourceKinds = 3;
 int kindOf(const LightSource& light) { return light.isVirtual() ? 2 : light.isDistant() ? 1 : 0; }
 
+// The kind of a shadow ray that leaves a surface in a direction (unit).
+RayKind kindOfShadow(const SurfaceHit& hit, const V3d& direction) {
+  const bool through = (hit.cosine > 0) != (hit.normal.dot(direction) > 0);
+  return through ? kTransmittedShadow : kReflectedShadow;
+}
+
 // The number of sources that were tested for shadows, and of those that are visible.
 struct Tests {
   int tested = 0, visible = 0;
@@ -97,29 +103,53 @@ bool DirectLight::arrives(Receiver at, Contribution& to, Radiance& value) {
                                                                    sample.distance)
                  ? Shadow::blocked
                  : Shadow::unsure;
-  const bool follow = shadow == Shadow::unsure || (shadow == Shadow::clear && light.isVirtual());
+  const ShownShadows shown = state_.request.shadows;
+  const bool follow =
+      shadow == Shadow::unsure ||
+      (shadow == Shadow::clear &&
+       (light.isVirtual() || (shown == ShownShadows::thatArrive && isMedium(at.end.medium().extinction))));
   if (follow && !scratch_.ofLobe.empty())
     to.coefficient += scratch_.ofLobe[static_cast<size_t>(&to - scratch_.contributions.data())];
-  if (follow || state_.request.allShadowRays)
+  if (follow || shown == ShownShadows::all)
     value = valueFromSource(at, to);  // even if blocked when all shadow rays are shown to the observer
   if (shadow == Shadow::blocked || (!follow && isLeftOut(at, sample.source))) return false;
   if (!follow) value = to.value;
+  if (!follow && shown == ShownShadows::thatArrive) show(at, to);
   return !follow || maxChannel(value) > kNegligible;
 }
 
-// The radiance that arrives along a shadow ray through surfaces that may transmit light.
-Radiance DirectLight::valueFromSource(Receiver at, const Contribution& to) {
-  const V3d& direction = to.sample->direction;
-  const SurfaceHit& hit = at.end.hit;
-  const bool through = (hit.cosine > 0) != (hit.normal.dot(direction) > 0);
-  NextRay next(at.end, through ? kTransmittedShadow : kReflectedShadow, Coefficient(1));
-  if (!goesOnAlong(next, t_, state_)) return {};
+// Makes a ray that leaves the receiver the shadow ray of a contribution; false if it is not to be followed.
+bool DirectLight::aim(NextRay& next, Receiver at, const Contribution& to) {
+  if (!goesOnAlong(next, t_, state_)) return false;
   next.context.known = isLeftOut(at, to.sample->source) ? Known::joined : Known::no;
   next.context.contribution *= to.coefficient;
   next.query.origin = at.point;
   next.query.aimedAt = to.sample->source;
-  next.query.direction = direction;
-  return follower_.follow(next.query, next.context).value;
+  next.query.direction = to.sample->direction;
+  return true;
+}
+
+// The radiance that arrives along a shadow ray through surfaces that may transmit light.
+Radiance DirectLight::valueFromSource(Receiver at, const Contribution& to) {
+  NextRay next(at.end, kindOfShadow(at.end.hit, to.sample->direction), Coefficient(1));
+  return aim(next, at, to) ? follower_.follow(next.query, next.context).value : Radiance();
+}
+
+// Shows the observer a shadow ray that reaches its source with nothing in its way.
+void DirectLight::show(Receiver at, const Contribution& to) {
+  const SourceSample& sample = *to.sample;
+  NextRay next(at.end, kindOfShadow(at.end.hit, sample.direction), Coefficient(1));
+  if (!aim(next, at, to)) return;
+  RayEnd end(next.query, next.context);
+  end.hit.surface = t_.lights().all()[sample.source].surface;
+  end.hit.length = sample.distance;
+  end.hit.point = sample.distance < kFarAway ? at.point + sample.distance * sample.direction : at.point;
+  end.hit.normal = sample.normal;
+  end.hit.cosine = sample.cosine;
+  RayResult result;
+  result.value = to.value;
+  result.unmirroredLength = sample.distance;
+  (*state_.request.observer)(end, result);
 }
 
 // count to the power of -dc, from a table, because computing a power takes as long as sampling a source.

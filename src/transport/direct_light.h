@@ -65,7 +65,9 @@ class DirectLight {
   size_t lookAheadOf(size_t count);
   void rankByBrightness(uint32_t count);
   Radiance sourceValue(Receiver at, const SourceSample& sample);
+  bool aim(NextRay& next, Receiver at, const Contribution& to);
   Radiance valueFromSource(Receiver at, const Contribution& to);
+  void show(Receiver at, const Contribution& to);
   uint32_t findContributions(Receiver at, DirectCoefficient coefficientOf, const V3d& front,
                              const PartOfLobe* partOfLobe);
   void addSamples(Receiver at, LightId source, const SourceSampling& how, DirectCoefficient coefficientOf,

@@ -22,6 +22,13 @@ struct ShownSource {
 // hit is not yet in its result.
 using RayObserver = std::function<void(const RayEnd& end, const RayResult& result)>;
 
+// The shadow rays that an observer is shown.
+enum class ShownShadows : uint8_t {
+  thatPassSurfaces,  // those that hit a surface that may transmit light
+  thatArrive,        // these, and those that reach their source with nothing in their way
+  all                // those that are blocked, too
+};
+
 // What differs from path to path. Leaving something out changes the expected radiance; nothing else here
 // does.
 struct PathRequest {
@@ -30,10 +37,9 @@ struct PathRequest {
   // nothing is guessed.
   const LocalGuess* guess = nullptr;
   // Is shown every ray: descendants before their ancestors, and the primary ray last (except under -I, where
-  // it hits nothing). Shadow rays are shown if they hit a surface that may transmit light, or any surface if
-  // allShadowRays. Null: no observer. Changes no answer.
+  // it hits nothing). Null: no observer. Changes no answer.
   const RayObserver* observer = nullptr;
-  bool allShadowRays = false;
+  ShownShadows shadows = ShownShadows::thatPassSurfaces;
   // The surface that the primary ray hits is shown without its indirect light, and without the samples of its
   // rough reflections and transmissions.
   bool leavesOutIndirect = false, leavesOutLobes = false;

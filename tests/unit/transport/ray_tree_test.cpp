@@ -32,7 +32,9 @@ std::vector<Shown> treeOf(Traced& room, const V3d& origin, const V3d& direction,
     tree.push_back({a.surface.text(), end.context.depth, result.value.color, a.contribution.color,
                     (end.context.kinds & kShadow) != 0});
   };
-  room.color(origin, direction, 1, 0, {.observer = &observer, .allShadowRays = shadows});
+  room.color(
+      origin, direction, 1, 0,
+      {.observer = &observer, .shadows = shadows ? ShownShadows::all : ShownShadows::thatPassSurfaces});
   return tree;
 }
 
@@ -105,7 +107,9 @@ TEST(RayTree, ChangesNoAnswer) {
     const Color before = room.color(V3d(0, 0, 1), direction, 5);
     int shown = 0;
     const RayObserver observer = [&](const RayEnd&, const RayResult&) { ++shown; };
-    EXPECT_EQ(room.color(V3d(0, 0, 1), direction, 5, 0, {.observer = &observer, .allShadowRays = i % 2 == 0}),
+    EXPECT_EQ(room.color(V3d(0, 0, 1), direction, 5, 0,
+                         {.observer = &observer,
+                          .shadows = i % 2 == 0 ? ShownShadows::all : ShownShadows::thatPassSurfaces}),
               before);
     EXPECT_GT(shown, 0);
   }

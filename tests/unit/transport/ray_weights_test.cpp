@@ -345,7 +345,7 @@ TEST(RayWeights, WorkBetweenFiveBoxesHasABound) {
     const CoarseSolution::Work work = nested.transport().caches().coarse->work();
     ASSERT_GT(work.patches, 10U) << count;
     const double ofRay = static_cast<double>(work.rays) / static_cast<double>(work.patches) /
-                         tuning::CoarseSolution::kLeastRaysByLamps;
+                         tuning::CoarseSolution::kLeastRays;
     EXPECT_LT(ofRay, 2.5 * tuning::RayLimits::kMostOfPatch) << count;
   }
 }

@@ -1,0 +1,13 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rsphere {
+
+// The words of a file that the command line names, at most a million. As in rtrace, it is searched for along
+// RAYPATH. what: for messages ("cannot open modifier file "x": ..."). Throws rad::Error, with Status::system
+// if the file cannot be read.
+std::vector<std::string> wordsOfFile(std::string_view what, const std::string& name);
+
+}  // namespace rsphere

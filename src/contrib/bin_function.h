@@ -1,0 +1,65 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rad_parser/calc/library.h"
+#include "rad_parser/rayinit/inputs.h"
+#include "shade/shared_definitions.h"
+#include "transport/ray.h"
+
+namespace rsphere {
+
+// What an expression of a bin may use.
+struct BinDefinitions {
+  std::vector<SharedDefinitions> shared;  // -e and -f, in their order
+  std::string parameters;                 // -p: "name=value" between commas, colons or semicolons
+
+  bool operator==(const BinDefinitions& other) const;
+};
+
+// Working memory for the evaluations of one thread.
+struct BinScratch {
+  rad::calc::State state;
+  std::array<double, rad::calc::kInputs> inputs{};
+};
+
+// The number of the bin that a ray belongs to, as a function of where it hits (Px, Py, Pz), of its unit
+// direction (Dx, Dy, Dz) and of the other variables of function files, in the world. Immutable.
+class BinFunction {
+ public:
+  explicit BinFunction(std::shared_ptr<const rad::calc::Program> program) : program_(std::move(program)) {}
+
+  // The value at the end of a ray, to the nearest whole number. Empty if it is not a number. Throws
+  // rad::Error if the expression uses a name that does not exist.
+  std::optional<double> at(const RayEnd& end, BinScratch& scratch) const;
+
+  bool isConstant() const { return program_->isConstant(); }
+  double constant() const;
+
+ private:
+  std::shared_ptr<const rad::calc::Program> program_;
+};
+
+// Compiles expressions. Those with the same definitions share one library.
+class BinFunctions {
+ public:
+  // Throws rad::Error if a definition or the expression is wrong; option: the one that gives the expression.
+  BinFunction compile(std::string_view option, const std::string& expression,
+                      const BinDefinitions& definitions);
+
+ private:
+  rad::calc::Library& libraryOf(const BinDefinitions& definitions);
+
+  struct Entry {
+    BinDefinitions definitions;
+    std::unique_ptr<rad::calc::Library> library;
+  };
+  std::vector<Entry> libraries_;
+};
+
+}  // namespace rsphere

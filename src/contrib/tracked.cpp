@@ -1,0 +1,91 @@
+#include "contrib/tracked.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <unordered_map>
+
+#include "transport/ray_functions.h"
+
+namespace rsphere {
+
+Tracked::Tracked(const PreparedScene& prepared, std::vector<TrackedModifier> modifiers, Contributed what,
+                 rad::Warn warn)
+    : prepared_(prepared),
+      modifiers_(std::move(modifiers)),
+      what_(what),
+      warn_(std::move(warn)),
+      warned_(modifiers_.size()) {
+  std::unordered_map<std::string_view, uint32_t> byName;
+  for (const TrackedModifier& modifier : modifiers_) {
+    byName.emplace(modifier.name, static_cast<uint32_t>(firstColumn_.size()));
+    firstColumn_.push_back(columns_);
+    columns_ += modifier.bins;
+  }
+  for (const Finish& finish : prepared.scene().surfaces.finishes()) {
+    const auto found = byName.find(finish.name);
+    modifierOf_.push_back(found == byName.end() ? kNotTracked : found->second);
+  }
+}
+
+int Tracked::components() const {
+  const SpectralSampling* sampling = prepared_.options().sampling;
+  return sampling ? static_cast<int>(sampling->count()) : 3;
+}
+
+// Whether the surface of a ray is what the ray brings light from. A source that is not black looks black to
+// rays whose light next-event estimation brings instead, and to shadow rays that are aimed at another. An
+// illum shows its own light to shadow rays alone; others bring the light of what they find in its place. As
+// in RADIANCE, coefficients include paths through an illum, and to the dark back of a source.
+bool Tracked::counts(const RayEnd& end, const RayResult& result) const {
+  const LightId aimedAt = end.ray.aimedAt;
+  if (aimedAt != kNone && prepared_.lights().all()[aimedAt].surface != end.hit.surface) return false;
+  const Scene& scene = prepared_.scene();
+  const Surface& surface = scene.surfaces[end.hit.surface];
+  const bool fromBehind = aimedAt == kNone && end.hit.cosine < 0;
+  if (const Material* material = scene.materialOf(surface);
+      aimedAt == kNone && material && std::holds_alternative<Illum>(*material))
+    return what_ == Contributed::coefficients &&
+           (fromBehind || !(end.context.kinds & (kAmbient | kSpecular)));
+  return fromBehind || !isBlack(result.value) || isBlack(sourceRadiance(scene, surface));
+}
+
+std::optional<uint32_t> Tracked::columnOf(size_t modifier, const RayEnd& end, BinScratch& scratch) const {
+  const TrackedModifier& tracked = modifiers_[modifier];
+  if (!tracked.bin) return firstColumn_[modifier];
+  const std::optional<double> bin = tracked.bin->at(end, scratch);
+  if (bin && *bin < 0) return std::nullopt;
+  if (bin && *bin < tracked.bins) return firstColumn_[modifier] + static_cast<uint32_t>(*bin);
+  if (warn_ && !warned_[modifier].exchange(true))
+    warn_(fmt::format("bad bin number ({} ignored): modifier '{}' has bins 0 to {}",
+                      bin ? fmt::format("{:.0f}", *bin) : "not finite", tracked.name, tracked.bins - 1));
+  return std::nullopt;
+}
+
+void Tracked::add(const RayEnd& end, const RayResult& result, BinScratch& scratch,
+                  ContributionList& to) const {
+  if (end.hit.surface == kNone) return;
+  const uint32_t modifier = modifierOf_[prepared_.scene().surfaces.face(end.hit.surface).finish];
+  if (modifier == kNotTracked || !counts(end, result)) return;
+  const std::optional<uint32_t> column = columnOf(modifier, end, scratch);
+  if (!column) return;
+  Coefficient contribution = end.context.contribution * passedBy(end);
+  if (what_ == Contributed::values) contribution.color *= result.value.color;
+  const Color& color = contribution.color;
+  if (const SpectralSampling* sampling = prepared_.options().sampling)
+    return to.add(*column, color.bandsIn(*sampling).values());
+  to.add(*column, std::array{color.x, color.y, color.z});
+}
+
+const ContributionList& ContributionTracer::trace(const V3d& origin, const V3d& direction, double farthest,
+                                                  uint64_t seed) {
+  list_.clear();
+  const RayObserver observer = [this](const RayEnd& end, const RayResult& result) {
+    tracked_.add(end, result, scratch_, list_);
+  };
+  const PathRequest request{.observer = &observer, .shadows = ShownShadows::thatArrive};
+  radiance_ = tracer_.trace(origin, direction, farthest, seed, request).value;
+  return list_;
+}
+
+}  // namespace rsphere

@@ -1,0 +1,81 @@
+#include "rcontrib/contribution_run.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <memory>
+
+#include "answer/answer_rays.h"
+#include "answer/batch.h"
+#include "answer/load_scene.h"
+#include "answer/threads.h"
+#include "cli/program.h"
+#include "contrib/tracked.h"
+#include "rcontrib/contribution_outputs.h"
+#include "rcontrib/record_sums.h"
+#include "transport/prepared_scene.h"
+#include "transport/transport.h"
+
+namespace rsphere {
+namespace {
+
+// -x and -y count records; runRecords() counts rays.
+AnswerOptions pacedByRays(const ContributionOptions& options) {
+  AnswerOptions paced = options;
+  const int64_t rays = options.raysPerRecord;
+  if (rays == 0) {
+    paced.width = paced.height = 0;
+  } else if (options.height > 0) {
+    paced.width = std::max<int64_t>(options.width, 1);
+    paced.height = options.height * rays;
+  } else {
+    paced.width = options.width * rays;
+  }
+  return paced;
+}
+
+// traced: the index of the first ray that is traced; those before it were answered by an earlier run.
+AnswerRecord answerContributions(std::vector<ContributionTracer>& tracers, const ContributionOptions& options,
+                                 uint64_t traced) {
+  return [&tracers, &options, traced](const Record& record, unsigned worker, std::string& bytes) {
+    if (record.bogus || record.index < traced)
+      return appendContributions(bytes, ContributionList(tracers[worker].components()));
+    const InputRay in = inputRay(record.numbers.data(), options.irradiance);
+    const double farthest = options.limitDistance ? in.length : 0;
+    const uint64_t seed = seedOfRay(record.numbers, record.index, options);
+    appendContributions(bytes, tracers[worker].trace(in.origin, in.direction, farthest, seed));
+  };
+}
+
+}  // namespace
+
+void runContributions(const ContributionOptions& options, const Messages& messages, StopSignals& signals) {
+  const rad::Warn warn = [&](std::string_view text) { messages.warning(text); };
+  std::vector<TrackedModifier> modifiers = trackedModifiers(options);
+  const Scene scene = loadScene(options, warn);
+  const Transport transport(scene, options.ray, options.irradiance, false, warn);
+  if (lacksSources(transport.prepared())) warn("no light sources found");
+  const Tracked tracked(transport.prepared(), std::move(modifiers),
+                        options.values ? Contributed::values : Contributed::coefficients, warn);
+  std::vector<ContributionTracer> tracers;
+  for (PathTracer& tracer : rayTracers(transport, options)) tracers.emplace_back(std::move(tracer), tracked);
+
+  RecordReader reader(0, options);
+  ContributionOutputs outputs(options, tracked, scene.description.header);
+  const auto rays = static_cast<uint64_t>(options.raysPerRecord);
+  RecordSums sums(outputs, tracked.columns(), static_cast<size_t>(tracked.components()), rays,
+                  outputs.recovered());
+  const AnswerOptions paced = pacedByRays(options);
+  RunEnd end;
+  end.leave = [&](const std::exception_ptr& fault) {
+    _exit(exitStatus(messages, [&]() -> int { std::rethrow_exception(fault); }));
+  };
+  end.shortInputIsFault = true;
+  runRecords(reader, sums, paced, messages, &signals,
+             answerContributions(tracers, options, outputs.recovered() * rays), end);
+  if (sums.end() > 0)
+    warn("partial record: the last one is the mean over the rays that are left, fewer than -c");
+  outputs.close();
+}
+
+}  // namespace rsphere

@@ -1,0 +1,133 @@
+#include "rcontrib/output_names.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <optional>
+
+namespace rsphere {
+namespace {
+
+// A -o: text, and what is put between.
+struct Format {
+  enum class Kind : uint8_t { text, modifier, number };
+  struct Part {
+    Kind kind;
+    std::string text;  // or the digits between % and d
+  };
+  std::vector<Part> parts;
+
+  bool has(Kind kind) const {
+    for (const Part& part : parts)
+      if (part.kind == kind) return true;
+    return false;
+  }
+};
+
+[[noreturn]] void wrongFormat(const std::string& spec) {
+  throw rad::Error(
+      fmt::format("-o '{}': only %s, the modifier, and %d, the bin (%04d and the like), each "
+                  "once, can be put in; %% is a percent sign",
+                  spec));
+}
+
+Format formatOf(const std::string& spec) {
+  using Kind = Format::Kind;
+  Format format{{{Kind::text, ""}}};
+  for (size_t i = 0; i < spec.size(); ++i) {
+    if (spec[i] != '%' || (i + 1 < spec.size() && spec[i + 1] == '%')) {
+      format.parts.back().text += spec[i];
+      i += spec[i] == '%';
+      continue;
+    }
+    const size_t end = std::min(spec.find_first_not_of("0123456789", i + 1), spec.size());
+    const std::string digits = spec.substr(i + 1, end - i - 1);
+    const char letter = end < spec.size() ? spec[end] : 0;
+    const Kind kind = letter == 's' ? Kind::modifier : Kind::number;
+    if ((letter != 's' && letter != 'd') || digits.size() > 3 || format.has(kind)) wrongFormat(spec);
+    format.parts.push_back({kind, digits});
+    format.parts.push_back({Kind::text, ""});
+    i = end;
+  }
+  return format;
+}
+
+// A number as printf's %d with a width writes it.
+std::string padded(uint64_t number, const std::string& digits) {
+  std::string text = fmt::format("{}", number);
+  const size_t width = digits.empty() ? 0 : static_cast<size_t>(std::stoi(digits));
+  if (text.size() < width) text.insert(0, width - text.size(), digits[0] == '0' ? '0' : ' ');
+  return text;
+}
+
+std::string nameOf(const Format& format, const std::string& modifier, uint64_t number) {
+  std::string name;
+  for (const Format::Part& part : format.parts)
+    name += part.kind == Format::Kind::text       ? part.text
+            : part.kind == Format::Kind::modifier ? modifier
+                                                  : padded(number, part.text);
+  return name;
+}
+
+class Planner {
+ public:
+  explicit Planner(const ContributionOptions& options)
+      : pixels_(options.out == NumberFormat::rgbe),
+        pictures_(pixels_ && options.width > 0 && options.height > 0) {}
+
+  void add(const TrackedName& tracked, ColumnRange columns) {
+    const Format format = formatOf(tracked.output);
+    if (!format.has(Format::Kind::number)) {
+      join(nameOf(format, tracked.name, 0), tracked.name, columns, std::nullopt);
+      return;
+    }
+    uint64_t& before = numbersBefore_[tracked.output];
+    for (uint32_t i = 0; i < columns.count; ++i) {
+      const uint64_t number = before + i;
+      join(nameOf(format, tracked.name, number), tracked.name, {columns.first + i, 1}, number);
+    }
+    if (pixels_ && !format.has(Format::Kind::modifier)) before += columns.count;
+  }
+
+  std::vector<OutputPlan> plans() && {
+    for (const OutputPlan& plan : plans_)
+      if (pictures_ && plan.columnCount() > 1)
+        throw rad::Error(
+            fmt::format("{} would have {} values at a pixel: a picture for each needs %d, %s or "
+                        "both in the name of -o",
+                        plan.name.empty() ? "standard output" : '"' + plan.name + '"', plan.columnCount()));
+    return std::move(plans_);
+  }
+
+ private:
+  void join(const std::string& name, const std::string& modifier, ColumnRange columns,
+            const std::optional<uint64_t>& number) {
+    const auto [found, isNew] = byName_.emplace(name, plans_.size());
+    if (isNew) plans_.push_back({name, {}, modifier, number ? fmt::format("{}", *number) : ""});
+    OutputPlan& plan = plans_[found->second];
+    plan.columns.push_back(columns);
+    if (plan.modifier != modifier) plan.modifier.clear();
+  }
+
+  const bool pixels_, pictures_;
+  std::vector<OutputPlan> plans_;
+  std::map<std::string, size_t> byName_;
+  std::map<std::string, uint64_t> numbersBefore_;  // by -o: the numbers that pictures have taken
+};
+
+}  // namespace
+
+uint32_t OutputPlan::columnCount() const {
+  uint32_t count = 0;
+  for (const ColumnRange& range : columns) count += range.count;
+  return count;
+}
+
+std::vector<OutputPlan> planOutputs(const ContributionOptions& options, const Tracked& tracked) {
+  Planner planner(options);
+  for (size_t i = 0; i < options.tracked.size(); ++i)
+    planner.add(options.tracked[i], {tracked.firstColumn(i), tracked.modifiers()[i].bins});
+  return std::move(planner).plans();
+}
+
+}  // namespace rsphere

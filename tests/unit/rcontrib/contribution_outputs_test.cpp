@@ -1,0 +1,173 @@
+#include "rcontrib/contribution_outputs.h"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <array>
+#include <filesystem>
+
+#include "rcontrib/record_sums.h"
+#include "tests/unit/support/command_line.h"
+#include "tests/unit/support/scene_of.h"
+#include "transport/prepared_scene.h"
+
+namespace rsphere {
+namespace {
+
+// Modifiers a, b and so on, with so many bins each, in a scene that has none of them.
+class Columns {
+ public:
+  explicit Columns(const std::vector<uint32_t>& bins)
+      : scene_(sceneOf("void plastic grey 0 0 5 .5 .5 .5 0 0\ngrey sphere ball 0 0 4 0 0 0 1\n")),
+        prepared_(scene_, {}, IrradianceAt::none) {
+    std::vector<TrackedModifier> modifiers;
+    for (size_t i = 0; i < bins.size(); ++i)
+      modifiers.push_back({std::string(1, static_cast<char>('a' + i)), bins[i], std::nullopt});
+    tracked.emplace(prepared_, modifiers, Contributed::coefficients);
+  }
+
+  ContributionOptions options(const std::string& output, NumberFormat format) const {
+    ContributionOptions options;
+    options.sphereMode = false;
+    options.out = format;
+    for (const TrackedModifier& modifier : tracked->modifiers()) {
+      options.tracked.push_back({});
+      options.tracked.back().name = modifier.name;
+      options.tracked.back().output = output;
+    }
+    return options;
+  }
+
+  std::string names(const std::string& output, NumberFormat format = NumberFormat::float32) const {
+    std::string all;
+    for (const OutputPlan& plan : planOutputs(options(output, format), *tracked)) {
+      all += plan.name + '(' + plan.modifier + ',' + plan.bin + ')';
+      for (const ColumnRange& range : plan.columns)
+        for (uint32_t i = 0; i < range.count; ++i) all += std::to_string(range.first + i);
+      all += ' ';
+    }
+    return all;
+  }
+
+ private:
+  Scene scene_;
+  PreparedScene prepared_;
+
+ public:
+  std::optional<Tracked> tracked;
+};
+
+TEST(OutputNames, HaveModifiersAndBins) {
+  const Columns columns({2, 1});
+  EXPECT_EQ(columns.names(""), "(,)012 ");
+  EXPECT_EQ(columns.names("all.dat"), "all.dat(,)012 ");
+  EXPECT_EQ(columns.names("x_%s"), "x_a(a,)01 x_b(b,)2 ");
+  EXPECT_EQ(columns.names("%02d.%%"), "00.%(,0)02 01.%(a,1)1 ");
+  EXPECT_EQ(columns.names("%s_%3d"), "a_  0(a,0)0 a_  1(a,1)1 b_  0(b,0)2 ");
+}
+
+TEST(OutputNames, NumbersOfPicturesGoOn) {
+  const Columns columns({2, 2});
+  EXPECT_EQ(columns.names("%d", NumberFormat::rgbe), "0(a,0)0 1(a,1)1 2(b,2)2 3(b,3)3 ");
+  EXPECT_EQ(columns.names("%s%d", NumberFormat::rgbe), "a0(a,0)0 a1(a,1)1 b0(b,0)2 b1(b,1)3 ");
+}
+
+TEST(OutputNames, WrongOnesAreRefused) {
+  const Columns columns({2});
+  for (const char* spec : {"%x", "%", "%d%d", "%s%s", "%9999d", "%n"})
+    EXPECT_NE(faultOf([&] { columns.names(spec); }).find("only %s"), std::string::npos) << spec;
+  ContributionOptions picture = columns.options("%s.hdr", NumberFormat::rgbe);
+  picture.width = picture.height = 2;
+  EXPECT_NE(faultOf([&] { planOutputs(picture, *columns.tracked); }).find("2 values at a pixel"),
+            std::string::npos);
+}
+
+// A folder that the destructor removes.
+class Folder {
+ public:
+  Folder() { EXPECT_NE(mkdtemp(path.data()), nullptr); }
+  ~Folder() { std::filesystem::remove_all(path); }
+  std::string path = testing::TempDir() + "outputs-XXXXXX";
+};
+
+std::string rayOf(uint32_t column, double value) {
+  ContributionList list(3);
+  list.add(column, std::array{value, 2 * value, 3 * value});
+  std::string bytes;
+  appendContributions(bytes, list);
+  return bytes;
+}
+
+TEST(RecordSums, AreMeansOverRaysInTheirOrder) {
+  const Columns columns({2, 1});
+  const Folder folder;
+  ContributionOptions options = columns.options(folder.path + "/%s.txt", NumberFormat::ascii);
+  options.header = false;
+  ContributionOutputs outputs(options, *columns.tracked, {});
+  RecordSums sums(outputs, 3, 3, 2, 0);
+  sums.write(rayOf(1, 1) + rayOf(1, 3) + rayOf(2, 1));
+  sums.write("");
+  sums.write(rayOf(0, 1) + rayOf(0, 5));
+  EXPECT_EQ(sums.end(), 1u);
+  outputs.close();
+  const std::string zero = "0.000000e+00\t0.000000e+00\t0.000000e+00\t";
+  EXPECT_EQ(contents(folder.path + "/a.txt"), zero + "2.000000e+00\t4.000000e+00\t6.000000e+00\t\n" +
+                                                  "5.000000e-01\t1.000000e+00\t1.500000e+00\t" + zero + "\n" +
+                                                  "5.000000e+00\t1.000000e+01\t1.500000e+01\t" + zero + "\n");
+  EXPECT_EQ(contents(folder.path + "/b.txt"),
+            zero + "\n5.000000e-01\t1.000000e+00\t1.500000e+00\t\n" + zero + "\n");
+}
+
+TEST(RecordSums, OfAllRaysAreOneRecord) {
+  const Columns columns({1});
+  const Folder folder;
+  ContributionOptions options = columns.options(folder.path + "/x", NumberFormat::float32);
+  options.header = false;
+  ContributionOutputs outputs(options, *columns.tracked, {});
+  RecordSums sums(outputs, 1, 3, 0, 0);
+  sums.write(rayOf(0, 1) + rayOf(0, 2));
+  EXPECT_EQ(sums.end(), 0u);
+  outputs.close();
+  EXPECT_EQ(contents(folder.path + "/x"), bytesOf({3.f, 6.f, 9.f}));
+}
+
+TEST(ContributionOutputs, FilesThatExistAreKeptOverwrittenOrCompleted) {
+  const Columns columns({1, 1});
+  const Folder folder;
+  ContributionOptions options = columns.options(folder.path + "/%s", NumberFormat::float32);
+  const std::string a = folder.path + "/a", b = folder.path + "/b";
+  const auto run = [&](int from, int to) {
+    ContributionOutputs outputs(options, *columns.tracked, {});
+    RecordSums sums(outputs, 2, 3, 1, outputs.recovered());
+    for (int i = from; i < to; ++i) sums.write(rayOf(i % 2, i));
+    sums.end();
+    outputs.close();
+    return outputs.recovered();
+  };
+  EXPECT_EQ(run(1, 6), 0u);
+  const std::string wholeA = contents(a), wholeB = contents(b);
+  EXPECT_NE(wholeA.find("\nNCOMP=3\nMODIFIER=a\nNCOLS=1\n"), std::string::npos);
+  EXPECT_NE(faultOf([&] { run(1, 2); }, rad::Status::system).find("already exists"), std::string::npos);
+  std::filesystem::resize_file(a, wholeA.size() - 13);  // 3 records and a part
+  std::filesystem::resize_file(b, wholeB.size() - 24);  // 3 records
+  options.recovers = true;
+  EXPECT_EQ(run(1, 6), 3u);
+  EXPECT_EQ(contents(a), wholeA);
+  EXPECT_EQ(contents(b), wholeB);
+  options.out = NumberFormat::float64;
+  EXPECT_NE(faultOf([&] { run(1, 6); }).find("its header lacks FORMAT=double"), std::string::npos);
+  options.recovers = false;
+  options.overwrites = true;
+  EXPECT_EQ(run(1, 3), 0u);
+  EXPECT_LT(contents(a).size(), wholeA.size() + 40);
+}
+
+TEST(ContributionOutputs, ACommandThatFailsIsAFault) {
+  const Columns columns({1});
+  ContributionOptions options = columns.options("!cat >/dev/null; exit 3", NumberFormat::ascii);
+  ContributionOutputs outputs(options, *columns.tracked, {});
+  EXPECT_NE(faultOf([&] { outputs.close(); }, rad::Status::system).find("status 3"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rsphere
