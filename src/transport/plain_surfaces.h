@@ -1,9 +1,11 @@
 #pragma once
-// The surfaces and light sources that paths from both ends know (light_vertices.h, vertex_light.h): plastic,
-// metal, glass and mirrors without textures, mixtures or antimatter, plastic and metal also with patterns that
-// are the same for all rays; local sources that shadow rays can be aimed at, and their images in mirrors. They bring the light of known sources that has met known surfaces alone. All
-// other light is left to the paths that path_tracer.h follows from the eye. This is the one rule of what is
-// known, so that each path of light is counted by one of them, or by several with weights that add up to 1.
+// The surfaces and light sources that paths from both ends know (light_vertices.h, vertex_light.h):
+// - plastic, metal, glass and mirrors without textures, mixtures or antimatter, plastic and metal also with
+//   patterns that are the same for all rays;
+// - local sources that shadow rays can be aimed at, and their images in mirrors.
+// Paths from both ends bring the light of known sources that has met known surfaces alone. All other light is
+// left to the paths that path_tracer.h follows from the eye. This is the one rule of what is known, so that
+// each path of light is counted by one of them, or by several with weights that add up to 1.
 #include <vector>
 
 #include "transport/prepared_scene.h"
@@ -38,8 +40,8 @@ class PlainSurfaces {
 
   bool knows(SurfaceId surface) const { return materialOf(surface) || paneOf(surface) || mirrorOf(surface); }
   bool knows(LightId source) const { return knownSources_[source]; }
-  // The radiance (W/sr/m2) that a known source, no image of one, sends from a point of it. normal: unit, of its
-  // front. direction: unit, towards the point.
+  // The radiance (W/sr/m2) that a known source, no image of one, sends from a point of it. normal: unit, of
+  // its front. direction: unit, towards the point.
   Radiance radianceOf(LightId source, const V3d& point, const V3d& normal, const V3d& direction,
                       FunctionScratch& scratch) const;
   // Whether known paths bring all of the light: all surfaces and sources are known.

@@ -64,8 +64,8 @@ struct RayQuery {
   bool unobstructed = false;  // for shadow rays: surfaces between the origin and the source are ignored
 };
 
-// Whether only what paths from both ends know (PlainSurfaces) has led to a ray, and what they bring of the light
-// that arrives at the last diffuse surface by a reflection.
+// Whether only what paths from both ends know (PlainSurfaces) has led to a ray, and what they bring of the
+// light that arrives at the last diffuse surface by a reflection.
 enum class Known : uint8_t {
   no,
   joined,   // all of it: light vertices there are joined to the eye, or to the surface before

@@ -246,8 +246,8 @@ struct LightVertices {
 struct SourceEmission {
   // Directions in which light from a source with a pattern or a cone is tried, of which one is followed.
   RSPHERE_TUNED(SourceEmission, int, kTries, 8);
-  // Those that tell its power, and what is added for light that they may miss, in units of its radiance without
-  // patterns.
+  // Those that tell its power, and what is added for light that they may miss, in units of its radiance
+  // without patterns.
   RSPHERE_TUNED(SourceEmission, int, kTriesForPower, 1024);
   RSPHERE_TUNED(SourceEmission, double, kMissed, .01);
 };

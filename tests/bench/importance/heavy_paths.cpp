@@ -109,7 +109,8 @@ int run(int argc, char** argv) {
             if (singles.size() > kSingles) singles.pop_back();
           }
         };
-        again.tracer.trace(point, sample.direction, 0, random.bits(), {.observer = &observer, .shadows = ShownShadows::all});
+        again.tracer.trace(point, sample.direction, 0, random.bits(),
+                           {.observer = &observer, .shadows = ShownShadows::all});
       }
     }
   }

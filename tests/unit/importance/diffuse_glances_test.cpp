@@ -135,7 +135,8 @@ INSTANTIATE_TEST_SUITE_P(
         Way{"PatternedLamp",
             "void brightfunc f 2 1+Dx . 0 0\nf light s 0 0 3 40 20 20\ns ring q 0 0 8 3 2 2.5 0 0 -1 0 .2\n"},
         Way{"NarrowLamp",
-            "void brightfunc f 2 if(-Dz-.95,20,.01) . 0 0\nf light s 0 0 3 20 20 20\ns ring q 0 0 8 3 2 2.5 0 0 -1 0 .2\n"
+            "void brightfunc f 2 if(-Dz-.95,20,.01) . 0 0\nf light s 0 0 3 20 20 20\n"
+            "s ring q 0 0 8 3 2 2.5 0 0 -1 0 .2\n"
             "void mirror m 0 0 3 .9 .9 .9\nm polygon q 0 0 12 .5 .5 .4 3 .5 .4 3 2.5 .4 .5 2.5 .4\n"},
         Way{"NearCorner", "wall polygon low 0 0 12 2.3 1 1.09 2.7 1 1.09 2.7 1.4 1.09 2.3 1.4 1.09\n"},
         Way{"Ball", "lamp sphere bulb 0 0 4 3 2 1.5 .1\n"},

@@ -167,8 +167,8 @@ TEST(StatedErrors, OfRoomsWithAWindow) {
   }
 }
 
-// With -aa above 0 the coarse solution has an error of its own, which all directions share. In rooms with even
-// light it is as large as that of the directions. expected: by -aa 0, -Sn 4096 and six rotations.
+// With -aa above 0 the coarse solution has an error of its own, which all directions share. In rooms with
+// even light it is as large as that of the directions. expected: by -aa 0, -Sn 4096 and six rotations.
 TEST(StatedErrors, ContainThatOfTheCoarseSolution) {
   const std::string lit = "void plastic white 0 0 5 .6 .6 .6 0 0\n" + roomOf("white", V3d(6, 5, 2.8)) +
                           "void light lamp 0 0 3 9 9 9\nlamp polygon l 0 0 12 2.4 2.3 2.7 2.4 2.7 2.7 "
