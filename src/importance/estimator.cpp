@@ -118,12 +118,6 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
     if (glances_) tracing_.vertexLight = &glances_->light(0);
     if (!glances_) tracing_.ofPoints = findAimsOfPoints(prepared, transport.aims());
     tracing_.aims = joined(transport.aims(), tracing_.ofPoints);
-    // Patches are only for scenes where bright spots make light uneven. Openings, and light from both ends,
-    // do without.
-    if (!glances_ && tracing_.aims.spots && !tracing_.aims.openings) {
-      auto patches = std::make_unique<LightPatches>(prepared);
-      if (!patches->all().empty()) patches_ = std::move(patches);
-    }
   }
   strategy_ = makeStrategy();
   if (options.accuracy > 0)
@@ -139,8 +133,7 @@ std::unique_ptr<const SamplingStrategy> SphereEstimator::makeStrategy() const {
     case Weights::silhouettes:
       break;
   }
-  return std::make_unique<SilhouetteWeights>(tracing_, options_, base_, special_, sources_, patches_.get(),
-                                             glances_.get());
+  return std::make_unique<SilhouetteWeights>(tracing_, options_, base_, special_, sources_, glances_.get());
 }
 
 SphereEstimator::Workspace::Workspace(const SphereEstimator& estimator)

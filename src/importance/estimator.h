@@ -20,7 +20,6 @@
 #include "importance/sphere_options.h"
 #include "importance/sphere_tracing.h"
 #include "sphere/voronoi.h"
-#include "transport/light_patches.h"
 #include "transport/ray_answer.h"
 #include "transport/transport.h"
 
@@ -71,7 +70,6 @@ class SphereEstimator {
   BaseSet base_;
   SeenSources sources_;
   std::vector<SpecialObject> special_;             // none with -Sw h
-  std::unique_ptr<const LightPatches> patches_;    // null where light is even
   std::unique_ptr<const DiffuseGlances> glances_;  // null where light vertices do not bring all of the light
   SphereTracing tracing_;
   std::unique_ptr<const SamplingStrategy> strategy_;

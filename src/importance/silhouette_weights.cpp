@@ -24,8 +24,6 @@ enum class Stream : uint64_t {
   raysAround = 2,
   dynamicDirections = 3,
   guess = 4,
-  guide = 5,
-  guidedGlances = 6,
   firstRay = 16,  // of the first direction; the following numbers belong to the next directions
 };
 
@@ -84,15 +82,13 @@ Irradiance totalOf(const SampledSet& set) {
 
 SilhouetteWeights::SilhouetteWeights(const SphereTracing& tracing, const SphereOptions& options,
                                      const BaseSet& base, std::span<const SpecialObject> special,
-                                     const SeenSources& sources, const LightPatches* patches,
-                                     const DiffuseGlances* glances)
+                                     const SeenSources& sources, const DiffuseGlances* glances)
     : options_(options), base_(base), sources_(sources), glances_(glances) {
   if (!(options.densityFactor > 0)) return;
   guidance_.emplace(Guidance{TargetChoice(tracing, special, sources, options.densityFactor),
                              RadianceGuess(tracing.prepared, unguessedSurfaces(sources)),
                              glances ? std::vector<V3d>() : glancesFor(options),
-                             baseDirections(tuning::RadianceGuess::kFitGlances), std::nullopt,
-                             tracing.prepared.tracer(), patches});
+                             baseDirections(tuning::RadianceGuess::kFitGlances), std::nullopt});
   if (!base.neighbours || glances) return;
   VoronoiWorkspace workspace;
   cellSolidAngles(guidance_->glances, workspace);
@@ -109,7 +105,7 @@ SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, 
       sources_.sample(paths, view.images, seedOf(set, Stream::imagesOfSources));
   const Plan plan = planFor(set, view, toImages);
   const SampledSet others = traced(set, view, plan, paths);
-  DiffuseGlances::Found beyond = beyondGuesses(set, view, plan, others.samples);
+  DiffuseGlances::Found beyond = beyondGuesses(set, view, others.samples);
 
   SampledSet sampled = joined(toImages, others, options_.everyDirection);
   const auto othersOf = std::span(sampled.samples).subspan(toImages.size());
@@ -158,21 +154,12 @@ void SilhouetteWeights::lookAround(const SetAtPoint& set, PathTracer& tracer, Vi
   view.guess = guidance_->guess.fit(set.point(), glances, traced, mixBits(seed + 1));
 }
 
-double SilhouetteWeights::Plan::guidedDensity(const V3d& direction) const {
-  return guided > 0 ? static_cast<double>(guided) * guide->density(direction) : 0;
-}
-
 SilhouetteWeights::Plan SilhouetteWeights::planFor(const SetAtPoint& set, const View& view,
                                                    std::span<const SeenSources::Sample> toImages) const {
   Plan plan;
   const size_t base = base_.directions.size(), used = base + toImages.size();
   const size_t most = static_cast<size_t>(options_.mostDirections), left = most > used ? most - used : 0;
-  if (guidance_ && guidance_->patches) {
-    plan.guide.emplace(*guidance_->patches, guidance_->tracer, set.point());
-    plan.guided = std::min(left, static_cast<size_t>(Tuning::kGuided * static_cast<double>(base)));
-  }
-  if (guidance_)
-    plan.targets = guidance_->targets.at(set.point(), view.meanBrightness, base, left - plan.guided);
+  if (guidance_) plan.targets = guidance_->targets.at(set.point(), view.meanBrightness, base, left);
   plan.solidAngle = std::max(0., 4 * pi - solidAngleOf(toImages));
   chooseDirections(set, plan);
   return plan;
@@ -193,10 +180,6 @@ void SilhouetteWeights::chooseDirections(const SetAtPoint& set, Plan& plan) cons
     }
   }
   plan.runs.push_back(plan.directions.size());
-  if (plan.guided == 0) return;
-  Random own(seedOf(set, Stream::guide));
-  const std::vector<V3d> guided = plan.guide->directions(plan.guided, own);
-  plan.directions.insert(plan.directions.end(), guided.begin(), guided.end());
 }
 
 SampledSet SilhouetteWeights::traced(const SetAtPoint& set, const View& view, const Plan& plan,
@@ -213,8 +196,7 @@ SampledSet SilhouetteWeights::traced(const SetAtPoint& set, const View& view, co
     const bool enters = !sources_.isOne(ray.shown, view.images);
     // The solid angle of each direction is the inverse of the density of directions around it.
     const double baseCell = i < base_.solidAngles.size() ? base_.solidAngles[i] : averageCell;
-    const double density = 1 / baseCell + region.density + plan.guidedDensity(direction);
-    cells.push_back({1 / density, region.fitted, enters});
+    cells.push_back({1 / (1 / baseCell + region.density), region.fitted, enters});
     DirectionSample sample;
     sample.direction = direction;
     sample.region = enters ? region.id : kNoRegion;
@@ -240,43 +222,26 @@ Radiance SilhouetteWeights::guessAlong(const SetAtPoint& set, const View& view, 
 }
 
 DiffuseGlances::Found SilhouetteWeights::beyondGuesses(const SetAtPoint& set, const View& view,
-                                                       const Plan& plan,
                                                        std::span<const DirectionSample> others) const {
   DiffuseGlances::Found found = view.glanced;
   for (const DirectionSample& s : others)
     found.moments.add(s.direction, irradianceFrom(s.guess, -s.solidAngle), base_.sampling);
-  if (view.guess) addGlances(set, *view.guess, plan, found);
+  if (view.guess) addGlances(set, *view.guess, found);
   return found;
 }
 
 // Adds the guesses along many glances.
-void SilhouetteWeights::addGlances(const SetAtPoint& set, const LocalGuess& guess, const Plan& plan,
+void SilhouetteWeights::addGlances(const SetAtPoint& set, const LocalGuess& guess,
                                    DiffuseGlances::Found& found) const {
-  const bool errors = guidance_->neighbours.has_value();
-  const auto count = static_cast<double>(guidance_->glances.size());
-  const double even = count / (4 * pi);  // per sr
-  const size_t guided = plan.guided > 0 ? static_cast<size_t>(Tuning::kGuided * count) : 0;
+  const double cell = 4 * pi / static_cast<double>(guidance_->glances.size());
   std::vector<DirectionSample> seen;
-  const auto look = [&](const V3d& direction) {
-    const double density =
-        even + (guided > 0 ? static_cast<double>(guided) * plan.guide->density(direction) : 0);
+  for (const V3d& direction : set.turned(guidance_->glances)) {
     const Radiance radiance = guess.along(set.point(), direction);
-    const Irradiance part = irradianceFrom(radiance, 1 / density);
-    found.moments.add(direction, part, base_.sampling);
-    if (errors) seen.push_back({direction, 1 / density, radiance});
-    return part;
-  };
-  for (const V3d& direction : set.turned(guidance_->glances)) look(direction);
-  if (errors)
-    found.variance = evenVariance(seen, *guidance_->neighbours, base_.sampling) * Tuning::kEvenGlances;
-  if (guided == 0) return;
-  Random random(seedOf(set, Stream::guidedGlances));
-  std::optional<Irradiance> last;
-  for (const V3d& direction : plan.guide->directions(guided, random)) {
-    const Irradiance part = look(direction);
-    if (last && errors) found.variance += Variance::of(part - *last, base_.sampling) * .5;
-    last = part;
+    found.moments.add(direction, irradianceFrom(radiance, cell), base_.sampling);
+    if (guidance_->neighbours) seen.push_back({direction, cell, radiance});
   }
+  if (guidance_->neighbours)
+    found.variance = evenVariance(seen, *guidance_->neighbours, base_.sampling) * Tuning::kEvenGlances;
 }
 
 Variance SilhouetteWeights::varianceOf(std::span<const DirectionSample> others, std::span<const size_t> runs,
@@ -289,14 +254,6 @@ Variance SilhouetteWeights::varianceOf(std::span<const DirectionSample> others, 
         run.size() == 1 ? loneVariance(run[0], base, base_.sampling) : spreadVariance(run, base_.sampling);
   }
   variance += unseenVariance(others, base_.sampling);
-  // Successive directions of the guide are near to each other, so that their differences are taken for
-  // errors.
-  const auto guided = others.subspan(runs.back());
-  const auto partOf = [](const DirectionSample& s) {
-    return irradianceFrom(s.value - s.guess, s.solidAngle);
-  };
-  for (size_t i = 1; i < guided.size(); ++i)
-    variance += Variance::of(partOf(guided[i]) - partOf(guided[i - 1]), base_.sampling) * .5;
   for (size_t i = 0, next = 0; i < toImages.size(); i = next) {
     while (next < toImages.size() && toImages[next].image == toImages[i].image) ++next;
     variance += partsVariance(toImages.subspan(i, next - i), base_.sampling);

@@ -5,7 +5,6 @@
 
 #include "importance/base_set.h"
 #include "importance/diffuse_glances.h"
-#include "importance/direction_guide.h"
 #include "importance/sampling_strategy.h"
 #include "importance/seen_sources.h"
 #include "importance/targets.h"
@@ -24,11 +23,10 @@ namespace rsphere {
 // - How many directions a special object gets follows from how much the radiance on it varies, compared with
 //   what is beside it. Separate rays measure that, so that the mean stays unbiased (targets.h). Openings that
 //   show daylight, and spots of sunlight that enters through them, also get directions of their own.
-// - Where light is uneven, as around a goal, more directions follow it (direction_guide.h).
 // - Indirect rays are aimed at openings that daylight enters through (transport/openings.h), and at diffuse
 //   surfaces that receive much direct light (transport/bright_spots.h).
-// - Where light vertices bring all of the light, the light of diffuse surfaces does not come from these
-//   directions but from many glances, and from shadow rays to light vertices (diffuse_glances.h).
+// - By lamps, the light of plain diffuse surfaces does not come from these directions but from many glances,
+//   and from shadow rays to light vertices (diffuse_glances.h).
 // - Elsewhere a control variate reduces the variance of diffuse surfaces (transport/radiance_guess.h). Many
 //   glances, rays that are not followed beyond their first hit, estimate its integral. Directions, and the
 //   indirect rays that they spawn, only estimate the difference.
@@ -39,7 +37,7 @@ class SilhouetteWeights : public SamplingStrategy {
   // all of the light of diffuse surfaces; otherwise they take the place of the guess.
   SilhouetteWeights(const SphereTracing& tracing, const SphereOptions& options, const BaseSet& base,
                     std::span<const SpecialObject> special, const SeenSources& sources,
-                    const LightPatches* patches, const DiffuseGlances* glances);
+                    const DiffuseGlances* glances);
 
   SampledSet sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace& memory) const override;
 
@@ -52,8 +50,6 @@ class SilhouetteWeights : public SamplingStrategy {
     RadianceGuess guess;
     std::vector<V3d> glances, fitGlances;
     std::optional<Neighbours> neighbours;  // of glances, if standard errors are wanted
-    const Tracer& tracer;
-    const LightPatches* patches;  // null where light is even
   };
 
   // Stage 1: what is known of the view from a point before directions are chosen.
@@ -70,14 +66,10 @@ class SilhouetteWeights : public SamplingStrategy {
   // Stage 2: the directions that are not sent to images of sources.
   struct Plan {
     Targets targets{std::vector<Target>()};
-    std::optional<DirectionGuide> guide;
-    size_t guided = 0;  // directions that the guide sends
-    // The base directions, a run for each target or for all parts of one image, and those of the guide.
+    // The base directions, then a run for each target or for all parts of one image.
     std::vector<V3d> directions;
-    std::vector<size_t> runs;  // where each run begins, then where those of the guide begin
+    std::vector<size_t> runs;  // where each run begins, then the end of the last
     double solidAngle = 0;     // total of these directions, sr
-
-    double guidedDensity(const V3d& direction) const;  // of directions that the guide sends, per sr
   };
   Plan planFor(const SetAtPoint& set, const View& view, std::span<const SeenSources::Sample> toImages) const;
   // Sets directions and runs.
@@ -91,10 +83,9 @@ class SilhouetteWeights : public SamplingStrategy {
                       const TracedRay& ray) const;
 
   // Stage 4: what glances find, minus the guesses of the directions.
-  DiffuseGlances::Found beyondGuesses(const SetAtPoint& set, const View& view, const Plan& plan,
+  DiffuseGlances::Found beyondGuesses(const SetAtPoint& set, const View& view,
                                       std::span<const DirectionSample> others) const;
-  void addGlances(const SetAtPoint& set, const LocalGuess& guess, const Plan& plan,
-                  DiffuseGlances::Found& found) const;
+  void addGlances(const SetAtPoint& set, const LocalGuess& guess, DiffuseGlances::Found& found) const;
 
   // Stage 5: the variance of both kinds of directions, without that of glances.
   Variance varianceOf(std::span<const DirectionSample> others, std::span<const size_t> runs,

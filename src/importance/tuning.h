@@ -51,20 +51,10 @@ struct SilhouetteWeights {
   // (ErrorEstimate::kEvenSet). Without bounces, in the open-plan office, the actual deviation is then 1.07
   // times the predicted standard error.
   RSPHERE_TUNED(SilhouetteWeights, double, kEvenGlances, .5);
-  // Where light is uneven: directions, and glances, that follow the light (direction_guide.h), for each even
-  // one: by measurement. Around a goal in the open-plan office, 0 .25 .5 1 2 leave errors of 4.0 3.0 2.9 2.4
-  // 2.1% in 16 22 26 35 52 ms a point.
-  RSPHERE_TUNED(SilhouetteWeights, double, kGuided, .5);
   // Directions to images of light sources are one per so many base directions, and at least
   // SeenSources::kUsualRays: chosen by experiment. 30% less or more: within noise (points in office; error
   // 8%, time 6%).
   RSPHERE_TUNED(SilhouetteWeights, size_t, kBaseDirectionsPerRayToImages, 4);
-};
-
-// Directions that follow the light (direction_guide.cpp).
-struct DirectionGuide {
-  // Patches whose visibility is tested at each point: chosen by experiment.
-  RSPHERE_TUNED(DirectionGuide, double, kPatches, 512);
 };
 
 // Which regions get directions of their own (targets.cpp).

@@ -138,14 +138,6 @@ struct DirectLight {
   RSPHERE_TUNED(DirectLight, size_t, kAlwaysTested, 2);
 };
 
-// Where surfaces send light from (light_patches.cpp).
-struct LightPatches {
-  // Particles from the sources: chosen by experiment.
-  RSPHERE_TUNED(LightPatches, double, kParticles, 8192);
-  // Largest roughness (rms slope) of a mirror; rougher surfaces send light to all sides: as for glints.
-  static constexpr double kSmooth = .005;
-};
-
 // Whether shadow rays or samples of the lobe estimate the light of sources in rough highlights
 // (shared_highlights.cpp).
 struct SharedHighlights {
