@@ -131,7 +131,11 @@ void LightVertices::Path::send(double where) {
       firstLength_ = length_;
       power_ = power_ * all_.emission_.divergence(light_, length_);
     }
-    if (!at.material) return;
+    ++all_.met_;
+    if (!at.material) {
+      if (all_.prepared_.lights().of(at.surface) == kNone) ++all_.metUnknown_;
+      return;
+    }
     arrive(at);
     if (!reflect(at)) return;
     fromSource_ = false;
@@ -291,6 +295,9 @@ LightVertices::LightVertices(const PreparedScene& prepared, const PlainSurfaces&
     Path(*this, i, seed).send(where);
   }
   sort();
+  if (met_ > 0 && surfaces_.knowAllSources())
+    shareOfRest_ = std::clamp(Tuning::kRest * static_cast<double>(metUnknown_) / static_cast<double>(met_),
+                              Tuning::kLeastRest, 1.);
 }
 
 // The widths follow from the room: from how far paths go at first.

@@ -82,6 +82,9 @@ class LightVertices {
   double closeShare(double distance) const;
   double width() const { return width_; }  // at which nearShare() is a half, world units
 
+  // With what probability a place follows paths from the eye for the light that is left to them: more often
+  // where more of the light meets surfaces that are not known.
+  double shareOfRest() const { return shareOfRest_; }
   double pathPower() const { return emission_.pathPower(); }  // brightness of each path, W
   double meanLength() const { return meanLength_; }  // from the sources to the next surfaces, world units
 
@@ -94,6 +97,8 @@ class LightVertices {
   const PreparedScene& prepared_;
   const PlainSurfaces& surfaces_;
   SourceEmission emission_;
+  double shareOfRest_ = 1;
+  size_t met_ = 0, metUnknown_ = 0;  // surfaces, by light paths
   double meanLength_ = 1, width_ = 0, close_ = 0;
   std::vector<LightVertex> all_;
   std::vector<Irradiance> powers_;

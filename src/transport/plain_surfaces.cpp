@@ -1,5 +1,6 @@
 #include "transport/plain_surfaces.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/constants.h"
@@ -88,7 +89,7 @@ void PlainSurfaces::findSources() {
   for (const LightId i : lights.ids()) {
     knownSources_[i] = isKnown(i);  // that of an image follows that of its source
     hasKnownSources_ = hasKnownSources_ || knownSources_[i];
-    bringAllDirect_ = bringAllDirect_ && knownSources_[i];
+    knowAllSources_ = knowAllSources_ && knownSources_[i];
   }
 }
 
@@ -99,11 +100,9 @@ bool PlainSurfaces::isKnown(LightId source) const {
   if (!light.hitsWhereAimed && !light.as<TubeLight>()) return false;  // samples may miss it
   if (light.spot && !light.as<PlaneLight>()) return false;
   const Surface surface = scene_.surfaces[light.surface];
-  if (minChannel(sourceRadiance(scene_, surface).color) < 0) return false;
-  const auto isLocal = [&](ModifierId i) { return !prepared_.functions().dependsOnDistance(i); };
-  return prepared_.lights().constantRadiance(source) ||
-         (surface.modifier == surface.material &&
-          arePatterns(scene_, scene_.modifiers[surface.material].next, isLocal));
+  // Light distributions and cones are left to paths from the eye.
+  return !light.spot && prepared_.lights().constantRadiance(source) &&
+         minChannel(sourceRadiance(scene_, surface).color) >= 0;
 }
 
 void PlainSurfaces::findSurfaces() {
@@ -119,7 +118,7 @@ void PlainSurfaces::findSurfaces() {
     passUnknown_ =
         passUnknown_ || (!known && !(tracer_.stopsShadows(i, true) && tracer_.stopsShadows(i, false)));
   }
-  bringAllDirect_ = bringAllDirect_ && !passUnknown_;
+  bringAllDirect_ = knowAllSources_ && !passUnknown_;
   bringAll_ = bringAll_ && bringAllDirect_;
 }
 
@@ -127,6 +126,7 @@ const char* PlainSurfaces::obstacle() const {
   if (!changeNothing(prepared_.options())) return "options";
   if (!prepared_.lights().distant().empty()) return "distant sources";
   if (!hasKnownSources_) return "no known sources";
+  if (!bringAll_) return "surfaces or sources that are not known";
   for (const auto& modifier : scene_.modifiers)
     if (const auto* material = std::get_if<Material>(&modifier.content); holds<Mist>(material)) return "mist";
   return nullptr;
@@ -147,7 +147,7 @@ Radiance PlainSurfaces::radianceOf(LightId source, const V3d& point, const V3d& 
 
 double PlainSurfaces::weigh(const V3d& point, const V3d& normal, ById<LightId, double>& weights) const {
   const double all = prepared_.lights().choice().weigh(point, normal, weights);
-  if (bringAllDirect_) return all;
+  if (knowAllSources_) return all;
   double sum = 0;
   for (const LightId i : weights.ids()) {
     if (!knownSources_[i]) weights[i] = 0;
@@ -216,6 +216,7 @@ Color PlainSurfaces::patternFrom(ModifierId first, const FunctionPoint& here,
   Color pattern(1, 1, 1);
   for (ModifierId i = first; i != kNone; i = scene_.modifiers[i].next)
     pattern *= prepared_.functions().pattern(i, here, scratch);
+  pattern.transform([](double v) { return std::max(0., v); });
   return pattern;
 }
 

@@ -44,6 +44,7 @@ class PlainSurfaces {
   // its front. direction: unit, towards the point.
   Radiance radianceOf(LightId source, const V3d& point, const V3d& normal, const V3d& direction,
                       FunctionScratch& scratch) const;
+  bool knowAllSources() const { return knowAllSources_; }
   // Whether known paths bring all of the light: all surfaces and sources are known.
   bool bringAll() const { return bringAll_; }
   // Whether they bring all of the direct light of known surfaces.
@@ -85,7 +86,7 @@ class PlainSurfaces {
   std::vector<const Mirror*> mirrors_;  // by finish
   std::vector<ModifierId> patterns_;    // by finish: the first one; kNone: none
   ById<LightId, bool> knownSources_;
-  bool hasPanes_ = false, hasKnownSources_ = false;
+  bool hasPanes_ = false, hasKnownSources_ = false, knowAllSources_ = true;
   bool bringAll_ = true, bringAllDirect_ = true, passUnknown_ = false;
 };
 

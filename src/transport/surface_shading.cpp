@@ -271,7 +271,7 @@ bool isMirrored(const PathContext& context) {
 
 }  // namespace
 
-SurfaceShading::FromBothEnds SurfaceShading::fromBothEnds(const RayEnd& end) const {
+SurfaceShading::FromBothEnds SurfaceShading::fromBothEnds(const RayEnd& end) {
   if (end.known == Known::no) return {};
   const PlainSurfaces& surfaces = state_.request.vertexLight->surfaces();
   const Opaque* const material = surfaces.materialOf(end.hit.surface);
@@ -280,7 +280,10 @@ SurfaceShading::FromBothEnds SurfaceShading::fromBothEnds(const RayEnd& end) con
   const bool rough = hasRoughHighlight(*material);
   const bool unjoined = end.context.ambientLevel == 0 || end.known == Known::unjoined;
   if (isMirrored(end.context)) {
-    if (!unjoined) return both;
+    if (!unjoined) {
+      both.rest = restOf(end, both);
+      return both;
+    }
     // One shadow ray is not enough for a strong highlight.
     const bool weak = !rough || material->specularity < tuning::VertexLight::kStrong;
     if (!weak) both.direct = nullptr;
@@ -289,7 +292,19 @@ SurfaceShading::FromBothEnds SurfaceShading::fromBothEnds(const RayEnd& end) con
   } else if (end.known == Known::unjoined && rough) {
     both.directHere = Shown::highlight;
   }
+  both.rest = restOf(end, both);
   return both;
+}
+
+// Paths from both ends leave little, which some of the paths from the eye find: Russian roulette.
+double SurfaceShading::restOf(const RayEnd& end, const FromBothEnds& both) {
+  const VertexLight& light = *state_.request.vertexLight;
+  if (!both.indirectHere && light.surfaces().bringAll()) return 0;
+  const double probability = both.indirectHere               ? tuning::VertexLight::kFollowed
+                             : end.context.ambientLevel == 0 ? light.vertices().shareOfRest()
+                                                             : 1;
+  if (probability >= 1) return 1;
+  return state_.random.uniform() < probability ? 1 / probability : 0;
 }
 
 void SurfaceShading::addFromVertices(const RayEnd& end, const V3d& normal, const Coefficient& coefficient,
@@ -366,21 +381,20 @@ template <ScattersLight S>
   if (const Coefficient indirect = scattering.indirect(side); maxChannel(indirect) > kNegligible) {
     const V3d &normal = scattering.normal(side), &trueNormal = scattering.trueNormal();
     if (both.indirectHere) addFromVertices(end, normal, indirect, value);
-    // What paths from both ends leave is little.
-    const double probability = both.indirectHere ? tuning::VertexLight::kFollowed : 1;
-    const bool left = !both.indirect || both.indirectHere || !both.indirect->bringAll();
-    if (left && (probability >= 1 || state_.random.uniform() < probability)) {
-      const Coefficient followed = indirect / probability;
+    if (!both.indirect || both.rest > 0) {
+      const Coefficient followed = indirect * (both.indirect ? both.rest : 1);
       light_.indirect.add(end,
-                    side == Component::reflected
-                        ? DiffuseSide{point, normal, trueNormal, kReflectedAmbient, followed}
-                        : DiffuseSide{point, -normal, -trueNormal, kTransmittedAmbient, followed},
-                    value);
+                          side == Component::reflected
+                              ? DiffuseSide{point, normal, trueNormal, kReflectedAmbient, followed}
+                              : DiffuseSide{point, -normal, -trueNormal, kTransmittedAmbient, followed},
+                          value);
     }
   }
-  if (!scattering.takesDirect(side) || (both.direct && both.direct->bringAllDirect())) return;
+  if (!scattering.takesDirect(side) || (both.direct && (both.direct->bringAllDirect() || !(both.rest > 0))))
+    return;
+  const double rest = both.direct ? both.rest : 1;
   const auto coefficient = [&](const V3d& toSource, double solidAngle) {
-    return scattering.coefficient(side, toSource, solidAngle, state_.random);
+    return scattering.coefficient(side, toSource, solidAngle, state_.random) * rest;
   };
   if (t_.options().chosenSources > 0 && scattering.isEven())
     light_.direct.addOfChosen({end, point}, coefficient, scattering.front(), value);

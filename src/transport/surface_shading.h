@@ -73,8 +73,11 @@ class SurfaceShading {
     const PlainSurfaces* indirect = nullptr;  // null: none
     Shown directHere = Shown::none;
     bool indirectHere = false;
+    double rest =
+        1;  // factor on the light that is left to paths from the eye; 0: those are not followed here
   };
-  FromBothEnds fromBothEnds(const RayEnd& end) const;
+  FromBothEnds fromBothEnds(const RayEnd& end);
+  double restOf(const RayEnd& end, const FromBothEnds& both);
   void addFromVertices(const RayEnd& end, const V3d& normal, const Coefficient& coefficient, Radiance& value);
   void addFromSource(const RayEnd& end, const V3d& normal, Shown shown, Radiance& value);
   template <ScattersLight S>

@@ -232,6 +232,10 @@ struct LightVertices {
   // The distance at which a half of that is left to joins with the eye. Without it, one answer in 200 around
   // the goal is 10% too bright: the eye looks into the gap of 2 mm between a sheet of paper and the goal.
   RSPHERE_TUNED(LightVertices, double, kClose, .01);
+  // The share of the places in view that follow paths from the eye for what is left to these, relative to the
+  // share of light paths that meet something unknown, and at least.
+  RSPHERE_TUNED(LightVertices, double, kRest, 4);
+  RSPHERE_TUNED(LightVertices, double, kLeastRest, .125);
 };
 
 // Light that leaves sources (source_emission.h).
