@@ -85,7 +85,8 @@ class DiffuseGlances::Joins {
     const double cosine = -direction.dot(v.vertex.normal()), square = distance * distance;
     if (!(cosine > 0)) return {};
     if (v.vertex.way != LightVertex::direct)
-      return v.power * (diffuseShare(*v.material, cosine) * cosine / (kPi * square) * v.share / share);
+      return v.power * (diffuseShare(*v.material, cosine) * cosine / (kPi * square) *
+                        vertices_.joinedShare(v, distance) / share);
     PlainPlace at;
     at.normal = v.vertex.normal();
     at.material = v.material;
@@ -101,10 +102,12 @@ class DiffuseGlances::Joins {
     const V3d to = point_ - v.vertex.point();
     const double square = to.length2(), facing = to.dot(v.vertex.normal());
     if (!(facing > 0)) return 0;
-    const double reflected = v.vertex.way == LightVertex::direct
-                                 ? joinedReflectance(*v.material)
-                                 : v.share * v.vertex.power / vertices_.pathPower();
-    return reflected * facing / std::sqrt(square) / (square + radius2_);
+    const double distance = std::sqrt(square);
+    const double reflected =
+        v.vertex.way == LightVertex::direct
+            ? joinedReflectance(*v.material)
+            : vertices_.joinedShare(v, distance) * v.vertex.power / vertices_.pathPower();
+    return reflected * facing / distance / (square + radius2_);
   }
 
   const LightVertices& vertices_;
@@ -198,7 +201,7 @@ Radiance DiffuseGlances::glance(const V3d& point, const V3d& direction, Glancing
       by.joins ? by.joins->seen(at, direction, sight.distance) : VertexLight::Seen{direction};
   Radiance radiance = sight.passed * by.both.directOf(at, seen, by.random, by.scratch);
   if (isBlack(color)) return radiance;
-  const VertexLight::Indirect how{prepared_.options().ambientBounces, by.joins != nullptr, by.record,
+  const VertexLight::Indirect how{prepared_.options().ambientBounces, by.joins ? sight.distance : 0, by.record,
                                   color * by.cell};
   return radiance + color * by.both.indirectAt(at, how, by.random, by.scratch);
 }

@@ -219,10 +219,9 @@ void LightVertices::Path::arrive(const PlainPlace& at) {
 void LightVertices::Path::addVisible(const PlainPlace& at, double reflected) {
   if (bounces_ > all_.prepared_.options().ambientBounces) return;
   const bool direct = way_ == LightVertex::direct;
-  double share = 1;
-  if (way_ == LightVertex::diffuse)
-    share = senderIsUnbounded_ ? 0 : all_.closeShare(length_) * all_.nearShare(length_);
-  if (way_ == LightVertex::unweighed || !(share > 0)) return;
+  const bool diffuse = way_ == LightVertex::diffuse;
+  if (way_ == LightVertex::unweighed) return;
+  if (diffuse && (senderIsUnbounded_ || !(all_.closeShare(length_, all_.meanLength_) > 0))) return;
   if (!(reflected > 0) && !(direct && hasRoughHighlight(*at.material))) return;
   double shadowRays = 0;
   if (direct) {
@@ -236,7 +235,7 @@ void LightVertices::Path::addVisible(const PlainPlace& at, double reflected) {
   }
   const Irradiance power = direct ? power_ : Irradiance(power_.color * at.color());
   all_.visible_.push_back({vertexAt(at, reflected, bounces_ + 1, way_, batch_), power, direction_,
-                           at.material, at.pattern, at.flat, share, shadowRays});
+                           at.material, at.pattern, at.flat, diffuse ? length_ : 0, shadowRays});
 }
 
 // Chooses between the ways of reflection by their power, by which the path may also end. False if it does.
@@ -313,7 +312,6 @@ void LightVertices::measure(size_t paths, uint64_t seed) {
   }
   if (met > 0) meanLength_ = sum / static_cast<double>(met);
   width_ = Tuning::kWidth * meanLength_;
-  close_ = Tuning::kClose * meanLength_;
   all_.clear();
   powers_.clear();
   hits_.clear();
@@ -328,10 +326,11 @@ void LightVertices::sort() {
   permute(visible_, orderByPlace(visible_.size(), [&](size_t i) { return visible_[i].vertex.point(); }));
 }
 
-double LightVertices::closeShare(double distance) const {
+double LightVertices::closeShare(double distance, double fromEye) const {
   // 0 beyond ten times the width, so that few vertices have a share.
   constexpr double kRest = 1. / 101;
-  const double share = close_ * close_ / (distance * distance + close_ * close_);
+  const double width = Tuning::kClose * std::min(meanLength_, fromEye);
+  const double share = width * width / (distance * distance + width * width);
   return std::max(0., (share - kRest) / (1 - kRest));
 }
 

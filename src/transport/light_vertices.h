@@ -63,7 +63,8 @@ class LightVertices {
     const Opaque* material;
     Color pattern;
     bool flat;
-    double share;  // of its light: the rest is found by rays from the eye (closeShare())
+    // From the surface that has sent the light diffusely, world units; 0 if it has come in another way.
+    double length;
     // The density of shadow rays from there to the same place of the source, over the density of light paths
     // by way of both places (m2). 0 unless the light is direct.
     double shadowRays;
@@ -78,8 +79,13 @@ class LightVertices {
   double nearShare(double distance) const {
     return width_ * width_ / (distance * distance + width_ * width_);
   }
-  // The part of that share that a ray from the eye leaves to joins, because it meets narrow gaps too rarely.
-  double closeShare(double distance) const;
+  // The part of that share that a ray leaves to joins with the eye, because it meets narrow gaps too rarely:
+  // narrow as seen from the eye, at this distance from the place (world units).
+  double closeShare(double distance, double fromEye) const;
+  // The share of the light of a vertex that joins with an eye at this distance bring.
+  double joinedShare(const Visible& v, double fromEye) const {
+    return v.length > 0 ? closeShare(v.length, fromEye) * nearShare(v.length) : 1;
+  }
   double width() const { return width_; }  // at which nearShare() is a half, world units
 
   // With what probability a place follows paths from the eye for the light that is left to them: more often
@@ -99,7 +105,7 @@ class LightVertices {
   SourceEmission emission_;
   double shareOfRest_ = 1;
   size_t met_ = 0, metUnknown_ = 0;  // surfaces, by light paths
-  double meanLength_ = 1, width_ = 0, close_ = 0;
+  double meanLength_ = 1, width_ = 0;
   std::vector<LightVertex> all_;
   std::vector<Irradiance> powers_;
   std::vector<SurfaceId> hits_;

@@ -97,12 +97,17 @@ bool PlainSurfaces::isKnown(LightId source) const {
   const LightSource& light = prepared_.lights().all()[source];
   if (light.isDistant() || light.reach > 0) return false;
   if (light.isVirtual()) return mirrorOf(light.surface) && knownSources_[light.relayed];
-  if (!light.hitsWhereAimed && !light.as<TubeLight>()) return false;  // samples may miss it
-  if (light.spot && !light.as<PlaneLight>()) return false;
+  const auto* const plane = light.as<PlaneLight>();
+  // Samples of concave and bent polygons miss parts of them. Rings have no hole, or cannot be sources.
+  const bool isRing = plane && std::holds_alternative<PlaneLight::Disk>(plane->map);
+  if (!light.hitsWhereAimed && !isRing && !light.as<TubeLight>()) return false;
+  if (light.spot && !plane) return false;
   const Surface surface = scene_.surfaces[light.surface];
-  // Light distributions and cones are left to paths from the eye.
-  return !light.spot && prepared_.lights().constantRadiance(source) &&
-         minChannel(sourceRadiance(scene_, surface).color) >= 0;
+  if (minChannel(sourceRadiance(scene_, surface).color) < 0) return false;
+  const auto isLocal = [&](ModifierId i) { return !prepared_.functions().dependsOnDistance(i); };
+  return prepared_.lights().constantRadiance(source) ||
+         (surface.modifier == surface.material &&
+          arePatterns(scene_, scene_.modifiers[surface.material].next, isLocal));
 }
 
 void PlainSurfaces::findSurfaces() {
@@ -126,7 +131,9 @@ const char* PlainSurfaces::obstacle() const {
   if (!changeNothing(prepared_.options())) return "options";
   if (!prepared_.lights().distant().empty()) return "distant sources";
   if (!hasKnownSources_) return "no known sources";
-  if (!bringAll_) return "surfaces or sources that are not known";
+  // By measurement in an open-plan office with a sheet of paper or a crystal ball: around a goal half the error,
+  // by lamps the same error in two thirds more time.
+  if (!bringAll_ && !scene_.importance) return "surfaces or sources that are not known";
   for (const auto& modifier : scene_.modifiers)
     if (const auto* material = std::get_if<Material>(&modifier.content); holds<Mist>(material)) return "mist";
   return nullptr;
@@ -207,7 +214,10 @@ Color PlainSurfaces::patternAt(const PlainPlace& at, const V3d& direction, const
   here.u = hit.u;
   here.v = hit.v;
   here.path = hit.path;
-  return patternFrom(patterns_[scene_.surfaces.face(at.surface).finish], here, scratch);
+  Color pattern = patternFrom(patterns_[scene_.surfaces.face(at.surface).finish], here, scratch);
+  // What reflects a negative share of light counts as black.
+  pattern.transform([](double share) { return std::max(0., share); });
+  return pattern;
 }
 
 // The product of the patterns of a chain.
@@ -216,7 +226,6 @@ Color PlainSurfaces::patternFrom(ModifierId first, const FunctionPoint& here,
   Color pattern(1, 1, 1);
   for (ModifierId i = first; i != kNone; i = scene_.modifiers[i].next)
     pattern *= prepared_.functions().pattern(i, here, scratch);
-  pattern.transform([](double v) { return std::max(0., v); });
   return pattern;
 }
 

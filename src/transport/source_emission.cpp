@@ -40,7 +40,7 @@ SourceEmission::SourceEmission(const PreparedScene& prepared, const PlainSurface
   }
   for (Sender& s : senders_) {
     s.upTo = s.upTo < sum ? s.upTo / sum : 1;
-    if (s.power > 0) s.density = s.power / s.area * static_cast<double>(paths) / sum;
+    if (s.even) s.density = s.power / s.area * static_cast<double>(paths) / sum;
   }
   pathPower_ = sum / static_cast<double>(paths);
 }

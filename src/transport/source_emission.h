@@ -27,7 +27,7 @@ class SourceEmission {
   Leaving leave(LightId source, Random& random, FunctionScratch& scratch) const;
 
   bool isEven(LightId source) const { return senders_[source].even; }
-  // Of the paths that begin on an even source (1/m2).
+  // Of the paths that begin on an even source (1/m2); 0 for others.
   double density(LightId source) const { return senders_[source].density; }
   double pathPower() const { return pathPower_; }  // brightness of each path, W, but for the choice of ways
 
@@ -49,7 +49,7 @@ class SourceEmission {
   struct Way {
     SurfacePoint from;
     V3d direction{0, 0, 1};
-    Radiance radiance;
+    Radiance radiance{};
     double weight = 1;  // density of even light, which goes by the cosine, over that of such ways
   };
   Way way(LightId source, Random& random, FunctionScratch& scratch) const;

@@ -226,12 +226,12 @@ Radiance VertexLight::ofNear(const PlainPlace& at, const Indirect& how, Random& 
   if (sight.hit.surface == kNone) return {};
   const PlainPlace there = surfaces_.placeOf(at.point, direction, sight, scratch.functions);
   if (!there.material) return {};
-  const double left = how.toEye ? 1 - vertices_.closeShare(sight.distance) : 1;
+  const double left = how.fromEye > 0 ? 1 - vertices_.closeShare(sight.distance, how.fromEye) : 1;
   const Coefficient share(sight.passed.color * there.color() *
                           (left * diffuseShare(*there.material, -there.normal.dot(direction))));
   Radiance sum = directAt(there, random, scratch);
   if (how.bounces > 1)
-    sum += indirectAt(there, {how.bounces - 1, false, how.record, how.scale * share}, random, scratch);
+    sum += indirectAt(there, {how.bounces - 1, 0, how.record, how.scale * share}, random, scratch);
   return sum * share;
 }
 

@@ -51,8 +51,9 @@ class VertexLight {
     void add(uint8_t batch, const Irradiance& part, double notChosen);
   };
   struct Indirect {
-    int bounces = 1;           // at most, of the light: -ab, less those between the eye and the place
-    bool toEye = false;        // light vertices at the place are joined to the eye: closeShare() is theirs
+    int bounces = 1;  // at most, of the light: -ab, less those between the eye and the place
+    // Distance from an eye that light vertices at the place are joined to, and bring closeShare(); 0: none.
+    double fromEye = 0;
     Record* record = nullptr;  // null: none
     Coefficient scale{1};      // of what is recorded (sr)
   };

@@ -13,9 +13,9 @@
 namespace rsphere {
 namespace {
 
-struct Setting : SphereSetting {
-  explicit Setting(const std::string& text, int bounces)
-      : SphereSetting(sceneOf(text), [&](RayOptions& o) {
+struct LampSetting : SphereSetting {
+  explicit LampSetting(Scene scene, int bounces)
+      : SphereSetting(std::move(scene), [&](RayOptions& o) {
           o.ambientBounces = bounces;
           o.sourceSubstructuring = .1;
         }) {}
@@ -36,15 +36,15 @@ struct Setting : SphereSetting {
 // In a sphere whose wall reflects the share r, every place of the wall receives the same from every other. A
 // lamp in its middle causes the irradiance E = pi L (a / R)^2, and b bounces (1 + r + ... + r^b) E.
 TEST(DiffuseGlances, IntegratingSphere) {
-  constexpr double kReflectance = .5, kLamp = 100, kLampRadius = .02;
+  constexpr double kReflectance = .5, kBulb = 100, kLampRadius = .02;
   const std::string scene =
       "void plastic white 0 0 5 .5 .5 .5 0 0\nvoid light lamp 0 0 3 100 100 100\n"
       "white bubble wall 0 0 4 0 0 0 1\nlamp sphere bulb 0 0 4 0 0 0 .02\n";
   const V3d point(.3, .5, -.2);
-  const double direct = kReflectance * kLamp * kLampRadius * kLampRadius;
-  const double bulb = kLamp * kLampRadius * kLampRadius / (4 * point.length2());  // pi a^2 / d^2 of 4 pi sr
+  const double direct = kReflectance * kBulb * kLampRadius * kLampRadius;
+  const double bulb = kBulb * kLampRadius * kLampRadius / (4 * point.length2());  // pi a^2 / d^2 of 4 pi sr
   for (const int bounces : {0, 1, 2, 3}) {
-    const Setting setting(scene, bounces);
+    const LampSetting setting(sceneOf(scene), bounces);
     ASSERT_TRUE(setting.fromBothEnds());
     double wall = 0;
     for (int k = 0; k <= bounces; ++k) wall += direct * std::pow(kReflectance, k);
@@ -57,9 +57,7 @@ TEST(DiffuseGlances, IntegratingSphere) {
   }
 }
 
-const char* const kClosedRoom =
-    "void light lamp 0 0 3 20 20 20\n"
-    "lamp polygon p 0 0 12 1 1 2.9 1 2 2.9 3 2 2.9 3 1 2.9\n"
+const char* const kBareRoom =
     "void plastic wall 0 0 5 .6 .55 .5 0 0\n"
     "wall polygon floor 0 0 12 0 0 0 4 0 0 4 3 0 0 3 0\n"
     "wall polygon ceiling 0 0 12 0 0 3 0 3 3 4 3 3 4 0 3\n"
@@ -67,6 +65,9 @@ const char* const kClosedRoom =
     "wall polygon north 0 0 12 0 3 0 4 3 0 4 3 3 0 3 3\n"
     "wall polygon west 0 0 12 0 0 0 0 3 0 0 3 3 0 0 3\n"
     "wall polygon east 0 0 12 4 0 0 4 0 3 4 3 3 4 3 0\n";
+const char* const kCeilingLamp =
+    "void light lamp 0 0 3 20 20 20\nlamp polygon p 0 0 12 1 1 2.9 1 2 2.9 3 2 2.9 3 1 2.9\n";
+const std::string kClosedRoom = std::string(kCeilingLamp) + kBareRoom;
 
 // What light may do on its way, each against paths from the eye alone. "closed" is a box around the lamp that
 // lets no light out but by what is tried.
@@ -74,15 +75,16 @@ struct Way {
   const char* name;
   const char* surfaces;
   int bounces = 2;
+  const char* lamp = kCeilingLamp;
+  V3d point{2.5, 1.2, 1.1};
 };
 void PrintTo(const Way& way, std::ostream* out) { *out << way.name; }
 
 class WaysOfLight : public ::testing::TestWithParam<Way> {};
 
-TEST_P(WaysOfLight, AgreeWithPathsFromTheEye) {
-  const Setting setting(std::string(kClosedRoom) + GetParam().surfaces, GetParam().bounces);
+// Both estimates of a room, and that they are equal.
+void expectPathsFromTheEye(const LampSetting& setting, const V3d& point) {
   ASSERT_TRUE(setting.fromBothEnds());
-  const V3d point(2.5, 1.2, 1.1);
   Sample both, eye;
   for (uint64_t rotation = 0; rotation < 16; ++rotation)
     both.add(setting.at(point, Weights::silhouettes, 256, rotation));
@@ -94,6 +96,24 @@ TEST_P(WaysOfLight, AgreeWithPathsFromTheEye) {
       << eye.standardError();
   EXPECT_GT(std::abs(1.045 * both.mean() - eye.mean()), kMostSigmas * error)
       << "would not see an error of 4.5%";
+}
+
+TEST_P(WaysOfLight, AgreeWithPathsFromTheEye) {
+  const Way& way = GetParam();
+  expectPathsFromTheEye(LampSetting(sceneOf(std::string(way.lamp) + kBareRoom + way.surfaces), way.bounces),
+                        way.point);
+}
+
+// What paths from both ends do not know is left to paths from the eye. The lamp is a goal: with others, scenes
+// that are known in part have paths from the eye alone.
+class PartlyKnown : public WaysOfLight {};
+
+TEST_P(PartlyKnown, AgreesWithPathsFromTheEye) {
+  const Way& way = GetParam();
+  const std::vector<std::string> goals{"lamp"};
+  Scene scene =
+      buildScene(rad::readSceneText(std::string(way.lamp) + kBareRoom + way.surfaces, "room.rad"), {}, goals);
+  expectPathsFromTheEye(LampSetting(std::move(scene), way.bounces), way.point);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -131,15 +151,54 @@ INSTANTIATE_TEST_SUITE_P(
         Way{"CornerOfMirrors",
             "void mirror m 0 0 3 .9 .9 .9\nm polygon q 0 0 12 .5 .5 .4 3 .5 .4 3 2.5 .4 .5 2.5 .4\n"
             "m polygon r 0 0 12 .1 .1 .3 .1 .1 2.9 3.9 .1 2.9 3.9 .1 .3\n"},
+        Way{.name = "Spot",
+            .surfaces = "void spotlight s 0 0 7 100 100 100 60 0 .2 -1\n"
+                        "s polygon q 0 0 12 2 1 2.9 2 2 2.9 3 2 2.9 3 1 2.9\n",
+            .lamp = ""},
+        Way{.name = "SpotBesideALamp",
+            .surfaces = "void spotlight s 0 0 7 300 300 300 60 0 .2 -1\n"
+                        "s ring q 0 0 8 3 2 2.5 0 0 -1 0 .2\n"},
+        Way{.name = "PatternedLamp",
+            .surfaces = "void brightfunc f 2 1+Dx . 0 0\nf light s 0 0 3 40 20 20\n"
+                        "s polygon q 0 0 12 2 1 2.9 2 2 2.9 3 2 2.9 3 1 2.9\n",
+            .lamp = ""},
+        Way{.name = "PatternedBall",
+            .surfaces = "void brightfunc f 2 1+Dz . 0 0\nf light s 0 0 3 40 20 20\n"
+                        "s sphere q 0 0 4 1 2 2 .3\n"},
+        Way{.name = "NarrowLamp",
+            .surfaces = "void brightfunc f 2 if(-Dz-.8,20,.01) . 0 0\nf light s 0 0 3 20 20 20\n"
+                        "s ring q 0 0 8 2 1.5 2.5 0 0 -1 0 .3\n",
+            .lamp = ""},
+        Way{.name = "PointInACorner", .surfaces = "", .point = V3d(3.995, .005, .005)},
         Way{"NearCorner", "wall polygon low 0 0 12 2.3 1 1.09 2.7 1 1.09 2.7 1.4 1.09 2.3 1.4 1.09\n"},
         Way{"Ball", "lamp sphere bulb 0 0 4 3 2 1.5 .1\n"},
+        Way{"Ring", "lamp ring q 0 0 8 3 2 2.5 0 0 -1 0 .6\n"},
         Way{"Tube", "lamp cylinder tube 0 0 7 .5 2.5 2 3.5 2.5 2 .03\n"}),
     [](const auto& info) { return std::string(info.param.name); });
 
+INSTANTIATE_TEST_SUITE_P(
+    Goal, PartlyKnown,
+    ::testing::Values(
+        Way{"Paper",
+            "void trans paper 0 0 7 .6 .6 .6 0 0 .7 .2\n"
+            "paper polygon t 0 0 12 0 0 1.6 4 0 1.6 4 3 1.6 0 3 1.6\n"},
+        Way{"PaperBeside",
+            "void trans paper 0 0 7 .6 .6 .6 0 0 .7 0\n"
+            "paper polygon t 0 0 12 1.5 0 0 1.5 3 0 1.5 3 2 1.5 0 2\n"},
+        Way{"SeenObliquely",
+            "void brightfunc f 2 .5+Rdot/2 . 0 0\nf plastic t 0 0 5 .9 .8 .7 0 0\n"
+            "t polygon q 0 0 12 0 0 .2 4 0 .2 4 3 .2 0 3 .2\n"},
+        Way{"Rippled",
+            "void texfunc f 4 .3*sin(9*Px) .3*cos(9*Py) 0 . 0 0\nf plastic t 0 0 5 .9 .8 .7 0 0\n"
+            "t polygon q 0 0 12 0 0 .2 4 0 .2 4 3 .2 0 3 .2\n"},
+        Way{"CrystalBall",
+            "void dielectric crystal 0 0 5 .9 .9 .9 1.5 0\ncrystal sphere b 0 0 4 2 1.5 1.5 .5\n"},
+        Way{"Nothing", "void polygon q 0 0 12 0 0 1.6 4 0 1.6 4 3 1.6 0 3 1.6\n"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
 TEST(DiffuseGlances, EveryDirectionAddsUpToTheAnswer) {
-  const Setting setting(
-      std::string(kClosedRoom) + "void metal chrome 0 0 5 .9 .9 .9 1 0\nchrome sphere b 0 0 4 2 1.5 1.5 .5\n",
-      2);
+  const LampSetting setting(
+      sceneOf(kClosedRoom + "void metal chrome 0 0 5 .9 .9 .9 1 0\nchrome sphere b 0 0 4 2 1.5 1.5 .5\n"), 2);
   SphereOptions o = setting.options.sphere;
   o.baseDirections = 200;
   o.everyDirection = true;
@@ -162,7 +221,7 @@ TEST(DiffuseGlances, EveryDirectionAddsUpToTheAnswer) {
 
 TEST(PlainSurfaces, NameWhatTheyDoNotKnow) {
   const auto obstacle = [](const std::string& more, int bounces = 1) {
-    const Setting setting(std::string(kClosedRoom) + more, bounces);
+    const LampSetting setting(sceneOf(kClosedRoom + more), bounces);
     const char* const why = PlainSurfaces(setting.transport->prepared()).obstacle();
     return std::string(why ? why : "none");
   };
@@ -175,7 +234,7 @@ TEST(PlainSurfaces, NameWhatTheyDoNotKnow) {
 
 // The light that arrives first at walls that close the room is all that the lamp sends.
 TEST(LightVertices, FirstOnesHaveThePowerOfTheSources) {
-  const Setting setting(kClosedRoom, 1);
+  const LampSetting setting(sceneOf(kClosedRoom), 1);
   const PreparedScene& prepared = setting.transport->prepared();
   const PlainSurfaces surfaces(prepared);
   const LightVertices vertices(prepared, surfaces, 20000, 1);
@@ -188,7 +247,7 @@ TEST(LightVertices, FirstOnesHaveThePowerOfTheSources) {
 }
 
 TEST(LightVertices, SameForTheSameSeed) {
-  const Setting setting(kClosedRoom, 2);
+  const LampSetting setting(sceneOf(kClosedRoom), 2);
   const PreparedScene& prepared = setting.transport->prepared();
   const PlainSurfaces surfaces(prepared);
   const LightVertices a(prepared, surfaces, 1000, 1), b(prepared, surfaces, 1000, 1),
