@@ -201,8 +201,8 @@ Radiance DiffuseGlances::glance(const V3d& point, const V3d& direction, Glancing
       by.joins ? by.joins->seen(at, direction, sight.distance) : VertexLight::Seen{direction};
   Radiance radiance = sight.passed * by.both.directOf(at, seen, by.random, by.scratch);
   if (isBlack(color)) return radiance;
-  const VertexLight::Indirect how{prepared_.options().ambientBounces, by.joins ? sight.distance : 0, by.record,
-                                  color * by.cell};
+  const VertexLight::Indirect how{prepared_.options().ambientBounces, by.joins ? sight.distance : 0,
+                                  by.record, color * by.cell};
   return radiance + color * by.both.indirectAt(at, how, by.random, by.scratch);
 }
 

@@ -131,8 +131,8 @@ const char* PlainSurfaces::obstacle() const {
   if (!changeNothing(prepared_.options())) return "options";
   if (!prepared_.lights().distant().empty()) return "distant sources";
   if (!hasKnownSources_) return "no known sources";
-  // By measurement in an open-plan office with a sheet of paper or a crystal ball: around a goal half the error,
-  // by lamps the same error in two thirds more time.
+  // By measurement in an open-plan office with a sheet of paper or a crystal ball: around a goal half the
+  // error in twice the time, by lamps the same error in two thirds more.
   if (!bringAll_ && !scene_.importance) return "surfaces or sources that are not known";
   for (const auto& modifier : scene_.modifiers)
     if (const auto* material = std::get_if<Material>(&modifier.content); holds<Mist>(material)) return "mist";

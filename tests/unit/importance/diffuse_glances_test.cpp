@@ -104,8 +104,8 @@ TEST_P(WaysOfLight, AgreeWithPathsFromTheEye) {
                         way.point);
 }
 
-// What paths from both ends do not know is left to paths from the eye. The lamp is a goal: with others, scenes
-// that are known in part have paths from the eye alone.
+// What paths from both ends do not know is left to paths from the eye. The lamp is a goal: with others,
+// scenes that are known in part have paths from the eye alone.
 class PartlyKnown : public WaysOfLight {};
 
 TEST_P(PartlyKnown, AgreesWithPathsFromTheEye) {

@@ -101,7 +101,7 @@ Sample irradianceByImportance(int bounces, bool basic, uint64_t rotations = 24) 
 
 TEST(Duality, IrradianceFromALampIsWhatImportancePredicts) {
   const Sample light = irradianceOnGoal(2, 2, 180);
-  const Sample importance = irradianceByImportance(2, false, 72);
+  const Sample importance = irradianceByImportance(2, false, 40);
   const double error = std::hypot(light.standardError(), importance.standardError());
   RecordProperty("light", std::to_string(light.standardError() / light.mean()));
   RecordProperty("importance", std::to_string(importance.standardError() / importance.mean()));
