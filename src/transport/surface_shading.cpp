@@ -279,11 +279,7 @@ SurfaceShading::FromBothEnds SurfaceShading::fromBothEnds(const RayEnd& end) {
   FromBothEnds both{.direct = &surfaces, .indirect = &surfaces};
   const bool rough = hasRoughHighlight(*material);
   const bool unjoined = end.context.ambientLevel == 0 || end.known == Known::unjoined;
-  if (isMirrored(end.context)) {
-    if (!unjoined) {
-      both.rest = restOf(end, both);
-      return both;
-    }
+  if (unjoined && isMirrored(end.context)) {
     // One shadow ray is not enough for a strong highlight.
     const bool weak = !rough || material->specularity < tuning::VertexLight::kStrong;
     if (!weak) both.direct = nullptr;
