@@ -117,7 +117,8 @@ struct Companion {
   void (*defaults)(Options&) = nullptr;
   // Which of rsphere's options it takes. Null: all.
   bool (*takes)(const OptionEntry&) = nullptr;
-  std::span<const std::string_view> features{};  // what -features lists; empty: those of rtrace
+  // What -features lists besides what all programs do with a scene; empty: that of rtrace.
+  std::span<const std::string_view> features{};
 };
 
 // An option on a command line, and its words, of which the first is the option itself.

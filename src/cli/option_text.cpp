@@ -227,8 +227,8 @@ std::string manualEntry(const OptionEntry& entry, const std::string& more) {
   return text + '\n';
 }
 
-// The features of rsphere, in rtrace's words.
-constexpr std::array<std::string_view, 26> kFeatures = {
+// What all programs do with a scene, in RADIANCE's words.
+constexpr std::string_view kSceneFeatures[] = {
     "VirtualSources",
     "SecondarySources",
     "SourceSubsampling",
@@ -243,18 +243,20 @@ constexpr std::array<std::string_view, 26> kFeatures = {
     "ScatteringModels=WGMD,Ashikhmin-Shirley",
     "TabulatedBSDFs=DataFile,KlemsXML,TensorTreeXML,+ViewPeakExtraction",
     "Instancing=Octree,TriangleMesh",
-    "Aliases",
-    "ShadowCache",
-    "Multiprocessing",
-    "IrradianceCalc",
-    "ImmediateIrradiance",
-    "DistanceLimiting",
-    "ParticipatingMedia=Mist",
-    "AdaptiveShadowTesting",
-    "InputFormats=a,f,d",
-    "OutputFormats=a,f,d,c",
-    "Outputs=o,d,v,V,w,W,l,L,c,p,n,N,s,m,M,r,x,R,X,~",
-    "OutputCS=RGB,XYZ,Y,S,M,prims,spec"};
+    "Aliases"};
+
+// What only rsphere does, in rtrace's words.
+constexpr std::string_view kRayFeatures[] = {"ShadowCache",
+                                             "Multiprocessing",
+                                             "IrradianceCalc",
+                                             "ImmediateIrradiance",
+                                             "DistanceLimiting",
+                                             "ParticipatingMedia=Mist",
+                                             "AdaptiveShadowTesting",
+                                             "InputFormats=a,f,d",
+                                             "OutputFormats=a,f,d,c",
+                                             "Outputs=o,d,v,V,w,W,l,L,c,p,n,N,s,m,M,r,x,R,X,~",
+                                             "OutputCS=RGB,XYZ,Y,S,M,prims,spec"};
 
 bool hasSubfeatures(std::string_view feature, std::string_view wanted) {
   const size_t equals = feature.find('=');
@@ -299,16 +301,18 @@ std::string helpText(const Options& options) {
 }
 
 FeatureReport featureReport(std::span<const std::string> wanted, std::span<const std::string_view> features) {
-  if (features.empty()) features = kFeatures;
+  if (features.empty()) features = kRayFeatures;
+  std::vector<std::string_view> all(std::begin(kSceneFeatures), std::end(kSceneFeatures));
+  all.insert(all.end(), features.begin(), features.end());
   FeatureReport report;
   if (wanted.empty())
-    for (const std::string_view feature : features) report.text += fmt::format("{}\n", feature);
+    for (const std::string_view feature : all) report.text += fmt::format("{}\n", feature);
   for (const std::string& want : wanted) {
     if (want.empty()) continue;
     const size_t equals = want.find('=');
     const std::string_view name = std::string_view(want).substr(0, equals);
     std::string_view found;
-    for (const std::string_view feature : features)
+    for (const std::string_view feature : all)
       if (feature.substr(0, feature.find('=')) == name) found = feature;
     const bool has = !found.empty() && (equals == std::string::npos ||
                                         hasSubfeatures(found, std::string_view(want).substr(equals + 1)));

@@ -149,35 +149,11 @@ void addOutputs(const Add& add) {
            "of an uninterrupted run. Not with text, nor with -c 0."});
 }
 
-// In the words of RADIANCE's rcontrib.
+// Besides what all programs do, in the words of RADIANCE's rcontrib.
 constexpr std::string_view kFeatures[] = {
-    "VirtualSources",
-    "SecondarySources",
-    "SourceSubsampling",
-    "SourceVisibility",
-    "AmbientModifierSelection",
-    "PathTracing",
-    "RussianRoulette",
-    "SpecularSampling",
-    "MaterialMixtures",
-    "Antimatter",
-    "BackFaceVisibility",
-    "ScatteringModels=WGMD,Ashikhmin-Shirley",
-    "TabulatedBSDFs=DataFile,KlemsXML,TensorTreeXML,+ViewPeakExtraction",
-    "Instancing=Octree,TriangleMesh",
-    "Aliases",
-    "Hyperspectral",
-    "ShadowCache",
-    "Multiprocessing",
-    "Accumulation",
-    "Summation",
-    "Recovery",
-    "ImmediateIrradiance",
-    "ProgressReporting",
-    "DistanceLimiting",
-    "InputFormats=a,f,d",
-    "OutputFormats=a,f,d,c",
-    "Outputs=V,W",
+    "Hyperspectral",    "ShadowCache",        "Multiprocessing",       "Accumulation",
+    "Summation",        "Recovery",           "ImmediateIrradiance",   "ProgressReporting",
+    "DistanceLimiting", "InputFormats=a,f,d", "OutputFormats=a,f,d,c", "Outputs=V,W",
     "OutputCS=RGB,spec"};
 
 // Options of sphere mode, of ray trees and of the contents of a record are none of rcontrib.
