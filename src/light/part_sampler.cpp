@@ -131,7 +131,7 @@ class PartSampler {
         point_(point),
         jitter_(how.jitter),
         allowed_(how.largest / 2),
-        splitsBalls_(how.splitsBalls && how.jitter > 0 && how.largest > 0),
+        splitsBalls_(how.splitsBalls),
         random_(random),
         samples_(samples) {}
 
@@ -249,7 +249,8 @@ void PartSampler::addPartsOfBall(const V3d& middle, double sine, double distance
 
 void PartSampler::addBall(const V3d& towards, double distance) {
   if (distance <= source_.radius) return;
-  const bool isSplit = splitsBalls_ && source_.radius > allowed_ * distance;
+  const bool isSplit =
+      splitsBalls_ && jitter_ > 0 && allowed_ > 0 && source_.radius > allowed_ * distance;
   if (isSplit) return addPartsOfBall(towards / distance, source_.radius / distance, distance);
   addRound(towards / distance, source_.radius / distance, distance);
 }

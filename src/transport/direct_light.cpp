@@ -201,8 +201,11 @@ uint32_t DirectLight::findContributions(Receiver at, DirectCoefficient coefficie
   const bool splitsBalls = settings_.mode.firstBounce == FirstBounce::interpolated && ray.ambientLevel == 0;
   const SourceSampling how{divides ? o.sourceSubstructuring / ray.weight : 0, o.directJitter, front,
                            splitsBalls};
+  // Shadow rays to known sources find nothing that is left, unless they may pass what is not known.
+  const PlainSurfaces* const leftOut =
+      at.leftToBothEnds && !at.leftToBothEnds->passUnknown() ? at.leftToBothEnds : nullptr;
   for (const LightId i : t_.lights().all().ids())
-    if (!isLeftOut(at, i) || at.leftToBothEnds->passUnknown())
+    if (!leftOut || !leftOut->knows(i))
       t_.lights().sample(i, at.point, how, state_.random, scratch_.samples);
   if (scratch_.contributions.size() < scratch_.samples.size()) {
     scratch_.contributions.resize(scratch_.samples.size());

@@ -388,14 +388,17 @@ template <ScattersLight S>
   }
   if (!scattering.takesDirect(side) || (both.direct && (both.direct->bringAllDirect() || !(both.rest > 0))))
     return;
-  const double rest = both.direct ? both.rest : 1;
   const auto coefficient = [&](const V3d& toSource, double solidAngle) {
-    return scattering.coefficient(side, toSource, solidAngle, state_.random) * rest;
+    return scattering.coefficient(side, toSource, solidAngle, state_.random);
   };
   if (t_.options().chosenSources > 0 && scattering.isEven())
-    light_.direct.addOfChosen({end, point}, coefficient, scattering.front(), value);
-  else
-    light_.direct.add({end, point, both.direct}, coefficient, scattering.front(), partOfLobe, value);
+    return light_.direct.addOfChosen({end, point}, coefficient, scattering.front(), value);
+  if (!both.direct)
+    return light_.direct.add({end, point}, coefficient, scattering.front(), partOfLobe, value);
+  const auto ofRest = [&](const V3d& toSource, double solidAngle) {
+    return coefficient(toSource, solidAngle) * both.rest;
+  };
+  light_.direct.add({end, point, both.direct}, ofRest, scattering.front(), partOfLobe, value);
 }
 
 bool SurfaceShading::estimate(RayEnd& end, Passes, RayResult& result) {
