@@ -13,6 +13,7 @@
 #include "answer/output_colors.h"
 #include "cli/option_table.h"
 #include "cli/option_words.h"
+#include "cli/word_file.h"
 #include "rad_parser/error.h"
 #include "rad_parser/nearest_name.h"
 #include "rad_parser/number.h"
@@ -23,7 +24,6 @@ namespace {
 
 // As in rtrace(1). The limit also ends the expansion of a file that names itself.
 constexpr size_t kMostExpanded = 4096;
-constexpr int kLongestWord = 65536;  // bytes; longer than any path
 
 struct Use {
   const OptionEntry* entry;
@@ -68,7 +68,7 @@ class Words {
     if (file) {
       // An endless device exceeds the limits on the number and length of words.
       for (std::string word; words.size() <= kMostExpanded && file >> std::setw(kLongestWord + 1) >> word;) {
-        if (word.size() > static_cast<size_t>(kLongestWord))
+        if (word.size() > kLongestWord)
           throw rad::Error(fmt::format("cannot expand '{}': a word is too long", name));
         words.push_back(word);
       }

@@ -13,7 +13,6 @@
 namespace rsphere {
 namespace {
 
-constexpr int kLongestWord = 65536;  // bytes, as in scene text
 constexpr size_t kMostWords = 1000000;
 
 }  // namespace
@@ -26,7 +25,7 @@ std::vector<std::string> wordsOfFile(std::string_view what, const std::string& n
   for (std::string word; path && file >> std::setw(kLongestWord + 1) >> word;) {
     words.push_back(word);
     // An endless device exceeds these limits.
-    if (words.size() > kMostWords || word.size() > size_t{kLongestWord})
+    if (words.size() > kMostWords || word.size() > kLongestWord)
       throw rad::Error(
           fmt::format("{} \"{}\" has {}", what, name,
                       word.size() > kLongestWord ? "a word that is too long" : "too many words"));

@@ -5,6 +5,9 @@
 
 namespace rsphere {
 
+// Bytes of a word in a file, as in scene text. An endless device is found out by it.
+inline constexpr size_t kLongestWord = 65536;
+
 // The words of a file that the command line names, at most a million. As in rtrace, it is searched for along
 // RAYPATH. what: for messages ("cannot open modifier file "x": ..."). Throws rad::Error, with Status::system
 // if the file cannot be read.

@@ -235,7 +235,7 @@ void LightVertices::Path::addVisible(const PlainPlace& at, double reflected) {
   }
   const Irradiance power = direct ? power_ : Irradiance(power_.color * at.color());
   all_.visible_.push_back({vertexAt(at, reflected, bounces_ + 1, way_, batch_), power, direction_,
-                           at.material, at.pattern, at.flat, diffuse ? length_ : 0, shadowRays});
+                           at.material, at.pattern, at.flat, length_, shadowRays});
 }
 
 // Chooses between the ways of reflection by their power, by which the path may also end. False if it does.
@@ -260,14 +260,14 @@ bool LightVertices::Path::reflect(const PlainPlace& at) {
   if (fromSource_) scale *= enteringShare(m, view.cosine);
   direction_ = sentFrom(at.normal, random_);
   power_ = Irradiance(power_.color * at.color() * (diffuseShare(m, at.normal.dot(direction_)) * scale));
-  senderIsUnbounded_ = way_ == LightVertex::sharp;
+  senderIsUnbounded_ = way_ == LightVertex::sharp || way_ == LightVertex::highlight;
   way_ = LightVertex::diffuse;
   ++bounces_;
   return std::abs(brightness(power_)) > 0;
 }
 
 bool LightVertices::Path::reflectSpecularly(const Scattering& s, const Interaction& view, double scale) {
-  way_ = LightVertex::sharp;
+  way_ = fromSource_ ? LightVertex::highlight : LightVertex::sharp;
   if (fromSource_) ++bounces_;  // only an indirect ray finds the highlight that lights the next surface
   if (s.sharp.count > 0) {
     direction_ = s.sharp.path[0].direction;

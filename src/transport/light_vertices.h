@@ -20,7 +20,8 @@ struct LightVertex {
     direct,             // straight from a source
     unweighed,          // the same, from a source whose shadow rays have no known density
     diffuse,            // straight from a diffuse reflection
-    sharp               // from a highlight or a sharp reflection
+    highlight,          // straight from the rough highlight that a source has on a surface
+    sharp               // from another highlight or a sharp reflection
   };
   // Paths are dealt out to this number of batches, by whose differences the error of the vertices is
   // estimated.
@@ -34,6 +35,8 @@ struct LightVertex {
   Way way = direct;
   uint8_t batch = 0;
 
+  // Rays that look for near surfaces do not bring its light on to others.
+  bool isUnbounded() const { return way == highlight || way == sharp; }
   V3d point() const { return V3d(place[0], place[1], place[2]); }
   V3d normal() const { return V3d(facing[0], facing[1], facing[2]); }
 };
@@ -63,8 +66,7 @@ class LightVertices {
     const Opaque* material;
     Color pattern;
     bool flat;
-    // From the surface that has sent the light diffusely, world units; 0 if it has come in another way.
-    double length;
+    double length;  // from the surface, or the source, that has sent the light, world units
     // The density of shadow rays from there to the same place of the source, over the density of light paths
     // by way of both places (m2). 0 unless the light is direct.
     double shadowRays;
@@ -84,7 +86,14 @@ class LightVertices {
   double closeShare(double distance, double fromEye) const;
   // The share of the light of a vertex that joins with an eye at this distance bring.
   double joinedShare(const Visible& v, double fromEye) const {
-    return v.length > 0 ? closeShare(v.length, fromEye) * nearShare(v.length) : 1;
+    switch (v.vertex.way) {
+      case LightVertex::diffuse:
+        return closeShare(v.length, fromEye) * nearShare(v.length);
+      case LightVertex::highlight:
+        return 1 - nearShare(v.length);
+      default:
+        return 1;
+    }
   }
   double width() const { return width_; }  // at which nearShare() is a half, world units
 

@@ -43,7 +43,7 @@ double weightOf(const LightVertex& v, const V3d& point, const float* normal, int
   const float there = -(x * v.facing[0] + y * v.facing[1] + z * v.facing[2]);
   if (!(here > 0) || !(there > 0) || v.bounces > bounces) return 0;
   const double square = x * x + y * y + z * z;
-  const double bound = v.way == LightVertex::sharp ? 0 : width * width;
+  const double bound = v.isUnbounded() ? 0 : width * width;
   return static_cast<double>(v.power * here * there) / (square * (square + bound));
 }
 
@@ -206,7 +206,7 @@ Radiance VertexLight::ofVertex(const PlainPlace& at, size_t i) const {
   if (!(here > 0) || !(there > 0)) return {};
   const Coefficient passed = surfaces_.passing(at.point, v.point(), at.surface);
   if (isBlack(passed)) return {};
-  const double bounded = v.way == LightVertex::sharp ? 1 : 1 - vertices_.nearShare(d);
+  const double bounded = v.isUnbounded() ? 1 : 1 - vertices_.nearShare(d);
   const double kernel =
       here * there / (kPi * kPi * square) * bounded * diffuseShare(vertices_.materialOf(i), there);
   return Radiance(vertices_.powerOf(i).color * passed.color * kernel);
@@ -232,7 +232,10 @@ Radiance VertexLight::ofNear(const PlainPlace& at, const Indirect& how, Random& 
   Radiance sum = directAt(there, random, scratch);
   if (how.bounces > 1)
     sum += indirectAt(there, {how.bounces - 1, 0, how.record, how.scale * share}, random, scratch);
-  return sum * share;
+  sum = sum * share;
+  if (how.fromEye > 0 && hasRoughHighlight(*there.material))
+    sum += sight.passed * directOf(there, {.view = direction, .shown = Shown::highlight}, random, scratch);
+  return sum;
 }
 
 }  // namespace rsphere

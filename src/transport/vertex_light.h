@@ -5,8 +5,9 @@
 // Light of vertices arrives with the kernel 1 / (d^2 + c^2) instead of 1 / d^2, which has no bound. One ray
 // in a random direction brings what that leaves out: the light of the place that it meets counts with the
 // probability c^2 / (d^2 + c^2), d being its distance (Kollig and Keller 2004, "Illumination in the presence
-// of weak singularities"). Such rays do not find light that has come to a vertex by a highlight or a sharp
-// reflection, so that c is 0 for these vertices.
+// of weak singularities"). Such rays do not bring on light that has come to a vertex by a highlight or a
+// sharp reflection, so that c is 0 for these vertices. At a place that joins with the eye they also find the
+// highlight that a source has on what is near, which light paths meet too rarely in a corner.
 #include "transport/light_vertices.h"
 
 namespace rsphere {

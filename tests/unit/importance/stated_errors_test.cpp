@@ -74,7 +74,7 @@ TEST(StatedErrors, HoldInTheTails) {
   const Desk desk;
   const V3d points[] = {V3d(2.8, 1.2, 1.2), V3d(3.9, 1.9, 1.1), V3d(2.2, .8, .4)};
   std::vector<std::vector<PointAnswer>> answers(std::size(points));
-  for (uint64_t rotation = 1; rotation <= 20; ++rotation) {
+  for (uint64_t rotation = 1; rotation <= 50; ++rotation) {
     SphereOptions o = desk.options.sphere;
     o.baseDirections = 64;
     o.rotation = rotation;
@@ -82,7 +82,7 @@ TEST(StatedErrors, HoldInTheTails) {
     SphereEstimator::Workspace workspace(estimator);
     // Points that differ by less than a micrometre have other random numbers.
     for (size_t i = 0; i < std::size(points); ++i)
-      for (int k = 0; k < 50; ++k)
+      for (int k = 0; k < 20; ++k)
         answers[i].push_back(estimator.estimate(points[i] + V3d(1e-8 * k, 0, 0), workspace));
   }
   const Honesty outcome = honestyOf(answers, 1);
