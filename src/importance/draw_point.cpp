@@ -21,8 +21,8 @@ using Tuning = tuning::Pictures;
 const Smoothing kOfIndirect{Tuning::kIndirectPasses, Tuning::kFinePasses, Tuning::kSameLight,
                             Tuning::kSameNormal,     Tuning::kNear,       Tuning::kNear};
 const Smoothing kOfGloss{Tuning::kFinePasses, 0, 0, Tuning::kSameGlossNormal, Tuning::kNear, Tuning::kNear};
-// The first pass blurs edges of sharp shadows by a pixel. They differ visibly, so that these pixels are traced
-// again (refine()).
+// The first pass blurs edges of sharp shadows by a pixel. They differ visibly, so that these pixels are
+// traced again (refine()).
 const Smoothing kOfDirect{1,
                           Tuning::kFinePasses,
                           Tuning::kSameLight,

@@ -22,8 +22,8 @@ bool sharesGloss(const Material& material, const SurfaceHit& hit) {
   return trans && trans->roughness >= Tuning::kLeastRoughness && hit.pattern == Color(1, 1, 1);
 }
 
-// Whether the light of sources changes little between neighboring pixels but for shadows: nothing but the noise
-// of soft shadows is then finer than a few pixels.
+// Whether the light of sources changes little between neighboring pixels but for shadows: nothing but the
+// noise of soft shadows is then finer than a few pixels.
 bool sharesDirect(const Material& material, const SurfaceHit& hit) {
   if (hit.perturbation != V3d(0, 0, 0) || hit.pattern != Color(1, 1, 1)) return false;
   return std::holds_alternative<Opaque>(material) || std::holds_alternative<Trans>(material);
