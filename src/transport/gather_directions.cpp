@@ -27,8 +27,6 @@ double usualRadiance(const Aims& aims) {
   return Tuning::kFartherInside * least;
 }
 
-double paying(double share) { return share >= Tuning::kTooFew ? share : 0; }
-
 }  // namespace
 
 GatherDirections::GatherDirections(const Aims& aims, const V3d& point, const V3d& normal,
@@ -45,8 +43,8 @@ GatherDirections::GatherDirections(const Aims& aims, const V3d& point, const V3d
   }
   if (!(aimedAt > 0)) return;
   const double unseen = std::max(0., 1 - Tuning::kSeenAnyway * openings_.seen);
-  toOpenings_ = paying(std::min(kMostToOpenings, Tuning::kAimed * openings_.mean / all * unseen));
-  toSpots_ = paying(Tuning::kAimed * spots_.mean / all);
+  toOpenings_ = std::min(kMostToOpenings, Tuning::kAimed * openings_.mean / all * unseen);
+  toSpots_ = Tuning::kAimed * spots_.mean / all;
 }
 
 // The density of a direction, relative to that of sampling by projected solid angle.

@@ -1,6 +1,7 @@
 #include "transport/openings.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include "base/constants.h"
 
@@ -17,17 +18,17 @@ void Openings::aim(const V3d& point, const V3d& normal, Aim& aim) const {
   for (uint32_t i = 0; i < openings_.size(); ++i) {
     const Opening& o = openings_[i];
     if ((point - o.corner).dot(o.normal) <= 0) continue;
-    // The form factor to the opening, estimated from five of its points.
-    const double inset = tuning::Openings::kInset, between = 1 - 2 * inset;
+    // The form factor to the opening, estimated from four of its points by Gauss' quadrature.
+    constexpr double kBetween = 1 / std::numbers::sqrt3, kInset = (1 - kBetween) / 2;
     double factor = 0;
-    for (int c = 0; c < 5; ++c) {
-      const double a = c < 4 ? inset + between * (c & 1) : .5, b = c < 4 ? inset + between * (c >> 1) : .5;
+    for (int c = 0; c < 4; ++c) {
+      const double a = kInset + kBetween * (c & 1), b = kInset + kBetween * (c >> 1);
       const V3d way = o.at(a, b) - point;
       const double squared = way.length2();
       const double here = way.dot(normal), there = -way.dot(o.normal);
       if (here > 0 && there > 0) factor += here * there / (squared * squared);
     }
-    factor = factor / 5 * o.filled / kPi;
+    factor = factor / 4 * o.filled / kPi;
     if (!(factor > 0)) continue;
     seen += factor;
     aim.opening[aim.count] = i;
