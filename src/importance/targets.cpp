@@ -135,11 +135,9 @@ Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDir
     const double solidAngle = silhouette.regionSolidAngle();
     if (!(solidAngle > 0)) return;
     double density = 0;
-    if (deviation > usual) {
-      // None needs more than all that there are.
-      density = static_cast<double>(most) / solidAngle;
-      if (usual > 0) density = std::min(density, (deviation / usual - 1) * baseDensity * densityFactor_);
-    }
+    if (deviation > usual)
+      density = usual > 0 ? (deviation / usual - 1) * baseDensity * densityFactor_
+                          : static_cast<double>(most) / solidAngle;
     if (opening * solidAngle > Tuning::kLeastOpening * kFullSphere * meanBrightness)
       density = std::max(density, Tuning::kDirectionsToOpening / solidAngle - baseDensity);
     if (!(density > 0) && solidAngle * baseDensity < Tuning::kFewestFitted) return;

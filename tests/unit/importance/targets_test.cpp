@@ -94,7 +94,7 @@ struct Choice {
 TEST(TargetChoice, SendsAsManyAsTheMostToAllAlike) {
   const Choice choice;
   const V3d point(0, 0, 0);
-  const Targets all = choice.at(point, .01, 1000000), few = choice.at(point, .01, 10);
+  const Targets all = choice.at(point, 1e-6, 1000000), few = choice.at(point, 1e-6, 10);
   ASSERT_GE(all.all().size(), 2u);
   ASSERT_EQ(all.all().size(), few.all().size());
   double sum = 0;
