@@ -22,7 +22,8 @@ void Openings::aim(const V3d& point, const V3d& normal, Aim& aim) const {
     constexpr double kBetween = .6454972243679028, kInset = (1 - kBetween) / 2;
     double factor = 0;
     for (int c = 0; c < 5; ++c) {
-      const double a = c < 4 ? kInset + kBetween * (c & 1) : .5, b = c < 4 ? kInset + kBetween * (c >> 1) : .5;
+      const double a = c < 4 ? kInset + kBetween * (c & 1) : .5;
+      const double b = c < 4 ? kInset + kBetween * (c >> 1) : .5;
       const V3d way = o.at(a, b) - point;
       const double squared = way.length2();
       const double here = way.dot(normal), there = -way.dot(o.normal);
