@@ -35,7 +35,7 @@ AnswerRecord answerRays(const Transport& transport, const AnswerOptions& options
       writer.writeBranch(bytes, branchAnswer(transport.prepared(), end, result), end.context.depth);
     };
     const RayObserver observer = trees ? RayObserver(writeBranch) : RayObserver();
-    const PathRequest request{nullptr, trees ? &observer : nullptr, shadows};
+    const PathRequest request{trees ? &observer : nullptr, shadows};
     const double farthest = options.limitDistance ? in.length : 0;
     const uint64_t seed = seedOfRay(record.numbers, record.index, options);
     const TracedRay ray = value ? tracer.trace(in.origin, in.direction, farthest, seed, request)

@@ -902,8 +902,8 @@ void addWeightOptions(const Add& add) {
            "separately by next-event estimation. Then the light of diffuse surfaces comes from glances, rays "
            "that only find a surface: with light paths from the sources where these know all surfaces and "
            "sources (plastic, metal, glass and curved mirrors without patterns, textures and mixtures; light "
-           "without patterns, not distant; -aa 0), otherwise as a control variate. With h and v, a light "
-           "source is a surface like any other.",
+           "without patterns, not distant; -aa 0), otherwise as a control variate, but not by daylight. "
+           "With h and v, a light source is a surface like any other.",
        .line = weightsLine});
 }
 

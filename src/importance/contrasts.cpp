@@ -21,7 +21,6 @@ class Values {
     squares_ += value * value;
     ++count_;
   }
-  int count() const { return count_; }
   double mean() const { return count_ > 0 ? sum_ / count_ : 0; }
   double deviation() const {
     return count_ > 1 ? std::sqrt(std::max(0., (squares_ - sum_ * sum_ / count_) / (count_ - 1))) : 0;
@@ -32,9 +31,7 @@ class Values {
   int count_ = 0;
 };
 
-// What random points of the scene's surfaces see; every surface is equally probable. Two paths in each
-// direction separate the noise of paths, which even spacing of directions does not reduce, from the variation
-// with direction, which it does.
+// What random points of the scene's surfaces see; every surface is equally probable.
 struct TypicalView {
   double mean = 0;       // of the photopic radiance, W/sr/m2
   double baseError = 1;  // Contrasts::baseError
@@ -45,33 +42,21 @@ TypicalView measureTypicalView(const Scene& scene, const SeenSources& sources,
   Random random(mixBits(scene.outermost().size()));
   Values photopic;
   Values values;
-  double noise = 0;
-  for (size_t k = 0; k < Tuning::kRays; ++k) {
+  for (size_t k = 0; k < 2 * Tuning::kRays; ++k) {
     const auto surfaces = static_cast<double>(scene.outermost().size());
     const SurfaceId i(static_cast<size_t>(random.uniform() * surfaces));
     if (scene.surfaces[i].shape.as<Distant>()) continue;
     const SurfacePoint at = samplePoint(scene, scene.surfaces[i], random);
     if (!(at.clearance > 0)) continue;
     const V3d away = diffuseDirection(at.normal, random.uniform(), random.uniform());
-    double seen[2];
-    bool apart = false;
-    double sum = 0;
-    for (double& value : seen) {
-      const TracedRay ray = tracer.trace(at.point + at.clearance * away, away, 0, random.bits());
-      value = brightness(ray.value);
-      sum += photopicOf(ray.value.color, sampling);
-      apart = apart || sources.isApart(ray.shown);
-    }
-    if (apart) continue;
-    photopic.add(sum / 2);
-    values.add((seen[0] + seen[1]) / 2);
-    noise += (seen[0] - seen[1]) * (seen[0] - seen[1]) / 2;
+    const TracedRay ray = tracer.trace(at.point + at.clearance * away, away, 0, random.bits());
+    if (sources.isApart(ray.shown)) continue;
+    photopic.add(photopicOf(ray.value.color, sampling));
+    values.add(brightness(ray.value));
   }
   if (!(values.mean() > 0)) return result;
-  noise /= static_cast<double>(values.count());
-  const double uneven = std::max(0., std::pow(values.deviation(), 2) - noise / 2);
   result.mean = photopic.mean();
-  result.baseError = std::sqrt(noise + Tuning::kUnevenShare * Tuning::kUnevenShare * uneven) / values.mean();
+  result.baseError = values.deviation() / values.mean();
   return result;
 }
 

@@ -17,8 +17,8 @@ struct Contrasts {
     double deviation = 0;  // standard deviation of the brightness on it, W/sr/m2
   };
   std::vector<Object> objects;
-  // The standard deviation of brightness over directions that remains as the error of one base direction,
-  // relative to the mean brightness. 1 if it was not measured.
+  // The standard deviation of the brightness along one path, relative to its mean: the error of one base
+  // direction. 1 if it was not measured.
   double baseError = 1;
 };
 

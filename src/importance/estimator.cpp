@@ -98,8 +98,8 @@ SampledSet joined(std::vector<KeptSet> sets, const TwoHalves& halves, const Irra
 Variance coarseVariance(const Irradiance& total, const RayOptions& o) {
   using Tuning = tuning::ErrorEstimate;
   const double rays = std::max(o.ambientDivisions + o.ambientSuperSamples, o.leastForPatches);
-  const double ofRays = Tuning::kRaysOfPatches * std::sqrt(Tuning::kUsualRays / std::max(rays, 1.));
-  return Variance::of(total, o.sampling) * (ofRays * ofRays + Tuning::kPatches * Tuning::kPatches);
+  return Variance::of(total, o.sampling) *
+         (Tuning::kPatches * Tuning::kPatches * (1 + Tuning::kUsualRays / std::max(rays, 1.)));
 }
 
 }  // namespace
@@ -116,7 +116,7 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
   if (options.weights == Weights::silhouettes && options.densityFactor > 0) {
     glances_ = DiffuseGlances::make(prepared, options, base_);
     if (glances_) tracing_.vertexLight = &glances_->light(0);
-    if (!glances_) tracing_.ofPoints = findAimsOfPoints(prepared, transport.aims());
+    if (!glances_) tracing_.ofPoints = findAimsOfPoints(prepared);
     tracing_.aims = joined(transport.aims(), tracing_.ofPoints);
   }
   strategy_ = makeStrategy();

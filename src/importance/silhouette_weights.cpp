@@ -52,10 +52,12 @@ size_t raysToImages(size_t base, size_t beside, bool glances) {
                  : usual;
 }
 
-std::vector<V3d> glancesFor(const SphereOptions& options) {
+// The directions of guesses; none by daylight, where these gain nothing.
+std::vector<V3d> glancesFor(const PreparedScene& prepared, const SphereOptions& options) {
+  if (!prepared.lights().distant().empty()) return {};
   const auto count = static_cast<size_t>(options.baseDirections);
   const size_t glances =
-      std::min(Tuning::kGlancesPerDirection * count, std::max(count, Tuning::kMostGlances));
+      std::min(Tuning::kGlancesPerDirection * count, std::max(count, tuning::DiffuseGlances::kMostGlances));
   return rotatedDirections(baseDirections(glances), options.rotation);
 }
 
@@ -87,9 +89,9 @@ SilhouetteWeights::SilhouetteWeights(const SphereTracing& tracing, const SphereO
   if (!(options.densityFactor > 0)) return;
   guidance_.emplace(Guidance{TargetChoice(tracing, special, sources, options.densityFactor),
                              RadianceGuess(tracing.prepared, unguessedSurfaces(sources)),
-                             glances ? std::vector<V3d>() : glancesFor(options),
-                             baseDirections(tuning::RadianceGuess::kFitGlances), std::nullopt});
-  if (!base.neighbours || glances) return;
+                             glances ? std::vector<V3d>() : glancesFor(tracing.prepared, options),
+                             baseDirections(Tuning::kRaysAround), std::nullopt});
+  if (!base.neighbours || guidance_->glances.empty()) return;
   VoronoiWorkspace workspace;
   cellSolidAngles(guidance_->glances, workspace);
   guidance_->neighbours = neighboursOf(workspace);
@@ -98,7 +100,6 @@ SilhouetteWeights::SilhouetteWeights(const SphereTracing& tracing, const SphereO
 SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace&) const {
   const View view = viewFrom(set, tracer);
   PathRequest request;
-  if (view.guess) request.guess = &*view.guess;
   if (glances_) request.vertexLight = &glances_->light(set.number());
   const PathsFrom paths(tracer, set.point(), request);
   const std::vector<SeenSources::Sample> toImages =
@@ -146,9 +147,10 @@ void SilhouetteWeights::lookAround(const SetAtPoint& set, PathTracer& tracer, Vi
     const TracedRay ray = paths.trace(direction, random.bits());
     if (sources_.isOne(ray.shown, view.images)) continue;
     const Hit& hit = ray.firstHit;
-    traced.push_back({guidance_->guess.placeOf(set.point(), direction, hit), hit.surface, ray.value});
+    traced.push_back({guidance_->guess.placeOf(set.point(), direction, hit), ray.value});
     view.meanBrightness += brightness(ray.value) / Tuning::kRaysAround;
   }
+  if (guidance_->glances.empty()) return;
   const uint64_t seed = seedOf(set, Stream::guess);
   const std::vector<V3d> glances = rotatedDirections(guidance_->fitGlances, mixBits(seed));
   view.guess = guidance_->guess.fit(set.point(), glances, traced, mixBits(seed + 1));

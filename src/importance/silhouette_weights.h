@@ -27,13 +27,13 @@ namespace rsphere {
 //   surfaces that receive much direct light (transport/bright_spots.h).
 // - By lamps, the light of plain diffuse surfaces does not come from these directions but from many glances,
 //   and from shadow rays to light vertices (diffuse_glances.h).
-// - Elsewhere a control variate reduces the variance of diffuse surfaces (transport/radiance_guess.h). Many
-//   glances, rays that are not followed beyond their first hit, estimate its integral. Directions, and the
-//   indirect rays that they spawn, only estimate the difference.
+// - Elsewhere by lamps, a control variate reduces the variance of diffuse surfaces
+//   (transport/radiance_guess.h). Many glances, rays that are not followed beyond their first hit, estimate
+//   its integral. Directions only estimate the difference.
 // With -Sk 0 only the first of these applies.
 class SilhouetteWeights : public SamplingStrategy {
  public:
-  // Keeps references to all of them. patches: null where light is even. glances: null where they do not find
+  // Keeps references to all of them. glances: null where they do not find
   // all of the light of diffuse surfaces; otherwise they take the place of the guess.
   SilhouetteWeights(const SphereTracing& tracing, const SphereOptions& options, const BaseSet& base,
                     std::span<const SpecialObject> special, const SeenSources& sources,
@@ -48,7 +48,7 @@ class SilhouetteWeights : public SamplingStrategy {
   struct Guidance {
     TargetChoice targets;
     RadianceGuess guess;
-    std::vector<V3d> glances, fitGlances;
+    std::vector<V3d> glances, fitGlances;  // no glances: nothing is guessed
     std::optional<Neighbours> neighbours;  // of glances, if standard errors are wanted
   };
 

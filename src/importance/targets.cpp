@@ -136,8 +136,8 @@ Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDir
     if (!(solidAngle > 0)) return;
     double density = 0;
     if (deviation > usual)
-      density = (std::min(usual > 0 ? deviation / usual : Tuning::kMostContrast, Tuning::kMostContrast) - 1) *
-                baseDensity * densityFactor_;
+      density = usual > 0 ? (deviation / usual - 1) * baseDensity * densityFactor_
+                          : static_cast<double>(most) / solidAngle;
     if (opening * solidAngle > Tuning::kLeastOpening * kFullSphere * meanBrightness)
       density = std::max(density, Tuning::kDirectionsToOpening / solidAngle - baseDensity);
     if (!(density > 0) && solidAngle * baseDensity < Tuning::kFewestFitted) return;

@@ -19,13 +19,8 @@ namespace rsphere::tuning {
 
 // How much radiance varies on special objects and around them (contrasts.cpp). Measured once per scene.
 struct Contrasts {
-  // The part of the standard deviation of radiance over all directions that is an error of one base
-  // direction. The other part varies slowly, for example from one side of a room to the other, and an even
-  // set integrates it: measured in furnished interiors, .5 to .7. 30% less: time +3%; 30% more: within noise
-  // (points in office; noise: error 7%, time 1%).
-  RSPHERE_TUNED(Contrasts, double, kUnevenShare, .6);
-  // Rays to the special objects of one modifier, and directions in which the typical view is sampled, with
-  // two paths in each: chosen by experiment. For normally distributed values the deviation is then known
+  // Rays to the special objects of one modifier, and half the paths that sample the typical view: chosen by
+  // experiment. For normally distributed values the deviation is then known
   // within 9%, 1/sqrt(2 x 63). All modifiers together get Caps::kAsked rays, but at least 2 each, to limit
   // the time at start: rays for each object instead of each modifier took 1.1 s instead of .05 s. 30% less or
   // more: within noise (points in office; error 7%, time 6%).
@@ -43,9 +38,6 @@ struct SilhouetteWeights {
   // a goal and from .41% to .40% in the open-plan office, in up to a fifth more time. 30% less or more:
   // within noise (points in office; error 27%, time 6%).
   RSPHERE_TUNED(SilhouetteWeights, size_t, kGlancesPerDirection, 4);
-  // Cap on the glances, but never fewer than base directions: chosen by experiment. It applies from 16384
-  // base directions on. 30% less or more: the same answers in all cases.
-  RSPHERE_TUNED(SilhouetteWeights, size_t, kMostGlances, 65536);
   // The variance of glances, relative to that of as many directions with the same radiances: their guesses
   // have edges but no noise of paths, of which an even set leaves half the variance
   // (ErrorEstimate::kEvenSet). Without bounces, in the open-plan office, the actual deviation is then 1.07
@@ -89,10 +81,6 @@ struct DiffuseGlances {
 };
 
 struct Targets {
-  // Cap on the ratio of deviations, and with it on the density of a target's directions over that of the
-  // base: chosen by experiment. Without it all other targets would pay for the last factor of two in density
-  // of one. 30% less or more: the same answers in all cases.
-  RSPHERE_TUNED(Targets, double, kMostContrast, 20000);
   // An image of a light source in a ball gets directions of its own if without them it would add more than
   // this share of the variance of all base directions: chosen by experiment. 30% less or more: within noise
   // (points in office; error below 1%, time 7%).
@@ -194,13 +182,12 @@ struct Silhouettes {
 // The standard error of a mean (error_estimate.cpp).
 struct ErrorEstimate {
   // The error of the mean that the coarse solution brings (-aa above 0), relative to the mean, is taken for
-  // independent of that of the directions: that of its rays, where a gather is asked for so many, the second
-  // number, and which falls with the root of their number; and that of its patches. By measurement: a white
+  // independent of that of the directions: that of its patches, and as much of its rays where a gather is
+  // asked for so many, the second number, which falls with the root of their number. By measurement: a white
   // room with a lamp, with and without a desk, of which means have .13% with 256 rays and .06 to .07% with
   // 8192. In daylit rooms they are .1 to .2% dark, beside stated errors of .6 to 1%.
-  RSPHERE_TUNED(ErrorEstimate, double, kRaysOfPatches, .0006);
-  static constexpr double kUsualRays = 1024;
   RSPHERE_TUNED(ErrorEstimate, double, kPatches, .0006);
+  static constexpr double kUsualRays = 1024;
   // Factor on the variance that follows from second differences of base directions: a compromise. It is .6 if
   // straight edges are all of the variance, of which an even set averages out a part, and 1 if the noise of
   // paths is.

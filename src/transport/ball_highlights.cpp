@@ -113,7 +113,7 @@ bool BallHighlights::isNear(const Ball& ball, const SourcePart& part, const V3d&
 
 V3d BallHighlights::sample(const Aim& aim, double u1, double u2, double u3) const {
   const size_t i = aim.chosen(u1);
-  const Ball& ball = balls_[aim.surface[i]];
+  const Ball& ball = balls_[aim.number[i]];
   const double share = (u1 * aim.before(aim.count) - aim.before(i)) / (aim.upTo[i] - aim.before(i));
   size_t k = 0;
   while (k + 1 < ball.parts.size() && !(share < ball.parts[k].upTo)) ++k;
@@ -129,7 +129,7 @@ double BallHighlights::density(const Aim& aim, const V3d& direction) const {
   for (size_t i = 0; i < aim.count; ++i) {
     const double along = aim.way[i].dot(direction);
     if (!(along > 0 && along * along > aim.tangent2[i])) continue;  // saves most of the work
-    const Ball& ball = balls_[aim.surface[i]];
+    const Ball& ball = balls_[aim.number[i]];
     V3d normal;
     if (!meets(ball, aim.point, direction, normal)) continue;
     const double chance = aim.upTo[i] - aim.before(i);

@@ -10,6 +10,7 @@
 // Smooth balls have none: an indirect ray that a smooth surface mirrors to a light source adds nothing, as in
 // rtrace.
 #include "transport/highlight_choice.h"
+#include "transport/proposals.h"
 #include "transport/reach_grid.h"
 #include "transport/tuning.h"
 
@@ -26,7 +27,7 @@ class BallHighlights {
   static constexpr size_t kRoom = tuning::Caps::kAimedRoom;
 
   // By balls.
-  struct Aim : HighlightAim<kRoom> {
+  struct Aim : Proposals<kRoom> {
     std::array<V3d, kRoom> way;  // to their centers (world units)
     // The square of the distance along a tangent, at most (square world units).
     std::array<double, kRoom> tangent2;

@@ -157,7 +157,7 @@ V3d CylinderHighlights::sample(const Aim& aim, double u1, double u2, double u3) 
   const size_t i = aim.chosen(u1);
   const V3d direction = aim.lobe[i].sample(u2, u3);
   const bool counts = aim.lobe[i].density(direction, Highlight::kReach * Highlight::kReach) > 0 &&
-                      meets(cylinders_[aim.surface[i]].shape, aim.point, direction);
+                      meets(cylinders_[aim.number[i]].shape, aim.point, direction);
   return counts ? direction : V3d(0, 0, 0);
 }
 
@@ -168,8 +168,8 @@ double CylinderHighlights::density(const Aim& aim, const V3d& direction) const {
   for (size_t i = 0; i < aim.count; ++i) {
     const double density = aim.lobe[i].density(direction, Highlight::kReach * Highlight::kReach);
     if (!(density > 0)) continue;
-    if (aim.surface[i] != last) {
-      last = aim.surface[i];
+    if (aim.number[i] != last) {
+      last = aim.number[i];
       met = meets(cylinders_[last].shape, aim.point, direction);
     }
     if (met) sum += (aim.upTo[i] - aim.before(i)) * density;

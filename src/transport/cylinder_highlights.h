@@ -4,6 +4,7 @@
 // light of a source in all directions: as seen from a point, the highlight lies where the directions to both
 // make equal angles with the axis, or beyond the ends. Each highlight is therefore found for each point.
 #include "transport/highlight_choice.h"
+#include "transport/proposals.h"
 #include "transport/reach_grid.h"
 #include "transport/tuning.h"
 
@@ -21,7 +22,7 @@ class CylinderHighlights {
 
   // The sampling distribution for a point of a diffuse surface. Each element is the highlight of a part of a
   // source on a cylinder.
-  struct Aim : HighlightAim<kRoom> {
+  struct Aim : Proposals<kRoom> {
     std::array<HighlightLobe, kRoom> lobe;
   };
 

@@ -30,12 +30,11 @@ FoundAims findAimsOfGathers(const PreparedScene& prepared) {
   return found;
 }
 
-FoundAims findAimsOfPoints(const PreparedScene& prepared, const Aims& ofGathers) {
+FoundAims findAimsOfPoints(const PreparedScene& prepared) {
   FoundAims found;
-  if (prepared.options().hasIndirectLight() && looksForSpots(prepared, ofGathers.openings)) return found;
-  if (!prepared.options().hasIndirectLight() && !prepared.scene().importance)
-    found.openings = unlessEmpty(findOpenings(prepared));
-  found.spots = spotsOf(prepared, found.openings ? found.openings.get() : ofGathers.openings);
+  if (prepared.options().hasIndirectLight() || prepared.scene().importance) return found;
+  found.openings = unlessEmpty(findOpenings(prepared));
+  if (found.openings) found.spots = spotsOf(prepared, found.openings.get());
   return found;
 }
 

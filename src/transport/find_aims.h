@@ -10,8 +10,8 @@ namespace rsphere {
 // some paths to see where daylight enters.
 FoundAims findAimsOfGathers(const PreparedScene& prepared);
 
-// What the directions of a point are aimed at in addition to the aims of gathers: openings without indirect
-// light, and bright spots if gathers have not looked for them.
-FoundAims findAimsOfPoints(const PreparedScene& prepared, const Aims& ofGathers);
+// What the directions of a point are aimed at where there are no gathers, without indirect light: openings,
+// and spots of the light that enters by them.
+FoundAims findAimsOfPoints(const PreparedScene& prepared);
 
 }  // namespace rsphere

@@ -27,34 +27,34 @@ double usualRadiance(const Aims& aims) {
   return Tuning::kFartherInside * least;
 }
 
-double paying(double share) { return share >= Tuning::kTooFew ? share : 0; }
-
 }  // namespace
 
 GatherDirections::GatherDirections(const Aims& aims, const V3d& point, const V3d& normal,
                                    const V3d& trueNormal, int rays)
-    : aims_(aims), point_(point), normal_(normal), trueNormal_(trueNormal) {
-  if (aims.openings) aims.openings->aim(point, normal, openings_);
-  if (aims.spots) aims.spots->aim(point, normal, spots_);
-  const double aimedAt = openings_.mean + spots_.mean;
+    : normal_(normal),
+      trueNormal_(trueNormal),
+      openings_(aims.openings),
+      spots_(aims.spots),
+      highlights_(aims.highlights) {
+  if (aims.openings) aims.openings->aim(point, normal, openings_.aim);
+  if (aims.spots) aims.spots->aim(point, normal, spots_.aim);
+  const double aimedAt = openings_.aim.mean + spots_.aim.mean;
   if (!(aimedAt > 0) && !aims.highlights) return;
   const double all = aimedAt + usualRadiance(aims);
   if (aims.highlights) {
-    aims.highlights->aim(point, normal, all, rays, highlights_);
-    if (highlights_.mean > 0) toHighlights_ = std::min(kMostToHighlights, highlights_.mean / all);
+    aims.highlights->aim(point, normal, all, rays, highlights_.aim);
+    highlights_.share = std::min(kMostToHighlights, highlights_.aim.mean / all);
   }
   if (!(aimedAt > 0)) return;
-  const double unseen = std::max(0., 1 - Tuning::kSeenAnyway * openings_.seen);
-  toOpenings_ = paying(std::min(kMostToOpenings, Tuning::kAimed * openings_.mean / all * unseen));
-  toSpots_ = paying(Tuning::kAimed * spots_.mean / all);
+  const double unseen = std::max(0., 1 - Tuning::kSeenAnyway * openings_.aim.seen);
+  openings_.share = std::min(kMostToOpenings, Tuning::kAimed * openings_.aim.mean / all * unseen);
+  spots_.share = Tuning::kAimed * spots_.aim.mean / all;
 }
 
 // The density of a direction, relative to that of sampling by projected solid angle.
 double GatherDirections::density(const V3d& direction) const {
-  double aimed = 0;
-  if (toOpenings_ > 0) aimed += toOpenings_ * aims_.openings->density(openings_, point_, direction);
-  if (toSpots_ > 0) aimed += toSpots_ * aims_.spots->density(spots_, direction);
-  if (toHighlights_ > 0) aimed += toHighlights_ * aims_.highlights->density(highlights_, direction);
+  const double aimed =
+      openings_.density(direction) + spots_.density(direction) + highlights_.density(direction);
   return unaimed() + aimed * kPi / direction.dot(normal_);
 }
 
@@ -67,17 +67,17 @@ void GatherDirections::draw(int count, Random& random, Each each) const {
     double u = (i + shift1) / count;
     const Imath::V2d even = evenly(static_cast<size_t>(i), shift2, shift3);
     V3d direction;
-    if (u < toOpenings_) {
-      direction = aims_.openings->sample(openings_, point_, u / toOpenings_, even.x, even.y);
-    } else if ((u -= toOpenings_) < toSpots_) {
-      direction = aims_.spots->sample(spots_, u / toSpots_, even.x, even.y);
-    } else if ((u -= toSpots_) < toHighlights_) {
-      direction = aims_.highlights->sample(highlights_, u / toHighlights_, even.x, even.y);
+    if (u < openings_.share) {
+      direction = openings_.sample(u, even.x, even.y);
+    } else if ((u -= openings_.share) < spots_.share) {
+      direction = spots_.sample(u, even.x, even.y);
+    } else if ((u -= spots_.share) < highlights_.share) {
+      direction = highlights_.sample(u, even.x, even.y);
     } else {
       // A Fibonacci lattice over the projected hemisphere, shifted at random. It is as evenly distributed as
       // a jittered grid, for any number of rays.
       const double around = shift2 + i * kGolden;
-      direction = diffuseDirection(normal_, std::min(1., (u - toHighlights_) / unaimed()),
+      direction = diffuseDirection(normal_, std::min(1., (u - highlights_.share) / unaimed()),
                                    around - std::floor(around));
     }
     if (direction.dot(normal_) <= 0 || direction.dot(trueNormal_) <= 0) continue;

@@ -10,6 +10,7 @@
 #include "transport/function_ref.h"
 #include "transport/path_state.h"
 #include "transport/prepared_scene.h"
+#include "transport/proposals.h"
 #include "transport/ray.h"
 
 namespace rsphere {
@@ -30,14 +31,12 @@ class GatherDirections {
 
  private:
   double density(const V3d& direction) const;
-  double unaimed() const { return 1 - toOpenings_ - toSpots_ - toHighlights_; }
+  double unaimed() const { return 1 - openings_.share - spots_.share - highlights_.share; }
 
-  Aims aims_;
-  V3d point_, normal_, trueNormal_;
-  Openings::Aim openings_;
-  BrightSpots::Aim spots_;
-  Highlights::Aim highlights_;
-  double toOpenings_ = 0, toSpots_ = 0, toHighlights_ = 0;  // shares of the directions that are aimed
+  V3d normal_, trueNormal_;
+  ShareOfMixture<Openings> openings_;
+  ShareOfMixture<BrightSpots> spots_;
+  ShareOfMixture<Highlights> highlights_;
 };
 
 // Called for each ray, ready to be followed. Its coefficient is the factor of its radiance in the result.

@@ -5,7 +5,6 @@
 
 #include "transport/final_gather.h"
 #include "transport/gather_directions.h"
-#include "transport/radiance_guess.h"
 #include "transport/ray_functions.h"
 #include "transport/ray_limits.h"
 #include "transport/tuning.h"
@@ -105,13 +104,6 @@ void IndirectLight::endPath() {
   if (settings_.caches.field) settings_.caches.field->leave(reader_);
 }
 
-// The number of guessed rays for each ray that is followed. It is 0 if -lr ends the descendants of the ray
-// for certain instead of by Russian roulette: the guess would then include light that followed rays lack.
-int IndirectLight::raysToGuess(const PathContext& ray) const {
-  if (!state_.request.guess || !goesOn(t_, ray)) return 0;
-  return state_.request.guess->raysToGuess(ray.ambientLevel);
-}
-
 // The number of directions of a gather. Unbiased paths have as many as in RADIANCE at every bounce: a square
 // number in proportion to their weight. Rays of gathers for interpolation do not split.
 int IndirectLight::raysOf(const PathContext& ray, const Coefficient& coefficient) const {
@@ -128,23 +120,14 @@ int IndirectLight::raysOf(const PathContext& ray, const Coefficient& coefficient
   return side * side;
 }
 
-// Every ray that is followed may be corrected by a control variate: the guess of its radiance is subtracted,
-// and the mean of many guesses added.
 void IndirectLight::gather(const RayEnd& end, const DiffuseSide& side, Radiance& value) {
-  const LocalGuess* const guess = state_.request.guess;
-  const int rays = raysOf(end.context, side.coefficient), guesses = raysToGuess(end.context);
+  const int rays = raysOf(end.context, side.coefficient);
   const GatherDirections directions(settings_.aims, side.point, side.normal, side.trueNormal, rays);
-  if (guesses > 0)
-    directions.draw(rays * guesses, state_.random, [&](const V3d& direction, double part) {
-      value += side.coefficient * part * guess->indirect(side.point, direction, end.hit.surface);
-    });
   const Coefficient weight = settings_.caches.field ? Coefficient(kMeanReflectance) : side.coefficient / rays;
   sendOverHemisphere(t_, directions, state_, end, side.point, side.kind, rays, side.coefficient, weight,
                      [&](const NextRay& next) {
                        if (next.context.ambientLevel == 1) countDescendants(settings_, state_, next.context);
-                       RayEnd seen(next.query, next.context);
-                       value += follower_.follow(seen).value * next.coefficient;
-                       if (guesses > 0) value -= guess->indirect(seen) * next.coefficient;
+                       value += follower_.follow(next.query, next.context).value * next.coefficient;
                      });
 }
 

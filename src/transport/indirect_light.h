@@ -39,7 +39,6 @@ class IndirectLight {
   bool addInterpolated(const RayEnd& end, const DiffuseSide& side, Radiance& value);
   bool addFromPatch(const RayEnd& end, const DiffuseSide& side, Radiance& value);
   Patch* patchAt(const RayEnd& end, const DiffuseSide& side);
-  int raysToGuess(const PathContext& ray) const;
   int raysOf(const PathContext& ray, const Coefficient& coefficient) const;
   void gather(const RayEnd& end, const DiffuseSide& side, Radiance& value);
   void link(const RayEnd& end, const DiffuseSide& side);

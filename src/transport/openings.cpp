@@ -12,16 +12,18 @@ std::vector<Openings::View> Openings::views() const {
 }
 
 void Openings::aim(const V3d& point, const V3d& normal, Aim& aim) const {
-  aim.count = 0;
-  double sum = 0, seen = 0;
+  aim.clear();
+  aim.seen = 0;
   for (uint32_t i = 0; i < openings_.size(); ++i) {
     const Opening& o = openings_[i];
     if ((point - o.corner).dot(o.normal) <= 0) continue;
-    // The form factor to the opening, estimated from five of its points.
-    const double inset = tuning::Openings::kInset, between = 1 - 2 * inset;
+    // The form factor to the opening, estimated from five of its points: the mean over the middle and four
+    // points that are so far apart, the root of 5/12, is exact for polynomials of the third degree.
+    constexpr double kBetween = .6454972243679028, kInset = (1 - kBetween) / 2;
     double factor = 0;
     for (int c = 0; c < 5; ++c) {
-      const double a = c < 4 ? inset + between * (c & 1) : .5, b = c < 4 ? inset + between * (c >> 1) : .5;
+      const double a = c < 4 ? kInset + kBetween * (c & 1) : .5;
+      const double b = c < 4 ? kInset + kBetween * (c >> 1) : .5;
       const V3d way = o.at(a, b) - point;
       const double squared = way.length2();
       const double here = way.dot(normal), there = -way.dot(o.normal);
@@ -29,12 +31,10 @@ void Openings::aim(const V3d& point, const V3d& normal, Aim& aim) const {
     }
     factor = factor / 5 * o.filled / kPi;
     if (!(factor > 0)) continue;
-    seen += factor;
-    aim.opening[aim.count] = i;
-    aim.upTo[aim.count++] = sum += factor * o.power / o.filled;
+    aim.seen += factor;
+    aim.add(i, factor * kPi * o.power / o.filled);
   }
-  aim.mean = sum;
-  aim.seen = seen;
+  aim.finish(point);
 }
 
 double Openings::areaTowards(const V3d& direction) const {
@@ -55,29 +55,25 @@ V3d Openings::pointTowards(const V3d& direction, double u1, double u2, double u3
   return chosen->at(u2, u3);
 }
 
-V3d Openings::sample(const Aim& aim, const V3d& point, double u1, double u2, double u3) const {
-  const double due = u1 * aim.upTo[aim.count - 1];
-  size_t chosen = 0;
-  while (chosen + 1 < aim.count && !(due < aim.upTo[chosen])) ++chosen;
-  return (openings_[aim.opening[chosen]].at(u2, u3) - point).normalized();
+V3d Openings::sample(const Aim& aim, double u1, double u2, double u3) const {
+  return (openings_[aim.number[aim.chosen(u1)]].at(u2, u3) - aim.point).normalized();
 }
 
-double Openings::density(const Aim& aim, const V3d& point, const V3d& direction) const {
-  double sum = 0, before = 0;
+double Openings::density(const Aim& aim, const V3d& direction) const {
+  double sum = 0;
   for (size_t i = 0; i < aim.count; ++i) {
-    const double chance = aim.upTo[i] - before;
-    before = aim.upTo[i];
-    const Opening& o = openings_[aim.opening[i]];
+    const double chance = aim.upTo[i] - aim.before(i);
+    const Opening& o = openings_[aim.number[i]];
     const double cosine = -direction.dot(o.normal);
     if (!(cosine > 0)) continue;
-    const V3d from = point - o.corner;
+    const V3d from = aim.point - o.corner;
     const double distance = from.dot(o.normal) / cosine;
     const V3d at = from + distance * direction;
     const double u = at.dot(o.x), v = at.dot(o.y);
     if (u < 0 || v < 0 || u > o.width || v > o.height) continue;
     sum += chance * distance * distance / (cosine * o.area());
   }
-  return sum / before;
+  return sum / aim.before(aim.count);
 }
 
 }  // namespace rsphere

@@ -7,10 +7,10 @@
 //
 // Source: Bitterli, Novák, Jarosz, "Portal-masked environment map sampling" (Computer Graphics Forum 34,
 // 2015). Differences: portals are found automatically, and sampled by area.
-#include <array>
 #include <utility>
 #include <vector>
 
+#include "transport/proposals.h"
 #include "transport/rectangle.h"
 #include "transport/tuning.h"
 
@@ -43,12 +43,8 @@ class Openings {
   std::vector<View> views() const;
 
   // The sampling distribution for a point of a diffuse surface.
-  struct Aim {
-    double mean = 0;   // radiance over the hemisphere from the openings, W/sr/m2, without occlusion
-    double seen = 0;   // form factor from the point to all openings
-    size_t count = 0;  // number of contributing openings; their indices and cumulative weights follow
-    std::array<uint32_t, tuning::Caps::kAimedRoom> opening;
-    std::array<double, tuning::Caps::kAimedRoom> upTo;
+  struct Aim : Proposals<tuning::Caps::kAimedRoom> {
+    double seen = 0;  // form factor from the point to all openings
   };
 
   // normal: unit, on the side that the light arrives at.
@@ -56,10 +52,10 @@ class Openings {
 
   // One of the aimed directions (unit) from the point, for uniform u1, u2, u3 in [0, 1); u1 chooses the
   // opening. REQUIRES aim.mean > 0.
-  V3d sample(const Aim& aim, const V3d& point, double u1, double u2, double u3) const;
+  V3d sample(const Aim& aim, double u1, double u2, double u3) const;
 
   // The density of aimed directions, per sr.
-  double density(const Aim& aim, const V3d& point, const V3d& direction) const;
+  double density(const Aim& aim, const V3d& direction) const;
 
   // The projected area (square world units) of the openings for light that enters in this direction (unit);
   // and a point on them, uniform by projected area for uniform u1, u2, u3 in [0, 1). The point REQUIRES an

@@ -7,7 +7,6 @@
 
 namespace rsphere {
 
-class LocalGuess;
 class VertexLight;
 
 // The light source that a primary ray showed, and the surface that mirrored it;
@@ -32,10 +31,6 @@ enum class ShownShadows : uint8_t {
 // What differs from path to path. Leaving something out changes the expected radiance; nothing else here
 // does.
 struct PathRequest {
-  // A guess of the radiance of indirect rays, used as a control variate: for each indirect ray that is
-  // followed, several are only guessed (radiance_guess.h). The value of one ray may be negative. Null:
-  // nothing is guessed.
-  const LocalGuess* guess = nullptr;
   // Is shown every ray: descendants before their ancestors, and the primary ray last (except under -I, where
   // it hits nothing). Null: no observer. Changes no answer.
   const RayObserver* observer = nullptr;

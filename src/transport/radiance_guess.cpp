@@ -12,6 +12,10 @@ namespace {
 
 using Tuning = tuning::RadianceGuess;
 
+// Cap on the number of sources that are guessed one by one; those that contribute most are kept, and the
+// others become ambient light.
+const size_t kMostLights = tuning::Caps::kAimed / 2;
+
 // Irradiance from a triangle or parallelogram of radiance 1, clipped at the horizon, by Lambert's sum over
 // its sides. corners: relative to the place. normal: unit, of the place.
 template <size_t N>
@@ -68,21 +72,15 @@ RadianceGuess::RadianceGuess(const PreparedScene& prepared, const ById<SurfaceId
   }
 }
 
-RadianceGuess::Place RadianceGuess::placeAlong(const V3d& point, const V3d& direction,
-                                               SurfaceId start) const {
-  return placeOf(point, direction, prepared_.tracer().nearest(point, direction, kFarAway, start));
-}
-
-RadianceGuess::Place RadianceGuess::placeOf(SurfaceId surface, const V3d& point, const V3d& normal,
-                                            const V3d& direction) const {
-  if (surface == kNone) return {};
-  const uint32_t finish = prepared_.scene().surfaces.face(surface).finish;
-  return {point, normal.dot(direction) > 0 ? -normal : normal,
-          unguessed_[surface] ? Coefficient() : reflectance_[finish]};
+RadianceGuess::Place RadianceGuess::placeAlong(const V3d& point, const V3d& direction) const {
+  return placeOf(point, direction, prepared_.tracer().nearest(point, direction));
 }
 
 RadianceGuess::Place RadianceGuess::placeOf(const V3d& point, const V3d& direction, const Hit& hit) const {
-  return placeOf(hit.surface, point + hit.distance * direction, hit.normal, direction);
+  if (hit.surface == kNone) return {};
+  const uint32_t finish = prepared_.scene().surfaces.face(hit.surface).finish;
+  return {point + hit.distance * direction, hit.normal.dot(direction) > 0 ? -hit.normal : hit.normal,
+          unguessed_[hit.surface] ? Coefficient() : reflectance_[finish]};
 }
 
 // Unoccluded irradiance from a source of radiance 1, sr.
@@ -123,44 +121,14 @@ double RadianceGuess::sent(const Light& light, const Place& at) const {
   return factor(light.source, at) / kPi * brightness(light.radiance * at.reflectance);
 }
 
-// The share of some fixed points on the source that are visible from the place.
-double RadianceGuess::seenFrom(const Place& at, LightId source) const {
+// Whether the middle of a source is visible from the place.
+bool RadianceGuess::isSeen(const Place& at, LightId source) const {
   const LightSource& light = prepared_.lights().all()[source];
-  V3d u(0, 0, 0), v(0, 0, 0);
-  match(
-      light.shape,
-      [&](const PlaneLight& plane) {
-        u = plane.u;
-        v = plane.v;
-      },
-      [&](const BallLight&) {
-        // A square perpendicular to the view with the area of the ball's disk: half its side is
-        // sqrt(pi) / 2 radii.
-        frame((light.center - at.point).normalized(), u, v);
-        u *= .886 * light.radius;
-        v *= .886 * light.radius;
-      },
-      [](const OneOf<TubeLight, DistantLight> auto&) {});
-  const bool wide = u.length2() > 0 && v.length2() > 0;
-  const auto share = [&](int side) {
-    int seen = 0, asked = 0;
-    for (int i = 0; i < side; ++i)
-      for (int k = 0; k < side; ++k) {
-        const double s = (2 * i + 1.) / side - 1, t = (2 * k + 1.) / side - 1;
-        V3d to = light.isDistant() ? light.center : light.center - at.point;
-        if (wide) to += s * u + t * v;
-        const double distance = to.length();
-        to /= distance;
-        if (!(at.normal.dot(to) > 0)) continue;
-        ++asked;
-        seen += prepared_.tracer().shadow(at.point, to, light.isDistant() ? kFarAway : distance,
-                                          light.surface) != Shadow::blocked;
-      }
-    return asked ? static_cast<double>(seen) / asked : 0;
-  };
-  if (!wide) return share(1);
-  const double roughly = share(Tuning::kSeenSide);
-  return roughly > 0 && roughly < 1 ? share(Tuning::kPenumbraSide) : roughly;
+  const V3d to = light.isDistant() ? light.center : light.center - at.point;
+  const double distance = to.length();
+  return at.normal.dot(to) > 0 &&
+         prepared_.tracer().shadow(at.point, to / distance, light.isDistant() ? kFarAway : distance,
+                                   light.surface) != Shadow::blocked;
 }
 
 // The mean visibility of a light from the places. sent: brightness that each place would reflect if the light
@@ -194,7 +162,7 @@ LocalGuess RadianceGuess::fit(const V3d& point, std::span<const V3d> glances, st
   Random random(seed);
   std::vector<Place> places;
   for (const V3d& direction : glances) {
-    Place at = placeAlong(point, direction, kNone);
+    const Place at = placeAlong(point, direction);
     if (brightness(at.reflectance) > 0) places.push_back(at);
   }
   std::vector<std::pair<double, size_t>> order;
@@ -206,7 +174,7 @@ LocalGuess RadianceGuess::fit(const V3d& point, std::span<const V3d> glances, st
     if (sum > 0) order.push_back({-sum, i});
   }
   std::sort(order.begin(), order.end());
-  if (order.size() > Tuning::kMostLights) order.resize(Tuning::kMostLights);
+  if (order.size() > kMostLights) order.resize(kMostLights);
   double arriving = 0;
   for (const auto& [sum, i] : order) {
     Light light = lights_[i];
@@ -222,73 +190,35 @@ LocalGuess RadianceGuess::fit(const V3d& point, std::span<const V3d> glances, st
   for (const Traced& t : traced) {
     const Place& at = t.place;
     if (!(brightness(at.reflectance) > 0)) continue;
-    const Color rest = (t.radiance - local.direct(at, true)).color, reflectance = at.reflectance.color;
+    const Color rest = (t.radiance - local.direct(at)).color, reflectance = at.reflectance.color;
     for (int c = 0; c < 3; ++c)
       if (reflectance[c] > 0) around[c].push_back(rest[c] / reflectance[c]);
   }
   for (int c = 0; c < 3; ++c) local.ambient_.color[c] = std::max(0., middleOf(around[c]));
-  // The variance that the guess leaves to the directions, and the part of it that the random choice of
-  // indirect rays causes. That part is estimated from the mean absolute difference of two guesses: it is less
-  // sensitive than a mean square to single rays that hit something bright by chance. For normally distributed
-  // values, the variance is pi / 4 times its square.
-  double rests = 0, squares = 0, guessed = 0;
-  for (const Traced& t : traced) {
-    const double rest = brightness(t.radiance - local.from(t.place));
-    rests += rest;
-    squares += rest * rest;
-    if (!(brightness(t.place.reflectance) > 0)) continue;
-    const auto indirect = [&] {
-      const V3d direction = diffuseDirection(t.place.normal, random.uniform(), random.uniform());
-      return brightness(t.place.reflectance * local.indirect(t.place.point, direction, t.surface));
-    };
-    guessed += std::abs(indirect() - indirect());
-  }
-  const double n = static_cast<double>(traced.size());
-  const double variance = n > 1 ? (squares - rests * rests / n) / n : 0;
-  if (variance > 0) local.shareGuessed_ = kPi / 4 * std::pow(guessed / n, 2) / variance;
   return local;
 }
 
-Radiance LocalGuess::direct(const Place& at, bool looking) const {
+Radiance LocalGuess::direct(const Place& at) const {
   Radiance sum;
   for (const Light& light : lights_) {
     const double irradiance = guess_->factor(light.source, at);
     if (!(irradiance > 0)) continue;
     const Color &arriving = light.radiance.color, &reflectance = at.reflectance.color;
     const double perPi = irradiance / kPi;
-    const bool bright = looking && brightness(Color(arriving.rgb() * reflectance.rgb() * perPi)) > bright_;
+    const bool bright = brightness(Color(arriving.rgb() * reflectance.rgb() * perPi)) > bright_;
     sum.color.addProduct(arriving, reflectance, perPi,
-                         bright ? guess_->seenFrom(at, light.source) : light.share);
+                         bright ? guess_->isSeen(at, light.source) : light.share);
   }
   return sum;
 }
 
-Radiance LocalGuess::from(const Place& at, bool looking) const {
+Radiance LocalGuess::from(const Place& at) const {
   if (!(brightness(at.reflectance) > 0)) return {};
-  return direct(at, looking) + ambient_ * at.reflectance;
+  return direct(at) + ambient_ * at.reflectance;
 }
 
 Radiance LocalGuess::along(const V3d& point, const V3d& direction) const {
-  return from(guess_->placeAlong(point, direction, kNone), true);
-}
-
-Radiance LocalGuess::indirect(const V3d& point, const V3d& direction, SurfaceId start) const {
-  return from(guess_->placeAlong(point, direction, start), false);
-}
-
-Radiance LocalGuess::indirect(const RayEnd& traced) const {
-  const SurfaceHit& hit = traced.hit;
-  return from(guess_->placeOf(hit.surface, hit.point, hit.normal, traced.ray.direction), false);
-}
-
-int LocalGuess::raysToGuess(int bounces) const {
-  if (bounces > 1) return 0;
-  const int left = guess_->prepared_.options().ambientBounces - bounces;
-  // Beyond the second surface, all contributions have about half the weight.
-  const double pay = std::sqrt(Tuning::kBouncePrice * left * shareGuessed_);
-  const auto rays = static_cast<int>(std::lround(std::min(pay, Tuning::kMostGuesses) / (1 + bounces)));
-  // A single guess adds as much variance as it removes.
-  return rays > 1 ? rays : 0;
+  return from(guess_->placeAlong(point, direction));
 }
 
 }  // namespace rsphere

@@ -6,14 +6,14 @@
 // The guess is a control variate: the estimate is the mean of traced minus guessed radiance, plus the mean of
 // many guesses. It reduces the variance where radiance is correlated with the guess, as between the bright
 // part of a partition beside a goal and the edge of a dark desktop. The paper names diffuse objects near
-// light sources as future work; the guess covers these and all other diffuse objects, seen directly or by
-// indirect rays.
+// light sources as future work; the guess covers these and all other diffuse objects that are seen directly.
 //
 // Rejected alternatives:
 // - Dynamic directions to surfaces near sources: 20% more directions gained 7% there.
 // - Guesses of the highlights of sources in glossy surfaces: an office gained 3%.
 // - Directions of indirect rays that are distributed among neighbouring directions, against the noise of
 //   indirect rays: no gain.
+// - Several guessed rays for each indirect ray that is followed: no gain (tests/bench/mechanisms).
 #include <span>
 #include <vector>
 
@@ -35,29 +35,17 @@ class LocalGuess {
   };
 
   // The guessed radiance from a place, W/sr/m2.
-  Radiance from(const Place& place) const { return from(place, true); }
+  Radiance from(const Place& place) const;
   // The guessed radiance along a ray from a point (world), W/sr/m2.
   Radiance along(const V3d& point, const V3d& direction) const;
-
-  // The guessed radiance along an indirect ray, W/sr/m2. No shadow rays are traced, because there are many
-  // indirect rays and each has a small weight. start: the surface that the ray leaves, as an index in
-  // Scene::surfaces, or kNone.
-  Radiance indirect(const V3d& point, const V3d& direction, SurfaceId start) const;
-  Radiance indirect(const RayEnd& traced) const;
-
-  // The number of guessed rays per followed indirect ray, after `bounces` indirect bounces, that minimizes
-  // the variance for a given time. It follows from the share of the noise of indirect rays in the variance; 0
-  // if that share is small. REQUIRES fewer bounces than -ab.
-  int raysToGuess(int bounces) const;
 
   bool expectsLight() const { return !lights_.empty(); }
 
  private:
   friend class RadianceGuess;
   explicit LocalGuess(const RadianceGuess& guess) : guess_(&guess) {}
-  // looking: shadow rays decide the visibility of sources that light the place brightly.
-  Radiance direct(const Place& at, bool looking) const;
-  Radiance from(const Place& place, bool looking) const;
+  // Shadow rays decide the visibility of sources that light the place brightly.
+  Radiance direct(const Place& at) const;
 
   struct Light {
     LightId source;
@@ -66,9 +54,8 @@ class LocalGuess {
   };
   const RadianceGuess* guess_;
   std::vector<Light> lights_;
-  Radiance ambient_;         // other light, as the radiance of a white surface
-  double bright_ = 0;        // shadow rays are traced if a source adds more brightness than this, W/sr/m2
-  double shareGuessed_ = 0;  // variance of guessed indirect rays, relative to the variance that remains
+  Radiance ambient_;   // other light, as the radiance of a white surface
+  double bright_ = 0;  // shadow rays are traced if a source adds more brightness than this, W/sr/m2
 };
 
 class RadianceGuess {
@@ -82,27 +69,24 @@ class RadianceGuess {
   // The hit of a traced direction, and the radiance from there.
   struct Traced {
     Place place;
-    SurfaceId surface;
     Radiance radiance;
   };
 
   // The place of a hit that Tracer::nearest found from a point (world) in a direction.
   Place placeOf(const V3d& point, const V3d& direction, const Hit& hit) const;
 
-  // Fits the guess to the view from a point (world). glances: about tuning::RadianceGuess::kFitGlances evenly
-  // spread directions. The estimate stays unbiased as long as it contains neither the glances nor the traced
-  // directions.
+  // Fits the guess to the view from a point (world). glances: evenly spread directions. The estimate stays
+  // unbiased as long as it contains neither the glances nor the traced directions.
   LocalGuess fit(const V3d& point, std::span<const V3d> glances, std::span<const Traced> traced,
                  uint64_t seed) const;
 
  private:
   friend class LocalGuess;
   using Light = LocalGuess::Light;
-  Place placeOf(SurfaceId surface, const V3d& point, const V3d& normal, const V3d& direction) const;
-  Place placeAlong(const V3d& point, const V3d& direction, SurfaceId start) const;
+  Place placeAlong(const V3d& point, const V3d& direction) const;
   double factor(LightId source, const Place& at) const;
   double sent(const Light& light, const Place& at) const;
-  double seenFrom(const Place& at, LightId source) const;
+  bool isSeen(const Place& at, LightId source) const;
   double shareThatArrives(const Light& light, std::span<const double> sent, std::span<const Place> places,
                           Random& random) const;
 

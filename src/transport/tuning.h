@@ -90,45 +90,22 @@ struct Openings {
   // least this share, half, of the rectangle around them, so that most directions to it meet them. .91: the
   // same answers in all cases.
   static constexpr double kFilled = .5;
-  // The form factor to an opening is estimated from its middle and from four points that are this share of
-  // its sides away from its edges: chosen by experiment. 30% less: error +2%; 30% more: within noise (sensors
-  // by sun; noise: error 5%, time 5%).
-  RSPHERE_TUNED(Openings, double, kInset, .1);
 };
 
 // The control variate of sphere mode (radiance_guess.cpp).
 struct RadianceGuess {
-  // Directions that the guess is fitted to: chosen by experiment; a quarter of the directions of the default.
-  // 30% less or more: within noise (points by sun; error 4%, time 5%).
-  RSPHERE_TUNED(RadianceGuess, size_t, kFitGlances, 128);
-  // Cap on the number of sources that are guessed one by one; those that contribute most are kept, and the
-  // others become ambient light: chosen by experiment, to limit the time. 30% less or more: within noise
-  // (points in workshop; error 7%, time 4%).
-  RSPHERE_TUNED(RadianceGuess, size_t, kMostLights, 32);
   // Shadow rays that estimate the mean visibility of a source: chosen by experiment. 30% less or more: within
   // noise (points in workshop; error 11%, time 4%).
   RSPHERE_TUNED(RadianceGuess, double, kShadowRays, 12);
-  // If a source adds more than this many times the mean guess at a place, shadow rays to fixed points on it
-  // replace its mean visibility: chosen by experiment. This concerns a few percent of the glances, which
-  // carry most of the light. 30% less or more: within noise (points beside goal; error 4%, time 3%).
+  // If a source adds more than this many times the mean guess at a place, a shadow ray to its middle replaces
+  // its mean visibility: chosen by experiment. This concerns a few percent of the glances, which carry most
+  // of the light. 30% less or more: within noise (points beside goal; error 4%, time 3%).
   RSPHERE_TUNED(RadianceGuess, double, kBright, 16);
-  // The fixed points are the square of the first number; if only some of them are visible, the place is in
-  // penumbra, and they are the square of the second: by experiment. Beside a goal, penumbrae cause most of
-  // the error of the guess. 1 or 3: within noise (points beside goal; error below 1%, time 4%).
-  RSPHERE_TUNED(RadianceGuess, int, kSeenSide, 2);
-  // 30% less or more: within noise (points beside goal; error below 1%, time 4%).
-  RSPHERE_TUNED(RadianceGuess, int, kPenumbraSide, 4);
   // The form factor of a source with four corners is exact within this many times its radius: by
   // calculation. Beyond, it is that of a small surface, with an error of up to a seventh at grazing angles,
   // which is accurate enough for a guess. 30% less: within noise; 30% more: time +10% (points beside goal;
   // noise: error 10%, time 3%).
   RSPHERE_TUNED(RadianceGuess, double, kNear, 3);
-  // Following an indirect ray takes about as long as this many guesses for each bounce that it may still
-  // make: by measurement. 30% less or more: within noise (points in office; error 1%, time 1%).
-  RSPHERE_TUNED(RadianceGuess, double, kBouncePrice, 30);
-  // Cap on the guesses for each followed ray: chosen by experiment. 30% less or more: within noise (points in
-  // workshop; error below 1%, time 4%).
-  RSPHERE_TUNED(RadianceGuess, double, kMostGuesses, 6);
 };
 
 // Next-event estimation (direct_light.cpp).
@@ -164,9 +141,6 @@ struct GatherDirections {
   // much of the view without being aimed: chosen by experiment. 30% less or more: within noise (sensors by
   // sun; error 6%, time 5%).
   RSPHERE_TUNED(GatherDirections, double, kSeenAnyway, 2);
-  // A smaller share of aimed directions is not worth the work: chosen by experiment. 30% less or more: within
-  // noise (sensors by sun; error 4%, time 7%).
-  RSPHERE_TUNED(GatherDirections, double, kTooFew, .02);
 };
 
 // Highlights of light sources on rough balls and cylinders, which indirect rays are aimed at (highlights.h,

@@ -12,7 +12,6 @@
 #include "sphere/directions.h"
 #include "tests/unit/support/sphere_setting.h"
 #include "tests/unit/support/statistics.h"
-#include "transport/radiance_guess.h"
 
 namespace rsphere {
 namespace {
@@ -95,6 +94,19 @@ TEST(Guesses, HalveTheErrorBesideAGoalWithoutBias) {
     EXPECT_GT(std::abs(1.01 * ours.mean.mean() - equal.mean.mean()), 3 * error)
         << "would not see an error of 1%";
   }
+}
+
+// By lamps, in a room with a sheet that paths from both ends do not know: the guess of radiance.
+TEST(Guesses, LeaveTheMeanByLampsAsItIs) {
+  const Setting setting(deskBesideGoal() +
+                        "lamp polygon l 0 0 12 3 3 2.9 3 4 2.9 5 4 2.9 5 3 2.9\n"
+                        "void trans paper 0 0 7 .6 .6 .6 0 0 .3 0\n"
+                        "paper polygon sheet 0 0 12 1 4 1 1.3 4 1 1.3 4 1.3 1 4 1.3\n");
+  const Spread ours = spreadOf(setting, 1, 300, 60), equal = spreadOf(setting, 0, 300, 60);
+  const double error = std::hypot(ours.mean.standardError(), equal.mean.standardError());
+  EXPECT_LT(std::abs(ours.mean.mean() - equal.mean.mean()), 3 * error);
+  EXPECT_GT(std::abs(1.02 * ours.mean.mean() - equal.mean.mean()), 3 * error)
+      << "would not see an error of 2%";
 }
 
 // Half of the source is hidden, at a slant: shadow rays tell how much, few directions as they are.

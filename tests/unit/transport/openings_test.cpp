@@ -179,7 +179,7 @@ TEST(Openings, AreAimedAtAsDensitySays) {
     const auto some = [&](const V3d& d) { return 1.5 + d.x + (isInSkylight(c.point, d) ? 2 : 0); };
     for (int i = 0; i < 20000; ++i) {
       const double u1 = random.uniform(), u2 = random.uniform(), u3 = random.uniform();
-      const V3d d = openings.sample(aim, c.point, u1, u2, u3);
+      const V3d d = openings.sample(aim, u1, u2, u3);
       EXPECT_NEAR(d.length(), 1, 1e-12);
       EXPECT_TRUE(isInWindow(c.point, d) || isInSkylight(c.point, d));
       throughWindow.add(isInWindow(c.point, d));
@@ -187,7 +187,7 @@ TEST(Openings, AreAimedAtAsDensitySays) {
     }
     for (int i = 0; i < 200000; ++i) {
       const V3d even = randomDirection(random);
-      const double density = openings.density(aim, c.point, even);
+      const double density = openings.density(aim, even);
       EXPECT_EQ(density > 0, isInWindow(c.point, even) || isInSkylight(c.point, even));
       whole.add(4 * std::numbers::pi * density);
       weighted.add(4 * std::numbers::pi * density * some(even));
