@@ -25,6 +25,12 @@ std::string quoted(const std::string& word) {
   return quote == 0 ? word : quote + word + quote;
 }
 
+std::string joinedNames(const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& name : names) all += ' ' + quoted(name);
+  return all;
+}
+
 std::string dateText(const std::tm& date) {
   return fmt::format("{:04}:{:02}:{:02} {:02}:{:02}:{:02}", date.tm_year + 1900, date.tm_mon + 1,
                      date.tm_mday, date.tm_hour, date.tm_min, date.tm_sec);
@@ -99,7 +105,9 @@ void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<c
 void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<const std::string> sceneHeader,
                  std::time_t now) {
   const bool counts = options.treeOutputs.empty() && !options.outputs.empty();
-  writeHeader(writer, options, sceneHeader, now, {counts ? componentCount(options) : 0});
+  RecordLayout layout{counts ? componentCount(options) : 0};
+  if (!options.contributors.empty()) layout.lines = "CONTRIBUTORS=" + joinedNames(options.contributors) + '\n';
+  writeHeader(writer, options, sceneHeader, now, layout);
 }
 
 }  // namespace rsphere

@@ -83,7 +83,7 @@ CommandOptions commandOptions(const Options& options, Records records) {
   if (parsed.scene.size() > 1)
     throw rad::Error(fmt::format("\"{}\" is not an option: options begin with a hyphen", parsed.scene[0]));
   refuse(parsed.sphereMode == rays, "-S", "trace() answers rays, and sphere() points");
-  refuse(!parsed.goals.empty(), "-Sg", "goals belong to the scene: see SceneOptions");
+  refuse(!parsed.goals.empty(), "-Sg", "goals belong to the scene (SceneOptions), or are those of importance()");
   refuse(!parsed.commands, "-Sc", "commands belong to the scene: see SceneOptions");
   refuse(parsed.sphere.everyDirection, "-Sd", "only the command rsphere lists every direction");
   refuse(parsed.listSpecial, "-Sl", "only the command rsphere lists the special objects");

@@ -23,6 +23,7 @@
 #include "base/color.h"
 #include "cli/options.h"
 #include "rad_parser/printable.h"
+#include "scene/contributors.h"
 #include "scene/scene.h"
 #include "transport/transport.h"
 
@@ -86,17 +87,37 @@ auto guarded(const PassWarnings& passWarnings, const Work& work) {
 
 // The scene prepared for a set of options. Its warnings come also while it is used.
 struct PreparedScene {
-  PreparedScene(const rsphere::Scene& scene, const rsphere::Options& options)
-      : transport(scene, options.ray, options.irradiance, options.sphere.basicRadiance,
+  PreparedScene(std::shared_ptr<const rsphere::Scene> of, const rsphere::Options& options)
+      : scene(std::move(of)),
+        transport(*scene, options.ray, options.irradiance, options.sphere.basicRadiance,
                   warnings.collector()) {}
+  const std::shared_ptr<const rsphere::Scene> scene;
   Warnings warnings;
   Transport transport;
 };
 
+rsphere::Options optionsFor(const rsphere::Scene& scene, rsphere::Options options) {
+  options.contributors = scene.contributors;
+  return options;
+}
+
+// Makes a call one for the importance of goals.
+void addGoals(CommandOptions& given, std::span<const std::string> goals) {
+  given.options.separate = true;
+  given.options.goals.assign(goals.begin(), goals.end());
+  for (std::string* const key : {&given.key, &given.sceneKey}) {
+    key->append("-Sp").push_back('\0');
+    for (const std::string& goal : goals) key->append("-Sg").append(goal).push_back('\0');
+  }
+}
+
 // What answers the records of one call at a time.
 struct Answerer {
   Answerer(std::shared_ptr<PreparedScene> prepared, const rsphere::Options& given)
-      : options(given), scene(std::move(prepared)), writer(options), warn(scene->warnings.collector()) {
+      : options(optionsFor(*prepared->scene, given)),
+        scene(std::move(prepared)),
+        writer(options),
+        warn(scene->warnings.collector()) {
     const auto checkStop = [this] {
       if (stop) throw Stopped();
     };
@@ -321,17 +342,24 @@ void takeApart(const std::string& bytes, const std::vector<Column>& columns, siz
 }  // namespace
 
 struct Scene::Implementation {
-  explicit Implementation(rsphere::Scene&& read) : scene(std::move(read)) {}
+  // goals: SceneOptions::goals.
+  Implementation(rsphere::Scene&& read, std::vector<std::string> goals)
+      : scene_(std::make_shared<const rsphere::Scene>(std::move(read))), goals_(std::move(goals)) {}
 
   std::unique_ptr<Answerer> take(const CommandOptions& given);
   void giveBack(const std::string& key, std::unique_ptr<Answerer> answerer);
 
+  // goals: those of importance(), and only then not empty.
   template <typename Answers>
-  Answers answer(std::span<const double> numbers, const Options& options, Records records);
-
-  const rsphere::Scene scene;
+  Answers answer(std::span<const double> numbers, const Options& options, Records records,
+                 std::span<const std::string> goals = {});
 
  private:
+  std::shared_ptr<const rsphere::Scene> sceneFor(const rsphere::Options& options) const;
+
+  const std::shared_ptr<const rsphere::Scene> scene_;
+  const std::vector<std::string> goals_;
+
   // Prepared scenes by CommandOptions::sceneKey, as long as they are in use; and at most one idle answerer
   // for rays and one for points: those of the last options.
   struct Idle {
@@ -357,12 +385,21 @@ std::unique_ptr<Answerer> Scene::Implementation::take(const CommandOptions& give
       idle.answerer.reset();  // the memory of the last options is free before that of others is needed
   }
   if (!shared) {
-    shared = std::make_shared<PreparedScene>(scene, given.options);
+    shared = std::make_shared<PreparedScene>(sceneFor(given.options), given.options);
     const std::lock_guard lock(mutex_);
     std::erase_if(prepared_, [](const auto& entry) { return entry.second.expired(); });
     prepared_.emplace_back(given.sceneKey, shared);
   }
   return std::make_unique<Answerer>(std::move(shared), given.options);
+}
+
+// The scene as it was read, or a copy with goals or contributors of its own.
+std::shared_ptr<const rsphere::Scene> Scene::Implementation::sceneFor(const rsphere::Options& options) const {
+  if (!options.separate) return scene_;
+  auto copy = std::make_shared<rsphere::Scene>(*scene_);
+  if (!options.goals.empty()) setGoals(*copy, options.goals);
+  separateContributors(*copy, options.goals.empty() ? goals_ : options.goals);
+  return copy;
 }
 
 void Scene::Implementation::giveBack(const std::string& key, std::unique_ptr<Answerer> answerer) {
@@ -375,7 +412,7 @@ void Scene::Implementation::giveBack(const std::string& key, std::unique_ptr<Ans
 
 template <typename Answers>
 Answers Scene::Implementation::answer(std::span<const double> numbers, const Options& options,
-                                      Records records) {
+                                      Records records, std::span<const std::string> goals) {
   Warnings warnings;
   std::shared_ptr<PreparedScene> prepared;
   const auto passWarnings = [&] {
@@ -383,17 +420,20 @@ Answers Scene::Implementation::answer(std::span<const double> numbers, const Opt
     warnings.passOn(options.warn);
   };
   return guarded(passWarnings, [&] {
-    const CommandOptions given = commandOptions(options, records);
+    CommandOptions given = commandOptions(options, records);
+    if (!goals.empty()) addGoals(given, goals);
     const rsphere::Options& parsed = given.options;
     const rad::Warn warn = warnings.collector();
     for (const std::string& remark : parsed.messages.remarks) warn(remark);
+    std::unique_ptr<Answerer> answerer = take(given);
+    prepared = answerer->scene;
+    given.options.contributors = prepared->scene->contributors;
     Answers answers;
+    if constexpr (requires { answers.contributors; }) answers.contributors = given.options.contributors;
     answers.size = numbers.size() / static_cast<size_t>(parsed.numbersPerRecord());
     const std::vector<Column> columns = prepareColumns(columnsOf(answers), parsed, answers.size);
     const auto keep = [&](size_t record, const std::string& bytes) { takeApart(bytes, columns, record); };
 
-    std::unique_ptr<Answerer> answerer = take(given);
-    prepared = answerer->scene;
     if (answerer->summary) answerer->summary.emplace();
     Call(*answerer, numbers, keep).run(options.stop);
     if (answerer->summary)
@@ -419,7 +459,7 @@ Scene::Scene(const std::vector<std::string>& files, const SceneOptions& options)
         read.scene = files;
         read.commands = options.commands;
         read.goals = options.goals;
-        return std::make_unique<Implementation>(loadScene(read, warnings.collector()));
+        return std::make_unique<Implementation>(loadScene(read, warnings.collector()), options.goals);
       });
 }
 
@@ -435,6 +475,13 @@ RayAnswers Scene::trace(std::span<const Ray> rays, const Options& options) const
 PointAnswers Scene::sphere(std::span<const Point> points, const Options& options) const {
   const std::span numbers(reinterpret_cast<const double*>(points.data()), 3 * points.size());
   return implementation_->answer<PointAnswers>(numbers, options, Records::points);
+}
+
+PointAnswers Scene::importance(std::span<const Point> points, const std::vector<std::string>& goals,
+                               const Options& options) const {
+  if (goals.empty()) throw Error("importance() needs the modifier of at least one goal", Error::Cause::input);
+  const std::span numbers(reinterpret_cast<const double*>(points.data()), 3 * points.size());
+  return implementation_->answer<PointAnswers>(numbers, options, Records::points, goals);
 }
 
 }  // namespace rsphere::v1

@@ -323,7 +323,19 @@ void checkIrradiance(Options& options) {
 // finished, a kilobyte each.
 constexpr int kMostForAccuracy = 1000000, kMostToList = 100000;
 
+// -Sp
+void checkParts(const Options& options) {
+  if (!options.separate) return;
+  if (!options.sphereMode)
+    commandLineError("-Sp", "needs sphere mode; rcontrib has the contributions to rays");
+  if (options.color.bands > 3) commandLineError("-Sp", "needs red, green and blue: -cs above 3 is not possible");
+  if (options.out == NumberFormat::rgbe) commandLineError("-Sp", "one color has no room for parts: not with -fc");
+  if (!options.ray.ambientFile.empty())
+    commandLineError("-Sp", "an ambient file (-af) does not keep the parts of light");
+}
+
 void checkTogether(Options& options, bool mostGiven) {
+  checkParts(options);
   if (options.ray.fieldMemory > 0 && !options.ray.ambientFile.empty())
     throw rad::Error("-Sm and -af exclude each other: an ambient file is kept in memory as a whole");
   if (!options.sphereMode) return;

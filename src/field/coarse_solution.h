@@ -81,7 +81,7 @@ class CoarseSolution {
   double room_;
   Effort effort_;
   int bounces_;  // -ab
-  bool spectral_;
+  bool hasBands_;
   Color ambient_;
   std::atomic<size_t> made_{0}, linked_{0}, rays_{0};
   std::unique_ptr<InsertOnce<CellKey, Division>> divisions_;

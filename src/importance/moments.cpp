@@ -11,8 +11,9 @@ namespace rsphere {
 
 void Moments::add(const V3d& d, const Irradiance& part, const SpectralSampling* sampling) {
   total += part;
-  cylindrical += part * std::sqrt(std::max(0., 1 - d.z * d.z));
-  for (int axis = 0; axis < 3; ++axis) facing[2 * axis + (d[axis] < 0)] += part * std::abs(d[axis]);
+  cylindrical.color.addScaled(part.color, std::sqrt(std::max(0., 1 - d.z * d.z)));
+  for (int axis = 0; axis < 3; ++axis)
+    facing[2 * axis + (d[axis] < 0)].color.addScaled(part.color, std::abs(d[axis]));
   light += photopicOf(part.color, sampling) * d;
 }
 

@@ -47,13 +47,18 @@ bool interrupted() {
   return PyErr_CheckSignals() != 0;
 }
 
-// The array of a quantity, which takes its memory over: one row for each record, divided into faces if there
-// are any; one number instead of a row of one. None if the quantity was not asked for.
-py::object arrayOf(Quantity&& quantity, size_t records, size_t faces = 0) {
+// The array of a quantity, which takes its memory over: one row for each record, divided by each of `parts`
+// that is not 0 (contributors, faces); one number instead of a row of one. None if the quantity was not asked
+// for.
+py::object arrayOf(Quantity&& quantity, size_t records, std::initializer_list<size_t> parts = {}) {
   if (quantity.columns == 0) return py::none();
   std::vector<size_t> shape{records};
-  const size_t columns = faces > 0 ? quantity.columns / faces : quantity.columns;
-  if (faces > 0) shape.push_back(faces);
+  size_t columns = quantity.columns;
+  for (const size_t part : parts) {
+    if (part == 0) continue;
+    shape.push_back(part);
+    columns /= part;
+  }
   if (columns > 1) shape.push_back(columns);
   auto* const numbers = new std::vector<double>(std::move(quantity.numbers));
   const py::capsule owner(numbers, [](void* p) { delete static_cast<std::vector<double>*>(p); });
@@ -129,24 +134,39 @@ py::object trace(const py::object& self, const py::object& given, const py::kwar
   return answersObject(arrays);
 }
 
+py::object arraysOf(PointAnswers&& a) {
+  const size_t parts = a.contributors.size();
+  py::dict arrays;
+  arrays["contributors"] = parts > 0 ? py::object(py::cast(a.contributors)) : py::none();
+  arrays["mean"] = arrayOf(std::move(a.mean), a.size, {parts});
+  arrays["mean_standard_error"] = arrayOf(std::move(a.meanStandardError), a.size, {parts});
+  arrays["scalar_irradiance"] = arrayOf(std::move(a.scalarIrradiance), a.size, {parts});
+  arrays["cylindrical_irradiance"] = arrayOf(std::move(a.cylindricalIrradiance), a.size, {parts});
+  arrays["face_irradiance"] = arrayOf(std::move(a.faceIrradiance), a.size, {parts, 6});
+  arrays["light_vector"] = arrayOf(std::move(a.lightVector), a.size, {parts});
+  arrays["directions"] = arrayOf(std::move(a.directions), a.size);
+  arrays["point"] = arrayOf(std::move(a.point), a.size);
+  if (!arrays["directions"].is_none()) arrays["directions"] = arrays["directions"].attr("astype")("int64");
+  return answersObject(arrays);
+}
+
 py::object sphere(const py::object& self, const py::object& given, const py::kwargs& keywords) {
   const Scene& scene = sceneOf(self);
   const Numbers array = numbersOf(given, "points");
   const std::span<const Point> points = recordsOf<Point>(array, "points");
   Options options = optionsOf(keywords);
   options.stop = interrupted;
-  PointAnswers a = withoutLock(options, [&] { return scene.sphere(points, options); });
-  py::dict arrays;
-  arrays["mean"] = arrayOf(std::move(a.mean), a.size);
-  arrays["mean_standard_error"] = arrayOf(std::move(a.meanStandardError), a.size);
-  arrays["scalar_irradiance"] = arrayOf(std::move(a.scalarIrradiance), a.size);
-  arrays["cylindrical_irradiance"] = arrayOf(std::move(a.cylindricalIrradiance), a.size);
-  arrays["face_irradiance"] = arrayOf(std::move(a.faceIrradiance), a.size, 6);
-  arrays["light_vector"] = arrayOf(std::move(a.lightVector), a.size);
-  arrays["directions"] = arrayOf(std::move(a.directions), a.size);
-  arrays["point"] = arrayOf(std::move(a.point), a.size);
-  if (!arrays["directions"].is_none()) arrays["directions"] = arrays["directions"].attr("astype")("int64");
-  return answersObject(arrays);
+  return arraysOf(withoutLock(options, [&] { return scene.sphere(points, options); }));
+}
+
+py::object importance(const py::object& self, const py::object& given, const std::vector<std::string>& goals,
+                      const py::kwargs& keywords) {
+  const Scene& scene = sceneOf(self);
+  const Numbers array = numbersOf(given, "points");
+  const std::span<const Point> points = recordsOf<Point>(array, "points");
+  Options options = optionsOf(keywords);
+  options.stop = interrupted;
+  return arraysOf(withoutLock(options, [&] { return scene.importance(points, goals, options); }));
 }
 
 std::unique_ptr<Scene> readScene(const py::object& files, bool commands,
@@ -243,6 +263,18 @@ the integral of radiance over 4 pi sr.
 v mean (n, 3): F/(4 pi) (W/sr/m2), e mean_standard_error: that of mean, estimated,
 E scalar_irradiance: F/4 (W/m2; its standard error is pi times that of mean), C cylindrical_irradiance,
 H face_irradiance (n, 6, 3): +x -x +y -y +z -z, u light_vector, k directions, o point.
+With Sp=True, what each modifier of a light source gives: contributors are their names, and arrays but directions
+and point have a second axis for them.
+)";
+
+constexpr const char* kImportance = R"(Computes the importance of each goal at points, of all in one pass.
+
+points: an array (n, 3). goals: modifiers whose surfaces emit importance 1 W/sr/m2 from their front; all other
+sources are dark. Returns the object of sphere() whose contributors are the goals, and whose arrays have a second
+axis for them: mean (n, goals, 3), mean_standard_error, face_irradiance (n, goals, 6, 3).
+
+By reciprocity, a lamp at the point of 1 cd in all directions gives a goal of area A (m2) the mean illuminance
+4 pi mean / A (lx), and a small downlight of cos(angle to -z) cd gives it face_irradiance[:, :, 5] / A.
 )";
 
 }  // namespace
@@ -251,12 +283,14 @@ PYBIND11_MODULE(rsphere, m) {
   m.doc() = kModule;
   m.attr("__version__") = version();
   addError(m);
-  const std::string traceText = std::string(kTrace) + kOptions, sphereText = std::string(kSphere) + kOptions;
+  const std::string traceText = std::string(kTrace) + kOptions, sphereText = std::string(kSphere) + kOptions,
+                    importanceText = std::string(kImportance) + kOptions;
   py::class_<Scene>(m, "Scene", kScene)
       .def(py::init(&readScene), py::arg("files"), py::kw_only(), py::arg("commands") = true,
            py::arg("goals") = std::vector<std::string>())
       .def("trace", &trace, py::arg("rays"), traceText.c_str())
-      .def("sphere", &sphere, py::arg("points"), sphereText.c_str());
+      .def("sphere", &sphere, py::arg("points"), sphereText.c_str())
+      .def("importance", &importance, py::arg("points"), py::arg("goals"), importanceText.c_str());
   m.def("photometric", &photometricOf, py::arg("color"),
         "Turns colors (..., 3) of radiance (W/sr/m2) into luminance (cd/m2), and of irradiance (W/m2) into "
         "illuminance (lx).");

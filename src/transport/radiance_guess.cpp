@@ -219,14 +219,19 @@ LocalGuess RadianceGuess::fit(const V3d& point, std::span<const V3d> glances, st
   local.bright_ = Tuning::kBright * arriving / static_cast<double>(std::max<size_t>(1, glances.size()));
   // The median instead of the mean, because a few directions hit something very bright by chance.
   std::vector<double> around[3];
+  Color parts;  // of contributors, in proportion to which they share the median
   for (const Traced& t : traced) {
     const Place& at = t.place;
     if (!(brightness(at.reflectance) > 0)) continue;
     const Color rest = (t.radiance - local.direct(at, true)).color, reflectance = at.reflectance.color;
     for (int c = 0; c < 3; ++c)
       if (reflectance[c] > 0) around[c].push_back(rest[c] / reflectance[c]);
+    parts += t.radiance.color;
   }
-  for (int c = 0; c < 3; ++c) local.ambient_.color[c] = std::max(0., middleOf(around[c]));
+  const V3d middle(middleOf(around[0]), middleOf(around[1]), middleOf(around[2]));
+  for (int c = 0; c < 3; ++c) local.ambient_.color[c] = std::max(0., middle[c]);
+  if (parts.bands())
+    local.ambient_.color = local.ambient_.color.dividedAs(parts);
   // The variance that the guess leaves to the directions, and the part of it that the random choice of
   // indirect rays causes. That part is estimated from the mean absolute difference of two guesses: it is less
   // sensitive than a mean square to single rays that hit something bright by chance. For normally distributed

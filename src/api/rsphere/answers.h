@@ -50,9 +50,12 @@ struct RayAnswers {
   std::vector<std::string> material;  // M
 };
 
-// Answers to points. F is the integral of the radiance L over all 4 pi sr of directions.
+// Answers to points. F is the integral of the radiance L over all 4 pi sr of directions. With contributors, each
+// quantity but directions and point has the columns of all contributors in turn: what each of them gives.
 struct PointAnswers {
   size_t size = 0;                 // the number of points
+  // The modifiers of goals, or of light sources with -Sp; empty: quantities are sums over all of them.
+  std::vector<std::string> contributors;
   Quantity mean;                   // v  mean radiance F/(4 pi) (W/sr/m2)
   Quantity meanStandardError;      // e  of mean, estimated. That of scalarIrradiance is pi times as large
   Quantity scalarIrradiance;       // E  F/4 (W/m2)
