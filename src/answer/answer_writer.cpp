@@ -89,6 +89,10 @@ int componentCount(const AnswerOptions& options) {
       case 'H':
         count += 6 * color;
         break;
+      case 'z':
+      case 'Z':
+        count += options.sphere.zones * color;
+        break;
       case 'c':
         count += 2;
         break;
@@ -127,10 +131,13 @@ void AnswerWriter::eachPart(const Color& color, const Write& write) const {
 void AnswerWriter::writeError(RecordText& text, const PointAnswer& answer) const {
   if (options_.contributors.empty())
     return colors_.writeError(text, answer.standardError, answer.brightnessError);
-  // An upper bound of the error of brightness: as if the errors of the channels were fully correlated, which
-  // they nearly are, because the same paths bring all channels.
-  eachPart(answer.standardError.color,
-           [&](const Color& part) { colors_.writeError(text, Radiance(part), brightness(part)); });
+  eachPart(answer.standardError.color, [&](const Color& part) { writeErrorOfPart(text, part); });
+}
+
+// The error of brightness is an upper bound: as if the errors of the channels were fully correlated, which they
+// nearly are, because the same paths bring all channels.
+void AnswerWriter::writeErrorOfPart(RecordText& text, const Color& part) const {
+  colors_.writeError(text, Radiance(part), brightness(part));
 }
 
 void AnswerWriter::writeLightVector(RecordText& text, const PointAnswer& answer) const {
@@ -165,6 +172,21 @@ void AnswerWriter::writeFaces(RecordText& text, const PointAnswer& answer) const
     for (const Irradiance& face : answer.facing) colors_.write(text, Irradiance(face.color.part(i)));
 }
 
+// All zones of a contributor follow each other.
+void AnswerWriter::writeZones(RecordText& text, const PointAnswer& answer) const {
+  if (options_.contributors.empty())
+    for (const Radiance& zone : answer.zones) colors_.write(text, zone);
+  for (size_t i = 0; i < options_.contributors.size(); ++i)
+    for (const Radiance& zone : answer.zones) colors_.write(text, Radiance(zone.color.part(i)));
+}
+
+void AnswerWriter::writeZoneErrors(RecordText& text, const PointAnswer& answer) const {
+  if (options_.contributors.empty())
+    for (const auto& [channels, bright] : answer.zoneErrors) colors_.writeError(text, channels, bright);
+  for (size_t i = 0; i < options_.contributors.size(); ++i)
+    for (const auto& [channels, bright] : answer.zoneErrors) writeErrorOfPart(text, channels.color.part(i));
+}
+
 void AnswerWriter::write(std::string& bytes, const PointAnswer& answer) const {
   RecordText text(bytes, options_.out);
   const auto irradiance = [&](const Color& part) { colors_.write(text, Irradiance(part)); };
@@ -192,6 +214,12 @@ void AnswerWriter::write(std::string& bytes, const PointAnswer& answer) const {
         break;
       case 'k':
         text.integer(answer.directions);
+        break;
+      case 'z':
+        writeZones(text, answer);
+        break;
+      case 'Z':
+        writeZoneErrors(text, answer);
         break;
     }
   text.end();

@@ -15,7 +15,7 @@ namespace rsphere {
 int componentCount(const AnswerOptions& options);
 
 // Appends records to a string of bytes: the quantities that the -o letters name, in their order, in the
-// output format. With contributors (-Sp), the letters v e E C H u each have the part of every contributor in
+// output format. With contributors (-Sp), the letters v e E C H u z Z each have the part of every contributor in
 // turn. REQUIRES: the options are from parseOptions() and live as long as the writer.
 class AnswerWriter {
  public:
@@ -36,6 +36,9 @@ class AnswerWriter {
   template <class Write>
   void eachPart(const Color& color, const Write& write) const;
   void writeError(RecordText& text, const PointAnswer& answer) const;
+  void writeErrorOfPart(RecordText& text, const Color& part) const;
+  void writeZones(RecordText& text, const PointAnswer& answer) const;
+  void writeZoneErrors(RecordText& text, const PointAnswer& answer) const;
   void writeFaces(RecordText& text, const PointAnswer& answer) const;
   void writeLightVector(RecordText& text, const PointAnswer& answer) const;
 

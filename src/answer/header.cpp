@@ -8,6 +8,7 @@
 #include "answer/answer_writer.h"
 #include "answer/output_colors.h"
 #include "base/version.h"
+#include "sphere/equal_zones.h"
 
 namespace rsphere {
 namespace {
@@ -107,6 +108,12 @@ void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<c
   const bool counts = options.treeOutputs.empty() && !options.outputs.empty();
   RecordLayout layout{counts ? componentCount(options) : 0};
   if (!options.contributors.empty()) layout.lines = "CONTRIBUTORS=" + joinedNames(options.contributors) + '\n';
+  if (options.sphereMode && options.sphere.zones > 0) {
+    layout.lines += "ZONES=";
+    for (const size_t zones : EqualZones(static_cast<size_t>(options.sphere.zones)).rows())
+      layout.lines += fmt::format(" {}", zones);
+    layout.lines += '\n';
+  }
   writeHeader(writer, options, sceneHeader, now, layout);
 }
 

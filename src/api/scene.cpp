@@ -20,6 +20,7 @@
 #include "answer/load_scene.h"
 #include "answer/threads.h"
 #include "api/command_line.h"
+#include "api/ray_contributions.h"
 #include "base/color.h"
 #include "cli/options.h"
 #include "rad_parser/printable.h"
@@ -125,6 +126,16 @@ struct Answerer {
                  ? answerPoints(scene->transport, options, writer, warn, summary.emplace(), checkStop)
                  : answerRays(scene->transport, options, writer, warn);
   }
+  // For contributions to rays.
+  Answerer(std::shared_ptr<PreparedScene> prepared, const rsphere::Options& given,
+           std::vector<TrackedModifier> modifiers, const ContributionOptions& how)
+      : options(given), scene(std::move(prepared)), writer(options), warn(scene->warnings.collector()) {
+    contributions.emplace(scene->transport, options, std::move(modifiers),
+                          how.coefficients ? Contributed::coefficients : Contributed::values, how.samples, warn);
+    answer = [this](const Record& record, unsigned worker, std::string& bytes) {
+      contributions->answer(record, worker, bytes);
+    };
+  }
   Answerer(const Answerer&) = delete;
   Answerer& operator=(const Answerer&) = delete;
 
@@ -133,6 +144,7 @@ struct Answerer {
   const AnswerWriter writer;
   const rad::Warn warn;
   std::optional<PointSummary> summary;
+  std::optional<RayContributions> contributions;
   std::atomic<bool> stop = false;
   AnswerRecord answer;
 };
@@ -296,6 +308,8 @@ std::vector<Column> columnsOf(PointAnswers& a) {
           {'H', &a.faceIrradiance},
           {'u', &a.lightVector},
           {'k', &a.directions},
+          {'z', &a.zones},
+          {'Z', &a.zonesStandardError},
           {'o', &a.point}};
 }
 
@@ -354,7 +368,12 @@ struct Scene::Implementation {
   Answers answer(std::span<const double> numbers, const Options& options, Records records,
                  std::span<const std::string> goals = {});
 
+  Contributions contributions(std::span<const double> numbers, const std::vector<std::string>& of,
+                              const ContributionOptions& options);
+
  private:
+  std::shared_ptr<PreparedScene> preparedFor(const std::string& sceneKey) const;
+  std::shared_ptr<PreparedScene> prepare(const CommandOptions& given);
   std::shared_ptr<const rsphere::Scene> sceneFor(const rsphere::Options& options) const;
 
   const std::shared_ptr<const rsphere::Scene> scene_;
@@ -369,28 +388,40 @@ struct Scene::Implementation {
   std::mutex mutex_;
   std::vector<std::pair<std::string, std::weak_ptr<PreparedScene>>> prepared_;
   Idle rays_, points_;
+  std::shared_ptr<PreparedScene> ofContributions_;  // that of the last call
 };
 
 // An answerer for these options: the idle one, or a new one. The scene of another answerer serves as well if
 // the same preparations do.
 std::unique_ptr<Answerer> Scene::Implementation::take(const CommandOptions& given) {
-  std::shared_ptr<PreparedScene> shared;
   {
     const std::lock_guard lock(mutex_);
     Idle& idle = given.options.sphereMode ? points_ : rays_;
     if (idle.answerer && idle.key == given.key) return std::move(idle.answerer);
-    for (const auto& [key, prepared] : prepared_)
-      if (key == given.sceneKey && !shared) shared = prepared.lock();
-    if (!shared)
-      idle.answerer.reset();  // the memory of the last options is free before that of others is needed
+    // The memory of the last options is free before that of others is needed.
+    if (!preparedFor(given.sceneKey)) idle.answerer.reset();
   }
-  if (!shared) {
-    shared = std::make_shared<PreparedScene>(sceneFor(given.options), given.options);
+  return std::make_unique<Answerer>(prepare(given), given.options);
+}
+
+// REQUIRES: the mutex is locked.
+std::shared_ptr<PreparedScene> Scene::Implementation::preparedFor(const std::string& sceneKey) const {
+  for (const auto& [key, prepared] : prepared_)
+    if (key == sceneKey)
+      if (auto shared = prepared.lock()) return shared;
+  return nullptr;
+}
+
+std::shared_ptr<PreparedScene> Scene::Implementation::prepare(const CommandOptions& given) {
+  {
     const std::lock_guard lock(mutex_);
-    std::erase_if(prepared_, [](const auto& entry) { return entry.second.expired(); });
-    prepared_.emplace_back(given.sceneKey, shared);
+    if (auto shared = preparedFor(given.sceneKey)) return shared;
   }
-  return std::make_unique<Answerer>(std::move(shared), given.options);
+  auto shared = std::make_shared<PreparedScene>(sceneFor(given.options), given.options);
+  const std::lock_guard lock(mutex_);
+  std::erase_if(prepared_, [](const auto& entry) { return entry.second.expired(); });
+  prepared_.emplace_back(given.sceneKey, shared);
+  return shared;
 }
 
 // The scene as it was read, or a copy with goals or contributors of its own.
@@ -445,6 +476,44 @@ Answers Scene::Implementation::answer(std::span<const double> numbers, const Opt
   });
 }
 
+Contributions Scene::Implementation::contributions(std::span<const double> numbers,
+                                                   const std::vector<std::string>& of,
+                                                   const ContributionOptions& options) {
+  Warnings warnings;
+  std::shared_ptr<PreparedScene> prepared;
+  const auto passWarnings = [&] {
+    if (prepared) prepared->warnings.passOn(options.warn);
+    warnings.passOn(options.warn);
+  };
+  return guarded(passWarnings, [&] {
+    if (options.samples < 1)
+      throw rad::Error(fmt::format("{} samples: expected at least 1", options.samples));
+    std::vector<TrackedModifier> modifiers = trackedModifiers(of, options.bins);
+    const CommandOptions given = commandOptions(options, Records::contributions);
+    for (const std::string& remark : given.options.messages.remarks) warnings.collector()(remark);
+    prepared = prepare(given);
+    {
+      const std::lock_guard lock(mutex_);
+      ofContributions_ = prepared;
+    }
+    Contributions result;
+    result.modifiers = of;
+    result.bins = modifiers.front().bins;
+    Answerer answerer(prepared, given.options, std::move(modifiers), options);
+    const size_t columns = answerer.contributions->numbers();
+    result.size = numbers.size() / static_cast<size_t>(given.options.numbersPerRecord());
+    std::vector<Column> all{{'v', &result.value}};
+    if (options.samples > 1) all.push_back({'e', &result.standardError});
+    for (Column& column : all) {
+      column.quantity->columns = columns;
+      column.quantity->numbers.resize(result.size * columns);
+    }
+    const auto keep = [&](size_t record, const std::string& bytes) { takeApart(bytes, all, record); };
+    Call(answerer, numbers, keep).run(options.stop);
+    return result;
+  });
+}
+
 Scene::Scene(const std::vector<std::string>& files, const SceneOptions& options) {
   Warnings warnings;
   implementation_ = guarded(
@@ -482,6 +551,22 @@ PointAnswers Scene::importance(std::span<const Point> points, const std::vector<
   if (goals.empty()) throw Error("importance() needs the modifier of at least one goal", Error::Cause::input);
   const std::span numbers(reinterpret_cast<const double*>(points.data()), 3 * points.size());
   return implementation_->answer<PointAnswers>(numbers, options, Records::points, goals);
+}
+
+Contributions Scene::contributions(std::span<const Ray> rays, const std::vector<std::string>& of,
+                                   const ContributionOptions& options) const {
+  const std::span numbers(reinterpret_cast<const double*>(rays.data()), 6 * rays.size());
+  return implementation_->contributions(numbers, of, options);
+}
+
+std::vector<std::array<double, 3>> zoneMiddles(size_t count) {
+  const EqualZones zones(count);
+  std::vector<std::array<double, 3>> middles;
+  for (size_t i = 0; i < count; ++i) {
+    const V3d middle = zones.middle(i);
+    middles.push_back({middle.x, middle.y, middle.z});
+  }
+  return middles;
 }
 
 }  // namespace rsphere::v1

@@ -102,6 +102,11 @@ class Color {
   Color dividedAs(const Color& other) const;
   // The smallest and the largest value of its bands, or of its channels if it has parts. REQUIRES bands.
   std::pair<double, double> extremesOfBands() const;
+  // Has the processor fetch the bands, which a later use will not wait for then.
+  void prefetch() const {
+    if (bands_) [[unlikely]]
+      __builtin_prefetch(bands_.block_);
+  }
   // Replaces the value in each channel and band by f(value).
   template <class F>
   void transform(const F& f) {

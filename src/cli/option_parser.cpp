@@ -255,7 +255,7 @@ void splitTree(Options& options) {
 void checkLetters(const Options& options) {
   const bool points = options.sphereMode && !options.sphere.everyDirection;
   const std::string_view known = !options.sphereMode ? "odvVwWlLcpnNsmMrRxX~"
-                                 : points            ? "oveECHuk"
+                                 : points            ? (options.sphere.zones > 0 ? "oveECHukzZ" : "oveECHuk")
                                                      : "iodwvlLcpnNsmM~";
   for (const char letter : options.outputs + options.treeOutputs) {
     if (known.find(letter) != std::string_view::npos) continue;
@@ -286,7 +286,7 @@ void checkColorOutput(Options& options) {
   if (options.out == NumberFormat::rgbe && oneChannel)
     throw rad::Error("color format incompatible with -pY, -pS, -pM");
   if (options.sphereMode && !options.sphere.everyDirection && !haveStandardErrors(color) &&
-      options.outputs.find('e') != std::string::npos)
+      options.outputs.find_first_of("eZ") != std::string::npos)
     throw rad::Error(
         color.bands > 3
             ? "-oe needs -co or -pY with -cs above 3: standard errors are those of bands, or of luminance"

@@ -931,6 +931,15 @@ void addAnswerOptions(const Add& add) {
            "ambient value (-av), which has no contributor. Standard errors (e) are those of the parts; with "
            "-pY they are upper bounds, because the errors of red, green and blue are taken for fully "
            "correlated. -Sa looks at the sum. Not with -cs above 3 or -fc."});
+  add({.name = "-Sz",
+       .arguments = "N",
+       .group = Group::sphere,
+       .value = +[](O& o) -> int& { return o.sphere.zones; },
+       .range = {0, 100000},
+       .remark = "zones of directions",
+       .paragraph =
+           "Divides all directions into N zones of equal solid angle, whose mean radiances the letter z of -o "
+           "writes, and Z their standard errors; see OUTPUT. 0: there are no zones."});
   add({.name = "-Sb",
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.sphere.basicRadiance; },

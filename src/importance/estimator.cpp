@@ -62,7 +62,16 @@ struct Half {
   Irradiance excess, clamped;
   Variance variance;
   SharedError shared;
+  ZoneVariances ofZones;
+  std::vector<SharedError> sharedByZone;
+
+  explicit Half(const EqualZones* zones) : moments(zones), ofZones(zones) {}
 };
+
+void addAll(const std::vector<SharedError>& more, double share, std::vector<SharedError>& to) {
+  to.resize(std::max(to.size(), more.size()));
+  for (size_t i = 0; i < more.size(); ++i) to[i].add(more[i], share);
+}
 
 struct KeptSet {
   size_t half;
@@ -100,6 +109,29 @@ Variance coarseVariance(const Irradiance& total, const RayOptions& o) {
   const double rays = std::max(o.ambientDivisions + o.ambientSuperSamples, o.leastForPatches);
   const double ofRays = Tuning::kRaysOfPatches * std::sqrt(Tuning::kUsualRays / std::max(rays, 1.));
   return Variance::of(total, o.sampling) * (ofRays * ofRays + Tuning::kPatches * Tuning::kPatches);
+}
+
+// Rounding may leave a variance a little below 0.
+PointAnswer::ZoneError standardErrorOf(const Variance& variance, double solidAngle) {
+  const auto root = [&](double v) { return std::sqrt(std::max(0., v)) / solidAngle; };
+  PointAnswer::ZoneError error{Radiance(variance.channels), root(variance.brightness)};
+  error.channels.color.transform(root);
+  return error;
+}
+
+// coarse: the options, if there is a coarse solution.
+std::vector<PointAnswer::ZoneError> zoneErrorsOf(const Half& sums, const EqualZones& zones,
+                                                 const SpectralSampling* sampling, const RayOptions* coarse) {
+  std::vector<PointAnswer::ZoneError> errors;
+  for (size_t i = 0; i < zones.count(); ++i) {
+    Variance variance = sums.ofZones.all[i];
+    const Color& border = sums.moments.borders[i];
+    variance += {border, brightness(border)};
+    if (i < sums.sharedByZone.size()) variance += sharedVariance(sums.sharedByZone[i], sampling);
+    if (coarse) variance += coarseVariance(sums.moments.ofZones[i], *coarse);
+    errors.push_back(standardErrorOf(variance, zones.solidAngle()));
+  }
+  return errors;
 }
 
 }  // namespace
@@ -150,7 +182,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
   // -Sa may send a million directions. They are kept only if they are to be printed.
   const bool keep = options_.everyDirection || options_.accuracy <= 0;
   const auto most = static_cast<size_t>(options_.mostOfAllSets());
-  std::array<Half, 2> halves;
+  std::array<Half, 2> halves{Half(base_.zones.get()), Half(base_.zones.get())};
   std::vector<KeptSet> kept;
   TwoHalves decision(options_.accuracy, dark_);
   uint64_t sets = 0;
@@ -159,13 +191,15 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
     if (workspace.checkStop) workspace.checkStop();
     SampledSet set =
         strategy_->sample(SetAtPoint(point, sets++, options_.rotation), workspace.tracer, workspace.voronoi_);
-    const Moments moments = set.moments(base_.sampling);
+    const Moments moments = set.moments(base_);
     Half& half = halves[*next];
     half.moments.add(moments, 1);
     half.excess += set.excess.total;
     half.clamped += set.clamped;
     half.variance += set.variance;
     half.shared.add(set.shared, 1);
+    half.ofZones.add(set.ofZones, 1);
+    addAll(set.sharedByZone, 1, half.sharedByZone);
     decision.add(*next, photopicOf(moments.total.color, base_.sampling),
                  set.variance.brightness + sharedVariance(set.shared, base_.sampling).brightness);
     directions += set.samples.size();
@@ -175,10 +209,11 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
     largest = std::max(largest, set.samples.size());
     if (keep) kept.push_back({*next, std::move(set)});
   }
-  Moments moments;
-  Irradiance excess, clamped;
-  Variance variance;
-  SharedError shared;
+  Half all(base_.zones.get());
+  Moments& moments = all.moments;
+  Irradiance &excess = all.excess, &clamped = all.clamped;
+  Variance& variance = all.variance;
+  SharedError& shared = all.shared;
   for (size_t k = 0; k < halves.size(); ++k) {
     const double share = decision.share(k);
     if (!(share > 0)) continue;
@@ -187,18 +222,21 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
     clamped += halves[k].clamped * share;
     variance += halves[k].variance * (share * share);
     shared.add(halves[k].shared, share);
+    addAll(halves[k].sharedByZone, share, all.sharedByZone);
+    all.ofZones.add(halves[k].ofZones, share * share);
   }
   variance += sharedVariance(shared, base_.sampling);
   if (tracing_.caches.coarse) variance += coarseVariance(moments.total, tracing_.prepared.options());
-  SampledSet all = joined(std::move(kept), decision, excess, options_.everyDirection);
-  workspace.samples = std::move(all.samples);
-  workspace.rays = std::move(all.rays);
+  SampledSet samples = joined(std::move(kept), decision, excess, options_.everyDirection);
+  workspace.samples = std::move(samples.samples);
+  workspace.rays = std::move(samples.rays);
   PointAnswer answer = moments.answer(point, directions);
-  // Rounding may leave a variance a little below 0.
-  const auto standardError = [](double v) { return std::sqrt(std::max(0., v)) / (4 * std::numbers::pi); };
-  answer.standardError.color = variance.channels;
-  answer.standardError.color.transform(standardError);
-  answer.brightnessError = standardError(variance.brightness);
+  const PointAnswer::ZoneError error = standardErrorOf(variance, 4 * std::numbers::pi);
+  answer.standardError = error.channels;
+  answer.brightnessError = error.brightness;
+  if (base_.zones && base_.neighbours)
+    answer.zoneErrors = zoneErrorsOf(all, *base_.zones, base_.sampling,
+                                     tracing_.caches.coarse ? &tracing_.prepared.options() : nullptr);
   answer.clamped = photopicOf(clamped.color, base_.sampling) / (4 * std::numbers::pi);
   answer.isDark = isDark(answer, lit) || decision.gaveUp();
   answer.reached = options_.accuracy <= 0 || decision.isReached();

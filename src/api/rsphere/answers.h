@@ -63,7 +63,22 @@ struct PointAnswers {
   Quantity faceIrradiance;         // H  of faces towards +x -x +y -y +z -z, a color for each (W/m2)
   Quantity lightVector;  // u  integral of L d over directions d, of brightness, towards more light (W/m2)
   Quantity directions;   // k  number of directions used
+  // z  mean radiance of each of Options::zones in turn (W/sr/m2); their mean is `mean`, up to rounding
+  Quantity zones;
+  Quantity zonesStandardError;  // Z  of these, estimated
   Quantity point;        // o
+};
+
+// What modifiers contribute to rays: for each ray a color for each bin of each modifier. The bins of the first
+// modifier come first.
+struct Contributions {
+  size_t size = 0;                     // the number of rays
+  std::vector<std::string> modifiers;  // as they were asked for
+  size_t bins = 1;                     // of each modifier
+  // Radiance (W/sr/m2), irradiance (W/m2) with -i and -I, or coefficients. Red, green and blue, or with -cs
+  // above 3 bands.
+  Quantity value;
+  Quantity standardError;  // of value, from the spread of ContributionOptions::samples; no columns with 1
 };
 
 // RADIANCE's luminous efficacy of white light (lm/W), and the part of each channel in it.

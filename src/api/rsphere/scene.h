@@ -64,9 +64,21 @@ class RSPHERE_API Scene {
   PointAnswers importance(std::span<const Point> points, const std::vector<std::string>& goals,
                           const Options& options = {}) const;
 
+  // Computes what surfaces with each of these modifiers send along rays and the paths that they begin: light
+  // sources, the sky, goals or any others. The contributions of all that emits sum to the value of trace()
+  // without interpolation (-aa 0). Throws as trace() does, and if a modifier is named twice, or if bins are
+  // wrong. A modifier that the scene lacks has zeros.
+  Contributions contributions(std::span<const Ray> rays, const std::vector<std::string>& of,
+                              const ContributionOptions& options = {}) const;
+
  private:
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
+
+// The directions (unit) in the middle of each of a number of zones of equal solid angle, 4 pi / count sr: of
+// Options::zones and Bins::zones. Zone 0 is a cap around +z and the last one a cap around -z; between them lie
+// rows whose zones begin at the azimuth of +x and turn towards +y. REQUIRES count >= 1.
+RSPHERE_API std::vector<std::array<double, 3>> zoneMiddles(size_t count);
 
 }  // namespace RSPHERE_API_NAMESPACE
