@@ -64,11 +64,10 @@ void answer(const Options& given, const Messages& messages, StopSignals& signals
       for (const std::string& text : summary.warnings(options.sphere, transport.prepared())) warn(text);
     };
   runRecords(reader, writer, options, messages, &signals,
-             options.sphereMode
-                 ? answerPoints(
-                       transport, options, answers, warn, summary, [&] { signals.check(); },
-                       pictureReport(options, messages))
-                 : answerRays(transport, options, answers, warn),
+             options.sphereMode ? answerPoints(
+                                      transport, options, answers, warn, summary, [&] { signals.check(); },
+                                      pictureReport(options, messages))
+                                : answerRays(transport, options, answers, warn),
              end);
 }
 

@@ -134,8 +134,8 @@ void AnswerWriter::writeError(RecordText& text, const PointAnswer& answer) const
   eachPart(answer.standardError.color, [&](const Color& part) { writeErrorOfPart(text, part); });
 }
 
-// The error of brightness is an upper bound: as if the errors of the channels were fully correlated, which they
-// nearly are, because the same paths bring all channels.
+// The error of brightness is an upper bound: as if the errors of the channels were fully correlated, which
+// they nearly are, because the same paths bring all channels.
 void AnswerWriter::writeErrorOfPart(RecordText& text, const Color& part) const {
   colors_.writeError(text, Radiance(part), brightness(part));
 }

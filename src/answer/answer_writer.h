@@ -15,8 +15,8 @@ namespace rsphere {
 int componentCount(const AnswerOptions& options);
 
 // Appends records to a string of bytes: the quantities that the -o letters name, in their order, in the
-// output format. With contributors (-Sp), the letters v e E C H u z Z each have the part of every contributor in
-// turn. REQUIRES: the options are from parseOptions() and live as long as the writer.
+// output format. With contributors (-Sp), the letters v e E C H u z Z each have the part of every contributor
+// in turn. REQUIRES: the options are from parseOptions() and live as long as the writer.
 class AnswerWriter {
  public:
   explicit AnswerWriter(const AnswerOptions& options) : options_(options), colors_(options.color) {}

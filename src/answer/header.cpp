@@ -107,7 +107,8 @@ void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<c
                  std::time_t now) {
   const bool counts = options.treeOutputs.empty() && !options.outputs.empty();
   RecordLayout layout{counts ? componentCount(options) : 0};
-  if (!options.contributors.empty()) layout.lines = "CONTRIBUTORS=" + joinedNames(options.contributors) + '\n';
+  if (!options.contributors.empty())
+    layout.lines = "CONTRIBUTORS=" + joinedNames(options.contributors) + '\n';
   if (options.sphereMode && options.sphere.zones > 0) {
     layout.lines += "ZONES=";
     for (const size_t zones : EqualZones(static_cast<size_t>(options.sphere.zones)).rows())

@@ -88,7 +88,8 @@ CommandOptions commandOptions(const Options& options, Records records) {
   if (parsed.scene.size() > 1)
     throw rad::Error(fmt::format("\"{}\" is not an option: options begin with a hyphen", parsed.scene[0]));
   refuse(parsed.sphereMode == rays, "-S", "trace() and contributions() answer rays, and sphere() points");
-  refuse(!parsed.goals.empty(), "-Sg", "goals belong to the scene (SceneOptions), or are those of importance()");
+  refuse(!parsed.goals.empty(), "-Sg",
+         "goals belong to the scene (SceneOptions), or are those of importance()");
   refuse(!parsed.commands, "-Sc", "commands belong to the scene: see SceneOptions");
   refuse(parsed.sphere.everyDirection, "-Sd", "only the command rsphere lists every direction");
   refuse(parsed.listSpecial, "-Sl", "only the command rsphere lists the special objects");
@@ -101,7 +102,8 @@ CommandOptions commandOptions(const Options& options, Records records) {
   const auto isOutputs = [](const UsedOption& option) { return option.entry->name == "-o"; };
   if (!rays && std::none_of(used.begin(), used.end(), isOutputs)) {
     const bool zones = parsed.sphere.zones > 0, errors = haveStandardErrors(parsed.color);
-    parsed.outputs = std::string(errors ? "veECHuk" : "vECHuk") + (zones ? "z" : "") + (zones && errors ? "Z" : "");
+    parsed.outputs =
+        std::string(errors ? "veECHuk" : "vECHuk") + (zones ? "z" : "") + (zones && errors ? "Z" : "");
   }
   parsed.out = NumberFormat::float64;
 

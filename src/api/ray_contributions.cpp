@@ -21,11 +21,12 @@ void setFunction(const Bins& bins, TrackedModifier& modifier) {
   definitions.parameters = bins.parameters;
   BinFunctions functions;
   modifier.bin = functions.compile("bin", bins.expression, definitions);
-  const BinFunction count = functions.compile("count of bins", bins.count.empty() ? "0" : bins.count, definitions);
+  const BinFunction count =
+      functions.compile("count of bins", bins.count.empty() ? "0" : bins.count, definitions);
   const double number = count.isConstant() ? std::floor(count.constant() + .5) : 0;
   if (!(number >= 1 && number <= kMostBins))
-    throw rad::Error(fmt::format("the count of bins, '{}', must be a constant from 1 to {:.0f}", bins.count,
-                                 kMostBins));
+    throw rad::Error(
+        fmt::format("the count of bins, '{}', must be a constant from 1 to {:.0f}", bins.count, kMostBins));
   modifier.bins = static_cast<uint32_t>(number);
 }
 
@@ -60,7 +61,8 @@ RayContributions::RayContributions(const Transport& transport, const AnswerOptio
       tracked_(transport.prepared(), std::move(modifiers), what, std::move(warn)),
       components_(static_cast<size_t>(tracked_.components())),
       samples_(samples) {
-  for (PathTracer& tracer : rayTracers(transport, options)) tracers_.emplace_back(std::move(tracer), tracked_);
+  for (PathTracer& tracer : rayTracers(transport, options))
+    tracers_.emplace_back(std::move(tracer), tracked_);
 }
 
 void RayContributions::answer(const Record& record, unsigned worker, std::string& bytes) {

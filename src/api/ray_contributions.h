@@ -12,8 +12,8 @@ namespace rsphere::v1 {
 // The modifiers, all with the same bins. Throws rad::Error if one is named twice, or if the bins are wrong.
 std::vector<TrackedModifier> trackedModifiers(const std::vector<std::string>& of, const Bins& bins);
 
-// Answers rays with contributions, as doubles: the mean of each number of each column over the samples, and with
-// more than one sample the standard errors of these means. Threads of -n may call answer() at once.
+// Answers rays with contributions, as doubles: the mean of each number of each column over the samples, and
+// with more than one sample the standard errors of these means. Threads of -n may call answer() at once.
 class RayContributions {
  public:
   // samples: at least 1. Keeps references to transport and options.

@@ -131,7 +131,8 @@ struct Answerer {
            std::vector<TrackedModifier> modifiers, const ContributionOptions& how)
       : options(given), scene(std::move(prepared)), writer(options), warn(scene->warnings.collector()) {
     contributions.emplace(scene->transport, options, std::move(modifiers),
-                          how.coefficients ? Contributed::coefficients : Contributed::values, how.samples, warn);
+                          how.coefficients ? Contributed::coefficients : Contributed::values, how.samples,
+                          warn);
     answer = [this](const Record& record, unsigned worker, std::string& bytes) {
       contributions->answer(record, worker, bytes);
     };
@@ -460,7 +461,10 @@ Answers Scene::Implementation::answer(std::span<const double> numbers, const Opt
     prepared = answerer->scene;
     given.options.contributors = prepared->scene->contributors;
     Answers answers;
-    if constexpr (requires { answers.contributors; }) answers.contributors = given.options.contributors;
+    if constexpr (requires { answers.contributors; }) {
+      answers.contributors = given.options.contributors;
+      answers.zoneCount = static_cast<size_t>(given.options.sphere.zones);
+    }
     answers.size = numbers.size() / static_cast<size_t>(parsed.numbersPerRecord());
     const std::vector<Column> columns = prepareColumns(columnsOf(answers), parsed, answers.size);
     const auto keep = [&](size_t record, const std::string& bytes) { takeApart(bytes, columns, record); };

@@ -10,8 +10,8 @@
 namespace rsphere {
 namespace {
 
-// The rooms of blocks: for what one contributor gives, so that a block lies in one line of the processor's cache,
-// and for all bands of a spectrum. Others have room for all values of their scheme.
+// The rooms of blocks: for what one contributor gives, so that a block lies in one line of the processor's
+// cache, and for all bands of a spectrum. Others have room for all values of their scheme.
 constexpr size_t kOnePart = 3, kUsualRoom = kMostBands;
 constexpr size_t kLargeRoom = 2;
 size_t classOf(size_t room) { return room <= kOnePart ? 0 : room <= kUsualRoom ? 1 : kLargeRoom; }
@@ -33,9 +33,9 @@ struct Bands::Block {
   bool isWhole() const { return first == 0 && end == scheme->count(); }
 };
 
-// Blocks that a thread has given back, since a path makes and drops dozens of them at each surface. There is a
-// list for each class of rooms. What outlives the thread's objects, such as colors
-// of static ones, is given back to the heap.
+// Blocks that a thread has given back, since a path makes and drops dozens of them at each surface. There is
+// a list for each class of rooms. What outlives the thread's objects, such as colors of static ones, is given
+// back to the heap.
 struct Bands::Spares {
   static thread_local std::array<Block*, kLargeRoom + 1> first;
   static thread_local bool closed;

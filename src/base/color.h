@@ -1,6 +1,6 @@
 #pragma once
-// Colors: red, green and blue, and besides them in a spectral run (-cs above 3) the bands of a spectrum, or the
-// parts of the color that contributors give (-Sp).
+// Colors: red, green and blue, and besides them in a spectral run (-cs above 3) the bands of a spectrum, or
+// the parts of the color that contributors give (-Sp).
 #include <Imath/ImathVec.h>
 
 #include <algorithm>
@@ -15,9 +15,9 @@ using Imath::V3d;
 struct BandScheme;
 struct SpectralSampling;
 
-// The bands of a color (band_scheme.h), or none. A value like any other: copies are independent of each other.
-// Of the parts of contributors, only those from the first to the last that may differ from 0 take memory and
-// time.
+// The bands of a color (band_scheme.h), or none. A value like any other: copies are independent of each
+// other. Of the parts of contributors, only those from the first to the last that may differ from 0 take
+// memory and time.
 class Bands {
  public:
   constexpr Bands() = default;
@@ -46,8 +46,8 @@ class Bands {
   // REQUIRES bands, as do the next four.
   const BandScheme& scheme() const;
   const SpectralSampling& sampling() const;  // REQUIRES bands of a spectrum
-  // All values. Those of a spectrum begin with the longest wavelength. REQUIRES, if it is constant: bands of a
-  // spectrum, or a result of Color::bandsIn().
+  // All values. Those of a spectrum begin with the longest wavelength. REQUIRES, if it is constant: bands of
+  // a spectrum, or a result of Color::bandsIn().
   std::span<double> values();
   std::span<const double> values() const;
 
@@ -64,11 +64,11 @@ class Bands {
   Block* block_ = nullptr;
 };
 
-// A color without bands has in each band the value of the band's channel (BandScheme::channel), so that gray is
-// the same in all of them, and arithmetic that mixes both kinds of colors is exact. Where a color has the bands
-// of a spectrum, red, green and blue are what the same arithmetic makes of the means of their bands: estimates
-// for decisions that change no expected value (weights, samples), which are 0 only where all of the bands are.
-// What is written is computed from the bands.
+// A color without bands has in each band the value of the band's channel (BandScheme::channel), so that gray
+// is the same in all of them, and arithmetic that mixes both kinds of colors is exact. Where a color has the
+// bands of a spectrum, red, green and blue are what the same arithmetic makes of the means of their bands:
+// estimates for decisions that change no expected value (weights, samples), which are 0 only where all of the
+// bands are. What is written is computed from the bands.
 //
 // Where a color has the parts of contributors, red, green and blue are the same as without them. A color
 // without parts that is added has no contributor; one that is a factor applies to all parts alike.
@@ -91,8 +91,8 @@ class Color {
   V3d rgb() const { return V3d(x, y, z); }
 
   const Bands& bands() const { return bands_; }
-  // Those of the color as a term of a sum: without bands, those of its channels, or parts that are 0. REQUIRES
-  // that its bands, if it has any, have this scheme.
+  // Those of the color as a term of a sum: without bands, those of its channels, or parts that are 0.
+  // REQUIRES that its bands, if it has any, have this scheme.
   Bands bandsIn(const BandScheme& scheme) const;
   // A color that one contributor gives. The scheme must exist as long as Bands() says.
   static Color ofContributor(const V3d& rgb, size_t contributor, const BandScheme& parts);
@@ -262,8 +262,8 @@ inline double brightness(const Color& c) { return kRedWeight * c.x + kGreenWeigh
 inline double brightnessOfProduct(const Color& a, const Color& b) {
   return kRedWeight * (a.x * b.x) + kGreenWeight * (a.y * b.y) + kBlueWeight * (a.z * b.z);
 }
-// The largest and the smallest value of the bands of a spectrum, or of red, green and blue where there are none: a
-// mean that is dark may hide a bright band.
+// The largest and the smallest value of the bands of a spectrum, or of red, green and blue where there are
+// none: a mean that is dark may hide a bright band.
 inline double maxChannel(const Color& c) {
   if (c.bands()) [[unlikely]]
     return c.extremesOfBands().second;

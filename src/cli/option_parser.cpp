@@ -259,6 +259,8 @@ void checkLetters(const Options& options) {
                                                      : "iodwvlLcpnNsmM~";
   for (const char letter : options.outputs + options.treeOutputs) {
     if (known.find(letter) != std::string_view::npos) continue;
+    if (points && (letter == 'z' || letter == 'Z'))
+      throw rad::Error(fmt::format("-o{} needs -Sz N, a number of zones", letter));
     const std::string_view hint = options.sphereMode ? " (sphere mode)" : "";
     throw rad::Error(fmt::format("unrecognized output option '{}'{}: the letters are {}{}; see -help", letter,
                                  hint, known, options.sphereMode ? "" : " and t, T for ray trees"));
@@ -285,12 +287,14 @@ void checkColorOutput(Options& options) {
     options.messages.remarks.push_back("spectral range incompatible with color output");
   if (options.out == NumberFormat::rgbe && oneChannel)
     throw rad::Error("color format incompatible with -pY, -pS, -pM");
+  const size_t error = options.outputs.find_first_of("eZ");
   if (options.sphereMode && !options.sphere.everyDirection && !haveStandardErrors(color) &&
-      options.outputs.find_first_of("eZ") != std::string::npos)
-    throw rad::Error(
+      error != std::string::npos)
+    throw rad::Error(fmt::format(
         color.bands > 3
-            ? "-oe needs -co or -pY with -cs above 3: standard errors are those of bands, or of luminance"
-            : "-oe needs -pRGB or -pY: standard errors are those of red, green and blue, or of luminance");
+            ? "-o{} needs -co or -pY with -cs above 3: standard errors are those of bands, or of luminance"
+            : "-o{} needs -pRGB or -pY: standard errors are those of red, green and blue, or of luminance",
+        options.outputs[error]));
 }
 
 // Sets options.irradiance; the errors and warnings of rtrace about irradiance and the letters of a ray.
@@ -328,8 +332,10 @@ void checkParts(const Options& options) {
   if (!options.separate) return;
   if (!options.sphereMode)
     commandLineError("-Sp", "needs sphere mode; rcontrib has the contributions to rays");
-  if (options.color.bands > 3) commandLineError("-Sp", "needs red, green and blue: -cs above 3 is not possible");
-  if (options.out == NumberFormat::rgbe) commandLineError("-Sp", "one color has no room for parts: not with -fc");
+  if (options.color.bands > 3)
+    commandLineError("-Sp", "needs red, green and blue: -cs above 3 is not possible");
+  if (options.out == NumberFormat::rgbe)
+    commandLineError("-Sp", "one color has no room for parts: not with -fc");
   if (!options.ray.ambientFile.empty())
     commandLineError("-Sp", "an ambient file (-af) does not keep the parts of light");
 }

@@ -12,10 +12,10 @@ namespace rsphere {
 
 // The even directions that every strategy starts from.
 struct BaseSet {
-  std::vector<V3d> directions;           // unit, world
-  std::vector<double> solidAngles;       // that they represent, sr
-  std::optional<Neighbours> neighbours;  // if standard errors are wanted
-  const SpectralSampling* sampling;      // RayOptions::sampling
+  std::vector<V3d> directions;                // unit, world
+  std::vector<double> solidAngles;            // that they represent, sr
+  std::optional<Neighbours> neighbours;       // if standard errors are wanted
+  const SpectralSampling* sampling;           // RayOptions::sampling
   std::shared_ptr<const EqualZones> zones{};  // by which light is divided; null: it is not
 };
 

@@ -103,10 +103,9 @@ class DiffuseGlances::Joins {
     const double square = to.length2(), facing = to.dot(v.vertex.normal());
     if (!(facing > 0)) return 0;
     const double distance = std::sqrt(square);
-    const double reflected =
-        v.vertex.way == LightVertex::direct
-            ? joinedReflectance(*v.material)
-            : vertices_.joinedShare(v, distance) * v.vertex.power / vertices_.pathPower();
+    const double reflected = v.vertex.way == LightVertex::direct ? joinedReflectance(*v.material)
+                                                                 : vertices_.joinedShare(v, distance) *
+                                                                       v.vertex.power / vertices_.pathPower();
     return reflected * facing / distance / (square + radius2_);
   }
 

@@ -72,7 +72,7 @@ class DiffuseGlances {
   std::vector<V3d> glances_;
   std::shared_ptr<const EqualZones> zones_;  // null: light is not divided
   std::optional<Neighbours> neighbours_;     // if standard errors are wanted
-  double joins_;                          // expected at a point
+  double joins_;                             // expected at a point
   // With -Sa, sets of directions have light vertices of their own, so that the error of these is averaged
   // too. Made when they are first used.
   static constexpr size_t kPools = 8;

@@ -94,8 +94,7 @@ Variance sharedVariance(const SharedError& error, const SpectralSampling* sampli
 }
 
 void ZoneVariances::add(const V3d& direction, double cell, const Variance& variance) {
-  zones->divide(direction, cell,
-                [&](size_t zone, double share) { all[zone] += variance * (share * share); });
+  zones->divide(direction, cell, [&](size_t zone, double share) { all[zone] += variance * (share * share); });
 }
 
 void ZoneVariances::add(const ZoneVariances& other, double factor) {
@@ -121,7 +120,8 @@ Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours
   return sum;
 }
 
-Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling, ZoneVariances* to) {
+Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling,
+                        ZoneVariances* to) {
   const double n = static_cast<double>(samples.size());
   Irradiance sum;
   Variance squares;
@@ -164,7 +164,8 @@ Variance loneVariance(const DirectionSample& sample, std::span<const DirectionSa
   return variance;
 }
 
-Variance unseenVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling, ZoneVariances* to) {
+Variance unseenVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling,
+                        ZoneVariances* to) {
   struct Found {
     Irradiance sum;
     int count = 0;
@@ -187,7 +188,8 @@ Variance unseenVariance(std::span<const DirectionSample> samples, const Spectral
   return sum;
 }
 
-Variance partsVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling, ZoneVariances* to) {
+Variance partsVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling,
+                       ZoneVariances* to) {
   // The samples are in the order of the rows of the grid. Pairs are neighbours in a row, and samples in
   // neighbouring rows, if these are as long as the first one.
   Variance sum, edges;
@@ -213,14 +215,16 @@ Variance partsVariance(std::span<const SeenSources::Sample> samples, const Spect
     if (samples[i].row == samples[i - 1].row) add(i, i - 1);
   for (size_t i = columns; i < samples.size(); ++i) add(i, i - columns);
   if (pairs > 0)
-    edges += sum * (Tuning::kEvenParts * .5 * static_cast<double>(samples.size()) / static_cast<double>(pairs));
+    edges +=
+        sum * (Tuning::kEvenParts * .5 * static_cast<double>(samples.size()) / static_cast<double>(pairs));
   if (to)
     for (const auto& s : samples)
       to->add(s.direction.direction, 0, edges * (1 / static_cast<double>(samples.size())));
   return edges;
 }
 
-Variance choiceVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling, ZoneVariances* to) {
+Variance choiceVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling,
+                        ZoneVariances* to) {
   struct Chosen {
     Irradiance found;  // of the image, with the weight of those that were not chosen
     double chance;
@@ -229,7 +233,8 @@ Variance choiceVariance(std::span<const SeenSources::Sample> samples, const Spec
   std::vector<Chosen> chosen;
   for (size_t i = 0; i < samples.size(); ++i) {
     if (!(samples[i].chance < 1)) continue;
-    if (i == 0 || samples[i].image != samples[i - 1].image) chosen.push_back({{}, samples[i].chance, samples[i].direction.direction});
+    if (i == 0 || samples[i].image != samples[i - 1].image)
+      chosen.push_back({{}, samples[i].chance, samples[i].direction.direction});
     chosen.back().found += irradianceFrom(samples[i].direction.value, samples[i].direction.solidAngle);
   }
   Variance sum;

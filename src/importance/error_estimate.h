@@ -1,7 +1,7 @@
 #pragma once
 // The variance of an estimate from one set of directions, computed from that set alone. Guesses are
-// subtracted from the radiances, because glances estimate them. sampling, throughout: RayOptions::sampling. to,
-// throughout: gets the variance by zone, too; null: there are no zones.
+// subtracted from the radiances, because glances estimate them. sampling, throughout: RayOptions::sampling.
+// to, throughout: gets the variance by zone, too; null: there are no zones.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -77,7 +77,8 @@ Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours
 // The same for a run of dynamic directions. They are spread evenly over a region, but successive ones are not
 // neighbours. It is the variance of independent directions, reduced because they are even, except where few
 // of them find most of the light, such as a lamp that is mirrored twice.
-Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling, ZoneVariances* to = nullptr);
+Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling,
+                        ZoneVariances* to = nullptr);
 
 // The same for a run of a single direction in a region: compared with the base directions in the same region.
 // If there are none, all of what it found is taken for the error.
@@ -88,14 +89,17 @@ Variance loneVariance(const DirectionSample& sample, std::span<const DirectionSa
 // assumed that hides half of what one more direction would represent. Without it, the light of an opening to
 // which few directions were sent would be stated without error whenever all of them see the same sky. An
 // obstacle also hides what is guessed.
-Variance unseenVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling, ZoneVariances* to = nullptr);
+Variance unseenVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling,
+                        ZoneVariances* to = nullptr);
 
 // The same for the samples of one image of a light source, in the order of its grid: from differences between
 // neighbouring cells, because an occluder hides cells that lie together.
-Variance partsVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling, ZoneVariances* to = nullptr);
+Variance partsVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling,
+                       ZoneVariances* to = nullptr);
 
 // The same for the choice of images that are sampled by chance, because there are more images than samples:
 // from differences between images that are chosen in succession. samples: of all images.
-Variance choiceVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling, ZoneVariances* to = nullptr);
+Variance choiceVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling,
+                        ZoneVariances* to = nullptr);
 
 }  // namespace rsphere

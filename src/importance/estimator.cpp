@@ -56,7 +56,12 @@ void keepPositive(std::vector<DirectionSample>& samples) {
     });
 }
 
-// Sums over the sets of one half (two_halves.h).
+void addAll(const std::vector<SharedError>& more, double share, std::vector<SharedError>& to) {
+  to.resize(std::max(to.size(), more.size()));
+  for (size_t i = 0; i < more.size(); ++i) to[i].add(more[i], share);
+}
+
+// Sums over the sets of one half (two_halves.h), or of both.
 struct Half {
   Moments moments;
   Irradiance excess, clamped;
@@ -66,12 +71,27 @@ struct Half {
   std::vector<SharedError> sharedByZone;
 
   explicit Half(const EqualZones* zones) : moments(zones), ofZones(zones) {}
-};
 
-void addAll(const std::vector<SharedError>& more, double share, std::vector<SharedError>& to) {
-  to.resize(std::max(to.size(), more.size()));
-  for (size_t i = 0; i < more.size(); ++i) to[i].add(more[i], share);
-}
+  // ofSet: its moments.
+  void add(const SampledSet& set, const Moments& ofSet) {
+    moments.add(ofSet, 1);
+    excess += set.excess.total;
+    clamped += set.clamped;
+    variance += set.variance;
+    shared.add(set.shared, 1);
+    ofZones.add(set.ofZones, 1);
+    addAll(set.sharedByZone, 1, sharedByZone);
+  }
+  void add(const Half& other, double share) {
+    moments.add(other.moments, share);
+    excess += other.excess * share;
+    clamped += other.clamped * share;
+    variance += other.variance * (share * share);
+    shared.add(other.shared, share);
+    ofZones.add(other.ofZones, share * share);
+    addAll(other.sharedByZone, share, sharedByZone);
+  }
+};
 
 struct KeptSet {
   size_t half;
@@ -192,14 +212,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
     SampledSet set =
         strategy_->sample(SetAtPoint(point, sets++, options_.rotation), workspace.tracer, workspace.voronoi_);
     const Moments moments = set.moments(base_);
-    Half& half = halves[*next];
-    half.moments.add(moments, 1);
-    half.excess += set.excess.total;
-    half.clamped += set.clamped;
-    half.variance += set.variance;
-    half.shared.add(set.shared, 1);
-    half.ofZones.add(set.ofZones, 1);
-    addAll(set.sharedByZone, 1, half.sharedByZone);
+    halves[*next].add(set, moments);
     decision.add(*next, photopicOf(moments.total.color, base_.sampling),
                  set.variance.brightness + sharedVariance(set.shared, base_.sampling).brightness);
     directions += set.samples.size();
@@ -210,34 +223,22 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
     if (keep) kept.push_back({*next, std::move(set)});
   }
   Half all(base_.zones.get());
-  Moments& moments = all.moments;
-  Irradiance &excess = all.excess, &clamped = all.clamped;
-  Variance& variance = all.variance;
-  SharedError& shared = all.shared;
-  for (size_t k = 0; k < halves.size(); ++k) {
-    const double share = decision.share(k);
-    if (!(share > 0)) continue;
-    moments.add(halves[k].moments, share);
-    excess += halves[k].excess * share;
-    clamped += halves[k].clamped * share;
-    variance += halves[k].variance * (share * share);
-    shared.add(halves[k].shared, share);
-    addAll(halves[k].sharedByZone, share, all.sharedByZone);
-    all.ofZones.add(halves[k].ofZones, share * share);
-  }
-  variance += sharedVariance(shared, base_.sampling);
-  if (tracing_.caches.coarse) variance += coarseVariance(moments.total, tracing_.prepared.options());
-  SampledSet samples = joined(std::move(kept), decision, excess, options_.everyDirection);
+  for (size_t k = 0; k < halves.size(); ++k)
+    if (const double share = decision.share(k); share > 0) all.add(halves[k], share);
+  Variance variance = all.variance;
+  variance += sharedVariance(all.shared, base_.sampling);
+  if (tracing_.caches.coarse) variance += coarseVariance(all.moments.total, tracing_.prepared.options());
+  SampledSet samples = joined(std::move(kept), decision, all.excess, options_.everyDirection);
   workspace.samples = std::move(samples.samples);
   workspace.rays = std::move(samples.rays);
-  PointAnswer answer = moments.answer(point, directions);
+  PointAnswer answer = all.moments.answer(point, directions);
   const PointAnswer::ZoneError error = standardErrorOf(variance, 4 * std::numbers::pi);
   answer.standardError = error.channels;
   answer.brightnessError = error.brightness;
   if (base_.zones && base_.neighbours)
     answer.zoneErrors = zoneErrorsOf(all, *base_.zones, base_.sampling,
                                      tracing_.caches.coarse ? &tracing_.prepared.options() : nullptr);
-  answer.clamped = photopicOf(clamped.color, base_.sampling) / (4 * std::numbers::pi);
+  answer.clamped = photopicOf(all.clamped.color, base_.sampling) / (4 * std::numbers::pi);
   answer.isDark = isDark(answer, lit) || decision.gaveUp();
   answer.reached = options_.accuracy <= 0 || decision.isReached();
   return answer;

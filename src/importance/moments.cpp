@@ -17,7 +17,6 @@ constexpr double kBorder = .05;
 
 }  // namespace
 
-
 void Moments::add(const V3d& d, const Irradiance& part, const SpectralSampling* sampling, double cell,
                   bool isEven) {
   if (zones) [[unlikely]]

@@ -26,8 +26,8 @@ struct PointAnswer {
     double brightness = 0;
   };
   std::vector<ZoneError> zoneErrors;  // empty unless standard errors are wanted
-  bool isDark = false;               // almost no direction has found light, or so little that -Sa gave up
-  bool reached = true;               // whether the standard error that -Sa asks for was reached
+  bool isDark = false;                // almost no direction has found light, or so little that -Sa gave up
+  bool reached = true;                // whether the standard error that -Sa asks for was reached
 };
 
 }  // namespace rsphere

@@ -47,7 +47,7 @@ struct SampledSet {
   SharedError shared;           // in addition to variance
   ZoneVariances ofZones;        // as variance
   std::vector<SharedError> sharedByZone;  // in addition to ofZones; empty: none
-  size_t litGlances = 0;        // glances that found light (diffuse_glances.h)
+  size_t litGlances = 0;                  // glances that found light (diffuse_glances.h)
 
   // The set's estimate of the integrals over all directions.
   Moments moments(const BaseSet& base) const;

@@ -117,7 +117,8 @@ SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, 
   if (options_.clamp > 0)
     sampled.clamped = clampContributions(othersOf, totalOf(sampled), options_.clamp, base_.sampling);
   sampled.variance = beyond.variance;
-  if (base_.neighbours) sampled.variance += varianceOf(othersOf, plan.runs, toImages, zonesOf(sampled.ofZones));
+  if (base_.neighbours)
+    sampled.variance += varianceOf(othersOf, plan.runs, toImages, zonesOf(sampled.ofZones));
   return sampled;
 }
 

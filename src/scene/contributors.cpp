@@ -67,11 +67,12 @@ void separateContributors(Scene& scene, std::span<const std::string> goals) {
     for (const Modifier* modifier : emittersOf(scene)) add(modifier->described.name);
   if (names.empty()) throw rad::Error("-Sp: the scene has neither goals (-Sg) nor light sources");
   if (names.size() > kMostContributors)
-    throw rad::Error(fmt::format("-Sp: {} contributors, but at most {} are possible", names.size(),
-                                 kMostContributors));
+    throw rad::Error(
+        fmt::format("-Sp: {} contributors, but at most {} are possible", names.size(), kMostContributors));
   const BandScheme& parts = partsOf(names.size());
   for (Finish& finish : scene.surfaces.finishes())
-    if (finish.goal) finish.importance = Radiance(Color::ofContributor(V3d(1, 1, 1), positionOf(names, finish.name), parts));
+    if (finish.goal)
+      finish.importance = Radiance(Color::ofContributor(V3d(1, 1, 1), positionOf(names, finish.name), parts));
   if (goals.empty())
     for (Modifier* modifier : emittersOf(scene)) {
       Color& emission = *emissionOf(*modifier);

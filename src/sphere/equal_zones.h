@@ -12,9 +12,9 @@ namespace rsphere {
 
 using Imath::V3d;
 
-// Row 0 is the cap around +z, the last row that around -z; in between, the zones of a row are as wide as high,
-// as far as whole numbers allow. Zones are numbered row by row. Those of a row begin at the azimuth of +x and
-// follow each other towards +y.
+// Row 0 is the cap around +z, the last row that around -z; in between, the zones of a row are as wide as
+// high, as far as whole numbers allow. Zones are numbered row by row. Those of a row begin at the azimuth of
+// +x and follow each other towards +y.
 class EqualZones {
  public:
   // REQUIRES count >= 1. A single zone is the whole sphere.
@@ -31,8 +31,9 @@ class EqualZones {
   // A direction (unit) in the middle of a zone; that of a cap is its pole.
   V3d middle(size_t zone) const;
 
-  // Divides a cell around a direction (unit) among the zones that it lies in: calls f(zone, share) once for each. The shares sum to 1. solidAngle: of the cell, sr, which is taken for a disk; it
-  // is represented by points whose second moment is that of the disk. 0: it is a point.
+  // Divides a cell around a direction (unit) among the zones that it lies in: calls f(zone, share) once for
+  // each. The shares sum to 1. solidAngle: of the cell, sr, which is taken for a disk; it is represented by
+  // points whose second moment is that of the disk. 0: it is a point.
   template <class F>
   void divide(const V3d& direction, double solidAngle, const F& f) const;
 

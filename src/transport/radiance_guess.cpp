@@ -230,8 +230,7 @@ LocalGuess RadianceGuess::fit(const V3d& point, std::span<const V3d> glances, st
   }
   const V3d middle(middleOf(around[0]), middleOf(around[1]), middleOf(around[2]));
   for (int c = 0; c < 3; ++c) local.ambient_.color[c] = std::max(0., middle[c]);
-  if (parts.bands())
-    local.ambient_.color = local.ambient_.color.dividedAs(parts);
+  if (parts.bands()) local.ambient_.color = local.ambient_.color.dividedAs(parts);
   // The variance that the guess leaves to the directions, and the part of it that the random choice of
   // indirect rays causes. That part is estimated from the mean absolute difference of two guesses: it is less
   // sensitive than a mean square to single rays that hit something bright by chance. For normally distributed

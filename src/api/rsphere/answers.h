@@ -50,10 +50,11 @@ struct RayAnswers {
   std::vector<std::string> material;  // M
 };
 
-// Answers to points. F is the integral of the radiance L over all 4 pi sr of directions. With contributors, each
-// quantity but directions and point has the columns of all contributors in turn: what each of them gives.
+// Answers to points. F is the integral of the radiance L over all 4 pi sr of directions. With contributors,
+// each quantity but directions and point has the columns of all contributors in turn: what each of them
+// gives.
 struct PointAnswers {
-  size_t size = 0;                 // the number of points
+  size_t size = 0;  // the number of points
   // The modifiers of goals, or of light sources with -Sp; empty: quantities are sums over all of them.
   std::vector<std::string> contributors;
   Quantity mean;                   // v  mean radiance F/(4 pi) (W/sr/m2)
@@ -66,11 +67,12 @@ struct PointAnswers {
   // z  mean radiance of each of Options::zones in turn (W/sr/m2); their mean is `mean`, up to rounding
   Quantity zones;
   Quantity zonesStandardError;  // Z  of these, estimated
-  Quantity point;        // o
+  size_t zoneCount = 0;         // Options::zones
+  Quantity point;               // o
 };
 
-// What modifiers contribute to rays: for each ray a color for each bin of each modifier. The bins of the first
-// modifier come first.
+// What modifiers contribute to rays: for each ray a color for each bin of each modifier. The bins of the
+// first modifier come first.
 struct Contributions {
   size_t size = 0;                     // the number of rays
   std::vector<std::string> modifiers;  // as they were asked for

@@ -50,8 +50,8 @@ struct Options {
   std::optional<int> zones;           // -Sz  zones of equal solid angle, whose means are computed, too
 
   // The quantities to compute: letters of -o, each of which fills the member of RayAnswers or PointAnswers
-  // behind whose name it is. Empty: "v" for rays; for points "veECHuk", with zones "veECHukzZ", without e and Z
-  // where colors have no standard error (other than RGB and -pY).
+  // behind whose name it is. Empty: "v" for rays; for points "veECHuk", with zones "veECHukzZ", without e and
+  // Z where colors have no standard error (other than RGB and -pY).
   std::string outputs;
 
   // -n  Threads that work on one call; 0: one for each core. They leave the answers the same, bit by bit.
@@ -86,8 +86,8 @@ struct Bins {
 struct ContributionOptions : Options {
   Bins bins;                  // of each modifier
   bool coefficients = false;  // factors on the radiance of the modifiers, instead of what they contribute
-  // Times that each ray is traced, with other random numbers. Their mean is the answer, and their spread gives
-  // its standard error; 1: there is no standard error.
+  // Times that each ray is traced, with other random numbers. Their mean is the answer, and their spread
+  // gives its standard error; 1: there is no standard error.
   int samples = 8;
 };
 

@@ -77,8 +77,8 @@ class RSPHERE_API Scene {
 };
 
 // The directions (unit) in the middle of each of a number of zones of equal solid angle, 4 pi / count sr: of
-// Options::zones and Bins::zones. Zone 0 is a cap around +z and the last one a cap around -z; between them lie
-// rows whose zones begin at the azimuth of +x and turn towards +y. REQUIRES count >= 1.
+// Options::zones and Bins::zones. Zone 0 is a cap around +z and the last one a cap around -z; between them
+// lie rows whose zones begin at the azimuth of +x and turn towards +y. REQUIRES count >= 1.
 RSPHERE_API std::vector<std::array<double, 3>> zoneMiddles(size_t count);
 
 }  // namespace RSPHERE_API_NAMESPACE

@@ -26,7 +26,7 @@ Scene sceneWith(const std::string& text, const Names& goals, bool separate) {
 
 struct Case {
   const char* name;
-  std::string more;  // scene text beside room()
+  std::string more;     // scene text beside room()
   double accuracy = 0;  // -aa
   Weights weights = Weights::silhouettes;
   double wanted = 0;  // -Sa
@@ -52,8 +52,8 @@ PointAnswer answer(const std::string& text, const Names& goals, bool separate, c
 }
 
 std::string polygon(const std::string& modifier, const std::string& corners) {
-  return fmt::format("{} polygon p 0 0 {} {}\n", modifier, std::count(corners.begin(), corners.end(), ' ') + 1,
-                     corners);
+  return fmt::format("{} polygon p 0 0 {} {}\n", modifier,
+                     std::count(corners.begin(), corners.end(), ' ') + 1, corners);
 }
 
 // A room of 5 x 4 x 3 m with three desks. open: without one of the walls.
@@ -72,15 +72,17 @@ std::string room(bool open = false) {
 
 const Names kGoals = {"desk1", "desk2", "desk3"};
 
-const std::string kCrystal = "void dielectric crystal 0 0 5 .9 .95 .9 1.5 0\ncrystal sphere c 0 0 4 2 2 1.6 .3\n";
-const std::string kScreen = "void trans silk 0 0 7 .5 .5 .6 .05 .1 .4 .3\n" +
-                            polygon("silk", "2.5 1 .2 2.5 3 .2 2.5 3 2 2.5 1 2");
+const std::string kCrystal =
+    "void dielectric crystal 0 0 5 .9 .95 .9 1.5 0\ncrystal sphere c 0 0 4 2 2 1.6 .3\n";
+const std::string kScreen =
+    "void trans silk 0 0 7 .5 .5 .6 .05 .1 .4 .3\n" + polygon("silk", "2.5 1 .2 2.5 3 .2 2.5 3 2 2.5 1 2");
 const std::string kMirrors = "void mirror silver 0 0 3 .8 .9 .8\nvoid glass pane 0 0 3 .9 .8 .9\n" +
                              polygon("silver", ".01 1 1 .01 3 1 .01 3 2 .01 1 2") +
                              polygon("pane", "2.8 1 .2 2.8 3 .2 2.8 3 2 2.8 1 2") +
                              "silver sphere s 0 0 4 3.6 1 1.8 .1\n";
-const std::string kWoven = "void brightfunc stripes 2 if(Px-1.5,1,.3) . 0 0\nstripes plastic woven 0 0 5 .5 .3 .3 0 0\n" +
-                           polygon("woven", "1 1.8 .3 4 1.8 .3 4 2.2 .3 1 2.2 .3");
+const std::string kWoven =
+    "void brightfunc stripes 2 if(Px-1.5,1,.3) . 0 0\nstripes plastic woven 0 0 5 .5 .3 .3 0 0\n" +
+    polygon("woven", "1 1.8 .3 4 1.8 .3 4 2.2 .3 1 2.2 .3");
 
 std::vector<Case> cases() {
   return {{"paths from both ends", ""},
@@ -184,8 +186,9 @@ TEST(PartsOfContributors, HaveTheNamesInTheirOrder) {
 }
 
 TEST(PartsOfContributors, OfTheSameNameAreOne) {
-  const std::string twice = "void light lamp 0 0 3 5 5 5\nlamp sphere a 0 0 4 1 1 2 .1\n"
-                            "void light lamp 0 0 3 7 7 7\nlamp sphere b 0 0 4 3 1 2 .1\n";
+  const std::string twice =
+      "void light lamp 0 0 3 5 5 5\nlamp sphere a 0 0 4 1 1 2 .1\n"
+      "void light lamp 0 0 3 7 7 7\nlamp sphere b 0 0 4 3 1 2 .1\n";
   EXPECT_EQ(sceneWith(room() + twice, {}, true).contributors, Names{"lamp"});
 }
 

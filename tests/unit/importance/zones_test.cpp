@@ -26,7 +26,8 @@ const std::string kRoom =
 const std::string kLamps =
     "lamp polygon p 0 0 12 2 2 2.9 2 2.5 2.9 3 2.5 2.9 3 2 2.9\nlamp2 sphere q 0 0 4 4 3 2 .1\n";
 // Not known to paths from both ends.
-const std::string kCrystal = "void dielectric crystal 0 0 5 .9 .9 .9 1.5 0\ncrystal sphere d 0 0 4 2 3 1 .3\n";
+const std::string kCrystal =
+    "void dielectric crystal 0 0 5 .9 .9 .9 1.5 0\ncrystal sphere d 0 0 4 2 3 1 .3\n";
 
 struct Case {
   const char* name;
@@ -130,8 +131,10 @@ TEST(Zones, StateTheirErrors) {
 
 // In a furnace the radiance is 1 in all directions, so that deviations are those of cells at borders.
 TEST(Zones, OfAFurnaceAreAllAlike) {
-  const Case furnace{"furnace", "void plastic half 0 0 5 .5 .5 .5 0 0\nvoid glow even 0 0 4 1 1 1 0\n"
-                                "even bubble b 0 0 4 0 0 0 9\n", {}};
+  const Case furnace{"furnace",
+                     "void plastic half 0 0 5 .5 .5 .5 0 0\nvoid glow even 0 0 4 1 1 1 0\n"
+                     "even bubble b 0 0 4 0 0 0 9\n",
+                     {}};
   const Answers answers(furnace);
   double worst = 0;
   for (const uint64_t rotation : {1, 2, 3}) {
