@@ -291,10 +291,9 @@ void checkColorOutput(Options& options) {
   if (options.sphereMode && !options.sphere.everyDirection && !haveStandardErrors(color) &&
       error != std::string::npos)
     throw rad::Error(fmt::format(
-        color.bands > 3
-            ? "-o{} needs -co or -pY with -cs above 3: standard errors are those of bands, or of luminance"
-            : "-o{} needs -pRGB or -pY: standard errors are those of red, green and blue, or of luminance",
-        options.outputs[error]));
+        "-o{} needs {}", options.outputs[error],
+        color.bands > 3 ? "-co or -pY with -cs above 3: standard errors are those of bands, or of luminance"
+                        : "-pRGB or -pY: standard errors are those of red, green and blue, or of luminance"));
 }
 
 // Sets options.irradiance; the errors and warnings of rtrace about irradiance and the letters of a ray.
@@ -335,7 +334,7 @@ void checkParts(const Options& options) {
   if (options.color.bands > 3)
     commandLineError("-Sp", "needs red, green and blue: -cs above 3 is not possible");
   if (options.out == NumberFormat::rgbe)
-    commandLineError("-Sp", "one color has no room for parts: not with -fc");
+    commandLineError("-Sp", "a pixel has no room for parts: not with -fac");
   if (!options.ray.ambientFile.empty())
     commandLineError("-Sp", "an ambient file (-af) does not keep the parts of light");
 }

@@ -927,10 +927,10 @@ void addAnswerOptions(const Add& add) {
            "goals in the order of -Sg, or without goals the modifiers of light sources in the order of the "
            "scene; the header lists them after CONTRIBUTORS=. Each of the letters v e E C H u z Z then has "
            "the numbers of all contributors in turn: -oHv of two goals are 18 numbers of H for the first "
-           "goal, 18 for the second, and 3 of v for each. The parts add up to the answers without -Sp, but for "
-           "the ambient value (-av), which has no contributor. Standard errors (e) are those of the parts; with "
-           "-pY they are upper bounds, because the errors of red, green and blue are taken for fully "
-           "correlated. -Sa looks at the sum. Not with -cs above 3 or -fc."});
+           "goal, 18 for the second, and 3 of v for each. The parts add up to the answers without -Sp, but "
+           "for the ambient value (-av), which has no contributor. Standard errors (e) are those of the "
+           "parts; with -pY they are upper bounds, because the errors of red, green and blue are taken for "
+           "fully correlated. -Sa looks at the sum. Not with -cs above 3, -af or pixels (-fac)."});
   add({.name = "-Sz",
        .arguments = "N",
        .group = Group::sphere,

@@ -205,7 +205,7 @@ class Faults(unittest.TestCase):
     def test_options(self):
         scene = rsphere.Scene(FURNACE)
         for options, text in [
-            ({"zz": 3}, r"option '-zz': there is no such option; see help\(rsphere.Scene\)$"),
+            ({"qq": 3}, r"option '-qq': there is no such option; see help\(rsphere.Scene\)$"),
             ({"abb": 3}, "option '-abb': there is no such option; the nearest is \"-ab\"; see help"),
             ({"ab": "x"}, "option '-ab': \"x\" is not a whole number"),
             ({"av": [1, 2]}, "option '-av': 1 of its 3 values are missing"),
