@@ -228,6 +228,13 @@ void Color::addBands(const Color& other, double factor) {
   for (size_t i = 0; i < values.size(); ++i) values[i] += factor * other[scheme.channel[i]];
 }
 
+// a plus factor times b, of which at least one has bands.
+void Color::setSum(const Color& a, const Color& b, double factor) {
+  Color sum(a);
+  sum.addBands(b, factor);
+  bands_ = std::move(sum.bands_);
+}
+
 // What a color without bands has as a term of a sum.
 Bands Color::termsIn(const BandScheme& scheme) const {
   return scheme.ofContributors ? Bands(scheme) : factorsIn(scheme);
@@ -280,8 +287,10 @@ void Color::scaleBands(double factor) {
 }
 
 void Color::setScaled(const Color& a, double factor) {
-  bands_ = a.bands_;
-  scaleBands(factor);
+  const Bands::Block& from = *a.bands_.block_;
+  const double* const values = from.values();
+  double* const to = bands_.cover(from);
+  for (size_t i = 0; i < from.filled(); ++i) to[i] = values[i] * factor;
 }
 
 bool Color::sameBands(const Color& a, const Color& b) {

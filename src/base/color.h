@@ -174,13 +174,13 @@ class Color {
   friend Color operator+(const Color& a, const Color& b) {
     Color sum(a.x + b.x, a.y + b.y, a.z + b.z);
     if (a.bands_ || b.bands_) [[unlikely]]
-      sum.bands_ = (Color(a) += b).bands_;
+      sum.setSum(a, b, 1);
     return sum;
   }
   friend Color operator-(const Color& a, const Color& b) {
     Color difference(a.x - b.x, a.y - b.y, a.z - b.z);
     if (a.bands_ || b.bands_) [[unlikely]]
-      difference.bands_ = (Color(a) -= b).bands_;
+      difference.setSum(a, b, -1);
     return difference;
   }
   friend Color operator*(const Color& a, const Color& b) {
@@ -219,6 +219,7 @@ class Color {
   void multiplyBands(const Color& other);
   void divideBands(const Color& other);
   void scaleBands(double factor);
+  void setSum(const Color& a, const Color& b, double factor);
   void setProduct(const Color& a, const Color& b);
   void setScaled(const Color& a, double factor);
   static bool sameBands(const Color& a, const Color& b);
