@@ -59,8 +59,7 @@ class DiffuseGlances::Joins {
   // What glances know of a place that they show.
   VertexLight::Seen seen(const PlainPlace& at, const V3d& direction, double distance) const {
     const double cosine = -at.normal.dot(direction), square = distance * distance;
-    return {direction, density_ * cosine / square,
-            shareOf(joinedReflectance(*at.material) * cosine / (square + radius2_))};
+    return {direction, density_ * cosine / square, factor_ * cosine / (square + radius2_)};
   }
 
   // Calls each(vertex, share, direction, distance) for those that are joined.
@@ -103,9 +102,10 @@ class DiffuseGlances::Joins {
     const double square = to.length2(), facing = to.dot(v.vertex.normal());
     if (!(facing > 0)) return 0;
     const double distance = std::sqrt(square);
-    const double reflected = v.vertex.way == LightVertex::direct ? joinedReflectance(*v.material)
-                                                                 : vertices_.joinedShare(v, distance) *
-                                                                       v.vertex.power / vertices_.pathPower();
+    const double reflected =
+        v.vertex.way == LightVertex::direct
+            ? joinedReflectance(*v.material, v.vertex.normal(), -to / distance, -v.direction)
+            : vertices_.joinedShare(v, distance) * v.vertex.power / vertices_.pathPower();
     return reflected * facing / distance / (square + radius2_);
   }
 

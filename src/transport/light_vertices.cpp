@@ -8,6 +8,7 @@
 #include "shade/scattering.h"
 #include "transport/light_particles.h"
 #include "transport/tuning.h"
+#include "transport/vertex_clusters.h"
 
 namespace rsphere {
 namespace {
@@ -68,9 +69,16 @@ LightVertex vertexAt(const PlainPlace& at, double power, int bounces, LightVerte
 
 }  // namespace
 
-double joinedReflectance(const Opaque& m) {
-  const double color = brightness(m.color);
-  return color * (1 - m.specularity) + (hasRoughHighlight(m) ? m.specularity * (m.metal ? color : 1) : 0);
+double joinedReflectance(const Opaque& m, const V3d& normal, const V3d& view, const V3d& toSource) {
+  const double color = brightness(m.color), diffuse = color * (1 - m.specularity);
+  if (!hasRoughHighlight(m)) return diffuse;
+  // Ward's lobe about the direction half way between the two; the same for all cosines.
+  const V3d half = toSource - view;
+  const double along = half.dot(normal), square = along * along;
+  if (!(along > 0)) return diffuse;
+  const double a2 = m.roughness * m.roughness;
+  return diffuse +
+         m.specularity * (m.metal ? color : 1) * std::exp((1 - half.length2() / square) / a2) / (4 * a2);
 }
 
 // One light path on its way. It adds vertices to the lists.
@@ -319,10 +327,12 @@ void LightVertices::measure(size_t paths, uint64_t seed) {
 }
 
 void LightVertices::sort() {
-  const auto order = orderByPlace(all_.size(), [&](size_t i) { return all_[i].point(); });
+  VertexClusters::Order clustered = VertexClusters::orderOf(all_);
+  const auto& order = clustered.vertices;
   permute(all_, order);
   permute(powers_, order);
   permute(hits_, order);
+  ends_ = std::move(clustered.ends);
   permute(visible_, orderByPlace(visible_.size(), [&](size_t i) { return visible_[i].vertex.point(); }));
 }
 

@@ -53,6 +53,8 @@ class LightVertices {
 
   // Vertices whose light goes on to other diffuse surfaces, neighbours next to each other.
   const std::vector<LightVertex>& all() const { return all_; }
+  // The position after the last vertex of each cluster (vertex_clusters.h) in all().
+  const std::vector<uint32_t>& clusterEnds() const { return ends_; }
   // Of vertex i of all(): the light that arrives, times the color of the material (W). diffuseShare() of it
   // is reflected.
   const Irradiance& powerOf(size_t i) const { return powers_[i]; }
@@ -118,11 +120,13 @@ class LightVertices {
   std::vector<LightVertex> all_;
   std::vector<Irradiance> powers_;
   std::vector<SurfaceId> hits_;
+  std::vector<uint32_t> ends_;
   std::vector<Visible> visible_;
 };
 
-// The brightness that a material reflects of the light that arrives, highlights included where they count for
-// joins.
-double joinedReflectance(const Opaque& material);
+// What a place sends to the eye of light from one direction (unit), as a share of the light that arrives
+// and relative to even reflection: about, for the choice of joins. view: direction (unit) of the ray that
+// shows it.
+double joinedReflectance(const Opaque& material, const V3d& normal, const V3d& view, const V3d& toSource);
 
 }  // namespace rsphere

@@ -251,9 +251,15 @@ struct SourceEmission {
 
 // Light vertices as seen from a place (vertex_light.h).
 struct VertexLight {
-  // Vertices that are compared, and those of them that get a shadow ray. 24 and 1: error +20% around the goal
-  // at a tenth less time; 96: within noise.
-  RSPHERE_TUNED_ROOM(VertexLight, int, kCandidates, 48);
+  // Clusters of vertices, whose light at a place is estimated, and the vertices that are drawn from them.
+  // The time of both is what a shadow ray takes. 256: variance of this light -25%, half as long again for
+  // all; 512: -50%, twice as long.
+  RSPHERE_TUNED_ROOM(VertexLight, size_t, kClusters, 128);
+  RSPHERE_TUNED_ROOM(VertexLight, size_t, kCandidates, 8);
+  // How far apart vertices are that face opposite ways, as a share of twice the size of the scene. .12:
+  // variance of this light up to three times as large.
+  RSPHERE_TUNED(VertexLight, double, kFacing, .05);
+  // Candidates that get a shadow ray. 8: within noise.
   RSPHERE_TUNED(VertexLight, int, kJoined, 2);
   // Specularity of rough surfaces from which on those that mirrors show get the shadow rays of others: one
   // alone would leave their highlights to chance, and brushed steel beside the goal would bring 14 W/sr/m2

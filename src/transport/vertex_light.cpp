@@ -9,6 +9,7 @@
 #include "transport/tuning.h"
 
 namespace rsphere {
+thread_local Radiance dbgParts[2];
 namespace {
 
 using Tuning = tuning::VertexLight;
@@ -27,47 +28,14 @@ size_t chooseOne(size_t count, double sum, const WeightOf& weightOf, Random& ran
   return chosen;
 }
 
-// The candidates for joins at one place.
-struct Candidates {
-  std::array<uint32_t, Tuning::kCandidatesRoom> vertex;
-  std::array<double, Tuning::kCandidatesRoom> weight, upTo;
-  double sum = 0;
-};
-
-// The light of a vertex that would arrive at a place if nothing were in between, but for constants, times 1 /
-// d^2: near ones are more often in view. A bound is enough, so single precision is.
-double weightOf(const LightVertex& v, const V3d& point, const float* normal, int bounces, double width) {
-  const auto x = static_cast<float>(v.place[0] - point.x), y = static_cast<float>(v.place[1] - point.y),
-             z = static_cast<float>(v.place[2] - point.z);
-  const float here = x * normal[0] + y * normal[1] + z * normal[2];
-  const float there = -(x * v.facing[0] + y * v.facing[1] + z * v.facing[2]);
-  if (!(here > 0) || !(there > 0) || v.bounces > bounces) return 0;
-  const double square = x * x + y * y + z * z;
-  const double bound = v.isUnbounded() ? 0 : width * width;
-  return static_cast<double>(v.power * here * there) / (square * (square + bound));
-}
-
-// REQUIRES that there are vertices.
-Candidates candidatesFor(const LightVertices& vertices, const PlainPlace& at, int bounces, Random& random) {
-  const auto& all = vertices.all();
-  const float normal[] = {static_cast<float>(at.normal.x), static_cast<float>(at.normal.y),
-                          static_cast<float>(at.normal.z)};
-  const double stride = static_cast<double>(all.size()) / Tuning::kCandidates;
-  Candidates candidates;
-  for (int i = 0; i < Tuning::kCandidates; ++i) {
-    const auto k = static_cast<uint32_t>((i + random.uniform()) * stride);
-    candidates.vertex[i] = std::min(k, static_cast<uint32_t>(all.size() - 1));
-    candidates.weight[i] = weightOf(all[candidates.vertex[i]], at.point, normal, bounces, vertices.width());
-    candidates.upTo[i] = candidates.sum += candidates.weight[i];
-  }
-  return candidates;
-}
-
 }  // namespace
 
 VertexLight::VertexLight(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t paths,
                          uint64_t seed)
-    : prepared_(prepared), surfaces_(surfaces), vertices_(prepared, surfaces, paths, seed) {}
+    : prepared_(prepared),
+      surfaces_(surfaces),
+      vertices_(prepared, surfaces, paths, seed),
+      clusters_(vertices_.all(), vertices_.clusterEnds(), vertices_.width()) {}
 
 void VertexLight::Record::add(uint8_t batch, const Irradiance& part, double notChosen) {
   batches[batch] += part;
@@ -154,7 +122,11 @@ Radiance VertexLight::directOf(const PlainPlace& at, const Seen& seen, Random& r
   if (isBlack(arrives)) return {};
   const double over =
       seen.density > 0 ? vertices_.shadowRaysOver(to.sample, at.normal, to.probability) * seen.density : 0;
-  const double share = over > 0 ? over / (over + seen.joined) : 1;
+  const double joined = over > 0
+                            ? std::min(1., seen.joins * joinedReflectance(*at.material, at.normal, seen.view,
+                                                                          to.sample.direction))
+                            : 0;
+  const double share = over > 0 ? over / (over + joined) : 1;
   return arrives * shownOfSource(at, seen.view, to.sample.direction, to.sample.solidAngle, seen.shown) *
          (share / to.probability);
 }
@@ -171,29 +143,35 @@ Radiance VertexLight::directAt(const PlainPlace& at, Random& random, Scratch& sc
 Radiance VertexLight::indirectAt(const PlainPlace& at, const Indirect& how, Random& random,
                                  Scratch& scratch) const {
   if (how.bounces < 1) return {};
-  return ofVertices(at, how, random) + ofNear(at, how, random, scratch);
+  static thread_local int depth = 0;
+  ++depth;
+  const Radiance a = ofVertices(at, how, random), b = ofNear(at, how, random, scratch);
+  --depth;
+  if (depth == 0) {
+    dbgParts[0] = a;
+    dbgParts[1] = b;
+  }
+  return a + b;
 }
 
-// Chooses some vertices from candidates all over the scene, by the light that they would send.
+// Of the vertices that are drawn from the clusters, some are chosen by the light that they would send.
 Radiance VertexLight::ofVertices(const PlainPlace& at, const Indirect& how, Random& random) const {
+  const VertexClusters::Candidates drawn = clusters_.draw({at.point, at.normal, how.bounces}, random);
+  // Each stands for others as well.
+  const auto light = [&](size_t i) { return drawn.all[i].weight / drawn.all[i].drawn; };
+  double all = 0;
+  for (size_t i = 0; i < drawn.count; ++i) all += light(i);
+  const double each = all / Tuning::kJoined;
+  double due = random.uniform();
   Radiance sum;
-  if (vertices_.all().empty()) return sum;
-  const Candidates candidates = candidatesFor(vertices_, at, how.bounces, random);
-  if (!(candidates.sum > 0)) return sum;
-  const double shift = random.uniform();
-  for (int i = 0, join = 0; join < Tuning::kJoined; ++join) {
-    const double where = (join + shift) / Tuning::kJoined * candidates.sum;
-    while (i + 1 < Tuning::kCandidates && candidates.upTo[i] <= where) ++i;
-    if (!(candidates.weight[i] > 0)) continue;
-    // How many vertices each that is joined stands for.
-    const double stride = static_cast<double>(vertices_.all().size()) / Tuning::kCandidates;
-    const double scale = stride * candidates.sum / (Tuning::kJoined * candidates.weight[i]);
-    const Radiance part = ofVertex(at, candidates.vertex[i]) * scale;
-    sum += part;
-    if (how.record && !isBlack(part))
-      how.record->add(vertices_.all()[candidates.vertex[i]].batch, Irradiance(part.color * how.scale.color),
-                      1);
-  }
+  for (size_t i = 0; i < drawn.count; ++i)
+    for (due += light(i) / each; due >= 1; --due) {
+      const uint32_t vertex = drawn.all[i].vertex;
+      const Radiance part = ofVertex(at, vertex) * (each / drawn.all[i].weight);
+      sum += part;
+      if (how.record && !isBlack(part))
+        how.record->add(vertices_.all()[vertex].batch, Irradiance(part.color * how.scale.color), 1);
+    }
   return sum;
 }
 

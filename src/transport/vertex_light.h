@@ -9,6 +9,7 @@
 // sharp reflection, so that c is 0 for these vertices. At a place that joins with the eye they also find the
 // highlight that a source has on what is near, which light paths meet too rarely in a corner.
 #include "transport/light_vertices.h"
+#include "transport/vertex_clusters.h"
 
 namespace rsphere {
 
@@ -33,7 +34,8 @@ class VertexLight {
   struct Seen {
     V3d view;            // direction (unit) of the ray that shows it
     double density = 0;  // of the eye's samples there, per area of the surface (1/m2)
-    double joined = 0;   // share of the light vertices there that are joined to the eye
+    double joins =
+        0;  // share of the light vertices there that are joined to the eye, over joinedReflectance()
     Shown shown = Shown::all;
   };
   // The direct light that the place sends to the eye, diffusely and by a rough highlight (W/sr/m2).
@@ -79,6 +81,7 @@ class VertexLight {
   const PreparedScene& prepared_;
   const PlainSurfaces& surfaces_;
   LightVertices vertices_;
+  VertexClusters clusters_;
 };
 
 }  // namespace rsphere

@@ -1,0 +1,192 @@
+#include "transport/vertex_clusters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "transport/light_vertices.h"
+
+namespace rsphere {
+namespace {
+
+using Tuning = tuning::VertexLight;
+
+// Of single precision, with a margin.
+constexpr double kRounding = 1e-6;
+
+// Place and normal of a vertex as six coordinates, the normal's in units of a length.
+class Coordinates {
+ public:
+  explicit Coordinates(std::span<const LightVertex> vertices) : vertices_(vertices) {
+    Box3d box;
+    for (const LightVertex& v : vertices) box.extendBy(v.point());
+    if (!vertices.empty()) length_ = Tuning::kFacing * box.size().length();
+  }
+  double of(uint32_t i, int axis) const {
+    return axis < 3 ? vertices_[i].place[axis] : vertices_[i].facing[axis - 3] * length_;
+  }
+  // Of these vertices, the coordinate that varies most, and between what.
+  struct Widest {
+    int axis = 0;
+    double least = 0, most = 0;
+    double width() const { return most - least; }
+  };
+  Widest widest(std::span<const uint32_t> some) const {
+    Widest widest;
+    for (int axis = 0; axis < 6; ++axis) {
+      const auto [least, most] = std::ranges::minmax(some, {}, [&](uint32_t i) { return of(i, axis); });
+      const Widest along{axis, of(least, axis), of(most, axis)};
+      if (along.width() > widest.width()) widest = along;
+    }
+    return widest;
+  }
+  double powerOf(std::span<const uint32_t> some) const {
+    double sum = 0;
+    for (const uint32_t i : some) sum += vertices_[i].power;
+    return sum;
+  }
+
+ private:
+  std::span<const LightVertex> vertices_;
+  double length_ = 0;
+};
+
+// The light of a vertex that would arrive if nothing were in between, but for constants.
+double weightOf(const LightVertex& v, const VertexClusters::Receiver& to, double width2) {
+  const V3d way = v.point() - to.point;
+  const double here = way.dot(to.normal), there = -way.dot(v.normal());
+  if (!(here > 0) || !(there > 0) || v.bounces > to.bounces) return 0;
+  const double square = way.length2();
+  return v.power * here * there / (square * (square + (v.isUnbounded() ? 0 : width2)));
+}
+
+// The mean over heights within `half` (above 0) of this one, of those above 0, others being 0.
+inline float meanAbove(float height, float half) {
+  const float above = std::min(std::max(height + half, 0.f), 2 * half);
+  return above * above / (4 * half) + std::max(height - half, 0.f);
+}
+
+}  // namespace
+
+// Halves the cluster whose vertices differ most from each other, until there are enough.
+VertexClusters::Order VertexClusters::orderOf(std::span<const LightVertex> vertices) {
+  Order order{std::vector<uint32_t>(vertices.size()), {}};
+  std::iota(order.vertices.begin(), order.vertices.end(), 0);
+  const Coordinates at(vertices);
+  struct Cluster {
+    std::span<uint32_t> own;
+    Coordinates::Widest widest;
+    double power;
+    bool operator<(const Cluster& other) const {
+      return power * widest.width() < other.power * other.widest.width();
+    }
+  };
+  const auto clusterOf = [&](std::span<uint32_t> own) {
+    return Cluster{own, at.widest(own), at.powerOf(own)};
+  };
+  std::vector<Cluster> clusters;
+  if (!vertices.empty()) clusters.push_back(clusterOf(order.vertices));
+  while (!clusters.empty() && clusters.size() < Tuning::kClusters) {
+    std::pop_heap(clusters.begin(), clusters.end());
+    const Cluster widest = clusters.back();
+    const double middle = .5 * (widest.widest.least + widest.widest.most);
+    const auto upper =
+        std::ranges::partition(widest.own, [&](uint32_t i) { return at.of(i, widest.widest.axis) < middle; });
+    const size_t lower = widest.own.size() - upper.size();
+    if (lower == 0 || upper.empty()) break;
+    clusters.back() = clusterOf(widest.own.first(lower));
+    std::push_heap(clusters.begin(), clusters.end());
+    clusters.push_back(clusterOf(widest.own.subspan(lower)));
+    std::push_heap(clusters.begin(), clusters.end());
+  }
+  for (const Cluster& cluster : clusters)
+    order.ends.push_back(
+        static_cast<uint32_t>(cluster.own.data() - order.vertices.data() + cluster.own.size()));
+  std::ranges::sort(order.ends);
+  return order;
+}
+
+VertexClusters::VertexClusters(std::span<const LightVertex> vertices, std::span<const uint32_t> ends,
+                               double width)
+    : vertices_(vertices), ends_(ends.begin(), ends.end()), width2_(width * width) {
+  Box3d box;
+  for (const LightVertex& v : vertices) box.extendBy(v.point());
+  if (!vertices.empty()) middle_ = box.center();
+  for (Numbers* const size : {&halfX_, &halfY_, &halfZ_, &halfAlong_, &spread_})
+    size->fill(1);  // where there is no cluster
+  for (size_t i = 0; i < ends_.size(); ++i) measure(i);
+}
+
+void VertexClusters::measure(size_t i) {
+  const auto own = vertices_.subspan(firstOf(i), firstOf(i + 1) - firstOf(i));
+  Box3d box;
+  V3d sum(0, 0, 0);
+  for (const LightVertex& v : own) {
+    box.extendBy(v.point() - middle_);
+    sum += v.normal();
+    power_[i] += v.power;
+  }
+  const V3d at = box.center(), axis = sum.normalized();
+  double least = 1;
+  for (const LightVertex& v : own) least = std::min(least, axis.dot(v.normal()));
+  // Above 0, and enlarged by what single precision rounds off.
+  const V3d half =
+      .5 * box.size() + V3d(kRounding * (std::sqrt(width2_) + box.size().length() + at.length()));
+  x_[i] = static_cast<float>(at.x);
+  y_[i] = static_cast<float>(at.y);
+  z_[i] = static_cast<float>(at.z);
+  halfX_[i] = static_cast<float>(half.x);
+  halfY_[i] = static_cast<float>(half.y);
+  halfZ_[i] = static_cast<float>(half.z);
+  spread_[i] = static_cast<float>(half.length2() / 3);
+  halfAlong_[i] =
+      static_cast<float>(half.x * std::abs(axis.x) + half.y * std::abs(axis.y) + half.z * std::abs(axis.z));
+  axisX_[i] = static_cast<float>(axis.x);
+  axisY_[i] = static_cast<float>(axis.y);
+  axisZ_[i] = static_cast<float>(axis.z);
+  sine_[i] = least > 0 ? static_cast<float>(std::sqrt(1 - std::min(1., least * least)) + kRounding) : 1.f;
+}
+
+// 0 only if the weights of all vertices are.
+void VertexClusters::weigh(const Receiver& to, Numbers& weights) const {
+  const V3d from = to.point - middle_;
+  const auto px = static_cast<float>(from.x), py = static_cast<float>(from.y),
+             pz = static_cast<float>(from.z);
+  const auto nx = static_cast<float>(to.normal.x), ny = static_cast<float>(to.normal.y),
+             nz = static_cast<float>(to.normal.z);
+  const float ax = std::abs(nx), ay = std::abs(ny), az = std::abs(nz);
+  const auto width2 = static_cast<float>(width2_);
+  for (size_t i = 0; i < kCount; ++i) {
+    const float x = x_[i] - px, y = y_[i] - py, z = z_[i] - pz;
+    const float square = x * x + y * y + z * z;
+    const float here = meanAbove(x * nx + y * ny + z * nz, halfX_[i] * ax + halfY_[i] * ay + halfZ_[i] * az);
+    const float there = meanAbove(-(x * axisX_[i] + y * axisY_[i] + z * axisZ_[i]),
+                                  halfAlong_[i] + sine_[i] * (std::abs(x) + std::abs(y) + std::abs(z)));
+    const float away = square + spread_[i];
+    weights[i] = power_[i] * (here / away) * (there / (away + width2));
+  }
+}
+
+VertexClusters::Candidates VertexClusters::draw(const Receiver& to, Random& random) const {
+  Candidates found;
+  Numbers weights;
+  weigh(to, weights);
+  double sum = 0;
+  for (const float w : weights) sum += w;
+  if (!(sum > 0)) return found;
+  const double scale = static_cast<double>(Tuning::kCandidates) / sum;
+  double due = random.uniform();
+  for (size_t i = 0; i < ends_.size(); ++i) {
+    const double expected = weights[i] * scale;
+    for (due += expected; due >= 1 && found.count < found.all.size(); --due) {
+      const size_t first = firstOf(i), own = firstOf(i + 1) - first;
+      const auto vertex =
+          static_cast<uint32_t>(first + static_cast<size_t>(random.uniform() * static_cast<double>(own)));
+      const double weight = weightOf(vertices_[vertex], to, width2_);
+      if (weight > 0) found.all[found.count++] = {vertex, expected / static_cast<double>(own), weight};
+    }
+  }
+  return found;
+}
+
+}  // namespace rsphere
