@@ -296,7 +296,8 @@ constexpr const char* kOptions = R"(
 Options by name: ambient_bounces, ambient_accuracy, ambient_divisions, ambient_super_samples,
 ambient_resolution, ambient_value, limit_reflections, limit_weight, rotation, irradiance_at_origin,
 irradiance_at_surface, directions, most_directions, accuracy, bins (zones of directions at points), outputs
-(letters of -o), threads (0: one for each core), arguments (a list of words as on the command line). Any other option of the command is a keyword
+(letters of -o), threads (0: one for each core), arguments (a list of words as on the command line). Any other
+option of the command is a keyword
 without its hyphen: ab=5, av=(.1, .1, .1), dv=False; as_=512 is -as 512. Options that are neither switches nor
 have values, such as -pY, go into arguments=["-pY"].
 
