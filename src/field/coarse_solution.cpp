@@ -65,6 +65,7 @@ CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const Fi
       room_(room),
       effort_(effortFor(options, room > 0)),
       bounces_(std::max(options.bounces, 1)),
+      coarserLinks_(options.coarserLinks),
       hasBands_(options.spectral || !scene.contributors.empty()),
       ambient_(V3d(V3f(options.ambientValue.color.rgb()))),  // in single precision as all light here
       divisions_(std::make_unique<InsertOnce<CellKey, Division>>(kLogDivisionBuckets)),
@@ -151,7 +152,8 @@ const CoarseSolution::Division& CoarseSolution::divisionAt(const SurfaceChart& c
   });
 }
 
-Patch* CoarseSolution::find(const SurfacePlace& place, double u1, double u2, FieldRays& rays) {
+Patch* CoarseSolution::find(const SurfacePlace& place, double u1, double u2, FieldRays& rays,
+                            Asker asker) {
   auto chart = SurfaceChart::of(scene_, grid_, place);
   if (!chart) return nullptr;
   const Division& division = divisionAt(*chart, finestLevel(*chart, effort_.leastSide), rays);
@@ -162,6 +164,7 @@ Patch* CoarseSolution::find(const SurfacePlace& place, double u1, double u2, Fie
   if (place.distance < Tuning::kHalf * grid_.side(level)) return nullptr;
   level = std::max(
       level, std::min(grid_.levelOf(Tuning::kHalf * place.distance), std::min(enough, division.finest)));
+  if (asker == Asker::patch) level = std::max(0, level - coarserLinks_);
   // Light changes across slats and other strips that are near to each other, and others hide a part of each.
   if (chart->shorterSide() < grid_.side(level) && division.side < chart->shorterSide())
     chart->divideAcross(Tuning::kPartsAcross);

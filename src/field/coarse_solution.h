@@ -41,8 +41,10 @@ class CoarseSolution {
 
   // The patch that serves a place; null if there is none and the path has to be followed. One of the patches
   // around the place is drawn by the uniform numbers u1, u2 in [0, 1), so that the expected value is
-  // interpolated between them.
-  Patch* find(const SurfacePlace& place, double u1, double u2, FieldRays& rays);
+  // interpolated between them. Other patches, whose rays ask for it, may be served by larger ones
+  // (FieldOptions::coarserLinks).
+  enum class Asker : uint8_t { path, patch };
+  Patch* find(const SurfacePlace& place, double u1, double u2, FieldRays& rays, Asker asker = Asker::path);
 
   // The mean radiance that arrives at a patch (irradiance over pi) after at most `bounces` diffuse
   // reflections; -av for 0 of them.
@@ -81,6 +83,7 @@ class CoarseSolution {
   double room_;
   Effort effort_;
   int bounces_;  // -ab
+  int coarserLinks_;
   bool hasBands_;
   Color ambient_;
   std::atomic<size_t> made_{0}, linked_{0}, rays_{0};

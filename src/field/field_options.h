@@ -9,6 +9,9 @@ struct FieldOptions {
   double accuracy = .1;   // -aa
   int resolution = 256;   // -ar  0: no limit
   double rays = 1536;     // -ad + -as: the rays of patches are in proportion to it
+  // Patches of the coarse solution that only others see are larger by so many levels, each of which doubles
+  // their side.
+  int coarserLinks = 0;
   Radiance ambientValue;  // -av
   bool spectral = false;  // a spectral run: light has bands
   double memory = 0;      // -Sm  MB of the irradiance cache; 0: no bound

@@ -21,6 +21,14 @@ using Tuning = tuning::Pictures;
 const Smoothing kOfIndirect{Tuning::kIndirectPasses, Tuning::kFinePasses, Tuning::kSameLight,
                             Tuning::kSameNormal,     Tuning::kNear,       Tuning::kNear};
 const Smoothing kOfGloss{Tuning::kFinePasses, 0, 0, Tuning::kSameGlossNormal, Tuning::kNear, Tuning::kNear};
+// The first pass blurs edges of sharp shadows by a pixel. They differ visibly, so that these pixels are
+// traced again (refine()).
+const Smoothing kOfDirect{1,
+                          Tuning::kFinePasses,
+                          Tuning::kSameLight,
+                          Tuning::kSameNormal,
+                          Tuning::kNear,
+                          Tuning::kNear};
 
 constexpr double kTracingShare = .85;  // of the time of a picture; for progress reports only
 
@@ -87,19 +95,22 @@ SmallSources smallSources(const PathsFrom& paths, const PixelMap& map, const See
 // All pixels of a picture, by component.
 struct Pixels {
   SeenSurfaces seen;
-  PixelLight indirect, gloss;
+  PixelLight indirect, gloss, direct;
+  std::vector<Imath::V3f> ownDirect;  // before it is shared
   std::vector<V3d> rest, pattern;
-  std::vector<bool> sharesGloss, isTraced;
+  std::vector<bool> sharesGloss, sharesDirect, isTraced;
 
   explicit Pixels(const PixelMap& map) : seen{map.width(), map.height(), map.wraps(), {}} {
     seen.pixels.resize(map.count());
-    for (PixelLight* component : {&indirect, &gloss}) {
+    for (PixelLight* component : {&indirect, &gloss, &direct}) {
       component->light.assign(map.count(), Imath::V3f(0, 0, 0));
       component->known.assign(map.count(), 0);
     }
+    ownDirect.assign(map.count(), Imath::V3f(0, 0, 0));
     rest.assign(map.count(), V3d(0, 0, 0));
     pattern.assign(map.count(), V3d(1, 1, 1));
     sharesGloss.assign(map.count(), false);
+    sharesDirect.assign(map.count(), false);
     isTraced.assign(map.count(), false);
   }
   // Pixels that are not set are black.
@@ -109,25 +120,35 @@ struct Pixels {
     indirect.known[pixel] = hasIndirect ? 1 : 0;
     gloss.light[pixel] = Imath::V3f(sample.gloss);
     gloss.known[pixel] = sample.sharesGloss ? 1 : 0;
+    direct.light[pixel] = ownDirect[pixel] = Imath::V3f(sample.direct);
+    direct.known[pixel] = sample.sharesDirect ? 1 : 0;
     rest[pixel] = sample.rest;
     pattern[pixel] = sample.pattern;
     sharesGloss[pixel] = sample.sharesGloss;
+    sharesDirect[pixel] = sample.sharesDirect;
     isTraced[pixel] = true;
   }
   // The whole light of a sample. Components that it lacks are taken from the given pixel.
   V3d complete(const PixelSample& sample, size_t pixel) const {
-    V3d value = sample.rest;
+    V3d value = sample.rest + sample.direct;
     if (sample.seen.material != kNone) value += sample.pattern * V3d(indirect.light[pixel]);
     if (sample.sharesGloss) value += V3d(gloss.light[pixel]);
     return value;
   }
-  V3d value(size_t pixel) const {
+  // Of the ray through the middle of the pixel.
+  PixelSample own(size_t pixel) const {
     PixelSample own;
     own.rest = rest[pixel];
+    own.direct = V3d(ownDirect[pixel]);
     own.pattern = pattern[pixel];
     own.seen.material = seen.pixels[pixel].material;
     own.sharesGloss = sharesGloss[pixel];
-    return complete(own, pixel);
+    return own;
+  }
+  V3d value(size_t pixel) const {
+    PixelSample sample = own(pixel);
+    if (sharesDirect[pixel]) sample.direct = V3d(direct.light[pixel]);
+    return complete(sample, pixel);
   }
 };
 
@@ -158,6 +179,16 @@ class RaysOfPixel {
   V3d sum_{0, 0, 0}, darkest_{kFarAway, kFarAway, kFarAway}, brightest_{0, 0, 0};
   int count_ = 0;
 };
+
+// Removes the noise of soft shadows. Differences count in relation to all diffuse light, because the eye sees
+// them so: where little direct light is left, its noise is large only beside itself.
+void smoothDirect(Pixels& pixels) {
+  std::vector<Imath::V3f>& light = pixels.direct.light;
+  const std::vector<Imath::V3f>& indirect = pixels.indirect.light;
+  for (size_t i = 0; i < light.size(); ++i) light[i] += indirect[i];
+  smoothLight(pixels.seen, kOfDirect, pixels.direct);
+  for (size_t i = 0; i < light.size(); ++i) light[i] -= indirect[i];
+}
 
 class Painter {
  public:
@@ -311,13 +342,13 @@ std::optional<V3d> Painter::around(const Pixels& pixels, int column, int row, si
 }
 
 V3d Painter::average(const Pixels& pixels, int column, int row, RaysOfPixel rays) {
-  const V3d middle = pixels.value(at(column, row));
-  if (pixels.isTraced[at(column, row)]) rays.add(middle);
+  const size_t pixel = at(column, row);
+  if (pixels.isTraced[pixel]) rays.add(pixels.complete(pixels.own(pixel), pixel));
   for (size_t place = 0; place < Tuning::kAround.size(); ++place) {
     if (place == Tuning::kCorners && !rays.differ()) break;
     if (const auto value = around(pixels, column, row, place)) rays.add(*value);
   }
-  return rays.mean().value_or(middle);
+  return rays.mean().value_or(pixels.value(pixel));
 }
 
 void Painter::refine(const Pixels& pixels, double exposure, bool forScreen, Raster& raster) {
@@ -349,6 +380,7 @@ Raster Painter::draw(bool forScreen) {
   smoothLight(pixels.seen, kOfIndirect, pixels.indirect);
   smoothLight(pixels.seen, kOfGloss, pixels.gloss);
   gatherWhereUnknown(pixels);
+  smoothDirect(pixels);
   Raster raster{map_.width(), map_.height(), std::vector<float>(3 * map_.count())};
   for (size_t pixel = 0; pixel < map_.count(); ++pixel) setValue(raster, pixel, pixels.value(pixel));
   const double exposure = exposureOf(raster, map_);

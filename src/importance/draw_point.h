@@ -18,8 +18,8 @@ using DrawingProgress = std::function<void(double done)>;
 //   and another four where these differ. With forScreen they are averaged as colors that a screen can show,
 //   at the exposure of exposureOf(): windows and luminaires have even edges there, however bright they are.
 // - The indirect light of the surfaces that are seen is gathered at one pixel in four, or in nine without
-//   daylight, from -ad + -as rays. It is averaged over nearby pixels, as are rough reflections
-//   (smooth_light.h).
+//   daylight, from -ad + -as rays. It is averaged over nearby pixels, as are rough reflections and the light
+//   of sources (smooth_light.h).
 // - Sources that are seen directly (SeenSources) and are so small that pixels may miss them are sampled
 //   separately. Their light is added to the pixels that they cover, so that none is lost and none looks
 //   larger.

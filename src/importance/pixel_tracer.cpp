@@ -22,6 +22,13 @@ bool sharesGloss(const Material& material, const SurfaceHit& hit) {
   return trans && trans->roughness >= Tuning::kLeastRoughness && hit.pattern == Color(1, 1, 1);
 }
 
+// Whether the light of sources changes little between neighboring pixels but for shadows: nothing but the
+// noise of soft shadows is then finer than a few pixels.
+bool sharesDirect(const Material& material, const SurfaceHit& hit) {
+  if (hit.perturbation != V3d(0, 0, 0) || hit.pattern != Color(1, 1, 1)) return false;
+  return std::holds_alternative<Opaque>(material) || std::holds_alternative<Trans>(material);
+}
+
 }  // namespace
 
 // Components are not separated in a medium, because they are observed before it attenuates them.
@@ -44,12 +51,13 @@ PixelSample PixelTracer::trace(const V3d& direction, uint64_t seed, PixelParts p
 }
 
 PixelSample PixelTracer::traceOnce(const V3d& direction, uint64_t seed, PixelParts parts) {
-  Radiance indirect, gloss;
+  Radiance indirect, gloss, brought;  // brought: by all rays that the surface sends out
   const RayObserver separate = [&](const RayEnd& end, const RayResult& result) {
     const PathContext& ray = end.context;
     if (ray.depth != 1) return;
     if (ray.kind & kAmbient) indirect += result.value * ray.contribution;
     if (ray.kind & kSpecular) gloss += result.value * ray.contribution;
+    if (!(ray.kind & kShadow)) brought += result.value * ray.contribution;
   };
   const TracedRay ray = tracer_.trace(point_, direction, 0, seed,
                                       {.observer = &separate,
@@ -70,10 +78,13 @@ PixelSample PixelTracer::traceOnce(const V3d& direction, uint64_t seed, PixelPar
   const Material* const material = prepared_.scene().materialAt(id);
   if (!material) return sample;
   sample.sharesGloss = sharesGloss(*material, ray);
+  sample.sharesDirect = sharesDirect(*material, ray);
   if (!sample.sharesGloss) gloss = {};
-  sample.rest = shownRgb((ray.value - indirect - gloss).color, sampling);
+  const Radiance direct = sample.sharesDirect ? ray.value - brought : Radiance();
+  sample.rest = shownRgb((ray.value - indirect - gloss - direct).color, sampling);
   sample.indirect = shownRgb(indirect.color, sampling) / pattern;
   sample.gloss = shownRgb(gloss.color, sampling);
+  sample.direct = shownRgb(direct.color, sampling);
   sample.seen = {id, Imath::V3f(hit.distance * direction), Imath::V3f(hit.normal),
                  static_cast<float>(hit.distance)};
   return sample;

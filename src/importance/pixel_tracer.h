@@ -6,16 +6,17 @@ namespace rsphere {
 
 // What one ray of a picture sees. Colors are in red, green and blue.
 struct PixelSample {
-  V3d rest{0, 0, 0};      // radiance (W/sr/m2) but for the two components below
+  V3d rest{0, 0, 0};      // radiance (W/sr/m2) but for the three components below
   V3d indirect{0, 0, 0};  // reflected indirect light of the surface that is seen, divided by its pattern
   V3d gloss{0, 0, 0};     // rough reflections and transmissions, where neighboring pixels may share them
+  V3d direct{0, 0, 0};    // light of sources by shadow rays, where neighboring pixels may share it
   V3d pattern{1, 1, 1};   // of the surface
   SeenSurface seen;       // material kNone: `rest` is everything
-  bool sharesGloss = false;
+  bool sharesGloss = false, sharesDirect = false;
   ShownSource shown;  // the source that the ray showed
   LeftOut leftOut;    // parts that the ray was not asked for
 
-  V3d value() const { return rest + pattern * indirect + gloss; }
+  V3d value() const { return rest + pattern * indirect + gloss + direct; }
 };
 
 // Which components a ray is to have. Where they cannot be separated, `rest` has everything in any case.

@@ -287,9 +287,9 @@ struct Pictures {
   // Passes of smoothing of indirect light: chosen by experiment. 2: error +10%; 4: within noise (picture from
   // point; noise: error 1%, time 6%).
   RSPHERE_TUNED(Pictures, int, kIndirectPasses, 3);
-  // Further passes for indirect light, limited by the difference of light below, and passes for gloss: chosen
-  // by experiment. The noise that the first passes leave is 2 to 5%. 1 or 3: within noise (picture from
-  // point; error below 1%, time 6%).
+  // Further passes for indirect and direct light, limited by the difference of light below, and passes for
+  // gloss: chosen by experiment. The noise that the first passes leave is 2 to 5%. 1 or 3: within noise
+  // (picture from point; error below 1%, time 6%).
   RSPHERE_TUNED(Pictures, int, kFinePasses, 2);
   RSPHERE_TUNED(Pictures, float, kSameLight, .14f);
   // Least roughness of surfaces whose pixels share gloss: derived. The lobe is about as wide as the gloss of

@@ -23,6 +23,7 @@ uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAcc
                       o.ambientDivisions, o.ambientSuperSamples, o.leastForPatches, o.reflectionLimit})
     print.add(static_cast<uint64_t>(n));
   if (o.rotation != 0) print.add(o.rotation);
+  if (o.coarserLinks != 0) print.add(static_cast<uint64_t>(o.coarserLinks));
   for (const bool b : {o.sourcesVisible, o.backFacesVisible, o.uncorrelated, basicRadiance})
     print.add(uint64_t{b});
   for (const auto* names : {&o.ambientExcluded, &o.ambientIncluded}) {
@@ -43,6 +44,7 @@ FieldOptions fieldOptions(const RayOptions& o) {
           o.ambientAccuracy,
           o.ambientResolution,
           static_cast<double>(std::max(o.ambientDivisions + o.ambientSuperSamples, o.leastForPatches)),
+          o.coarserLinks,
           o.ambientValue,
           o.sampling != nullptr,
           o.fieldMemory};

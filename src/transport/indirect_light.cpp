@@ -97,7 +97,8 @@ Patch* IndirectLight::patchAt(const RayEnd& end, const DiffuseSide& side) {
   const double u1 = state_.random.uniform(), u2 = state_.random.uniform();
   if (!isOrdinary(end, side, t_.options().medium())) return nullptr;
   TracedFieldRays rays(t_, follower_, end.context.depth);
-  return settings_.caches.coarse->find(placeOf(end, side), u1, u2, rays);
+  const auto asker = state_.links ? CoarseSolution::Asker::patch : CoarseSolution::Asker::path;
+  return settings_.caches.coarse->find(placeOf(end, side), u1, u2, rays, asker);
 }
 
 void IndirectLight::endPath() {

@@ -40,6 +40,7 @@ struct RayOptions {
   // diffuse surface too (FirstBounce::fromPatches). Not an option: sphere mode sets it, because each of its
   // directions has a small -ad and all share one solution. 0: neither.
   int leastForPatches = 0;
+  int coarserLinks = 0;  // FieldOptions::coarserLinks. Not an option: pictures set it
   std::string ambientFile;                                    // -af
   double fieldMemory = 0;                                     // -Sm  MB; 0: no bound
   std::vector<std::string> ambientExcluded, ambientIncluded;  // -ae -aE, -ai -aI; one or both are empty

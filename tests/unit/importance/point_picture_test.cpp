@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 
 #include "base/constants.h"
@@ -237,6 +238,65 @@ TEST(PointPicture, GlossyDesksHaveNoSpeckles) {
       roughest = std::max(roughest, std::abs(drawn.at(pixel) / drawn.at(pixel + 1) - 1));
     }
   EXPECT_LT(roughest, .2);
+}
+
+// The rms of what pixels differ by from the mean of their neighbors, as a share of the mean of all.
+double grainOf(const std::function<double(int column, int row)>& at, int firstRow, int lastRow) {
+  double squares = 0, sum = 0, count = 0;
+  for (int row = firstRow; row < lastRow; ++row)
+    for (int column = 1; column < 255; ++column) {
+      const double around =
+          (at(column - 1, row) + at(column + 1, row) + at(column, row - 1) + at(column, row + 1)) / 4;
+      squares += (at(column, row) - around) * (at(column, row) - around);
+      sum += around;
+      ++count;
+    }
+  return std::sqrt(squares / count) / (sum / count);
+}
+
+// Shadow rays to random places of a lamp made every wall and every soft shadow grainy.
+TEST(PointPicture, SoftShadowsHaveNoGrain) {
+  std::string text =
+      "void plastic wall 0 0 5 .5 .5 .5 0 0\nvoid light lamp 0 0 3 20 20 20\n"
+      "wall polygon floor 0 0 12 -4 -4 -1 4 -4 -1 4 4 -1 -4 4 -1\n"
+      "wall polygon board 0 0 12 -.5 -.5 .2 .5 -.5 .2 .5 .5 .2 -.5 .5 .2\n";
+  for (int x = -3; x <= 3; x += 2)
+    for (int y = -2; y <= 2; y += 2)
+      text += fmt::format("lamp polygon lamp{0}{1} 0 0 12 {2} {3} 2 {2} {4} 2 {5} {4} 2 {5} {3} 2\n", x, y,
+                          x - .6, y - .2, y + .2, x + .6);
+  const Drawn drawn(text, V3d(0, 0, 0), 0, Projection::latitudeLongitude, 256);
+  const auto pixel = [&](int column, int row) { return static_cast<size_t>(256 * row + column); };
+  EXPECT_LT(grainOf([&](int column, int row) { return drawn.at(pixel(column, row)); }, 76, 124), .01);
+  PathTracer rays = drawn.pictures.pathTracer({FirstBounce::gathered});
+  const auto ofRays = [&](int column, int row) {
+    const auto direction = drawn.map.direction(column + .5, row + .5);
+    return rays.trace(V3d(0, 0, 0), *direction, 0, mixBits(pixel(column, row))).value.color.y;
+  };
+  EXPECT_GT(grainOf(ofRays, 76, 124), .03) << "single rays would pass";
+}
+
+// Averages over neighbors do not blur the edge of what the sun shines on.
+TEST(PointPicture, SharpShadowsStaySharp) {
+  const std::string text =
+      "void plastic wall 0 0 5 .5 .5 .5 0 0\nvoid light sun 0 0 3 1e6 1e6 1e6\n"
+      "sun source s 0 0 4 0 0 1 .5\n"
+      "void glow dim 0 0 4 1 1 1 0\ndim source sky 0 0 4 0 0 1 360\n"
+      "wall polygon floor 0 0 12 -40 -40 -1 40 -40 -1 40 40 -1 -40 40 -1\n"
+      "wall polygon roof 0 0 12 -40 -40 1 -40 40 1 0 40 1 0 -40 1\n";
+  const V3d point(0, 0, 0);
+  const Drawn drawn(text, point, 1, Projection::latitudeLongitude, 256);
+  double sunlit = 0, shaded = 1e9, between = 0;
+  for (int column = 0; column < 256; ++column) {
+    const double value = drawn.at(static_cast<size_t>(256 * 100 + column));
+    sunlit = std::max(sunlit, value);
+    shaded = std::min(shaded, value);
+  }
+  for (int column = 0; column < 256; ++column) {
+    const double value = drawn.at(static_cast<size_t>(256 * 100 + column));
+    between += value > 3 * shaded && value < .7 * sunlit ? 1 : 0;
+  }
+  EXPECT_GT(sunlit, 10 * shaded);
+  EXPECT_LE(between, 4);
 }
 
 // The edge of a luminaire that is a thousand times as bright as the screen can show is as even as any other.
