@@ -36,9 +36,11 @@ PictureProgress::Report pictureReport(const Options& options, const Messages& me
   return [&messages](std::string_view text) { messages.report(text); };
 }
 
-void answer(const Options& options, const Messages& messages, StopSignals& signals) {
+void answer(const Options& given, const Messages& messages, StopSignals& signals) {
   const rad::Warn warn = [&](std::string_view text) { messages.warning(text); };
-  const Scene& scene = lasting(new Scene(loadScene(options, warn)));
+  const Scene& scene = lasting(new Scene(loadScene(given, warn)));
+  Options options = given;
+  options.contributors = scene.contributors;
   RecordWriter writer(1);
   if (options.listSpecial) {
     writer.write(specialObjectsText(scene, findSpecialObjects(scene, options.sphere.densityFactor)));
@@ -62,11 +64,10 @@ void answer(const Options& options, const Messages& messages, StopSignals& signa
       for (const std::string& text : summary.warnings(options.sphere, transport.prepared())) warn(text);
     };
   runRecords(reader, writer, options, messages, &signals,
-             options.sphereMode
-                 ? answerPoints(
-                       transport, options, answers, warn, summary, [&] { signals.check(); },
-                       pictureReport(options, messages))
-                 : answerRays(transport, options, answers, warn),
+             options.sphereMode ? answerPoints(
+                                      transport, options, answers, warn, summary, [&] { signals.check(); },
+                                      pictureReport(options, messages))
+                                : answerRays(transport, options, answers, warn),
              end);
 }
 

@@ -16,9 +16,11 @@ struct AnswerOptions {
   RayOptions ray;
   SphereOptions sphere;
   // scene
-  std::vector<std::string> scene;  // an octree, .rad files or '!command'
-  bool commands = true;            // -Sc  whether commands in the scene may run
-  std::vector<std::string> goals;  // -Sg
+  std::vector<std::string> scene;         // an octree, .rad files or '!command'
+  bool commands = true;                   // -Sc  whether commands in the scene may run
+  std::vector<std::string> goals;         // -Sg
+  bool separate = false;                  // -Sp  the part of each goal, or of each light source's modifier
+  std::vector<std::string> contributors;  // their names; set once the scene is read. Empty: no parts
   // input
   NumberFormat in = NumberFormat::ascii;         // -f
   IrradianceAt irradiance = IrradianceAt::none;  // -i -I

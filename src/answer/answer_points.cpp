@@ -123,7 +123,7 @@ AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& optio
                           const AnswerWriter& writer, const rad::Warn& warn, PointSummary& summary,
                           const std::function<void()>& checkStop,
                           const PictureProgress::Report& pictureReport) {
-  const bool standardError = options.outputs.find('e') != std::string::npos;
+  const bool standardError = options.outputs.find_first_of("eZ") != std::string::npos;
   const auto workers = std::make_shared<PointWorkers>(transport, options, standardError, checkStop);
   if (isDark(transport.prepared())) warn("no light sources found");
   const auto pictures = options.picture.empty()

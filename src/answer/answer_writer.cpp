@@ -62,7 +62,8 @@ void writeLetter(RecordText& text, char letter, const RayAnswer& answer, const O
 }  // namespace
 
 int componentCount(const AnswerOptions& options) {
-  const int color = OutputColors(options.color).count();
+  const int parts = std::max<int>(1, static_cast<int>(options.contributors.size()));
+  const int color = OutputColors(options.color).count() * parts;
   int count = 0;
   for (const char letter : options.outputs) switch (letter) {
       case 'v':
@@ -80,11 +81,17 @@ int componentCount(const AnswerOptions& options) {
       case 'p':
       case 'n':
       case 'N':
-      case 'u':
         count += 3;
+        break;
+      case 'u':
+        count += 3 * parts;
         break;
       case 'H':
         count += 6 * color;
+        break;
+      case 'z':
+      case 'Z':
+        count += options.sphere.zones * color;
         break;
       case 'c':
         count += 2;
@@ -106,10 +113,42 @@ void AnswerWriter::write(std::string& bytes, const RayAnswer& answer, uint64_t r
       text.integer(record);
     else if (letter == 'w' && options_.sphereMode)
       text.number(answer.solidAngle);
+    else if (letter == 'v')
+      eachPart(answer.value.color, [&](const Color& part) { colors_.write(text, Radiance(part)); });
     else
       writeLetter(text, letter, answer, colors_);
   }
   text.end();
+}
+
+// Calls write() for the color, or for each contributor's part of it.
+template <class Write>
+void AnswerWriter::eachPart(const Color& color, const Write& write) const {
+  if (options_.contributors.empty()) return write(color);
+  for (size_t i = 0; i < options_.contributors.size(); ++i) write(color.part(i));
+}
+
+void AnswerWriter::writeError(RecordText& text, const PointAnswer& answer) const {
+  if (options_.contributors.empty())
+    return colors_.writeError(text, answer.standardError, answer.brightnessError);
+  eachPart(answer.standardError.color, [&](const Color& part) { writeErrorOfPart(text, part); });
+}
+
+// The error of brightness is an upper bound: as if the errors of the channels were fully correlated, which
+// they nearly are, because the same paths bring all channels.
+void AnswerWriter::writeErrorOfPart(RecordText& text, const Color& part) const {
+  colors_.writeError(text, Radiance(part), brightness(part));
+}
+
+void AnswerWriter::writeLightVector(RecordText& text, const PointAnswer& answer) const {
+  if (options_.contributors.empty()) return text.vector(answer.lightVector);
+  const Irradiance* const f = answer.facing;
+  for (size_t i = 0; i < options_.contributors.size(); ++i) {
+    const auto along = [&](size_t axis) {
+      return brightness(f[2 * axis].color.part(i)) - brightness(f[2 * axis + 1].color.part(i));
+    };
+    text.vector(V3d(along(0), along(1), along(2)));
+  }
 }
 
 void AnswerWriter::writeBranch(std::string& bytes, const RayAnswer& answer, int ancestors) const {
@@ -125,32 +164,62 @@ void AnswerWriter::writeBranch(std::string& bytes, const RayAnswer& answer, int 
   text.end();
 }
 
+// All faces of a contributor follow each other.
+void AnswerWriter::writeFaces(RecordText& text, const PointAnswer& answer) const {
+  if (options_.contributors.empty())
+    for (const Irradiance& face : answer.facing) colors_.write(text, face);
+  for (size_t i = 0; i < options_.contributors.size(); ++i)
+    for (const Irradiance& face : answer.facing) colors_.write(text, Irradiance(face.color.part(i)));
+}
+
+// All zones of a contributor follow each other.
+void AnswerWriter::writeZones(RecordText& text, const PointAnswer& answer) const {
+  if (options_.contributors.empty())
+    for (const Radiance& zone : answer.zones) colors_.write(text, zone);
+  for (size_t i = 0; i < options_.contributors.size(); ++i)
+    for (const Radiance& zone : answer.zones) colors_.write(text, Radiance(zone.color.part(i)));
+}
+
+void AnswerWriter::writeZoneErrors(RecordText& text, const PointAnswer& answer) const {
+  if (options_.contributors.empty())
+    for (const auto& [channels, bright] : answer.zoneErrors) colors_.writeError(text, channels, bright);
+  for (size_t i = 0; i < options_.contributors.size(); ++i)
+    for (const auto& [channels, bright] : answer.zoneErrors) writeErrorOfPart(text, channels.color.part(i));
+}
+
 void AnswerWriter::write(std::string& bytes, const PointAnswer& answer) const {
   RecordText text(bytes, options_.out);
+  const auto irradiance = [&](const Color& part) { colors_.write(text, Irradiance(part)); };
   for (const char letter : options_.outputs) switch (letter) {
       case 'o':
         text.vector(answer.point);
         break;
       case 'v':
-        colors_.write(text, answer.mean);
+        eachPart(answer.mean.color, [&](const Color& part) { colors_.write(text, Radiance(part)); });
         break;
       case 'e':
-        colors_.writeError(text, answer.standardError, answer.brightnessError);
+        writeError(text, answer);
         break;
       case 'E':
-        colors_.write(text, answer.scalarIrradiance);
+        eachPart(answer.scalarIrradiance.color, irradiance);
         break;
       case 'C':
-        colors_.write(text, answer.cylindricalIrradiance);
+        eachPart(answer.cylindricalIrradiance.color, irradiance);
         break;
       case 'H':
-        for (const Irradiance& face : answer.facing) colors_.write(text, face);
+        writeFaces(text, answer);
         break;
       case 'u':
-        text.vector(answer.lightVector);
+        writeLightVector(text, answer);
         break;
       case 'k':
         text.integer(answer.directions);
+        break;
+      case 'z':
+        writeZones(text, answer);
+        break;
+      case 'Z':
+        writeZoneErrors(text, answer);
         break;
     }
   text.end();

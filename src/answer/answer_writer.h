@@ -15,7 +15,8 @@ namespace rsphere {
 int componentCount(const AnswerOptions& options);
 
 // Appends records to a string of bytes: the quantities that the -o letters name, in their order, in the
-// output format. REQUIRES: the options are from parseOptions() and live as long as the writer.
+// output format. With contributors (-Sp), the letters v e E C H u z Z each have the part of every contributor
+// in turn. REQUIRES: the options are from parseOptions() and live as long as the writer.
 class AnswerWriter {
  public:
   explicit AnswerWriter(const AnswerOptions& options) : options_(options), colors_(options.color) {}
@@ -32,6 +33,15 @@ class AnswerWriter {
   void write(std::string& bytes, const PointAnswer& answer) const;
 
  private:
+  template <class Write>
+  void eachPart(const Color& color, const Write& write) const;
+  void writeError(RecordText& text, const PointAnswer& answer) const;
+  void writeErrorOfPart(RecordText& text, const Color& part) const;
+  void writeZones(RecordText& text, const PointAnswer& answer) const;
+  void writeZoneErrors(RecordText& text, const PointAnswer& answer) const;
+  void writeFaces(RecordText& text, const PointAnswer& answer) const;
+  void writeLightVector(RecordText& text, const PointAnswer& answer) const;
+
   const AnswerOptions& options_;
   OutputColors colors_;
 };

@@ -8,6 +8,7 @@
 #include "answer/answer_writer.h"
 #include "answer/output_colors.h"
 #include "base/version.h"
+#include "sphere/equal_zones.h"
 
 namespace rsphere {
 namespace {
@@ -23,6 +24,12 @@ std::string quoted(const std::string& word) {
       std::any_of(word.begin(), word.end(), [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); });
   if (quote == 0 && (word.empty() || blanks)) quote = '"';
   return quote == 0 ? word : quote + word + quote;
+}
+
+std::string joinedNames(const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& name : names) all += ' ' + quoted(name);
+  return all;
 }
 
 std::string dateText(const std::tm& date) {
@@ -99,7 +106,16 @@ void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<c
 void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<const std::string> sceneHeader,
                  std::time_t now) {
   const bool counts = options.treeOutputs.empty() && !options.outputs.empty();
-  writeHeader(writer, options, sceneHeader, now, {counts ? componentCount(options) : 0});
+  RecordLayout layout{counts ? componentCount(options) : 0};
+  if (!options.contributors.empty())
+    layout.lines = "CONTRIBUTORS=" + joinedNames(options.contributors) + '\n';
+  if (options.sphereMode && options.sphere.zones > 0) {
+    layout.lines += "ZONES=";
+    for (const size_t zones : EqualZones(static_cast<size_t>(options.sphere.zones)).rows())
+      layout.lines += fmt::format(" {}", zones);
+    layout.lines += '\n';
+  }
+  writeHeader(writer, options, sceneHeader, now, layout);
 }
 
 }  // namespace rsphere

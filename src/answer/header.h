@@ -43,7 +43,8 @@ struct RecordLayout {
 //   - CAPDATE= (local time), GMT=
 //   - NCOMP=, except for ray trees
 //   - WAVELENGTH_SPLITS= or PRIMARIES=, if colors are not written as RGB
-//   - the layout's lines
+//   - the layout's lines; of points with -Sp: CONTRIBUTORS= and their names, in the order of the parts; with
+//     -Sz: ZONES= and their numbers in each row
 //   - BigEndian=, for floats and doubles
 //   - FORMAT=, an empty line
 // If -x and -y are both given, the resolution line follows, even without a header.

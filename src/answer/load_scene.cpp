@@ -6,6 +6,7 @@
 
 #include "rad_parser/scene_file.h"
 #include "scene/build_scene.h"
+#include "scene/contributors.h"
 
 namespace rsphere {
 
@@ -18,6 +19,7 @@ Scene loadScene(const AnswerOptions& options, const rad::Warn& warn) {
     read.files = rad::FileAccess::foldersOf(named);
   }
   Scene scene = buildScene(rad::readScene(options.scene, read), read, options.goals);
+  if (options.separate) separateContributors(scene, options.goals);
 #ifdef __GLIBC__
   // The lists of a large scene have grown by moving, which leaves holes of megabytes.
   malloc_trim(0);

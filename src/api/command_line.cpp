@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cli/option_table.h"
+#include "contrib/contribution_defaults.h"
 #include "rad_parser/error.h"
 #include "rad_parser/printable.h"
 
@@ -51,7 +52,10 @@ bool isOfOutput(const OptionEntry& entry) {
 }  // namespace
 
 CommandOptions commandOptions(const Options& options, Records records) {
-  const bool rays = records == Records::rays;
+  const bool rays = records != Records::points;
+  Companion companion;
+  if (records == Records::contributions)
+    companion.defaults = [](rsphere::Options& o) { setContributionDefaults(o.ray); };
   Words words(rays ? "rtrace" : "rsphere");
   words.add("-ab", options.ambientBounces);
   words.add("-aa", options.ambientAccuracy);
@@ -67,6 +71,7 @@ CommandOptions commandOptions(const Options& options, Records records) {
   words.add("-Sn", options.directions);
   words.add("-Sx", options.mostDirections);
   words.add("-Sa", options.accuracy);
+  words.add("-Sz", options.zones);
   if (!options.outputs.empty()) words.add("-o" + options.outputs);
   words.add("-n", std::optional(options.threads));
   for (const std::string& argument : options.arguments) words.add(argument);
@@ -76,21 +81,29 @@ CommandOptions commandOptions(const Options& options, Records records) {
     if (word.find('\0') != std::string::npos)
       throw rad::Error(fmt::format("the option \"{}\" contains a NUL byte", rad::printable(word)));
   rsphere::Options parsed;
-  const std::vector<UsedOption> used = parseCompanion(words.words(), Companion(), parsed);
+  const std::vector<UsedOption> used = parseCompanion(words.words(), companion, parsed);
   if (parsed.request != Request::answers)
     throw rad::Error(
         "-help, -version, -defaults and -features are for the command rsphere, not for the library");
   if (parsed.scene.size() > 1)
     throw rad::Error(fmt::format("\"{}\" is not an option: options begin with a hyphen", parsed.scene[0]));
-  refuse(parsed.sphereMode == rays, "-S", "trace() answers rays, and sphere() points");
-  refuse(!parsed.goals.empty(), "-Sg", "goals belong to the scene: see SceneOptions");
+  refuse(parsed.sphereMode == rays, "-S", "trace() and contributions() answer rays, and sphere() points");
+  refuse(!parsed.goals.empty(), "-Sg",
+         "goals belong to the scene (SceneOptions), or are those of importance()");
   refuse(!parsed.commands, "-Sc", "commands belong to the scene: see SceneOptions");
   refuse(parsed.sphere.everyDirection, "-Sd", "only the command rsphere lists every direction");
   refuse(parsed.listSpecial, "-Sl", "only the command rsphere lists the special objects");
   refuse(!parsed.treeOutputs.empty(), "-ot", "only the command rsphere writes ray trees");
+  if (records == Records::contributions) {
+    limitToContributions(parsed.ray);
+    refuse(parsed.color.space != ColorSpace::rgb && parsed.color.space != ColorSpace::spectrum, "-p",
+           "contributions are red, green and blue, or bands (-cs)");
+  }
   const auto isOutputs = [](const UsedOption& option) { return option.entry->name == "-o"; };
   if (!rays && std::none_of(used.begin(), used.end(), isOutputs)) {
-    parsed.outputs = haveStandardErrors(parsed.color) ? "veECHuk" : "vECHuk";
+    const bool zones = parsed.sphere.zones > 0, errors = haveStandardErrors(parsed.color);
+    parsed.outputs =
+        std::string(errors ? "veECHuk" : "vECHuk") + (zones ? "z" : "") + (zones && errors ? "Z" : "");
   }
   parsed.out = NumberFormat::float64;
 
@@ -99,7 +112,7 @@ CommandOptions commandOptions(const Options& options, Records records) {
   const auto add = [](std::string& key, const std::string& word) { key.append(word).push_back('\0'); };
   add(result.key, result.options.program);
   for (const std::string& word : result.options.words) add(result.key, word);
-  add(result.sceneKey, result.options.program);
+  add(result.sceneKey, records == Records::contributions ? "contributions" : result.options.program);
   for (const UsedOption& option : used)
     if (!isOfOutput(*option.entry))
       for (const std::string& word : option.words) add(result.sceneKey, word);

@@ -7,7 +7,7 @@
 namespace rsphere::v1 {
 
 // What calls of the library answer.
-enum class Records { rays, points };
+enum class Records { rays, points, contributions };
 
 // The options of a call as the command's parser reads them.
 struct CommandOptions {

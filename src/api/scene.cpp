@@ -20,9 +20,11 @@
 #include "answer/load_scene.h"
 #include "answer/threads.h"
 #include "api/command_line.h"
+#include "api/ray_contributions.h"
 #include "base/color.h"
 #include "cli/options.h"
 #include "rad_parser/printable.h"
+#include "scene/contributors.h"
 #include "scene/scene.h"
 #include "transport/transport.h"
 
@@ -86,23 +88,54 @@ auto guarded(const PassWarnings& passWarnings, const Work& work) {
 
 // The scene prepared for a set of options. Its warnings come also while it is used.
 struct PreparedScene {
-  PreparedScene(const rsphere::Scene& scene, const rsphere::Options& options)
-      : transport(scene, options.ray, options.irradiance, options.sphere.basicRadiance,
+  PreparedScene(std::shared_ptr<const rsphere::Scene> of, const rsphere::Options& options)
+      : scene(std::move(of)),
+        transport(*scene, options.ray, options.irradiance, options.sphere.basicRadiance,
                   warnings.collector()) {}
+  const std::shared_ptr<const rsphere::Scene> scene;
   Warnings warnings;
   Transport transport;
 };
 
+rsphere::Options optionsFor(const rsphere::Scene& scene, rsphere::Options options) {
+  options.contributors = scene.contributors;
+  return options;
+}
+
+// Makes a call one for the importance of goals.
+void addGoals(CommandOptions& given, std::span<const std::string> goals) {
+  given.options.separate = true;
+  given.options.goals.assign(goals.begin(), goals.end());
+  for (std::string* const key : {&given.key, &given.sceneKey}) {
+    key->append("-Sp").push_back('\0');
+    for (const std::string& goal : goals) key->append("-Sg").append(goal).push_back('\0');
+  }
+}
+
 // What answers the records of one call at a time.
 struct Answerer {
   Answerer(std::shared_ptr<PreparedScene> prepared, const rsphere::Options& given)
-      : options(given), scene(std::move(prepared)), writer(options), warn(scene->warnings.collector()) {
+      : options(optionsFor(*prepared->scene, given)),
+        scene(std::move(prepared)),
+        writer(options),
+        warn(scene->warnings.collector()) {
     const auto checkStop = [this] {
       if (stop) throw Stopped();
     };
     answer = options.sphereMode
                  ? answerPoints(scene->transport, options, writer, warn, summary.emplace(), checkStop)
                  : answerRays(scene->transport, options, writer, warn);
+  }
+  // For contributions to rays.
+  Answerer(std::shared_ptr<PreparedScene> prepared, const rsphere::Options& given,
+           std::vector<TrackedModifier> modifiers, const ContributionOptions& how)
+      : options(given), scene(std::move(prepared)), writer(options), warn(scene->warnings.collector()) {
+    contributions.emplace(scene->transport, options, std::move(modifiers),
+                          how.coefficients ? Contributed::coefficients : Contributed::values, how.samples,
+                          warn);
+    answer = [this](const Record& record, unsigned worker, std::string& bytes) {
+      contributions->answer(record, worker, bytes);
+    };
   }
   Answerer(const Answerer&) = delete;
   Answerer& operator=(const Answerer&) = delete;
@@ -112,6 +145,7 @@ struct Answerer {
   const AnswerWriter writer;
   const rad::Warn warn;
   std::optional<PointSummary> summary;
+  std::optional<RayContributions> contributions;
   std::atomic<bool> stop = false;
   AnswerRecord answer;
 };
@@ -275,6 +309,8 @@ std::vector<Column> columnsOf(PointAnswers& a) {
           {'H', &a.faceIrradiance},
           {'u', &a.lightVector},
           {'k', &a.directions},
+          {'z', &a.zones},
+          {'Z', &a.zonesStandardError},
           {'o', &a.point}};
 }
 
@@ -321,17 +357,29 @@ void takeApart(const std::string& bytes, const std::vector<Column>& columns, siz
 }  // namespace
 
 struct Scene::Implementation {
-  explicit Implementation(rsphere::Scene&& read) : scene(std::move(read)) {}
+  // goals: SceneOptions::goals.
+  Implementation(rsphere::Scene&& read, std::vector<std::string> goals)
+      : scene_(std::make_shared<const rsphere::Scene>(std::move(read))), goals_(std::move(goals)) {}
 
   std::unique_ptr<Answerer> take(const CommandOptions& given);
   void giveBack(const std::string& key, std::unique_ptr<Answerer> answerer);
 
+  // goals: those of importance(), and only then not empty.
   template <typename Answers>
-  Answers answer(std::span<const double> numbers, const Options& options, Records records);
+  Answers answer(std::span<const double> numbers, const Options& options, Records records,
+                 std::span<const std::string> goals = {});
 
-  const rsphere::Scene scene;
+  Contributions contributions(std::span<const double> numbers, const std::vector<std::string>& of,
+                              const ContributionOptions& options);
 
  private:
+  std::shared_ptr<PreparedScene> preparedFor(const std::string& sceneKey) const;
+  std::shared_ptr<PreparedScene> prepare(const CommandOptions& given);
+  std::shared_ptr<const rsphere::Scene> sceneFor(const rsphere::Options& options) const;
+
+  const std::shared_ptr<const rsphere::Scene> scene_;
+  const std::vector<std::string> goals_;
+
   // Prepared scenes by CommandOptions::sceneKey, as long as they are in use; and at most one idle answerer
   // for rays and one for points: those of the last options.
   struct Idle {
@@ -341,28 +389,49 @@ struct Scene::Implementation {
   std::mutex mutex_;
   std::vector<std::pair<std::string, std::weak_ptr<PreparedScene>>> prepared_;
   Idle rays_, points_;
+  std::shared_ptr<PreparedScene> ofContributions_;  // that of the last call
 };
 
 // An answerer for these options: the idle one, or a new one. The scene of another answerer serves as well if
 // the same preparations do.
 std::unique_ptr<Answerer> Scene::Implementation::take(const CommandOptions& given) {
-  std::shared_ptr<PreparedScene> shared;
   {
     const std::lock_guard lock(mutex_);
     Idle& idle = given.options.sphereMode ? points_ : rays_;
     if (idle.answerer && idle.key == given.key) return std::move(idle.answerer);
-    for (const auto& [key, prepared] : prepared_)
-      if (key == given.sceneKey && !shared) shared = prepared.lock();
-    if (!shared)
-      idle.answerer.reset();  // the memory of the last options is free before that of others is needed
+    // The memory of the last options is free before that of others is needed.
+    if (!preparedFor(given.sceneKey)) idle.answerer.reset();
   }
-  if (!shared) {
-    shared = std::make_shared<PreparedScene>(scene, given.options);
+  return std::make_unique<Answerer>(prepare(given), given.options);
+}
+
+// REQUIRES: the mutex is locked.
+std::shared_ptr<PreparedScene> Scene::Implementation::preparedFor(const std::string& sceneKey) const {
+  for (const auto& [key, prepared] : prepared_)
+    if (key == sceneKey)
+      if (auto shared = prepared.lock()) return shared;
+  return nullptr;
+}
+
+std::shared_ptr<PreparedScene> Scene::Implementation::prepare(const CommandOptions& given) {
+  {
     const std::lock_guard lock(mutex_);
-    std::erase_if(prepared_, [](const auto& entry) { return entry.second.expired(); });
-    prepared_.emplace_back(given.sceneKey, shared);
+    if (auto shared = preparedFor(given.sceneKey)) return shared;
   }
-  return std::make_unique<Answerer>(std::move(shared), given.options);
+  auto shared = std::make_shared<PreparedScene>(sceneFor(given.options), given.options);
+  const std::lock_guard lock(mutex_);
+  std::erase_if(prepared_, [](const auto& entry) { return entry.second.expired(); });
+  prepared_.emplace_back(given.sceneKey, shared);
+  return shared;
+}
+
+// The scene as it was read, or a copy with goals or contributors of its own.
+std::shared_ptr<const rsphere::Scene> Scene::Implementation::sceneFor(const rsphere::Options& options) const {
+  if (!options.separate) return scene_;
+  auto copy = std::make_shared<rsphere::Scene>(*scene_);
+  if (!options.goals.empty()) setGoals(*copy, options.goals);
+  separateContributors(*copy, options.goals.empty() ? goals_ : options.goals);
+  return copy;
 }
 
 void Scene::Implementation::giveBack(const std::string& key, std::unique_ptr<Answerer> answerer) {
@@ -375,7 +444,7 @@ void Scene::Implementation::giveBack(const std::string& key, std::unique_ptr<Ans
 
 template <typename Answers>
 Answers Scene::Implementation::answer(std::span<const double> numbers, const Options& options,
-                                      Records records) {
+                                      Records records, std::span<const std::string> goals) {
   Warnings warnings;
   std::shared_ptr<PreparedScene> prepared;
   const auto passWarnings = [&] {
@@ -383,17 +452,23 @@ Answers Scene::Implementation::answer(std::span<const double> numbers, const Opt
     warnings.passOn(options.warn);
   };
   return guarded(passWarnings, [&] {
-    const CommandOptions given = commandOptions(options, records);
+    CommandOptions given = commandOptions(options, records);
+    if (!goals.empty()) addGoals(given, goals);
     const rsphere::Options& parsed = given.options;
     const rad::Warn warn = warnings.collector();
     for (const std::string& remark : parsed.messages.remarks) warn(remark);
+    std::unique_ptr<Answerer> answerer = take(given);
+    prepared = answerer->scene;
+    given.options.contributors = prepared->scene->contributors;
     Answers answers;
+    if constexpr (requires { answers.contributors; }) {
+      answers.contributors = given.options.contributors;
+      answers.zoneCount = static_cast<size_t>(given.options.sphere.zones);
+    }
     answers.size = numbers.size() / static_cast<size_t>(parsed.numbersPerRecord());
     const std::vector<Column> columns = prepareColumns(columnsOf(answers), parsed, answers.size);
     const auto keep = [&](size_t record, const std::string& bytes) { takeApart(bytes, columns, record); };
 
-    std::unique_ptr<Answerer> answerer = take(given);
-    prepared = answerer->scene;
     if (answerer->summary) answerer->summary.emplace();
     Call(*answerer, numbers, keep).run(options.stop);
     if (answerer->summary)
@@ -402,6 +477,44 @@ Answers Scene::Implementation::answer(std::span<const double> numbers, const Opt
         warn(text);
     giveBack(given.key, std::move(answerer));
     return answers;
+  });
+}
+
+Contributions Scene::Implementation::contributions(std::span<const double> numbers,
+                                                   const std::vector<std::string>& of,
+                                                   const ContributionOptions& options) {
+  Warnings warnings;
+  std::shared_ptr<PreparedScene> prepared;
+  const auto passWarnings = [&] {
+    if (prepared) prepared->warnings.passOn(options.warn);
+    warnings.passOn(options.warn);
+  };
+  return guarded(passWarnings, [&] {
+    if (options.samples < 1)
+      throw rad::Error(fmt::format("{} samples: expected at least 1", options.samples));
+    std::vector<TrackedModifier> modifiers = trackedModifiers(of, options.bins);
+    const CommandOptions given = commandOptions(options, Records::contributions);
+    for (const std::string& remark : given.options.messages.remarks) warnings.collector()(remark);
+    prepared = prepare(given);
+    {
+      const std::lock_guard lock(mutex_);
+      ofContributions_ = prepared;
+    }
+    Contributions result;
+    result.modifiers = of;
+    result.bins = modifiers.front().bins;
+    Answerer answerer(prepared, given.options, std::move(modifiers), options);
+    const size_t columns = answerer.contributions->numbers();
+    result.size = numbers.size() / static_cast<size_t>(given.options.numbersPerRecord());
+    std::vector<Column> all{{'v', &result.value}};
+    if (options.samples > 1) all.push_back({'e', &result.standardError});
+    for (Column& column : all) {
+      column.quantity->columns = columns;
+      column.quantity->numbers.resize(result.size * columns);
+    }
+    const auto keep = [&](size_t record, const std::string& bytes) { takeApart(bytes, all, record); };
+    Call(answerer, numbers, keep).run(options.stop);
+    return result;
   });
 }
 
@@ -419,7 +532,7 @@ Scene::Scene(const std::vector<std::string>& files, const SceneOptions& options)
         read.scene = files;
         read.commands = options.commands;
         read.goals = options.goals;
-        return std::make_unique<Implementation>(loadScene(read, warnings.collector()));
+        return std::make_unique<Implementation>(loadScene(read, warnings.collector()), options.goals);
       });
 }
 
@@ -435,6 +548,29 @@ RayAnswers Scene::trace(std::span<const Ray> rays, const Options& options) const
 PointAnswers Scene::sphere(std::span<const Point> points, const Options& options) const {
   const std::span numbers(reinterpret_cast<const double*>(points.data()), 3 * points.size());
   return implementation_->answer<PointAnswers>(numbers, options, Records::points);
+}
+
+PointAnswers Scene::importance(std::span<const Point> points, const std::vector<std::string>& goals,
+                               const Options& options) const {
+  if (goals.empty()) throw Error("importance() needs the modifier of at least one goal", Error::Cause::input);
+  const std::span numbers(reinterpret_cast<const double*>(points.data()), 3 * points.size());
+  return implementation_->answer<PointAnswers>(numbers, options, Records::points, goals);
+}
+
+Contributions Scene::contributions(std::span<const Ray> rays, const std::vector<std::string>& of,
+                                   const ContributionOptions& options) const {
+  const std::span numbers(reinterpret_cast<const double*>(rays.data()), 6 * rays.size());
+  return implementation_->contributions(numbers, of, options);
+}
+
+std::vector<std::array<double, 3>> zoneMiddles(size_t count) {
+  const EqualZones zones(count);
+  std::vector<std::array<double, 3>> middles;
+  for (size_t i = 0; i < count; ++i) {
+    const V3d middle = zones.middle(i);
+    middles.push_back({middle.x, middle.y, middle.z});
+  }
+  return middles;
 }
 
 }  // namespace rsphere::v1

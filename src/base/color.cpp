@@ -8,69 +8,155 @@
 #include "base/spectral_sampling.h"
 
 namespace rsphere {
+namespace {
 
-// The values follow the block.
+// The rooms of blocks: for what one contributor gives, so that a block lies in one line of the processor's
+// cache, and for all bands of a spectrum. Others have room for all values of their scheme.
+constexpr size_t kOnePart = 3, kUsualRoom = kMostBands;
+constexpr size_t kLargeRoom = 2;
+size_t classOf(size_t room) { return room <= kOnePart ? 0 : room <= kUsualRoom ? 1 : kLargeRoom; }
+
+}  // namespace
+
+// The values from number `first` to before `end` follow the block. All others are 0. `room`: the number of
+// values that there is memory for.
 struct Bands::Block {
-  const SpectralSampling* sampling;
-  Block* next;  // while it is not in use
+  union {
+    const BandScheme* scheme;
+    Block* next;  // while it is not in use
+  };
+  uint32_t room, first, end, unused;
 
   double* values() { return reinterpret_cast<double*>(this + 1); }
-  size_t count() const { return sampling->count(); }
+  const double* values() const { return reinterpret_cast<const double*>(this + 1); }
+  size_t filled() const { return end - first; }
+  bool isWhole() const { return first == 0 && end == scheme->count(); }
 };
 
-// Blocks that a thread has given back, since a path makes and drops dozens of them at each surface. All have
-// room for kMostBands. What outlives the thread's objects, such as colors of static ones, is given back to
-// the heap.
+// Blocks that a thread has given back, since a path makes and drops dozens of them at each surface. There is
+// a list for each class of rooms. What outlives the thread's objects, such as colors of static ones, is given
+// back to the heap.
 struct Bands::Spares {
-  static thread_local Block* first;
+  static thread_local std::array<Block*, kLargeRoom + 1> first;
   static thread_local bool closed;
 
   struct Closer {
     bool open = true;
     ~Closer() {
       closed = true;
-      while (first) ::operator delete(std::exchange(first, first->next));
+      for (Block*& block : first)
+        while (block) ::operator delete(std::exchange(block, block->next));
     }
   };
-  static Block* take() {
-    if (first) return std::exchange(first, first->next);
-    static thread_local Closer closer;
-    closer.open = true;  // so that it is made
-    return static_cast<Block*>(::operator new(sizeof(Block) + kMostBands * sizeof(double)));
+  // A block with nothing in it.
+  static Block* take(const BandScheme& scheme, size_t room) {
+    const size_t kind = classOf(room);
+    Block*& spare = first[kind];
+    while (spare && spare->room < room) ::operator delete(std::exchange(spare, spare->next));
+    Block* block = spare;
+    if (block) {
+      spare = block->next;
+    } else {
+      static thread_local Closer closer;
+      closer.open = true;  // so that it is made
+      if (kind < kLargeRoom) room = kind == 0 ? kOnePart : kUsualRoom;
+      block = static_cast<Block*>(::operator new(sizeof(Block) + room * sizeof(double)));
+      block->room = static_cast<uint32_t>(room);
+    }
+    block->scheme = &scheme;
+    block->first = block->end = 0;
+    return block;
   }
   static void give(Block* block) {
     if (closed) return ::operator delete(block);
-    block->next = first;
-    first = block;
+    Block*& spare = first[classOf(block->room)];
+    block->next = spare;
+    spare = block;
   }
 };
-thread_local Bands::Block* Bands::Spares::first = nullptr;
+thread_local std::array<Bands::Block*, kLargeRoom + 1> Bands::Spares::first{};
 thread_local bool Bands::Spares::closed = false;
 
-Bands::Bands(const SpectralSampling& sampling) : block_(Spares::take()) {
-  block_->sampling = &sampling;
-  std::fill_n(block_->values(), sampling.count(), 0.);
+Bands::Bands(const BandScheme& scheme)
+    : block_(Spares::take(scheme, scheme.ofContributors ? 0 : scheme.count())) {
+  if (!scheme.ofContributors) cover(0, scheme.count());
+}
+
+// Makes the values from `begin` to before `end`, and all between these and the others, ones that may differ
+// from 0; new ones are 0. Returns that of `begin`.
+double* Bands::cover(size_t begin, size_t end) {
+  Block& old = *block_;
+  if (old.first <= begin && end <= old.end) return old.values() + (begin - old.first);
+  const size_t first = old.filled() > 0 ? std::min<size_t>(begin, old.first) : begin;
+  const size_t last = old.filled() > 0 ? std::max<size_t>(end, old.end) : end;
+  Block* const block = last - first > old.room ? Spares::take(*old.scheme, old.scheme->count()) : &old;
+  const size_t before = old.filled() > 0 ? old.first - first : 0, kept = old.filled();
+  if (before > 0 || block != &old)
+    std::copy_backward(old.values(), old.values() + kept, block->values() + before + kept);
+  std::fill_n(block->values(), before, 0.);
+  std::fill(block->values() + before + kept, block->values() + (last - first), 0.);
+  block->first = static_cast<uint32_t>(first);
+  block->end = static_cast<uint32_t>(last);
+  if (block != &old) {
+    Spares::give(&old);
+    block_ = block;
+  }
+  return block->values() + (begin - first);
+}
+
+// Makes the values that may differ from 0 the same as those of another block; they are not set.
+double* Bands::cover(const Block& like) {
+  if (block_ == &like) return block_->values();
+  if (block_ && block_->room < like.filled()) release();
+  if (!block_)
+    block_ = Spares::take(*like.scheme, like.filled() > kUsualRoom ? like.scheme->count() : like.filled());
+  block_->scheme = like.scheme;
+  block_->first = like.first;
+  block_->end = like.end;
+  return block_->values();
 }
 
 void Bands::assign(const Bands& other) {
+  if (this == &other) return;
   if (!other.block_) return release();
-  if (!block_) block_ = Spares::take();
-  block_->sampling = other.block_->sampling;
-  if (block_ != other.block_) std::copy_n(other.block_->values(), other.block_->count(), block_->values());
+  double* const to = cover(*other.block_);
+  std::copy_n(std::as_const(*other.block_).values(), other.block_->filled(), to);
 }
 
-void Bands::release() { Spares::give(std::exchange(block_, nullptr)); }
+void Bands::release() {
+  if (block_) Spares::give(std::exchange(block_, nullptr));
+}
 
-const SpectralSampling& Bands::sampling() const { return *block_->sampling; }
+void Bands::addScaled(const Block& other, double factor) {
+  if (other.filled() == 0) return;
+  Block& own = *block_;
+  double* const to = own.first <= other.first && other.end <= own.end
+                         ? own.values() + (other.first - own.first)
+                         : cover(other.first, other.end);
+  const double* const from = other.values();
+  for (size_t i = 0; i < other.filled(); ++i) to[i] += factor * from[i];
+}
 
-std::span<double> Bands::values() { return {block_->values(), block_->count()}; }
+const BandScheme& Bands::scheme() const { return *block_->scheme; }
+
+const SpectralSampling& Bands::sampling() const {
+  assert(!scheme().ofContributors);
+  return static_cast<const SpectralSampling&>(scheme());
+}
+
+std::span<double> Bands::values() { return {cover(0, scheme().count()), scheme().count()}; }
+
+std::span<const double> Bands::values() const {
+  assert(block_->isWhole());
+  return {block_->values(), block_->filled()};
+}
 
 Color::Color(Bands bands) : bands_(std::move(bands)) {
   std::array<double, 3> sum{}, count{};
   const std::span<const double> values = std::as_const(bands_).values();
   for (size_t i = 0; i < values.size(); ++i) {
-    sum[bands_.sampling().channel[i]] += values[i];
-    ++count[bands_.sampling().channel[i]];
+    sum[bands_.scheme().channel[i]] += values[i];
+    ++count[bands_.scheme().channel[i]];
   }
   for (int c = 0; c < 3; ++c) {
     const auto i = static_cast<size_t>(c);
@@ -78,76 +164,138 @@ Color::Color(Bands bands) : bands_(std::move(bands)) {
   }
 }
 
-Bands Color::bandsIn(const SpectralSampling& sampling) const {
-  if (bands_) {
-    assert(&bands_.sampling() == &sampling);
-    return bands_;
-  }
-  Bands expanded(sampling);
+Bands Color::bandsIn(const BandScheme& scheme) const {
+  assert(!bands_ || &bands_.scheme() == &scheme);
+  Bands all = bands_ ? bands_ : termsIn(scheme);
+  all.values();  // also those that are 0
+  return all;
+}
+
+// The bands, or those that a color without bands has as a factor.
+Bands Color::factorsIn(const BandScheme& scheme) const {
+  if (bands_) return bandsIn(scheme);
+  Bands expanded(scheme);
   const std::span<double> values = expanded.values();
-  for (size_t i = 0; i < values.size(); ++i) values[i] = (*this)[sampling.channel[i]];
+  for (size_t i = 0; i < values.size(); ++i) values[i] = (*this)[scheme.channel[i]];
   return expanded;
 }
 
+Color Color::ofContributor(const V3d& rgb, size_t contributor, const BandScheme& parts) {
+  Bands bands(parts);
+  double* const part = bands.cover(3 * contributor, 3 * contributor + 3);
+  for (int c = 0; c < 3; ++c) part[c] = rgb[c];
+  return Color(rgb, std::move(bands));
+}
+
+Color Color::part(size_t contributor) const {
+  if (!bands_ || !bands_.scheme().ofContributors) return Color(0);
+  const Bands::Block& block = *bands_.block_;
+  const auto valueOf = [&](size_t i) {
+    return i >= block.first && i < block.end ? block.values()[i - block.first] : 0;
+  };
+  return {valueOf(3 * contributor), valueOf(3 * contributor + 1), valueOf(3 * contributor + 2)};
+}
+
+Color Color::dividedAs(const Color& other) const {
+  Bands divided = other.bands_;
+  V3d sum(0, 0, 0);
+  const std::span<double> values = divided.values();
+  for (size_t i = 0; i < values.size(); ++i) sum[static_cast<int>(i % 3)] += values[i];
+  for (size_t i = 0; i < values.size(); ++i) {
+    const auto c = static_cast<int>(i % 3);
+    values[i] = sum[c] > 0 ? values[i] / sum[c] * (*this)[c] : 0;
+  }
+  // What has none where there is none to compare with is the first contributor's.
+  for (int c = 0; c < 3; ++c)
+    if (!(sum[c] > 0)) values[static_cast<size_t>(c)] = (*this)[c];
+  return Color(rgb(), std::move(divided));
+}
+
 std::pair<double, double> Color::extremesOfBands() const {
+  if (bands_.scheme().ofContributors) return {std::min({x, y, z}), std::max({x, y, z})};
   const auto [least, most] = std::ranges::minmax(bands_.values());
   return {least, most};
 }
 
-void Color::addBands(const Color& other, double sign) {
-  if (!bands_) {
-    if (!other.bands_) return;
-    bands_ = bandsIn(other.bands_.sampling());
-  }
-  const SpectralSampling& sampling = bands_.sampling();
-  const std::span<double> values = bands_.values();
+void Color::addBands(const Color& other, double factor) {
   if (other.bands_) {
-    const double* more = std::as_const(other.bands_).values().data();
-    for (size_t i = 0; i < values.size(); ++i) values[i] += sign * more[i];
-  } else {
-    for (size_t i = 0; i < values.size(); ++i) values[i] += sign * other[sampling.channel[i]];
+    if (!bands_) bands_ = termsIn(other.bands_.scheme());
+    return bands_.addScaled(*other.bands_.block_, factor);
   }
+  if (!bands_ || bands_.scheme().ofContributors) return;
+  const BandScheme& scheme = bands_.scheme();
+  const std::span<double> values = bands_.values();
+  for (size_t i = 0; i < values.size(); ++i) values[i] += factor * other[scheme.channel[i]];
 }
 
-void Color::multiplyBands(const Color& other) {
-  if (!bands_) bands_ = bandsIn(other.bands_.sampling());
-  setProduct(*this, other);
+// a plus factor times b, of which at least one has bands.
+void Color::setSum(const Color& a, const Color& b, double factor) {
+  Color sum(a);
+  sum.addBands(b, factor);
+  bands_ = std::move(sum.bands_);
 }
+
+// What a color without bands has as a term of a sum.
+Bands Color::termsIn(const BandScheme& scheme) const {
+  return scheme.ofContributors ? Bands(scheme) : factorsIn(scheme);
+}
+
+void Color::multiplyBands(const Color& other) { setProduct(*this, other); }
 
 void Color::setProduct(const Color& a, const Color& b) {
   const Color& first = a.bands_ ? a : b;
   const Color& second = a.bands_ ? b : a;
-  const SpectralSampling& sampling = first.bands_.sampling();
-  if (!bands_) bands_ = Bands(sampling);
-  const double* const from = std::as_const(first.bands_).values().data();
-  const std::span<double> values = bands_.values();
-  if (second.bands_) {
-    const double* const factor = std::as_const(second.bands_).values().data();
-    for (size_t i = 0; i < values.size(); ++i) values[i] = from[i] * factor[i];
-  } else {
-    for (size_t i = 0; i < values.size(); ++i) values[i] = from[i] * second[sampling.channel[i]];
+  if (second.bands_) return setProductOfBands(*first.bands_.block_, *second.bands_.block_);
+  const Bands::Block& from = *first.bands_.block_;
+  const double* const values = from.values();
+  double* const to = bands_.cover(from);
+  if (from.scheme->ofContributors) {
+    // The parts are whole: each from red on.
+    for (size_t i = 0; i < from.filled(); i += 3) {
+      to[i] = values[i] * second.x;
+      to[i + 1] = values[i + 1] * second.y;
+      to[i + 2] = values[i + 2] * second.z;
+    }
+    return;
   }
+  const uint8_t* const channel = from.scheme->channel.data();
+  for (size_t i = 0; i < from.filled(); ++i) to[i] = values[i] * second[channel[i]];
+}
+
+// Only values that both may have differ from 0.
+void Color::setProductOfBands(const Bands::Block& a, const Bands::Block& b) {
+  Bands product(*a.scheme);
+  const size_t first = std::max(a.first, b.first), end = std::min(a.end, b.end);
+  if (first < end) {
+    double* const to = product.cover(first, end);
+    const double *const one = a.values() + (first - a.first), *const other = b.values() + (first - b.first);
+    for (size_t i = 0; i < end - first; ++i) to[i] = one[i] * other[i];
+  }
+  bands_ = std::move(product);
 }
 
 void Color::divideBands(const Color& other) {
-  if (!bands_) bands_ = bandsIn(other.bands_.sampling());
-  const Bands divisor = other.bandsIn(bands_.sampling());
+  if (!bands_) bands_ = factorsIn(other.bands_.scheme());
+  const Bands divisor = other.factorsIn(bands_.scheme());
   const std::span<double> values = bands_.values();
   for (size_t i = 0; i < values.size(); ++i) values[i] /= divisor.values()[i];
 }
 
 void Color::scaleBands(double factor) {
-  for (double& value : bands_.values()) value *= factor;
+  double* const values = bands_.block_->values();
+  for (size_t i = 0; i < bands_.block_->filled(); ++i) values[i] *= factor;
 }
 
 void Color::setScaled(const Color& a, double factor) {
-  bands_ = a.bands_;
-  scaleBands(factor);
+  const Bands::Block& from = *a.bands_.block_;
+  const double* const values = from.values();
+  double* const to = bands_.cover(from);
+  for (size_t i = 0; i < from.filled(); ++i) to[i] = values[i] * factor;
 }
 
 bool Color::sameBands(const Color& a, const Color& b) {
-  const SpectralSampling& sampling = (a.bands_ ? a : b).bands_.sampling();
-  const Bands first = a.bandsIn(sampling), second = b.bandsIn(sampling);
+  const BandScheme& scheme = (a.bands_ ? a : b).bands_.scheme();
+  const Bands first = a.bandsIn(scheme), second = b.bandsIn(scheme);
   return std::ranges::equal(first.values(), second.values());
 }
 

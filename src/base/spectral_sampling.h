@@ -3,9 +3,10 @@
 #include <Imath/ImathVec.h>
 
 #include <array>
-#include <cstdint>
 #include <span>
 #include <vector>
+
+#include "base/band_scheme.h"
 
 namespace rsphere {
 
@@ -17,13 +18,12 @@ struct WavelengthLimits {
 };
 
 // How the spectrum is divided: into bands of equal width, of which each is also a part of one channel.
-struct SpectralSampling {
+// The first band is that of the longest wavelengths.
+struct SpectralSampling : BandScheme {
   double longest = 780, shortest = 380;    // nm, the limits (-cw)
   std::array<double, 2> splits{588, 480};  // nm, between red and green, and between green and blue
-  std::vector<uint8_t> channel;  // of each band, from the longest wavelength: 0 red, 1 green, 2 blue
-  std::vector<double> photopic;  // shares of the bands in the photopic integral
+  std::vector<double> photopic;            // shares of the bands in the photopic integral
 
-  size_t count() const { return channel.size(); }
   double width() const { return (longest - shortest) / static_cast<double>(count()); }  // nm, of a band
 };
 

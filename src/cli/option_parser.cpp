@@ -255,10 +255,12 @@ void splitTree(Options& options) {
 void checkLetters(const Options& options) {
   const bool points = options.sphereMode && !options.sphere.everyDirection;
   const std::string_view known = !options.sphereMode ? "odvVwWlLcpnNsmMrRxX~"
-                                 : points            ? "oveECHuk"
+                                 : points            ? (options.sphere.zones > 0 ? "oveECHukzZ" : "oveECHuk")
                                                      : "iodwvlLcpnNsmM~";
   for (const char letter : options.outputs + options.treeOutputs) {
     if (known.find(letter) != std::string_view::npos) continue;
+    if (points && (letter == 'z' || letter == 'Z'))
+      throw rad::Error(fmt::format("-o{} needs -Sz N, a number of zones", letter));
     const std::string_view hint = options.sphereMode ? " (sphere mode)" : "";
     throw rad::Error(fmt::format("unrecognized output option '{}'{}: the letters are {}{}; see -help", letter,
                                  hint, known, options.sphereMode ? "" : " and t, T for ray trees"));
@@ -285,12 +287,13 @@ void checkColorOutput(Options& options) {
     options.messages.remarks.push_back("spectral range incompatible with color output");
   if (options.out == NumberFormat::rgbe && oneChannel)
     throw rad::Error("color format incompatible with -pY, -pS, -pM");
+  const size_t error = options.outputs.find_first_of("eZ");
   if (options.sphereMode && !options.sphere.everyDirection && !haveStandardErrors(color) &&
-      options.outputs.find('e') != std::string::npos)
-    throw rad::Error(
-        color.bands > 3
-            ? "-oe needs -co or -pY with -cs above 3: standard errors are those of bands, or of luminance"
-            : "-oe needs -pRGB or -pY: standard errors are those of red, green and blue, or of luminance");
+      error != std::string::npos)
+    throw rad::Error(fmt::format(
+        "-o{} needs {}", options.outputs[error],
+        color.bands > 3 ? "-co or -pY with -cs above 3: standard errors are those of bands, or of luminance"
+                        : "-pRGB or -pY: standard errors are those of red, green and blue, or of luminance"));
 }
 
 // Sets options.irradiance; the errors and warnings of rtrace about irradiance and the letters of a ray.
@@ -323,7 +326,21 @@ void checkIrradiance(Options& options) {
 // finished, a kilobyte each.
 constexpr int kMostForAccuracy = 1000000, kMostToList = 100000;
 
+// -Sp
+void checkParts(const Options& options) {
+  if (!options.separate) return;
+  if (!options.sphereMode)
+    commandLineError("-Sp", "needs sphere mode; rcontrib has the contributions to rays");
+  if (options.color.bands > 3)
+    commandLineError("-Sp", "needs red, green and blue: -cs above 3 is not possible");
+  if (options.out == NumberFormat::rgbe)
+    commandLineError("-Sp", "a pixel has no room for parts: not with -fac");
+  if (!options.ray.ambientFile.empty())
+    commandLineError("-Sp", "an ambient file (-af) does not keep the parts of light");
+}
+
 void checkTogether(Options& options, bool mostGiven) {
+  checkParts(options);
   if (options.ray.fieldMemory > 0 && !options.ray.ambientFile.empty())
     throw rad::Error("-Sm and -af exclude each other: an ambient file is kept in memory as a whole");
   if (!options.sphereMode) return;

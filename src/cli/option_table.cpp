@@ -918,6 +918,28 @@ void addAnswerOptions(const Add& add) {
            "Computes importance instead of radiance, for goals: surfaces with modifier mod emit 1 W/sr/m2 "
            "from their front, in addition to reflecting light, and every other source is dark. May be "
            "repeated for several modifiers."});
+  add({.name = "-Sp",
+       .group = Group::sphere,
+       .value = +[](O& o) -> bool& { return o.separate; },
+       .remark = "part of each goal|sum over goals",
+       .paragraph =
+           "Toggles the part of each contributor instead of their sum, in one pass. The contributors are the "
+           "goals in the order of -Sg, or without goals the modifiers of light sources in the order of the "
+           "scene; the header lists them after CONTRIBUTORS=. Each of the letters v e E C H u z Z then has "
+           "the numbers of all contributors in turn: -oHv of two goals are 18 numbers of H for the first "
+           "goal, 18 for the second, and 3 of v for each. The parts add up to the answers without -Sp, but "
+           "for the ambient value (-av), which has no contributor. Standard errors (e) are those of the "
+           "parts; with -pY they are upper bounds, because the errors of red, green and blue are taken for "
+           "fully correlated. -Sa looks at the sum. Not with -cs above 3, -af or pixels (-fac)."});
+  add({.name = "-Sz",
+       .arguments = "N",
+       .group = Group::sphere,
+       .value = +[](O& o) -> int& { return o.sphere.zones; },
+       .range = {0, 100000},
+       .remark = "zones of directions",
+       .paragraph =
+           "Divides all directions into N zones of equal solid angle, whose mean radiances the letter z of "
+           "-o writes, and Z their standard errors; see OUTPUT. 0: there are no zones."});
   add({.name = "-Sb",
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.sphere.basicRadiance; },

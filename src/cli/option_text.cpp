@@ -44,6 +44,8 @@ constexpr std::array kLetterNames = {
     LetterName{'H', "six_irradiances"},
     LetterName{'u', "light_vector"},
     LetterName{'k', "directions"},
+    LetterName{'z', "zones"},
+    LetterName{'Z', "zone_errors"},
 };
 
 std::string_view letterName(char letter, bool sphereRecord) {

@@ -135,6 +135,7 @@ std::vector<std::string> pointOptions(const Options& options, std::span<const Us
 }
 
 void refuseWhatPointsHave(const CompareOptions& options) {
+  if (options.separate) throw rad::Error("-Sp: sums are compared, not the parts of contributors");
   if (!options.goals.empty() || options.sphere.basicRadiance)
     throw rad::Error("-Sg and -Sb: the original does not compute importance");
   if (!options.ray.sourcesVisible)

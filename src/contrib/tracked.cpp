@@ -52,6 +52,8 @@ bool Tracked::counts(const RayEnd& end, const RayResult& result) const {
 
 std::optional<uint32_t> Tracked::columnOf(size_t modifier, const RayEnd& end, BinScratch& scratch) const {
   const TrackedModifier& tracked = modifiers_[modifier];
+  if (tracked.zones)
+    return firstColumn_[modifier] + static_cast<uint32_t>(tracked.zones->zoneAt(end.ray.direction));
   if (!tracked.bin) return firstColumn_[modifier];
   const std::optional<double> bin = tracked.bin->at(end, scratch);
   if (bin && *bin < 0) return std::nullopt;

@@ -9,6 +9,7 @@
 
 #include "contrib/bin_function.h"
 #include "contrib/contribution_list.h"
+#include "sphere/equal_zones.h"
 #include "transport/path_tracer.h"
 #include "transport/prepared_scene.h"
 
@@ -18,6 +19,8 @@ struct TrackedModifier {
   std::string name;
   uint32_t bins = 1;
   std::optional<BinFunction> bin;  // empty: all of its contributions are in bin 0
+  // Instead of a function: the bins are the zones that the directions of rays lie in which meet it.
+  std::shared_ptr<const EqualZones> zones{};
 };
 
 // What is added up of each ray that meets a tracked modifier.

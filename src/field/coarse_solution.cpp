@@ -66,7 +66,7 @@ CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const Fi
       effort_(effortFor(options, room > 0)),
       bounces_(std::max(options.bounces, 1)),
       coarserLinks_(options.coarserLinks),
-      spectral_(options.spectral),
+      hasBands_(options.spectral || !scene.contributors.empty()),
       ambient_(V3d(V3f(options.ambientValue.color.rgb()))),  // in single precision as all light here
       divisions_(std::make_unique<InsertOnce<CellKey, Division>>(kLogDivisionBuckets)),
       patches_(std::make_unique<InsertOnce<CellKey, Patch>>(kLogPatchBuckets)),
@@ -212,7 +212,7 @@ Color CoarseSolution::light(Patch& patch, int bounces, FieldRays& rays) {
   Color inBands;  // the same sum where anything has bands
   const auto add = [&](const V3f& part, const auto& color) {
     sum += part;
-    if (spectral_) inBands += color();
+    if (hasBands_) inBands += color();
   };
   for (size_t i = 0; i < std::min<size_t>(links.light.size(), bounces); ++i)
     add(links.light[i], [&] { return colorAt(links.light[i], links.bandsOfLight, i); });

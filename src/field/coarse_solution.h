@@ -84,7 +84,7 @@ class CoarseSolution {
   Effort effort_;
   int bounces_;  // -ab
   int coarserLinks_;
-  bool spectral_;
+  bool hasBands_;
   Color ambient_;
   std::atomic<size_t> made_{0}, linked_{0}, rays_{0};
   std::unique_ptr<InsertOnce<CellKey, Division>> divisions_;

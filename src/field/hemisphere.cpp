@@ -180,7 +180,7 @@ void GatheredLight::setMean(const V3f& changed) {
   if (bands) {
     const auto values = bands.values();
     for (size_t i = 0; i < values.size(); ++i) {
-      const int c = bands.sampling().channel[i];
+      const int c = bands.scheme().channel[i];
       values[i] *= mean[c] > 0 ? changed[c] / mean[c] : 0;
     }
   }

@@ -1,19 +1,22 @@
 #pragma once
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "importance/error_estimate.h"
 #include "importance/sphere_options.h"
+#include "sphere/equal_zones.h"
 #include "sphere/voronoi.h"
 
 namespace rsphere {
 
 // The even directions that every strategy starts from.
 struct BaseSet {
-  std::vector<V3d> directions;           // unit, world
-  std::vector<double> solidAngles;       // that they represent, sr
-  std::optional<Neighbours> neighbours;  // if standard errors are wanted
-  const SpectralSampling* sampling;      // RayOptions::sampling
+  std::vector<V3d> directions;                // unit, world
+  std::vector<double> solidAngles;            // that they represent, sr
+  std::optional<Neighbours> neighbours;       // if standard errors are wanted
+  const SpectralSampling* sampling;           // RayOptions::sampling
+  std::shared_ptr<const EqualZones> zones{};  // by which light is divided; null: it is not
 };
 
 // -Sn directions, rotated as -Sr says. Their solid angles are all the same with -Sw h, otherwise those of

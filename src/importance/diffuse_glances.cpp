@@ -132,6 +132,7 @@ DiffuseGlances::DiffuseGlances(const PreparedScene& prepared, PlainSurfaces surf
       paths_(pathsFor(options, pools_)),
       rotation_(options.rotation),
       glances_(rotatedDirections(baseDirections(glancesFor(options)), options.rotation)),
+      zones_(base.zones),
       joins_(Tuning::kJoinsPerDirection * options.baseDirections) {
   if (!base.neighbours) return;
   VoronoiWorkspace workspace;
@@ -152,28 +153,37 @@ DiffuseGlances::Found DiffuseGlances::at(const SetAtPoint& set) const {
   const VertexLight& both = light(set.number());
   const auto n = static_cast<double>(glances_.size());
   const Joins joins(both.vertices(), set.point(), joins_, n);
-  VertexLight::Record record;
-  record.sampling = prepared_.options().sampling;
-  Found found;
-  addJoins(set, joins, record, found);
+  const SpectralSampling* const sampling = prepared_.options().sampling;
+  Records records(zones_ ? zones_->count() : 1);
+  for (VertexLight::Record& record : records) record.sampling = sampling;
+  Found found(zones_.get());
+  addJoins(set, joins, records, found);
 
-  Glancing glancing{both, randomOf(set, Stream::glances), &joins, neighbours_ ? &record : nullptr,
-                    4 * kPi / n};
+  Glancing glancing{both, randomOf(set, Stream::glances), &joins, nullptr, 4 * kPi / n};
   std::vector<DirectionSample> seen;
   for (const V3d& direction : set.turned(glances_)) {
+    if (neighbours_) glancing.record = &recordFor(direction, records);
     const Radiance radiance = glance(set.point(), direction, glancing);
     if (maxChannel(radiance) > 0) ++found.lit;
-    found.moments.add(direction, irradianceFrom(radiance, glancing.cell), record.sampling);
+    found.moments.add(direction, irradianceFrom(radiance, glancing.cell), sampling, glancing.cell);
     if (neighbours_) seen.push_back({direction, glancing.cell, radiance});
   }
   if (!neighbours_) return found;
-  found.variance += evenVariance(seen, *neighbours_, record.sampling);
-  found.shared = {std::vector(record.batches.begin(), record.batches.end()),
-                  {record.squares, record.squaredBrightness}};
+  found.variance += evenVariance(seen, *neighbours_, sampling, zonesOf(found.ofZones));
+  for (const VertexLight::Record& record : records) {
+    const SharedError error{std::vector(record.batches.begin(), record.batches.end()),
+                            {record.squares, record.squaredBrightness}};
+    found.shared.add(error, 1);
+    if (zones_) found.sharedByZone.push_back(error);
+  }
   return found;
 }
 
-void DiffuseGlances::addJoins(const SetAtPoint& set, const Joins& joins, VertexLight::Record& record,
+VertexLight::Record& DiffuseGlances::recordFor(const V3d& direction, Records& records) const {
+  return records[zones_ ? zones_->zoneAt(direction) : 0];
+}
+
+void DiffuseGlances::addJoins(const SetAtPoint& set, const Joins& joins, Records& records,
                               Found& found) const {
   std::optional<Irradiance> last;
   Random random = randomOf(set, Stream::joins);
@@ -181,11 +191,16 @@ void DiffuseGlances::addJoins(const SetAtPoint& set, const Joins& joins, VertexL
              [&](const LightVertices::Visible& v, double share, const V3d& direction, double distance) {
                const Coefficient passed = surfaces_.passing(set.point(), v.vertex.point(), kNone);
                const Irradiance part = joins.partOf(v, share, direction, distance) * passed;
-               found.moments.add(direction, part, record.sampling);
+               const SpectralSampling* const sampling = prepared_.options().sampling;
+               found.moments.add(direction, part, sampling);
                if (!neighbours_) return;
-               record.add(v.vertex.batch, part, 1 - share);
+               recordFor(direction, records).add(v.vertex.batch, part, 1 - share);
                // Successive ones are neighbours, so that their differences are what the choice changes.
-               if (last) found.variance += Variance::of(part - *last, record.sampling) * (.5 * (1 - share));
+               if (last) {
+                 const Variance variance = Variance::of(part - *last, sampling) * (.5 * (1 - share));
+                 found.variance += variance;
+                 if (zones_) found.ofZones.add(direction, 0, variance);
+               }
                last = part;
              });
 }

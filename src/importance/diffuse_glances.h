@@ -31,10 +31,14 @@ class DiffuseGlances {
 
   // What one set of glances and joins finds at its point.
   struct Found {
+    explicit Found(const EqualZones* zones = nullptr) : moments(zones), ofZones(zones) {}
     Moments moments;     // of the light
     Variance variance;   // of moments.total, by the choice of glances and joins; 0 unless errors are wanted
     SharedError shared;  // of moments.total, by the light vertices; empty unless errors are wanted
     size_t lit = 0;      // glances that found light
+    // The same by zone (-Sz); empty if there are none, or if errors are not wanted.
+    ZoneVariances ofZones;
+    std::vector<SharedError> sharedByZone;
   };
   Found at(const SetAtPoint& set) const;
 
@@ -55,7 +59,10 @@ class DiffuseGlances {
     double cell = 0;                        // solid angle of a glance, sr
     VertexLight::Scratch scratch{};
   };
-  void addJoins(const SetAtPoint& set, const Joins& joins, VertexLight::Record& record, Found& found) const;
+  // By zone, or one if there are none.
+  using Records = std::vector<VertexLight::Record>;
+  VertexLight::Record& recordFor(const V3d& direction, Records& records) const;
+  void addJoins(const SetAtPoint& set, const Joins& joins, Records& records, Found& found) const;
   Radiance glance(const V3d& point, const V3d& direction, Glancing& by) const;
 
   const PreparedScene& prepared_;
@@ -63,8 +70,9 @@ class DiffuseGlances {
   size_t pools_, paths_;  // sets of light vertices; paths of each
   uint64_t rotation_;
   std::vector<V3d> glances_;
-  std::optional<Neighbours> neighbours_;  // if standard errors are wanted
-  double joins_;                          // expected at a point
+  std::shared_ptr<const EqualZones> zones_;  // null: light is not divided
+  std::optional<Neighbours> neighbours_;     // if standard errors are wanted
+  double joins_;                             // expected at a point
   // With -Sa, sets of directions have light vertices of their own, so that the error of these is averaged
   // too. Made when they are first used.
   static constexpr size_t kPools = 8;

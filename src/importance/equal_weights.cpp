@@ -5,7 +5,10 @@ namespace rsphere {
 SampledSet EqualWeights::sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace&) const {
   const std::vector<V3d> directions = set.turned(base_.directions);
   SampledSet sampled = traceEach(set, directions, base_.solidAngles, options_.everyDirection, tracer);
-  if (base_.neighbours) sampled.variance = evenVariance(sampled.samples, *base_.neighbours, base_.sampling);
+  sampled.ofZones = ZoneVariances(base_.zones.get());
+  if (base_.neighbours)
+    sampled.variance =
+        evenVariance(sampled.samples, *base_.neighbours, base_.sampling, zonesOf(sampled.ofZones));
   return sampled;
 }
 

@@ -93,8 +93,16 @@ Variance sharedVariance(const SharedError& error, const SpectralSampling* sampli
           beyond(spread.brightness, error.chosen.brightness)};
 }
 
+void ZoneVariances::add(const V3d& direction, double cell, const Variance& variance) {
+  zones->divide(direction, cell, [&](size_t zone, double share) { all[zone] += variance * (share * share); });
+}
+
+void ZoneVariances::add(const ZoneVariances& other, double factor) {
+  for (size_t i = 0; i < other.all.size(); ++i) all[i] += other.all[i] * factor;
+}
+
 Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours& n,
-                      const SpectralSampling* sampling) {
+                      const SpectralSampling* sampling, ZoneVariances* to) {
   std::vector<Radiance> values(samples.size());
   std::ranges::transform(samples, values.begin(), unguessed);
   const Differences once = differences(values, samples, n), twice = differences(once.values, samples, n);
@@ -103,13 +111,17 @@ Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours
     const double m = once.neighbours[i];
     if (m == 0) continue;
     const bool second = m >= Tuning::kFewestAround, apart = samples[i].region != 0;
-    sum += Variance::of(irradianceFrom((second ? twice : once).values[i], samples[i].solidAngle), sampling) *
-           ((second ? ownPartOfSecond(m) : m / (m + 1)) * (apart ? 1 : Tuning::kEvenSet));
+    const Variance part =
+        Variance::of(irradianceFrom((second ? twice : once).values[i], samples[i].solidAngle), sampling) *
+        ((second ? ownPartOfSecond(m) : m / (m + 1)) * (apart ? 1 : Tuning::kEvenSet));
+    sum += part;
+    if (to) to->add(samples[i].direction, samples[i].solidAngle, part);
   }
   return sum;
 }
 
-Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling) {
+Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling,
+                        ZoneVariances* to) {
   const double n = static_cast<double>(samples.size());
   Irradiance sum;
   Variance squares;
@@ -118,17 +130,25 @@ Variance spreadVariance(std::span<const DirectionSample> samples, const Spectral
     sum += part;
     squares += Variance::of(part, sampling);
   }
-  if (samples.size() < 2) return squares;
+  if (samples.size() < 2) {
+    if (to && !samples.empty()) to->add(samples[0].direction, samples[0].solidAngle, squares);
+    return squares;
+  }
   // If an edge crosses the region, only the cells on the edge contribute, about n^1/2 of n. An object that
   // few directions find is smaller than the spacing of directions; within it, directions that are even in the
   // whole region are independent.
   const double even = 1 / (1 + std::sqrt(sharing(samples, sampling)) / Tuning::kEvenRun);
+  for (const DirectionSample& s : samples)
+    if (to)
+      to->add(s.direction, s.solidAngle,
+              Variance::of(irradianceFrom(unguessed(s), s.solidAngle) - sum / n, sampling) *
+                  (n / (n - 1) * even));
   squares += Variance::of(sum, sampling) * (-1 / n);
   return squares * (n / (n - 1) * even);
 }
 
 Variance loneVariance(const DirectionSample& sample, std::span<const DirectionSample> base,
-                      const SpectralSampling* sampling) {
+                      const SpectralSampling* sampling, ZoneVariances* to) {
   Radiance sum;
   int count = 0;
   for (const DirectionSample& s : base) {
@@ -136,15 +156,20 @@ Variance loneVariance(const DirectionSample& sample, std::span<const DirectionSa
     sum += unguessed(s);
     ++count;
   }
-  if (count == 0) return Variance::of(irradianceFrom(unguessed(sample), sample.solidAngle), sampling);
-  const double own = static_cast<double>(count) / (count + 1);
-  return Variance::of(irradianceFrom(unguessed(sample) - sum / count, sample.solidAngle), sampling) * own;
+  const double own = count == 0 ? 1 : static_cast<double>(count) / (count + 1);
+  const Radiance around = count == 0 ? Radiance() : sum / count;
+  const Variance variance =
+      Variance::of(irradianceFrom(unguessed(sample) - around, sample.solidAngle), sampling) * own;
+  if (to) to->add(sample.direction, sample.solidAngle, variance);
+  return variance;
 }
 
-Variance unseenVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling) {
+Variance unseenVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling,
+                        ZoneVariances* to) {
   struct Found {
     Irradiance sum;
     int count = 0;
+    V3d direction{0, 0, 1};  // one of them
   };
   std::map<RegionId, Found> found;
   for (const DirectionSample& s : samples) {
@@ -152,14 +177,19 @@ Variance unseenVariance(std::span<const DirectionSample> samples, const Spectral
     Found& here = found[s.region];
     here.sum += irradianceFrom(s.value, s.solidAngle);
     ++here.count;
+    here.direction = s.direction;
   }
   Variance sum;
-  for (const auto& [region, here] : found)
-    sum += Variance::of(here.sum * (Tuning::kUnseen / (here.count + 1)), sampling);
+  for (const auto& [region, here] : found) {
+    const Variance unseen = Variance::of(here.sum * (Tuning::kUnseen / (here.count + 1)), sampling);
+    sum += unseen;
+    if (to) to->add(here.direction, 0, unseen);
+  }
   return sum;
 }
 
-Variance partsVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling) {
+Variance partsVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling,
+                       ZoneVariances* to) {
   // The samples are in the order of the rows of the grid. Pairs are neighbours in a row, and samples in
   // neighbouring rows, if these are as long as the first one.
   Variance sum, edges;
@@ -184,29 +214,39 @@ Variance partsVariance(std::span<const SeenSources::Sample> samples, const Spect
   for (size_t i = 1; i < samples.size(); ++i)
     if (samples[i].row == samples[i - 1].row) add(i, i - 1);
   for (size_t i = columns; i < samples.size(); ++i) add(i, i - columns);
-  if (pairs == 0) return edges;
-  edges += sum * (Tuning::kEvenParts * .5 * static_cast<double>(samples.size()) / static_cast<double>(pairs));
+  if (pairs > 0)
+    edges +=
+        sum * (Tuning::kEvenParts * .5 * static_cast<double>(samples.size()) / static_cast<double>(pairs));
+  if (to)
+    for (const auto& s : samples)
+      to->add(s.direction.direction, 0, edges * (1 / static_cast<double>(samples.size())));
   return edges;
 }
 
-Variance choiceVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling) {
+Variance choiceVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling,
+                        ZoneVariances* to) {
   struct Chosen {
     Irradiance found;  // of the image, with the weight of those that were not chosen
     double chance;
+    V3d direction;  // of one of its samples
   };
   std::vector<Chosen> chosen;
   for (size_t i = 0; i < samples.size(); ++i) {
     if (!(samples[i].chance < 1)) continue;
-    if (i == 0 || samples[i].image != samples[i - 1].image) chosen.push_back({{}, samples[i].chance});
+    if (i == 0 || samples[i].image != samples[i - 1].image)
+      chosen.push_back({{}, samples[i].chance, samples[i].direction.direction});
     chosen.back().found += irradianceFrom(samples[i].direction.value, samples[i].direction.solidAngle);
   }
   Variance sum;
-  // An image that is nearly always chosen varies little.
-  for (size_t i = 1; i < chosen.size(); ++i)
-    sum += Variance::of(chosen[i].found - chosen[i - 1].found, sampling) *
-           (.5 - .25 * (chosen[i].chance + chosen[i - 1].chance));
   const auto n = static_cast<double>(chosen.size());
-  return chosen.size() > 1 ? sum * (n / (n - 1)) : sum;
+  // An image that is nearly always chosen varies little.
+  for (size_t i = 1; i < chosen.size(); ++i) {
+    const Variance part = Variance::of(chosen[i].found - chosen[i - 1].found, sampling) *
+                          ((.5 - .25 * (chosen[i].chance + chosen[i - 1].chance)) * (n / (n - 1)));
+    sum += part;
+    if (to) to->add(chosen[i].direction, 0, part);
+  }
+  return sum;
 }
 
 }  // namespace rsphere

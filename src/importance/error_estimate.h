@@ -1,6 +1,7 @@
 #pragma once
 // The variance of an estimate from one set of directions, computed from that set alone. Guesses are
 // subtracted from the radiances, because glances estimate them. sampling, throughout: RayOptions::sampling.
+// to, throughout: gets the variance by zone, too; null: there are no zones.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "base/colorimetry.h"
 #include "importance/direction_sample.h"
 #include "importance/seen_sources.h"
+#include "sphere/equal_zones.h"
 
 namespace rsphere {
 
@@ -41,6 +43,20 @@ struct SharedError {
 // Its variance, by the differences between the batches.
 Variance sharedVariance(const SharedError& error, const SpectralSampling* sampling);
 
+// The variances of zones of directions (-Sz).
+struct ZoneVariances {
+  const EqualZones* zones = nullptr;  // null: there are none
+  std::vector<Variance> all;
+
+  explicit ZoneVariances(const EqualZones* by = nullptr) : zones(by), all(by ? by->count() : 0) {}
+  // Adds the variance of what a direction contributes. cell: as for Moments::add().
+  void add(const V3d& direction, double cell, const Variance& variance);
+  void add(const ZoneVariances& other, double factor);
+};
+
+// Null if there are no zones.
+inline ZoneVariances* zonesOf(ZoneVariances& variances) { return variances.zones ? &variances : nullptr; }
+
 // The neighbours of each direction on the sphere: those of direction i are neighbour[first[i]] to
 // neighbour[first[i + 1] - 1].
 struct Neighbours {
@@ -56,30 +72,34 @@ struct Neighbours {
 // compared, if there are any: the edge of a region is no error, because cells keep to regions. Directions in
 // kNoRegion are left out.
 Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours& neighbours,
-                      const SpectralSampling* sampling);
+                      const SpectralSampling* sampling, ZoneVariances* to = nullptr);
 
 // The same for a run of dynamic directions. They are spread evenly over a region, but successive ones are not
 // neighbours. It is the variance of independent directions, reduced because they are even, except where few
 // of them find most of the light, such as a lamp that is mirrored twice.
-Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling);
+Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling,
+                        ZoneVariances* to = nullptr);
 
 // The same for a run of a single direction in a region: compared with the base directions in the same region.
 // If there are none, all of what it found is taken for the error.
 Variance loneVariance(const DirectionSample& sample, std::span<const DirectionSample> base,
-                      const SpectralSampling* sampling);
+                      const SpectralSampling* sampling, ZoneVariances* to = nullptr);
 
 // The same for obstacles that no direction has hit, in regions other than 0. In each region, an obstacle is
 // assumed that hides half of what one more direction would represent. Without it, the light of an opening to
 // which few directions were sent would be stated without error whenever all of them see the same sky. An
 // obstacle also hides what is guessed.
-Variance unseenVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling);
+Variance unseenVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling,
+                        ZoneVariances* to = nullptr);
 
 // The same for the samples of one image of a light source, in the order of its grid: from differences between
 // neighbouring cells, because an occluder hides cells that lie together.
-Variance partsVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling);
+Variance partsVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling,
+                       ZoneVariances* to = nullptr);
 
 // The same for the choice of images that are sampled by chance, because there are more images than samples:
 // from differences between images that are chosen in succession. samples: of all images.
-Variance choiceVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling);
+Variance choiceVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling,
+                        ZoneVariances* to = nullptr);
 
 }  // namespace rsphere

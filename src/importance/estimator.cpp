@@ -56,12 +56,41 @@ void keepPositive(std::vector<DirectionSample>& samples) {
     });
 }
 
-// Sums over the sets of one half (two_halves.h).
+void addAll(const std::vector<SharedError>& more, double share, std::vector<SharedError>& to) {
+  to.resize(std::max(to.size(), more.size()));
+  for (size_t i = 0; i < more.size(); ++i) to[i].add(more[i], share);
+}
+
+// Sums over the sets of one half (two_halves.h), or of both.
 struct Half {
   Moments moments;
   Irradiance excess, clamped;
   Variance variance;
   SharedError shared;
+  ZoneVariances ofZones;
+  std::vector<SharedError> sharedByZone;
+
+  explicit Half(const EqualZones* zones) : moments(zones), ofZones(zones) {}
+
+  // ofSet: its moments.
+  void add(const SampledSet& set, const Moments& ofSet) {
+    moments.add(ofSet, 1);
+    excess += set.excess.total;
+    clamped += set.clamped;
+    variance += set.variance;
+    shared.add(set.shared, 1);
+    ofZones.add(set.ofZones, 1);
+    addAll(set.sharedByZone, 1, sharedByZone);
+  }
+  void add(const Half& other, double share) {
+    moments.add(other.moments, share);
+    excess += other.excess * share;
+    clamped += other.clamped * share;
+    variance += other.variance * (share * share);
+    shared.add(other.shared, share);
+    ofZones.add(other.ofZones, share * share);
+    addAll(other.sharedByZone, share, sharedByZone);
+  }
 };
 
 struct KeptSet {
@@ -100,6 +129,29 @@ Variance coarseVariance(const Irradiance& total, const RayOptions& o) {
   const double rays = std::max(o.ambientDivisions + o.ambientSuperSamples, o.leastForPatches);
   return Variance::of(total, o.sampling) *
          (Tuning::kPatches * Tuning::kPatches * (1 + Tuning::kUsualRays / std::max(rays, 1.)));
+}
+
+// Rounding may leave a variance a little below 0.
+PointAnswer::ZoneError standardErrorOf(const Variance& variance, double solidAngle) {
+  const auto root = [&](double v) { return std::sqrt(std::max(0., v)) / solidAngle; };
+  PointAnswer::ZoneError error{Radiance(variance.channels), root(variance.brightness)};
+  error.channels.color.transform(root);
+  return error;
+}
+
+// coarse: the options, if there is a coarse solution.
+std::vector<PointAnswer::ZoneError> zoneErrorsOf(const Half& sums, const EqualZones& zones,
+                                                 const SpectralSampling* sampling, const RayOptions* coarse) {
+  std::vector<PointAnswer::ZoneError> errors;
+  for (size_t i = 0; i < zones.count(); ++i) {
+    Variance variance = sums.ofZones.all[i];
+    const Color& border = sums.moments.borders[i];
+    variance += {border, brightness(border)};
+    if (i < sums.sharedByZone.size()) variance += sharedVariance(sums.sharedByZone[i], sampling);
+    if (coarse) variance += coarseVariance(sums.moments.ofZones[i], *coarse);
+    errors.push_back(standardErrorOf(variance, zones.solidAngle()));
+  }
+  return errors;
 }
 
 }  // namespace
@@ -154,7 +206,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
   // -Sa may send a million directions. They are kept only if they are to be printed.
   const bool keep = options_.everyDirection || options_.accuracy <= 0;
   const auto most = static_cast<size_t>(options_.mostOfAllSets());
-  std::array<Half, 2> halves;
+  std::array<Half, 2> halves{Half(base_.zones.get()), Half(base_.zones.get())};
   std::vector<KeptSet> kept;
   TwoHalves decision(options_.accuracy, dark_);
   uint64_t sets = 0;
@@ -163,13 +215,8 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
     if (workspace.checkStop) workspace.checkStop();
     SampledSet set =
         strategy_->sample(SetAtPoint(point, sets++, options_.rotation), workspace.tracer, workspace.voronoi_);
-    const Moments moments = set.moments(base_.sampling);
-    Half& half = halves[*next];
-    half.moments.add(moments, 1);
-    half.excess += set.excess.total;
-    half.clamped += set.clamped;
-    half.variance += set.variance;
-    half.shared.add(set.shared, 1);
+    const Moments moments = set.moments(base_);
+    halves[*next].add(set, moments);
     decision.add(*next, photopicOf(moments.total.color, base_.sampling),
                  set.variance.brightness + sharedVariance(set.shared, base_.sampling).brightness);
     directions += set.samples.size();
@@ -179,31 +226,23 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
     largest = std::max(largest, set.samples.size());
     if (keep) kept.push_back({*next, std::move(set)});
   }
-  Moments moments;
-  Irradiance excess, clamped;
-  Variance variance;
-  SharedError shared;
-  for (size_t k = 0; k < halves.size(); ++k) {
-    const double share = decision.share(k);
-    if (!(share > 0)) continue;
-    moments.add(halves[k].moments, share);
-    excess += halves[k].excess * share;
-    clamped += halves[k].clamped * share;
-    variance += halves[k].variance * (share * share);
-    shared.add(halves[k].shared, share);
-  }
-  variance += sharedVariance(shared, base_.sampling);
-  if (tracing_.caches.coarse) variance += coarseVariance(moments.total, tracing_.prepared.options());
-  SampledSet all = joined(std::move(kept), decision, excess, options_.everyDirection);
-  workspace.samples = std::move(all.samples);
-  workspace.rays = std::move(all.rays);
-  PointAnswer answer = moments.answer(point, directions);
-  // Rounding may leave a variance a little below 0.
-  const auto standardError = [](double v) { return std::sqrt(std::max(0., v)) / (4 * std::numbers::pi); };
-  answer.standardError.color = variance.channels;
-  answer.standardError.color.transform(standardError);
-  answer.brightnessError = standardError(variance.brightness);
-  answer.clamped = photopicOf(clamped.color, base_.sampling) / (4 * std::numbers::pi);
+  Half all(base_.zones.get());
+  for (size_t k = 0; k < halves.size(); ++k)
+    if (const double share = decision.share(k); share > 0) all.add(halves[k], share);
+  Variance variance = all.variance;
+  variance += sharedVariance(all.shared, base_.sampling);
+  if (tracing_.caches.coarse) variance += coarseVariance(all.moments.total, tracing_.prepared.options());
+  SampledSet samples = joined(std::move(kept), decision, all.excess, options_.everyDirection);
+  workspace.samples = std::move(samples.samples);
+  workspace.rays = std::move(samples.rays);
+  PointAnswer answer = all.moments.answer(point, directions);
+  const PointAnswer::ZoneError error = standardErrorOf(variance, 4 * std::numbers::pi);
+  answer.standardError = error.channels;
+  answer.brightnessError = error.brightness;
+  if (base_.zones && base_.neighbours)
+    answer.zoneErrors = zoneErrorsOf(all, *base_.zones, base_.sampling,
+                                     tracing_.caches.coarse ? &tracing_.prepared.options() : nullptr);
+  answer.clamped = photopicOf(all.clamped.color, base_.sampling) / (4 * std::numbers::pi);
   answer.isDark = isDark(answer, lit) || decision.gaveUp();
   answer.reached = options_.accuracy <= 0 || decision.isReached();
   return answer;

@@ -8,11 +8,27 @@
 #include "base/colorimetry.h"
 
 namespace rsphere {
+namespace {
 
-void Moments::add(const V3d& d, const Irradiance& part, const SpectralSampling* sampling) {
+// The variance of the part of a cell that a zone gets, for each share (1 - share) of its square: a cell is no
+// disk, and its division is that of a few points. By measurement where radiance is even; it is 1 for cells in
+// which the direction may lie anywhere.
+constexpr double kBorder = .05;
+
+}  // namespace
+
+void Moments::add(const V3d& d, const Irradiance& part, const SpectralSampling* sampling, double cell,
+                  bool isEven) {
+  if (zones) [[unlikely]]
+    zones->divide(d, cell, [&](size_t zone, double share) {
+      ofZones[zone].color.addScaled(part.color, share);
+      if (share < 1)
+        borders[zone].addScaled(part.color * part.color, share * (1 - share) * (isEven ? kBorder : 1));
+    });
   total += part;
-  cylindrical += part * std::sqrt(std::max(0., 1 - d.z * d.z));
-  for (int axis = 0; axis < 3; ++axis) facing[2 * axis + (d[axis] < 0)] += part * std::abs(d[axis]);
+  cylindrical.color.addScaled(part.color, std::sqrt(std::max(0., 1 - d.z * d.z)));
+  for (int axis = 0; axis < 3; ++axis)
+    facing[2 * axis + (d[axis] < 0)].color.addScaled(part.color, std::abs(d[axis]));
   light += photopicOf(part.color, sampling) * d;
 }
 
@@ -21,6 +37,10 @@ void Moments::add(const Moments& other, double share) {
   cylindrical += other.cylindrical * share;
   for (int i = 0; i < 6; ++i) facing[i] += other.facing[i] * share;
   light += other.light * share;
+  for (size_t i = 0; i < other.ofZones.size(); ++i) {
+    ofZones[i] += other.ofZones[i] * share;
+    borders[i].addScaled(other.borders[i], share * share);
+  }
 }
 
 PointAnswer Moments::answer(const V3d& point, size_t directions) const {
@@ -33,6 +53,7 @@ PointAnswer Moments::answer(const V3d& point, size_t directions) const {
   a.cylindricalIrradiance = cylindrical / pi;
   std::copy(std::begin(facing), std::end(facing), std::begin(a.facing));
   a.lightVector = light;
+  for (const Irradiance& zone : ofZones) a.zones.push_back(meanRadiance(zone, zones->solidAngle()));
   return a;
 }
 

@@ -1,5 +1,8 @@
 #pragma once
+#include <vector>
+
 #include "importance/point_answer.h"
+#include "sphere/equal_zones.h"
 
 namespace rsphere {
 
@@ -10,9 +13,19 @@ struct Moments {
   Irradiance cylindrical;  // of L sin(angle to z)
   Irradiance facing[6];    // of L |cos(angle to the axis)| over the hemispheres around +x -x +y -y +z -z
   V3d light{0, 0, 0};      // of photopicOf(L) d, W/m2
+  // Of L over each zone (-Sz), and the variance that is due to cells that reach across the borders of zones.
+  const EqualZones* zones = nullptr;  // null: there are none
+  std::vector<Irradiance> ofZones;
+  std::vector<Color> borders;
 
-  // Adds one direction. part: its radiance times its solid angle. sampling: RayOptions::sampling.
-  void add(const V3d& direction, const Irradiance& part, const SpectralSampling* sampling);
+  explicit Moments(const EqualZones* by = nullptr)
+      : zones(by), ofZones(by ? by->count() : 0), borders(by ? by->count() : 0) {}
+
+  // Adds one direction. part: its radiance times its solid angle. sampling: RayOptions::sampling. cell: the
+  // solid angle (sr) around it that it represents, by which it is divided among zones; 0: a point. isEven:
+  // whether it lies in the middle of this cell, as directions that are spread evenly over the sphere do.
+  void add(const V3d& direction, const Irradiance& part, const SpectralSampling* sampling, double cell = 0,
+           bool isEven = true);
   void add(const Moments& other, double share);
 
   // The quantities at a point (world), without their standard errors. Definitions: point_answer.h.

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <vector>
 
 #include "base/radiometry.h"
 
@@ -18,8 +19,15 @@ struct PointAnswer {
   V3d lightVector{0, 0, 0};          // u  integral of L d, of brightness
   double clamped = 0;                // what -Sf took from the brightness of mean, W/sr/m2
   size_t directions = 0;             // k
-  bool isDark = false;               // almost no direction has found light, or so little that -Sa gave up
-  bool reached = true;               // whether the standard error that -Sa asks for was reached
+  // z  mean radiances of the zones (-Sz), and Z: their standard errors
+  std::vector<Radiance> zones;
+  struct ZoneError {
+    Radiance channels;
+    double brightness = 0;
+  };
+  std::vector<ZoneError> zoneErrors;  // empty unless standard errors are wanted
+  bool isDark = false;                // almost no direction has found light, or so little that -Sa gave up
+  bool reached = true;                // whether the standard error that -Sa asks for was reached
 };
 
 }  // namespace rsphere

@@ -15,10 +15,11 @@ std::vector<V3d> SetAtPoint::turned(std::span<const V3d> directions) const {
   return rotatedDirections(directions, mixBits(seed_));
 }
 
-Moments SampledSet::moments(const SpectralSampling* sampling) const {
-  Moments moments;
+Moments SampledSet::moments(const BaseSet& base) const {
+  Moments moments(base.zones.get());
   for (const DirectionSample& s : samples)
-    moments.add(s.direction, irradianceFrom(s.value, s.solidAngle), sampling);
+    moments.add(s.direction, irradianceFrom(s.value, s.solidAngle), base.sampling, s.solidAngle,
+                !s.toSource && s.region == 0);
   moments.add(excess, 1);
   return moments;
 }

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "importance/base_set.h"
 #include "importance/direction_sample.h"
 #include "importance/error_estimate.h"
 #include "importance/moments.h"
@@ -44,10 +45,12 @@ struct SampledSet {
   Irradiance clamped;           // what -Sf took from moments().total
   Variance variance;            // of moments().total; 0 unless standard errors are wanted
   SharedError shared;           // in addition to variance
-  size_t litGlances = 0;        // glances that found light (diffuse_glances.h)
+  ZoneVariances ofZones;        // as variance
+  std::vector<SharedError> sharedByZone;  // in addition to ofZones; empty: none
+  size_t litGlances = 0;                  // glances that found light (diffuse_glances.h)
 
   // The set's estimate of the integrals over all directions.
-  Moments moments(const SpectralSampling* sampling) const;  // RayOptions::sampling
+  Moments moments(const BaseSet& base) const;
 };
 
 // Traces each direction once and gives it its solid angle (sr). The random numbers of direction i

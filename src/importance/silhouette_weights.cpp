@@ -110,19 +110,23 @@ SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, 
 
   SampledSet sampled = joined(toImages, others, options_.everyDirection);
   const auto othersOf = std::span(sampled.samples).subspan(toImages.size());
-  sampled.excess = beyond.moments;
+  sampled.excess = std::move(beyond.moments);
   sampled.shared = std::move(beyond.shared);
+  sampled.sharedByZone = std::move(beyond.sharedByZone);
+  sampled.ofZones = std::move(beyond.ofZones);
   sampled.litGlances = beyond.lit;
   if (options_.clamp > 0)
     sampled.clamped = clampContributions(othersOf, totalOf(sampled), options_.clamp, base_.sampling);
   sampled.variance = beyond.variance;
-  if (base_.neighbours) sampled.variance += varianceOf(othersOf, plan.runs, toImages);
+  if (base_.neighbours)
+    sampled.variance += varianceOf(othersOf, plan.runs, toImages, zonesOf(sampled.ofZones));
   return sampled;
 }
 
 SilhouetteWeights::View SilhouetteWeights::viewFrom(const SetAtPoint& set, PathTracer& tracer) const {
   const size_t base = base_.directions.size(), most = static_cast<size_t>(options_.mostDirections);
   View view;
+  view.glanced = DiffuseGlances::Found(base_.zones.get());
   view.images =
       sources_.findImages(set.point(), raysToImages(base, most > base ? most - base : 0, glances_ != nullptr),
                           options_.densityFactor);
@@ -227,7 +231,7 @@ DiffuseGlances::Found SilhouetteWeights::beyondGuesses(const SetAtPoint& set, co
                                                        std::span<const DirectionSample> others) const {
   DiffuseGlances::Found found = view.glanced;
   for (const DirectionSample& s : others)
-    found.moments.add(s.direction, irradianceFrom(s.guess, -s.solidAngle), base_.sampling);
+    found.moments.add(s.direction, irradianceFrom(s.guess, -s.solidAngle), base_.sampling, s.solidAngle);
   if (view.guess) addGlances(set, *view.guess, found);
   return found;
 }
@@ -239,28 +243,32 @@ void SilhouetteWeights::addGlances(const SetAtPoint& set, const LocalGuess& gues
   std::vector<DirectionSample> seen;
   for (const V3d& direction : set.turned(guidance_->glances)) {
     const Radiance radiance = guess.along(set.point(), direction);
-    found.moments.add(direction, irradianceFrom(radiance, cell), base_.sampling);
+    found.moments.add(direction, irradianceFrom(radiance, cell), base_.sampling, cell);
     if (guidance_->neighbours) seen.push_back({direction, cell, radiance});
   }
-  if (guidance_->neighbours)
-    found.variance = evenVariance(seen, *guidance_->neighbours, base_.sampling) * Tuning::kEvenGlances;
+  if (!guidance_->neighbours) return;
+  ZoneVariances ofZones(base_.zones.get());
+  found.variance =
+      evenVariance(seen, *guidance_->neighbours, base_.sampling, zonesOf(ofZones)) * Tuning::kEvenGlances;
+  found.ofZones.add(ofZones, Tuning::kEvenGlances);
 }
 
 Variance SilhouetteWeights::varianceOf(std::span<const DirectionSample> others, std::span<const size_t> runs,
-                                       std::span<const SeenSources::Sample> toImages) const {
+                                       std::span<const SeenSources::Sample> toImages,
+                                       ZoneVariances* to) const {
   const auto base = others.first(base_.directions.size());
-  Variance variance = evenVariance(base, *base_.neighbours, base_.sampling);
+  Variance variance = evenVariance(base, *base_.neighbours, base_.sampling, to);
   for (size_t i = 1; i < runs.size(); ++i) {
     const auto run = others.subspan(runs[i - 1], runs[i] - runs[i - 1]);
-    variance +=
-        run.size() == 1 ? loneVariance(run[0], base, base_.sampling) : spreadVariance(run, base_.sampling);
+    variance += run.size() == 1 ? loneVariance(run[0], base, base_.sampling, to)
+                                : spreadVariance(run, base_.sampling, to);
   }
-  variance += unseenVariance(others, base_.sampling);
+  variance += unseenVariance(others, base_.sampling, to);
   for (size_t i = 0, next = 0; i < toImages.size(); i = next) {
     while (next < toImages.size() && toImages[next].image == toImages[i].image) ++next;
-    variance += partsVariance(toImages.subspan(i, next - i), base_.sampling);
+    variance += partsVariance(toImages.subspan(i, next - i), base_.sampling, to);
   }
-  variance += choiceVariance(toImages, base_.sampling);
+  variance += choiceVariance(toImages, base_.sampling, to);
   return variance;
 }
 

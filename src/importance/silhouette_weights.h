@@ -87,9 +87,9 @@ class SilhouetteWeights : public SamplingStrategy {
                                       std::span<const DirectionSample> others) const;
   void addGlances(const SetAtPoint& set, const LocalGuess& guess, DiffuseGlances::Found& found) const;
 
-  // Stage 5: the variance of both kinds of directions, without that of glances.
+  // Stage 5: the variance of both kinds of directions, without that of glances; to: as in error_estimate.h.
   Variance varianceOf(std::span<const DirectionSample> others, std::span<const size_t> runs,
-                      std::span<const SeenSources::Sample> toImages) const;
+                      std::span<const SeenSources::Sample> toImages, ZoneVariances* to) const;
 
   const SphereOptions& options_;
   const BaseSet& base_;

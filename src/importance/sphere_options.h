@@ -20,6 +20,7 @@ struct SphereOptions {
   bool basicRadiance = false;              // -Sb
   bool everyDirection = false;             // -Sd
   uint64_t rotation = 0;                   // -Sr
+  int zones = 0;                           // -Sz  of equal solid angle (sphere/equal_zones.h); 0: none
   bool verify = false;                     // -Sv
 
   // The rays of patches of the coarse solution, as RayOptions::leastForPatches. Their number grows with that

@@ -43,8 +43,10 @@ SampledSet VoronoiWeights::sample(const SetAtPoint& set, PathTracer& tracer, Vor
       set.isFirst() ? cellSolidAngles(triangulation_, dynamic, memory) : cellSolidAngles(directions, memory);
   if (options_.verify) checkCells(memory);
   SampledSet sampled = traceEach(set, directions, solidAngles, options_.everyDirection, tracer);
+  sampled.ofZones = ZoneVariances(base_.zones.get());
   if (base_.neighbours)
-    sampled.variance = evenVariance(sampled.samples, neighboursOf(memory), base_.sampling);
+    sampled.variance =
+        evenVariance(sampled.samples, neighboursOf(memory), base_.sampling, zonesOf(sampled.ofZones));
   return sampled;
 }
 

@@ -47,13 +47,18 @@ bool interrupted() {
   return PyErr_CheckSignals() != 0;
 }
 
-// The array of a quantity, which takes its memory over: one row for each record, divided into faces if there
-// are any; one number instead of a row of one. None if the quantity was not asked for.
-py::object arrayOf(Quantity&& quantity, size_t records, size_t faces = 0) {
+// The array of a quantity, which takes its memory over: one row for each record, divided by each of `parts`
+// that is not 0 (contributors, faces); one number instead of a row of one. None if the quantity was not asked
+// for.
+py::object arrayOf(Quantity&& quantity, size_t records, std::initializer_list<size_t> parts = {}) {
   if (quantity.columns == 0) return py::none();
   std::vector<size_t> shape{records};
-  const size_t columns = faces > 0 ? quantity.columns / faces : quantity.columns;
-  if (faces > 0) shape.push_back(faces);
+  size_t columns = quantity.columns;
+  for (const size_t part : parts) {
+    if (part == 0) continue;
+    shape.push_back(part);
+    columns /= part;
+  }
   if (columns > 1) shape.push_back(columns);
   auto* const numbers = new std::vector<double>(std::move(quantity.numbers));
   const py::capsule owner(numbers, [](void* p) { delete static_cast<std::vector<double>*>(p); });
@@ -129,24 +134,96 @@ py::object trace(const py::object& self, const py::object& given, const py::kwar
   return answersObject(arrays);
 }
 
+py::object arraysOf(PointAnswers&& a) {
+  const size_t parts = a.contributors.size();
+  py::dict arrays;
+  arrays["contributors"] = parts > 0 ? py::object(py::cast(a.contributors)) : py::none();
+  arrays["mean"] = arrayOf(std::move(a.mean), a.size, {parts});
+  arrays["mean_standard_error"] = arrayOf(std::move(a.meanStandardError), a.size, {parts});
+  arrays["scalar_irradiance"] = arrayOf(std::move(a.scalarIrradiance), a.size, {parts});
+  arrays["cylindrical_irradiance"] = arrayOf(std::move(a.cylindricalIrradiance), a.size, {parts});
+  arrays["face_irradiance"] = arrayOf(std::move(a.faceIrradiance), a.size, {parts, 6});
+  arrays["light_vector"] = arrayOf(std::move(a.lightVector), a.size, {parts});
+  arrays["bins"] = arrayOf(std::move(a.zones), a.size, {parts, a.zoneCount});
+  arrays["bins_standard_error"] = arrayOf(std::move(a.zonesStandardError), a.size, {parts, a.zoneCount});
+  arrays["directions"] = arrayOf(std::move(a.directions), a.size);
+  arrays["point"] = arrayOf(std::move(a.point), a.size);
+  if (!arrays["directions"].is_none()) arrays["directions"] = arrays["directions"].attr("astype")("int64");
+  return answersObject(arrays);
+}
+
 py::object sphere(const py::object& self, const py::object& given, const py::kwargs& keywords) {
   const Scene& scene = sceneOf(self);
   const Numbers array = numbersOf(given, "points");
   const std::span<const Point> points = recordsOf<Point>(array, "points");
   Options options = optionsOf(keywords);
   options.stop = interrupted;
-  PointAnswers a = withoutLock(options, [&] { return scene.sphere(points, options); });
+  return arraysOf(withoutLock(options, [&] { return scene.sphere(points, options); }));
+}
+
+py::object importance(const py::object& self, const py::object& given, const std::vector<std::string>& goals,
+                      const py::kwargs& keywords) {
+  const Scene& scene = sceneOf(self);
+  const Numbers array = numbersOf(given, "points");
+  const std::span<const Point> points = recordsOf<Point>(array, "points");
+  Options options = optionsOf(keywords);
+  options.stop = interrupted;
+  return arraysOf(withoutLock(options, [&] { return scene.importance(points, goals, options); }));
+}
+
+// A number of zones, or a dict with the members of Bins by their names.
+Bins binsOf(const py::object& given) {
+  Bins bins;
+  if (given.is_none()) return bins;
+  if (py::isinstance<py::int_>(given)) {
+    bins.zones = given.cast<int>();
+    return bins;
+  }
+  if (!py::isinstance<py::dict>(given))
+    throw py::type_error(
+        "bins must be a number of zones, or a dict of expression, count, parameters and files");
+  for (const auto& [key, value] : given.cast<py::dict>()) {
+    const auto name = key.cast<std::string>();
+    if (name == "expression")
+      bins.expression = value.cast<std::string>();
+    else if (name == "count")
+      bins.count = py::str(value);
+    else if (name == "parameters")
+      bins.parameters = value.cast<std::string>();
+    else if (name == "files")
+      bins.files = pathsOf(py::reinterpret_borrow<py::object>(value));
+    else
+      throw py::type_error("bins have no '" + name + "', but expression, count, parameters and files");
+  }
+  return bins;
+}
+
+py::object contributions(const py::object& self, const py::object& given, const std::vector<std::string>& of,
+                         const py::object& bins, int samples, bool coefficients, const py::kwargs& keywords) {
+  const Scene& scene = sceneOf(self);
+  const Numbers array = numbersOf(given, "rays");
+  const std::span<const Ray> rays = recordsOf<Ray>(array, "rays");
+  ContributionOptions options;
+  static_cast<Options&>(options) = optionsOf(keywords);
+  options.bins = binsOf(bins);
+  options.samples = samples;
+  options.coefficients = coefficients;
+  options.stop = interrupted;
+  Contributions a = withoutLock(options, [&] { return scene.contributions(rays, of, options); });
   py::dict arrays;
-  arrays["mean"] = arrayOf(std::move(a.mean), a.size);
-  arrays["mean_standard_error"] = arrayOf(std::move(a.meanStandardError), a.size);
-  arrays["scalar_irradiance"] = arrayOf(std::move(a.scalarIrradiance), a.size);
-  arrays["cylindrical_irradiance"] = arrayOf(std::move(a.cylindricalIrradiance), a.size);
-  arrays["face_irradiance"] = arrayOf(std::move(a.faceIrradiance), a.size, 6);
-  arrays["light_vector"] = arrayOf(std::move(a.lightVector), a.size);
-  arrays["directions"] = arrayOf(std::move(a.directions), a.size);
-  arrays["point"] = arrayOf(std::move(a.point), a.size);
-  if (!arrays["directions"].is_none()) arrays["directions"] = arrays["directions"].attr("astype")("int64");
+  arrays["modifiers"] = py::cast(a.modifiers);
+  arrays["value"] = arrayOf(std::move(a.value), a.size, {of.size(), a.bins});
+  arrays["standard_error"] = arrayOf(std::move(a.standardError), a.size, {of.size(), a.bins});
   return answersObject(arrays);
+}
+
+// The directions in the middle of zones.
+py::object zoneMiddlesOf(size_t count) {
+  if (count < 1) throw py::value_error("the number of zones must be at least 1");
+  Quantity directions{3, {}};
+  for (const std::array<double, 3>& middle : zoneMiddles(count))
+    directions.numbers.insert(directions.numbers.end(), middle.begin(), middle.end());
+  return arrayOf(std::move(directions), count);
 }
 
 std::unique_ptr<Scene> readScene(const py::object& files, bool commands,
@@ -218,8 +295,9 @@ Raises rsphere.Error.)";
 constexpr const char* kOptions = R"(
 Options by name: ambient_bounces, ambient_accuracy, ambient_divisions, ambient_super_samples,
 ambient_resolution, ambient_value, limit_reflections, limit_weight, rotation, irradiance_at_origin,
-irradiance_at_surface, directions, most_directions, accuracy, outputs (letters of -o), threads (0: one for
-each core), arguments (a list of words as on the command line). Any other option of the command is a keyword
+irradiance_at_surface, directions, most_directions, accuracy, bins (zones of directions at points), outputs
+(letters of -o), threads (0: one for each core), arguments (a list of words as on the command line). Any other
+option of the command is a keyword
 without its hyphen: ab=5, av=(.1, .1, .1), dv=False; as_=512 is -as 512. Options that are neither switches nor
 have values, such as -pY, go into arguments=["-pY"].
 
@@ -243,6 +321,35 @@ the integral of radiance over 4 pi sr.
 v mean (n, 3): F/(4 pi) (W/sr/m2), e mean_standard_error: that of mean, estimated,
 E scalar_irradiance: F/4 (W/m2; its standard error is pi times that of mean), C cylindrical_irradiance,
 H face_irradiance (n, 6, 3): +x -x +y -y +z -z, u light_vector, k directions, o point.
+With Sp=True, what each modifier of a light source gives: contributors are their names, and arrays but
+directions and point have a second axis for them. With bins=N: bins (n, N, 3), mean radiances of zones of
+equal solid angle, and bins_standard_error; zone_middles(N) has the directions of the zones.
+)";
+
+constexpr const char* kImportance = R"(Computes the importance of each goal at points, of all in one pass.
+
+points: an array (n, 3). goals: modifiers whose surfaces emit importance 1 W/sr/m2 from their front; all
+other sources are dark. Returns the object of sphere() whose contributors are the goals, and whose arrays have
+a second axis for them: mean (n, goals, 3), mean_standard_error, face_irradiance (n, goals, 6, 3).
+
+With bins=N: bins (n, goals, N, 3), the mean importance in each of N zones of equal solid angle, and
+bins_standard_error; zone_middles(N) has the directions of the zones.
+
+By reciprocity, a lamp at the point of 1 cd in all directions gives a goal of area A (m2) the mean illuminance
+4 pi mean / A (lx), and a small downlight of cos(angle to -z) cd gives it face_irradiance[:, :, 5] / A.
+)";
+
+constexpr const char* kContributions =
+    R"(Computes what modifiers contribute to rays: an array of shape (n, 6), origins and directions.
+
+of: modifiers: light sources, the sky, goals or any other surfaces.
+bins: None, or a number of zones of equal solid angle in which the directions lie of rays that meet a modifier
+(zone_middles()), or a dict: {"expression": "rbin", "count": "Nrbins", "parameters": "MF=4", "files":
+["reinhartb.cal"]}, as -b, -bn, -p and -f of rcontrib.
+samples: times that each ray is traced. coefficients: factors on the radiance of the modifiers instead of
+values. Returns an object: value (n, of, bins, 3): radiance (W/sr/m2), or irradiance (W/m2) with
+irradiance_at_origin (-I); standard_error of the same shape, from the spread of the samples; modifiers.
+Defaults are those of rcontrib, without interpolation.
 )";
 
 }  // namespace
@@ -251,12 +358,21 @@ PYBIND11_MODULE(rsphere, m) {
   m.doc() = kModule;
   m.attr("__version__") = version();
   addError(m);
-  const std::string traceText = std::string(kTrace) + kOptions, sphereText = std::string(kSphere) + kOptions;
+  const std::string traceText = std::string(kTrace) + kOptions, sphereText = std::string(kSphere) + kOptions,
+                    importanceText = std::string(kImportance) + kOptions,
+                    contributionsText = std::string(kContributions) + kOptions;
   py::class_<Scene>(m, "Scene", kScene)
       .def(py::init(&readScene), py::arg("files"), py::kw_only(), py::arg("commands") = true,
            py::arg("goals") = std::vector<std::string>())
       .def("trace", &trace, py::arg("rays"), traceText.c_str())
-      .def("sphere", &sphere, py::arg("points"), sphereText.c_str());
+      .def("sphere", &sphere, py::arg("points"), sphereText.c_str())
+      .def("importance", &importance, py::arg("points"), py::arg("goals"), importanceText.c_str())
+      .def("contributions", &contributions, py::arg("rays"), py::arg("of"), py::kw_only(),
+           py::arg("bins") = py::none(), py::arg("samples") = 8, py::arg("coefficients") = false,
+           contributionsText.c_str());
+  m.def(
+      "zone_middles", &zoneMiddlesOf, py::arg("count"),
+      "The directions (count, 3) in the middle of zones of equal solid angle, 4 pi / count sr each.");
   m.def("photometric", &photometricOf, py::arg("color"),
         "Turns colors (..., 3) of radiance (W/sr/m2) into luminance (cd/m2), and of irradiance (W/m2) into "
         "illuminance (lx).");

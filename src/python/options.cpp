@@ -85,6 +85,7 @@ Options optionsOf(const py::kwargs& keywords) {
     keyword.set("directions", options.directions, "Sn");
     keyword.set("most_directions", options.mostDirections, "Sx");
     keyword.set("accuracy", options.accuracy, "Sa");
+    keyword.set("bins", options.zones, "Sz");
     keyword.set("outputs", options.outputs, "o");
     keyword.set("threads", options.threads, "n");
     keyword.set("arguments", options.arguments);

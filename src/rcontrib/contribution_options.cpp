@@ -7,6 +7,7 @@
 
 #include "cli/option_words.h"
 #include "cli/word_file.h"
+#include "contrib/contribution_defaults.h"
 
 namespace rsphere {
 namespace {
@@ -193,18 +194,8 @@ uint32_t binCountOf(const TrackedName& tracked, BinFunctions& functions) {
   return static_cast<uint32_t>(count);
 }
 
-// Those of RADIANCE 6.1.
 void setDefaults(Options& options) {
-  RayOptions& ray = options.ray;
-  ray.ambientBounces = 1;
-  ray.ambientDivisions = 350;
-  ray.ambientSuperSamples = 0;
-  ray.ambientAccuracy = 0;
-  ray.directThreshold = 0;
-  ray.directJitter = .9;
-  ray.directRelays = 3;
-  ray.specularThreshold = .02;
-  ray.weightLimit = 2e-3;
+  setContributionDefaults(options.ray);
   options.color.space = ColorSpace::spectrum;
 }
 
@@ -253,11 +244,7 @@ const Companion& contributionCompanion() {
 }
 
 void finish(ContributionOptions& options) {
-  // Interpolated light has no sources any more, and an untested source no shadow.
-  options.ray.ambientAccuracy = 0;
-  options.ray.ambientSuperSamples = 0;
-  options.ray.directThreshold = 0;
-  options.ray.ambientFile.clear();
+  limitToContributions(options.ray);
   options.numberedRays = options.ray.uncorrelated;
   if (options.request != Request::answers) return;
   checkNames(options);

@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "base/overloaded.h"
-#include "rad_parser/nearest_name.h"
+#include "scene/contributors.h"
 #include "scene/modifier_builder.h"
 #include "scene/nesting.h"
 #include "scene/shape_arguments.h"
@@ -248,17 +248,7 @@ class Builder {
 Scene buildScene(rad::Description description, const rad::ReadOptions& options,
                  std::span<const std::string> goals) {
   Scene scene = Builder(std::move(description), options).build();
-  for (const std::string& goal : goals) {
-    for (Finish& finish : scene.surfaces.finishes())
-      if (finish.name == goal) finish.goal = true;
-    const auto isOne = [&](const Surface& surface) { return surface.goal && surface.finish.name == goal; };
-    if (std::none_of(scene.surfaces.begin(), scene.surfaces.end(), isOne)) {
-      rad::NearestName nearest(goal);
-      for (const Surface& surface : scene.surfaces) nearest.consider(scene.modifierName(surface));
-      throw rad::Error(fmt::format("no surface has the goal's modifier \"{}\"{}", goal, nearest.hint()));
-    }
-  }
-  scene.importance = !goals.empty();
+  setGoals(scene, goals);
   return scene;
 }
 

@@ -39,7 +39,7 @@ std::string_view Scene::materialName(const Surface& s) const {
 std::string Scene::place(PrimitiveId i) const { return placeOf(description, i); }
 
 Radiance sourceRadiance(const Scene& scene, const Surface& surface) {
-  if (surface.goal) return Radiance(1);
+  if (surface.goal) return surface.finish.importance;
   const Material* material = scene.materialOf(surface);
   return material ? sourceRadiance(*material).value_or(Radiance()) : Radiance();
 }

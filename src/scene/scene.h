@@ -35,7 +35,7 @@ struct Modifier {
   Content content;
   // Of patterns, textures, mixtures and the materials with `functions`; null for others. Files that they name
   // are read, and functions compiled, when the modifier is first evaluated: shade/surface_functions.h.
-  std::unique_ptr<const EvaluatedArguments> arguments;
+  std::shared_ptr<const EvaluatedArguments> arguments;
   ModifierId next;
   PrimitiveId primitive;     // in Scene::description; of the target if it was an alias
   rad::Primitive described;  // that primitive, so that no ray has to decode it
@@ -68,6 +68,8 @@ struct Scene {
   ById<SurfaceId, std::string> names;
   static constexpr size_t kFewSurfaces = 20000;
   bool importance = false;  // there are goals: importance is traced, and all other sources are dark
+  // The modifiers whose light has a part of its own (contributors.h); empty: light is not divided.
+  std::vector<std::string> contributors;
 
   // The surfaces that belong to the world itself rather than to an octree or a mesh. They are the first ones.
   SurfaceList::Beginning outermost() const { return surfaces.first(outermostIds().size()); }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/radiometry.h"
 #include "scene/ids.h"
 #include "scene/shape.h"
 
@@ -12,12 +13,13 @@ namespace rsphere {
 
 // Properties that all surfaces with the same modifier share.
 struct Finish {
-  PrimitiveId described;  // the modifier in Scene::description; kNone: void
-  ModifierId modifier;    // the same in Scene::modifiers
-  ModifierId material;    // the first material of the chain that modifier begins, or else the mixture that
-                          // ends it. Decides ties between surfaces, and which are light sources
-  uint64_t clip = 0;      // the bit of its modifier in Antimatter::clips; 0: not clipped by any
-  bool goal = false;      // its surfaces emit importance 1 from their fronts, in addition to their material
+  PrimitiveId described;   // the modifier in Scene::description; kNone: void
+  ModifierId modifier;     // the same in Scene::modifiers
+  ModifierId material;     // the first material of the chain that modifier begins, or else the mixture that
+                           // ends it. Decides ties between surfaces, and which are light sources
+  uint64_t clip = 0;       // the bit of its modifier in Antimatter::clips; 0: not clipped by any
+  bool goal = false;       // its surfaces emit importance from their fronts, in addition to their material
+  Radiance importance{1};  // that its goals emit
   // Whether its modifier is called "Phong", the customary name of textures that smooth a surface by
   // interpolated normals. As in rtrace, such a texture does not deflect rays that pass straight through a
   // thin surface (trans, glass and the like). Refraction by dielectric and interface follows the perturbed

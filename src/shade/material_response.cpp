@@ -302,9 +302,9 @@ SourceResponse response(const Illum& material, MaterialHit& hit) {
   return material.alternate;
 }
 
-SourceResponse goalResponse(bool sampled, MaterialHit& hit) {
+SourceResponse goalResponse(const Radiance& importance, bool sampled, MaterialHit& hit) {
   if (sampled && countedByDirect(hit.arrival())) return Absorbs{};
-  return emission(Color(1, 1, 1), hit);
+  return emission(importance.color, hit);
 }
 
 }  // namespace rsphere

@@ -82,7 +82,7 @@ SourceResponse response(const Illum& material, MaterialHit& hit);
 SourceResponse response(const Glow& material, MaterialHit& hit);
 SourceResponse response(const Spotlight& material, MaterialHit& hit);
 
-// A goal's emission of importance 1. sampled: next-event estimation samples the goal.
-SourceResponse goalResponse(bool sampled, MaterialHit& hit);
+// A goal's emission of importance. sampled: next-event estimation samples the goal.
+SourceResponse goalResponse(const Radiance& importance, bool sampled, MaterialHit& hit);
 
 }  // namespace rsphere

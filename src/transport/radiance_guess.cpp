@@ -187,14 +187,17 @@ LocalGuess RadianceGuess::fit(const V3d& point, std::span<const V3d> glances, st
   local.bright_ = Tuning::kBright * arriving / static_cast<double>(std::max<size_t>(1, glances.size()));
   // The median instead of the mean, because a few directions hit something very bright by chance.
   std::vector<double> around[3];
+  Color parts;  // of contributors, in proportion to which they share the median
   for (const Traced& t : traced) {
     const Place& at = t.place;
     if (!(brightness(at.reflectance) > 0)) continue;
     const Color rest = (t.radiance - local.direct(at)).color, reflectance = at.reflectance.color;
     for (int c = 0; c < 3; ++c)
       if (reflectance[c] > 0) around[c].push_back(rest[c] / reflectance[c]);
+    parts += t.radiance.color;
   }
   for (int c = 0; c < 3; ++c) local.ambient_.color[c] = std::max(0., middleOf(around[c]));
+  if (parts.bands()) local.ambient_.color = local.ambient_.color.dividedAs(parts);
   return local;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/radiometry.h"
+#include "base/spectral_sampling.h"
 #include "shade/scattering.h"
 #include "shade/shared_definitions.h"
 

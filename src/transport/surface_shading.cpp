@@ -115,7 +115,7 @@ bool SurfaceShading::shade(RayEnd& end, RayResult& result) {
   RayResult emitted;
   Seen seen(*this, ofGoal, kNone);
   const LightId light = t_.lights().of(end.hit.surface);
-  const SourceResponse emission = goalResponse(light != kNone, seen);
+  const SourceResponse emission = goalResponse(surface.finish.importance, light != kNone, seen);
   std::visit([&](const auto& outcome) { estimate(ofGoal, outcome, emitted); }, emission);
   const bool shaded = ((end.context.kinds & kShadow) && end.ray.aimedAt == light) ||
                       shadeChain(end, surface.modifier, result);

@@ -178,6 +178,7 @@ Radiance VertexLight::ofVertices(const PlainPlace& at, const Indirect& how, Rand
 // What one vertex adds to the mean radiance that arrives.
 Radiance VertexLight::ofVertex(const PlainPlace& at, size_t i) const {
   const LightVertex& v = vertices_.all()[i];
+  vertices_.powerOf(i).color.prefetch();
   const V3d to = v.point() - at.point;
   const double square = to.length2(), d = std::sqrt(square);
   const double here = to.dot(at.normal) / d, there = -to.dot(v.normal()) / d;

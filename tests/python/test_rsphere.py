@@ -86,6 +86,63 @@ class SameBytes(unittest.TestCase):
         self.assertEqual(scene.trace(some_rays(), cs=8).value.shape, (50, 3))
 
 
+class Contributors(unittest.TestCase):
+    def test_importance(self):
+        scene = rsphere.Scene(ROOM)
+        goals = ["steel", "wall"]
+        answers = scene.importance(POINTS, goals, ambient_bounces=1, directions=128, bins=6)
+        self.assertEqual(answers.contributors, goals)
+        self.assertEqual(answers.mean.shape, (3, 2, 3))
+        self.assertEqual(answers.mean_standard_error.shape, (3, 2, 3))
+        self.assertEqual(answers.face_irradiance.shape, (3, 2, 6, 3))
+        self.assertEqual(answers.light_vector.shape, (3, 2, 3))
+        self.assertEqual(answers.bins.shape, (3, 2, 6, 3))
+        self.assertEqual(answers.bins_standard_error.shape, (3, 2, 6, 3))
+        self.assertEqual(answers.directions.shape, (3,))
+        np.testing.assert_allclose(answers.bins.mean(axis=2), answers.mean, rtol=1e-9)
+        options = "-ab 1 -Sn 128 -Sg steel -Sg wall -Sp -oH".split()
+        self.assertEqual(answers.face_irradiance.tobytes(), command("rsphere", options, POINTS))
+        self.assertEqual(scene.importance(POINTS, ["wall"], arguments=["-pY"]).mean.shape, (3, 1))
+        for goals in ([], ["wall", "wall"], ["none"]):
+            with self.assertRaises(rsphere.Error):
+                scene.importance(POINTS, goals)
+
+    def test_lamps(self):
+        scene = rsphere.Scene(ROOM)
+        whole = scene.sphere(POINTS, directions=64)
+        self.assertIsNone(whole.contributors)
+        self.assertIsNone(whole.bins)
+        parts = scene.sphere(POINTS, directions=64, Sp=True)
+        self.assertEqual(parts.contributors, ["bulb"])
+        np.testing.assert_allclose(parts.mean.sum(axis=1), whole.mean, rtol=1e-9)
+
+    def test_contributions(self):
+        scene = rsphere.Scene(ROOM)
+        rays = some_rays(12)
+        one = scene.contributions(rays, ["bulb", "none"], samples=1, ambient_bounces=1, ad=8, u=True)
+        self.assertEqual(one.value.shape, (12, 2, 1, 3))
+        self.assertIsNone(one.standard_error)
+        options = "-V+ -ab 1 -ad 8 -m bulb -m none".split()
+        self.assertEqual(one.value.tobytes(), command("rcontrib", options, rays))
+        divided = scene.contributions(rays, ["bulb"], bins=9, samples=4, ambient_bounces=1, ad=8)
+        self.assertEqual((divided.value.shape, divided.standard_error.shape), ((12, 1, 9, 3), (12, 1, 9, 3)))
+        by_function = {"expression": "if(Dz,1,0)", "count": 2}
+        halves = scene.contributions(rays, ["bulb"], bins=by_function, samples=1, ambient_bounces=1, ad=8, u=True)
+        np.testing.assert_allclose(halves.value.sum(axis=2), one.value[:, :1, 0], rtol=1e-9, atol=1e-12)
+        with self.assertRaises(TypeError):
+            scene.contributions(rays, ["bulb"], bins={"expresion": "0"})
+        with self.assertRaises(TypeError):
+            scene.contributions(rays, ["bulb"], bins="Dz")
+        with self.assertRaises(rsphere.Error):
+            scene.contributions(rays, ["bulb"], samples=0)
+
+    def test_zones(self):
+        middles = rsphere.zone_middles(33)
+        np.testing.assert_allclose(np.linalg.norm(middles, axis=1), 1)
+        with self.assertRaises(ValueError):
+            rsphere.zone_middles(0)
+
+
 class Arrays(unittest.TestCase):
     def test_other_layouts_and_types(self):
         scene = rsphere.Scene(ROOM)
@@ -148,7 +205,7 @@ class Faults(unittest.TestCase):
     def test_options(self):
         scene = rsphere.Scene(FURNACE)
         for options, text in [
-            ({"zz": 3}, r"option '-zz': there is no such option; see help\(rsphere.Scene\)$"),
+            ({"qq": 3}, r"option '-qq': there is no such option; see help\(rsphere.Scene\)$"),
             ({"abb": 3}, "option '-abb': there is no such option; the nearest is \"-ab\"; see help"),
             ({"ab": "x"}, "option '-ab': \"x\" is not a whole number"),
             ({"av": [1, 2]}, "option '-av': 1 of its 3 values are missing"),
@@ -259,7 +316,8 @@ class Page(unittest.TestCase):
     def test_program_and_lines(self):
         with open(os.path.join(TESTS, "../examples/python/README.md")) as file:
             page = file.read()
-        program = re.search(r"```python\n(.*?)```", page, re.S).group(1)
+        programs = re.findall(r"```python\n(.*?)```", page, re.S)
+        self.assertEqual(len(programs), 2)
         lines = re.findall(r"\| `([^|`]*scene\.trace[^|`]*)` \|$", page, re.M)
         self.assertEqual(len(lines), 6)
         rays, options = some_rays(), "-ab 1 -ad 32 -fdd -h".split()
@@ -271,7 +329,17 @@ class Page(unittest.TestCase):
             try:
                 shutil.copy(ROOM, "room.rad")
                 np.savetxt("grid.pts", rays, fmt="%r")
-                exec(program, {})  # pylint: disable=exec-used
+                names = {}
+                exec(programs[0], names)  # pylint: disable=exec-used
+                self.assertEqual(printed.getvalue().count("["), 8)
+                with open("room.rad", "a") as room:
+                    room.write("void alias desk1 wall\nvoid alias desk2 wall\n")
+                    room.write("desk1 polygon a 0 0 12 .2 .2 .7 .8 .2 .7 .8 .8 .7 .2 .8 .7\n")
+                    room.write("desk2 polygon b 0 0 12 2.2 .2 .7 2.8 .2 .7 2.8 .8 .7 2.2 .8 .7\n")
+                names["scene"] = rsphere.Scene("room.rad")
+                exec(programs[1], names)  # pylint: disable=exec-used
+                self.assertIn("(2, 2, 12, 3) (2, 2, 12, 3)", printed.getvalue())
+                shutil.copy(ROOM, "room.rad")
                 values = {
                     "scene": rsphere.Scene("room.rad"),
                     "rsphere": rsphere,
@@ -285,7 +353,6 @@ class Page(unittest.TestCase):
                 pyradiance, sensors, frads, honeybee, raytraverse, process = [eval(line, values) for line in lines]
             finally:
                 os.chdir(before)
-        self.assertEqual(printed.getvalue().count("["), 8)
         for found in (pyradiance, raytraverse, process):
             self.assertEqual(found.tobytes(), wanted)
         self.assertEqual(sensors.tobytes(), lux)

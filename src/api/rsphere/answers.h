@@ -50,9 +50,13 @@ struct RayAnswers {
   std::vector<std::string> material;  // M
 };
 
-// Answers to points. F is the integral of the radiance L over all 4 pi sr of directions.
+// Answers to points. F is the integral of the radiance L over all 4 pi sr of directions. With contributors,
+// each quantity but directions and point has the columns of all contributors in turn: what each of them
+// gives.
 struct PointAnswers {
-  size_t size = 0;                 // the number of points
+  size_t size = 0;  // the number of points
+  // The modifiers of goals, or of light sources with -Sp; empty: quantities are sums over all of them.
+  std::vector<std::string> contributors;
   Quantity mean;                   // v  mean radiance F/(4 pi) (W/sr/m2)
   Quantity meanStandardError;      // e  of mean, estimated. That of scalarIrradiance is pi times as large
   Quantity scalarIrradiance;       // E  F/4 (W/m2)
@@ -60,7 +64,23 @@ struct PointAnswers {
   Quantity faceIrradiance;         // H  of faces towards +x -x +y -y +z -z, a color for each (W/m2)
   Quantity lightVector;  // u  integral of L d over directions d, of brightness, towards more light (W/m2)
   Quantity directions;   // k  number of directions used
-  Quantity point;        // o
+  // z  mean radiance of each of Options::zones in turn (W/sr/m2); their mean is `mean`, up to rounding
+  Quantity zones;
+  Quantity zonesStandardError;  // Z  of these, estimated
+  size_t zoneCount = 0;         // Options::zones
+  Quantity point;               // o
+};
+
+// What modifiers contribute to rays: for each ray a color for each bin of each modifier. The bins of the
+// first modifier come first.
+struct Contributions {
+  size_t size = 0;                     // the number of rays
+  std::vector<std::string> modifiers;  // as they were asked for
+  size_t bins = 1;                     // of each modifier
+  // Radiance (W/sr/m2), irradiance (W/m2) with -i and -I, or coefficients. Red, green and blue, or with -cs
+  // above 3 bands.
+  Quantity value;
+  Quantity standardError;  // of value, from the spread of ContributionOptions::samples; no columns with 1
 };
 
 // RADIANCE's luminous efficacy of white light (lm/W), and the part of each channel in it.

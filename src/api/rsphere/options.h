@@ -47,10 +47,11 @@ struct Options {
   std::optional<int> directions;      // -Sn  base directions at a point
   std::optional<int> mostDirections;  // -Sx  most directions at a point in all
   std::optional<double> accuracy;     // -Sa  relative standard error to reach with more directions
+  std::optional<int> zones;           // -Sz  zones of equal solid angle, whose means are computed, too
 
   // The quantities to compute: letters of -o, each of which fills the member of RayAnswers or PointAnswers
-  // behind whose name it is. Empty: "v" for rays; for points "veECHuk", without e where colors have no
-  // standard error (other than RGB and -pY).
+  // behind whose name it is. Empty: "v" for rays; for points "veECHuk", with zones "veECHukzZ", without e and
+  // Z where colors have no standard error (other than RGB and -pY).
   std::string outputs;
 
   // -n  Threads that work on one call; 0: one for each core. They leave the answers the same, bit by bit.
@@ -68,6 +69,26 @@ struct Options {
   // If given, it is asked about ten times a second, on the thread that called the library, whether to give
   // up: true ends the call with Error::Cause::stopped as soon as the rays that are being traced are done.
   std::function<bool()> stop;
+};
+
+// The bins of a modifier that contributes to rays.
+struct Bins {
+  // Zones of equal solid angle in which the directions of rays lie that meet the modifier, numbered as
+  // zoneMiddles() has them. 1: a single bin.
+  int zones = 1;
+  // Or, if it is not empty, an expression of function files as rcontrib's -b, and -bn -p -f for it. The files
+  // are searched for along RAYPATH.
+  std::string expression, count, parameters;
+  std::vector<std::string> files;
+};
+
+// How contributions to rays are computed. The members left empty have the defaults of rcontrib.
+struct ContributionOptions : Options {
+  Bins bins;                  // of each modifier
+  bool coefficients = false;  // factors on the radiance of the modifiers, instead of what they contribute
+  // Times that each ray is traced, with other random numbers. Their mean is the answer, and their spread
+  // gives its standard error; 1: there is no standard error.
+  int samples = 8;
 };
 
 }  // namespace RSPHERE_API_NAMESPACE

@@ -48,12 +48,37 @@ class RSPHERE_API Scene {
   // says so.
   RayAnswers trace(std::span<const Ray> rays, const Options& options = {}) const;
 
-  // Computes what passes through points from all directions. Throws as trace() does.
+  // Computes what passes through points from all directions. With -Sp among options.arguments, what each
+  // modifier of a light source gives of it. Throws as trace() does.
   PointAnswers sphere(std::span<const Point> points, const Options& options = {}) const;
+
+  // Computes the importance of each goal at points, of all goals in one pass. goals: modifiers whose surfaces
+  // emit importance 1 W/sr/m2 from their front and reflect as before; all other sources are dark. They take
+  // the place of SceneOptions::goals in this call. PointAnswers::contributors are the goals in their order.
+  // By reciprocity, importance W(d) (W/sr/m2) from direction d is what the goals receive from a lamp at the
+  // point: a lamp of intensity I(d) (cd) gives a goal of area A (m2) the mean illuminance
+  // (1/A) integral of I(d) W(d) dd (lx). For 1 cd in all directions that is 4 pi mean / A, and for a small
+  // downlight of I(d) = cos(angle to -z) faceIrradiance of -z / A.
+  // The first calls with other goals than the last ones copy the scene. Throws as trace() does, and if there
+  // are no goals, if one is named twice, or if no surface has one of the modifiers.
+  PointAnswers importance(std::span<const Point> points, const std::vector<std::string>& goals,
+                          const Options& options = {}) const;
+
+  // Computes what surfaces with each of these modifiers send along rays and the paths that they begin: light
+  // sources, the sky, goals or any others. The contributions of all that emits sum to the value of trace()
+  // without interpolation (-aa 0). Throws as trace() does, and if a modifier is named twice, or if bins are
+  // wrong. A modifier that the scene lacks has zeros.
+  Contributions contributions(std::span<const Ray> rays, const std::vector<std::string>& of,
+                              const ContributionOptions& options = {}) const;
 
  private:
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
+
+// The directions (unit) in the middle of each of a number of zones of equal solid angle, 4 pi / count sr: of
+// Options::zones and Bins::zones. Zone 0 is a cap around +z and the last one a cap around -z; between them
+// lie rows whose zones begin at the azimuth of +x and turn towards +y. REQUIRES count >= 1.
+RSPHERE_API std::vector<std::array<double, 3>> zoneMiddles(size_t count);
 
 }  // namespace RSPHERE_API_NAMESPACE

@@ -383,6 +383,150 @@ TEST(SceneOptions, GoalsEmit) {
   EXPECT_GE(scene.trace(rays).value[0][0], 1);
 }
 
+TEST(Importance, HasTheBytesOfTheCommand) {
+  const Scene scene({kRoom});
+  const std::vector<rsphere::Point> points{{.5, .5, 1}, {1.5, 2.5, 2}};
+  Options options;
+  options.ambientBounces = 1;
+  options.directions = 256;
+  options.zones = 12;
+  const rsphere::PointAnswers a = scene.importance(points, {"steel", "wall"}, options);
+  EXPECT_EQ(a.contributors, (std::vector<std::string>{"steel", "wall"}));
+  EXPECT_EQ(a.mean.columns, 6u);
+  EXPECT_EQ(a.zones.columns, 72u);
+  EXPECT_EQ(a.zoneCount, 12u);
+  expectSame(command("rsphere", "-ab 1 -Sn 256 -Sz 12 -Sg steel -Sg wall -Sp -oveECHukzZ " + kRoom,
+                     numbersOf(points)),
+             a.size,
+             {&a.mean, &a.meanStandardError, &a.scalarIrradiance, &a.cylindricalIrradiance, &a.faceIrradiance,
+              &a.lightVector, &a.directions, &a.zones, &a.zonesStandardError});
+}
+
+// Goals belong to a call: the scene has its lamps before and after it.
+TEST(Importance, LeavesTheSceneAsItIs) {
+  const Scene scene({kRoom});
+  const std::vector<rsphere::Point> points{{.5, .5, 1}};
+  Options options;
+  options.ambientBounces = 1;
+  options.directions = 64;
+  const auto light = [&] { return scene.sphere(points, options).mean.numbers; };
+  const auto before = light();
+  const auto steel = scene.importance(points, {"steel"}, options).mean.numbers;
+  const auto both = scene.importance(points, {"wall", "steel"}, options);
+  EXPECT_EQ(scene.importance(points, {"steel"}, options).mean.numbers, steel);
+  EXPECT_EQ(light(), before);
+  EXPECT_EQ(both.mean.columns, 6u);
+}
+
+TEST(Importance, OfLampsIsWhatTheyGive) {
+  const Scene scene({kRoom});
+  const std::vector<rsphere::Point> points{{.5, .5, 1}};
+  Options options;
+  options.directions = 64;
+  options.outputs = "v";
+  const rsphere::PointAnswers sum = scene.sphere(points, options);
+  options.arguments = {"-Sp"};
+  const rsphere::PointAnswers parts = scene.sphere(points, options);
+  EXPECT_EQ(parts.contributors, std::vector<std::string>{"bulb"});
+  EXPECT_NEAR(parts.mean[0][0], sum.mean[0][0], 1e-12 * sum.mean[0][0]);
+}
+
+TEST(Importance, RefusesGoalsThatAreNone) {
+  const Scene scene({kRoom});
+  const std::vector<rsphere::Point> points{{.5, .5, 1}};
+  EXPECT_EQ(faultOf([&] { scene.importance(points, {}); }),
+            "importance() needs the modifier of at least one goal");
+  EXPECT_EQ(faultOf([&] {
+              scene.importance(points, {"stee"});
+            }).find("no surface has the goal's modifier \"stee\""),
+            0u);
+  EXPECT_EQ(faultOf([&] {
+              scene.importance(points, {"steel", "steel"});
+            }),
+            "-Sg steel: the goal is given twice");
+}
+
+TEST(Contributions, AddUpToTheValueOfTheRay) {
+  const Scene scene({kRoom});
+  std::vector<rsphere::Ray> rays = someRays();
+  rsphere::ContributionOptions options;
+  options.ambientBounces = 2;
+  options.ambientDivisions = 16;
+  options.samples = 1;
+  options.arguments = {"-u+"};  // rcontrib's default
+  const rsphere::Contributions one = scene.contributions(rays, {"bulb", "nothing"}, options);
+  ASSERT_EQ(one.size, rays.size());
+  EXPECT_EQ(one.standardError.columns, 0u);
+  // The same random numbers as the command's.
+  const std::vector<double> wanted =
+      command("rcontrib", "-V+ -ab 2 -ad 16 -m bulb -m nothing " + kRoom, numbersOf(rays));
+  expectSame(wanted, one.size, {&one.value});
+
+  options.bins.zones = 12;
+  const rsphere::Contributions divided = scene.contributions(rays, {"bulb"}, options);
+  EXPECT_EQ(divided.bins, 12u);
+  double all = 0;
+  for (size_t i = 0; i < rays.size(); ++i) {
+    double sum = 0;
+    for (size_t bin = 0; bin < 12; ++bin) sum += divided.value[i][3 * bin];
+    EXPECT_NEAR(sum, one.value[i][0], 1e-12 * (1 + one.value[i][0]));
+    all += sum;
+  }
+  EXPECT_GT(all, 0);
+}
+
+TEST(Contributions, StateTheirErrors) {
+  const Scene scene({kRoom});
+  const std::vector<rsphere::Ray> rays(200, rsphere::Ray{{1.2, 1.9, .1}, {0, 0, 1}});
+  rsphere::ContributionOptions options;
+  options.irradianceAtOrigin = true;
+  options.ambientDivisions = 4;
+  options.samples = 8;
+  options.arguments = {"-u+"};
+  const rsphere::Contributions a = scene.contributions(rays, {"bulb"}, options);
+  double mean = 0, squares = 0, stated = 0;
+  for (size_t i = 0; i < rays.size(); ++i) {
+    mean += a.value[i][0] / 200;
+    squares += a.value[i][0] * a.value[i][0] / 200;
+    stated += a.standardError[i][0] * a.standardError[i][0] / 200;
+  }
+  const double found = (squares - mean * mean) / stated;
+  EXPECT_GT(found, .7);
+  EXPECT_LT(found, 1.4);
+  EXPECT_GT(2.25 * found, 1.4);  // errors that are a third too small would be rejected
+}
+
+TEST(Contributions, RefuseWhatIsNone) {
+  const Scene scene({kRoom});
+  const std::vector<rsphere::Ray> rays = someRays();
+  rsphere::ContributionOptions options;
+  const auto fault = [&](const std::vector<std::string>& of) {
+    return faultOf([&] { scene.contributions(rays, of, options); });
+  };
+  EXPECT_EQ(fault({}), "contributions() needs at least one modifier");
+  EXPECT_EQ(fault({"bulb", "bulb"}), "duplicate modifier 'bulb'");
+  options.samples = 0;
+  EXPECT_EQ(fault({"bulb"}), "0 samples: expected at least 1");
+  options.samples = 1;
+  options.bins.expression = "Dx";
+  EXPECT_EQ(fault({"bulb"}), "the count of bins, '', must be a constant from 1 to 1000000");
+  options.bins.count = "4";
+  EXPECT_EQ(fault({"bulb"}), "no fault");
+  options.bins.zones = 3;
+  EXPECT_EQ(fault({"bulb"}), "zones and an expression of bins exclude each other");
+  options.bins = {};
+  options.bins.zones = 0;
+  EXPECT_EQ(fault({"bulb"}), "0 zones: expected 1 to 1000000");
+  options.bins = {};
+  options.arguments = {"-pY"};
+  EXPECT_EQ(fault({"bulb"}), "option '-p': contributions are red, green and blue, or bands (-cs)");
+}
+
+TEST(ZoneMiddles, AreUnitVectors) {
+  for (const std::array<double, 3>& d : rsphere::zoneMiddles(33))
+    EXPECT_NEAR(d[0] * d[0] + d[1] * d[1] + d[2] * d[2], 1, 1e-12);
+}
+
 TEST(Stop, EndsACall) {
   const Scene scene({kRoom});
   const std::vector<rsphere::Point> points(100000, {1, 1, 1});

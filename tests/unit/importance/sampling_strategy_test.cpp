@@ -34,12 +34,13 @@ TEST(SetAtPoint, SeedsDependOnPointSetAndRotation) {
 }
 
 TEST(SampledSet, MomentsIncludeTheExcess) {
+  const BaseSet base{{}, {}, std::nullopt, nullptr};
   SampledSet set;
   set.samples.push_back({V3d(0, 0, 1), 2, Radiance(1)});
   set.excess.add(V3d(1, 0, 0), Irradiance(.5), nullptr);
-  EXPECT_EQ(set.moments(nullptr).total.color, Color(2.5, 2.5, 2.5));
-  EXPECT_EQ(set.moments(nullptr).facing[0].color, Color(.5, .5, .5));
-  EXPECT_EQ(set.moments(nullptr).facing[4].color, Color(2, 2, 2));
+  EXPECT_EQ(set.moments(base).total.color, Color(2.5, 2.5, 2.5));
+  EXPECT_EQ(set.moments(base).facing[0].color, Color(.5, .5, .5));
+  EXPECT_EQ(set.moments(base).facing[4].color, Color(2, 2, 2));
 }
 
 }  // namespace

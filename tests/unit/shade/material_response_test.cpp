@@ -139,9 +139,9 @@ TEST_F(Response, GoalsEmitImportanceOnce) {
   Arrival indirect = front;
   indirect.kinds |= kReflectedAmbient;
   FakeHit seen(front, context), met(indirect, context);
-  EXPECT_TRUE(is<Emits>(goalResponse(true, seen)));
-  EXPECT_TRUE(is<Absorbs>(goalResponse(true, met)));
-  EXPECT_TRUE(is<Emits>(goalResponse(false, met)));
+  EXPECT_TRUE(is<Emits>(goalResponse(Radiance(1), true, seen)));
+  EXPECT_TRUE(is<Absorbs>(goalResponse(Radiance(1), true, met)));
+  EXPECT_TRUE(is<Emits>(goalResponse(Radiance(1), false, met)));
 }
 
 }  // namespace

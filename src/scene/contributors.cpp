@@ -1,0 +1,84 @@
+#include "scene/contributors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/band_scheme.h"
+#include "rad_parser/nearest_name.h"
+
+namespace rsphere {
+namespace {
+
+size_t positionOf(const std::vector<std::string>& names, const std::string& name) {
+  return static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+// The color that a material emits; null if it is not a source.
+Color* emissionOf(Modifier& modifier) {
+  auto* const material = std::get_if<Material>(&modifier.content);
+  if (!material) return nullptr;
+  if (auto* const m = std::get_if<Light>(material)) return &m->radiance;
+  if (auto* const m = std::get_if<Illum>(material)) return &m->radiance;
+  if (auto* const m = std::get_if<Glow>(material)) return &m->radiance;
+  if (auto* const m = std::get_if<Spotlight>(material)) return &m->radiance;
+  return nullptr;
+}
+
+// The modifiers that emit light, in the order of the scene.
+std::vector<Modifier*> emittersOf(Scene& scene) {
+  std::vector<Modifier*> emitters;
+  for (Modifier& modifier : scene.modifiers) {
+    const Color* const emission = emissionOf(modifier);
+    if (emission && !isBlack(*emission)) emitters.push_back(&modifier);
+  }
+  std::ranges::stable_sort(emitters, {}, [](const Modifier* m) { return m->primitive.index(); });
+  return emitters;
+}
+
+}  // namespace
+
+void setGoals(Scene& scene, std::span<const std::string> goals) {
+  for (Finish& finish : scene.surfaces.finishes()) finish.goal = false;
+  for (const std::string& goal : goals) {
+    for (Finish& finish : scene.surfaces.finishes())
+      if (finish.name == goal) finish.goal = true;
+    const auto isOne = [&](const Surface& surface) { return surface.goal && surface.finish.name == goal; };
+    if (std::none_of(scene.surfaces.begin(), scene.surfaces.end(), isOne)) {
+      rad::NearestName nearest(goal);
+      for (const Surface& surface : scene.surfaces) nearest.consider(scene.modifierName(surface));
+      throw rad::Error(fmt::format("no surface has the goal's modifier \"{}\"{}", goal, nearest.hint()));
+    }
+  }
+  scene.importance = !goals.empty();
+}
+
+void separateContributors(Scene& scene, std::span<const std::string> goals) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (positionOf(names, name) == names.size()) names.push_back(name);
+  };
+  for (const std::string& goal : goals) {
+    if (positionOf(names, goal) < names.size())
+      throw rad::Error(fmt::format("-Sg {}: the goal is given twice", goal));
+    names.push_back(goal);
+  }
+  if (goals.empty())
+    for (const Modifier* modifier : emittersOf(scene)) add(modifier->described.name);
+  if (names.empty()) throw rad::Error("-Sp: the scene has neither goals (-Sg) nor light sources");
+  if (names.size() > kMostContributors)
+    throw rad::Error(
+        fmt::format("-Sp: {} contributors, but at most {} are possible", names.size(), kMostContributors));
+  const BandScheme& parts = partsOf(names.size());
+  for (Finish& finish : scene.surfaces.finishes())
+    if (finish.goal)
+      finish.importance = Radiance(Color::ofContributor(V3d(1, 1, 1), positionOf(names, finish.name), parts));
+  if (goals.empty())
+    for (Modifier* modifier : emittersOf(scene)) {
+      Color& emission = *emissionOf(*modifier);
+      emission = Color::ofContributor(emission.rgb(), positionOf(names, modifier->described.name), parts);
+    }
+  scene.contributors = std::move(names);
+}
+
+}  // namespace rsphere
