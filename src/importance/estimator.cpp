@@ -191,13 +191,9 @@ std::unique_ptr<const SamplingStrategy> SphereEstimator::makeStrategy() const {
 SphereEstimator::Workspace::Workspace(const SphereEstimator& estimator)
     : tracer(estimator.tracing_.tracer()) {}
 
-// Radiance (W/sr/m2) below this is rounding, as of light that joins the two sides of a wall along it: it is a
-// photon in some weeks.
-constexpr double kNoLight = 1e-25;
-
 // lit: directions that found light. Only with -Sw c do sources have directions of their own.
 bool SphereEstimator::isDark(const PointAnswer& answer, size_t lit) const {
-  if (maxChannel(answer.mean.color) < kNoLight) return true;
+  if (maxChannel(answer.mean.color) == 0) return true;
   return options_.weights == Weights::silhouettes &&
          static_cast<double>(lit) < tuning::Dark::kShare * static_cast<double>(answer.directions);
 }

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "transport/light_vertices.h"
+#include "scene/shape.h"
+#include "transport/light_vertex.h"
 
 namespace rsphere {
 namespace {

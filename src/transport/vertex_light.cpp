@@ -182,7 +182,8 @@ Radiance VertexLight::ofVertex(const PlainPlace& at, size_t i) const {
   const V3d to = v.point() - at.point;
   const double square = to.length2(), d = std::sqrt(square);
   const double here = to.dot(at.normal) / d, there = -to.dot(v.normal()) / d;
-  if (!(here > 0) || !(there > 0)) return {};
+  // Along a wall rounding would join its two sides.
+  if (!(here > kNegligible) || !(there > kNegligible)) return {};
   const Coefficient passed = surfaces_.passing(at.point, v.point(), at.surface);
   if (isBlack(passed)) return {};
   const double bounded = v.isUnbounded() ? 1 : 1 - vertices_.nearShare(d);

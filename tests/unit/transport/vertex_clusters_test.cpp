@@ -6,7 +6,7 @@
 
 #include "base/constants.h"
 #include "tests/unit/support/statistics.h"
-#include "transport/light_vertices.h"
+#include "transport/light_vertex.h"
 
 namespace rsphere {
 namespace {
