@@ -16,9 +16,9 @@ namespace rsphere {
 // The estimator of sphere mode, with a workspace for each thread of -n.
 class PointWorkers {
  public:
-  // standardError: whether that of PointAnswer is wanted. checkStop is called now and then during an
-  // estimate; it may throw to give the point up. The transport must live as long.
-  // Throws what SphereEstimator throws.
+  // standardError: whether PointAnswer's standard errors are wanted. checkStop is called now and then during
+  // an estimate; it may throw to abandon the point. Keeps a reference to the transport. Throws what
+  // SphereEstimator throws.
   PointWorkers(const Transport& transport, const AnswerOptions& options, bool standardError,
                const std::function<void()>& checkStop = {});
   PointWorkers(const PointWorkers&) = delete;

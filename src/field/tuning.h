@@ -62,10 +62,11 @@ struct SiteInterpolation {
   // Differences between sites below this number of standard errors are taken for noise: chosen by experiment.
   // 30% less or more: within noise (picture by sun; error 1%, time 4%).
   RSPHERE_TUNED(SiteInterpolation, double, kChance, .7);
-  // The error of an interpolation is predicted from three differences between two sites: the change of the
-  // gradient (site_interpolation.cpp), and two that are each divided by this: the difference of their light,
-  // and the part of it that their gradients do not predict. Chosen by experiment. Gradients know nothing of a
-  // shadow's edge between the sites. 30% less or more: within noise (picture by sun; error 3%, time 6%).
+  // The error of an interpolation is predicted from three quantities at two sites: the change of the gradient
+  // (site_interpolation.cpp); the difference of their light, divided by this; and the part of that difference
+  // that the gradients do not predict, divided by this too. Chosen by experiment. The last two are needed
+  // because gradients do not show a shadow's edge between the sites. 30% less or more: within noise (picture
+  // by sun; error 3%, time 6%).
   RSPHERE_TUNED(SiteInterpolation, double, kByStep, 5);
   // The relative error of an extrapolation by a distance d where the harmonic mean distance of the
   // surroundings is R: in units of (d / R)^2, and then, like the change that gradients predict over d, times
@@ -108,12 +109,12 @@ struct CoarseSolution {
   // its surroundings require patches smaller than the strip: by measurement. With 1, sensors near a window
   // with blinds are 33% too bright.
   RSPHERE_TUNED(CoarseSolution, int, kPartsAcross, 4);
-  // A side of a ball (a sixth of it) or of a cone is enclosed if all that is seen from so many places on it,
-  // the first number, is nearer in the root mean square than this share of the radius: between shells with a
-  // gap of a third of the inner radius, where it is .47 in the middle, and a ball in a tight room. Without
-  // it, gathers between five shells of rough trans make more than 140,000 patches: the surface's bulge hides
-  // most sites from the places around, so that finer and finer patches are tried, each of which serves few
-  // places.
+  // A side of a ball (a sixth of it) or of a cone is enclosed if, as seen from each of kEnclosedPlaces places
+  // on it, the root mean square distance of the surroundings is below kEnclosed times the radius. This lies
+  // between shells with a gap of a third of the inner radius, where the ratio is .47 in the middle, and a
+  // ball in a tight room. Without this rule, gathers between five shells of rough trans make more than
+  // 140,000 patches: the curvature hides most sites from the places around them, so that finer and finer
+  // patches are tried, each of which serves few places.
   static constexpr size_t kEnclosedPlaces = 8;
   static constexpr double kEnclosed = .6;
   // No patch of an enclosed side is smaller than this share of the surface's extent: an estimate, tried with

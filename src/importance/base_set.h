@@ -13,10 +13,10 @@ namespace rsphere {
 // The even directions that every strategy starts from.
 struct BaseSet {
   std::vector<V3d> directions;                // unit, world
-  std::vector<double> solidAngles;            // that they represent, sr
+  std::vector<double> solidAngles;            // solid angles that the directions represent, sr
   std::optional<Neighbours> neighbours;       // if standard errors are wanted
   const SpectralSampling* sampling;           // RayOptions::sampling
-  std::shared_ptr<const EqualZones> zones{};  // by which light is divided; null: it is not
+  std::shared_ptr<const EqualZones> zones{};  // zones by which light is divided; null: none
 };
 
 // -Sn directions, rotated as -Sr says. Their solid angles are all the same with -Sw h, otherwise those of

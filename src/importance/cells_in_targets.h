@@ -1,6 +1,6 @@
 #pragma once
-// The solid angles of the cells of one point's directions, as -Sw c has them: a direction in a target
-// represents the inverse of the density of all directions there.
+// The solid angles of the cells of one point's directions, for -Sw c: in a target, each direction represents
+// the inverse of the density of all directions there.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -20,7 +20,7 @@ struct CellInTarget {
 // enter it. Two steps scale the cells:
 // - In each target that is to be fitted, they add up to its solid angle. This removes the error due to how
 //   many directions fall inside the target, and to cells that its edge divides.
-// - Those that enter the mean add up to `total` (sr). Only those outside the fitted targets are scaled,
+// - All cells that enter the mean add up to `total` (sr). Only those outside the fitted targets are scaled,
 //   unless they would have to change too much.
 std::vector<double> cellsInTargets(std::vector<CellInTarget> cells, const Targets& targets, double total);
 

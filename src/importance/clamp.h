@@ -7,15 +7,16 @@
 
 namespace rsphere {
 
-// Limits the brightness that each sample contributes beyond its guess. The limit is `share` of the integral
-// over all directions, without what the same share of the whole integral would take: otherwise one very
-// bright direction would raise its own limit. The color of what is left is kept. Contributions below the
-// guess are not changed. Returns what the integral lost, which is a bias (W/m2).
+// Limits the brightness that each sample contributes beyond its guess. The limit is `share` times an integral
+// over all directions that is itself clamped, by a limit of `share` times the whole integral: otherwise one
+// very bright direction would raise its own limit. The color of the remainder does not change. Contributions
+// below the guess are not changed. Returns what the integral lost, which is a bias (W/m2).
 //
-// total: the integral that the samples belong to, with all that is not among them (W/m2).
+// total: the whole integral, including light that is not among the samples (W/m2).
 //
-// Rejected alternatives: a limit of radiance, which is different in each scene; and a share of exactly what
-// is left, which takes everything where many directions contribute more than their share.
+// Rejected alternatives: a limit of radiance, which is different in each scene; and a share of the integral
+// after clamping with that same limit, which removes everything where many directions contribute more than
+// their share.
 Irradiance clampContributions(std::span<DirectionSample> samples, const Irradiance& total, double share,
                               const SpectralSampling* sampling);
 

@@ -23,14 +23,14 @@ struct Contrasts {
 };
 
 // Measures the contrasts of the scene. Objects with the same modifier share one measurement. The result
-// depends on the scene and the options alone. Without objects and openings nothing is traced.
-// sources: those integrated separately; rays that show one are left out.
+// depends on the scene and the options alone. Without objects and openings nothing is traced. sources: the
+// sources that are integrated separately; rays that hit one are left out.
 Contrasts measureContrasts(const SphereTracing& tracing, std::span<const SpecialObject> objects,
                            const SeenSources& sources);
 
-// The photopic radiance (W/sr/m2) that points of the scene's surfaces see on average, without sources.
-// Darkness is judged by it. It is right within a small factor, because few directions measure it; 0 if they
-// found nothing. It depends on the scene and the options alone.
+// The photopic radiance (W/sr/m2) that points of the scene's surfaces see on average, without sources. Points
+// are judged to be dark in comparison with it. Few directions measure it, so that it is right only within a
+// small factor; 0 if they found no light. It depends on the scene and the options alone.
 double typicalRadiance(const SphereTracing& tracing, const SeenSources& sources);
 
 }  // namespace rsphere

@@ -26,7 +26,7 @@ size_t glancesFor(const SphereOptions& options) {
   return std::min(Tuning::kPerDirection * base, std::max(base, Tuning::kMostGlances));
 }
 
-// pools: that may exist at a time.
+// pools: the number that may exist at a time.
 size_t pathsFor(const SphereOptions& options, size_t pools) {
   const double finer = options.accuracy > 0 ? Tuning::kUsualAccuracy / options.accuracy : 0;
   const double paths = std::max(Tuning::kLeastPaths, Tuning::kPathsPerDirection * options.baseDirections) *
@@ -36,9 +36,9 @@ size_t pathsFor(const SphereOptions& options, size_t pools) {
 
 }  // namespace
 
-// Which light vertices are joined to a point: each with a probability in proportion to what it would show if
-// reflection were even and nothing stood in the way, up to 1. The probability follows from the place alone,
-// so that glances know it too.
+// Chooses the light vertices that are joined to a point. The probability, at most 1, is in proportion to an
+// estimate of the vertex's unoccluded contribution. It is a function of the place, so that glances can
+// compute it for multiple importance sampling.
 class DiffuseGlances::Joins {
  public:
   Joins(const LightVertices& vertices, const V3d& point, double expected, double glances)
@@ -56,13 +56,13 @@ class DiffuseGlances::Joins {
   }
 
   double shareOf(double shown) const { return std::min(1., factor_ * shown); }
-  // What glances know of a place that they show.
+  // A place that a glance sees, with the densities of glances and joins there.
   VertexLight::Seen seen(const PlainPlace& at, const V3d& direction, double distance) const {
     const double cosine = -at.normal.dot(direction), square = distance * distance;
     return {direction, density_ * cosine / square, factor_ * cosine / (square + radius2_)};
   }
 
-  // Calls each(vertex, share, direction, distance) for those that are joined.
+  // Calls each(vertex, share, direction, distance) for the vertices that are joined.
   template <class Each>
   void draw(Random& random, const Each& each) const {
     double due = random.uniform();
@@ -195,7 +195,8 @@ void DiffuseGlances::addJoins(const SetAtPoint& set, const Joins& joins, Records
                found.moments.add(direction, part, sampling);
                if (!neighbours_) return;
                recordFor(direction, records).add(v.vertex.batch, part, 1 - share);
-               // Successive ones are neighbours, so that their differences are what the choice changes.
+               // Successive vertices are neighbours, so that their differences show the variance due to the
+               // choice.
                if (last) {
                  const Variance variance = Variance::of(part - *last, sampling) * (.5 * (1 - share));
                  found.variance += variance;

@@ -1,11 +1,11 @@
 #pragma once
-// The light that the plain surfaces in view of a point send to it, by paths from both ends
+// The light that a point receives from the plain surfaces in its view, by paths from both ends
 // (transport/vertex_light.h):
-// - glances, even directions of which only the nearest surface is looked for, many for each direction that is
-//   traced,
-// - joins: shadow rays from the point to light vertices, more to those that would show more.
-// What is left to the directions that are traced is the light of sources in view, of sharp reflections and of
-// the samples of rough highlights.
+// - glances: evenly spread directions for which only the nearest surface is found, many for each traced
+//   direction,
+// - joins: shadow rays from the point to light vertices, more often to those that would contribute more.
+// Traced directions find the rest: the light of sources in view, of sharp reflections and of samples of rough
+// highlights.
 #include <array>
 #include <memory>
 #include <mutex>
@@ -29,23 +29,24 @@ class DiffuseGlances {
   DiffuseGlances(const PreparedScene& prepared, PlainSurfaces surfaces, const SphereOptions& options,
                  const BaseSet& base);
 
-  // What one set of glances and joins finds at its point.
+  // The result of one set of glances and joins at its point.
   struct Found {
     explicit Found(const EqualZones* zones = nullptr) : moments(zones), ofZones(zones) {}
     Moments moments;     // of the light
-    Variance variance;   // of moments.total, by the choice of glances and joins; 0 unless errors are wanted
-    SharedError shared;  // of moments.total, by the light vertices; empty unless errors are wanted
+    Variance variance;   // of moments.total, due to choosing glances and joins; 0 unless errors are wanted
+    SharedError shared;  // of moments.total, due to the light vertices; empty unless errors are wanted
     size_t lit = 0;      // glances that found light
-    // The same by zone (-Sz); empty if there are none, or if errors are not wanted.
+    // The variance and the shared error by zone (-Sz); empty without zones, or if errors are not wanted.
     ZoneVariances ofZones;
     std::vector<SharedError> sharedByZone;
   };
   Found at(const SetAtPoint& set) const;
 
-  // The same light along one direction (W/sr/m2), by one glance. number: of the direction.
+  // The same light from one direction (W/sr/m2), estimated by one glance. number: of the direction.
   Radiance along(const SetAtPoint& set, const V3d& direction, size_t number) const;
 
-  // For the surfaces that the directions of a set (SetAtPoint::number()) meet behind others.
+  // The light vertices for a set (SetAtPoint::number()), to be used at surfaces that its directions see by
+  // reflection or through others.
   const VertexLight& light(uint64_t set) const;
 
  private:
@@ -54,12 +55,12 @@ class DiffuseGlances {
   struct Glancing {
     const VertexLight& both;
     Random random;
-    const Joins* joins = nullptr;           // null: nothing is joined to the point
+    const Joins* joins = nullptr;           // null: no vertices are joined to the point
     VertexLight::Record* record = nullptr;  // null: errors are not wanted
     double cell = 0;                        // solid angle of a glance, sr
     VertexLight::Scratch scratch{};
   };
-  // By zone, or one if there are none.
+  // One for each zone, or a single one without zones.
   using Records = std::vector<VertexLight::Record>;
   VertexLight::Record& recordFor(const V3d& direction, Records& records) const;
   void addJoins(const SetAtPoint& set, const Joins& joins, Records& records, Found& found) const;
@@ -72,9 +73,9 @@ class DiffuseGlances {
   std::vector<V3d> glances_;
   std::shared_ptr<const EqualZones> zones_;  // null: light is not divided
   std::optional<Neighbours> neighbours_;     // if standard errors are wanted
-  double joins_;                             // expected at a point
-  // With -Sa, sets of directions have light vertices of their own, so that the error of these is averaged
-  // too. Made when they are first used.
+  double joins_;                             // expected number of joins at a point
+  // With -Sa, sets of directions use different pools of light vertices, so that the error of the vertices is
+  // averaged too. Pools are made when they are first used.
   static constexpr size_t kPools = 8;
   mutable std::array<std::once_flag, kPools> made_;
   mutable std::array<std::unique_ptr<const VertexLight>, kPools> lights_;

@@ -14,8 +14,8 @@ inline constexpr RegionId kNoRegion = UINT64_MAX;
 // One traced direction of a point.
 struct DirectionSample {
   V3d direction{0, 0, 1};  // unit, world
-  double solidAngle = 0;   // that it represents, sr
-  Radiance value{};        // from there
+  double solidAngle = 0;   // solid angle that it represents, sr
+  Radiance value{};        // radiance from the direction, W/sr/m2
   bool toSource = false;   // whether it was sent to a light source that is integrated separately
   Radiance guess{};        // the part of the value that many glances estimate better; 0: none
   RegionId region = 0;

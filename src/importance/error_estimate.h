@@ -1,7 +1,7 @@
 #pragma once
 // The variance of an estimate from one set of directions, computed from that set alone. Guesses are
-// subtracted from the radiances, because glances estimate them. sampling, throughout: RayOptions::sampling.
-// to, throughout: gets the variance by zone, too; null: there are no zones.
+// subtracted from the radiances, because glances estimate them. Parameters of all functions: sampling is
+// RayOptions::sampling; the variance by zone is added to `to`, which is null without zones.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,8 +14,8 @@
 namespace rsphere {
 
 // Variance of an integral of radiance, (W/m2)^2, for each channel and band and for the brightness, which in a
-// spectral run is the photopic integral. The variance of the
-// brightness does not follow from those of the channels, because the errors of channels are correlated.
+// spectral run is the photopic integral. The variance of the brightness does not follow from those of the
+// channels, because the errors of channels are correlated.
 struct Variance {
   Color channels{0, 0, 0};
   double brightness = 0;
@@ -35,12 +35,12 @@ struct Variance {
 
 // The error of light vertices, which all directions of a point, and all points, share.
 struct SharedError {
-  std::vector<Irradiance> batches;  // sums of contributions by batch of light paths; empty: there are none
+  std::vector<Irradiance> batches;  // sums of contributions by batch of light paths; empty: no light vertices
   Variance chosen;  // the part of the batches' spread that is due to the choice of vertices for each glance
 
   void add(const SharedError& other, double share);
 };
-// Its variance, by the differences between the batches.
+// The variance of the shared error, from the differences between batches.
 Variance sharedVariance(const SharedError& error, const SpectralSampling* sampling);
 
 // The variances of zones of directions (-Sz).
@@ -67,10 +67,10 @@ struct Neighbours {
 // times its second difference: the difference between its radiance and the mean of its neighbours, minus the
 // mean of the neighbours' differences. This contains the noise of paths, and edges, but not light that varies
 // smoothly, which an even set integrates. An even set averages out a part of the edges, so that the sum is
-// multiplied by tuning::ErrorEstimate::kEvenSet. The factor is 1 in regions other than 0, where single
-// directions find much, such as a lamp that a chrome column mirrors. Only neighbours in the same region are
-// compared, if there are any: the edge of a region is no error, because cells keep to regions. Directions in
-// kNoRegion are left out.
+// multiplied by tuning::ErrorEstimate::kEvenSet. In regions other than 0 the factor is 1, because single
+// directions there may find much light, such as a lamp that a chrome column mirrors. Only neighbours in the
+// same region are compared, if there are any: the edge of a region is no error, because cells keep to
+// regions. Directions in kNoRegion are left out.
 Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours& neighbours,
                       const SpectralSampling* sampling, ZoneVariances* to = nullptr);
 
@@ -80,15 +80,15 @@ Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours
 Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling,
                         ZoneVariances* to = nullptr);
 
-// The same for a run of a single direction in a region: compared with the base directions in the same region.
-// If there are none, all of what it found is taken for the error.
+// The same for a run of a single direction in a region. It is compared with the base directions in that
+// region. If there are none, its whole contribution is taken as the error.
 Variance loneVariance(const DirectionSample& sample, std::span<const DirectionSample> base,
                       const SpectralSampling* sampling, ZoneVariances* to = nullptr);
 
-// The same for obstacles that no direction has hit, in regions other than 0. In each region, an obstacle is
-// assumed that hides half of what one more direction would represent. Without it, the light of an opening to
-// which few directions were sent would be stated without error whenever all of them see the same sky. An
-// obstacle also hides what is guessed.
+// Variance from occluders that no direction has hit, in regions other than 0. In each region, an occluder is
+// assumed that hides half of the solid angle that one more direction would represent. Without it, the stated
+// error of the light of an opening to which few directions were sent would be 0 whenever all of them see the
+// same sky. The occluder also hides light that is guessed.
 Variance unseenVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling,
                         ZoneVariances* to = nullptr);
 

@@ -42,9 +42,9 @@ class SphereEstimator {
     // Called before each set of directions; may throw to abandon the point.
     std::function<void()> checkStop;
     // The directions of the last point; with -Sa only if every direction is wanted (-Sd), because there may
-    // be a million. If it is, their radiances times solid angles sum to the integral of the answer: the
-    // difference between the integrals of the guess by glances and by directions is added to the radiances,
-    // in proportion to their guesses. No radiance is negative unless the answer is.
+    // be a million. With -Sd, their radiances times solid angles sum to the integral of the answer: the
+    // difference between the integrals of the guess by glances and by directions is distributed among the
+    // radiances in proportion to their guesses. No radiance is negative unless the answer is.
     std::vector<DirectionSample> samples;
     std::vector<TracedRay> rays;  // of the samples, in the same order; kept with -Sd only
 

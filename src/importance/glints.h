@@ -1,8 +1,8 @@
 #pragma once
 // The images of light sources in mirroring balls. Most of them are small and far brighter than everything
 // around them. The few directions that meet one by chance cause much variance, and the directions sent to the
-// ball are spread over all of it. The law of reflection gives the places of the images, so that they can have
-// directions of their own.
+// ball are spread over all of it. The places of the images follow from the law of reflection, so that
+// directions can be aimed at them.
 #include <span>
 #include <vector>
 

@@ -13,7 +13,8 @@ struct Moments {
   Irradiance cylindrical;  // of L sin(angle to z)
   Irradiance facing[6];    // of L |cos(angle to the axis)| over the hemispheres around +x -x +y -y +z -z
   V3d light{0, 0, 0};      // of photopicOf(L) d, W/m2
-  // Of L over each zone (-Sz), and the variance that is due to cells that reach across the borders of zones.
+  // ofZones: integrals of L over each zone (-Sz). borders: the variance due to cells that cross the borders
+  // of zones.
   const EqualZones* zones = nullptr;  // null: there are none
   std::vector<Irradiance> ofZones;
   std::vector<Color> borders;
@@ -22,8 +23,8 @@ struct Moments {
       : zones(by), ofZones(by ? by->count() : 0), borders(by ? by->count() : 0) {}
 
   // Adds one direction. part: its radiance times its solid angle. sampling: RayOptions::sampling. cell: the
-  // solid angle (sr) around it that it represents, by which it is divided among zones; 0: a point. isEven:
-  // whether it lies in the middle of this cell, as directions that are spread evenly over the sphere do.
+  // solid angle (sr) around the direction that it represents, which is divided among zones; 0: a point.
+  // isEven: whether the direction lies in the middle of its cell, as evenly spread directions do.
   void add(const V3d& direction, const Irradiance& part, const SpectralSampling* sampling, double cell = 0,
            bool isEven = true);
   void add(const Moments& other, double share);

@@ -6,7 +6,7 @@ namespace rsphere {
 
 // What one ray of a picture sees. Colors are in red, green and blue.
 struct PixelSample {
-  V3d rest{0, 0, 0};      // radiance (W/sr/m2) but for the three components below
+  V3d rest{0, 0, 0};      // radiance (W/sr/m2) without the three components below
   V3d indirect{0, 0, 0};  // reflected indirect light of the surface that is seen, divided by its pattern
   V3d gloss{0, 0, 0};     // rough reflections and transmissions, where neighboring pixels may share them
   V3d direct{0, 0, 0};    // light of sources by shadow rays, where neighboring pixels may share it
@@ -14,7 +14,7 @@ struct PixelSample {
   SeenSurface seen;       // material kNone: `rest` is everything
   bool sharesGloss = false, sharesDirect = false;
   ShownSource shown;  // the source that the ray showed
-  LeftOut leftOut;    // parts that the ray was not asked for
+  LeftOut leftOut;    // parts that were not requested
 
   V3d value() const { return rest + pattern * indirect + gloss + direct; }
 };
@@ -32,7 +32,7 @@ class PixelTracer {
   PixelTracer& operator=(const PixelTracer&) = delete;
 
   PixelSample trace(const V3d& direction, uint64_t seed, PixelParts parts);
-  // Of whole rays.
+  // Paths that find all light, not divided into components.
   PathsFrom paths() { return PathsFrom(tracer_, point_); }
 
  private:

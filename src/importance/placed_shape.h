@@ -14,12 +14,11 @@ struct PlacedShape {
   std::vector<V3d> vertices;
 };
 
-// Such a shape from an octree in world coordinates, exact to rounding.
+// A shape from an octree, converted to world coordinates; exact to rounding.
 PlacedShape placed(ShapeRef shape, std::span<const V3d> vertices, const Placement& placement);
 
-// A point of a surface, in world coordinates: samplePoint()'s for shapes other than instances and
-// meshes. Of an instance every surface is equally probable, of a mesh every triangle. clearance
-// is 0 if there is no point.
+// A random point of a surface, in world coordinates. In an instance every surface is equally probable, in a
+// mesh every triangle; other shapes use their own samplePoint(). clearance is 0 if there is no point.
 SurfacePoint samplePoint(const Scene& scene, const Surface& surface, Random& random);
 
 // Balls around the contents of instances and meshes, in their own coordinates. Each is computed when it is
@@ -47,7 +46,7 @@ class BoundingBalls {
   std::map<uint32_t, MeshBalls> meshes_;
 };
 
-// A ball in the coordinates that it is placed in.
+// Converts a ball to the coordinates in which it is placed.
 Sphere placed(const Sphere& ball, const Placement& placement);
 
 }  // namespace rsphere

@@ -17,7 +17,7 @@ struct PointAnswer {
   Irradiance cylindricalIrradiance;  // C  (1/pi) integral of L sin(angle to z)
   Irradiance facing[6];              // H  irradiances of the six faces, +x -x +y -y +z -z
   V3d lightVector{0, 0, 0};          // u  integral of L d, of brightness
-  double clamped = 0;                // what -Sf took from the brightness of mean, W/sr/m2
+  double clamped = 0;                // brightness that -Sf removed from the mean, W/sr/m2
   size_t directions = 0;             // k
   // z  mean radiances of the zones (-Sz), and Z: their standard errors
   std::vector<Radiance> zones;
@@ -26,7 +26,7 @@ struct PointAnswer {
     double brightness = 0;
   };
   std::vector<ZoneError> zoneErrors;  // empty unless standard errors are wanted
-  bool isDark = false;                // almost no direction has found light, or so little that -Sa gave up
+  bool isDark = false;                // almost no directions found light, or so little light that -Sa gave up
   bool reached = true;                // whether the standard error that -Sa asks for was reached
 };
 

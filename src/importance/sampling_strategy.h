@@ -41,8 +41,8 @@ class SetAtPoint {
 struct SampledSet {
   std::vector<DirectionSample> samples;
   std::vector<TracedRay> rays;  // of the samples, in the same order; kept with -Sd only
-  Moments excess;               // what glances find minus the guesses of the samples; 0 without glances
-  Irradiance clamped;           // what -Sf took from moments().total
+  Moments excess;               // light found by glances minus the guesses of samples; 0 without glances
+  Irradiance clamped;           // light that -Sf removed from moments().total
   Variance variance;            // of moments().total; 0 unless standard errors are wanted
   SharedError shared;           // in addition to variance
   ZoneVariances ofZones;        // as variance

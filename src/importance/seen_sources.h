@@ -2,7 +2,7 @@
 // Images of light sources as seen from a point, directly or in a flat mirror. They are few, small and bright,
 // and their places are known, so they are integrated separately instead of being met by chance. Every
 // direction belongs to one of two classes: either it shows such an image, perhaps through panes, or it does
-// not. This file samples the first class. The other directions of a set leave that class out.
+// not. This file samples the first class. All other directions of a set ignore light from that class.
 #include <optional>
 #include <vector>
 
@@ -15,7 +15,8 @@ namespace rsphere {
 class SeenSources {
  public:
   // Chooses the sources that are integrated separately, and the flat surfaces that may mirror them. All
-  // sources are chosen but illums, which do not look like sources. Keeps a reference to the prepared scene.
+  // sources are chosen except illums, which do not look like sources. Keeps a reference to the prepared
+  // scene.
   explicit SeenSources(const PreparedScene& prepared);
 
   // An image of a source as seen from a point.
@@ -33,7 +34,7 @@ class SeenSources {
   // would get fewer than tuning::SeenSources::kSmallShare are left to the other directions.
   std::vector<Image> findImages(const V3d& point, size_t most, double mirrorFactor) const;
 
-  // Whether what a primary ray showed is one of a point's images.
+  // Whether the source that a primary ray showed is one of a point's images.
   bool isOne(const ShownSource& shown, const std::vector<Image>& images) const;
 
   // Whether it is the source of one of these images, seen directly.
@@ -53,7 +54,7 @@ class SeenSources {
   // One traced direction to an image.
   struct Sample {
     DirectionSample direction;  // solidAngle: 0 if something hides the source
-    double part = 0;            // its solid angle if nothing hid the source, sr
+    double part = 0;            // solid angle of its cell without occlusion, sr
     int aimed = 1, clear = 1;   // shadow rays to its cell, and those that reached the source
     TracedRay ray;
     size_t image = 0;   // index in images
@@ -64,8 +65,8 @@ class SeenSources {
   // Directions to the images, each with the solid angle that it represents and the radiance along it; one in
   // each cell of a grid of equal solid angles. For an image that is seen directly, 2 x 2 shadow rays measure
   // the visible fraction of the cell, and one of the unobstructed ones is traced. If nothing hides an image,
-  // its solid angles sum to its own: exactly for polygons, spheres and distant sources, within 0.1% for
-  // others. The estimate is unbiased.
+  // the solid angles of its directions sum to the solid angle of the image: exactly for polygons, spheres and
+  // distant sources, within 0.1% for others. The estimate is unbiased.
   std::vector<Sample> sample(const PathsFrom& paths, const std::vector<Image>& images, uint64_t seed) const;
 
  private:

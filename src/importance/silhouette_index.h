@@ -1,5 +1,5 @@
 #pragma once
-// Finds the silhouettes that may contain a direction. Most of them do not, and testing all took a
+// Finds the silhouettes that may contain a direction. Most do not contain it, and testing all of them took a
 // fifth of the time of a point.
 #include <array>
 #include <cstdint>

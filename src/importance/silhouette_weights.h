@@ -17,12 +17,13 @@ namespace rsphere {
 //   (seen_sources.h).
 // - Cells keep to the silhouettes. The cell of a base direction is its Voronoi cell on the sphere; inside a
 //   silhouette it is shared with the dynamic directions that were sent there, in proportion to their numbers.
-//   All cells in a silhouette add up to its solid angle, unless others overlap it, and those outside to that
-//   of the rest (cells_in_targets.h). Plain cells reach over the silhouette's edge from the dense side and
-//   bias the mean by a percent.
-// - How many directions a special object gets follows from how much the radiance on it varies, compared with
-//   what is beside it. Separate rays measure that, so that the mean stays unbiased (targets.h). Openings that
-//   show daylight, and spots of sunlight that enters through them, also get directions of their own.
+//   The cells in a silhouette add up to its solid angle, unless others overlap it, and the cells outside all
+//   silhouettes add up to the remaining solid angle (cells_in_targets.h). Plain cells reach over the
+//   silhouette's edge from the dense side and bias the mean by a percent.
+// - The number of directions to a special object depends on how much the radiance on it varies, compared with
+//   its surroundings. Separate rays measure the variation, so that the mean stays unbiased (targets.h).
+//   Openings that show daylight, and spots of sunlight that enters through them, also get directions of their
+//   own.
 // - Indirect rays are aimed at openings that daylight enters through (transport/openings.h), and at diffuse
 //   surfaces that receive much direct light (transport/bright_spots.h).
 // - By lamps, the light of plain diffuse surfaces does not come from these directions but from many glances,
@@ -33,8 +34,8 @@ namespace rsphere {
 // With -Sk 0 only the first of these applies.
 class SilhouetteWeights : public SamplingStrategy {
  public:
-  // Keeps references to all of them. glances: null where they do not find
-  // all of the light of diffuse surfaces; otherwise they take the place of the guess.
+  // Keeps references to all of them. glances: null if they do not find all of the light of diffuse surfaces;
+  // otherwise they replace the guess.
   SilhouetteWeights(const SphereTracing& tracing, const SphereOptions& options, const BaseSet& base,
                     std::span<const SpecialObject> special, const SeenSources& sources,
                     const DiffuseGlances* glances);
@@ -52,7 +53,7 @@ class SilhouetteWeights : public SamplingStrategy {
     std::optional<Neighbours> neighbours;  // of glances, if standard errors are wanted
   };
 
-  // Stage 1: what is known of the view from a point before directions are chosen.
+  // Stage 1: information about the view from a point, before directions are chosen.
   struct View {
     Images images;              // of sources that are integrated separately
     double meanBrightness = 0;  // of the light that other directions find, W/sr/m2
@@ -82,12 +83,12 @@ class SilhouetteWeights : public SamplingStrategy {
   Radiance guessAlong(const SetAtPoint& set, const View& view, size_t i, const V3d& direction,
                       const TracedRay& ray) const;
 
-  // Stage 4: what glances find, minus the guesses of the directions.
+  // Stage 4: the light that glances find, minus the guesses of the directions.
   DiffuseGlances::Found beyondGuesses(const SetAtPoint& set, const View& view,
                                       std::span<const DirectionSample> others) const;
   void addGlances(const SetAtPoint& set, const LocalGuess& guess, DiffuseGlances::Found& found) const;
 
-  // Stage 5: the variance of both kinds of directions, without that of glances; to: as in error_estimate.h.
+  // Stage 5: the variance due to both kinds of directions, but not glances. to: as in error_estimate.h.
   Variance varianceOf(std::span<const DirectionSample> others, std::span<const size_t> runs,
                       std::span<const SeenSources::Sample> toImages, ZoneVariances* to) const;
 

@@ -22,7 +22,7 @@ struct SeenSurfaces {
 // One component of the light of all pixels.
 struct PixelLight {
   std::vector<Imath::V3f> light;
-  std::vector<float> known;  // share of the pixels around whose light is sampled, 0 to 1; 0: light is void
+  std::vector<float> known;  // fraction of the surrounding pixels with sampled light; 0: light is undefined
 };
 
 // How pixels share light.

@@ -16,8 +16,8 @@ namespace rsphere {
 // How irregularly a material scatters light, 0 to 1:
 // - 1 if it shows a sharp image of its surroundings in another shape or place: mirror, dielectric, interface,
 //   prisms; aBSDF, whose data are meant to have a peak in the straight direction.
-// - kPane for glass, and for an illum that shows what is behind it; other illums are as their alternate
-//   material.
+// - kPane for glass, and for an illum that shows what is behind it; other illums have the irregularity of
+//   their alternate material.
 // - For other materials the fraction of light that is reflected or transmitted specularly, divided by 1 + (a
 //   / kSharpRoughness)^2 for the roughness a (rms slope of facets), like the height of the peak. With two
 //   roughnesses (plastic2, metal2, trans2, WGMDfunc) the divisor is the geometric mean of both. The powers n
@@ -39,13 +39,13 @@ double irregularity(const Material& material);
 // Directions per sr for an irregularity of 1, times -Sk. A hundred spheres of 0.1 m then get 1000. 30% less:
 // time -17%; 30% more: time +15% (Voronoi cells; noise: error 8%, time 4%).
 RSPHERE_TUNED(SpecialObjects, double, kDirectionsPerSr, 32000);
-// Roughness a (rms slope) of a highlight that is half as irregular as a mirror: derived. It fills 4 pi a^2
-// sr, so that it gets about 16 of these directions, four across. 30% more: time +23% (Voronoi cells; noise:
+// Roughness a (rms slope) of a highlight that is half as irregular as a mirror: derived. The highlight fills
+// 4 pi a^2 sr, so that about 16 directions, four across, meet it. 30% more: time +23% (Voronoi cells; noise:
 // error 5%, time 4%). Balls that are rougher show no images of light sources (glints.h).
 inline constexpr double kSharpRoughness = .0065;
 // Irregularity of glass panes. Objects behind a pane look as large as without it, and its mirror image is
-// faint. A pane gets 64 directions per sr, a few hundred at most; as a mirror it took all directions. 30%
-// less or more: within noise (Voronoi cells; error 1%, time 5%).
+// faint. A pane gets 64 directions per sr, a few hundred at most; with the irregularity of a mirror, it would
+// take all directions. 30% less or more: within noise (Voronoi cells; error 1%, time 5%).
 RSPHERE_TUNED(SpecialObjects, double, kPane, .002);
 // Less irregular objects are treated as diffuse: derived. Their 16 directions per sr are a tenth of those of
 // the default base set.
@@ -59,10 +59,10 @@ struct SpecialObject {
   bool several = false;                 // whether `placed` is a ball around several surfaces
 };
 
-// With more special objects in octrees and meshes than this, each outermost instance is one object, to limit
-// the time, because silhouettes of all objects are computed at every point. So are those of pairs of a mirror
-// and a light source, of which no more are tested; the largest mirrors are kept. Chosen by experiment. 30%
-// less or more: the same answers in all cases.
+// With more special objects in octrees and meshes than this, each outermost instance is one object. This
+// limits the time, because the silhouettes of all objects are computed at every point. It is also the cap on
+// the pairs of a mirror and a light source, whose silhouettes are computed as well; the largest mirrors are
+// kept. Chosen by experiment. 30% less or more: the same answers in all cases.
 RSPHERE_TUNED(SpecialObjects, size_t, kMostPlacedObjects, 4096);
 
 // All surfaces, except distant sources, whose material or one of whose alternatives in mixtures has at least

@@ -3,7 +3,7 @@
 
 namespace rsphere {
 
-// What the tracers of sphere mode refer to. Shared by all threads; keeps references.
+// The objects that the tracers of sphere mode refer to. Shared by all threads; keeps references.
 struct SphereTracing {
   const PreparedScene& prepared;
   const Caches& caches;

@@ -1,5 +1,5 @@
 #pragma once
-// Which regions of the sphere of directions get directions of their own at a point, and how many.
+// Chooses regions of the sphere that get extra directions at a point, and the number of these directions.
 #include <span>
 #include <vector>
 
@@ -15,8 +15,8 @@ namespace rsphere {
 // A special object, or the image of a light source in one, that gets directions of its own.
 struct Target {
   Silhouette silhouette;
-  double density = 0;      // of its own directions, per sr of its region
-  double expected = 0;     // their average number
+  double density = 0;      // of the directions aimed at it, per sr of its region
+  double expected = 0;     // expected number of those directions
   bool continues = false;  // part of the same image as the target before it
   // Whether cells are fitted to its solid angle (cells_in_targets.h). No two of these targets overlap.
   bool fitted = false;
@@ -55,17 +55,17 @@ class TargetChoice {
                const SeenSources& sources, double densityFactor);
 
   // The targets at a point (world): special objects, images of light sources in them, openings that show
-  // daylight (transport/openings.h), and visible spots of daylight (transport/bright_spots.h). Their
-  // directions are as many as bring the density up to Neyman's allocation, in proportion to the deviation of
-  // radiance on them. The base directions are taken for the optimal density elsewhere. If that needs more
-  // than `most` directions on average, all densities are reduced by the same factor, so that no target is
-  // dropped. meanBrightness: of the view from the point, W/sr/m2.
+  // daylight (transport/openings.h), and visible spots of daylight (transport/bright_spots.h). Extra
+  // directions raise the density on each target to Neyman's allocation, in proportion to the standard
+  // deviation of the radiance on it. The density of base directions is assumed to be optimal elsewhere. If
+  // that needs more than `most` directions on average, all densities are reduced by the same factor, so that
+  // no target is dropped. meanBrightness: of the view from the point, W/sr/m2.
   Targets at(const V3d& point, double meanBrightness, size_t baseDirections, size_t most) const;
 
  private:
   const PreparedScene& prepared_;
   std::span<const BrightSpots::Sunlit> sunlit_;
-  std::vector<Openings::View> openings_;  // those without special objects in them
+  std::vector<Openings::View> openings_;  // openings without special objects in them
   // For each of contrasts_.objects: the mean radiance of the opening that it lies in, as seen from the dark
   // side, W/sr/m2; 0 if it lies in none.
   std::vector<double> radiances_;

@@ -5,14 +5,14 @@
 
 namespace rsphere {
 
-// Decides how many sets of directions are averaged for -Sa: as many as bring the estimated standard error of
-// the mean below a fraction of the mean.
+// Decides how many sets of directions are averaged for -Sa: sets are added until the estimated standard error
+// of the mean is below a fraction of the mean.
 //
-// A set that happens to find little light also estimates a small error. A rule that stops on the sets that it
-// averages therefore stops early where too little was found, which is a bias. Here the sets are divided into
-// two halves. The sets of one half decide how many sets the other half gets, and the answer is the average of
-// the means of the halves, which are independent of the decisions about themselves. Answers whose own
-// estimate of the error is still too large get more sets; this causes the remaining bias.
+// A set that happens to find little light also estimates a small error. A rule that decides by the sets that
+// it averages therefore stops early if they found too little light, which is a bias. Here the sets are
+// divided into two halves. The sets of one half decide how many sets the other half gets, and the answer is
+// the average of the means of the halves, which are independent of the decisions about themselves. Answers
+// whose own estimate of the error is still too large get more sets; this causes the remaining bias.
 //
 // Bias with -Sa .005 (tests/bench/importance/runs/2026-11-22-stopping.txt) beside a goal, and
 // near chrome balls, where few directions find much of the light; and the number of sets for the

@@ -9,7 +9,8 @@
 
 namespace rsphere {
 
-// A few surfaces out of many, numbered in their order: 2 bits a surface, and constant time.
+// A small subset of many surfaces, numbered in their order. It takes 2 bits for each surface of the whole,
+// and looks up a number in constant time.
 class ChosenSurfaces {
  public:
   explicit ChosenSurfaces(size_t surfaces) : words_(surfaces / 64 + 1) {}

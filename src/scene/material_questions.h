@@ -71,8 +71,8 @@ struct MirrorReflection {
   int boundaries = 0;      // of clear materials: the number of boundaries that reflect; 0: not clear
   bool frontOnly = false;  // the back reflects nothing
 };
-// Empty for materials that mirror nothing, whose highlights are always wide, or whose functions or data
-// decide.
+// Empty for materials that mirror nothing, for those whose highlights are always wide, and for those whose
+// reflection is given by functions or data.
 std::optional<MirrorReflection> mirrorReflection(const Material& material);
 
 // The diffuse reflection of both sides of an opaque material without functions: `share` of the light, in this

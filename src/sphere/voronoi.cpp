@@ -164,8 +164,9 @@ void VoronoiWorkspace::Data::query(const BaseTriangulation::Data& base,
 }
 
 void VoronoiWorkspace::Data::addKeptTriangles(const BaseTriangulation::Data& base) {
-  // Triangles of the base have no corner that was added later; new triangles have theirs first. The loop does
-  // not branch on this, because it is unpredictable: the kites of a triangle that was removed are added as 0.
+  // Replaced triangles are found by their first corner: new triangles begin with a site that was added later,
+  // and triangles of the base have no such corner. The loop adds 0 for the kites of a replaced triangle
+  // instead of branching, because the branch would be mispredicted.
   const auto& triangles = triangulation.delaunay.triangles;
   const std::size_t kept = base.triangulation.delaunay.sites.size(), places = base.kites.size();
   which.resize(triangles.size());

@@ -1,5 +1,6 @@
 #pragma once
-// Where light comes from: what directions are aimed at. See find_aims.h for how it is found.
+// Where much light comes from, so that directions are aimed there. See find_aims.h for how these places are
+// found.
 #include <memory>
 
 #include "transport/bright_spots.h"
@@ -24,7 +25,7 @@ struct FoundAims {
   operator Aims() const { return {openings.get(), spots.get(), highlights.get()}; }
 };
 
-// Those of `more` where it has any, otherwise those of `some`.
+// The aims of `more`; where it has none of a kind, those of `some`.
 inline Aims joined(const Aims& some, const Aims& more) {
   return {more.openings ? more.openings : some.openings, more.spots ? more.spots : some.spots,
           more.highlights ? more.highlights : some.highlights};

@@ -26,15 +26,16 @@ class BallHighlights {
   bool empty() const { return balls_.empty(); }
   static constexpr size_t kRoom = tuning::Caps::kAimedRoom;
 
-  // By balls.
+  // The sampling distribution for a point of a diffuse surface. Each element is the highlights of one ball.
   struct Aim : Proposals<kRoom> {
-    std::array<V3d, kRoom> way;  // to their centers (world units)
-    // The square of the distance along a tangent, at most (square world units).
+    std::array<V3d, kRoom> way;  // vectors to the centers of the balls (world units)
+    // Upper bound of the squared distance along a tangent (square world units).
     std::array<double, kRoom> tangent2;
   };
 
-  // front: unit normal. least: balls are left out whose highlights are estimated to add less than this to the
-  // variance of the radiance from a direction that is chosen by projected solid angle (square of W/sr/m2).
+  // front: unit normal. least: threshold below which a ball is left out (square of W/sr/m2). It is compared
+  // with the variance that the ball's highlights are estimated to add to the radiance from a direction drawn
+  // by projected solid angle.
   void aim(const V3d& point, const V3d& front, double least, Aim& aim) const;
 
   // As in Highlights (highlights.h).

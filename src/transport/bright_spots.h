@@ -88,7 +88,7 @@ class BrightSpots {
     Numbers x{}, y{}, z{}, normalX{}, normalY{}, normalZ{}, radius{}, anyway{}, power{};
   };
   Spots spots_;
-  double usual_ = 0;  // of the spots that were found first
+  double usual_ = 0;  // usual(), for the spots that were found first
   std::vector<Sunlit> sunlit_;
 };
 

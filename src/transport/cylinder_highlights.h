@@ -26,9 +26,9 @@ class CylinderHighlights {
     std::array<HighlightLobe, kRoom> lobe;
   };
 
-  // front: unit normal. least: nothing is aimed at if all highlights are estimated to add less than this to
-  // the variance of the radiance from a direction that is chosen by projected solid angle (square of
-  // W/sr/m2).
+  // front: unit normal. least: threshold below which nothing is aimed at (square of W/sr/m2). It is compared
+  // with the variance that all highlights together are estimated to add to the radiance from a direction
+  // drawn by projected solid angle.
   void aim(const V3d& point, const V3d& front, double least, Aim& aim) const;
 
   // As in Highlights (highlights.h).
@@ -38,14 +38,14 @@ class CylinderHighlights {
  private:
   struct Part {
     LightingPart lighting;
-    double radiance;  // of its image, W/sr/m2, of brightness
+    double radiance;  // brightness of the part's image, W/sr/m2
     double hot;       // upper bound, as `Cylinder::hot`
   };
   struct Cylinder {
     Cone shape;
     double roughness = 0;
-    // Upper bound of what its highlights add to the variance of the radiance from a direction that is chosen
-    // by projected solid angle, times the distance from the cylinder (W2/sr2/m4 * world units).
+    // Upper bound of the variance that its highlights add to the radiance from a direction drawn by projected
+    // solid angle, times the distance from the cylinder (W2/sr2/m4 * world units).
     double hot = 0;
     std::vector<Part> parts;
   };

@@ -39,13 +39,15 @@ class DirectLight {
   struct Receiver {
     const RayEnd& end;
     const V3d& point;
-    // The light of known sources is left out unless it has met something that is not known. Null: none is.
+    // If not null, light of known sources is left out, unless it has met a surface that is not known: paths
+    // from both ends bring it (plain_surfaces.h).
     const PlainSurfaces* leftToBothEnds = nullptr;
   };
 
-  // Adds the direct light to the radiance of the ray (W/sr/m2); the brighter that is already, the fewer
-  // sources are tested. front: for a surface that transmits no light its normal, behind which all
-  // coefficients are 0; otherwise the null vector. partOfLobe: null if shadow rays estimate all of the light.
+  // Adds the direct light to the radiance of the ray (W/sr/m2). The brighter that radiance already is, the
+  // fewer sources are tested. front: for a surface that transmits no light, its normal, because all
+  // coefficients are 0 behind it; otherwise the null vector. partOfLobe: null if shadow rays estimate all of
+  // the light.
   void add(Receiver at, DirectCoefficient coefficientOf, const V3d& front, const PartOfLobe* partOfLobe,
            Radiance& value);
 
@@ -95,7 +97,7 @@ class DirectLight {
     std::vector<SourceSample> samples;
     std::vector<Contribution> contributions;
     std::vector<double> brightness;  // of the contributions
-    // What PartOfLobe has taken from the coefficient of each contribution; empty if nothing is taken.
+    // The part of each contribution's coefficient that PartOfLobe left to samples of the lobe; empty if none.
     std::vector<Coefficient> ofLobe;
     std::vector<uint32_t> order;  // of the contributions, brightest first where not all are tested
     std::vector<double> remaining;

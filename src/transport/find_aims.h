@@ -1,17 +1,18 @@
 #pragma once
-// Finds what directions are aimed at. This is the one place that knows which estimate wants which aims.
+// Finds the places that directions are aimed at (aims.h). Only this file decides which estimate uses which
+// aims.
 #include "transport/aims.h"
 #include "transport/prepared_scene.h"
 
 namespace rsphere {
 
-// For the gathers of indirect light: nothing without indirect light (-ab 0, -ad 0). Openings, not in scenes
-// with goals; bright spots where light is interpolated (-aa above 0) or daylight enters; highlights. Traces
-// some paths to see where daylight enters.
+// The aims of gathers of indirect light; none without indirect light (-ab 0, -ad 0). They are openings,
+// except in scenes with goals; bright spots, if light is interpolated (-aa above 0) or daylight enters; and
+// highlights. Traces some paths to see where daylight enters.
 FoundAims findAimsOfGathers(const PreparedScene& prepared);
 
-// What the directions of a point are aimed at where there are no gathers, without indirect light: openings,
-// and spots of the light that enters by them.
+// The aims of the directions of a point if there are no gathers, because there is no indirect light:
+// openings, and spots of the light that enters through them.
 FoundAims findAimsOfPoints(const PreparedScene& prepared);
 
 }  // namespace rsphere

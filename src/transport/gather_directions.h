@@ -17,16 +17,17 @@ namespace rsphere {
 
 class GatherDirections {
  public:
-  // Around a normal (unit) at a point (world). No directions lie behind trueNormal (unit), as if it were dark
-  // there. rays: about how many directions will be drawn. Keeps references to what the aims refer to.
+  // The directions over the hemisphere around a normal (unit) at a point (world). Those behind the surface's
+  // trueNormal (unit) are left out, as if it were dark there. rays: about how many directions will be drawn.
+  // Keeps references to what the aims refer to.
   GatherDirections(const Aims& aims, const V3d& point, const V3d& normal, const V3d& trueNormal, int rays);
 
   // Called for each direction (unit), with its share of the mean over the hemisphere.
   using Each = FunctionRef<void(const V3d& direction, double part)>;
 
   // Draws `count` directions, whose parts sum to 1 on average over a hemisphere that lies in front of the
-  // surface. Those behind the surface are left out, and those that miss the highlight that they were aimed
-  // at.
+  // surface. Directions behind the surface are left out, and so are those that miss the highlight at which
+  // they were aimed.
   void draw(int count, Random& random, Each each) const;
 
  private:
@@ -43,8 +44,8 @@ class GatherDirections {
 using GatherRay = FunctionRef<void(const NextRay& next)>;
 
 // Makes a ray of each direction, from a point at the end of the root. coefficient: the factor of the mean
-// radiance over the hemisphere in the result. weight: that of one child, relative to the root's, which is
-// compared with the weight limit (-lw). An aimed direction has no smaller weight than others, although its
+// radiance over the hemisphere in the result. weight: the weight of one ray, relative to the root's, for
+// comparison with the weight limit (-lw). An aimed direction has no smaller weight than others, although its
 // factor is smaller.
 void sendOverHemisphere(const PreparedScene& prepared, const GatherDirections& directions, PathState& state,
                         const RayEnd& root, const V3d& point, RayKind kind, int rays,

@@ -1,5 +1,5 @@
 #pragma once
-// Which surfaces are looked at for highlights.
+// Chooses the surfaces that are examined for highlights.
 #include <algorithm>
 #include <vector>
 
@@ -21,7 +21,7 @@ struct Reflector {
 };
 
 // The largest shapes of one kind that show highlights and belong to the scene itself, not to octrees in it.
-// size: gets a shape; at most 0 if it is not to be used. Refers to the scene.
+// size: returns the size of a shape, or at most 0 to leave it out. The result refers to the scene.
 template <class Shape, class Size>
 std::vector<Reflector<Shape>> largestReflectors(const Scene& scene, size_t most, Size size) {
   std::vector<Reflector<Shape>> found;

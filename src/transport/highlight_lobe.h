@@ -45,14 +45,14 @@ class HighlightLobe {
 // How a surface bends where it mirrors.
 struct Bend {
   double radius;  // of curvature (world units)
-  // The direction (unit) in which it does not bend, as a cylinder along its axis; 0: none.
+  // The direction (unit) in which it does not bend, such as a cylinder's axis; 0: none.
   V3d straight{0, 0, 0};
 };
 
 // The highlight of a part of a source on a rough curved surface, as seen from a point. The model: roughness
 // is a property of the vector between the surface's normal and the bisector of the directions to the point
-// and to the source. This vector, and the directions, are taken for linear functions of the place on the
-// surface.
+// and to the source. This vector and the two directions are approximated by linear functions of the place on
+// the surface.
 //
 // Source of the model that defines the roughness: Ward, "Measuring and modeling anisotropic reflection"
 // (SIGGRAPH 1992).
@@ -74,7 +74,8 @@ struct Highlight {
   // The root of the determinant of the covariance of directions (sr).
   double spread;
 
-  // at: the place that mirrors the middle of the part to the point (world). normal: there, unit.
+  // at: the place on the surface that mirrors the middle of the part to the point (world). normal: the
+  // surface's normal there (unit).
   Highlight(const V3d& at, const V3d& normal, const Bend& bend, double roughness, const SourcePart& part,
             const V3d& point);
 };

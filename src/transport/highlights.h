@@ -17,7 +17,7 @@ class Highlights {
         cylinders_(scene, tracer, lights, least(usual_)) {}
 
   bool empty() const { return balls_.empty() && cylinders_.empty(); }
-  // An estimate of the mean brightness (W/sr/m2) of all surfaces that are lit by the sources.
+  // An estimate of the mean brightness (W/sr/m2) of all surfaces, as lit by the sources.
   double usual() const { return usual_; }
 
   // The sampling distribution for a point of a diffuse surface.
@@ -37,8 +37,8 @@ class Highlights {
     aim.mean = aim.balls.mean + aim.cylinders.mean;
   }
 
-  // One of the aimed directions (unit), for uniform u1, u2, u3 in [0, 1); 0 if the one that was drawn misses
-  // the highlight. REQUIRES aim.mean > 0.
+  // One of the aimed directions (unit), for uniform u1, u2, u3 in [0, 1); 0 if the drawn direction misses the
+  // highlight. REQUIRES aim.mean > 0.
   V3d sample(const Aim& aim, double u1, double u2, double u3) const {
     const double toBalls = aim.balls.mean / aim.mean;
     if (u1 < toBalls) return balls_.sample(aim.balls, u1 / toBalls, u2, u3);

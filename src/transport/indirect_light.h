@@ -2,9 +2,9 @@
 // Indirect diffuse light: the mean radiance from the hemisphere over a surface.
 //
 // With -aa above 0, the light at the first diffuse surface of a path is interpolated (irradiance_field.h),
-// and that of later ones comes from the coarse solution (coarse_solution.h); in sphere mode that of the
-// first, too. Otherwise it is gathered from -ad + -as stratified directions at the first diffuse surface, and
-// from as many as in RADIANCE at later ones.
+// and the light at later surfaces comes from the coarse solution (coarse_solution.h); in sphere mode, so does
+// the light at the first. With -aa 0, light is gathered from -ad + -as stratified directions at the first
+// diffuse surface, and from as many as in RADIANCE at later ones.
 #include "field/coarse_solution.h"
 #include "field/irradiance_field.h"
 #include "transport/path_state.h"

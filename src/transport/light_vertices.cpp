@@ -72,7 +72,7 @@ LightVertex vertexAt(const PlainPlace& at, double power, int bounces, LightVerte
 double joinedReflectance(const Opaque& m, const V3d& normal, const V3d& view, const V3d& toSource) {
   const double color = brightness(m.color), diffuse = color * (1 - m.specularity);
   if (!hasRoughHighlight(m)) return diffuse;
-  // Ward's lobe about the direction half way between the two; the same for all cosines.
+  // Ward's lobe about the halfway vector, without its dependence on the cosines.
   const V3d half = toSource - view;
   const double along = half.dot(normal), square = along * along;
   if (!(along > 0)) return diffuse;
@@ -87,10 +87,10 @@ class LightVertices::Path {
   Path(LightVertices& all, size_t number, uint64_t seed)
       : all_(all), random_(mixBits(mixBits(seed) + number)), batch_(number % LightVertex::kBatches) {}
 
-  // where: from 0 to 1, of the power of all sources.
+  // where: from 0 to 1, chooses the source by its share of the power of all sources.
   void send(double where);
 
-  double firstLength() const { return firstLength_; }  // 0 if it met nothing
+  double firstLength() const { return firstLength_; }  // 0 if the path met nothing
 
  private:
   bool leave(double where);
@@ -110,10 +110,10 @@ class LightVertices::Path {
   double cosineAtSource_ = 0;
   Irradiance power_;
   LightVertex::Way way_ = LightVertex::direct;
-  bool senderIsUnbounded_ = false;  // of diffuse light: the vertex that sent it brings all of it by itself
+  bool senderIsUnbounded_ = false;  // the vertex that sent the diffuse light has isUnbounded()
   bool fromSource_ = true;          // nothing has reflected it yet
   int bounces_ = 0;
-  double length_ = 0, firstLength_ = 0;  // since the last reflection; of the first part
+  double length_ = 0, firstLength_ = 0;  // since the last reflection; and of the first segment
   ById<LightId, double> weights_;
   FunctionScratch scratch_;
 };
@@ -167,7 +167,7 @@ bool LightVertices::Path::leave(double where) {
   return true;
 }
 
-// Goes on through a pane, or mirrored by it. False if the path ends there.
+// Continues the path through a pane or mirrors it there. Returns false if the path ends.
 bool LightVertices::Path::passPane(const Hit& hit) {
   Interaction view = plainInteraction(direction_, hit.normal, true);
   if (fromSource_) view.kinds = kShadow;  // no reflection
@@ -189,8 +189,8 @@ bool LightVertices::Path::passPane(const Hit& hit) {
   return false;
 }
 
-// The image of a source in a curved mirror lights nothing, and the back of a mirror is black. False if the
-// path ends.
+// Mirrors the path; returns false if it ends. It ends at the back of a mirror, which is black. Straight from
+// the source it also ends at curved mirrors, because they make no images that light other surfaces.
 bool LightVertices::Path::meetMirror(const Hit& hit) {
   if (hit.cosine <= 0 || (fromSource_ && all_.emission_.imageOf(light_, hit.surface) == kNone)) return false;
   const Scattering s =
@@ -246,7 +246,8 @@ void LightVertices::Path::addVisible(const PlainPlace& at, double reflected) {
                            at.material, at.pattern, at.flat, length_, shadowRays});
 }
 
-// Chooses between the ways of reflection by their power, by which the path may also end. False if it does.
+// Chooses between diffuse reflection, specular reflection and the end of the path, by power. Returns false if
+// the path ends.
 bool LightVertices::Path::reflect(const PlainPlace& at) {
   const Opaque& m = *at.material;
   const Interaction view = plainInteraction(direction_, at.normal, at.flat, at.pattern);
@@ -276,7 +277,7 @@ bool LightVertices::Path::reflect(const PlainPlace& at) {
 
 bool LightVertices::Path::reflectSpecularly(const Scattering& s, const Interaction& view, double scale) {
   way_ = fromSource_ ? LightVertex::highlight : LightVertex::sharp;
-  if (fromSource_) ++bounces_;  // only an indirect ray finds the highlight that lights the next surface
+  if (fromSource_) ++bounces_;  // for the next surface, the light of the highlight is indirect
   if (s.sharp.count > 0) {
     direction_ = s.sharp.path[0].direction;
     power_ = power_ * s.sharp.path[0].coefficient * scale;
@@ -297,7 +298,7 @@ LightVertices::LightVertices(const PreparedScene& prepared, const PlainSurfaces&
   measure(paths, seed);
   const auto count = static_cast<double>(paths);
   for (size_t i = 0; i < paths; ++i) {
-    // Batches have sources alike.
+    // Stratified, so that each batch has about the same number of paths from each source.
     const double where = (static_cast<double>(i) + Random(mixBits(seed ^ i)).uniform()) / count;
     Path(*this, i, seed).send(where);
   }
@@ -307,7 +308,7 @@ LightVertices::LightVertices(const PreparedScene& prepared, const PlainSurfaces&
                               Tuning::kLeastRest, 1.);
 }
 
-// The widths follow from the room: from how far paths go at first.
+// The widths depend on the size of the room, which is measured by the mean length of first segments.
 void LightVertices::measure(size_t paths, uint64_t seed) {
   const size_t tried = std::min(paths, Tuning::kTried);
   double sum = 0;
@@ -337,20 +338,21 @@ void LightVertices::sort() {
 }
 
 double LightVertices::closeShare(double distance, double fromEye) const {
-  // 0 beyond ten times the width, so that few vertices have a share.
+  // The share is cut off to 0 beyond ten times the width, so that few vertices have any.
   constexpr double kRest = 1. / 101;
   const double width = Tuning::kClose * std::min(meanLength_, fromEye);
   const double share = width * width / (distance * distance + width * width);
   return std::max(0., (share - kRest) / (1 - kRest));
 }
 
-// Of the points that a shadow ray from a place is aimed at, per area of the source (1/m2). distance, cosine:
-// of the ray, at the source. 0 if it is not known.
+// The density of the points on a source at which shadow rays from a place are aimed (1/m2); 0 if it is not
+// known. distance: of the source's point. cosine: there, between the ray and the normal.
 double LightVertices::aimedDensity(LightId light, double distance, double cosine) const {
   const LightSource& source = prepared_.lights().all()[light];
   if (const auto* plane = source.as<PlaneLight>()) return 1 / plane->area;
   if (!source.as<BallLight>()) return 0;
-  // In the cone that the ball subtends. By the law of cosines, its middle is this far away.
+  // Shadow rays are uniform in the cone that the ball subtends. The distance of its center follows from the
+  // law of cosines.
   const double r = source.radius, square = distance * distance + r * r + 2 * distance * r * cosine;
   const double sine2 = r * r / square;
   const double solidAngle = 2 * kPi * sine2 / (1 + std::sqrt(std::max(0., 1 - sine2)));

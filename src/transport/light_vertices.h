@@ -1,11 +1,12 @@
 #pragma once
 // Light vertices: the places at which light paths from the sources arrive on diffuse surfaces. Joined to
-// paths from the eye (vertex_light.h), they bring light that these alone would meet by chance only.
+// paths from the eye (vertex_light.h), they bring light that paths from the eye alone would meet only by
+// chance.
 //
-// A light path may do what the paths of path_tracer.h may do, in the opposite order:
-// - The light of a source reaches a diffuse surface straight, through panes, or by the rough highlight of a
-//   surface, but by no sharp reflection: shadow rays do not follow these either.
-// - A diffuse surface reflects it diffusely, sharply or by its rough highlight, up to -ab times diffusely.
+// Light paths are the paths of path_tracer.h, traced in the opposite direction:
+// - The light of a source reaches the first diffuse surface directly, through panes, or by a rough highlight,
+//   but not by a sharp reflection, because shadow rays do not follow sharp reflections either.
+// - Surfaces on the way reflect it diffusely, sharply or by a rough highlight, diffusely at most -ab times.
 #include <vector>
 
 #include "transport/light_vertex.h"
@@ -17,20 +18,20 @@ namespace rsphere {
 // Shared by all threads; constant.
 class LightVertices {
  public:
-  // Sends paths from the sources, as many from each as its share of the power of all. Keeps references.
+  // Sends paths from the sources, their number from each in proportion to its power. Keeps references.
   // REQUIRES that PlainSurfaces::obstacle() found none.
   LightVertices(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t paths, uint64_t seed);
 
-  // Vertices whose light goes on to other diffuse surfaces, neighbours next to each other.
+  // Vertices whose light goes on to other diffuse surfaces. Those of a cluster follow each other.
   const std::vector<LightVertex>& all() const { return all_; }
   // The position after the last vertex of each cluster (vertex_clusters.h) in all().
   const std::vector<uint32_t>& clusterEnds() const { return ends_; }
-  // Of vertex i of all(): the light that arrives, times the color of the material (W). diffuseShare() of it
-  // is reflected.
+  // The light that arrives at vertex i of all(), times the color of the material (W). The fraction
+  // diffuseShare() of it is reflected.
   const Irradiance& powerOf(size_t i) const { return powers_[i]; }
   const Opaque& materialOf(size_t i) const { return *surfaces_.materialOf(hits_[i]); }
 
-  // A vertex that the eye itself may be joined to.
+  // A vertex that may be joined directly to the eye, the point where the answer is wanted.
   struct Visible {
     LightVertex vertex;
     Irradiance power;  // as powerOf(); of direct light, without the color of the material
@@ -38,25 +39,26 @@ class LightVertices {
     const Opaque* material;
     Color pattern;
     bool flat;
-    double length;  // from the surface, or the source, that has sent the light, world units
-    // The density of shadow rays from there to the same place of the source, over the density of light paths
-    // by way of both places (m2). 0 unless the light is direct.
+    double length;  // distance from the surface or the source that sent the light, world units
+    // For direct light, the density of shadow rays from the vertex to the place on the source where its path
+    // began, divided by the density of light paths through both places (m2); otherwise 0.
     double shadowRays;
   };
   const std::vector<Visible>& visible() const { return visible_; }
 
-  // Visible::shadowRays for a shadow ray from a place, if its source was drawn with this probability.
+  // The same ratio as Visible::shadowRays, for a shadow ray whose source was drawn with this probability.
+  // normal: at the origin of the ray (unit).
   double shadowRaysOver(const SourceSample& sample, const V3d& normal, double probability) const;
 
-  // The share of the light that one diffuse surface sends to another at this distance (world units) for which
-  // vertices are too uneven, so that rays bring it.
+  // The fraction of the light between two diffuse surfaces at this distance (world units) that rays bring,
+  // because the noise of vertices would be too large.
   double nearShare(double distance) const {
     return width_ * width_ / (distance * distance + width_ * width_);
   }
-  // The part of that share that a ray leaves to joins with the eye, because it meets narrow gaps too rarely:
-  // narrow as seen from the eye, at this distance from the place (world units).
+  // The part of nearShare() that rays leave to joins with the eye, because they meet narrow gaps too rarely.
+  // Gaps are narrow relative to fromEye, the distance of the place from the eye (world units).
   double closeShare(double distance, double fromEye) const;
-  // The share of the light of a vertex that joins with an eye at this distance bring.
+  // The fraction of a vertex's light that joins bring to an eye at this distance.
   double joinedShare(const Visible& v, double fromEye) const {
     switch (v.vertex.way) {
       case LightVertex::diffuse:
@@ -67,13 +69,13 @@ class LightVertices {
         return 1;
     }
   }
-  double width() const { return width_; }  // at which nearShare() is a half, world units
+  double width() const { return width_; }  // distance at which nearShare() is 1/2, world units
 
-  // With what probability a place follows paths from the eye for the light that is left to them: more often
-  // where more of the light meets surfaces that are not known.
+  // The probability of following paths from the eye at a place, for the light that is left to them. It is
+  // higher where more of the light meets unknown surfaces.
   double shareOfRest() const { return shareOfRest_; }
   double pathPower() const { return emission_.pathPower(); }  // brightness of each path, W
-  double meanLength() const { return meanLength_; }  // from the sources to the next surfaces, world units
+  double meanLength() const { return meanLength_; }           // from sources to first surfaces, world units
 
  private:
   class Path;
@@ -85,7 +87,7 @@ class LightVertices {
   const PlainSurfaces& surfaces_;
   SourceEmission emission_;
   double shareOfRest_ = 1;
-  size_t met_ = 0, metUnknown_ = 0;  // surfaces, by light paths
+  size_t met_ = 0, metUnknown_ = 0;  // numbers of surfaces that light paths have met
   double meanLength_ = 1, width_ = 0;
   std::vector<LightVertex> all_;
   std::vector<Irradiance> powers_;
@@ -94,9 +96,9 @@ class LightVertices {
   std::vector<Visible> visible_;
 };
 
-// What a place sends to the eye of light from one direction (unit), as a share of the light that arrives
-// and relative to even reflection: about, for the choice of joins. view: direction (unit) of the ray that
-// shows it.
+// Approximate reflectance of a place for light that arrives from one direction (unit) and goes to the eye, as
+// a multiple of a white diffuse surface's; used to choose joins. view: direction (unit) of the ray that sees
+// the place.
 double joinedReflectance(const Opaque& material, const V3d& normal, const V3d& view, const V3d& toSource);
 
 }  // namespace rsphere

@@ -1,5 +1,5 @@
 #pragma once
-// What a path is asked for, and what it finds, besides its radiance.
+// The request for a path, and its results besides radiance.
 #include <functional>
 
 #include "trace/tracer.h"
@@ -24,8 +24,8 @@ using RayObserver = std::function<void(const RayEnd& end, const RayResult& resul
 // The shadow rays that an observer is shown.
 enum class ShownShadows : uint8_t {
   thatPassSurfaces,  // those that hit a surface that may transmit light
-  thatArrive,        // these, and those that reach their source with nothing in their way
-  all                // those that are blocked, too
+  thatArrive,        // the above, and those that reach their source unobstructed
+  all                // the above, and those that are blocked
 };
 
 // What differs from path to path. Leaving something out changes the expected radiance; nothing else here
@@ -35,13 +35,13 @@ struct PathRequest {
   // it hits nothing). Null: no observer. Changes no answer.
   const RayObserver* observer = nullptr;
   ShownShadows shadows = ShownShadows::thatPassSurfaces;
-  // The surface that the primary ray hits is shown without its indirect light, and without the samples of its
-  // rough reflections and transmissions.
+  // leavesOutIndirect: the surface that the primary ray hits is shown without its indirect light.
+  // leavesOutLobes: it is shown without the samples of its rough reflections and transmissions.
   bool leavesOutIndirect = false, leavesOutLobes = false;
-  // Paths from both ends bring light to the plain surfaces (plain_surfaces.h) that the path meets before its
-  // first diffuse reflection: their indirect light comes from here. One that the primary ray shows straight
-  // or through panes is shown without its diffuse reflection and without the shadow rays of its rough
-  // highlight. Null: they are shaded as others.
+  // The source of indirect light, by paths from both ends, for plain surfaces (plain_surfaces.h) that the
+  // path meets before its first diffuse reflection. If the primary ray hits such a surface straight or
+  // through panes, the surface's diffuse reflection is left out, and so are shadow rays for its rough
+  // highlight. Null: plain surfaces are shaded like others.
   const VertexLight* vertexLight = nullptr;
 };
 

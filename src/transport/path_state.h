@@ -11,10 +11,10 @@
 
 namespace rsphere {
 
-// Where the indirect light of the first diffuse surface of a path comes from, with -aa above 0. That of later
-// ones comes from the coarse solution. If thousands of directions are averaged, the errors of single patches
-// matter less than what a gather at each surface costs. In a picture, patches would be visible, and cache
-// records would outnumber its pixels where furniture is dense.
+// Where the indirect light of the first diffuse surface of a path comes from, with -aa above 0. The light of
+// later surfaces comes from the coarse solution. If thousands of directions are averaged, the errors of
+// single patches matter less than what a gather at each surface costs. In a picture, patches would be
+// visible, and cache records would outnumber its pixels where furniture is dense.
 enum class FirstBounce : uint8_t {
   interpolated,  // from cache records
   fromPatches,   // from the coarse solution
@@ -27,9 +27,9 @@ struct TracingMode {
   // The light of sources in rough highlights is divided between shadow rays and samples of the lobes
   // (shared_highlights.h). The mean stays the same.
   bool sharesHighlights = false;
-  // The descendants of a primary ray have a bound, so that a record takes a bounded time wherever it lies:
-  // within a closed metal cylinder paths would branch at each surface, into thousands of rays. The mean stays
-  // the same.
+  // The number of descendants of a primary ray is limited, so that the time for a record is limited wherever
+  // its point lies: within a closed metal cylinder paths would branch at each surface, into thousands of
+  // rays. The mean stays the same.
   bool boundsWork = false;
 };
 
@@ -42,8 +42,8 @@ struct PathSettings {
 
 // The descendants of one ray: of a gather for interpolation, or of a primary ray in sphere mode.
 struct Descendants {
-  double most = 0;       // beyond which weak ones are followed by Russian roulette; 0: they are not limited
-  double weight = 0;     // of the ray that they descend from
+  double most = 0;       // above this number, weak ones are followed by Russian roulette; 0: no limit
+  double weight = 0;     // of the ray at their root
   int depth = 0;         // of that ray
   int ambientLevel = 0;  // of that ray
   int rays = 0;          // followed so far, without shadow rays

@@ -15,8 +15,8 @@ namespace rsphere {
 // the prepared scene, the aims and the mode.
 class PathTracer {
  public:
-  // Keeps references to the scene and the caches; caches without fields: nothing is interpolated. aims: of
-  // the gathers that are not for the caches.
+  // Keeps references to the scene and the caches; caches without fields: nothing is interpolated. aims: for
+  // the gathers that do not serve the caches.
   PathTracer(const PreparedScene& prepared, const Caches& caches, const Aims& aims,
              const TracingMode& mode = {});
   ~PathTracer();

@@ -87,7 +87,7 @@ void PlainSurfaces::findSources() {
   const auto& lights = prepared_.lights().all();
   knownSources_.resize(lights.size());
   for (const LightId i : lights.ids()) {
-    knownSources_[i] = isKnown(i);  // that of an image follows that of its source
+    knownSources_[i] = isKnown(i);  // an image comes after its source, which isKnown() looks up
     hasKnownSources_ = hasKnownSources_ || knownSources_[i];
     knowAllSources_ = knowAllSources_ && knownSources_[i];
   }

@@ -4,8 +4,8 @@
 //   patterns that are the same for all rays;
 // - local sources that shadow rays can be aimed at, and their images in mirrors.
 // Paths from both ends bring the light of known sources that has met known surfaces alone. All other light is
-// left to the paths that path_tracer.h follows from the eye. This is the one rule of what is known, so that
-// each path of light is counted by one of them, or by several with weights that add up to 1.
+// left to the paths that path_tracer.h follows from the eye. All code uses this one rule of what is known, so
+// that each path of light is found by one method only, or by several with weights that add up to 1.
 #include <vector>
 
 #include "transport/prepared_scene.h"
@@ -23,9 +23,9 @@ struct PlainPlace {
   Color color() const { return material->color * pattern; }
 };
 
-// What a straight line meets first that is not a pane of glass.
+// The first hit of a straight line that is not a pane of glass.
 struct Sight {
-  Hit hit;                // its distance is that from the last pane
+  Hit hit;                // its distance is measured from the last pane
   double distance = 0;    // of the hit from the start, world units
   Coefficient passed{1};  // share of the light that the panes in between let pass
 };
@@ -35,19 +35,20 @@ class PlainSurfaces {
  public:
   explicit PlainSurfaces(const PreparedScene& prepared);
 
-  // Why paths from both ends cannot be used, or would bring too little; null if they do.
+  // The reason why paths from both ends cannot be used, or would bring too little light; null if they can be
+  // used.
   const char* obstacle() const;
 
   bool knows(SurfaceId surface) const { return materialOf(surface) || paneOf(surface) || mirrorOf(surface); }
   bool knows(LightId source) const { return knownSources_[source]; }
-  // The radiance (W/sr/m2) that a known source, no image of one, sends from a point of it. normal: unit, of
-  // its front. direction: unit, towards the point.
+  // The radiance (W/sr/m2) that a known source, not an image, sends from a point on it. normal: of its front
+  // at the point (unit). direction: towards the point (unit).
   Radiance radianceOf(LightId source, const V3d& point, const V3d& normal, const V3d& direction,
                       FunctionScratch& scratch) const;
   bool knowAllSources() const { return knowAllSources_; }
   // Whether known paths bring all of the light: all surfaces and sources are known.
   bool bringAll() const { return bringAll_; }
-  // Whether they bring all of the direct light of known surfaces.
+  // Whether known paths bring all of the direct light of known surfaces.
   bool bringAllDirect() const { return bringAllDirect_; }
   // Whether shadow rays to a known source may bring light of paths that are not known.
   bool passUnknown() const { return passUnknown_; }
@@ -63,7 +64,7 @@ class PlainSurfaces {
   // The place that a sight from `origin` along a direction shows.
   PlainPlace placeOf(const V3d& origin, const V3d& direction, const Sight& sight,
                      FunctionScratch& scratch) const;
-  // Null if the surface is none of plastic or metal, or none that is known.
+  // Null unless the surface is a known one of plastic or metal.
   const Opaque* materialOf(SurfaceId surface) const { return opaque_[scene_.surfaces.face(surface).finish]; }
   bool isFlat(SurfaceId surface) const;  // Interaction::flat
   // Null if the surface is no pane.
@@ -94,16 +95,17 @@ class PlainSurfaces {
 Interaction plainInteraction(const V3d& direction, const V3d& normal, bool flat,
                              const Color& pattern = Color(1, 1, 1));
 
-// Whether the highlights of sources on a material are found by the same samples as its diffuse light.
+// Whether a material shows rough highlights of sources, which are sampled together with its diffuse light.
 inline bool hasRoughHighlight(const Opaque& material) {
   return material.specularity > kNegligible && material.roughness * material.roughness > kNegligible;
 }
 
-// What of the direct light of a place is meant.
+// The parts of the direct light of a place.
 enum class Shown : uint8_t { none, highlight, all };
 
-// The share of the radiance of a source in a direction (unit), of this solid angle (sr), that a place shows
-// by its diffuse reflection and its rough highlight. view: direction (unit) of the ray that sees the place.
+// The radiance that a place shows by diffuse reflection and its rough highlight, relative to the radiance of
+// a source of this solid angle (sr) in a direction (unit). view: direction (unit) of the ray that sees the
+// place.
 Coefficient shownOfSource(const PlainPlace& at, const V3d& view, const V3d& toSource, double solidAngle,
                           Shown shown = Shown::all);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What directions from a point are aimed at: regions, each with the light that is expected from it.
+// The regions at which directions from a point are aimed, each with the light that is expected from it.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -33,7 +33,7 @@ struct Proposals {
     point = from;
     mean = before(count) / kPi;
   }
-  // The sum of the contributions before one of them; of all, before(count).
+  // The sum of the contributions before region i. before(count): the sum of all.
   double before(size_t i) const { return i > 0 ? upTo[i - 1] : 0; }
   // The one that is chosen by u, uniform in [0, 1). REQUIRES: count > 0.
   size_t chosen(double u) const {
@@ -44,7 +44,7 @@ struct Proposals {
   }
 };
 
-// The share of a mixture of directions that a finder's proposals get. A finder has the members
+// The fraction of the directions of a mixture that is aimed at a finder's proposals. A finder has the members
 //   Aim                          its proposals at a point
 //   sample(aim, u1, u2, u3)      one of the aimed directions (unit), for uniform u1, u2, u3 in [0, 1)
 //   density(aim, direction)      of these directions, per sr

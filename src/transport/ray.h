@@ -64,12 +64,12 @@ struct RayQuery {
   bool unobstructed = false;  // for shadow rays: surfaces between the origin and the source are ignored
 };
 
-// Whether only what paths from both ends know (PlainSurfaces) has led to a ray, and what they bring of the
-// light that arrives at the last diffuse surface by a reflection.
+// Whether only surfaces that paths from both ends know (PlainSurfaces) have led to a ray; if so, whether
+// those paths bring light that arrives at the last diffuse surface by a reflection.
 enum class Known : uint8_t {
   no,
-  joined,   // all of it: light vertices there are joined to the eye, or to the surface before
-  unjoined  // none of it: a reflection shows the surface, by which no vertices are joined to it
+  joined,   // they bring it: light vertices there are joined to the eye, or to the surface before
+  unjoined  // they do not: the surface is seen in a reflection, through which vertices are not joined
 };
 
 // What a ray inherits from its ancestors. It does not change once the ray is followed.
@@ -91,12 +91,13 @@ struct PathContext {
   Coefficient contribution{1};  // share of its radiance, at its origin, in that of the primary ray
 };
 
-// What a ray hit. Shading turns the normal and what depends on it round, and adds textures and patterns.
+// The hit of a ray. Shading turns the normal, and the values that depend on it, towards the ray, and adds
+// textures and patterns.
 struct SurfaceHit {
   SurfaceId surface;  // kNone: nothing
   double length = kFarAway;
-  // Of the hit, or the end of the ray (RayQuery::farthest); the origin if nothing, or a distant source, is
-  // hit.
+  // The point of the hit, or the end of the ray (RayQuery::farthest). The origin if nothing or a distant
+  // source is hit.
   V3d point{0, 0, 0};
   double u = 0, v = 0;
   PlacementPath path;       // the placements of the surface's modifiers in the world
@@ -104,8 +105,8 @@ struct SurfaceHit {
   double cosine = 1;        // -normal . direction; negative for a hit from behind until it is turned round
   bool fromBehind = false;  // normal, cosine and perturbation were flipped because of a hit from behind
   bool insideOut = false;   // they were flipped at a cut by antimatter, whose front is the inside
-  // Begins with that of a smooth mesh. Apart from turning it round, only applying a modifier changes it, and
-  // only that changes the pattern, which meters (-i) ignore (SurfaceShading).
+  // The perturbation of the normal. It begins with that of a smooth mesh. Apart from turning it round, only
+  // modifiers change it. The same is true of the pattern, which meters (-i) ignore (SurfaceShading).
   V3d perturbation{0, 0, 0};
   Color pattern{1, 1, 1};
 };
@@ -114,7 +115,7 @@ struct SurfaceHit {
 struct RayResult {
   Radiance value;                                                 // all that returns along the ray
   Radiance mirrored;                                              // the part of it that was mirrored
-  double mirroredLength = kFarAway, unmirroredLength = kFarAway;  // of the path to what is seen
+  double mirroredLength = kFarAway, unmirroredLength = kFarAway;  // of the path to the object seen
 };
 
 // The end of a ray, where it is shaded. Rays that begin there refer to it, so that it must outlive them.
@@ -134,7 +135,7 @@ struct RayEnd {
   const PathContext& context;
   SurfaceHit hit;
   uint64_t clipsBeyond;  // PathContext::clips of a ray that continues beyond the surface
-  // Set if the surface shows that the ray began in another space than it inherited.
+  // Set if the surface that was hit implies that the ray began in another space than the inherited one.
   std::optional<RaySpace> beganIn;
   Known known = Known::no;  // of the rays that begin here; set when the surface is shaded
 

@@ -10,10 +10,10 @@
 namespace rsphere {
 
 // Whether a path goes on along a ray, which has just begun at the end of its parent. The path ends beyond -lr
-// reflections, and below the weight limit (-lw), always if -lr is positive, otherwise by Russian roulette.
-// Roulette also ends paths of a ray that has too many descendants (state.descendants, which the ray is added
-// to). NextRay::coefficient is increased if the path survived roulette, so that the mean stays unbiased.
-// Throws rad::Error if roulette has no weight limit to compare with (-lw 0).
+// reflections, and below the weight limit (-lw): always if -lr is positive, otherwise by Russian roulette.
+// Roulette also ends paths if their root has too many descendants; the ray is added to them
+// (state.descendants). NextRay::coefficient is increased if the path survived roulette, so that the mean
+// stays unbiased. Throws rad::Error if roulette has no weight limit to compare with (-lw 0).
 bool goesOnAlong(NextRay& next, const PreparedScene& prepared, PathState& state);
 
 // Russian roulette: whether the path of a ray goes on. If so, its weight is at least `least`, and its
@@ -50,9 +50,9 @@ inline Descendants descendantsOfPatch(int rays, int depth) {
   return {tuning::RayLimits::kMostOfPatch * rays, kMeanReflectance, depth + 1, 1, 0};
 }
 
-// The same for a gather's ray, if light is interpolated. With a bound on work, the count of the primary ray
-// goes on instead, and so does that of a patch; but each ray of a patch begins a new count of the patches
-// that it uses.
+// The same for a gather's ray, if light is interpolated. If work is bounded, the count of the primary ray
+// goes on instead. Within a patch, the count of the patch goes on, but each of its rays begins a new count of
+// the patches that it uses.
 inline void countDescendants(const PathSettings& settings, PathState& state, const PathContext& ray) {
   if (state.links)
     state.descendants.patches = 0;

@@ -36,16 +36,17 @@ struct RayOptions {
   int ambientSuperSamples = 512;  // -as
   Radiance ambientValue;          // -av
   int ambientWeight = 0;          // -aw
-  // Patches of the coarse solution have as many rays as if -ad + -as were at least this, and serve the first
-  // diffuse surface too (FirstBounce::fromPatches). Not an option: sphere mode sets it, because each of its
-  // directions has a small -ad and all share one solution. 0: neither.
+  // The number of rays of patches of the coarse solution is computed as if -ad + -as were at least this, and
+  // patches serve the first diffuse surface too (FirstBounce::fromPatches). Not an option: sphere mode sets
+  // it, because each of its directions has a small -ad and all share one solution. 0: no minimum, and patches
+  // do not serve the first surface.
   int leastForPatches = 0;
   int coarserLinks = 0;  // FieldOptions::coarserLinks. Not an option: pictures set it
   std::string ambientFile;                                    // -af
   double fieldMemory = 0;                                     // -Sm  MB; 0: no bound
   std::vector<std::string> ambientExcluded, ambientIncluded;  // -ae -aE, -ai -aI; one or both are empty
   // limits
-  int reflectionLimit = -10;  // -lr  its absolute value, if not 0; not positive: Russian roulette below -lw
+  int reflectionLimit = -10;  // -lr  limit: absolute value, 0: none; not positive: Russian roulette below -lw
   double weightLimit = 1e-4;  // -lw
   // medium
   Color mediumExtinction{0, 0, 0};  // -me  per unit length

@@ -12,13 +12,13 @@ namespace rsphere {
 
 class ReachGrid {
  public:
-  // What lies within a distance of a segment (world units).
+  // All points within a distance of a line segment (world units).
   struct Reach {
     V3d begin{0, 0, 0}, end{0, 0, 0};
     double distance = 0;
   };
 
-  // bounds: not empty, of the points that are asked about.
+  // bounds: of the points for which at() will be called; not empty.
   ReachGrid(const std::vector<Reach>& reaches, const Box3d& bounds);
   ReachGrid() = default;  // nothing reaches anywhere
 
@@ -32,7 +32,7 @@ class ReachGrid {
   }
 
  private:
-  // Which of `count` cells; the first or last one for what is outside.
+  // The index of the cell, from 0 to count - 1; places outside get the first or the last one.
   static size_t inner(double at, size_t count) {
     return at > 0 ? (at < static_cast<double>(count) ? static_cast<size_t>(at) : count - 1) : 0;
   }

@@ -16,9 +16,9 @@ struct Rectangle {
   V3d at(double u, double v) const { return corner + u * width * x + v * height * y; }
 };
 
-// The smallest rectangle around coplanar polygons of which one side is parallel to the longest edge of the
-// first; among edges of equal length within rounding, to the first. Its normal is that of the first polygon.
-// REQUIRES a polygon; one of no area may give a rectangle of no area.
+// The smallest rectangle around coplanar polygons that has a side parallel to the longest edge of the first
+// polygon. Among edges of equal length, within rounding, the first is used. Its normal is that of the first
+// polygon. REQUIRES a polygon; one of no area may give a rectangle of no area.
 Rectangle rectangleAround(const Scene& scene, std::span<const Polygon* const> polygons);
 
 // The vertices of a polygon of the scene (world units).

@@ -29,7 +29,7 @@ class MistSources {
   std::vector<std::vector<uint16_t>> ofMist_;  // by Mist::number
 };
 
-// The light sources of a scene, and what tracing asks about them. Shared by all threads.
+// The light sources of a scene, and the facts about them that tracing needs. Shared by all threads.
 class SceneLights : public LightSources {
  public:
   // relays: -dr. warn: gets the warnings of LightSources and MistSources. Keeps references to the scene and
@@ -59,7 +59,7 @@ class SceneLights : public LightSources {
   PresumedShadows presumedShadows_;
   SourceChoice choice_;
   MistSources ofMists_;
-  ChosenSurfaces luminous_;  // those that are light sources: the first lights, in their order
+  ChosenSurfaces luminous_;  // surfaces that are light sources, which are the first lights, in the same order
   ById<LightId, std::optional<Radiance>> constantRadiance_;
   std::vector<SurfaceId> distant_;
 };

@@ -1,10 +1,10 @@
 #pragma once
 // Light of a source in a rough highlight can be estimated in two ways: by shadow rays, which choose a
 // direction within the source, and by samples of the lobe, which choose one within the highlight. Near a
-// large source the first fail: few of their directions lie in the highlight, and those bring many times its
-// mean. The light is therefore divided between both (multiple importance sampling, balance heuristic: Veach
-// and Guibas 1995). The shares are functions of the direction alone, and sum to 1 for each, so that no light
-// is counted twice or lost.
+// large source shadow rays have large variance: few of them lie in the highlight, and each of those few
+// brings many times the mean. The light is therefore divided between both (multiple importance sampling,
+// balance heuristic: Veach and Guibas 1995). The shares are functions of the direction alone, and sum to 1
+// for each, so that no light is counted twice or lost.
 #include "transport/prepared_scene.h"
 #include "transport/ray.h"
 
@@ -20,8 +20,8 @@ bool sharesHighlights(const PreparedScene& prepared, LightId source);
 double shareOfLobe(const LightSource& source, double distance, double cosine, double density);
 
 // The radiance of the source that is the first hit of a lobe's sample, before it is multiplied by the share;
-// black if the sample hit no source, or one whose light is not divided. sample: after tracing, where its own
-// value excludes the source.
+// black if the sample hit no source, or one whose light is not divided. sample: the end of the sample's ray
+// after tracing; the value of the ray itself excludes the source.
 Radiance sourceSeenBy(const PreparedScene& prepared, const RayEnd& sample);
 
 }  // namespace rsphere

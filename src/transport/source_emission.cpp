@@ -84,7 +84,8 @@ SourceEmission::Way SourceEmission::way(LightId source, Random& random, Function
   return way;
 }
 
-// The power of an uneven source, as far as tries show it: above 0, since they may miss some of it.
+// Estimates the power of an uneven source from random directions. Always above 0, because they may miss all
+// of its light.
 double SourceEmission::triedPower(LightId source) const {
   Random random(mixBits(source.index()));
   FunctionScratch scratch;

@@ -11,7 +11,7 @@ namespace rsphere {
 // Draws sample i of n of a lobe.
 using LobeSampler = FunctionRef<LobeSample(int i, int n)>;
 
-// The part of the light of the source that a lobe's sample has hit that is left to such samples
+// The part of a source's light that is left to samples of the lobe, for a sample that has hit the source
 // (shared_highlights.h).
 using LobeShare = FunctionRef<Radiance(const RayEnd& sample)>;
 
@@ -22,8 +22,9 @@ class SpecularLight {
                 RayFollower& follower)
       : t_(prepared), settings_(settings), state_(state), follower_(follower) {}
 
-  // Each adds light to the result of a ray (W/sr/m2): of sharp paths from its end, of the rays that a prism
-  // redirects, and of the source that is relayed at the virtual one that a shadow ray has reached.
+  // Each adds light to the result of a ray (W/sr/m2): that of sharp paths from its end; that of the rays that
+  // a prism redirects; and, for a shadow ray that has reached a virtual source, that of the source which it
+  // relays.
   void add(const RayEnd& end, const SharpPaths& sharp, RayResult& result);
   void add(const RayEnd& end, const ReflectsSharply& response, RayResult& result) {
     add(end, response.scattering.sharp, result);

@@ -1,6 +1,6 @@
 #pragma once
 // Shading of the surface that a ray hit: its chain of modifiers down to a material, mixtures, and the light
-// that the material says (shade/material_response.h) is to be followed.
+// that the material's response (shade/material_response.h) calls for.
 #include "shade/material_response.h"
 #include "transport/direct_light.h"
 #include "transport/indirect_light.h"
@@ -37,7 +37,7 @@ class SurfaceShading {
 
   bool applyModifier(RayEnd& end, ModifierId modifier, RayResult& result);
   void applyModifiers(RayEnd& end, ModifierId modifier);
-  // What a mixture makes of the end of a ray.
+  // The result of applying a mixture at the end of a ray.
   struct Mixed {
     V3d perturbation;
     Color pattern;
@@ -66,10 +66,10 @@ class SurfaceShading {
   bool estimate(RayEnd& end, const CrossesAntimatter& boundary, RayResult& result);
   template <ScattersLight S>
   bool estimate(RayEnd& end, S& scattering, RayResult& result);
-  // Which light of known paths (PlainSurfaces) paths from both ends bring, so that it is left out of the
-  // surface's own, and whether they do so here: otherwise they bring it to the eye or to an earlier surface.
+  // The light of known paths (PlainSurfaces) that paths from both ends bring, so that the surface's usual
+  // shading leaves it out. They bring it either here, or to the eye or an earlier surface.
   struct FromBothEnds {
-    const PlainSurfaces* direct = nullptr;    // null: none; that of the rough highlight, too
+    const PlainSurfaces* direct = nullptr;    // includes that of the rough highlight; null: none
     const PlainSurfaces* indirect = nullptr;  // null: none
     Shown directHere = Shown::none;
     bool indirectHere = false;

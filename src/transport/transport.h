@@ -1,6 +1,6 @@
 #pragma once
-// All that the path tracers of a run share: the scene prepared for tracing, what gathers are aimed at, and
-// the caches of interpolated light.
+// All that the path tracers of a run share: the scene prepared for tracing, the aims of gathers, and the
+// caches of interpolated light.
 #include "transport/aims.h"
 #include "transport/caches.h"
 #include "transport/path_tracer.h"

@@ -4,36 +4,37 @@
 //
 // Each comment gives the meaning and the unit, then after the colon where the value comes from. "Chosen by
 // experiment" means that it was the best of some values that were tried on furnished rooms, and that the
-// results for the others were not kept. The last sentence says what less and more of the constant do to error
-// and time in the case of tests/bench/sensitivity where it matters most (runs/2026-11-22.txt there).
+// results for the others were not kept. The last sentence gives the effect of smaller and larger values on
+// error and time, in the case of tests/bench/sensitivity where it is largest (runs/2026-11-22.txt there).
 #include <cstddef>
 
 #include "base/tuned.h"
 
 namespace rsphere::tuning {
 
-// Caps that limit time: of each gather, and at start.
+// Caps that limit the time of each gather, and the time at start.
 struct Caps {
-  // Openings, spots and highlights on balls that are aimed at from one point, and parts of sources that one
-  // ball shows; the brightest are kept. Half as many spots are of light from openings, and highlights on
-  // cylinders, which cost more: chosen by experiment, because every aimed ray asks all of them for its
-  // density. 30% less or more: within noise (sensors by sun; error 5%, time 4%).
+  // Cap on each of: the openings, the spots and the highlights on balls that are aimed at from one point, and
+  // the parts of sources that one ball shows; the brightest are kept. The cap is half of this for spots of
+  // light from openings, and for highlights on cylinders, which cost more. Chosen by experiment: every aimed
+  // ray has to evaluate the density of all of them. 30% less or more: within noise (sensors by sun; error 5%,
+  // time 4%).
   RSPHERE_TUNED_ROOM(Caps, size_t, kAimed, 64);
-  // Panes and holes that are probed, balls and cylinders that are looked at; the largest are kept. 30% less
-  // or more: the same answers in all cases.
+  // Cap on the panes and holes that are probed, and on the balls and cylinders that are examined for
+  // highlights; the largest are kept. 30% less or more: the same answers in all cases.
   RSPHERE_TUNED(Caps, size_t, kAsked, 1024);
 };
 
 // Patches of strong direct light that indirect rays are aimed at (bright_spots.cpp).
 struct BrightSpots {
-  // Particles that are traced from the sources, and as many from distant sources through openings: chosen by
-  // experiment. A spot that reflects a hundredth of the light is found by 80 of them. 30% less or more:
-  // within noise (sensors by sun; error 9%, time 5%).
+  // Particles that are traced from the sources; as many again are traced from distant sources through
+  // openings. Chosen by experiment. A spot that reflects a hundredth of the light is found by 80 of them. 30%
+  // less or more: within noise (sensors by sun; error 9%, time 5%).
   RSPHERE_TUNED(BrightSpots, double, kParticles, 8192);
   // A spot reflects at least this many times more light per area than surfaces do on average: chosen by
-  // experiment. For light that enters through openings, which few rays of a patch of the coarse solution
-  // meet, it is half of that: by measurement in a sunlit classroom, where spots of 6 and more leave 1.55% of
-  // noise at sensors, of 3 1.16%, of 2 1.27%.
+  // experiment. The threshold is half of that for light that enters through openings, because few rays of a
+  // patch of the coarse solution hit its spots: by measurement in a sunlit classroom, where the noise at
+  // sensors is 1.55% with a threshold of 6, 1.16% with 3, and 1.27% with 2.
   //
   // Aiming also has to pay for itself, because it makes a path 25% more expensive. Directions are aimed only
   // if the worth of all spots together (Node::worth) exceeds the same multiple of the worth that all surfaces
@@ -49,46 +50,48 @@ struct BrightSpots {
 
 // Holes in walls (holes.cpp).
 struct Holes {
-  // Polygons belong to one wall if their normals and their distances from the scene's corner, in sizes of the
-  // scene, agree to this: far more than rounding, far less than a wall's thickness.
+  // Polygons belong to one wall if their normals agree within kSameNormal, and their distances from the
+  // scene's corner within kSamePlane times the size of the scene: far more than rounding, far less than a
+  // wall's thickness.
   static constexpr double kSameNormal = 1e-6, kSamePlane = 1e-5;
-  // Cells along each side of a wall, within which holes are known: so that the edges of a door in a wall of
-  // 10 m are right within 16 cm. What is missed changes the variance only.
+  // Grid cells along each side of a wall. Holes are found to within a cell: the edges of a door in a wall of
+  // 10 m are right within 16 cm. Errors change only the variance.
   static constexpr int kCells = 64;
-  // The wall is at this share of a hole's outline at least: at three sides of a door, but not around the
-  // space between the legs of desks in a row.
+  // Least fraction of a hole's outline that borders on the wall. A door has the wall on three sides, and
+  // passes; the space between the legs of desks in a row does not.
   static constexpr double kSurrounded = .6;
-  // Cap on the number of walls that are looked at, of which the largest are chosen, to limit the time at
-  // start.
+  // Cap on the number of walls that are searched, to limit the time at start; the largest are kept.
   static constexpr size_t kMostWalls = 256;
 };
 
 // Portals of daylight that indirect rays are aimed at (find_openings.cpp, openings.cpp).
 struct Openings {
-  // Panes, and holes without panes, that are smaller than this share of the largest face of the scene's box
-  // are ignored, because every opening costs time in every gather: chosen by experiment. A door of 2 m2 is
-  // found in a scene of up to 1400 m. 30% less or more: the same answers in all cases.
+  // Panes, and holes without panes, are ignored if their area is below this fraction of the largest face of
+  // the scene's box, because every opening costs time in every gather: chosen by experiment. A door of 2 m2
+  // is found in a scene of up to 1400 m. 30% less or more: the same answers in all cases.
   RSPHERE_TUNED(Openings, double, kLeastArea, 1e-6);
   // Probe rays on each side of a pane: chosen by experiment. 30% less: time +30%; 30% more: time +30%
   // (sensors by panes; noise: error 19%, time 4%), because other panes are then found to be openings.
   RSPHERE_TUNED(Openings, int, kProbes, 32);
-  // The bright side of an opening is at least this many times brighter than the dark one: between windows,
-  // for which it is 2 to 8 by day, since panes also mirror the bright side, and panes between two rooms, for
-  // which it is about 1. Diffusing windows (1.6) and windows behind sunlit blinds (1.1) are found by the sky
-  // that is seen through them (kMoreSky). At 3, two of four windows of a sunlit classroom are not found, and
-  // sensors have 2.7 times the noise of light from the sky.
+  // A pane or hole is an opening if one side is at least this many times brighter than the other. The value
+  // lies between the ratios of windows, 2 to 8 by day since panes also mirror the bright side, and of panes
+  // between two rooms, about 1. Diffusing windows (1.6) and windows behind sunlit blinds (1.1) are below it;
+  // the sky that is seen through them identifies them (kMoreSky). At 3, two of four windows of a sunlit
+  // classroom are not found, and sensors have 2.7 times the noise of light from the sky.
   RSPHERE_TUNED(Openings, double, kBrighter, 1.7);
-  // Regardless of brightness, the side from which at least so many times more light of the sky is seen
-  // without reflections is the bright one, if that light is at least this share of all: chosen by experiment.
-  // Sunlit blinds behind a pane are as bright as the sky; through them the sky is hardly seen.
+  // Regardless of brightness, a side is the bright one if at least kMoreSky times more unreflected sky light
+  // arrives from it than from the other, and that is at least kLeastSky of all its light: chosen by
+  // experiment. Sunlit blinds behind a pane are as bright as the sky, but the sky is hardly seen through
+  // them.
   RSPHERE_TUNED(Openings, double, kMoreSky, 3);
   RSPHERE_TUNED(Openings, double, kLeastSky, .1);
-  // A hole belongs to an opening that is parallel to it (cosine) and whose middle is nearer than this share
-  // of the shortest side: the faces of a wall are nearer to each other than a door is wide.
+  // A hole is the same as an opening that is parallel to it (cosine of the angle at least kParallel) and
+  // whose middle is nearer than kSameHole times the shortest side of both: the two faces of a wall are nearer
+  // to each other than a door is wide.
   static constexpr double kParallel = .99, kSameHole = .5;
-  // Coplanar panes are merged to one opening, and the cells of a hole are taken for one, if they fill at
-  // least this share, half, of the rectangle around them, so that most directions to it meet them. .91: the
-  // same answers in all cases.
+  // Coplanar panes are merged into one opening, and the cells of a hole are taken as one opening, if they
+  // fill at least this fraction of their bounding rectangle, so that most directions to the rectangle meet
+  // them. .91: the same answers in all cases.
   static constexpr double kFilled = .5;
 };
 
@@ -97,21 +100,21 @@ struct RadianceGuess {
   // Shadow rays that estimate the mean visibility of a source: chosen by experiment. 30% less or more: within
   // noise (points in workshop; error 11%, time 4%).
   RSPHERE_TUNED(RadianceGuess, double, kShadowRays, 12);
-  // If a source adds more than this many times the mean guess at a place, a shadow ray to its middle replaces
-  // its mean visibility: chosen by experiment. This concerns a few percent of the glances, which carry most
-  // of the light. 30% less or more: within noise (points beside goal; error 4%, time 3%).
+  // If a source adds more than this many times the mean guess at a place, a shadow ray to the source's middle
+  // replaces the mean visibility: chosen by experiment. This concerns a few percent of the glances, which
+  // carry most of the light. 30% less or more: within noise (points beside goal; error 4%, time 3%).
   RSPHERE_TUNED(RadianceGuess, double, kBright, 16);
-  // The form factor of a source with four corners is exact within this many times its radius: by
-  // calculation. Beyond, it is that of a small surface, with an error of up to a seventh at grazing angles,
-  // which is accurate enough for a guess. 30% less: within noise; 30% more: time +10% (points beside goal;
-  // noise: error 10%, time 3%).
+  // Up to a distance of this many times its radius, the exact form factor of a source with four corners is
+  // used: by calculation. Farther away the formula for a small surface is used. Its error is at most a
+  // seventh, at grazing angles, which is accurate enough for a guess. 30% less: within noise; 30% more: time
+  // +10% (points beside goal; noise: error 10%, time 3%).
   RSPHERE_TUNED(RadianceGuess, double, kNear, 3);
 };
 
 // Next-event estimation (direct_light.cpp).
 struct DirectLight {
-  // The brightest contributions that are tested for shadows whatever -dt says: chosen by experiment. 1 or 3:
-  // within noise (picture of workshop; error below 1%, time 5%).
+  // Number of the brightest contributions that are always tested for shadows, regardless of -dt: chosen by
+  // experiment. 1 or 3: within noise (picture of workshop; error below 1%, time 5%).
   RSPHERE_TUNED(DirectLight, size_t, kAlwaysTested, 2);
 };
 
@@ -119,8 +122,8 @@ struct DirectLight {
 // (shared_highlights.cpp).
 struct SharedHighlights {
   // If the lobe's density in a direction (per sr) times the solid angle of the source is below this, shadow
-  // rays alone estimate the light from there: chosen by experiment. One shadow ray then brings at most this
-  // multiple of the lobe's whole light.
+  // rays alone estimate the light from that direction: chosen by experiment. One shadow ray then adds at most
+  // this multiple of the light of the whole lobe.
   RSPHERE_TUNED(SharedHighlights, double, kLeast, .25);
 };
 
@@ -129,17 +132,18 @@ struct SharedHighlights {
 // time, of paths without interpolation in four daylit rooms: a narrow and a wide one, by an overcast sky and
 // by the sun.
 struct GatherDirections {
-  // The share of directions at openings, and of those at spots, for each share of the light that these
-  // probably bring: by measurement. For openings, the work at .5 is 1.3, .9, 1 and 1 times that at .7, at .3
-  // it is 7.8, 2.4, 1.1 and 1.2 times. For spots it is the same within its noise from .5 to .9.
+  // The fraction of directions that are aimed at openings is this times the fraction of the light that
+  // probably comes from openings; likewise for spots. By measurement, for openings in the four rooms: the
+  // work at .5 is 1.3, .9, 1 and 1 times that at .7; at .3 it is 7.8, 2.4, 1.1 and 1.2 times that. For spots
+  // it is the same within noise from .5 to .9.
   RSPHERE_TUNED(GatherDirections, double, kAimed, .7);
-  // The light from elsewhere, relative to the smaller of two estimates that are made near openings, where
-  // rooms are brighter than farther inside: by measurement. At 1 the work is 4.8, 2.3, .8 and 1 times that at
-  // .5.
+  // Factor on the estimate of the light from elsewhere, the smaller of two. Both are made near openings,
+  // where rooms are brighter than farther inside. By measurement: at 1 the work is 4.8, 2.3, .8 and 1 times
+  // that at .5.
   RSPHERE_TUNED(GatherDirections, double, kFartherInside, .5);
-  // The share falls by this multiple of the form factor to all openings, because rays hit openings that fill
-  // much of the view without being aimed: chosen by experiment. 30% less or more: within noise (sensors by
-  // sun; error 6%, time 5%).
+  // The fraction of directions aimed at openings is multiplied by 1 minus this times the form factor to all
+  // openings, because unaimed rays also hit openings that fill much of the view: chosen by experiment. 30%
+  // less or more: within noise (sensors by sun; error 6%, time 5%).
   RSPHERE_TUNED(GatherDirections, double, kSeenAnyway, 2);
 };
 
@@ -148,35 +152,36 @@ struct GatherDirections {
 // origin are estimates that have not been varied. All of them change the variance and the time of answers,
 // not their mean.
 struct Highlights {
-  // They are aimed at if they would add this multiple of the squared mean radiance to the variance of a
-  // direction that meets them by chance: by measurement in an open-plan office with 50 rough balls and 51
-  // rough legs (-ab 1 -ad 64), at a desk, above one and at the ceiling. At .2, only the desk gains.
+  // Highlights are aimed at if, met only by chance, they would add more than this multiple of the squared
+  // mean radiance to the variance of a direction: by measurement in an open-plan office with 50 rough balls
+  // and 51 rough legs (-ab 1 -ad 64), at a desk, above one and at the ceiling. At .2, only the desk gains.
   //          noise                   work relative to none
   //     none  2.61%  .92%  2.84%     1     1     1
   //     .1     .44%  .49%  2.84%     1.12  1.03  1.00
   //     .05    .44%  .20%  2.71%     1.13  1.04  1.01
   //     .02    .23%  .28%  2.58%     1.16  1.07  1.02
   RSPHERE_TUNED(Highlights, double, kLeast, .05);
-  // Gathers of this many rays look for highlights on cylinders: by measurement in the same office, where that
-  // takes as long as two rays. If single rays did so too, spherical means would take half as long again for
-  // the same noise.
+  // Gathers of at least this many rays look for highlights on cylinders: by measurement in the same office,
+  // where the search takes as long as two rays. If single rays searched too, spherical means would take half
+  // as long again for the same noise.
   RSPHERE_TUNED(Highlights, int, kMany, 16);
-  // The multiple of kLeast for balls in other gathers, whose noise is larger: by measurement of spherical
-  // means in the same office, for the same noise. They take 3% more work than without balls; at 1, 6%.
-  // Conversely, kLeast divided by this is the threshold for a single highlight on a cylinder, of which many
-  // add up. 30% less or more: within noise (picture of office; error below 1%, time 6%).
+  // Factor on kLeast for balls in gathers of fewer rays, whose noise is larger: by measurement of spherical
+  // means in the same office. For the same noise, they take 3% more work than without aiming at balls; with a
+  // factor of 1, 6%. Conversely, kLeast divided by this is the threshold for a single highlight on a
+  // cylinder, because many of them add up. 30% less or more: within noise (picture of office; error below 1%,
+  // time 6%).
   RSPHERE_TUNED(Highlights, double, kLeastOfFew, 10);
   // A source is divided so that half the width of a part is at most this, relative to its distance from the
   // surface, because the highlight of a wider part is noticeably curved.
   RSPHERE_TUNED(Highlights, double, kHalf, .25);
-  // Ratio of the extent of the aimed directions to that of the highlight, and of the region around the image
-  // of a source in a mirroring ball (importance/glints.h) to that of the image. Without a margin, directions
-  // would seldom meet the edge, and a part of the image would be left out. 30% less or more: within noise
-  // (points beside chrome; error 9%, time 1%).
+  // How many times wider than the highlight the distribution of aimed directions is, and how many times wider
+  // than the image of a source in a mirroring ball (importance/glints.h) the region around it is. Without a
+  // margin, directions would seldom meet the edge, and a part of the image would be left out. 30% less or
+  // more: within noise (points beside chrome; error 9%, time 1%).
   RSPHERE_TUNED(Highlights, double, kWider, 1.2);
-  // Cosines of surfaces seen edge-on are not taken to be smaller than this: of reflections, whose highlight
-  // would have no extent; of bright spots, whose normal is a mean; and the sine between a cylinder and a
-  // distant source along it. 30% less or more: within noise (sensors by sun; error 5%, time 5%).
+  // Lower bound on the cosine at surfaces seen edge-on. It applies to reflections, whose highlight would have
+  // no extent; to bright spots, whose normal is a mean; and to the sine of the angle between a cylinder's
+  // axis and a distant source. 30% less or more: within noise (sensors by sun; error 5%, time 5%).
   RSPHERE_TUNED(Highlights, double, kEdgeOn, .05);
 };
 
@@ -192,65 +197,69 @@ struct Interpolation {
   RSPHERE_TUNED(Interpolation, int, kReachRays, 16);
 };
 
-// Light paths (light_vertices.h). Lengths are shares of the mean length from the sources to the first
-// surfaces. By measurement in the open-plan office with a goal or lit (-Sn 512, -ab 3): rms of answers.
+// Light paths (light_vertices.h). Lengths are relative to the mean distance from the sources to the first
+// surfaces. The values were measured in the open-plan office, with a goal or with its lamps (-Sn 512, -ab 3);
+// errors are the rms errors of answers.
 struct LightVertices {
-  // Surfaces that a light path may meet: a bound for mirrors that face each other. Roulette ends nearly all
-  // before.
+  // Cap on the surfaces that a light path meets, for mirrors that face each other. Russian roulette ends
+  // nearly all paths earlier.
   RSPHERE_TUNED(LightVertices, int, kMostHits, 100);
-  // Paths that measure that mean length.
+  // Number of paths that measure the mean distance.
   RSPHERE_TUNED(LightVertices, size_t, kTried, 1024);
-  // The distance at which a half of the light between diffuse surfaces is left to near rays. .05: error +40%
-  // around the goal; .2 and .3: within noise.
+  // The distance at which half of the light between diffuse surfaces is left to rays that look for near
+  // surfaces (LightVertices::nearShare()). .05: error +40% around the goal; .2 and .3: within noise.
   RSPHERE_TUNED(LightVertices, double, kWidth, .15);
-  // The distance at which a half of that is left to joins with the eye, as a share of the eye's distance, or
-  // of the mean length if that is less. Without it, one answer in 200 around the goal is 10% too bright: the
-  // eye looks into the gap of 2 mm between a sheet of paper and the goal. .01: error +10% around the goal, in
-  // a tenth less time; .4: within noise.
+  // The distance between diffuse surfaces at which those rays leave half of their light to joins with the eye
+  // (LightVertices::closeShare()), relative to the distance from the eye or the mean distance, whichever is
+  // less. Without these joins, one answer in 200 around the goal is 10% too bright: the eye looks into the
+  // gap of 2 mm between a sheet of paper and the goal. .01: error +10% around the goal, in a tenth less time;
+  // .4: within noise.
   RSPHERE_TUNED(LightVertices, double, kClose, .1);
-  // The share of the places in view that follow paths from the eye for what is left to these, relative to the
-  // share of light paths that meet something unknown, and at least.
+  // The fraction of the places in view at which paths from the eye are followed, for the light that is left
+  // to them. It is kRest times the fraction of light path hits that are on unknown surfaces, and at least
+  // kLeastRest.
   RSPHERE_TUNED(LightVertices, double, kRest, 4);
   RSPHERE_TUNED(LightVertices, double, kLeastRest, .125);
 };
 
 // Light that leaves sources (source_emission.h).
 struct SourceEmission {
-  // Directions in which light from a source with a pattern or a cone is tried, of which one is followed.
+  // Candidates for each path from a source with a pattern or a cone; one of them is followed.
   RSPHERE_TUNED(SourceEmission, int, kTries, 8);
-  // Those that tell its power, and what is added for light that they may miss, in units of its radiance
-  // without patterns.
+  // Random directions that estimate the power of such a source; and the radiance that is added for light that
+  // they may miss, in units of the source's radiance without patterns.
   RSPHERE_TUNED(SourceEmission, int, kTriesForPower, 1024);
   RSPHERE_TUNED(SourceEmission, double, kMissed, .01);
 };
 
 // Light vertices as seen from a place (vertex_light.h).
 struct VertexLight {
-  // Clusters of vertices, whose light at a place is estimated, and the vertices that are drawn from them.
-  // The time of both is what a shadow ray takes. 256: variance of this light -25%, half as long again for
-  // all; 512: -50%, twice as long.
+  // Number of clusters of vertices, and of the candidates that are drawn from them at each place, by
+  // estimates of the clusters' light there. Both together take as long as a shadow ray. 256 clusters:
+  // variance of this light -25%, half as long again for the whole estimate; 512: -50%, twice as long.
   RSPHERE_TUNED_ROOM(VertexLight, size_t, kClusters, 128);
   RSPHERE_TUNED_ROOM(VertexLight, size_t, kCandidates, 8);
-  // How far apart vertices are that face opposite ways, as a share of twice the size of the scene. .12:
-  // variance of this light up to three times as large.
+  // When vertices are clustered, those that face opposite ways are taken to be this far apart, in units of
+  // twice the diagonal of the box around all vertices. .12: variance of this light up to three times as
+  // large.
   RSPHERE_TUNED(VertexLight, double, kFacing, .05);
   // Candidates that get a shadow ray. 8: within noise.
   RSPHERE_TUNED(VertexLight, int, kJoined, 2);
-  // Specularity of rough surfaces from which on those that mirrors show get the shadow rays of others: one
-  // alone would leave their highlights to chance, and brushed steel beside the goal would bring 14 W/sr/m2
-  // from a surface that emits 1.
+  // Rough surfaces that are seen in a mirror usually get one shadow ray; from this specularity on, they get
+  // those of ordinary next-event estimation. A single ray would leave their highlights to chance: brushed
+  // steel beside the goal would bring 14 W/sr/m2 from a surface that emits 1.
   RSPHERE_TUNED(VertexLight, double, kStrong, .1);
-  // The share of surfaces that a reflection shows at which a gather looks for light that has come to them by
-  // another reflection, which vertices do not bring.
+  // The probability of a gather at a surface that is seen in a reflection. The gather looks for light that
+  // has reached the surface by another reflection, which vertices do not bring.
   RSPHERE_TUNED(VertexLight, double, kFollowed, .25);
 };
 
 // How many rays a ray splits into (ray_limits.h).
 struct RayLimits {
-  // The number of descendants of a gather's ray, apart from the ancestors of the next one, beyond which weak
-  // ones are followed by Russian roulette; for a primary ray of sphere mode, for each of the -ad + -as rays:
-  // by measurement. 99% of the directions in a room with a chrome column have fewer (-ab 6, -ad 4), those in
-  // a closed metal cylinder up to 1000.
+  // If a gather's ray has more than this number of descendants, further weak ones are followed by Russian
+  // roulette. The ancestors of the further one are not included. For a primary ray of sphere mode, the limit
+  // is this number times -ad + -as. By measurement: 99% of the directions in a room with a chrome column have
+  // fewer (-ab 6, -ad 4), those in a closed metal cylinder up to 1000.
   //
   // Sharp paths of a gather's ray are followed by Russian roulette once their weight is below the inverse of
   // this, with a probability in proportion to their weight. Gathers begin with a weight of 1/2, so that one
@@ -258,20 +267,20 @@ struct RayLimits {
   // doubles at each surface of nested transparent objects, up to -lr. 32: a fifth less time with three nested
   // cylinders that reflect and transmit a tenth; more noise behind a pane that transmits 5%.
   RSPHERE_TUNED(RayLimits, double, kMostDescendants, 64);
-  // The same for a patch of the coarse solution, for each of its rays: by measurement. Between two boxes of
-  // rough trans most patches would have 16 to 40, between two of rough metal 7 to 9. With 8, a point before
-  // the boxes of trans takes twice the time, for the same noise.
+  // The limit for a patch of the coarse solution is this number times its rays: by measurement. Without a
+  // limit, most patches between two boxes of rough trans would have 16 to 40 per ray, and between two of
+  // rough metal 7 to 9. With 8, a point before the boxes of trans takes twice the time, for the same noise.
   RSPHERE_TUNED(RayLimits, double, kMostOfPatch, 2);
-  // A primary ray of sphere mode and a ray of a gather ask for so many patches whatever their weight, and for
-  // about so many further ones, each with a probability in proportion to its weight: by measurement. Where
-  // surfaces reflect and transmit in lobes, a ray asks for 5 patches in an open-plan office and for 12
-  // between boxes of rough trans. Most of them contribute little, and each has rays of its own. Without a
-  // limit, a point before the boxes takes twice the time. Directions within the boxes then have a standard
-  // deviation of 6%, with 1 and 1 of 90%, with 2 and 4 of 37%.
+  // A primary ray of sphere mode and a ray of a gather use kAsked patches regardless of weight, and about
+  // kFurther more, each with a probability in proportion to its weight: by measurement. Where surfaces
+  // reflect and transmit in lobes, a ray asks for 5 patches in an open-plan office and for 12 between boxes
+  // of rough trans. Most of them contribute little, and each has rays of its own. Without a limit, a point
+  // before the boxes takes twice the time. The standard deviation of directions within the boxes is then 6%;
+  // with kAsked 1 and kFurther 1 it is 90%, with 2 and 4 it is 37%.
   RSPHERE_TUNED(RayLimits, int, kAsked, 2);
   RSPHERE_TUNED(RayLimits, double, kFurther, 8);
-  // Both for a ray of a patch, of which there are many: the least. With 4 and no further ones, the point
-  // before the boxes takes twice the time, for the same noise.
+  // Patches, without further ones, that a ray of a patch uses: the least possible, because such rays are
+  // many. With 4, the point before the boxes takes twice the time, for the same noise.
   static constexpr int kAskedByPatch = 1;
 };
 

@@ -12,10 +12,10 @@ namespace {
 
 using Tuning = tuning::VertexLight;
 
-// Of single precision, with a margin.
+// Relative rounding error of single precision, with a margin.
 constexpr double kRounding = 1e-6;
 
-// Place and normal of a vertex as six coordinates, the normal's in units of a length.
+// A vertex as six coordinates: its place, and its normal times a length.
 class Coordinates {
  public:
   explicit Coordinates(std::span<const LightVertex> vertices) : vertices_(vertices) {
@@ -26,7 +26,7 @@ class Coordinates {
   double of(uint32_t i, int axis) const {
     return axis < 3 ? vertices_[i].place[axis] : vertices_[i].facing[axis - 3] * length_;
   }
-  // Of these vertices, the coordinate that varies most, and between what.
+  // The coordinate in which some vertices vary most, and its range.
   struct Widest {
     int axis = 0;
     double least = 0, most = 0;
@@ -52,7 +52,7 @@ class Coordinates {
   double length_ = 0;
 };
 
-// The light of a vertex that would arrive if nothing were in between, but for constants.
+// The unoccluded light that arrives from a vertex, except for constant factors.
 double weightOf(const LightVertex& v, const VertexClusters::Receiver& to, double width2) {
   const V3d way = v.point() - to.point;
   const double here = way.dot(to.normal), there = -way.dot(v.normal());
@@ -61,7 +61,7 @@ double weightOf(const LightVertex& v, const VertexClusters::Receiver& to, double
   return v.power * here * there / (square * (square + (v.isUnbounded() ? 0 : width2)));
 }
 
-// The mean over heights within `half` (above 0) of this one, of those above 0, others being 0.
+// The mean of max(h, 0) for h uniform within height +- half. half: above 0.
 inline float meanAbove(float height, float half) {
   const float above = std::min(std::max(height + half, 0.f), 2 * half);
   return above * above / (4 * half) + std::max(height - half, 0.f);
@@ -69,7 +69,8 @@ inline float meanAbove(float height, float half) {
 
 }  // namespace
 
-// Halves the cluster whose vertices differ most from each other, until there are enough.
+// Repeatedly halves the cluster with the largest product of power and extent, until there are enough
+// clusters.
 VertexClusters::Order VertexClusters::orderOf(std::span<const LightVertex> vertices) {
   Order order{std::vector<uint32_t>(vertices.size()), {}};
   std::iota(order.vertices.begin(), order.vertices.end(), 0);
@@ -130,7 +131,7 @@ void VertexClusters::measure(size_t i) {
   const V3d at = box.center(), axis = sum.normalized();
   double least = 1;
   for (const LightVertex& v : own) least = std::min(least, axis.dot(v.normal()));
-  // Above 0, and enlarged by what single precision rounds off.
+  // Above 0, and enlarged by the rounding error of single precision.
   const V3d half =
       .5 * box.size() + V3d(kRounding * (std::sqrt(width2_) + box.size().length() + at.length()));
   x_[i] = static_cast<float>(at.x);
@@ -148,7 +149,7 @@ void VertexClusters::measure(size_t i) {
   sine_[i] = least > 0 ? static_cast<float>(std::sqrt(1 - std::min(1., least * least)) + kRounding) : 1.f;
 }
 
-// 0 only if the weights of all vertices are.
+// Estimates of the light of each cluster. An estimate is 0 only if the weights of all its vertices are 0.
 void VertexClusters::weigh(const Receiver& to, Numbers& weights) const {
   const V3d from = to.point - middle_;
   const auto px = static_cast<float>(from.x), py = static_cast<float>(from.y),

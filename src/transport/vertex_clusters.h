@@ -1,5 +1,6 @@
 #pragma once
-// Light vertices in clusters, by which a place chooses some of those that send it the most light.
+// Light vertices in clusters. For a place, vertices are drawn by estimates of the light that their clusters
+// send to it.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -16,33 +17,34 @@ struct LightVertex;
 // Constant.
 class VertexClusters {
  public:
-  // An order of the vertices in which those of a cluster follow each other: they lie near to each other and
-  // face alike.
+  // An order of the vertices in which those of a cluster follow each other. Vertices of a cluster are near
+  // each other and have similar normals.
   struct Order {
     std::vector<uint32_t> vertices;
     std::vector<uint32_t> ends;  // of each cluster, the position after its last vertex
   };
   static Order orderOf(std::span<const LightVertex> vertices);
 
-  // Of vertices in this order. Keeps the first span. width: LightVertices::width(), world units.
+  // The vertices must be in this order, with these ends. Keeps the span of vertices. width:
+  // LightVertices::width(), world units.
   VertexClusters(std::span<const LightVertex> vertices, std::span<const uint32_t> ends, double width);
 
   // The place that light arrives at.
   struct Receiver {
     V3d point, normal;  // world; unit
-    int bounces;        // at most, of the light of a vertex
+    int bounces;        // vertices of light with more bounces are left out
   };
   struct Candidate {
     uint32_t vertex = 0;
-    double drawn = 0;   // how often it is drawn, on average
-    double weight = 0;  // the light that it would send if it were in view, but for constants
+    double drawn = 0;   // expected number of times that it is drawn
+    double weight = 0;  // unoccluded light that it sends, except for constant factors
   };
   struct Candidates {
     std::array<Candidate, tuning::VertexLight::kCandidatesRoom> all;
     size_t count = 0;
   };
-  // Up to kCandidates vertices, from clusters in proportion to the light that these would send; fewer if some
-  // of the draws find vertices that send none.
+  // Draws kCandidates vertices, from clusters in proportion to their estimated light. Vertices that send none
+  // are left out, so that the result may have fewer.
   Candidates draw(const Receiver& to, Random& random) const;
 
  private:
@@ -57,14 +59,14 @@ class VertexClusters {
   std::vector<uint32_t> ends_;
   double width2_;
   V3d middle_{0, 0, 0};
-  // Of each cluster. By component, so that several clusters are weighed at a time.
-  Numbers x_{}, y_{}, z_{};  // the middle of the box around its vertices, from middle_
+  // One element for each cluster; separate arrays, so that several clusters are weighed at a time (SIMD).
+  Numbers x_{}, y_{}, z_{};  // center of the box around its vertices, relative to middle_
   Numbers halfX_{}, halfY_{}, halfZ_{};
-  Numbers spread_{};                     // mean square of the distances from the middle, about
+  Numbers spread_{};                     // approximate mean square distance from the center
   Numbers axisX_{}, axisY_{}, axisZ_{};  // mean normal (unit)
-  Numbers halfAlong_{};                  // half the width of the box along it
-  Numbers sine_{};                       // of the largest angle between a normal and the mean; 1: no bound
-  Numbers power_{};                      // brightness of what is reflected diffusely, W
+  Numbers halfAlong_{};                  // half the width of the box along the mean normal
+  Numbers sine_{};                       // sine of the largest angle of a normal to the mean; 1: no bound
+  Numbers power_{};                      // brightness of the diffusely reflected light, W
 };
 
 }  // namespace rsphere

@@ -154,7 +154,8 @@ Radiance VertexLight::indirectAt(const PlainPlace& at, const Indirect& how, Rand
   return a + b;
 }
 
-// Of the vertices that are drawn from the clusters, some are chosen by the light that they would send.
+// Resampling: of the candidates that are drawn from the clusters, some get a shadow ray, with probabilities
+// in proportion to the light that they would send if unoccluded.
 Radiance VertexLight::ofVertices(const PlainPlace& at, const Indirect& how, Random& random) const {
   const VertexClusters::Candidates drawn = clusters_.draw({at.point, at.normal, how.bounces}, random);
   // Each stands for others as well.
