@@ -9,7 +9,6 @@
 #include "transport/tuning.h"
 
 namespace rsphere {
-thread_local Radiance dbgParts[2];
 namespace {
 
 using Tuning = tuning::VertexLight;
@@ -143,15 +142,8 @@ Radiance VertexLight::directAt(const PlainPlace& at, Random& random, Scratch& sc
 Radiance VertexLight::indirectAt(const PlainPlace& at, const Indirect& how, Random& random,
                                  Scratch& scratch) const {
   if (how.bounces < 1) return {};
-  static thread_local int depth = 0;
-  ++depth;
-  const Radiance a = ofVertices(at, how, random), b = ofNear(at, how, random, scratch);
-  --depth;
-  if (depth == 0) {
-    dbgParts[0] = a;
-    dbgParts[1] = b;
-  }
-  return a + b;
+  const Radiance far = ofVertices(at, how, random);
+  return far + ofNear(at, how, random, scratch);
 }
 
 // Resampling: of the candidates that are drawn from the clusters, some get a shadow ray, with probabilities
