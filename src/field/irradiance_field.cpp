@@ -31,8 +31,9 @@ constexpr size_t kBlock = 16, kNode = 96;
 
 constexpr size_t kNoBound = SIZE_MAX;
 
-// On small surfaces that share the cells of their plane, finer cells are tried unless all sites see the place:
-// the sites may lie beside all of the surfaces, and a room may be smaller than a cell. 1 but for rounding.
+// On small surfaces that share the cells of their plane, finer cells are tried unless all sites see the
+// place: the sites may lie beside all of the surfaces, and a room may be smaller than a cell. 1 but for
+// rounding.
 constexpr double kAllServed = 1 - 1e-9;
 
 // The share of an answer that a level of cells gives: all below roughness 1, none above Tuning::kNoneAbove.

@@ -18,13 +18,17 @@ namespace {
 
 using Tuning = tuning::Pictures;
 
-const Smoothing kOfIndirect{Tuning::kPasses,     Tuning::kPasses, Tuning::kSameLight,
-                            Tuning::kSameNormal, Tuning::kNear,   Tuning::kNear};
-const Smoothing kOfGloss{Tuning::kPasses, 0, 0, Tuning::kSameGlossNormal, Tuning::kNear, Tuning::kNear};
+const Smoothing kOfIndirect{Tuning::kIndirectPasses, Tuning::kFinePasses, Tuning::kSameLight,
+                            Tuning::kSameNormal,     Tuning::kNear,       Tuning::kNear};
+const Smoothing kOfGloss{Tuning::kFinePasses, 0, 0, Tuning::kSameGlossNormal, Tuning::kNear, Tuning::kNear};
 // The first pass blurs edges of sharp shadows by a pixel. They differ visibly, so that these pixels are
 // traced again (refine()).
-const Smoothing kOfDirect{
-    1, Tuning::kPasses, Tuning::kSameLight, Tuning::kSameNormal, Tuning::kNear, Tuning::kNear};
+const Smoothing kOfDirect{1,
+                          Tuning::kFinePasses,
+                          Tuning::kSameLight,
+                          Tuning::kSameNormal,
+                          Tuning::kNear,
+                          Tuning::kNear};
 
 constexpr double kTracingShare = .85;  // of the time of a picture; for progress reports only
 

@@ -195,8 +195,8 @@ struct ErrorEstimate {
   //   ceiling with a pattern of stripes         .70 to .76   .99 to 1.08
   // 30% less or more: the same answers in all cases.
   //
-  // It is also the factor for glances, whose guesses have edges but no noise of paths. Without bounces, in the
-  // open-plan office, the actual deviation is then 1.07 times the predicted standard error.
+  // It is also the factor for glances, whose guesses have edges but no noise of paths. Without bounces, in
+  // the open-plan office, the actual deviation is then 1.07 times the predicted standard error.
   RSPHERE_TUNED(ErrorEstimate, double, kEvenParts, .5);
   // The same factor for n dynamic directions to a target is 1 / (1 + n^1/2 / kEvenRun). The root is derived:
   // an edge crosses about n^1/2 of the n cells. kEvenRun is chosen by experiment. n is the effective number
@@ -265,14 +265,17 @@ struct Pictures {
   // noisy: chosen by experiment in the open-plan office. 2: error -21%; 4: error +26% (picture from point,
   // which has 1% of the pixels; noise: error 4%, time 6%).
   RSPHERE_TUNED(Pictures, int, kSharingByLamps, 3);
-  // Passes of smoothing of indirect light; of further passes for indirect and direct light, in which only
-  // pixels share whose light differs by less than kSameLight; and of passes for gloss. Chosen by experiment.
-  // The noise that the first passes leave is 2 to 5%. 2: error +10%; 4: within noise (picture from point;
-  // noise: error 1%, time 6%).
-  RSPHERE_TUNED(Pictures, int, kPasses, 3);
+  // Passes of smoothing of indirect light: chosen by experiment. 2: error +10%; 4: within noise (picture from
+  // point; noise: error 1%, time 6%).
+  RSPHERE_TUNED(Pictures, int, kIndirectPasses, 3);
+  // Further passes for indirect and direct light, in which only pixels share whose light differs by less than
+  // kSameLight: chosen by experiment. The noise that the first passes leave is 2 to 5%.
   RSPHERE_TUNED(Pictures, float, kSameLight, .14f);
-  // Least roughness of surfaces whose pixels share gloss: derived. Their lobe is about as wide as the blur of
-  // two passes, 2.2 pixels or .014 radians.
+  // Passes of smoothing of gloss, and the further passes for other light; and the least roughness of surfaces
+  // whose pixels share gloss: derived. Their lobe is about as wide as the blur of two passes, 2.2 pixels or
+  // .014 radians. 1 or 3 further passes for other light: within noise (picture from point; error below 1%,
+  // time 6%), but with 3 a glossy desk below a window is rougher.
+  static constexpr int kFinePasses = 2;
   static constexpr double kLeastRoughness = .02;
   // Least cosine between the normals of pixels that share gloss: derived. It is that of 2 degrees, less than
   // the width of such a lobe.

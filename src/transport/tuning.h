@@ -25,8 +25,8 @@ struct Caps {
   //
   // It is also the number of light paths that measure the mean distance from the sources to the first
   // surfaces, and of directions that estimate the power of a source with a pattern or a cone: both are known
-  // within 3% if single values vary as much as their mean. And it is the cap on the surfaces that a light path
-  // meets, for mirrors that face each other; Russian roulette ends nearly all paths earlier.
+  // within 3% if single values vary as much as their mean. And it is the cap on the surfaces that a light
+  // path meets, for mirrors that face each other; Russian roulette ends nearly all paths earlier.
   RSPHERE_TUNED(Caps, size_t, kAsked, 1024);
   // Rays that measure a mean brightness: on each side of a pane, and around a point in sphere mode. Chosen by
   // experiment. A mean is then known within 18% if single values vary as much as their mean. For panes, 30%
