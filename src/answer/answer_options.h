@@ -43,6 +43,7 @@ struct AnswerOptions {
   // work
   int threads = 1;             // -n; 0: one for each core
   double progressSeconds = 0;  // -t; 0: no progress reports
+  bool progressGiven = false;  // -t was given
 
   // Numbers of an input record: x y z of a point, or origin and direction of a ray.
   int numbersPerRecord() const { return sphereMode ? 3 : 6; }

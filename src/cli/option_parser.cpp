@@ -485,6 +485,7 @@ std::vector<Use> parse(std::span<const std::string> commandLine, const Companion
     options.outputs = options.sphereMode && options.sphere.everyDirection ? "odwv" : "v";
   const bool answers = options.request == Request::answers;
   if (answers) options.scene = takeScene(words);
+  options.progressGiven = given.has("-t");
   options.numberedRays = given.has("-u") && options.ray.uncorrelated && !options.sphereMode;
   splitTree(options);
   checkLetters(options);

@@ -814,7 +814,9 @@ void addProgramOptions(const Add& add) {
        .paragraph =
            "Interval of progress reports on standard error. A report gives the number of answered "
            "records, the records per second and, if the end of the input is known (-y, or input from a "
-           "file), the time left. 0 disables reports. Pictures (-Si) have reports of their own."});
+           "file), the time left. 0 disables reports. If -t is not given, there is a report every 5 "
+           "seconds where standard error is a terminal but standard input and output are none, as in "
+           "'rsphere room.rad < points.txt > answers.txt'. Pictures (-Si) have reports of their own."});
 }
 
 void addDirectionOptions(const Add& add) {
