@@ -1035,8 +1035,9 @@ void addInspectionOptions(const Add& add) {
            "and with -t, the program reports how much is done, and the time left. RADIANCE pictures "
            "(.hdr, .pic) are angular fisheyes of 360 degrees, with +y in the middle and +z above it. "
            "Their header has the command, SOFTWARE= and VIEW=; pinterp converts them to other views, such "
-           "as the hemisphere that evalglare expects. In all other formats, the columns are azimuths from "
-           "the x axis, counterclockwise about z, and the rows go from the zenith to the nadir. EXR and "
+           "as the hemisphere that evalglare expects. In all other formats, +y is in the middle, too, +x to "
+           "the right of it at a quarter of the width, and -y at both edges; columns are azimuths, and rows "
+           "go from the zenith to the nadir. EXR and "
            "TIFF files contain radiance. Other files contain colors, exposed so that the median is "
            "mid-bright. %d in the name (or %04d and the like) is replaced by the number of the record, "
            "from 0."});
