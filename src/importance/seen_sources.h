@@ -80,6 +80,8 @@ class SeenSources {
     size_t row = 0, column = 0, rows = 1, columns = 1;
     Random& random;
   };
+  void setExtent(Image& image, const V3d& eye, const Silhouette* window = nullptr) const;
+  V3d directionIn(const Image& image, const V3d& eye, double u, double v) const;
   void addMirrored(const V3d& point, std::vector<Image>& images) const;
   std::vector<Sample> sampleImage(const PathsFrom& paths, const Image& image, const Share& share,
                                   uint64_t seed) const;
