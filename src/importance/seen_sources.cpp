@@ -120,6 +120,7 @@ SeenSources::SeenSources(const PreparedScene& prepared) : prepared_(prepared) {
     // Instead of virtual sources, addMirrored() finds the images in mirrors that they represent.
     if (lights[i].isVirtual() || (material && std::holds_alternative<Illum>(*material))) continue;
     apart_[lights[i].surface] = true;
+    haveSensors_ = haveSensors_ || surface.finish.sensor;
     sources_.push_back(i);
   }
   if (sources_.empty()) return;

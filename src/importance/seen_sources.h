@@ -45,6 +45,9 @@ class SeenSources {
     return shown.source != kNone && shown.mirror == kNone && apart_[shown.source];
   }
 
+  // Whether there are sensors (scene/sensors.h) among the sources.
+  bool haveSensors() const { return haveSensors_; }
+
   // By index in Scene::surfaces: whether the surface is a source that is integrated separately
   // where it is seen directly.
   const ById<SurfaceId, bool>& apart() const { return apart_; }
@@ -94,6 +97,7 @@ class SeenSources {
   ById<SurfaceId, bool> apart_;
   std::vector<LightId> sources_;  // those integrated separately
   std::vector<SurfaceId> mirrors_;
+  bool haveSensors_ = false;
 };
 
 }  // namespace rsphere
