@@ -6,6 +6,7 @@
 #include "answer/number_format.h"
 #include "answer/output_colors.h"
 #include "importance/sphere_options.h"
+#include "scene/sensors.h"
 #include "transport/ray_options.h"
 
 namespace rsphere {
@@ -19,6 +20,7 @@ struct AnswerOptions {
   std::vector<std::string> scene;         // an octree, .rad files or '!command'
   bool commands = true;                   // -Sc  whether commands in the scene may run
   std::vector<std::string> goals;         // -Sg
+  std::vector<Sensor> sensors;            // -SG  goals as well
   bool separate = false;                  // -Sp  the part of each goal, or of each light source's modifier
   std::vector<std::string> contributors;  // their names; set once the scene is read. Empty: no parts
   // input

@@ -326,6 +326,15 @@ void checkIrradiance(Options& options) {
 // finished, a kilobyte each.
 constexpr int kMostForAccuracy = 1000000, kMostToList = 100000;
 
+// -SG
+void checkSensors(const Options& options) {
+  if (options.sensors.empty()) return;
+  if (!options.sphereMode) commandLineError("-SG", "needs sphere mode: rays do not meet sensors");
+  if (options.sphere.weights != Weights::silhouettes)
+    commandLineError("-SG", "needs -Sw c, which aims at sensors");
+  if (!options.picture.empty()) commandLineError("-SG", "sensors cannot be seen: not with -Si");
+}
+
 // -Sp
 void checkParts(const Options& options) {
   if (!options.separate) return;
@@ -341,6 +350,7 @@ void checkParts(const Options& options) {
 
 void checkTogether(Options& options, bool mostGiven) {
   checkParts(options);
+  checkSensors(options);
   if (options.ray.fieldMemory > 0 && !options.ray.ambientFile.empty())
     throw rad::Error("-Sm and -af exclude each other: an ambient file is kept in memory as a whole");
   if (!options.sphereMode) return;

@@ -13,6 +13,7 @@
 #include "cli/word_file.h"
 #include "rad_parser/error.h"
 #include "rad_parser/number.h"
+#include "rad_parser/printable.h"
 
 namespace rsphere {
 namespace {
@@ -105,6 +106,26 @@ void setErrorFile(Options& options, const OptionEntry&, std::span<const std::str
 void setFunctionFile(Options& options, const OptionEntry&, std::span<const std::string> words,
                      std::string_view) {
   options.ray.definitions.push_back({true, words[0]});
+}
+
+// -SG names a file of sensors.
+void setSensors(Options& options, const OptionEntry& entry, std::span<const std::string> words,
+                std::string_view) {
+  const std::string& file = words[0];
+  std::vector<double> numbers;
+  for (const std::string& word : wordsOfFile("sensor file", file)) {
+    const auto number = rad::parseReal(word);
+    if (!number)
+      throw rad::Error(fmt::format("{}: sensor {}: \"{}\" is not a number", rad::printable(file),
+                                   numbers.size() / 6 + 1, rad::printable(word)));
+    numbers.push_back(*number);
+  }
+  if (numbers.empty() || numbers.size() % 6 != 0)
+    commandLineError(entry.name,
+                     fmt::format("\"{}\" has {} numbers; each sensor is x y z and the direction dx dy dz in "
+                                 "which it faces",
+                                 rad::printable(file), numbers.size()));
+  for (const Sensor& sensor : sensorsOf(numbers, rad::printable(file))) options.sensors.push_back(sensor);
 }
 
 void ignore(Options&, const OptionEntry&, std::span<const std::string>, std::string_view) {}
@@ -920,6 +941,18 @@ void addAnswerOptions(const Add& add) {
            "Computes importance instead of radiance, for goals: surfaces with modifier mod emit 1 W/sr/m2 "
            "from their front, in addition to reflecting light, and every other source is dark. May be "
            "repeated for several modifiers."});
+  add({.name = "-SG",
+       .arguments = "file",
+       .group = Group::sphere,
+       .value = Custom{setSensors},
+       .remark = "sensors as goals",
+       .paragraph =
+           "Computes importance for sensors or eyes, places without a surface: the file, which is searched for "
+           "along RAYPATH, has x y z and the direction dx dy dz in which it faces of each, separated by white "
+           "space. A sensor receives light by the cosine, as rtrace -I does, and counts as a goal of area 1. "
+           "It blocks and reflects nothing. Its importance straight from a point, or by way of one mirror, is "
+           "exact. With -Sp the sensors are the contributors sensor1, sensor2 and so on, after the goals of -Sg. "
+           "May be repeated. Not with -Sw h and v, nor with -Si."});
   add({.name = "-Sp",
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.separate; },
