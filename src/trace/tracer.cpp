@@ -177,6 +177,11 @@ class Tracer::Tree {
   Tree& operator=(const Tree&) = delete;
 
   const Box3d& bounds() const { return bounds_; }
+  Box3d boundsOf(const Surface& surface) const {
+    const Contents contents = contentsOf(surface);
+    if (!contents.tree) return rsphere::bounds(surface.shape, scene_.vertices);
+    return placed(scene_.placements[contents.placement], contents.tree->bounds_);
+  }
   size_t primitives() const { return primitives_; }
 
   // Embree's number of a surface in the world's whole tree; kNoBlocker for kNone.
@@ -257,12 +262,6 @@ class Tracer::Tree {
   Box3d boundsOf(uint32_t primitive) const {
     if (mesh_) return rsphere::bounds(mesh_->data, primitive);
     return boundsOf(scene_.surfaces[surfaceOf(primitive)]);
-  }
-
-  Box3d boundsOf(const Surface& surface) const {
-    const Contents contents = contentsOf(surface);
-    if (!contents.tree) return rsphere::bounds(surface.shape, scene_.vertices);
-    return placed(scene_.placements[contents.placement], contents.tree->bounds_);
   }
 
   bool isSmallNear(const Neighborhood& around, uint32_t primitive) const {
@@ -606,6 +605,8 @@ Tracer::Tracer(const Scene& scene, bool backFacesVisible)
   if (!scene.groups.empty()) {
     build(build, 0);
     bounds_ = e.groups[0]->bounds();
+    for (const SurfaceId s : scene.outermostIds())
+      if (refracts[s]) refracting_.push_back(e.groups[0]->boundsOf(scene.surfaces[s]));
   }
   if (rtcGetDeviceError(e.device) != RTC_ERROR_NONE) fail();
 }

@@ -86,6 +86,9 @@ class Tracer {
   // The bounds of all surfaces except distant ones; empty if there are none.
   const Box3d& bounds() const { return bounds_; }
 
+  // The bounds of each surface, instance and mesh of the world that may refract rays.
+  const std::vector<Box3d>& refracting() const { return refracting_; }
+
   // A region around a point of a surface in which small objects are searched for. Lengths are in world
   // units, the normal is a unit vector.
   struct Neighborhood {
@@ -105,6 +108,7 @@ class Tracer {
   const Scene& scene_;
   std::unique_ptr<Embree> embree_;
   Box3d bounds_;
+  std::vector<Box3d> refracting_;
 };
 
 }  // namespace rsphere

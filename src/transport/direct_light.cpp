@@ -204,7 +204,11 @@ uint32_t DirectLight::findContributions(Receiver at, DirectCoefficient coefficie
   // Shadow rays to known sources find nothing that is left, unless they may pass what is not known.
   const PlainSurfaces* const leftOut =
       at.leftToBothEnds && !at.leftToBothEnds->passUnknown() ? at.leftToBothEnds : nullptr;
-  for (const LightId i : t_.lights().all().ids())
+  // Shadow rays that are shown to the observer are all of them.
+  const std::span<const LightId> sources = state_.request.shadows == ShownShadows::all
+                                               ? t_.lights().hidden().all()
+                                               : t_.lights().hidden().notHiddenFrom(at.point);
+  for (const LightId i : sources)
     if (!leftOut || !leftOut->knows(i))
       t_.lights().sample(i, at.point, how, state_.random, scratch_.samples);
   if (scratch_.contributions.size() < scratch_.samples.size()) {

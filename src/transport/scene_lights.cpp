@@ -57,6 +57,7 @@ SceneLights::SceneLights(const Scene& scene, const Tracer& tracer, const Surface
     : LightSources(scene, relays, functions, warn),
       presumedShadows_(scene, tracer, *this),
       choice_(scene, *this),
+      hidden_(scene, tracer, *this),
       ofMists_(scene, *this, warn),
       luminous_(scene.surfaces.size()) {
   constantRadiance_.resize(all().size());

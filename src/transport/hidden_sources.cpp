@@ -1,0 +1,343 @@
+#include "transport/hidden_sources.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "base/constants.h"
+#include "scene/shape.h"
+
+namespace rsphere {
+namespace {
+
+// Up to this number, sources are not looked for: to sample one and to test its shadow takes less time than
+// what could be saved. Also the number of sources that a division of a region has to save. By measurement of
+// time.
+constexpr size_t kFewSources = 8;
+// So many of a region's sources show whether a division pays.
+constexpr size_t kProbes = 32;
+// So many surfaces on the way to a source are tried, since furniture or glass may be in front of a wall.
+constexpr int kSurfacesInTheWay = 6;
+// A region that is wider than this share of a polygon's size is divided to find places that the polygon
+// hides: those within it are too small to pay.
+constexpr double kWorthDividing = .25;
+// Polygons of more vertices are rarely convex.
+constexpr uint32_t kMostVertices = 8;
+
+// How far a box must be from the plane of a polygon that hides sources from it (world units). Nearer than
+// kSamePlace to a ray's begin or to the source nothing blocks, and rays whose cosine to the plane is at most
+// kSamePlace miss it.
+double marginOver(double length) { return 10 * kSamePlace + 2 * kSamePlace * length; }
+
+std::array<V3d, 8> cornersOf(const Box3d& box) {
+  std::array<V3d, 8> corners;
+  for (unsigned i = 0; i < 8; ++i)
+    corners[i] = {(i & 1 ? box.max : box.min).x, (i & 2 ? box.max : box.min).y,
+                  (i & 4 ? box.max : box.min).z};
+  return corners;
+}
+
+int longestAxis(const Box3d& box) {
+  const V3d size = box.size();
+  return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+}
+
+// What samples of a source lie in: of an image, the relay that rays to it hit first.
+Box3d boxOf(const Scene& scene, const LightSource& light) {
+  Box3d box = bounds(scene.surfaces[light.surface].shape, scene.vertices);
+  if (light.isVirtual()) return box;
+  V3d reach(light.radius);
+  if (const auto* plane = light.as<PlaneLight>())
+    for (int i = 0; i < 3; ++i) reach[i] = std::abs(plane->u[i]) + std::abs(plane->v[i]);
+  box.extendBy(light.center - reach);
+  box.extendBy(light.center + reach);
+  return box;
+}
+
+// The share of a box's section across an axis that another box overlaps.
+double shareAcross(const Box3d& box, const Box3d& other, int axis) {
+  double share = 1;
+  for (int i = 0; i < 3; ++i) {
+    const double size = box.max[i] - box.min[i];
+    if (i == axis || size == 0) continue;
+    share *= std::max(0., std::min(box.max[i], other.max[i]) - std::max(box.min[i], other.min[i])) / size;
+  }
+  return share;
+}
+
+}  // namespace
+
+struct HiddenSources::Blocker {
+  SurfaceId surface;
+  V3d normal{0, 0, 0};  // unit, towards the side that it was hit from
+  double offset = 0;
+  double size = 0;  // half the sum of its extents along two axes
+  Box3d box;
+  uint32_t edges = 0;
+  std::array<V3d, kMostVertices> inward;
+  std::array<double, kMostVertices> least;  // inward . p for the points p of the edge
+
+  // The axis that the plane is perpendicular to; -1 if none.
+  int axis() const {
+    for (int i = 0; i < 3; ++i)
+      if (box.max[i] - box.min[i] <= kSamePlace) return i;
+    return -1;
+  }
+};
+
+struct HiddenSources::Region {
+  Box3d box;
+  std::vector<LightId> visible;  // not certainly hidden, ascending
+  std::vector<uint32_t> places;  // of those that may be hidden, in order_
+  std::vector<Blocker> blockers;
+  int axis = -1;  // that it is divided along; -1: not divided
+  double at = 0;
+  mutable std::array<std::unique_ptr<const Region>, 2> halves;
+  mutable std::array<std::atomic<const Region*>, 2> ready{};
+};
+
+HiddenSources::~HiddenSources() = default;
+
+HiddenSources::HiddenSources(const Scene& scene, const Tracer& tracer, const LightSources& lights)
+    : scene_(scene), tracer_(tracer) {
+  for (const LightId i : lights.all().ids()) {
+    all_.push_back(i);
+    const LightSource& light = lights.all()[i];
+    const bool onlyFar = light.isDistant() && !light.isVirtual();
+    const Box3d box = onlyFar ? Box3d() : boxOf(scene, light);
+    (onlyFar || box.isEmpty() ? always_ : order_).push_back(i);
+    if (!onlyFar && !box.isEmpty()) boxes_.push_back(box);
+  }
+  if (order_.size() <= kFewSources || tracer.bounds().isEmpty()) return;
+  makeNode(0, order_.size());
+  margin_ = 2 * marginOver(tracer.bounds().size().length());
+  root_ = std::make_unique<Region>();
+  root_->box = tracer.bounds();
+  root_->visible = all_;
+  root_->places.resize(order_.size());
+  std::iota(root_->places.begin(), root_->places.end(), 0);
+  divide(*root_);
+}
+
+// Makes the tree of the sources from begin to end. Returns its index.
+size_t HiddenSources::makeNode(size_t begin, size_t end) {
+  const size_t index = nodes_.size();
+  Box3d box;
+  for (size_t i = begin; i < end; ++i) box.extendBy(boxes_[i]);
+  nodes_.push_back({box, begin, end, 0});
+  if (end - begin <= 1) return index;
+  const int axis = longestAxis(box);
+  std::vector<size_t> sorted(end - begin);
+  std::iota(sorted.begin(), sorted.end(), begin);
+  const size_t half = sorted.size() / 2;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(half), sorted.end(),
+                   [&](size_t a, size_t b) {
+                     const double x = boxes_[a].center()[axis], y = boxes_[b].center()[axis];
+                     return x != y ? x < y : order_[a] < order_[b];
+                   });
+  std::vector<LightId> ids;
+  std::vector<Box3d> boxes;
+  for (const size_t i : sorted) {
+    ids.push_back(order_[i]);
+    boxes.push_back(boxes_[i]);
+  }
+  std::copy(ids.begin(), ids.end(), order_.begin() + static_cast<std::ptrdiff_t>(begin));
+  std::copy(boxes.begin(), boxes.end(), boxes_.begin() + static_cast<std::ptrdiff_t>(begin));
+  makeNode(begin, begin + half);
+  const size_t second = makeNode(begin + half, end);
+  nodes_[index].second = second;
+  return index;
+}
+
+// An opaque convex polygon of the world as a blocker, for rays that come from a point; false if it is none.
+bool HiddenSources::findBlocker(SurfaceId id, const V3d& from, Blocker& blocker) const {
+  if (id.index() >= scene_.outermostIds().size()) return false;
+  const Surface surface = scene_.surfaces[id];
+  const auto* const polygon = surface.shape.as<Polygon>();
+  if (!polygon || !polygon->hasArea || polygon->vertices > kMostVertices) return false;
+  const double side = polygon->normal.dot(from) - polygon->offset;
+  if (!tracer_.stopsShadows(id, side > 0)) return false;
+  if (thicknessOf(*polygon, scene_.vertices) > kSamePlace) return false;
+  const double sign = side > 0 ? 1 : -1;
+  blocker = {.surface = id, .normal = sign * polygon->normal, .offset = sign * polygon->offset};
+  blocker.size = polygon->extent / 2;
+  blocker.box = bounds(*polygon, scene_.vertices);
+  const auto corners = std::span(scene_.vertices).subspan(polygon->firstVertex, polygon->vertices);
+  // Convex, and once around: every vertex on the inner side of every edge, and one full turn in all.
+  double turn = 0;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const V3d& a = corners[i];
+    const V3d& b = corners[(i + 1) % corners.size()];
+    const V3d& c = corners[(i + 2) % corners.size()];
+    const V3d inward = polygon->normal.cross(b - a);
+    const double length = inward.length();
+    if (!(length > 0)) continue;
+    blocker.inward[blocker.edges] = inward / length;
+    blocker.least[blocker.edges] = blocker.inward[blocker.edges].dot(a);
+    for (const V3d& corner : corners)
+      if (blocker.inward[blocker.edges].dot(corner) < blocker.least[blocker.edges] - kSamePlace) return false;
+    ++blocker.edges;
+    turn += std::atan2((b - a).cross(c - b).dot(polygon->normal), (b - a).dot(c - b));
+  }
+  return turn < 3 * kPi;
+}
+
+// Whether every segment between the boxes cuts the polygon, coming from its front as blockerOf() met it,
+// before anything could refract it.
+bool HiddenSources::covers(const Blocker& blocker, const Box3d& from, const Box3d& to) const {
+  Box3d both = from;
+  both.extendBy(to);
+  const double margin = marginOver(both.size().length());
+  const std::array<V3d, 8> begins = cornersOf(from), ends = cornersOf(to);
+  std::array<double, 8> above, below;
+  for (size_t i = 0; i < 8; ++i) {
+    above[i] = blocker.normal.dot(begins[i]) - blocker.offset;
+    below[i] = blocker.offset - blocker.normal.dot(ends[i]);
+    if (above[i] < margin || below[i] < margin) return false;
+  }
+  Box3d before = from;
+  for (size_t i = 0; i < 8; ++i)
+    for (size_t j = 0; j < 8; ++j) {
+      const double t = above[i] / (above[i] + below[j]);
+      const V3d cut = begins[i] + t * (ends[j] - begins[i]);
+      for (uint32_t e = 0; e < blocker.edges; ++e)
+        if (blocker.inward[e].dot(cut) < blocker.least[e] + margin) return false;
+      before.extendBy(cut);
+    }
+  for (const Box3d& box : tracer_.refracting())
+    if (before.intersects(box)) return false;
+  return true;
+}
+
+// Calls use() with the polygons on the way that may be blockers, until it returns true. Returns whether it did.
+bool HiddenSources::anyBlocker(const V3d& from, const V3d& to, FunctionRef<bool(const Blocker&)> use) const {
+  V3d way = to - from, origin = from;
+  double left = way.length() - kSamePlace;
+  if (!(left > 0)) return false;
+  way.normalize();
+  SurfaceId last = kNone;
+  for (int i = 0; i < kSurfacesInTheWay && left > 0; ++i) {
+    const Hit hit = tracer_.nearest(origin, way, left, last);
+    if (hit.surface == kNone) return false;
+    Blocker blocker;
+    if (findBlocker(hit.surface, from, blocker) && use(blocker)) return true;
+    origin += hit.distance * way;
+    left -= hit.distance;
+    last = hit.surface;
+  }
+  return false;
+}
+
+bool HiddenSources::hides(const Box3d& from, const Box3d& to) const {
+  std::vector<Blocker> known;
+  return hides(from, to, known);
+}
+
+// known: blockers that were found for near boxes, the last one that did hide something first.
+bool HiddenSources::hides(const Box3d& from, const Box3d& to, std::vector<Blocker>& known) const {
+  for (size_t i = 0; i < known.size(); ++i)
+    if (covers(known[i], from, to)) {
+      std::swap(known[0], known[i]);
+      return true;
+    }
+  return anyBlocker(from.center(), to.center(), [&](const Blocker& blocker) {
+    const auto isIt = [&](const Blocker& b) { return b.surface == blocker.surface; };
+    if (std::any_of(known.begin(), known.end(), isIt) || !covers(blocker, from, to)) return false;
+    known.insert(known.begin(), blocker);
+    if (known.size() > kFewSources) known.pop_back();
+    return true;
+  });
+}
+
+// Adds those of a region's sources that are not hidden. seen: places in order_ to choose from, within the node.
+void HiddenSources::keepVisible(Region& region, size_t index, std::span<const uint32_t> seen,
+                                std::vector<Blocker>& known) const {
+  if (seen.empty()) return;
+  const Node& node = nodes_[index];
+  if (hides(region.box, node.box, known)) return;
+  if (node.second == 0) {
+    region.places.push_back(seen[0]);
+    return;
+  }
+  const auto middle = std::lower_bound(seen.begin(), seen.end(), nodes_[node.second].begin);
+  keepVisible(region, index + 1, {seen.begin(), middle}, known);
+  keepVisible(region, node.second, {middle, seen.end()}, known);
+}
+
+// The polygons that hide sources from the middle of a region, and from how many of them; those that hide most
+// first. Empty if dividing the region would not pay.
+std::vector<std::pair<HiddenSources::Blocker, size_t>> HiddenSources::blockersIn(const Region& region) const {
+  std::vector<std::pair<Blocker, size_t>> found;
+  const double widest = region.box.size()[longestAxis(region.box)];
+  const size_t step = std::max<size_t>(1, region.places.size() / kProbes);
+  size_t probes = 0, hidden = 0;
+  for (size_t i = 0; i < region.places.size(); i += step, ++probes)
+    anyBlocker(region.box.center(), boxes_[region.places[i]].center(), [&](const Blocker& blocker) {
+      if (widest < kWorthDividing * blocker.size) return true;
+      ++hidden;
+      const auto same = std::find_if(found.begin(), found.end(),
+                                     [&](const auto& f) { return f.first.surface == blocker.surface; });
+      if (same != found.end())
+        ++same->second;
+      else
+        found.emplace_back(blocker, 1);
+      return true;
+    });
+  if (hidden * step < kFewSources || kFewSources * hidden < probes) return {};
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  return found;
+}
+
+// Decides whether and where a region is divided: beside the plane of a polygon that reaches across most of it,
+// or else in its middle. Points of the polygon itself are left in a region of their own.
+void HiddenSources::divide(Region& region) const {
+  if (region.places.size() <= kFewSources) return;
+  const Box3d& box = region.box;
+  const auto found = blockersIn(region);
+  if (found.empty()) return;
+  for (const auto& [blocker, count] : found) {
+    const int axis = blocker.axis();
+    if (axis < 0 || shareAcross(box, blocker.box, axis) < .5) continue;
+    for (const double at : {blocker.box.min[axis] + margin_, blocker.box.max[axis] - margin_})
+      if (at > box.min[axis] + 2 * margin_ && at < box.max[axis] - 2 * margin_) {
+        region.axis = axis;
+        region.at = at;
+        return;
+      }
+  }
+  const int longest = longestAxis(box);
+  if (box.size()[longest] < 4 * margin_) return;
+  region.axis = longest;
+  region.at = box.center()[longest];
+}
+
+const HiddenSources::Region& HiddenSources::half(const Region& region, int upper) const {
+  const size_t which = static_cast<size_t>(upper);
+  if (const Region* const ready = region.ready[which].load(std::memory_order_acquire)) return *ready;
+  const std::lock_guard lock(dividing_);
+  if (const Region* const ready = region.ready[which].load(std::memory_order_relaxed)) return *ready;
+  auto made = std::make_unique<Region>();
+  made->box = region.box;
+  (upper ? made->box.min : made->box.max)[region.axis] = region.at;
+  std::vector<Blocker> known = region.blockers;
+  keepVisible(*made, 0, region.places, known);
+  made->blockers = std::move(known);
+  made->visible = always_;
+  for (const uint32_t place : made->places) made->visible.push_back(order_[place]);
+  std::sort(made->visible.begin(), made->visible.end());
+  divide(*made);
+  region.ready[which].store(made.get(), std::memory_order_release);
+  region.halves[which] = std::move(made);
+  return *region.halves[which];
+}
+
+std::span<const LightId> HiddenSources::find(const V3d& point) const {
+  if (!root_->box.intersects(point)) return all_;
+  const Region* region = root_.get();
+  while (region->axis >= 0) region = &half(*region, point[region->axis] >= region->at);
+  return region->visible;
+}
+
+}  // namespace rsphere
