@@ -25,8 +25,8 @@
 #include "cli/options.h"
 #include "rad_parser/printable.h"
 #include "scene/contributors.h"
-#include "scene/sensors.h"
 #include "scene/scene.h"
+#include "scene/sensors.h"
 #include "transport/transport.h"
 
 namespace rsphere::v1 {

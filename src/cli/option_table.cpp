@@ -947,12 +947,12 @@ void addAnswerOptions(const Add& add) {
        .value = Custom{setSensors},
        .remark = "sensors as goals",
        .paragraph =
-           "Computes importance for sensors or eyes, places without a surface: the file, which is searched for "
-           "along RAYPATH, has x y z and the direction dx dy dz in which it faces of each, separated by white "
-           "space. A sensor receives light by the cosine, as rtrace -I does, and counts as a goal of area 1. "
-           "It blocks and reflects nothing. Its importance straight from a point, or by way of one mirror, is "
-           "exact. With -Sp the sensors are the contributors sensor1, sensor2 and so on, after the goals of -Sg. "
-           "May be repeated. Not with -Sw h and v, nor with -Si."});
+           "Computes importance for sensors or eyes, places without a surface: the file, which is searched"
+           " for along RAYPATH, has x y z and the direction dx dy dz in which it faces of each, separated "
+           "by white space. A sensor receives light by the cosine, as rtrace -I does, and counts as a goal"
+           " of area 1. It blocks and reflects nothing. Its importance straight from a point, or by way of"
+           " one mirror, is exact. With -Sp the sensors are the contributors sensor1, sensor2 and so on, "
+           "after the goals of -Sg. May be repeated. Not with -Sw h and v, nor with -Si."});
   add({.name = "-Sp",
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.separate; },

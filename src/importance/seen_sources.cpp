@@ -174,9 +174,12 @@ std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t
   for (const Image& image : images) sum += image.rays;
   for (size_t i = 0; i < images.size(); ++i) {
     Image& image = images[i];
-    const double enough = isSensor(prepared_, image.source) ? 1 :
-        std::max({Tuning::kUsualRays, image.solidAngle / (Tuning::kSmallestPart * Tuning::kSmallestPart),
-                  Tuning::kSmallShare * static_cast<double>(most) / static_cast<double>(images.size())});
+    const double enough =
+        isSensor(prepared_, image.source)
+            ? 1
+            : std::max(
+                  {Tuning::kUsualRays, image.solidAngle / (Tuning::kSmallestPart * Tuning::kSmallestPart),
+                   Tuning::kSmallShare * static_cast<double>(most) / static_cast<double>(images.size())});
     image.rays = std::min(image.rays / sum * static_cast<double>(most), enough);
     if (i < straight && straight <= most) image.rays = std::max(image.rays, 1.);
   }

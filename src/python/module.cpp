@@ -388,9 +388,8 @@ PYBIND11_MODULE(rsphere, m) {
       .def("contributions", &contributions, py::arg("rays"), py::arg("of"), py::kw_only(),
            py::arg("bins") = py::none(), py::arg("samples") = 8, py::arg("coefficients") = false,
            contributionsText.c_str());
-  m.def(
-      "zone_middles", &zoneMiddlesOf, py::arg("count"),
-      "The directions (count, 3) in the middle of zones of equal solid angle, 4 pi / count sr each.");
+  m.def("zone_middles", &zoneMiddlesOf, py::arg("count"),
+        "The directions (count, 3) in the middle of zones of equal solid angle, 4 pi / count sr each.");
   m.def("photometric", &photometricOf, py::arg("color"),
         "Turns colors (..., 3) of radiance (W/sr/m2) into luminance (cd/m2), and of irradiance (W/m2) into "
         "illuminance (lx).");

@@ -25,7 +25,8 @@ std::vector<Sensor> movedApart(std::span<const Sensor> sensors) {
     for (int shell = 1; collides(); ++shell)
       for (int i = 0; i < (2 * shell + 1) * (2 * shell + 1) * (2 * shell + 1) && collides(); ++i) {
         const int side = 2 * shell + 1;
-        sensor.point = wanted + kApart * V3d(i % side - shell, i / side % side - shell, i / side / side - shell);
+        sensor.point =
+            wanted + kApart * V3d(i % side - shell, i / side % side - shell, i / side / side - shell);
       }
     apart.push_back(sensor);
   }
@@ -112,7 +113,8 @@ void addSensors(Scene& scene, std::span<const Sensor> sensors) {
   for (size_t i = outermost; i < before.size(); ++i) keep(i);
   if (scene.names.size() == before.size()) {
     ById<SurfaceId, std::string> renamed;
-    for (const SurfaceId i : all.ids()) renamed.push_back(scene.description.primitives.name(all.primitiveOf(i)));
+    for (const SurfaceId i : all.ids())
+      renamed.push_back(scene.description.primitives.name(all.primitiveOf(i)));
     scene.names = std::move(renamed);
   }
   if (scene.groups.empty()) scene.groups.push_back({{0, 0}});

@@ -71,11 +71,11 @@ class RSPHERE_API Scene {
                           const Options& options = {}) const;
 
   // The same for sensors or eyes as goals, which are not in the scene: they block and reflect nothing. Each
-  // receives light by the cosine, as rays do with Options::irradianceAtOrigin, and counts as a goal of area A =
-  // 1: a lamp of 1 cd in all directions gives it 4 pi mean (lx). What goes straight from a point to a sensor, or
-  // by way of one mirror, is exact but for a share of the order of 1e-5 / distance (units of the scene): a
-  // sensor is a square with a side of that. PointAnswers::contributors are sensor1, sensor2 and so on. Throws as
-  // importance() does, and if a number is not finite or a direction is 0.
+  // receives light by the cosine, as rays do with Options::irradianceAtOrigin, and counts as a goal of area
+  // A = 1: a lamp of 1 cd in all directions gives it 4 pi mean (lx). What goes straight from a point to a
+  // sensor, or by way of one mirror, is exact but for a share of the order of 1e-5 / distance (units of the
+  // scene): a sensor is a square with a side of that. PointAnswers::contributors are sensor1, sensor2 and
+  // so on. Throws as importance() does, and if a number is not finite or a direction is 0.
   PointAnswers importanceOfSensors(std::span<const Point> points, std::span<const Sensor> sensors,
                                    const Options& options = {}) const;
 

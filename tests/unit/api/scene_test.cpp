@@ -415,11 +415,11 @@ TEST(Importance, OfSensorsHasTheBytesOfTheCommand) {
   const rsphere::PointAnswers a = scene.importanceOfSensors(points, sensors, options);
   EXPECT_EQ(a.contributors, (std::vector<std::string>{"sensor1", "sensor2"}));
   EXPECT_EQ(a.zones.columns, 72u);
-  expectSame(command("rsphere", "-ab 1 -Sn 256 -Sz 12 -SG " + file + " -Sp -oveECHukzZ " + kRoom,
-                     numbersOf(points)),
-             a.size,
-             {&a.mean, &a.meanStandardError, &a.scalarIrradiance, &a.cylindricalIrradiance, &a.faceIrradiance,
-              &a.lightVector, &a.directions, &a.zones, &a.zonesStandardError});
+  expectSame(
+      command("rsphere", "-ab 1 -Sn 256 -Sz 12 -SG " + file + " -Sp -oveECHukzZ " + kRoom, numbersOf(points)),
+      a.size,
+      {&a.mean, &a.meanStandardError, &a.scalarIrradiance, &a.cylindricalIrradiance, &a.faceIrradiance,
+       &a.lightVector, &a.directions, &a.zones, &a.zonesStandardError});
 }
 
 TEST(Importance, RefusesSensorsThatAreNone) {

@@ -1,4 +1,5 @@
-// Sensors as goals: what a lamp of 1 cd at a point gives a sensor is 4 pi times the mean importance at the point.
+// Sensors as goals: what a lamp of 1 cd at a point gives a sensor is 4 pi times the mean importance at the
+// point.
 #include "scene/sensors.h"
 
 #include <gtest/gtest.h>
@@ -35,10 +36,11 @@ const std::string kPaneInRoom = R"(void glass pane 0 0 3 .9 .8 .7
 pane polygon window 0 0 12 1.6 1.2 1.3 1.6 1.5 1.3 1.6 1.5 1.6 1.6 1.2 1.6
 )";
 
-// The small lamp lies behind a pane of glass: small, too, because rays in rtrace's manner leave out the light of
-// lamps that panes reflect, and importance does not. A ball stands between it and the desk, and a mirror hangs on the
-// wall that the sensor on the desk faces.
-const std::string kRoomWithSensor = roomOf(".6 .5 .4") + kPaneInRoom + R"(void plastic paint 0 0 5 .5 .5 .5 .02 .1
+// The small lamp lies behind a pane of glass: small, too, because rays in rtrace's manner leave out the
+// light of lamps that panes reflect, and importance does not. A ball stands between it and the desk, and a
+// mirror hangs on the wall that the sensor on the desk faces.
+const std::string kRoomWithSensor =
+    roomOf(".6 .5 .4") + kPaneInRoom + R"(void plastic paint 0 0 5 .5 .5 .5 .02 .1
 paint sphere ball 0 0 4 2.9 1.2 1.3 .15
 void mirror silver 0 0 3 .9 .85 .8
 silver polygon mirror 0 0 12 3.98 1 .75 3.98 1 2.2 3.98 2.6 2.2 3.98 2.6 .75
@@ -57,11 +59,13 @@ RayOptions fine(int bounces) {
   return o;
 }
 
-// The illuminance of the sensor by rays from it, with a lamp of 1 cd, and one bounce more than importance has.
+// The illuminance of the sensor by rays from it, with a lamp of 1 cd, and one bounce more than importance
+// has.
 Sample forward(int bounces, int relays, int count) {
   // A sphere of 1 cm and the radiance of 1 cd.
-  const std::string lamp = "void light bright 0 0 3 3183.0989 3183.0989 3183.0989\n"
-                           "bright sphere lamp 0 0 4 1 1.2 1.9 .01\n";
+  const std::string lamp =
+      "void light bright 0 0 3 3183.0989 3183.0989 3183.0989\n"
+      "bright sphere lamp 0 0 4 1 1.2 1.9 .01\n";
   const Scene scene = sceneOf(kRoomWithSensor + lamp);
   RayOptions options = fine(bounces + 1);
   options.directRelays = relays;
@@ -128,9 +132,7 @@ TEST(Sensors, HaveExactDirectLight) {
   }
 }
 
-TEST(Sensors, ReceiveNothingFromBehind) {
-  EXPECT_EQ(directOf({{V3d(.5, .5, 1.2), V3d(-1, 0, 0)}}), 0);
-}
+TEST(Sensors, ReceiveNothingFromBehind) { EXPECT_EQ(directOf({{V3d(.5, .5, 1.2), V3d(-1, 0, 0)}}), 0); }
 
 // On the line between the lamp and a sensor, and in the same place, stand others that face elsewhere.
 TEST(Sensors, StandInNobodysWay) {
