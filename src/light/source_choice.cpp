@@ -39,19 +39,43 @@ SourceChoice::SourceChoice(const Scene& scene, const LightSources& lights) {
         [&](const TubeLight& tube) { add(V3d(0, 0, 0), tube.area); },
         [&](const DistantLight& cone) {
           near_[i] = {V3d(0, 0, 0), V3d(0, 0, 0), 0, 1, 0};
-          distant_.push_back(
-              {i, source.center, bright * 2 * kPi * (1 - cone.cosHalfAngle), source.outermost});
+          special_.push_back({.distant = true,
+                              .direction = source.center,
+                              .power = bright * 2 * kPi * (1 - cone.cosHalfAngle),
+                              .sine = source.outermost});
         });
-    if (source.isDistant()) continue;
-    if (source.reach > 0 || source.spot) restricted_.push_back({i, source.reach, source.spot});
+    if (!source.isDistant() && (source.reach > 0 || source.spot))
+      special_.push_back({.reach = source.reach, .spot = source.spot});
+    else if (!source.isDistant())
+      continue;
+    near_[i].special = static_cast<uint32_t>(special_.size());
   }
 }
 
-double SourceChoice::weigh(const V3d& point, const V3d& front, ById<LightId, double>& weights) const {
-  weights.resize(near_.size());
+// usual: its weight without limits.
+double SourceChoice::weightOf(const Special& special, const Near& near, const V3d& point, const V3d& front,
+                              double usual) {
+  if (special.distant)
+    return special.power * (front == V3d(0, 0, 0) ? 1 : before(special.direction.dot(front), special.sine));
+  const V3d towards = near.center - point;
+  const double distance = towards.length();
+  const bool tooFar = special.reach > 0 && distance > special.reach + near.radius;
+  // aim . direction for the direction to the source that is closest to the axis of the spot.
+  const double deepest = distance > near.radius
+                             ? (special.spot ? special.spot->aim.dot(towards) : 0) / distance -
+                                   near.radius / distance
+                             : -1;
+  const bool outside = special.spot && special.spot->solidAngle < 2 * kPi * (1 + deepest);
+  return tooFar || outside ? 0 : usual;
+}
+
+double SourceChoice::weigh(const V3d& point, const V3d& front, std::span<const LightId> sources,
+                           std::vector<double>& weights) const {
+  weights.resize(sources.size());
   const double anySide = front == V3d(0, 0, 0) ? 1 : 0;
-  for (const LightId i : near_.ids()) {
-    const Near& s = near_[i];
+  double sum = 0;
+  for (size_t i = 0; i < sources.size(); ++i) {
+    const Near& s = near_[sources[i]];
     const V3d towards = s.center - point;
     // The distance is taken as at least the source's radius: nearer, more of the source is seen obliquely.
     const double square = std::max(towards.length2(), s.radius * s.radius);
@@ -61,22 +85,9 @@ double SourceChoice::weigh(const V3d& point, const V3d& front, ById<LightId, dou
         s.everywhere * distance + (above > 0 ? above + s.radius * s.radius * s.radius / (2 * square) : 0);
     const double cosine = anySide * distance + before(towards.dot(front), s.radius) * (1 - anySide);
     weights[i] = s.power * facing * cosine / (square * square);
+    if (s.special > 0) weights[i] = weightOf(special_[s.special - 1], s, point, front, weights[i]);
+    sum += weights[i];
   }
-  for (const Distant& s : distant_)
-    weights[s.source] = s.power * (anySide > 0 ? 1 : before(s.direction.dot(front), s.sine));
-  for (const Restricted& r : restricted_) {
-    const Near& s = near_[r.source];
-    const V3d towards = s.center - point;
-    const double distance = towards.length();
-    const bool tooFar = r.reach > 0 && distance > r.reach + s.radius;
-    // aim . direction for the direction to the source that is closest to the axis of the spot.
-    const double deepest =
-        distance > s.radius ? (r.spot ? r.spot->aim.dot(towards) : 0) / distance - s.radius / distance : -1;
-    const bool outside = r.spot && r.spot->solidAngle < 2 * kPi * (1 + deepest);
-    if (tooFar || outside) weights[r.source] = 0;
-  }
-  double sum = 0;
-  for (const double w : weights) sum += w;
   return sum;
 }
 

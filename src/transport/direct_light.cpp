@@ -306,14 +306,15 @@ void DirectLight::add(Receiver at, DirectCoefficient coefficientOf, const V3d& f
 // Estimates the sum over all sources from -Ss sources, drawn in proportion to their weights.
 void DirectLight::addOfChosen(Receiver at, DirectCoefficient coefficientOf, const V3d& front,
                               Radiance& value) {
-  const double sum = t_.lights().choice().weigh(at.point, front, scratch_.sourceWeights);
+  const std::span<const LightId> sources = t_.lights().hidden().notHiddenFrom(at.point);
+  const double sum = t_.lights().choice().weigh(at.point, front, sources, scratch_.sourceWeights);
   if (!(sum > 0)) return;
   const int draws = std::max(1, static_cast<int>(t_.options().chosenSources * at.end.context.weight + .5));
   const double step = sum / draws;
   double next = state_.random.uniform() * step, passed = 0;
-  for (const LightId i : scratch_.sourceWeights.ids()) {
+  for (size_t i = 0; i < sources.size(); ++i) {
     for (passed += scratch_.sourceWeights[i]; next < passed; next += step)
-      addSamples(at, i, {0, 1, front}, coefficientOf, step / scratch_.sourceWeights[i], value);
+      addSamples(at, sources[i], {0, 1, front}, coefficientOf, step / scratch_.sourceWeights[i], value);
   }
 }
 

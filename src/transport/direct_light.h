@@ -101,7 +101,7 @@ class DirectLight {
     std::vector<Coefficient> ofLobe;
     std::vector<uint32_t> order;  // of the contributions, brightest first where not all are tested
     std::vector<double> remaining;
-    ById<LightId, double> sourceWeights;
+    std::vector<double> sourceWeights;
   };
   Contribution& ranked(size_t i) { return scratch_.contributions[scratch_.order[i]]; }
   double rankedBrightness(size_t i) const { return scratch_.brightness[scratch_.order[i]]; }

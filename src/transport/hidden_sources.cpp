@@ -73,10 +73,10 @@ struct HiddenSources::Blocker {
   V3d normal{0, 0, 0};  // unit, towards the side that it was hit from
   double offset = 0;
   double size = 0;  // half the sum of its extents along two axes
-  Box3d box;
+  Box3d box{};
   uint32_t edges = 0;
-  std::array<V3d, kMostVertices> inward;
-  std::array<double, kMostVertices> least;  // inward . p for the points p of the edge
+  std::array<V3d, kMostVertices> inward{};
+  std::array<double, kMostVertices> least{};  // inward . p for the points p of the edge
 
   // The axis that the plane is perpendicular to; -1 if none.
   int axis() const {
@@ -87,7 +87,7 @@ struct HiddenSources::Blocker {
 };
 
 struct HiddenSources::Region {
-  Box3d box;
+  Box3d box{};
   std::vector<LightId> visible;  // not certainly hidden, ascending
   std::vector<uint32_t> places;  // of those that may be hidden, in order_
   std::vector<Blocker> blockers;
@@ -113,7 +113,8 @@ HiddenSources::HiddenSources(const Scene& scene, const Tracer& tracer, const Lig
   makeNode(0, order_.size());
   margin_ = 2 * marginOver(tracer.bounds().size().length());
   root_ = std::make_unique<Region>();
-  root_->box = tracer.bounds();
+  // Points of the outermost walls are rounded.
+  root_->box = {tracer.bounds().min - V3d(margin_), tracer.bounds().max + V3d(margin_)};
   root_->visible = all_;
   root_->places.resize(order_.size());
   std::iota(root_->places.begin(), root_->places.end(), 0);
@@ -123,7 +124,7 @@ HiddenSources::HiddenSources(const Scene& scene, const Tracer& tracer, const Lig
 // Makes the tree of the sources from begin to end. Returns its index.
 size_t HiddenSources::makeNode(size_t begin, size_t end) {
   const size_t index = nodes_.size();
-  Box3d box;
+  Box3d box{};
   for (size_t i = begin; i < end; ++i) box.extendBy(boxes_[i]);
   nodes_.push_back({box, begin, end, 0});
   if (end - begin <= 1) return index;

@@ -114,7 +114,7 @@ class LightVertices::Path {
   bool fromSource_ = true;          // nothing has reflected it yet
   int bounces_ = 0;
   double length_ = 0, firstLength_ = 0;  // since the last reflection; and of the first segment
-  ById<LightId, double> weights_;
+  std::vector<double> weights_;
   FunctionScratch scratch_;
 };
 
@@ -233,13 +233,15 @@ void LightVertices::Path::addVisible(const PlainPlace& at, double reflected) {
   if (!(reflected > 0) && !(direct && hasRoughHighlight(*at.material))) return;
   double shadowRays = 0;
   if (direct) {
-    const double sum = all_.surfaces_.weigh(at.point, at.normal, weights_);
+    std::span<const LightId> sources;
+    const double sum = all_.surfaces_.weigh(at.point, at.normal, sources, weights_);
+    const auto own = std::lower_bound(sources.begin(), sources.end(), light_) - sources.begin();
     SourceSample same;
     same.direction = -direction_;
     same.distance = length_;
     same.cosine = cosineAtSource_;
     same.source = light_;
-    shadowRays = sum > 0 ? all_.shadowRaysOver(same, at.normal, weights_[light_] / sum) : 0;
+    shadowRays = sum > 0 ? all_.shadowRaysOver(same, at.normal, weights_[static_cast<size_t>(own)] / sum) : 0;
   }
   const Irradiance power = direct ? power_ : Irradiance(power_.color * at.color());
   all_.visible_.push_back({vertexAt(at, reflected, bounces_ + 1, way_, batch_), power, direction_,

@@ -153,12 +153,14 @@ Radiance PlainSurfaces::radianceOf(LightId source, const V3d& point, const V3d& 
                   patternFrom(scene_.modifiers[surface.material].next, here, scratch));
 }
 
-double PlainSurfaces::weigh(const V3d& point, const V3d& normal, ById<LightId, double>& weights) const {
-  const double all = prepared_.lights().choice().weigh(point, normal, weights);
+double PlainSurfaces::weigh(const V3d& point, const V3d& normal, std::span<const LightId>& sources,
+                            std::vector<double>& weights) const {
+  sources = prepared_.lights().hidden().notHiddenFrom(point);
+  const double all = prepared_.lights().choice().weigh(point, normal, sources, weights);
   if (knowAllSources_) return all;
   double sum = 0;
-  for (const LightId i : weights.ids()) {
-    if (!knownSources_[i]) weights[i] = 0;
+  for (size_t i = 0; i < sources.size(); ++i) {
+    if (!knownSources_[sources[i]]) weights[i] = 0;
     sum += weights[i];
   }
   return sum;

@@ -52,8 +52,10 @@ class PlainSurfaces {
   bool bringAllDirect() const { return bringAllDirect_; }
   // Whether shadow rays to a known source may bring light of paths that are not known.
   bool passUnknown() const { return passUnknown_; }
-  // SourceChoice::weigh() for known sources; the others have the weight 0.
-  double weigh(const V3d& point, const V3d& normal, ById<LightId, double>& weights) const;
+  // SourceChoice::weigh() of the sources that are not certainly hidden from the point (hidden_sources.h), which
+  // it returns in `sources`. Those that are not known have the weight 0.
+  double weigh(const V3d& point, const V3d& normal, std::span<const LightId>& sources,
+               std::vector<double>& weights) const;
 
   // direction: unit. start: the surface that the line starts on, or kNone.
   Sight look(const V3d& origin, const V3d& direction, double farthest, SurfaceId start) const;

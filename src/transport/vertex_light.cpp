@@ -47,13 +47,14 @@ void VertexLight::Record::add(uint8_t batch, const Irradiance& part, double notC
 VertexLight::Chosen VertexLight::chooseSource(const PlainPlace& at, double finest, Random& random,
                                               Scratch& scratch) const {
   auto& weights = scratch.weights;
-  const double sum = surfaces_.weigh(at.point, at.normal, weights);
+  std::span<const LightId> sources;
+  const double sum = surfaces_.weigh(at.point, at.normal, sources, weights);
   const size_t source = chooseOne(
-      weights.size(), sum, [&](size_t i) { return weights[LightId(i)]; }, random);
+      weights.size(), sum, [&](size_t i) { return weights[i]; }, random);
   if (source == weights.size()) return {};
   auto& samples = scratch.samples;
   samples.clear();
-  prepared_.lights().sample(LightId(source), at.point, {finest, 1, at.normal}, random, samples);
+  prepared_.lights().sample(sources[source], at.point, {finest, 1, at.normal}, random, samples);
   const auto arrives = [&](size_t i) {
     const double cosine = at.normal.dot(samples[i].direction);
     return samples[i].cosine > 0 && cosine > kNegligible ? cosine * samples[i].solidAngle : 0;
@@ -62,7 +63,7 @@ VertexLight::Chosen VertexLight::chooseSource(const PlainPlace& at, double fines
   for (size_t i = 0; i < samples.size(); ++i) all += arrives(i);
   const size_t part = chooseOne(samples.size(), all, arrives, random);
   if (part == samples.size()) return {};
-  return {samples[part], weights[LightId(source)] / sum * arrives(part) / all};
+  return {samples[part], weights[source] / sum * arrives(part) / all};
 }
 
 // The share of the light of a sample that arrives.

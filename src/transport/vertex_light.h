@@ -24,7 +24,7 @@ class VertexLight {
 
   // Memory of one thread, kept for speed alone.
   struct Scratch {
-    ById<LightId, double> weights;
+    std::vector<double> weights;
     std::vector<SourceSample> samples;
     FunctionScratch functions;
   };

@@ -29,23 +29,24 @@ TEST(SourceChoice, WeighsAllThatCanBeSampled) {
   const LightSources lights(scene);
   const SourceChoice choice(scene, lights);
   Random random(1);
-  ById<LightId, double> weights;
+  const std::vector<LightId> all(lights.all().ids().begin(), lights.all().ids().end());
+  std::vector<double> weights;
   std::vector<SourceSample> samples;
   std::vector<int> met(lights.all().size(), 0), unweighed(lights.all().size(), 0);
   for (int i = 0; i < 20000; ++i) {
     const V3d point(6 * random.uniform() - 2, 6 * random.uniform() - 2, 6 * random.uniform() - 2);
     const V3d away(random.uniform() - .5, random.uniform() - .5, random.uniform() - .5);
     const V3d front = i % 3 ? away.normalized() : V3d(0, 0, 0);
-    choice.weigh(point, front, weights);
-    for (const LightId k : weights.ids()) {
+    choice.weigh(point, front, all, weights);
+    for (const LightId k : all) {
       samples.clear();
       lights.sample(k, point, {0, 1, front}, random, samples);
       const bool counts = !samples.empty() && (i % 3 == 0 || samples[0].direction.dot(front) > 0);
-      ASSERT_GE(weights[k], 0);
-      ASSERT_TRUE(weights[k] > 0 || !counts)
+      ASSERT_GE(weights[k.index()], 0);
+      ASSERT_TRUE(weights[k.index()] > 0 || !counts)
           << "source " << k.number() << " from " << point << " before " << front;
       met[k.index()] += counts;
-      unweighed[k.index()] += weights[k] == 0;
+      unweighed[k.index()] += weights[k.index()] == 0;
     }
   }
   for (size_t k = 0; k < met.size(); ++k) EXPECT_GT(met[k], 100) << "source " << k;
@@ -66,15 +67,16 @@ TEST(SourceChoice, WeighsByIrradiance) {
   const LightSources lights(scene);
   const SourceChoice choice(scene, lights);
   Random random(1);
-  ById<LightId, double> weights;
-  choice.weigh(V3d(0, 0, 0), V3d(0, 0, 1), weights);
-  for (const LightId k : weights.ids()) {
+  const std::vector<LightId> all(lights.all().ids().begin(), lights.all().ids().end());
+  std::vector<double> weights;
+  choice.weigh(V3d(0, 0, 0), V3d(0, 0, 1), all, weights);
+  for (const LightId k : all) {
     std::vector<SourceSample> samples;
     lights.sample(k, V3d(0, 0, 0), {}, random, samples);
     ASSERT_EQ(samples.size(), 1u);
     const double irradiance =
         (k.index() == 1 || k.index() == 3 ? 7 : 2) * samples[0].solidAngle * samples[0].direction.z;
-    EXPECT_NEAR(weights[k], irradiance, .05 * irradiance) << "source " << k.number();
+    EXPECT_NEAR(weights[k.index()], irradiance, .05 * irradiance) << "source " << k.number();
   }
 }
 
