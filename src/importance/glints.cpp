@@ -103,22 +103,37 @@ double solidAngleFrom(const LightSource& source, const Sphere& ball, double dist
 
 }  // namespace
 
-Glints::Glints(const PreparedScene& prepared, std::span<const SpecialObject> objects) : prepared_(prepared) {
+Glints::Glints(const PreparedScene& prepared, std::span<const SpecialObject> objects)
+    : prepared_(prepared),
+      balls_(ballsAmong(prepared.scene(), objects)),
+      hidden_(prepared.scene(), prepared.tracer(), boxesOf(balls_)) {
   const Scene& scene = prepared.scene();
+  const auto& all = prepared.lights().all();
+  lights_.resize(all.size());
+  for (const LightId i : all.ids()) {
+    if (all[i].isVirtual()) continue;
+    const double bright = brightness(sourceRadiance(scene, scene.surfaces[all[i].surface]));
+    if (bright > 0) lights_[i] = Light{i, bright};
+  }
+}
+
+std::vector<Glints::Ball> Glints::ballsAmong(const Scene& scene, std::span<const SpecialObject> objects) {
+  std::vector<Ball> balls;
   for (const SpecialObject& object : objects) {
     const auto* sphere = shapeOf(scene, object).as<Sphere>();
     const Surface& surface = scene.surfaces[object.surface];
     if (!sphere || object.several || !surface.shape.as<Sphere>()) continue;
     const Material* material = scene.materialOf(surface);
     const double reflectance = material ? reflectanceOf(*material) : 0;
-    if (reflectance > 0) balls_.push_back({*sphere, reflectance});
+    if (reflectance > 0) balls.push_back({*sphere, reflectance});
   }
-  const auto& all = prepared.lights().all();
-  for (const LightId i : all.ids()) {
-    if (all[i].isVirtual()) continue;
-    const double bright = brightness(sourceRadiance(scene, scene.surfaces[all[i].surface]));
-    if (bright > 0) lights_.push_back({i, bright});
-  }
+  return balls;
+}
+
+std::vector<Box3d> Glints::boxesOf(std::span<const Ball> balls) {
+  std::vector<Box3d> boxes;
+  for (const Ball& ball : balls) boxes.push_back(bounds(ball.sphere));
+  return boxes;
 }
 
 // Whether `at` sees the source at one or more places of a part: its middle, and halfway to each corner, which
@@ -134,47 +149,52 @@ bool Glints::shines(const LightSource& source, std::span<const V3d> corners, con
                                      [&](const V3d& corner) { return seen((middle + corner) / 2); });
 }
 
-std::vector<Glint> Glints::find(const V3d& point, double least) const {
-  std::vector<Glint> found;
+// Adds the images of one light source in one ball.
+void Glints::addOf(const Ball& mirror, const Light& light, const V3d& point, double least,
+                   std::vector<Glint>& found) const {
+  const Sphere& ball = mirror.sphere;
+  const double nearest = (point - ball.center).length() - ball.radius;
+  const LightSource& source = prepared_.lights().all()[light.source];
+  const auto* plane = source.as<PlaneLight>();
+  const double distance =
+      source.isDistant() ? kFarAway : (source.center - ball.center).length() - ball.radius;
+  if (!(distance > 0) || (source.reach > 0 && distance - source.radius > source.reach)) return;
+  // A ball of radius r spreads distant light evenly over the sphere. At a distance d, the image therefore
+  // has (r / 2d)^2 times the solid angle that the source has as seen from the ball.
+  const double reached = ball.radius / nearest, radiance = light.brightness * mirror.reflectance;
+  if (!(radiance * radiance * solidAngleFrom(source, ball, distance) * reached * reached / 4 > least)) return;
+  const size_t first = found.size();
   std::vector<V3d> around;
-  for (const auto& [ball, reflectance] : balls_) {
-    const double nearest = (point - ball.center).length() - ball.radius;
-    if (!(nearest > 1e-4 * ball.radius)) continue;
-    for (const Light& light : lights_) {
-      const LightSource& source = prepared_.lights().all()[light.source];
-      const auto* plane = source.as<PlaneLight>();
-      const double distance =
-          source.isDistant() ? kFarAway : (source.center - ball.center).length() - ball.radius;
-      if (!(distance > 0) || (source.reach > 0 && distance - source.radius > source.reach)) continue;
-      // A ball of radius r spreads distant light evenly over the sphere. At a distance d, the image therefore
-      // has (r / 2d)^2 times the solid angle that the source has as seen from the ball.
-      const double reached = ball.radius / nearest, radiance = light.brightness * reflectance;
-      if (!(radiance * radiance * solidAngleFrom(source, ball, distance) * reached * reached / 4 > least))
-        continue;
-      const size_t first = found.size();
-      for (const Part& part : partsOf(prepared_.scene(), source, ball)) {
-        const V3d normal = mirroringNormal(ball, point, part.middle, source.isDistant());
-        const V3d at = ball.center + (ball.radius + 2 * kSamePlace) * normal, in = point - at;
-        const V3d out = source.isDistant() ? source.center : (part.middle - at).normalized();
-        if (!(normal.dot(in) > 0) || (plane && plane->normal.dot(out) >= 0)) continue;
-        if (source.spot && outsideSpot(*source.spot, out)) continue;
-        if (prepared_.tracer().shadow(at, in.normalized(), in.length(), kNone) == Shadow::blocked) continue;
-        if (!shines(source, part.corners, part.middle, at)) continue;
-        around.clear();
-        for (size_t i = 0; i < part.corners.size(); ++i) {
-          const V3d corner = part.corners[i], next = part.corners[(i + 1) % part.corners.size()];
-          for (const double share : {0., .5}) {
-            const V3d place =
-                part.middle + tuning::Highlights::kWider * (corner + share * (next - corner) - part.middle);
-            around.push_back(ball.center +
-                             ball.radius * mirroringNormal(ball, point, place, source.isDistant()));
-          }
-        }
-        Silhouette region = hullOf(around, point);
-        if (region.regionSolidAngle() > 0)
-          found.push_back({std::move(region), radiance, found.size() > first});
+  for (const Part& part : partsOf(prepared_.scene(), source, ball)) {
+    const V3d normal = mirroringNormal(ball, point, part.middle, source.isDistant());
+    const V3d at = ball.center + (ball.radius + 2 * kSamePlace) * normal, in = point - at;
+    const V3d out = source.isDistant() ? source.center : (part.middle - at).normalized();
+    if (!(normal.dot(in) > 0) || (plane && plane->normal.dot(out) >= 0)) continue;
+    if (source.spot && outsideSpot(*source.spot, out)) continue;
+    if (prepared_.tracer().shadow(at, in.normalized(), in.length(), kNone) == Shadow::blocked) continue;
+    if (!shines(source, part.corners, part.middle, at)) continue;
+    around.clear();
+    for (size_t i = 0; i < part.corners.size(); ++i) {
+      const V3d corner = part.corners[i], next = part.corners[(i + 1) % part.corners.size()];
+      for (const double share : {0., .5}) {
+        const V3d place =
+            part.middle + tuning::Highlights::kWider * (corner + share * (next - corner) - part.middle);
+        around.push_back(ball.center + ball.radius * mirroringNormal(ball, point, place, source.isDistant()));
       }
     }
+    Silhouette region = hullOf(around, point);
+    if (region.regionSolidAngle() > 0) found.push_back({std::move(region), radiance, found.size() > first});
+  }
+}
+
+std::vector<Glint> Glints::find(const V3d& point, double least) const {
+  std::vector<Glint> found;
+  for (const uint32_t i : hidden_.notHiddenFrom(point)) {
+    const Sphere& ball = balls_[i].sphere;
+    if (!((point - ball.center).length() - ball.radius > 1e-4 * ball.radius)) continue;
+    // Sources that its middle cannot see hardly shine on a ball.
+    for (const uint32_t light : prepared_.lights().hidden().notHiddenFrom(ball.center))
+      if (lights_[LightId(light)]) addOf(balls_[i], *lights_[LightId(light)], point, least, found);
   }
   return found;
 }

@@ -41,12 +41,17 @@ class Glints {
     LightId source;
     double brightness = 0;
   };
+  static std::vector<Ball> ballsAmong(const Scene& scene, std::span<const SpecialObject> objects);
+  static std::vector<Box3d> boxesOf(std::span<const Ball> balls);
+  void addOf(const Ball& ball, const Light& light, const V3d& point, double least,
+             std::vector<Glint>& found) const;
   bool shines(const LightSource& source, std::span<const V3d> corners, const V3d& middle,
               const V3d& at) const;
 
   const PreparedScene& prepared_;
   std::vector<Ball> balls_;
-  std::vector<Light> lights_;
+  ById<LightId, std::optional<Light>> lights_;  // but images and dark ones
+  HiddenBoxes hidden_;                          // balls_
 };
 
 }  // namespace rsphere

@@ -156,9 +156,9 @@ std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t
                                                         double mirrorFactor) const {
   std::vector<Image> images;
   const Scene& scene = prepared_.scene();
-  const std::span<const LightId> notHidden = prepared_.lights().hidden().notHiddenFrom(point);
+  const std::span<const uint32_t> notHidden = prepared_.lights().hidden().notHiddenFrom(point);
   for (const LightId i : sources_) {
-    if (!std::binary_search(notHidden.begin(), notHidden.end(), i)) continue;
+    if (!std::binary_search(notHidden.begin(), notHidden.end(), i.index())) continue;
     const Surface& surface = scene.surfaces[prepared_.lights().all()[i].surface];
     if (emitsBehind(surface.shape, point)) continue;
     Image image;

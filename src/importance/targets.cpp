@@ -87,6 +87,13 @@ bool isVisible(const Tracer& tracer, const BrightSpots::Sunlit& spot, const V3d&
   });
 }
 
+std::vector<Box3d> boxesOf(const Scene& scene, const Contrasts& contrasts) {
+  std::vector<Box3d> boxes;
+  for (const Contrasts::Object& c : contrasts.objects)
+    boxes.push_back(bounds(shapeOf(scene, c.object), verticesOf(scene, c.object)));
+  return boxes;
+}
+
 }  // namespace
 
 Targets::Targets(std::vector<Target> targets) : targets_(std::move(targets)) {
@@ -110,6 +117,7 @@ TargetChoice::TargetChoice(const SphereTracing& tracing, std::span<const Special
       sunlit_(tracing.aims.spots ? tracing.aims.spots->sunlit() : std::span<const BrightSpots::Sunlit>()),
       densityFactor_(densityFactor),
       contrasts_(measureContrasts(tracing, objects, sources)),
+      hidden_(prepared_.scene(), prepared_.tracer(), boxesOf(prepared_.scene(), contrasts_)),
       glints_(tracing.prepared, objects) {
   const Openings* const openings = tracing.aims.openings;
   radiances_.resize(contrasts_.objects.size());
@@ -145,7 +153,7 @@ Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDir
     sum += density * solidAngle;
     targets.push_back({std::move(silhouette), density, density * solidAngle, continues});
   };
-  for (size_t i = 0; i < radiances_.size(); ++i) {
+  for (const uint32_t i : hidden_.notHiddenFrom(point)) {
     const Contrasts::Object& c = contrasts_.objects[i];
     add(silhouetteOf(prepared_.scene(), c.object, point), c.deviation, false, radiances_[i]);
   }

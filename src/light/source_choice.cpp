@@ -61,21 +61,21 @@ double SourceChoice::weightOf(const Special& special, const Near& near, const V3
   const double distance = towards.length();
   const bool tooFar = special.reach > 0 && distance > special.reach + near.radius;
   // aim . direction for the direction to the source that is closest to the axis of the spot.
-  const double deepest = distance > near.radius
-                             ? (special.spot ? special.spot->aim.dot(towards) : 0) / distance -
-                                   near.radius / distance
-                             : -1;
+  const double deepest =
+      distance > near.radius
+          ? (special.spot ? special.spot->aim.dot(towards) : 0) / distance - near.radius / distance
+          : -1;
   const bool outside = special.spot && special.spot->solidAngle < 2 * kPi * (1 + deepest);
   return tooFar || outside ? 0 : usual;
 }
 
-double SourceChoice::weigh(const V3d& point, const V3d& front, std::span<const LightId> sources,
+double SourceChoice::weigh(const V3d& point, const V3d& front, std::span<const uint32_t> sources,
                            std::vector<double>& weights) const {
   weights.resize(sources.size());
   const double anySide = front == V3d(0, 0, 0) ? 1 : 0;
   double sum = 0;
   for (size_t i = 0; i < sources.size(); ++i) {
-    const Near& s = near_[sources[i]];
+    const Near& s = near_[LightId(sources[i])];
     const V3d towards = s.center - point;
     // The distance is taken as at least the source's radius: nearer, more of the source is seen obliquely.
     const double square = std::max(towards.length2(), s.radius * s.radius);

@@ -205,12 +205,12 @@ uint32_t DirectLight::findContributions(Receiver at, DirectCoefficient coefficie
   const PlainSurfaces* const leftOut =
       at.leftToBothEnds && !at.leftToBothEnds->passUnknown() ? at.leftToBothEnds : nullptr;
   // Shadow rays that are shown to the observer are all of them.
-  const std::span<const LightId> sources = state_.request.shadows == ShownShadows::all
-                                               ? t_.lights().hidden().all()
-                                               : t_.lights().hidden().notHiddenFrom(at.point);
-  for (const LightId i : sources)
-    if (!leftOut || !leftOut->knows(i))
-      t_.lights().sample(i, at.point, how, state_.random, scratch_.samples);
+  const std::span<const uint32_t> sources = state_.request.shadows == ShownShadows::all
+                                                ? t_.lights().hidden().all()
+                                                : t_.lights().hidden().notHiddenFrom(at.point);
+  for (const uint32_t i : sources)
+    if (!leftOut || !leftOut->knows(LightId(i)))
+      t_.lights().sample(LightId(i), at.point, how, state_.random, scratch_.samples);
   if (scratch_.contributions.size() < scratch_.samples.size()) {
     scratch_.contributions.resize(scratch_.samples.size());
     scratch_.brightness.resize(scratch_.samples.size());
@@ -306,7 +306,7 @@ void DirectLight::add(Receiver at, DirectCoefficient coefficientOf, const V3d& f
 // Estimates the sum over all sources from -Ss sources, drawn in proportion to their weights.
 void DirectLight::addOfChosen(Receiver at, DirectCoefficient coefficientOf, const V3d& front,
                               Radiance& value) {
-  const std::span<const LightId> sources = t_.lights().hidden().notHiddenFrom(at.point);
+  const std::span<const uint32_t> sources = t_.lights().hidden().notHiddenFrom(at.point);
   const double sum = t_.lights().choice().weigh(at.point, front, sources, scratch_.sourceWeights);
   if (!(sum > 0)) return;
   const int draws = std::max(1, static_cast<int>(t_.options().chosenSources * at.end.context.weight + .5));
@@ -314,7 +314,8 @@ void DirectLight::addOfChosen(Receiver at, DirectCoefficient coefficientOf, cons
   double next = state_.random.uniform() * step, passed = 0;
   for (size_t i = 0; i < sources.size(); ++i) {
     for (passed += scratch_.sourceWeights[i]; next < passed; next += step)
-      addSamples(at, sources[i], {0, 1, front}, coefficientOf, step / scratch_.sourceWeights[i], value);
+      addSamples(at, LightId(sources[i]), {0, 1, front}, coefficientOf, step / scratch_.sourceWeights[i],
+                 value);
   }
 }
 

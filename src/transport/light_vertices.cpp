@@ -233,9 +233,9 @@ void LightVertices::Path::addVisible(const PlainPlace& at, double reflected) {
   if (!(reflected > 0) && !(direct && hasRoughHighlight(*at.material))) return;
   double shadowRays = 0;
   if (direct) {
-    std::span<const LightId> sources;
+    std::span<const uint32_t> sources;
     const double sum = all_.surfaces_.weigh(at.point, at.normal, sources, weights_);
-    const auto own = std::lower_bound(sources.begin(), sources.end(), light_) - sources.begin();
+    const auto own = std::lower_bound(sources.begin(), sources.end(), light_.index()) - sources.begin();
     SourceSample same;
     same.direction = -direction_;
     same.distance = length_;

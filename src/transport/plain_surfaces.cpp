@@ -153,14 +153,14 @@ Radiance PlainSurfaces::radianceOf(LightId source, const V3d& point, const V3d& 
                   patternFrom(scene_.modifiers[surface.material].next, here, scratch));
 }
 
-double PlainSurfaces::weigh(const V3d& point, const V3d& normal, std::span<const LightId>& sources,
+double PlainSurfaces::weigh(const V3d& point, const V3d& normal, std::span<const uint32_t>& sources,
                             std::vector<double>& weights) const {
   sources = prepared_.lights().hidden().notHiddenFrom(point);
   const double all = prepared_.lights().choice().weigh(point, normal, sources, weights);
   if (knowAllSources_) return all;
   double sum = 0;
   for (size_t i = 0; i < sources.size(); ++i) {
-    if (!knownSources_[sources[i]]) weights[i] = 0;
+    if (!knownSources_[LightId(sources[i])]) weights[i] = 0;
     sum += weights[i];
   }
   return sum;

@@ -52,9 +52,9 @@ class PlainSurfaces {
   bool bringAllDirect() const { return bringAllDirect_; }
   // Whether shadow rays to a known source may bring light of paths that are not known.
   bool passUnknown() const { return passUnknown_; }
-  // SourceChoice::weigh() of the sources that are not certainly hidden from the point (hidden_sources.h), which
+  // SourceChoice::weigh() of the sources that are not certainly hidden from the point (hidden_boxes.h), which
   // it returns in `sources`. Those that are not known have the weight 0.
-  double weigh(const V3d& point, const V3d& normal, std::span<const LightId>& sources,
+  double weigh(const V3d& point, const V3d& normal, std::span<const uint32_t>& sources,
                std::vector<double>& weights) const;
 
   // direction: unit. start: the surface that the line starts on, or kNone.

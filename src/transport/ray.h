@@ -75,15 +75,15 @@ enum class Known : uint8_t {
 // What a ray inherits from its ancestors. It does not change once the ray is followed.
 struct PathContext {
   RayKind kind = kPrimary;
-  unsigned kinds = kPrimary;       // its own kind and those of its ancestors
-  double weight = 1;               // largest share that its radiance can have in the answer
-  int level = 0;                   // number of reflections that led to it
-  int depth = 0;                   // number of its ancestors
-  int ambientLevel = 0;            // number of indirect bounces that led to it
-  double pathLength = 0;           // total length of its ancestors
-  double shadowLength = 0;         // total length of those ancestors that are shadow rays
-  SurfaceId mirror = kNone;        // the flat surface that mirrored the primary ray into this one, if nothing
-                                   // else deflected it
+  unsigned kinds = kPrimary;  // its own kind and those of its ancestors
+  double weight = 1;          // largest share that its radiance can have in the answer
+  int level = 0;              // number of reflections that led to it
+  int depth = 0;              // number of its ancestors
+  int ambientLevel = 0;       // number of indirect bounces that led to it
+  double pathLength = 0;      // total length of its ancestors
+  double shadowLength = 0;    // total length of those ancestors that are shadow rays
+  SurfaceId mirror = kNone;   // the flat surface that mirrored the primary ray into this one, if nothing
+                              // else deflected it
   Known known = Known::no;
   const RayEnd* parent = nullptr;  // null: a primary ray, or one that does not depend on earlier rays
   RaySpace space{};

@@ -41,9 +41,9 @@ struct RayOptions {
   // it, because each of its directions has a small -ad and all share one solution. 0: no minimum, and patches
   // do not serve the first surface.
   int leastForPatches = 0;
-  int coarserLinks = 0;  // FieldOptions::coarserLinks. Not an option: pictures set it
-  std::string ambientFile;                                    // -af
-  double fieldMemory = 0;                                     // -Sm  MB; 0: no bound
+  int coarserLinks = 0;     // FieldOptions::coarserLinks. Not an option: pictures set it
+  std::string ambientFile;  // -af
+  double fieldMemory = 0;   // -Sm  MB; 0: no bound
   std::vector<std::string> ambientExcluded, ambientIncluded;  // -ae -aE, -ai -aI; one or both are empty
   // limits
   int reflectionLimit = -10;  // -lr  limit: absolute value, 0: none; not positive: Russian roulette below -lw

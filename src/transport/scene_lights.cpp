@@ -25,6 +25,25 @@ LightId sourceNamed(const Scene& scene, const LightSources& lights, std::string_
   return kNone;
 }
 
+// What samples of a source lie in: of an image, the relay that rays to it hit first. Empty for distant sources.
+Box3d boxOf(const Scene& scene, const LightSource& light) {
+  if (light.isDistant() && !light.isVirtual()) return {};
+  Box3d box = bounds(scene.surfaces[light.surface].shape, scene.vertices);
+  if (light.isVirtual()) return box;
+  V3d reach(light.radius);
+  if (const auto* plane = light.as<PlaneLight>())
+    for (int i = 0; i < 3; ++i) reach[i] = std::abs(plane->u[i]) + std::abs(plane->v[i]);
+  box.extendBy(light.center - reach);
+  box.extendBy(light.center + reach);
+  return box;
+}
+
+std::vector<Box3d> boxesOf(const Scene& scene, const LightSources& lights) {
+  std::vector<Box3d> boxes;
+  for (const LightSource& light : lights.all()) boxes.push_back(boxOf(scene, light));
+  return boxes;
+}
+
 }  // namespace
 
 MistSources::MistSources(const Scene& scene, const LightSources& lights, const rad::Warn& warn) {
@@ -57,7 +76,7 @@ SceneLights::SceneLights(const Scene& scene, const Tracer& tracer, const Surface
     : LightSources(scene, relays, functions, warn),
       presumedShadows_(scene, tracer, *this),
       choice_(scene, *this),
-      hidden_(scene, tracer, *this),
+      hidden_(scene, tracer, boxesOf(scene, *this)),
       ofMists_(scene, *this, warn),
       luminous_(scene.surfaces.size()) {
   constantRadiance_.resize(all().size());

@@ -8,7 +8,7 @@
 #include "light/sources.h"
 #include "scene/chosen_surfaces.h"
 #include "shade/surface_functions.h"
-#include "transport/hidden_sources.h"
+#include "transport/hidden_boxes.h"
 #include "transport/presumed_shadows.h"
 
 namespace rsphere {
@@ -54,13 +54,14 @@ class SceneLights : public LightSources {
   const std::vector<SurfaceId>& distant() const { return distant_; }
   const PresumedShadows& presumedShadows() const { return presumedShadows_; }
   const SourceChoice& choice() const { return choice_; }
-  const HiddenSources& hidden() const { return hidden_; }
+  // The light sources as boxes, by their numbers; an image is hidden if the relay is that shows it.
+  const HiddenBoxes& hidden() const { return hidden_; }
   const MistSources& ofMists() const { return ofMists_; }
 
  private:
   PresumedShadows presumedShadows_;
   SourceChoice choice_;
-  HiddenSources hidden_;
+  HiddenBoxes hidden_;
   MistSources ofMists_;
   ChosenSurfaces luminous_;  // surfaces that are light sources, which are the first lights, in the same order
   ById<LightId, std::optional<Radiance>> constantRadiance_;

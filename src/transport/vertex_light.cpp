@@ -47,14 +47,14 @@ void VertexLight::Record::add(uint8_t batch, const Irradiance& part, double notC
 VertexLight::Chosen VertexLight::chooseSource(const PlainPlace& at, double finest, Random& random,
                                               Scratch& scratch) const {
   auto& weights = scratch.weights;
-  std::span<const LightId> sources;
+  std::span<const uint32_t> sources;
   const double sum = surfaces_.weigh(at.point, at.normal, sources, weights);
   const size_t source = chooseOne(
       weights.size(), sum, [&](size_t i) { return weights[i]; }, random);
   if (source == weights.size()) return {};
   auto& samples = scratch.samples;
   samples.clear();
-  prepared_.lights().sample(sources[source], at.point, {finest, 1, at.normal}, random, samples);
+  prepared_.lights().sample(LightId(sources[source]), at.point, {finest, 1, at.normal}, random, samples);
   const auto arrives = [&](size_t i) {
     const double cosine = at.normal.dot(samples[i].direction);
     return samples[i].cosine > 0 && cosine > kNegligible ? cosine * samples[i].solidAngle : 0;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,8 @@ TEST(SourceChoice, WeighsAllThatCanBeSampled) {
   const LightSources lights(scene);
   const SourceChoice choice(scene, lights);
   Random random(1);
-  const std::vector<LightId> all(lights.all().ids().begin(), lights.all().ids().end());
+  std::vector<uint32_t> all(lights.all().size());
+  std::iota(all.begin(), all.end(), 0);
   std::vector<double> weights;
   std::vector<SourceSample> samples;
   std::vector<int> met(lights.all().size(), 0), unweighed(lights.all().size(), 0);
@@ -38,7 +40,7 @@ TEST(SourceChoice, WeighsAllThatCanBeSampled) {
     const V3d away(random.uniform() - .5, random.uniform() - .5, random.uniform() - .5);
     const V3d front = i % 3 ? away.normalized() : V3d(0, 0, 0);
     choice.weigh(point, front, all, weights);
-    for (const LightId k : all) {
+    for (const LightId k : lights.all().ids()) {
       samples.clear();
       lights.sample(k, point, {0, 1, front}, random, samples);
       const bool counts = !samples.empty() && (i % 3 == 0 || samples[0].direction.dot(front) > 0);
@@ -67,10 +69,11 @@ TEST(SourceChoice, WeighsByIrradiance) {
   const LightSources lights(scene);
   const SourceChoice choice(scene, lights);
   Random random(1);
-  const std::vector<LightId> all(lights.all().ids().begin(), lights.all().ids().end());
+  std::vector<uint32_t> all(lights.all().size());
+  std::iota(all.begin(), all.end(), 0);
   std::vector<double> weights;
   choice.weigh(V3d(0, 0, 0), V3d(0, 0, 1), all, weights);
-  for (const LightId k : all) {
+  for (const LightId k : lights.all().ids()) {
     std::vector<SourceSample> samples;
     lights.sample(k, V3d(0, 0, 0), {}, random, samples);
     ASSERT_EQ(samples.size(), 1u);

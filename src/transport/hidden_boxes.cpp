@@ -1,4 +1,4 @@
-#include "transport/hidden_sources.h"
+#include "transport/hidden_boxes.h"
 
 #include <algorithm>
 #include <array>
@@ -11,13 +11,12 @@
 namespace rsphere {
 namespace {
 
-// Up to this number, sources are not looked for: to sample one and to test its shadow takes less time than
-// what could be saved. Also the number of sources that a division of a region has to save. By measurement of
-// time.
-constexpr size_t kFewSources = 8;
-// So many of a region's sources show whether a division pays.
+// Up to this number, it takes less time to try the boxes than could be saved. Also the number of boxes that a
+// division of a region has to save. By measurement of time.
+constexpr size_t kFew = 8;
+// So many of a region's boxes show whether a division pays.
 constexpr size_t kProbes = 32;
-// So many surfaces on the way to a source are tried, since furniture or glass may be in front of a wall.
+// So many surfaces on the way to a box are tried, since furniture or glass may be in front of a wall.
 constexpr int kSurfacesInTheWay = 6;
 // A region that is wider than this share of a polygon's size is divided to find places that the polygon
 // hides: those within it are too small to pay.
@@ -25,8 +24,8 @@ constexpr double kWorthDividing = .25;
 // Polygons of more vertices are rarely convex.
 constexpr uint32_t kMostVertices = 8;
 
-// How far a box must be from the plane of a polygon that hides sources from it (world units). Nearer than
-// kSamePlace to a ray's begin or to the source nothing blocks, and rays whose cosine to the plane is at most
+// How far boxes must be from the plane of a polygon between them (world units). Nearer than
+// kSamePlace to a ray's begin or to its end nothing blocks, and rays whose cosine to the plane is at most
 // kSamePlace miss it.
 double marginOver(double length) { return 10 * kSamePlace + 2 * kSamePlace * length; }
 
@@ -43,18 +42,6 @@ int longestAxis(const Box3d& box) {
   return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
 }
 
-// What samples of a source lie in: of an image, the relay that rays to it hit first.
-Box3d boxOf(const Scene& scene, const LightSource& light) {
-  Box3d box = bounds(scene.surfaces[light.surface].shape, scene.vertices);
-  if (light.isVirtual()) return box;
-  V3d reach(light.radius);
-  if (const auto* plane = light.as<PlaneLight>())
-    for (int i = 0; i < 3; ++i) reach[i] = std::abs(plane->u[i]) + std::abs(plane->v[i]);
-  box.extendBy(light.center - reach);
-  box.extendBy(light.center + reach);
-  return box;
-}
-
 // The share of a box's section across an axis that another box overlaps.
 double shareAcross(const Box3d& box, const Box3d& other, int axis) {
   double share = 1;
@@ -68,7 +55,7 @@ double shareAcross(const Box3d& box, const Box3d& other, int axis) {
 
 }  // namespace
 
-struct HiddenSources::Blocker {
+struct HiddenBoxes::Blocker {
   SurfaceId surface;
   V3d normal{0, 0, 0};  // unit, towards the side that it was hit from
   double offset = 0;
@@ -86,10 +73,10 @@ struct HiddenSources::Blocker {
   }
 };
 
-struct HiddenSources::Region {
+struct HiddenBoxes::Region {
   Box3d box{};
-  std::vector<LightId> visible;  // not certainly hidden, ascending
-  std::vector<uint32_t> places;  // of those that may be hidden, in order_
+  std::vector<uint32_t> visible;  // positions of boxes that are not certainly hidden, ascending
+  std::vector<uint32_t> places;   // of those that may be hidden, in order_
   std::vector<Blocker> blockers;
   int axis = -1;  // that it is divided along; -1: not divided
   double at = 0;
@@ -97,19 +84,14 @@ struct HiddenSources::Region {
   mutable std::array<std::atomic<const Region*>, 2> ready{};
 };
 
-HiddenSources::~HiddenSources() = default;
+HiddenBoxes::~HiddenBoxes() = default;
+HiddenBoxes::HiddenBoxes(HiddenBoxes&&) noexcept = default;
 
-HiddenSources::HiddenSources(const Scene& scene, const Tracer& tracer, const LightSources& lights)
-    : scene_(scene), tracer_(tracer) {
-  for (const LightId i : lights.all().ids()) {
-    all_.push_back(i);
-    const LightSource& light = lights.all()[i];
-    const bool onlyFar = light.isDistant() && !light.isVirtual();
-    const Box3d box = onlyFar ? Box3d() : boxOf(scene, light);
-    (onlyFar || box.isEmpty() ? always_ : order_).push_back(i);
-    if (!onlyFar && !box.isEmpty()) boxes_.push_back(box);
-  }
-  if (order_.size() <= kFewSources || tracer.bounds().isEmpty()) return;
+HiddenBoxes::HiddenBoxes(const Scene& scene, const Tracer& tracer, std::vector<Box3d> boxes)
+    : scene_(scene), tracer_(tracer), boxes_(std::move(boxes)), all_(boxes_.size()) {
+  std::iota(all_.begin(), all_.end(), 0);
+  for (const uint32_t i : all_) (boxes_[i].isEmpty() ? never_ : order_).push_back(i);
+  if (order_.size() <= kFew || tracer.bounds().isEmpty()) return;
   makeNode(0, order_.size());
   margin_ = 2 * marginOver(tracer.bounds().size().length());
   root_ = std::make_unique<Region>();
@@ -121,38 +103,28 @@ HiddenSources::HiddenSources(const Scene& scene, const Tracer& tracer, const Lig
   divide(*root_);
 }
 
-// Makes the tree of the sources from begin to end. Returns its index.
-size_t HiddenSources::makeNode(size_t begin, size_t end) {
+// Makes the tree of the places from begin to end. Returns its index.
+size_t HiddenBoxes::makeNode(size_t begin, size_t end) {
   const size_t index = nodes_.size();
-  Box3d box{};
-  for (size_t i = begin; i < end; ++i) box.extendBy(boxes_[i]);
+  Box3d box;
+  for (size_t i = begin; i < end; ++i) box.extendBy(boxOf(i));
   nodes_.push_back({box, begin, end, 0});
   if (end - begin <= 1) return index;
   const int axis = longestAxis(box);
-  std::vector<size_t> sorted(end - begin);
-  std::iota(sorted.begin(), sorted.end(), begin);
-  const size_t half = sorted.size() / 2;
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(half), sorted.end(),
-                   [&](size_t a, size_t b) {
-                     const double x = boxes_[a].center()[axis], y = boxes_[b].center()[axis];
-                     return x != y ? x < y : order_[a] < order_[b];
-                   });
-  std::vector<LightId> ids;
-  std::vector<Box3d> boxes;
-  for (const size_t i : sorted) {
-    ids.push_back(order_[i]);
-    boxes.push_back(boxes_[i]);
-  }
-  std::copy(ids.begin(), ids.end(), order_.begin() + static_cast<std::ptrdiff_t>(begin));
-  std::copy(boxes.begin(), boxes.end(), boxes_.begin() + static_cast<std::ptrdiff_t>(begin));
-  makeNode(begin, begin + half);
-  const size_t second = makeNode(begin + half, end);
+  const size_t middle = begin + (end - begin) / 2;
+  const auto at = [&](size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::nth_element(at(begin), at(middle), at(end), [&](uint32_t a, uint32_t b) {
+    const double x = boxes_[a].center()[axis], y = boxes_[b].center()[axis];
+    return x != y ? x < y : a < b;
+  });
+  makeNode(begin, middle);
+  const size_t second = makeNode(middle, end);
   nodes_[index].second = second;
   return index;
 }
 
 // An opaque convex polygon of the world as a blocker, for rays that come from a point; false if it is none.
-bool HiddenSources::findBlocker(SurfaceId id, const V3d& from, Blocker& blocker) const {
+bool HiddenBoxes::findBlocker(SurfaceId id, const V3d& from, Blocker& blocker) const {
   if (id.index() >= scene_.outermostIds().size()) return false;
   const Surface surface = scene_.surfaces[id];
   const auto* const polygon = surface.shape.as<Polygon>();
@@ -186,7 +158,7 @@ bool HiddenSources::findBlocker(SurfaceId id, const V3d& from, Blocker& blocker)
 
 // Whether every segment between the boxes cuts the polygon, coming from its front as blockerOf() met it,
 // before anything could refract it.
-bool HiddenSources::covers(const Blocker& blocker, const Box3d& from, const Box3d& to) const {
+bool HiddenBoxes::covers(const Blocker& blocker, const Box3d& from, const Box3d& to) const {
   Box3d both = from;
   both.extendBy(to);
   const double margin = marginOver(both.size().length());
@@ -212,7 +184,7 @@ bool HiddenSources::covers(const Blocker& blocker, const Box3d& from, const Box3
 }
 
 // Calls use() with the polygons on the way that may be blockers, until it returns true. Returns whether it did.
-bool HiddenSources::anyBlocker(const V3d& from, const V3d& to, FunctionRef<bool(const Blocker&)> use) const {
+bool HiddenBoxes::anyBlocker(const V3d& from, const V3d& to, FunctionRef<bool(const Blocker&)> use) const {
   V3d way = to - from, origin = from;
   double left = way.length() - kSamePlace;
   if (!(left > 0)) return false;
@@ -230,13 +202,13 @@ bool HiddenSources::anyBlocker(const V3d& from, const V3d& to, FunctionRef<bool(
   return false;
 }
 
-bool HiddenSources::hides(const Box3d& from, const Box3d& to) const {
+bool HiddenBoxes::hides(const Box3d& from, const Box3d& to) const {
   std::vector<Blocker> known;
   return hides(from, to, known);
 }
 
 // known: blockers that were found for near boxes, the last one that did hide something first.
-bool HiddenSources::hides(const Box3d& from, const Box3d& to, std::vector<Blocker>& known) const {
+bool HiddenBoxes::hides(const Box3d& from, const Box3d& to, std::vector<Blocker>& known) const {
   for (size_t i = 0; i < known.size(); ++i)
     if (covers(known[i], from, to)) {
       std::swap(known[0], known[i]);
@@ -246,14 +218,14 @@ bool HiddenSources::hides(const Box3d& from, const Box3d& to, std::vector<Blocke
     const auto isIt = [&](const Blocker& b) { return b.surface == blocker.surface; };
     if (std::any_of(known.begin(), known.end(), isIt) || !covers(blocker, from, to)) return false;
     known.insert(known.begin(), blocker);
-    if (known.size() > kFewSources) known.pop_back();
+    if (known.size() > kFew) known.pop_back();
     return true;
   });
 }
 
-// Adds those of a region's sources that are not hidden. seen: places in order_ to choose from, within the node.
-void HiddenSources::keepVisible(Region& region, size_t index, std::span<const uint32_t> seen,
-                                std::vector<Blocker>& known) const {
+// Adds those of a region's boxes that are not hidden. seen: places in order_ to choose from, within the node.
+void HiddenBoxes::keepVisible(Region& region, size_t index, std::span<const uint32_t> seen,
+                              std::vector<Blocker>& known) const {
   if (seen.empty()) return;
   const Node& node = nodes_[index];
   if (hides(region.box, node.box, known)) return;
@@ -266,15 +238,15 @@ void HiddenSources::keepVisible(Region& region, size_t index, std::span<const ui
   keepVisible(region, node.second, {middle, seen.end()}, known);
 }
 
-// The polygons that hide sources from the middle of a region, and from how many of them; those that hide most
+// The polygons that hide boxes from the middle of a region, and from how many of them; those that hide most
 // first. Empty if dividing the region would not pay.
-std::vector<std::pair<HiddenSources::Blocker, size_t>> HiddenSources::blockersIn(const Region& region) const {
+std::vector<std::pair<HiddenBoxes::Blocker, size_t>> HiddenBoxes::blockersIn(const Region& region) const {
   std::vector<std::pair<Blocker, size_t>> found;
   const double widest = region.box.size()[longestAxis(region.box)];
   const size_t step = std::max<size_t>(1, region.places.size() / kProbes);
   size_t probes = 0, hidden = 0;
   for (size_t i = 0; i < region.places.size(); i += step, ++probes)
-    anyBlocker(region.box.center(), boxes_[region.places[i]].center(), [&](const Blocker& blocker) {
+    anyBlocker(region.box.center(), boxOf(region.places[i]).center(), [&](const Blocker& blocker) {
       if (widest < kWorthDividing * blocker.size) return true;
       ++hidden;
       const auto same = std::find_if(found.begin(), found.end(),
@@ -285,7 +257,7 @@ std::vector<std::pair<HiddenSources::Blocker, size_t>> HiddenSources::blockersIn
         found.emplace_back(blocker, 1);
       return true;
     });
-  if (hidden * step < kFewSources || kFewSources * hidden < probes) return {};
+  if (hidden * step < kFew || kFew * hidden < probes) return {};
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });
   return found;
@@ -293,8 +265,8 @@ std::vector<std::pair<HiddenSources::Blocker, size_t>> HiddenSources::blockersIn
 
 // Decides whether and where a region is divided: beside the plane of a polygon that reaches across most of it,
 // or else in its middle. Points of the polygon itself are left in a region of their own.
-void HiddenSources::divide(Region& region) const {
-  if (region.places.size() <= kFewSources) return;
+void HiddenBoxes::divide(Region& region) const {
+  if (region.places.size() <= kFew) return;
   const Box3d& box = region.box;
   const auto found = blockersIn(region);
   if (found.empty()) return;
@@ -314,10 +286,10 @@ void HiddenSources::divide(Region& region) const {
   region.at = box.center()[longest];
 }
 
-const HiddenSources::Region& HiddenSources::half(const Region& region, int upper) const {
+const HiddenBoxes::Region& HiddenBoxes::half(const Region& region, int upper) const {
   const size_t which = static_cast<size_t>(upper);
   if (const Region* const ready = region.ready[which].load(std::memory_order_acquire)) return *ready;
-  const std::lock_guard lock(dividing_);
+  const std::lock_guard lock(*dividing_);
   if (const Region* const ready = region.ready[which].load(std::memory_order_relaxed)) return *ready;
   auto made = std::make_unique<Region>();
   made->box = region.box;
@@ -325,7 +297,7 @@ const HiddenSources::Region& HiddenSources::half(const Region& region, int upper
   std::vector<Blocker> known = region.blockers;
   keepVisible(*made, 0, region.places, known);
   made->blockers = std::move(known);
-  made->visible = always_;
+  made->visible = never_;
   for (const uint32_t place : made->places) made->visible.push_back(order_[place]);
   std::sort(made->visible.begin(), made->visible.end());
   divide(*made);
@@ -334,7 +306,7 @@ const HiddenSources::Region& HiddenSources::half(const Region& region, int upper
   return *region.halves[which];
 }
 
-std::span<const LightId> HiddenSources::find(const V3d& point) const {
+std::span<const uint32_t> HiddenBoxes::find(const V3d& point) const {
   if (!root_->box.intersects(point)) return all_;
   const Region* region = root_.get();
   while (region->axis >= 0) region = &half(*region, point[region->axis] >= region->at);

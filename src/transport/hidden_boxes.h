@@ -1,0 +1,76 @@
+#pragma once
+// Which boxes are certainly hidden from a place: in a building, the luminaires of all other storeys.
+//
+// A box is hidden from another if a single opaque convex polygon (a slab, a wall) cuts every segment between
+// the two. The segments between their corners decide: where these meet the polygon's plane, their convex hull
+// contains the points where all segments do ("shaft culling", Haines and Wallace 1991). A light source in such
+// a box need not be sampled: every shadow ray would be blocked.
+//
+// The scene is divided into regions along the planes of such polygons (as cells; Teller and Sequin 1991), where
+// points fall and as long as it pays. The division depends on the scene and the boxes alone.
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "trace/tracer.h"
+#include "transport/function_ref.h"
+
+namespace rsphere {
+
+class HiddenBoxes {
+ public:
+  // Keeps references to the scene and the tracer. An empty box is never hidden. boxes: fewer than 2^32.
+  HiddenBoxes(const Scene& scene, const Tracer& tracer, std::vector<Box3d> boxes);
+  ~HiddenBoxes();
+  HiddenBoxes(HiddenBoxes&&) noexcept;
+
+  // In ascending order, the positions of the boxes that are not certainly hidden from the point. Any threads
+  // may call it.
+  std::span<const uint32_t> notHiddenFrom(const V3d& point) const { return root_ ? find(point) : all_; }
+  std::span<const uint32_t> all() const { return all_; }
+
+  // Whether a polygon hides everything in box `to` from everything in box `from`.
+  bool hides(const Box3d& from, const Box3d& to) const;
+
+ private:
+  // An opaque polygon, and its edges' normals in its plane, which point inward.
+  struct Blocker;
+  struct Region;
+
+  const Box3d& boxOf(size_t place) const { return boxes_[order_[place]]; }
+  std::span<const uint32_t> find(const V3d& point) const;
+  const Region& half(const Region& region, int upper) const;
+  void divide(Region& region) const;
+  bool anyBlocker(const V3d& from, const V3d& to, FunctionRef<bool(const Blocker&)> use) const;
+  std::vector<std::pair<Blocker, size_t>> blockersIn(const Region& region) const;
+  bool findBlocker(SurfaceId surface, const V3d& from, Blocker& blocker) const;
+  bool covers(const Blocker& blocker, const Box3d& from, const Box3d& to) const;
+  bool hides(const Box3d& from, const Box3d& to, std::vector<Blocker>& known) const;
+  void keepVisible(Region& region, size_t node, std::span<const uint32_t> seen,
+                   std::vector<Blocker>& known) const;
+  size_t makeNode(size_t begin, size_t end);
+
+  // A binary tree of the boxes that may be hidden: a node has the places from begin to end of order_.
+  struct Node {
+    Box3d box;
+    size_t begin, end;
+    size_t second;  // the second child; the first one follows the node. 0: a leaf
+  };
+
+  const Scene& scene_;
+  const Tracer& tracer_;
+  double margin_ = 0;            // between regions and the planes that divide them (world units)
+  std::vector<Box3d> boxes_;     // by position
+  std::vector<uint32_t> all_;    // their positions
+  std::vector<uint32_t> never_;  // those of empty boxes
+  std::vector<uint32_t> order_;  // of the others, so that near ones lie side by side
+  std::vector<Node> nodes_;
+  std::unique_ptr<Region> root_;  // null: too few boxes
+  std::unique_ptr<std::mutex> dividing_ = std::make_unique<std::mutex>();
+};
+
+}  // namespace rsphere
