@@ -26,12 +26,15 @@ size_t glancesFor(const SphereOptions& options) {
   return std::min(Tuning::kPerDirection * base, std::max(base, Tuning::kMostGlances));
 }
 
-// pools: the number that may exist at a time.
-size_t pathsFor(const SphereOptions& options, size_t pools) {
+// With -Sa, sets of directions use different pools of light vertices, so that the error of the vertices is
+// averaged too.
+size_t poolsFor(const SphereOptions& options) { return options.accuracy > 0 ? 8 : 1; }
+
+size_t pathsFor(const SphereOptions& options) {
   const double finer = options.accuracy > 0 ? Tuning::kUsualAccuracy / options.accuracy : 0;
   const double paths = std::max(Tuning::kLeastPaths, Tuning::kPathsPerDirection * options.baseDirections) *
                        std::max(1., finer * finer);
-  return static_cast<size_t>(std::min(paths, Tuning::kMostPaths / static_cast<double>(pools)));
+  return static_cast<size_t>(std::min(paths, Tuning::kMostPaths / static_cast<double>(poolsFor(options))));
 }
 
 }  // namespace
@@ -128,9 +131,7 @@ DiffuseGlances::DiffuseGlances(const PreparedScene& prepared, PlainSurfaces surf
                                const SphereOptions& options, const BaseSet& base)
     : prepared_(prepared),
       surfaces_(std::move(surfaces)),
-      pools_(options.accuracy > 0 ? kPools : 1),
-      paths_(pathsFor(options, pools_)),
-      rotation_(options.rotation),
+      lights_(prepared, surfaces_, poolsFor(options), pathsFor(options), mixBits(options.rotation)),
       glances_(rotatedDirections(baseDirections(glancesFor(options)), options.rotation)),
       zones_(base.zones),
       joins_(Tuning::kJoinsPerDirection * options.baseDirections) {
@@ -140,17 +141,9 @@ DiffuseGlances::DiffuseGlances(const PreparedScene& prepared, PlainSurfaces surf
   neighbours_ = neighboursOf(workspace);
 }
 
-const VertexLight& DiffuseGlances::light(uint64_t set) const {
-  const size_t pool = set % pools_;
-  std::call_once(made_[pool], [&] {
-    lights_[pool] =
-        std::make_unique<const VertexLight>(prepared_, surfaces_, paths_, mixBits(mixBits(rotation_) + pool));
-  });
-  return *lights_[pool];
-}
-
 DiffuseGlances::Found DiffuseGlances::at(const SetAtPoint& set) const {
-  const VertexLight& both = light(set.number());
+  const std::shared_ptr<const VertexLight> own = light(set);
+  const VertexLight& both = *own;
   const auto n = static_cast<double>(glances_.size());
   const Joins joins(both.vertices(), set.point(), joins_, n);
   const SpectralSampling* const sampling = prepared_.options().sampling;
@@ -222,7 +215,8 @@ Radiance DiffuseGlances::glance(const V3d& point, const V3d& direction, Glancing
 }
 
 Radiance DiffuseGlances::along(const SetAtPoint& set, const V3d& direction, size_t number) const {
-  Glancing alone{light(set.number()), randomOf(set, Stream::single, number)};
+  const std::shared_ptr<const VertexLight> own = light(set);
+  Glancing alone{*own, randomOf(set, Stream::single, number)};
   return glance(set.point(), direction, alone);
 }
 

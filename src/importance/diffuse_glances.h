@@ -6,16 +6,14 @@
 // - joins: shadow rays from the point to light vertices, more often to those that would contribute more.
 // Traced directions find the rest: the light of sources in view, of sharp reflections and of samples of rough
 // highlights.
-#include <array>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <vector>
 
 #include "importance/base_set.h"
+#include "importance/light_pools.h"
 #include "importance/sampling_strategy.h"
 #include "importance/sphere_options.h"
-#include "transport/vertex_light.h"
 
 namespace rsphere {
 
@@ -45,9 +43,12 @@ class DiffuseGlances {
   // The same light from one direction (W/sr/m2), estimated by one glance. number: of the direction.
   Radiance along(const SetAtPoint& set, const V3d& direction, size_t number) const;
 
-  // The light vertices for a set (SetAtPoint::number()), to be used at surfaces that its directions see by
-  // reflection or through others.
-  const VertexLight& light(uint64_t set) const;
+  // The light vertices for a set, to be used at surfaces that its directions see by reflection or through
+  // others.
+  std::shared_ptr<const VertexLight> light(const SetAtPoint& set) const {
+    return lights_.at(set.point(), set.number());
+  }
+  std::shared_ptr<const VertexLight> lightOfAll() const { return lights_.ofAll(); }  // for no point
 
  private:
   class Joins;
@@ -68,17 +69,11 @@ class DiffuseGlances {
 
   const PreparedScene& prepared_;
   PlainSurfaces surfaces_;
-  size_t pools_, paths_;  // sets of light vertices; paths of each
-  uint64_t rotation_;
+  LightPools lights_;
   std::vector<V3d> glances_;
   std::shared_ptr<const EqualZones> zones_;  // null: light is not divided
   std::optional<Neighbours> neighbours_;     // if standard errors are wanted
   double joins_;                             // expected number of joins at a point
-  // With -Sa, sets of directions use different pools of light vertices, so that the error of the vertices is
-  // averaged too. Pools are made when they are first used.
-  static constexpr size_t kPools = 8;
-  mutable std::array<std::once_flag, kPools> made_;
-  mutable std::array<std::unique_ptr<const VertexLight>, kPools> lights_;
 };
 
 }  // namespace rsphere

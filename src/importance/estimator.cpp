@@ -167,7 +167,8 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
     special_ = findSpecialObjects(prepared.scene(), options.densityFactor);
   if (options.weights == Weights::silhouettes && options.densityFactor > 0) {
     glances_ = DiffuseGlances::make(prepared, options, base_);
-    if (glances_) tracing_.vertexLight = &glances_->light(0);
+    if (glances_) lightOfAll_ = glances_->lightOfAll();
+    tracing_.vertexLight = lightOfAll_.get();
     if (!glances_) tracing_.ofPoints = findAimsOfPoints(prepared);
     tracing_.aims = joined(transport.aims(), tracing_.ofPoints);
   }

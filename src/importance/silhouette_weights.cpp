@@ -99,7 +99,8 @@ SilhouetteWeights::SilhouetteWeights(const SphereTracing& tracing, const SphereO
 SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace&) const {
   const View view = viewFrom(set, tracer);
   PathRequest request;
-  if (glances_) request.vertexLight = &glances_->light(set.number());
+  const std::shared_ptr<const VertexLight> light = glances_ ? glances_->light(set) : nullptr;
+  request.vertexLight = light.get();
   const PathsFrom paths(tracer, set.point(), request);
   const std::vector<SeenSources::Sample> toImages =
       sources_.sample(paths, view.images, seedOf(set, Stream::imagesOfSources));

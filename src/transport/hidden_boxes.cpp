@@ -307,9 +307,15 @@ const HiddenBoxes::Region& HiddenBoxes::half(const Region& region, int upper) co
 }
 
 std::span<const uint32_t> HiddenBoxes::find(const V3d& point) const {
-  if (!root_->box.intersects(point)) return all_;
+  return widestWhere(point, [](std::span<const uint32_t>) { return false; });
+}
+
+std::span<const uint32_t> HiddenBoxes::widestWhere(
+    const V3d& point, FunctionRef<bool(std::span<const uint32_t>)> enough) const {
+  if (!root_ || !root_->box.intersects(point)) return all_;
   const Region* region = root_.get();
-  while (region->axis >= 0) region = &half(*region, point[region->axis] >= region->at);
+  while (region->axis >= 0 && !enough(region->visible))
+    region = &half(*region, point[region->axis] >= region->at);
   return region->visible;
 }
 

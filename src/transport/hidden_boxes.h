@@ -33,6 +33,11 @@ class HiddenBoxes {
   std::span<const uint32_t> notHiddenFrom(const V3d& point) const { return root_ ? find(point) : all_; }
   std::span<const uint32_t> all() const { return all_; }
 
+  // The same for the largest region around the point in which it satisfies `enough`; if none does, for the
+  // smallest.
+  std::span<const uint32_t> widestWhere(const V3d& point,
+                                        FunctionRef<bool(std::span<const uint32_t>)> enough) const;
+
   // Whether a polygon hides everything in box `to` from everything in box `from`.
   bool hides(const Box3d& from, const Box3d& to) const;
 

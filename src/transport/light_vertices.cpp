@@ -294,9 +294,9 @@ bool LightVertices::Path::reflectSpecularly(const Scattering& s, const Interacti
   return std::abs(brightness(power_)) > 0;
 }
 
-LightVertices::LightVertices(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t paths,
-                             uint64_t seed)
-    : prepared_(prepared), surfaces_(surfaces), emission_(prepared, surfaces, paths) {
+LightVertices::LightVertices(const PreparedScene& prepared, const PlainSurfaces& surfaces,
+                             SourceEmission emission, size_t paths, uint64_t seed)
+    : prepared_(prepared), surfaces_(surfaces), emission_(std::move(emission)) {
   measure(paths, seed);
   const auto count = static_cast<double>(paths);
   for (size_t i = 0; i < paths; ++i) {

@@ -18,9 +18,10 @@ namespace rsphere {
 // Shared by all threads; constant.
 class LightVertices {
  public:
-  // Sends paths from the sources, their number from each in proportion to its power. Keeps references.
+  // Sends paths from the sources as `emission` divides them. Keeps references to the first two.
   // REQUIRES that PlainSurfaces::obstacle() found none.
-  LightVertices(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t paths, uint64_t seed);
+  LightVertices(const PreparedScene& prepared, const PlainSurfaces& surfaces, SourceEmission emission,
+                size_t paths, uint64_t seed);
 
   // Vertices whose light goes on to other diffuse surfaces. Those of a cluster follow each other.
   const std::vector<LightVertex>& all() const { return all_; }

@@ -24,25 +24,52 @@ V3d withinCone(const V3d& axis, double solidAngle, Random& random) {
 }  // namespace
 
 SourceEmission::SourceEmission(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t paths)
-    : prepared_(prepared), surfaces_(surfaces) {
+    : prepared_(prepared), surfaces_(surfaces), paths_(paths) {
   const Scene& scene = prepared.scene();
   const auto& lights = prepared.lights().all();
   senders_.resize(lights.size());
-  double sum = 0;
   for (const LightId i : lights.ids()) {
     Sender& s = senders_[i];
-    if (surfaces.knows(i) && !lights[i].isVirtual()) {
-      s.area = areaOf(scene.surfaces[lights[i].surface].shape, scene.vertices);
-      s.even = prepared.lights().constantRadiance(i) && !lights[i].spot;
-      s.power = s.even ? powerOf(scene, lights[i], 0) : triedPower(i);
-    }
-    s.upTo = sum += s.power;
+    if (!surfaces.knows(i) || lights[i].isVirtual()) continue;
+    s.area = areaOf(scene.surfaces[lights[i].surface].shape, scene.vertices);
+    s.even = prepared.lights().constantRadiance(i) && !lights[i].spot;
+    s.power = s.even ? powerOf(scene, lights[i], 0) : triedPower(i);
   }
+  share();
+}
+
+// Divides the paths by power and preference.
+void SourceEmission::share() {
+  double sum = 0, power = 0;
+  for (Sender& s : senders_) {
+    s.upTo = sum += s.power * s.factor;
+    power += s.power;
+  }
+  const auto paths = static_cast<double>(paths_);
   for (Sender& s : senders_) {
     s.upTo = s.upTo < sum ? s.upTo / sum : 1;
-    if (s.even) s.density = s.power / s.area * static_cast<double>(paths) / sum;
+    s.factor *= power / sum;
+    if (s.even) s.density = s.power * s.factor / s.area * paths / power;
   }
-  pathPower_ = sum / static_cast<double>(paths);
+  pathPower_ = power / paths;
+}
+
+SourceEmission SourceEmission::preferring(std::span<const uint32_t> preferred) const {
+  SourceEmission changed = *this;
+  ById<LightId, bool> isPreferred(senders_.size(), false);
+  for (const uint32_t i : preferred) {
+    LightId source(i);
+    while (prepared_.lights().all()[source].isVirtual()) source = prepared_.lights().all()[source].relayed;
+    isPreferred[source] = true;
+  }
+  double own = 0, others = 0;
+  for (const LightId i : senders_.ids()) (isPreferred[i] ? own : others) += senders_[i].power;
+  if (!(own > 0)) return changed;
+  // Three of four paths; the others have a quarter of the paths that they would have, and so twice the noise.
+  const double factor = std::max(1., 3 * others / own);
+  for (const LightId i : senders_.ids()) changed.senders_[i].factor = isPreferred[i] ? factor : 1;
+  changed.share();
+  return changed;
 }
 
 LightId SourceEmission::sourceAt(double share) const {
@@ -64,7 +91,7 @@ SourceEmission::Leaving SourceEmission::leave(LightId source, Random& random,
     sum += bright;
     if (!(bright > 0) || (tries > 1 && random.uniform() * sum >= bright)) continue;
     chosen = {tried.from, tried.direction,
-              Irradiance(tried.radiance.color * (pathPower_ / brightness(tried.radiance)))};
+              Irradiance(tried.radiance.color * (pathPower_ / (sender.factor * brightness(tried.radiance))))};
   }
   if (!sender.even)
     chosen.power = chosen.power * (kPi * sender.area * sum / (static_cast<double>(tries) * sender.power));

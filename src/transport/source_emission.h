@@ -16,7 +16,14 @@ class SourceEmission {
   // paths: the number of paths from all sources together.
   SourceEmission(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t paths);
 
-  // The source at which the cumulative power reaches this share (0 to 1) of the total. kNone if no source has
+  // The same with most paths from preferred sources (numbers of LightIds; for an image, from its source), each
+  // of these paths with less power. The noise of the others is at most twice what it is without preference.
+  SourceEmission preferring(std::span<const uint32_t> preferred) const;
+
+  // Of the brightness, W; approximate unless the source is even. 0 for images.
+  double power(LightId source) const { return senders_[source].power; }
+
+  // The source at which the cumulative share of paths reaches this value (0 to 1). kNone if no source has
   // power.
   LightId sourceAt(double share) const;
 
@@ -30,7 +37,8 @@ class SourceEmission {
   bool isEven(LightId source) const { return senders_[source].even; }
   // The density of the paths that begin on an even source (1/m2); 0 for other sources.
   double density(LightId source) const { return senders_[source].density; }
-  double pathPower() const { return pathPower_; }  // brightness of each path, W, before candidates are chosen
+  // Mean brightness of the paths, W, before candidates are chosen; without preference, that of each.
+  double pathPower() const { return pathPower_; }
 
   // Factor on the light at this distance from its source (world units): the light of a spot diverges from a
   // focus behind the spot.
@@ -41,7 +49,8 @@ class SourceEmission {
  private:
   struct Sender {
     double power = 0;    // W, of brightness; approximate unless it is even
-    double upTo = 0;     // cumulative share of the total power, up to and including this source
+    double upTo = 0;     // cumulative share of the paths, up to and including this source
+    double factor = 1;   // paths by preference: the number per power, relative to the mean
     double density = 0;  // of paths that begin on it (1/m2)
     double area = 0;     // m2
     bool even = false;
@@ -55,10 +64,12 @@ class SourceEmission {
   };
   Way way(LightId source, Random& random, FunctionScratch& scratch) const;
   double triedPower(LightId source) const;
+  void share();
 
   const PreparedScene& prepared_;
   const PlainSurfaces& surfaces_;
   ById<LightId, Sender> senders_;
+  size_t paths_;
   double pathPower_ = 0;
 };
 

@@ -29,11 +29,11 @@ size_t chooseOne(size_t count, double sum, const WeightOf& weightOf, Random& ran
 
 }  // namespace
 
-VertexLight::VertexLight(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t paths,
-                         uint64_t seed)
+VertexLight::VertexLight(const PreparedScene& prepared, const PlainSurfaces& surfaces,
+                         SourceEmission emission, size_t paths, uint64_t seed)
     : prepared_(prepared),
       surfaces_(surfaces),
-      vertices_(prepared, surfaces, paths, seed),
+      vertices_(prepared, surfaces, std::move(emission), paths, seed),
       clusters_(vertices_.all(), vertices_.clusterEnds(), vertices_.width()) {}
 
 void VertexLight::Record::add(uint8_t batch, const Irradiance& part, double notChosen) {

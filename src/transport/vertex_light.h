@@ -16,8 +16,9 @@ namespace rsphere {
 // Shared by all threads; constant. Keeps references.
 class VertexLight {
  public:
-  // paths, seed: of the light paths. REQUIRES that PlainSurfaces::obstacle() found none.
-  VertexLight(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t paths, uint64_t seed);
+  // emission, paths, seed: of the light paths. REQUIRES that PlainSurfaces::obstacle() found none.
+  VertexLight(const PreparedScene& prepared, const PlainSurfaces& surfaces, SourceEmission emission,
+              size_t paths, uint64_t seed);
 
   const PlainSurfaces& surfaces() const { return surfaces_; }
   const LightVertices& vertices() const { return vertices_; }

@@ -1,5 +1,6 @@
 #include "importance/diffuse_glances.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -102,6 +103,37 @@ TEST_P(WaysOfLight, AgreeWithPathsFromTheEye) {
   const Way& way = GetParam();
   expectPathsFromTheEye(LampSetting(sceneOf(std::string(way.lamp) + kBareRoom + way.surfaces), way.bounces),
                         way.point);
+}
+
+// Four rooms above one another, each with six lamps. Those of the upper ones are brighter, and some of their
+// light falls through a shaft into the lowest room, most of whose light paths come from its own lamps.
+TEST(DiffuseGlances, StoreysWithAShaft) {
+  std::string text =
+      "void plastic wall 0 0 5 .6 .55 .5 0 0\nvoid light dim 0 0 3 4 4 4\nvoid light lamp 0 0 3 12 12 12\n";
+  const auto box = [](double x0, double x1, double y0, double y1, double z) {
+    return fmt::format("12 {0} {2} {4} {1} {2} {4} {1} {3} {4} {0} {3} {4}\n", x0, x1, y0, y1, z);
+  };
+  for (int k = 0; k < 4; ++k) {
+    const double low = 3.2 * k, high = low + 3;
+    // The shaft is the corner x > 3, y > 2, between the first two rooms.
+    for (const double z : {low, high}) {
+      text += "wall polygon s 0 0 " + box(0, 4, 0, 2, z) + "wall polygon s 0 0 " + box(0, 3, 2, 3, z);
+      if (z < 1 || z > 4) text += "wall polygon s 0 0 " + box(3, 4, 2, 3, z);
+    }
+    text += fmt::format("wall polygon south 0 0 12 0 0 {0} 0 0 {1} 4 0 {1} 4 0 {0}\n", low - .2, high);
+    text += fmt::format("wall polygon north 0 0 12 0 3 {0} 4 3 {0} 4 3 {1} 0 3 {1}\n", low - .2, high);
+    text += fmt::format("wall polygon west 0 0 12 0 0 {0} 0 3 {0} 0 3 {1} 0 0 {1}\n", low - .2, high);
+    text += fmt::format("wall polygon east 0 0 12 4 0 {0} 4 0 {1} 4 3 {1} 4 3 {0}\n", low - .2, high);
+    for (int i = 0; i < 6; ++i)
+      text += (k ? "lamp polygon p 0 0 " : "dim polygon p 0 0 ") +
+              // Facing down: the corners in the opposite order.
+              fmt::format("12 {0} {2} {4} {0} {3} {4} {1} {3} {4} {1} {2} {4}\n", .4 + i % 3, 1.1 + i % 3,
+                          .4 + i / 3, 1.1 + i / 3, high - .1);
+  }
+  const LampSetting setting(sceneOf(text), 2);
+  const V3d point(1.5, 1, 1.1);
+  EXPECT_LT(setting.transport->prepared().lights().hidden().notHiddenFrom(point).size(), 13u);
+  expectPathsFromTheEye(setting, point);
 }
 
 // What paths from both ends do not know is left to paths from the eye. The lamp is a goal: with others,
@@ -237,7 +269,7 @@ TEST(LightVertices, FirstOnesHaveThePowerOfTheSources) {
   const LampSetting setting(sceneOf(kClosedRoom), 1);
   const PreparedScene& prepared = setting.transport->prepared();
   const PlainSurfaces surfaces(prepared);
-  const LightVertices vertices(prepared, surfaces, 20000, 1);
+  const LightVertices vertices(prepared, surfaces, SourceEmission(prepared, surfaces, 20000), 20000, 1);
   double first = 0;
   for (const LightVertex& v : vertices.all())
     if (v.bounces == 1) first += v.power;
@@ -250,8 +282,9 @@ TEST(LightVertices, SameForTheSameSeed) {
   const LampSetting setting(sceneOf(kClosedRoom), 2);
   const PreparedScene& prepared = setting.transport->prepared();
   const PlainSurfaces surfaces(prepared);
-  const LightVertices a(prepared, surfaces, 1000, 1), b(prepared, surfaces, 1000, 1),
-      c(prepared, surfaces, 1000, 2);
+  const LightVertices a(prepared, surfaces, SourceEmission(prepared, surfaces, 1000), 1000, 1),
+      b(prepared, surfaces, SourceEmission(prepared, surfaces, 1000), 1000, 1),
+      c(prepared, surfaces, SourceEmission(prepared, surfaces, 1000), 1000, 2);
   ASSERT_EQ(a.all().size(), b.all().size());
   for (size_t i = 0; i < a.all().size(); ++i) EXPECT_EQ(a.all()[i].point(), b.all()[i].point());
   EXPECT_NE(a.all()[0].point(), c.all()[0].point());

@@ -1,0 +1,73 @@
+#include "importance/light_pools.h"
+
+#include <algorithm>
+
+#include "importance/tuning.h"
+#include "scene/random.h"
+
+namespace rsphere {
+namespace {
+
+// A place has vertices of its own if the sources that can be seen there have less than this share of all
+// power. With more, its paths would hardly be more.
+constexpr double kFewPower = .25;
+// Places share vertices as long as those of each have at least this share of the sources' power.
+constexpr double kShared = .75;
+
+}  // namespace
+
+LightPools::LightPools(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t pools,
+                       size_t paths, uint64_t seed)
+    : prepared_(prepared),
+      surfaces_(surfaces),
+      emission_(prepared, surfaces, paths),
+      pools_(pools),
+      paths_(paths),
+      most_(std::max(pools + 1, static_cast<size_t>(tuning::DiffuseGlances::kMostPaths) / paths)),
+      seed_(seed) {}
+
+double LightPools::powerOf(std::span<const uint32_t> sources) const {
+  double sum = 0;
+  for (const uint32_t i : sources) sum += emission_.power(LightId(i));
+  return sum;
+}
+
+// The sources that most paths for a point should come from; none if it needs no paths of its own.
+std::span<const uint32_t> LightPools::preferredAt(const V3d& point) const {
+  const HiddenBoxes& hidden = prepared_.lights().hidden();
+  const std::span<const uint32_t> seen = hidden.notHiddenFrom(point);
+  if (seen.size() == hidden.all().size()) return {};
+  const double own = powerOf(seen);
+  if (!(own > 0) || own >= kFewPower * powerOf(hidden.all())) return {};
+  return hidden.widestWhere(point,
+                            [&](std::span<const uint32_t> some) { return kShared * powerOf(some) <= own; });
+}
+
+std::shared_ptr<const VertexLight> LightPools::at(const V3d& point, uint64_t set) const {
+  return pool(preferredAt(point), set % pools_);
+}
+
+std::shared_ptr<const VertexLight> LightPools::pool(std::span<const uint32_t> preferred,
+                                                    size_t number) const {
+  std::shared_ptr<Pool> found;
+  {
+    const std::lock_guard lock(mutex_);
+    std::shared_ptr<Pool>& known = made_[{{preferred.begin(), preferred.end()}, number}];
+    if (!known) known = std::make_shared<Pool>();
+    found = known;
+    found->asked = ++asked_;
+    // The one that has not been asked for the longest time goes; points still use it until they are done.
+    if (made_.size() > most_)
+      made_.erase(std::min_element(made_.begin(), made_.end(), [](const auto& a, const auto& b) {
+        return a.second->asked < b.second->asked;
+      }));
+  }
+  std::call_once(found->made, [&] {
+    found->light = std::make_shared<const VertexLight>(
+        prepared_, surfaces_, preferred.empty() ? emission_ : emission_.preferring(preferred), paths_,
+        mixBits(seed_ + number));
+  });
+  return found->light;
+}
+
+}  // namespace rsphere

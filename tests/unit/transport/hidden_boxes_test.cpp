@@ -1,0 +1,179 @@
+#include "transport/hidden_boxes.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <thread>
+
+#include "scene/random.h"
+#include "tests/unit/support/scene_of.h"
+
+namespace rsphere {
+namespace {
+
+constexpr int kStoreys = 6;
+constexpr double kStorey = 3.2;
+
+// Rooms of 4 x 3 x 3 m above one another, with slabs of .2 m.
+std::string storeys(const std::string& slab) {
+  std::string text =
+      "void plastic wall 0 0 5 .6 .6 .6 0 0\nvoid glass pane 0 0 3 .9 .9 .9\n"
+      "void dielectric water 0 0 5 .9 .9 .9 1.33 0\nvoid trans cloth 0 0 7 .5 .5 .5 0 0 .5 0\n";
+  for (int k = 0; k < kStoreys; ++k) {
+    const double low = kStorey * k, high = low + 3;
+    text += fmt::format("{0} polygon floor 0 0 12 0 0 {1} 4 0 {1} 4 3 {1} 0 3 {1}\n", slab, low);
+    text += fmt::format("{0} polygon ceiling 0 0 12 0 0 {1} 0 3 {1} 4 3 {1} 4 0 {1}\n", slab, high);
+    text += fmt::format("wall polygon south 0 0 12 0 0 {0} 0 0 {1} 4 0 {1} 4 0 {0}\n", low, high);
+    text += fmt::format("wall polygon north 0 0 12 0 3 {0} 4 3 {0} 4 3 {1} 0 3 {1}\n", low, high);
+    text += fmt::format("wall polygon west 0 0 12 0 0 {0} 0 3 {0} 0 3 {1} 0 0 {1}\n", low, high);
+    text += fmt::format("wall polygon east 0 0 12 4 0 {0} 4 0 {1} 4 3 {1} 4 3 {0}\n", low, high);
+    text += fmt::format("wall polygon desk 0 0 12 1 1 {0} 2 1 {0} 2 2 {0} 1 2 {0}\n", low + .75);
+  }
+  return text;
+}
+
+constexpr uint32_t kLamps = 12;
+
+// Twelve below the ceiling of each storey.
+std::vector<Box3d> lamps() {
+  std::vector<Box3d> boxes;
+  for (int k = 0; k < kStoreys; ++k)
+    for (uint32_t i = 0; i < kLamps; ++i) {
+      const V3d corner(.2 + .9 * (i % 4), .2 + .9 * (i / 4), kStorey * k + 2.9);
+      boxes.push_back({corner, corner + V3d(.6, .3, 0)});
+    }
+  return boxes;
+}
+
+struct Building {
+  explicit Building(const std::string& text) : scene(sceneOf(text)), tracer(scene, true) {}
+  Scene scene;
+  Tracer tracer;
+  HiddenBoxes hidden{scene, tracer, lamps()};
+};
+
+V3d placeIn(const Box3d& box, Random& random) {
+  const V3d size = box.size();
+  return box.min + V3d(size.x * random.uniform(), size.y * random.uniform(), size.z * random.uniform());
+}
+
+// Of boxes that are hidden from random points, the number of pairs, and of shadow rays that are not blocked.
+struct Count {
+  int hidden = 0, arrived = 0;
+};
+Count count(const Building& b) {
+  const std::vector<Box3d> boxes = lamps();
+  Random random(5);
+  Count all;
+  for (int n = 0; n < 400; ++n) {
+    const V3d point = placeIn(b.tracer.bounds(), random);
+    const auto seen = b.hidden.notHiddenFrom(point);
+    EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+    for (uint32_t i = 0; i < boxes.size(); ++i) {
+      if (std::binary_search(seen.begin(), seen.end(), i)) continue;
+      ++all.hidden;
+      for (int ray = 0; ray < 10; ++ray) {
+        const V3d way = placeIn(boxes[i], random) - point;
+        all.arrived += b.tracer.shadow(point, way.normalized(), way.length(), kNone) != Shadow::blocked;
+      }
+    }
+  }
+  return all;
+}
+
+TEST(HiddenBoxes, LampsOfOtherStoreysAreHidden) {
+  const Building b(storeys("wall"));
+  const Count all = count(b);
+  EXPECT_EQ(all.arrived, 0);
+  // From within slabs, those of neighbours may count.
+  EXPECT_GT(all.hidden, 400 * .9 * (kStoreys - 1) * kLamps);
+  for (int k = 0; k < kStoreys; ++k)
+    EXPECT_EQ(b.hidden.notHiddenFrom({3, 2.5, kStorey * k + 1.2}).size(), kLamps) << "storey " << k;
+}
+
+TEST(HiddenBoxes, PointsOnFacesAndOutsideAreAnswered) {
+  const Building b(storeys("wall"));
+  const auto onFloor = b.hidden.notHiddenFrom({3, 2.5, 2 * kStorey});
+  EXPECT_LE(onFloor.size(), 2 * kLamps);
+  for (uint32_t i = 2 * kLamps; i < 3 * kLamps; ++i)
+    EXPECT_TRUE(std::binary_search(onFloor.begin(), onFloor.end(), i));
+  EXPECT_EQ(b.hidden.notHiddenFrom({4, 1, 1}).size(), kLamps) << "on the outermost wall";
+  EXPECT_EQ(b.hidden.notHiddenFrom({40, 1, 1}).size(), kStoreys * kLamps) << "outside";
+}
+
+// Only the desks are opaque.
+TEST(HiddenBoxes, NothingIsHiddenByWhatLetsLightPass) {
+  for (const char* const slab : {"pane", "cloth"}) {
+    const Count all = count(Building(storeys(slab)));
+    EXPECT_EQ(all.arrived, 0) << slab;
+    EXPECT_LT(all.hidden, 400 * .1 * kStoreys * kLamps) << slab;
+  }
+}
+
+// A ray could be refracted past the slab.
+TEST(HiddenBoxes, NothingHidesBehindWhatRefracts) {
+  const Count dry = count(Building(storeys("wall")));
+  const Count wet = count(Building(storeys("wall") + "water sphere drop 0 0 4 2 1.5 2 .9\n"));
+  EXPECT_EQ(wet.arrived, 0);
+  EXPECT_LT(wet.hidden, dry.hidden);
+}
+
+// A single slab between two rooms, with and without a hole; polygons that are not convex hide nothing.
+TEST(HiddenBoxes, AHoleLetsLightPass) {
+  const std::string whole = "wall polygon s 0 0 12 0 0 3 4 0 3 4 3 3 0 3 3\n";
+  const std::string seamed =
+      "wall polygon s 0 0 30 0 0 3 4 0 3 4 3 3 0 3 3 0 0 3 1 1 3 1 2 3 2 2 3 2 1 3 1 1 3\n";
+  const std::string twice = "wall polygon s 0 0 24 0 0 3 4 0 3 4 3 3 0 3 3 0 0 3 4 0 3 4 3 3 0 3 3\n";
+  const std::string material = "void plastic wall 0 0 5 .6 .6 .6 0 0\n";
+  const Box3d below({.5, .5, 0}, {3.5, 2.5, 2}), above({.5, .5, 4}, {3.5, 2.5, 6});
+  EXPECT_TRUE(Building(material + whole).hidden.hides(below, above));
+  EXPECT_TRUE(Building(material + whole).hidden.hides(above, below));
+  EXPECT_FALSE(Building(material + seamed).hidden.hides(below, above));
+  EXPECT_FALSE(Building(material + twice).hidden.hides(below, above));
+  const Box3d beside({.5, .5, 4}, {4.5, 2.5, 6});
+  EXPECT_FALSE(Building(material + whole).hidden.hides(below, beside));
+  const Box3d through({.5, .5, 2.9}, {3.5, 2.5, 6});
+  EXPECT_FALSE(Building(material + whole).hidden.hides(below, through));
+}
+
+// Whatever was asked before, and in how many threads.
+TEST(HiddenBoxes, TheSameInAnyOrder) {
+  const Building forward(storeys("wall")), backward(storeys("wall"));
+  std::vector<V3d> points;
+  Random random(9);
+  for (int i = 0; i < 300; ++i) points.push_back(placeIn(forward.tracer.bounds(), random));
+  std::vector<std::vector<uint32_t>> answers;
+  for (const V3d& p : points) {
+    const auto seen = forward.hidden.notHiddenFrom(p);
+    answers.emplace_back(seen.begin(), seen.end());
+  }
+  std::vector<std::vector<uint32_t>> others(points.size());
+  const auto ask = [&](size_t first) {
+    for (size_t i = points.size(); i-- > 0;)
+      if (i % 2 == first) {
+        const auto seen = backward.hidden.notHiddenFrom(points[i]);
+        others[i].assign(seen.begin(), seen.end());
+      }
+  };
+  std::thread one(ask, 0), two(ask, 1);
+  one.join();
+  two.join();
+  EXPECT_EQ(answers, others);
+}
+
+TEST(HiddenBoxes, TheWidestRegionThatIsEnough) {
+  const Building b(storeys("wall"));
+  const V3d point(3, 2.5, 1.2);
+  const auto ofSize = [&](size_t most) {
+    return b.hidden.widestWhere(point, [=](std::span<const uint32_t> s) { return s.size() <= most; }).size();
+  };
+  EXPECT_EQ(ofSize(kStoreys * kLamps), kStoreys * kLamps);
+  EXPECT_EQ(ofSize(0), kLamps);
+  EXPECT_LE(ofSize(3 * kLamps), 3 * kLamps);
+  EXPECT_GT(ofSize(3 * kLamps), kLamps);
+}
+
+}  // namespace
+}  // namespace rsphere
