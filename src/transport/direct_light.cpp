@@ -207,7 +207,7 @@ uint32_t DirectLight::findContributions(Receiver at, DirectCoefficient coefficie
   // Shadow rays that are shown to the observer are all of them.
   const std::span<const uint32_t> sources = state_.request.shadows == ShownShadows::all
                                                 ? t_.lights().hidden().all()
-                                                : t_.lights().hidden().notHiddenFrom(at.point);
+                                                : t_.lights().hidden().notHiddenFrom(at.point, front);
   for (const uint32_t i : sources)
     if (!leftOut || !leftOut->knows(LightId(i)))
       t_.lights().sample(LightId(i), at.point, how, state_.random, scratch_.samples);
@@ -306,7 +306,7 @@ void DirectLight::add(Receiver at, DirectCoefficient coefficientOf, const V3d& f
 // Estimates the sum over all sources from -Ss sources, drawn in proportion to their weights.
 void DirectLight::addOfChosen(Receiver at, DirectCoefficient coefficientOf, const V3d& front,
                               Radiance& value) {
-  const std::span<const uint32_t> sources = t_.lights().hidden().notHiddenFrom(at.point);
+  const std::span<const uint32_t> sources = t_.lights().hidden().notHiddenFrom(at.point, front);
   const double sum = t_.lights().choice().weigh(at.point, front, sources, scratch_.sourceWeights);
   if (!(sum > 0)) return;
   const int draws = std::max(1, static_cast<int>(t_.options().chosenSources * at.end.context.weight + .5));

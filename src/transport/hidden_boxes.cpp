@@ -21,8 +21,13 @@ constexpr int kSurfacesInTheWay = 6;
 // A region that is wider than this share of a polygon's size is divided to find places that the polygon
 // hides: those within it are too small to pay.
 constexpr double kWorthDividing = .25;
+// So many tests at most find what is hidden from a region, in groups if there are many boxes.
+constexpr size_t kMostTests = 4096;
 // Polygons of more vertices are rarely convex.
 constexpr uint32_t kMostVertices = 8;
+
+// How far before a surface the region is looked up that its points use (HiddenBoxes::margin_).
+constexpr double kBeside = 2.25;
 
 // How far boxes must be from the plane of a polygon between them (world units). Nearer than
 // kSamePlace to a ray's begin or to its end nothing blocks, and rays whose cosine to the plane is at most
@@ -40,6 +45,13 @@ std::array<V3d, 8> cornersOf(const Box3d& box) {
 int longestAxis(const Box3d& box) {
   const V3d size = box.size();
   return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+}
+
+V3d middleOfOctant(const Box3d& box, size_t octant) {
+  const auto at = [&](int axis, size_t bit) {
+    return box.min[axis] + (octant & bit ? .75 : .25) * (box.max[axis] - box.min[axis]);
+  };
+  return {at(0, 1), at(1, 2), at(2, 4)};
 }
 
 // The share of a box's section across an axis that another box overlaps.
@@ -74,9 +86,11 @@ struct HiddenBoxes::Blocker {
 };
 
 struct HiddenBoxes::Region {
+  using List = std::shared_ptr<const std::vector<uint32_t>>;  // shared by regions that hide nothing more
+
   Box3d box{};
-  std::vector<uint32_t> visible;  // positions of boxes that are not certainly hidden, ascending
-  std::vector<uint32_t> places;   // of those that may be hidden, in order_
+  List visible;  // positions of boxes that are not certainly hidden, ascending
+  List places;   // of those that may be hidden, in order_
   std::vector<Blocker> blockers;
   int axis = -1;  // that it is divided along; -1: not divided
   double at = 0;
@@ -97,9 +111,10 @@ HiddenBoxes::HiddenBoxes(const Scene& scene, const Tracer& tracer, std::vector<B
   root_ = std::make_unique<Region>();
   // Points of the outermost walls are rounded.
   root_->box = {tracer.bounds().min - V3d(margin_), tracer.bounds().max + V3d(margin_)};
-  root_->visible = all_;
-  root_->places.resize(order_.size());
-  std::iota(root_->places.begin(), root_->places.end(), 0);
+  root_->visible = std::make_shared<const std::vector<uint32_t>>(all_);
+  std::vector<uint32_t> places(order_.size());
+  std::iota(places.begin(), places.end(), 0);
+  root_->places = std::make_shared<const std::vector<uint32_t>>(std::move(places));
   divide(*root_);
 }
 
@@ -162,12 +177,15 @@ bool HiddenBoxes::covers(const Blocker& blocker, const Box3d& from, const Box3d&
   Box3d both = from;
   both.extendBy(to);
   const double margin = marginOver(both.size().length());
+  // See beside().
+  const double apart = blocker.axis() < 0 ? margin + kBeside * margin_ : margin;
+  const double inset = margin + kBeside * margin_;
   const std::array<V3d, 8> begins = cornersOf(from), ends = cornersOf(to);
   std::array<double, 8> above, below;
   for (size_t i = 0; i < 8; ++i) {
     above[i] = blocker.normal.dot(begins[i]) - blocker.offset;
     below[i] = blocker.offset - blocker.normal.dot(ends[i]);
-    if (above[i] < margin || below[i] < margin) return false;
+    if (above[i] < apart || below[i] < margin) return false;
   }
   Box3d before = from;
   for (size_t i = 0; i < 8; ++i)
@@ -175,7 +193,7 @@ bool HiddenBoxes::covers(const Blocker& blocker, const Box3d& from, const Box3d&
       const double t = above[i] / (above[i] + below[j]);
       const V3d cut = begins[i] + t * (ends[j] - begins[i]);
       for (uint32_t e = 0; e < blocker.edges; ++e)
-        if (blocker.inward[e].dot(cut) < blocker.least[e] + margin) return false;
+        if (blocker.inward[e].dot(cut) < blocker.least[e] + inset) return false;
       before.extendBy(cut);
     }
   for (const Box3d& box : tracer_.refracting())
@@ -223,40 +241,52 @@ bool HiddenBoxes::hides(const Box3d& from, const Box3d& to, std::vector<Blocker>
   });
 }
 
-// Adds those of a region's boxes that are not hidden. seen: places in order_ to choose from, within the node.
-void HiddenBoxes::keepVisible(Region& region, size_t index, std::span<const uint32_t> seen,
-                              std::vector<Blocker>& known) const {
-  if (seen.empty()) return;
-  const Node& node = nodes_[index];
-  if (hides(region.box, node.box, known)) return;
-  if (node.second == 0) {
-    region.places.push_back(seen[0]);
-    return;
+// Those of the places (ascending) that are not hidden from a region.
+std::vector<uint32_t> HiddenBoxes::visibleFrom(const Box3d& region, std::span<const uint32_t> places,
+                                               std::vector<Blocker>& known) const {
+  struct Some {
+    size_t node;
+    std::span<const uint32_t> places;
+  };
+  std::vector<uint32_t> visible;
+  // Large groups first: what is left when kMostTests are done counts as visible.
+  std::vector<Some> all{{0, places}};
+  for (size_t i = 0; i < all.size(); ++i) {
+    const auto [index, some] = all[i];
+    const Node& node = nodes_[index];
+    const bool done = i >= kMostTests;
+    if (some.empty() || (!done && hides(region, node.box, known))) continue;
+    if (done || node.second == 0) {
+      visible.insert(visible.end(), some.begin(), some.end());
+      continue;
+    }
+    const auto middle = std::lower_bound(some.begin(), some.end(), nodes_[node.second].begin);
+    all.push_back({index + 1, {some.begin(), middle}});
+    all.push_back({node.second, {middle, some.end()}});
   }
-  const auto middle = std::lower_bound(seen.begin(), seen.end(), nodes_[node.second].begin);
-  keepVisible(region, index + 1, {seen.begin(), middle}, known);
-  keepVisible(region, node.second, {middle, seen.end()}, known);
+  std::sort(visible.begin(), visible.end());
+  return visible;
 }
 
-// The polygons that hide boxes from the middle of a region, and from how many of them; those that hide most
-// first. Empty if dividing the region would not pay.
+// The polygons that hide boxes from places in a region, and how many of them; those that hide most first. Empty if dividing the region would not pay.
 std::vector<std::pair<HiddenBoxes::Blocker, size_t>> HiddenBoxes::blockersIn(const Region& region) const {
   std::vector<std::pair<Blocker, size_t>> found;
   const double widest = region.box.size()[longestAxis(region.box)];
-  const size_t step = std::max<size_t>(1, region.places.size() / kProbes);
+  const size_t step = std::max<size_t>(1, region.places->size() / kProbes);
   size_t probes = 0, hidden = 0;
-  for (size_t i = 0; i < region.places.size(); i += step, ++probes)
-    anyBlocker(region.box.center(), boxOf(region.places[i]).center(), [&](const Blocker& blocker) {
-      if (widest < kWorthDividing * blocker.size) return true;
-      ++hidden;
-      const auto same = std::find_if(found.begin(), found.end(),
-                                     [&](const auto& f) { return f.first.surface == blocker.surface; });
-      if (same != found.end())
-        ++same->second;
-      else
-        found.emplace_back(blocker, 1);
-      return true;
-    });
+  for (size_t i = 0; i < region.places->size(); i += step, ++probes)
+    anyBlocker(
+        middleOfOctant(region.box, probes), boxOf((*region.places)[i]).center(), [&](const Blocker& blocker) {
+          if (widest < kWorthDividing * blocker.size) return true;
+          ++hidden;
+          const auto same = std::find_if(found.begin(), found.end(),
+                                         [&](const auto& f) { return f.first.surface == blocker.surface; });
+          if (same != found.end())
+            ++same->second;
+          else
+            found.emplace_back(blocker, 1);
+          return true;
+        });
   if (hidden * step < kFew || kFew * hidden < probes) return {};
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });
@@ -264,21 +294,28 @@ std::vector<std::pair<HiddenBoxes::Blocker, size_t>> HiddenBoxes::blockersIn(con
 }
 
 // Decides whether and where a region is divided: beside the plane of a polygon that reaches across most of it,
-// or else in its middle. Points of the polygon itself are left in a region of their own.
+// so that points of the polygon itself are left in a region of their own; within the edges of one beside it;
+// or else in its middle.
 void HiddenBoxes::divide(Region& region) const {
-  if (region.places.size() <= kFew) return;
-  const Box3d& box = region.box;
+  if (region.places->size() <= kFew) return;
   const auto found = blockersIn(region);
   if (found.empty()) return;
+  const Box3d& box = region.box;
+  const auto divideAt = [&](int axis, const Box3d& polygon, double inward) {
+    for (const double at : {polygon.min[axis] + inward, polygon.max[axis] - inward}) {
+      if (!(at > box.min[axis] + margin_ / 2 && at < box.max[axis] - margin_ / 2)) continue;
+      region.axis = axis;
+      region.at = at;
+      return true;
+    }
+    return false;
+  };
   for (const auto& [blocker, count] : found) {
     const int axis = blocker.axis();
     if (axis < 0 || shareAcross(box, blocker.box, axis) < .5) continue;
-    for (const double at : {blocker.box.min[axis] + margin_, blocker.box.max[axis] - margin_})
-      if (at > box.min[axis] + 2 * margin_ && at < box.max[axis] - 2 * margin_) {
-        region.axis = axis;
-        region.at = at;
-        return;
-      }
+    if (divideAt(axis, blocker.box, margin_)) return;
+    for (int other = 0; other < 3; ++other)
+      if (other != axis && divideAt(other, blocker.box, (1 + kBeside) * margin_)) return;
   }
   const int longest = longestAxis(box);
   if (box.size()[longest] < 4 * margin_) return;
@@ -294,16 +331,29 @@ const HiddenBoxes::Region& HiddenBoxes::half(const Region& region, int upper) co
   auto made = std::make_unique<Region>();
   made->box = region.box;
   (upper ? made->box.min : made->box.max)[region.axis] = region.at;
-  std::vector<Blocker> known = region.blockers;
-  keepVisible(*made, 0, region.places, known);
-  made->blockers = std::move(known);
-  made->visible = never_;
-  for (const uint32_t place : made->places) made->visible.push_back(order_[place]);
-  std::sort(made->visible.begin(), made->visible.end());
+  made->blockers = region.blockers;
+  std::vector<uint32_t> places = visibleFrom(made->box, *region.places, made->blockers);
+  made->visible = region.visible;
+  made->places = region.places;
+  if (places.size() < region.places->size()) {
+    std::vector<uint32_t> visible = never_;
+    for (const uint32_t place : places) visible.push_back(order_[place]);
+    std::sort(visible.begin(), visible.end());
+    made->visible = std::make_shared<const std::vector<uint32_t>>(std::move(visible));
+    made->places = std::make_shared<const std::vector<uint32_t>>(std::move(places));
+  }
   divide(*made);
   region.ready[which].store(made.get(), std::memory_order_release);
   region.halves[which] = std::move(made);
   return *region.halves[which];
+}
+
+// A place in the region before a surface whose normal lies along an axis; otherwise the point itself. What a
+// polygon within kBeside of the region hides from there lies behind the surface as well, or is hidden from the
+// point by that polygon. Other polygons hide it from places that lie kBeside outside of the region, too.
+V3d HiddenBoxes::beside(const V3d& point, const V3d& front) const {
+  const double along = std::max({std::abs(front.x), std::abs(front.y), std::abs(front.z)});
+  return along > 1 - 1e-12 ? point + kBeside * margin_ * front : point;
 }
 
 std::span<const uint32_t> HiddenBoxes::find(const V3d& point) const {
@@ -314,9 +364,9 @@ std::span<const uint32_t> HiddenBoxes::widestWhere(
     const V3d& point, FunctionRef<bool(std::span<const uint32_t>)> enough) const {
   if (!root_ || !root_->box.intersects(point)) return all_;
   const Region* region = root_.get();
-  while (region->axis >= 0 && !enough(region->visible))
+  while (region->axis >= 0 && !enough(*region->visible))
     region = &half(*region, point[region->axis] >= region->at);
-  return region->visible;
+  return *region->visible;
 }
 
 }  // namespace rsphere

@@ -33,6 +33,13 @@ class HiddenBoxes {
   std::span<const uint32_t> notHiddenFrom(const V3d& point) const { return root_ ? find(point) : all_; }
   std::span<const uint32_t> all() const { return all_; }
 
+  // The same for a point of a surface: of the boxes that are not entirely behind the plane through the point
+  // with the normal `front` (unit), those that are not certainly hidden, and perhaps others. Fewer are found
+  // from slabs and walls themselves.
+  std::span<const uint32_t> notHiddenFrom(const V3d& point, const V3d& front) const {
+    return root_ ? find(beside(point, front)) : all_;
+  }
+
   // The same for the largest region around the point in which it satisfies `enough`; if none does, for the
   // smallest.
   std::span<const uint32_t> widestWhere(const V3d& point,
@@ -47,6 +54,7 @@ class HiddenBoxes {
   struct Region;
 
   const Box3d& boxOf(size_t place) const { return boxes_[order_[place]]; }
+  V3d beside(const V3d& point, const V3d& front) const;
   std::span<const uint32_t> find(const V3d& point) const;
   const Region& half(const Region& region, int upper) const;
   void divide(Region& region) const;
@@ -55,8 +63,8 @@ class HiddenBoxes {
   bool findBlocker(SurfaceId surface, const V3d& from, Blocker& blocker) const;
   bool covers(const Blocker& blocker, const Box3d& from, const Box3d& to) const;
   bool hides(const Box3d& from, const Box3d& to, std::vector<Blocker>& known) const;
-  void keepVisible(Region& region, size_t node, std::span<const uint32_t> seen,
-                   std::vector<Blocker>& known) const;
+  std::vector<uint32_t> visibleFrom(const Box3d& region, std::span<const uint32_t> places,
+                                    std::vector<Blocker>& known) const;
   size_t makeNode(size_t begin, size_t end);
 
   // A binary tree of the boxes that may be hidden: a node has the places from begin to end of order_.

@@ -155,7 +155,7 @@ Radiance PlainSurfaces::radianceOf(LightId source, const V3d& point, const V3d& 
 
 double PlainSurfaces::weigh(const V3d& point, const V3d& normal, std::span<const uint32_t>& sources,
                             std::vector<double>& weights) const {
-  sources = prepared_.lights().hidden().notHiddenFrom(point);
+  sources = prepared_.lights().hidden().notHiddenFrom(point, normal);
   const double all = prepared_.lights().choice().weigh(point, normal, sources, weights);
   if (knowAllSources_) return all;
   double sum = 0;

@@ -34,7 +34,7 @@ std::string storeys(const std::string& slab) {
   return text;
 }
 
-constexpr uint32_t kLamps = 12;
+constexpr uint32_t kLamps = 12, kFewMore = 7;  // fewer than 8 more do not pay
 
 // Twelve below the ceiling of each storey.
 std::vector<Box3d> lamps() {
@@ -90,7 +90,8 @@ TEST(HiddenBoxes, LampsOfOtherStoreysAreHidden) {
   // From within slabs, those of neighbours may count.
   EXPECT_GT(all.hidden, 400 * .9 * (kStoreys - 1) * kLamps);
   for (int k = 0; k < kStoreys; ++k)
-    EXPECT_EQ(b.hidden.notHiddenFrom({3, 2.5, kStorey * k + 1.2}).size(), kLamps) << "storey " << k;
+    EXPECT_LE(b.hidden.notHiddenFrom({3, 2.5, kStorey * k + 1.2}).size(), kLamps + kFewMore)
+        << "storey " << k;
 }
 
 TEST(HiddenBoxes, PointsOnFacesAndOutsideAreAnswered) {
@@ -99,7 +100,9 @@ TEST(HiddenBoxes, PointsOnFacesAndOutsideAreAnswered) {
   EXPECT_LE(onFloor.size(), 2 * kLamps);
   for (uint32_t i = 2 * kLamps; i < 3 * kLamps; ++i)
     EXPECT_TRUE(std::binary_search(onFloor.begin(), onFloor.end(), i));
-  EXPECT_EQ(b.hidden.notHiddenFrom({4, 1, 1}).size(), kLamps) << "on the outermost wall";
+  EXPECT_LE(b.hidden.notHiddenFrom({3, 2.5, 2 * kStorey}, {0, 0, 1}).size(), kLamps + kFewMore);
+  EXPECT_LE(b.hidden.notHiddenFrom({3, 2.5, 2 * kStorey + 3}, {0, 0, -1}).size(), kLamps + kFewMore);
+  EXPECT_LE(b.hidden.notHiddenFrom({4, 1, 1}).size(), kLamps + kFewMore) << "on the outermost wall";
   EXPECT_EQ(b.hidden.notHiddenFrom({40, 1, 1}).size(), kStoreys * kLamps) << "outside";
 }
 
@@ -170,7 +173,7 @@ TEST(HiddenBoxes, TheWidestRegionThatIsEnough) {
     return b.hidden.widestWhere(point, [=](std::span<const uint32_t> s) { return s.size() <= most; }).size();
   };
   EXPECT_EQ(ofSize(kStoreys * kLamps), kStoreys * kLamps);
-  EXPECT_EQ(ofSize(0), kLamps);
+  EXPECT_LE(ofSize(0), kLamps + kFewMore);
   EXPECT_LE(ofSize(3 * kLamps), 3 * kLamps);
   EXPECT_GT(ofSize(3 * kLamps), kLamps);
 }
