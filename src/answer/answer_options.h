@@ -44,8 +44,8 @@ struct AnswerOptions {
   int threads = 1;             // -n; 0: one for each core
   double progressSeconds = 0;  // -t; 0: no progress reports
 
-  // Numbers of an input record: x y z of a point, or origin and direction of a ray.
-  int numbersPerRecord() const { return sphereMode ? 3 : 6; }
+  // Numbers of an input record: x y z of a point, or origin and direction of a ray, or an eye and its gaze.
+  int numbersPerRecord() const { return sphereMode && !sphere.glare.wanted ? 3 : 6; }
 };
 
 }  // namespace rsphere

@@ -128,7 +128,7 @@ DiffuseGlances::DiffuseGlances(const PreparedScene& prepared, PlainSurfaces surf
                                const SphereOptions& options, const BaseSet& base)
     : prepared_(prepared),
       surfaces_(std::move(surfaces)),
-      pools_(options.accuracy > 0 ? kPools : 1),
+      pools_(options.accuracy > 0 || options.glare.wanted ? kPools : 1),
       paths_(pathsFor(options, pools_)),
       rotation_(options.rotation),
       glances_(rotatedDirections(baseDirections(glancesFor(options)), options.rotation)),
@@ -156,7 +156,7 @@ DiffuseGlances::Found DiffuseGlances::at(const SetAtPoint& set) const {
   const SpectralSampling* const sampling = prepared_.options().sampling;
   Records records(zones_ ? zones_->count() : 1);
   for (VertexLight::Record& record : records) record.sampling = sampling;
-  Found found(zones_.get());
+  Found found(zones_.get(), set.gaze());
   addJoins(set, joins, records, found);
 
   Glancing glancing{both, randomOf(set, Stream::glances), &joins, nullptr, 4 * kPi / n};

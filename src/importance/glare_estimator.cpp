@@ -1,0 +1,307 @@
+#include "importance/glare_estimator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "base/colorimetry.h"
+#include "base/constants.h"
+#include "glare/nearby_directions.h"
+#include "scene/even_sequence.h"
+
+namespace rsphere {
+namespace {
+
+// evalglare's: the radius within which bright pixels become one source (half of its opening angle of .2 rad,
+// option -r), and the luminance of peaks that become sources of their own (-Y).
+constexpr double kSameSource = .1;  // rad
+constexpr double kPeak = 50000;     // cd/m2
+
+// Makes the random numbers of repeated rays, and of those to the task, differ from those of the first.
+constexpr uint64_t kAgain = 0x676c617265, kTask = 0x7461736b;  // "glare", "task"
+
+constexpr size_t kTaskRays = 256;
+
+SphereOptions withDirections(SphereOptions options) {
+  options.everyDirection = true;
+  options.accuracy = 0;
+  return options;
+}
+
+// The distance (rad) over which indirect light is averaged: over half the root of the number of directions on
+// the sphere. With more directions both its noise and its blur vanish.
+double averagingRadius(size_t directions) {
+  return std::min(.5, std::numbers::sqrt2 / std::pow(static_cast<double>(directions), .25));
+}
+
+// Standard error of an estimate from those that leave out one of n sets each.
+template <class Value>
+double jackknifeError(size_t n, const Value& without) {
+  double mean = 0, squares = 0;
+  for (size_t k = 0; k < n; ++k) mean += without(k) / static_cast<double>(n);
+  for (size_t k = 0; k < n; ++k) squares += (without(k) - mean) * (without(k) - mean);
+  return std::sqrt(squares * static_cast<double>(n - 1) / static_cast<double>(n));
+}
+
+}  // namespace
+
+// One direction in front of the eye.
+struct GlareEstimator::Look {
+  V3d direction{0, 0, 1};
+  double solidAngle = 0;            // sr
+  double direct = 0, indirect = 0;  // luminance, cd/m2: of indirect light, and all other
+  SurfaceId surface = kNone;        // that is seen, perhaps through panes
+  bool toLamp = false;              // whether that is a light source with samples of its own
+  size_t set = 0;
+
+  double luminance() const { return direct + indirect; }
+  SeenGlare seen(const Gaze& gaze) const {
+    const double light = luminance() * solidAngle;
+    return {solidAngle, light, light * std::max(0., gaze.direction.dot(direction)), light * direction};
+  }
+};
+
+// All sets of directions of an eye.
+struct GlareEstimator::View {
+  Gaze gaze;
+  std::vector<Look> looks;
+  std::array<double, kSets> illuminance{};  // at the eye, lx
+
+  double meanIlluminance() const {
+    double sum = 0;
+    for (const double e : illuminance) sum += e;
+    return sum / kSets;
+  }
+  double illuminanceWithout(size_t set) const {
+    return (kSets * meanIlluminance() - illuminance[set]) / (kSets - 1);
+  }
+  void averageIndirect();
+};
+
+// A glare source in each set.
+struct GlareEstimator::Source {
+  SurfaceId surface;
+  std::array<SeenGlare, kSets> seen{};
+
+  SeenGlare sum() const {
+    SeenGlare all;
+    for (const SeenGlare& s : seen) all += s;
+    return all;
+  }
+  SeenGlare mean() const { return sum() * (1. / kSets); }
+  SeenGlare without(size_t set) const {
+    SeenGlare others;
+    for (size_t k = 0; k < kSets; ++k)
+      if (k != set) others += seen[k];
+    return others * (1. / (kSets - 1));
+  }
+  GlareSource answer(const Gaze& gaze) const;
+};
+
+GlareSource GlareEstimator::Source::answer(const Gaze& gaze) const {
+  const SeenGlare all = mean();
+  GlareSource source;
+  source.surface = surface;
+  source.direction = all.direction();
+  source.luminance = all.luminance();
+  source.luminanceError = jackknifeError(kSets, [&](size_t k) { return without(k).luminance(); });
+  source.solidAngle = all.solidAngle;
+  source.solidAngleError = jackknifeError(kSets, [&](size_t k) { return without(k).solidAngle; });
+  source.positionIndex = all.positionIndex(gaze);
+  source.weight = all.weight(gaze);
+  return source;
+}
+
+// Each look gets the mean of those around it that see the same surface.
+void GlareEstimator::View::averageIndirect() {
+  std::map<SurfaceId, std::vector<size_t>> bySurface;
+  for (size_t i = 0; i < looks.size(); ++i)
+    if (!looks[i].toLamp && looks[i].surface != kNone) bySurface[looks[i].surface].push_back(i);
+  const double radius = averagingRadius(2 * looks.size());
+  for (const auto& [surface, members] : bySurface) {
+    std::vector<V3d> directions;
+    std::vector<double> own;
+    for (const size_t i : members) {
+      directions.push_back(looks[i].direction);
+      own.push_back(looks[i].indirect);
+    }
+    const NearbyDirections nearby(directions, radius);
+    for (const size_t i : members) {
+      double sum = 0, count = 0;
+      nearby.eachNear(looks[i].direction, [&](size_t k) {
+        sum += own[k];
+        ++count;
+      });
+      looks[i].indirect = sum / count;
+    }
+  }
+}
+
+GlareEstimator::GlareEstimator(const Transport& transport, const SphereOptions& options)
+    : prepared_(transport.prepared()),
+      options_(withDirections(options)),
+      means_(transport, options_),
+      separates_(isBlack(prepared_.options().medium().extinction) &&
+                 prepared_.lights().ofMists().all().empty()) {}
+
+double GlareEstimator::luminance(const Radiance& radiance) const {
+  return kPhotopicEfficacy * photopicOf(radiance.color, prepared_.options().sampling);
+}
+
+bool GlareEstimator::isLamp(SurfaceId surface) const {
+  return surface != kNone && !prepared_.scene().surfaces[surface].shape.as<Distant>();
+}
+
+void GlareEstimator::addSet(const SetAtPoint& set, SphereEstimator::Workspace& workspace, View& view) const {
+  if (workspace.checkStop) workspace.checkStop();
+  const SampledSet sampled = means_.sampleSet(set, workspace);
+  view.illuminance[set.number()] = luminance(Radiance(means_.momentsOf(sampled, set).atEye.color));
+  for (size_t i = 0; i < sampled.samples.size(); ++i) {
+    const DirectionSample& sample = sampled.samples[i];
+    if (sample.solidAngle > 0 && sample.direction.dot(view.gaze.direction) > 0)
+      view.looks.push_back(lookAlong(set, i, sample, sampled.rays[i], workspace.tracer));
+  }
+}
+
+GlareEstimator::Look GlareEstimator::lookAlong(const SetAtPoint& set, size_t number,
+                                               const DirectionSample& sample, const TracedRay& ray,
+                                               PathTracer& tracer) const {
+  Look look{sample.direction, sample.solidAngle};
+  look.set = set.number();
+  if (sample.toSource || ray.firstHit.surface == kNone) {
+    look.direct = luminance(sample.value);
+    look.surface = ray.shown.source;
+    look.toLamp = sample.toSource;
+    return look;
+  }
+  retrace(set.point(), mixBits(set.seed() + kAgain + number), tracer, look);
+  return look;
+}
+
+// Traces the direction once more, and tells indirect light from the rest.
+void GlareEstimator::retrace(const V3d& eye, uint64_t seed, PathTracer& tracer, Look& look) const {
+  Radiance indirect;
+  int depth = -1;
+  const RayObserver observer = [&](const RayEnd& end, const RayResult& result) {
+    const PathContext& ray = end.context;
+    if ((ray.kind & kAmbient) && ray.ambientLevel == 1) indirect += result.value * ray.contribution;
+    if ((ray.kinds & ~(kPrimary | kTransmitted)) != 0 || ray.depth <= depth) return;
+    depth = ray.depth;
+    look.surface = end.hit.surface;
+  };
+  const TracedRay ray = tracer.trace(eye, look.direction, 0, seed, {.observer = &observer});
+  if (!separates_) indirect = {};
+  look.indirect = luminance(indirect);
+  look.direct = luminance(ray.value - indirect);
+}
+
+// The mean over rays that are spread evenly over the task.
+double GlareEstimator::taskLuminance(const V3d& eye, const Gaze& gaze, PathTracer& tracer) const {
+  const double below = options_.glare.taskBelow * kPi / 180, half = options_.glare.taskOpening * kPi / 360;
+  const V3d axis = std::cos(below) * gaze.direction - std::sin(below) * gaze.up;
+  const V3d aside = gaze.direction.cross(gaze.up), above = aside.cross(axis);
+  Random random(seedOf(std::initializer_list<double>{eye.x, eye.y, eye.z}, kTask + options_.rotation));
+  const double shift1 = random.uniform(), shift2 = random.uniform();
+  double sum = 0;
+  for (size_t i = 0; i < kTaskRays; ++i) {
+    const Imath::V2d u = evenly(i, shift1, shift2);
+    const double ahead = 1 - u.x * (1 - std::cos(half)), off = std::sqrt(std::max(0., 1 - ahead * ahead));
+    const V3d direction =
+        ahead * axis + off * (std::cos(2 * kPi * u.y) * aside + std::sin(2 * kPi * u.y) * above);
+    sum += luminance(tracer.trace(eye, direction.normalized(), 0, random.bits()).value);
+  }
+  return sum / kTaskRays;
+}
+
+double GlareEstimator::threshold(const V3d& eye, const View& view, PathTracer& tracer) const {
+  const GlareOptions& glare = options_.glare;
+  if (glare.isFixed()) return glare.threshold;
+  if (glare.taskOpening > 0) return glare.threshold * taskLuminance(eye, view.gaze, tracer);
+  double light = 0;
+  for (const Look& look : view.looks) light += look.luminance() * look.solidAngle / kSets;
+  return glare.threshold * light / (2 * kPi);
+}
+
+void GlareEstimator::addLamps(const View& view, Sources& sources) const {
+  std::map<SurfaceId, Source> lamps;
+  for (const Look& look : view.looks) {
+    if (!look.toLamp || !isLamp(look.surface)) continue;
+    Source& lamp = lamps.try_emplace(look.surface, Source{look.surface}).first->second;
+    lamp.seen[look.set] += look.seen(view.gaze);
+  }
+  for (const auto& [surface, lamp] : lamps) sources.push_back(lamp);
+}
+
+// Regions above the threshold, and peaks apart from them.
+void GlareEstimator::addBright(const View& view, double threshold, Sources& sources) const {
+  std::array<std::vector<const Look*>, 2> bright;
+  for (const Look& look : view.looks)
+    if (!(look.toLamp && isLamp(look.surface)) && look.luminance() > threshold)
+      bright[look.luminance() > kPeak].push_back(&look);
+  for (const std::vector<const Look*>& looks : bright) {
+    std::vector<V3d> directions;
+    for (const Look* look : looks) directions.push_back(look->direction);
+    const std::vector<size_t> groups = connectedGroups(directions, kSameSource);
+    std::vector<Source> found;
+    std::vector<std::map<SurfaceId, double>> shares;
+    for (size_t i = 0; i < looks.size(); ++i) {
+      if (groups[i] >= found.size()) {
+        found.push_back({kNone});
+        shares.emplace_back();
+      }
+      const SeenGlare seen = looks[i]->seen(view.gaze);
+      found[groups[i]].seen[looks[i]->set] += seen;
+      shares[groups[i]][looks[i]->surface] += seen.light;
+    }
+    for (size_t g = 0; g < found.size(); ++g) {
+      found[g].surface =
+          std::ranges::max_element(shares[g], {}, [](const auto& share) { return share.second; })->first;
+      sources.push_back(found[g]);
+    }
+  }
+}
+
+GlareEstimator::Sources GlareEstimator::sourcesIn(const View& view, double threshold) const {
+  Sources sources;
+  addLamps(view, sources);
+  addBright(view, threshold, sources);
+  return sources;
+}
+
+GlareAnswer GlareEstimator::estimate(const V3d& eye, const Gaze& gaze,
+                                     SphereEstimator::Workspace& workspace) const {
+  View view;
+  view.gaze = gaze;
+  for (size_t k = 0; k < kSets; ++k)
+    addSet(SetAtPoint(eye, k, options_.rotation, gaze.direction), workspace, view);
+  view.averageIndirect();
+
+  GlareAnswer answer;
+  answer.eye = eye;
+  answer.gaze = gaze.direction;
+  answer.threshold = threshold(eye, view, workspace.tracer);
+  const Sources sources = sourcesIn(view, answer.threshold);
+  std::vector<SeenGlare> seen(sources.size());
+  const auto indicesFor = [&](double illuminance, const auto& of) {
+    std::ranges::transform(sources, seen.begin(), of);
+    return glareIndices(illuminance, seen, gaze);
+  };
+  const auto mean = [](const Source& source) { return source.mean(); };
+  answer.indices = indicesFor(view.meanIlluminance(), mean);
+  std::vector<GlareIndices> without;
+  for (size_t k = 0; k < kSets; ++k)
+    without.push_back(
+        indicesFor(view.illuminanceWithout(k), [&](const Source& source) { return source.without(k); }));
+  const GlareIndices shifted = indicesFor(view.meanIlluminance() * (1 + means_.sharedError()), mean);
+  for (double GlareIndices::*const index :
+       {&GlareIndices::ugr, &GlareIndices::illuminance, &GlareIndices::background, &GlareIndices::dgp}) {
+    const double own = jackknifeError(kSets, [&](size_t k) { return without[k].*index; });
+    answer.errors.*index = std::hypot(own, shifted.*index - answer.indices.*index);
+  }
+  for (const Source& source : sources) answer.sources.push_back(source.answer(gaze));
+  std::ranges::stable_sort(answer.sources, std::greater(), &GlareSource::weight);
+  return answer;
+}
+
+}  // namespace rsphere
