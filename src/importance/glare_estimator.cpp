@@ -62,19 +62,35 @@ struct GlareEstimator::Look {
   }
 };
 
-// All sets of directions of an eye.
+// Sets of directions of an eye.
 struct GlareEstimator::View {
   Gaze gaze;
   std::vector<Look> looks;
-  std::array<double, kSets> illuminance{};  // at the eye, lx
+  struct Set {
+    double illuminance = 0;    // at the eye, lx
+    double taskLuminance = 0;  // 0 if nobody asks for it
+  };
+  std::array<Set, kSets> sets{};
+  size_t leftOut = kSets;  // the set that is left out; kSets: none
 
-  double meanIlluminance() const {
+  size_t count() const { return leftOut < kSets ? kSets - 1 : kSets; }
+  double mean(double Set::*quantity) const {
     double sum = 0;
-    for (const double e : illuminance) sum += e;
-    return sum / kSets;
+    for (size_t k = 0; k < kSets; ++k)
+      if (k != leftOut) sum += sets[k].*quantity;
+    return sum / static_cast<double>(count());
   }
-  double illuminanceWithout(size_t set) const {
-    return (kSets * meanIlluminance() - illuminance[set]) / (kSets - 1);
+  View without(size_t set) const {
+    View view{gaze, {}, sets, set};
+    std::ranges::copy_if(looks, std::back_inserter(view.looks),
+                         [&](const Look& look) { return look.set != set; });
+    return view;
+  }
+  // The mean luminance of all that is in front of the eye.
+  double luminance() const {
+    double light = 0;
+    for (const Look& look : looks) light += look.luminance() * look.solidAngle;
+    return light / (2 * kPi * static_cast<double>(count()));
   }
   void averageIndirect();
 };
@@ -84,17 +100,12 @@ struct GlareEstimator::Source {
   SurfaceId surface;
   std::array<SeenGlare, kSets> seen{};
 
-  SeenGlare sum() const {
-    SeenGlare all;
-    for (const SeenGlare& s : seen) all += s;
-    return all;
-  }
-  SeenGlare mean() const { return sum() * (1. / kSets); }
-  SeenGlare without(size_t set) const {
-    SeenGlare others;
+  // Over all sets but this one; kSets: over all.
+  SeenGlare mean(size_t leftOut = kSets) const {
+    SeenGlare sum;
     for (size_t k = 0; k < kSets; ++k)
-      if (k != set) others += seen[k];
-    return others * (1. / (kSets - 1));
+      if (k != leftOut) sum += seen[k];
+    return sum * (1. / static_cast<double>(leftOut < kSets ? kSets - 1 : kSets));
   }
   GlareSource answer(const Gaze& gaze) const;
 };
@@ -105,9 +116,9 @@ GlareSource GlareEstimator::Source::answer(const Gaze& gaze) const {
   source.surface = surface;
   source.direction = all.direction();
   source.luminance = all.luminance();
-  source.luminanceError = jackknifeError(kSets, [&](size_t k) { return without(k).luminance(); });
+  source.luminanceError = jackknifeError(kSets, [&](size_t k) { return mean(k).luminance(); });
   source.solidAngle = all.solidAngle;
-  source.solidAngleError = jackknifeError(kSets, [&](size_t k) { return without(k).solidAngle; });
+  source.solidAngleError = jackknifeError(kSets, [&](size_t k) { return mean(k).solidAngle; });
   source.positionIndex = all.positionIndex(gaze);
   source.weight = all.weight(gaze);
   return source;
@@ -156,7 +167,10 @@ bool GlareEstimator::isLamp(SurfaceId surface) const {
 void GlareEstimator::addSet(const SetAtPoint& set, SphereEstimator::Workspace& workspace, View& view) const {
   if (workspace.checkStop) workspace.checkStop();
   const SampledSet sampled = means_.sampleSet(set, workspace);
-  view.illuminance[set.number()] = luminance(Radiance(means_.momentsOf(sampled, set).atEye.color));
+  View::Set& kept = view.sets[set.number()];
+  kept.illuminance = luminance(Radiance(means_.momentsOf(sampled, set).atEye.color));
+  if (options_.glare.taskOpening > 0 && !options_.glare.isFixed())
+    kept.taskLuminance = taskLuminance(set, view.gaze, workspace.tracer);
   for (size_t i = 0; i < sampled.samples.size(); ++i) {
     const DirectionSample& sample = sampled.samples[i];
     if (sample.solidAngle > 0 && sample.direction.dot(view.gaze.direction) > 0)
@@ -197,11 +211,11 @@ void GlareEstimator::retrace(const V3d& eye, uint64_t seed, PathTracer& tracer, 
 }
 
 // The mean over rays that are spread evenly over the task.
-double GlareEstimator::taskLuminance(const V3d& eye, const Gaze& gaze, PathTracer& tracer) const {
+double GlareEstimator::taskLuminance(const SetAtPoint& set, const Gaze& gaze, PathTracer& tracer) const {
   const double below = options_.glare.taskBelow * kPi / 180, half = options_.glare.taskOpening * kPi / 360;
   const V3d axis = std::cos(below) * gaze.direction - std::sin(below) * gaze.up;
   const V3d aside = gaze.direction.cross(gaze.up), above = aside.cross(axis);
-  Random random(seedOf(std::initializer_list<double>{eye.x, eye.y, eye.z}, kTask + options_.rotation));
+  Random random(mixBits(set.seed() + kTask));
   const double shift1 = random.uniform(), shift2 = random.uniform();
   double sum = 0;
   for (size_t i = 0; i < kTaskRays; ++i) {
@@ -209,18 +223,15 @@ double GlareEstimator::taskLuminance(const V3d& eye, const Gaze& gaze, PathTrace
     const double ahead = 1 - u.x * (1 - std::cos(half)), off = std::sqrt(std::max(0., 1 - ahead * ahead));
     const V3d direction =
         ahead * axis + off * (std::cos(2 * kPi * u.y) * aside + std::sin(2 * kPi * u.y) * above);
-    sum += luminance(tracer.trace(eye, direction.normalized(), 0, random.bits()).value);
+    sum += luminance(tracer.trace(set.point(), direction.normalized(), 0, random.bits()).value);
   }
   return sum / kTaskRays;
 }
 
-double GlareEstimator::threshold(const V3d& eye, const View& view, PathTracer& tracer) const {
+double GlareEstimator::threshold(const View& view) const {
   const GlareOptions& glare = options_.glare;
   if (glare.isFixed()) return glare.threshold;
-  if (glare.taskOpening > 0) return glare.threshold * taskLuminance(eye, view.gaze, tracer);
-  double light = 0;
-  for (const Look& look : view.looks) light += look.luminance() * look.solidAngle / kSets;
-  return glare.threshold * light / (2 * kPi);
+  return glare.threshold * (glare.taskOpening > 0 ? view.mean(&View::Set::taskLuminance) : view.luminance());
 }
 
 void GlareEstimator::addLamps(const View& view, Sources& sources) const {
@@ -262,11 +273,18 @@ void GlareEstimator::addBright(const View& view, double threshold, Sources& sour
   }
 }
 
-GlareEstimator::Sources GlareEstimator::sourcesIn(const View& view, double threshold) const {
-  Sources sources;
-  addLamps(view, sources);
-  addBright(view, threshold, sources);
-  return sources;
+GlareEstimator::Found GlareEstimator::find(View view) const {
+  view.averageIndirect();
+  Found found;
+  found.threshold = threshold(view);
+  addLamps(view, found.sources);
+  addBright(view, found.threshold, found.sources);
+  std::vector<SeenGlare> seen;
+  for (const Source& source : found.sources) seen.push_back(source.mean(view.leftOut));
+  const double illuminance = view.mean(&View::Set::illuminance);
+  found.indices = glareIndices(illuminance, seen, view.gaze);
+  found.shifted = glareIndices(illuminance * (1 + means_.sharedError()), seen, view.gaze);
+  return found;
 }
 
 GlareAnswer GlareEstimator::estimate(const V3d& eye, const Gaze& gaze,
@@ -275,31 +293,17 @@ GlareAnswer GlareEstimator::estimate(const V3d& eye, const Gaze& gaze,
   view.gaze = gaze;
   for (size_t k = 0; k < kSets; ++k)
     addSet(SetAtPoint(eye, k, options_.rotation, gaze.direction), workspace, view);
-  view.averageIndirect();
-
-  GlareAnswer answer;
-  answer.eye = eye;
-  answer.gaze = gaze.direction;
-  answer.threshold = threshold(eye, view, workspace.tracer);
-  const Sources sources = sourcesIn(view, answer.threshold);
-  std::vector<SeenGlare> seen(sources.size());
-  const auto indicesFor = [&](double illuminance, const auto& of) {
-    std::ranges::transform(sources, seen.begin(), of);
-    return glareIndices(illuminance, seen, gaze);
-  };
-  const auto mean = [](const Source& source) { return source.mean(); };
-  answer.indices = indicesFor(view.meanIlluminance(), mean);
+  const Found found = find(view);
   std::vector<GlareIndices> without;
-  for (size_t k = 0; k < kSets; ++k)
-    without.push_back(
-        indicesFor(view.illuminanceWithout(k), [&](const Source& source) { return source.without(k); }));
-  const GlareIndices shifted = indicesFor(view.meanIlluminance() * (1 + means_.sharedError()), mean);
+  for (size_t k = 0; k < kSets; ++k) without.push_back(find(view.without(k)).indices);
+
+  GlareAnswer answer{eye, gaze.direction, found.indices, {}, found.threshold, {}};
   for (double GlareIndices::*const index :
        {&GlareIndices::ugr, &GlareIndices::illuminance, &GlareIndices::background, &GlareIndices::dgp}) {
     const double own = jackknifeError(kSets, [&](size_t k) { return without[k].*index; });
-    answer.errors.*index = std::hypot(own, shifted.*index - answer.indices.*index);
+    answer.errors.*index = std::hypot(own, found.shifted.*index - found.indices.*index);
   }
-  for (const Source& source : sources) answer.sources.push_back(source.answer(gaze));
+  for (const Source& source : found.sources) answer.sources.push_back(source.answer(gaze));
   std::ranges::stable_sort(answer.sources, std::greater(), &GlareSource::weight);
   return answer;
 }

@@ -14,8 +14,8 @@
 // threshold, it is averaged over the directions around that see the same surface.
 //
 // Several independent sets of directions are averaged. The standard errors come from the differences between
-// the answers that leave out one set each (jackknife), with the same directions counted as bright. They do
-// not contain the error of that choice where a luminance is within noise of the threshold.
+// the answers that leave out one set each (jackknife), which may find other sources. The errors of the
+// sources themselves are those of the directions that were found to belong to them.
 #include <array>
 
 #include "importance/estimator.h"
@@ -43,17 +43,23 @@ class GlareEstimator {
   struct View;
   struct Source;
   using Sources = std::vector<Source>;
+  struct Found {
+    Sources sources;
+    double threshold = 0;
+    GlareIndices indices, shifted;  // shifted: by the error that all sets share
+  };
 
   void addSet(const SetAtPoint& set, SphereEstimator::Workspace& workspace, View& view) const;
   Look lookAlong(const SetAtPoint& set, size_t number, const DirectionSample& sample, const TracedRay& ray,
                  PathTracer& tracer) const;
   void retrace(const V3d& eye, uint64_t seed, PathTracer& tracer, Look& look) const;
-  double threshold(const V3d& eye, const View& view, PathTracer& tracer) const;
-  double taskLuminance(const V3d& eye, const Gaze& gaze, PathTracer& tracer) const;
+  double taskLuminance(const SetAtPoint& set, const Gaze& gaze, PathTracer& tracer) const;
   bool isLamp(SurfaceId surface) const;
-  Sources sourcesIn(const View& view, double threshold) const;
+  double threshold(const View& view) const;
   void addLamps(const View& view, Sources& sources) const;
   void addBright(const View& view, double threshold, Sources& sources) const;
+  // The sources that a view shows, and the indices that follow.
+  Found find(View view) const;
   double luminance(const Radiance& radiance) const;
 
   const PreparedScene& prepared_;
