@@ -7,6 +7,7 @@
 
 #include "base/colorimetry.h"
 #include "base/constants.h"
+#include "glare/local_fits.h"
 #include "glare/nearby_directions.h"
 #include "scene/even_sequence.h"
 
@@ -29,10 +30,9 @@ SphereOptions withDirections(SphereOptions options) {
   return options;
 }
 
-// The distance (rad) over which indirect light is averaged: over half the root of the number of directions on
-// the sphere. With more directions both its noise and its blur vanish.
-double averagingRadius(size_t directions) {
-  return std::min(.5, std::numbers::sqrt2 / std::pow(static_cast<double>(directions), .25));
+// The most directions to one fit. With more directions both its noise and its error vanish.
+size_t directionsOfFit(size_t directions) {
+  return std::max<size_t>(16, static_cast<size_t>(std::sqrt(static_cast<double>(directions))));
 }
 
 // Standard error of an estimate from those that leave out one of n sets each.
@@ -51,6 +51,7 @@ struct GlareEstimator::Look {
   V3d direction{0, 0, 1};
   double solidAngle = 0;            // sr
   double direct = 0, indirect = 0;  // luminance, cd/m2: of indirect light, and all other
+  double smooth = 0;                // luminance without the noise of indirect light
   SurfaceId surface = kNone;        // that is seen, perhaps through panes
   bool toLamp = false;              // whether that is a light source with samples of its own
   size_t set = 0;
@@ -92,7 +93,7 @@ struct GlareEstimator::View {
     for (const Look& look : looks) light += look.luminance() * look.solidAngle;
     return light / (2 * kPi * static_cast<double>(count()));
   }
-  void averageIndirect();
+  void smoothIndirect();
 };
 
 // A glare source in each set.
@@ -124,28 +125,24 @@ GlareSource GlareEstimator::Source::answer(const Gaze& gaze) const {
   return source;
 }
 
-// Each look gets the mean of those around it that see the same surface.
-void GlareEstimator::View::averageIndirect() {
-  std::map<SurfaceId, std::vector<size_t>> bySurface;
-  for (size_t i = 0; i < looks.size(); ++i)
-    if (!looks[i].toLamp && looks[i].surface != kNone) bySurface[looks[i].surface].push_back(i);
-  const double radius = averagingRadius(2 * looks.size());
+// The indirect light of each look is that of the looks around it that see the same surface.
+void GlareEstimator::View::smoothIndirect() {
+  std::map<SurfaceId, std::vector<Look*>> bySurface;
+  for (Look& look : looks) {
+    look.smooth = look.luminance();
+    if (!look.toLamp && look.surface != kNone) bySurface[look.surface].push_back(&look);
+  }
+  std::vector<V3d> directions;
+  std::vector<double> own;
   for (const auto& [surface, members] : bySurface) {
-    std::vector<V3d> directions;
-    std::vector<double> own;
-    for (const size_t i : members) {
-      directions.push_back(looks[i].direction);
-      own.push_back(looks[i].indirect);
+    directions.clear();
+    own.clear();
+    for (const Look* look : members) {
+      directions.push_back(look->direction);
+      own.push_back(look->indirect);
     }
-    const NearbyDirections nearby(directions, radius);
-    for (const size_t i : members) {
-      double sum = 0, count = 0;
-      nearby.eachNear(looks[i].direction, [&](size_t k) {
-        sum += own[k];
-        ++count;
-      });
-      looks[i].indirect = sum / count;
-    }
+    const std::vector<double> fits = fitsOfOthers(directions, own, directionsOfFit(looks.size()));
+    for (size_t i = 0; i < members.size(); ++i) members[i]->smooth = members[i]->direct + fits[i];
   }
 }
 
@@ -248,8 +245,8 @@ void GlareEstimator::addLamps(const View& view, Sources& sources) const {
 void GlareEstimator::addBright(const View& view, double threshold, Sources& sources) const {
   std::array<std::vector<const Look*>, 2> bright;
   for (const Look& look : view.looks)
-    if (!(look.toLamp && isLamp(look.surface)) && look.luminance() > threshold)
-      bright[look.luminance() > kPeak].push_back(&look);
+    if (!(look.toLamp && isLamp(look.surface)) && look.smooth > threshold)
+      bright[look.smooth > kPeak].push_back(&look);
   for (const std::vector<const Look*>& looks : bright) {
     std::vector<V3d> directions;
     for (const Look* look : looks) directions.push_back(look->direction);
@@ -274,7 +271,7 @@ void GlareEstimator::addBright(const View& view, double threshold, Sources& sour
 }
 
 GlareEstimator::Found GlareEstimator::find(View view) const {
-  view.averageIndirect();
+  view.smoothIndirect();
   Found found;
   found.threshold = threshold(view);
   addLamps(view, found.sources);

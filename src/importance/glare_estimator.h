@@ -10,8 +10,9 @@
 //   spherical mean, which keep to the outlines of openings, sunlit spots and other known objects; there are
 //   no pixels.
 //
-// The indirect light of a direction comes from one path and is noisy. Before it is compared with the
-// threshold, it is averaged over the directions around that see the same surface.
+// The indirect light of a direction comes from one path and is noisy. What is compared with the threshold is
+// a smooth fit to the directions around that see the same surface (local_fits.h), without the direction's own
+// path, so that its noise does not decide whether it counts. What is summed up is the light that was found.
 //
 // Several independent sets of directions are averaged. The standard errors come from the differences between
 // the answers that leave out one set each (jackknife), which may find other sources. The errors of the
