@@ -26,6 +26,7 @@ constexpr size_t kTaskRays = 256;
 
 SphereOptions withDirections(SphereOptions options) {
   options.everyDirection = true;
+  options.glare.wanted = true;  // light vertices of its own for each set
   options.accuracy = 0;
   return options;
 }
