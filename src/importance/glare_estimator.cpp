@@ -54,7 +54,7 @@ struct GlareEstimator::Look {
   double direct = 0, indirect = 0;  // luminance, cd/m2: of indirect light, and all other
   double smooth = 0;                // luminance without the noise of indirect light
   SurfaceId surface = kNone;        // that is seen, perhaps through panes
-  bool toLamp = false;              // whether that is a light source with samples of its own
+  bool toLamp = false;              // whether that is a light source with samples of its own, seen directly
   size_t set = 0;
 
   double luminance() const { return direct + indirect; }
@@ -184,7 +184,7 @@ GlareEstimator::Look GlareEstimator::lookAlong(const SetAtPoint& set, size_t num
   if (sample.toSource || ray.firstHit.surface == kNone) {
     look.direct = luminance(sample.value);
     look.surface = ray.shown.source;
-    look.toLamp = sample.toSource;
+    look.toLamp = sample.toSource && ray.shown.mirror == kNone;
     return look;
   }
   retrace(set.point(), mixBits(set.seed() + kAgain + number), tracer, look);

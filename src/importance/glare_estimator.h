@@ -4,7 +4,7 @@
 // - Light sources of the scene that are in view, except distant ones: each is a glare source, whatever its
 //   luminance (CIE 117). Their solid angles are known, and shadow rays find the part in view
 //   (seen_sources.h).
-// - Everything else, the sky and the sun, their images in mirrors, sunlit and other bright surfaces: what is
+// - Everything else, the sky and the sun, images in mirrors, sunlit and other bright surfaces: what is
 //   brighter than a threshold (GlareOptions). As in evalglare, bright directions that are near each other
 //   make one source, and peaks among them (the sun) sources of their own. The directions are those of the
 //   spherical mean, which keep to the outlines of openings, sunlit spots and other known objects; there are

@@ -203,6 +203,31 @@ TEST(GlareEstimator, RegionsEndAtTheThreshold) {
   EXPECT_LT(found.sources[0].luminance, 3100);
 }
 
+// A ball and its image in a mirror at x = 1.5, which is a glare source if it is brighter than the threshold.
+TEST(GlareEstimator, AnImageIsASourceByItself) {
+  for (const char* mirror : {"void mirror silver 0 0 3 .8 .8 .8\n", "void metal silver 0 0 5 .8 .8 .8 1 0\n"}) {
+    const SphereSetting setting(
+        sceneOf(kDomeText + mirror +
+                "void light lamp 0 0 3 20 20 20\nlamp sphere ball 0 0 4 -1 4 0 .4\n"
+                "silver polygon glass 0 0 12 1.5 0 2 1.5 8 2 1.5 8 -2 1.5 0 -2\n"));
+    SphereOptions options = setting.options.sphere;
+    const Gaze gaze = *Gaze::upright(V3d(0, 1, 0));
+    const GlareAnswer found = glareIn(setting, V3d(0, 0, 0), gaze.direction, options);
+    ASSERT_EQ(found.sources.size(), 2);
+    const double luminance = 20 * kPhotopicEfficacy;
+    const V3d ball(-1, 4, 0), image(4, 4, 0);
+    const auto seen = [&](const V3d& middle, double factor) {
+      return seenDisk(factor * luminance, middle.normalized(), std::asin(.4 / middle.length()), gaze.direction);
+    };
+    expectSource(found.sources[0], seen(ball, 1), gaze);
+    EXPECT_NEAR((found.sources[1].direction - image.normalized()).length(), 0, .005);
+    EXPECT_NEAR(found.sources[1].solidAngle, seen(image, .8).solidAngle, 1e-5);
+    EXPECT_NEAR(found.sources[1].luminance, .8 * luminance, .03 * luminance);  // metal: with Fresnel's part
+    options.glare.threshold = 3400;
+    EXPECT_EQ(glareIn(setting, V3d(0, 0, 0), gaze.direction, options).sources.size(), 1);
+  }
+}
+
 // The sun in the sky is a source of its own.
 TEST(GlareEstimator, TheSunIsASourceOfItsOwn) {
   const SphereSetting setting(
