@@ -104,9 +104,10 @@ CommandOptions commandOptions(const Options& options, Records records) {
   const auto isOutputs = [](const UsedOption& option) { return option.entry->name == "-o"; };
   const bool usual = std::none_of(used.begin(), used.end(), isOutputs);
   if (glare && usual) parsed.outputs = "uUvVbBgGt";
-  refuse(glare && parsed.outputs.find_first_of("odn") != std::string::npos, "-o",
-         "o, d and n are those of the command: eyes and gazes are the caller's, and the list of glare sources "
-         "has its length");
+  refuse(
+      glare && parsed.outputs.find_first_of("odn") != std::string::npos, "-o",
+      "o, d and n are those of the command: eyes and gazes are the caller's, and the list of glare sources "
+      "has its length");
   if (records == Records::points && usual) {
     const bool zones = parsed.sphere.zones > 0, errors = haveStandardErrors(parsed.color);
     parsed.outputs =

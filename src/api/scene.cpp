@@ -344,15 +344,9 @@ std::vector<Column> columnsOf(PointAnswers& a) {
 }
 
 std::vector<Column> columnsOf(GlareAnswers& a) {
-  return {{'u', &a.unifiedGlareRating},
-          {'U', &a.ugrStandardError},
-          {'v', &a.illuminance},
-          {'V', &a.illuminanceStandardError},
-          {'b', &a.background},
-          {'B', &a.backgroundStandardError},
-          {'g', &a.daylightGlareProbability},
-          {'G', &a.dgpStandardError},
-          {'t', &a.threshold}};
+  return {{'u', &a.unifiedGlareRating},       {'U', &a.ugrStandardError}, {'v', &a.illuminance},
+          {'V', &a.illuminanceStandardError}, {'b', &a.background},       {'B', &a.backgroundStandardError},
+          {'g', &a.daylightGlareProbability}, {'G', &a.dgpStandardError}, {'t', &a.threshold}};
 }
 
 // The columns of the letters, in their order, with room for the answers.

@@ -982,10 +982,10 @@ void addGlareOptions(const Add& add) {
        .paragraph =
            "Toggles glare instead of means. A record is then an eye and its gaze: six numbers, the place and "
            "the direction in which it looks, which is not vertical; z is up. The answer is the unified glare "
-           "rating, the illuminance at the eye, the luminance of the background, and the daylight glare "
-           "probability, in lx and cd/m2 whatever -p says; with -Sd, the list of the glare sources. See OUTPUT. "
-           "Eight sets of -Sn base directions and those for special objects are averaged, and their "
-           "differences give the standard errors. Not with -Sa, -Sb, -Sf, -Sg, -Si, -Sp, -Sw h, -Sw v, -Sz."});
+           "rating, the illuminance at the eye (lx), the luminance of the background (cd/m2), and the "
+           "daylight glare probability; with -Sd, the list of the glare sources. See OUTPUT. Eight sets of -Sn base "
+           "directions and those for special objects are averaged, and their differences give the standard "
+           "errors. Not with -Sa, -Sb, -Sf, -Sg, -Si, -Sp, -Sw h, -Sw v, -Sz."});
   add({.name = "-Sub",
        .arguments = "factor",
        .group = Group::sphere,
@@ -995,7 +995,7 @@ void addGlareOptions(const Add& add) {
        .paragraph =
            "What is brighter than this is a glare source, besides the light sources, which always are. Above "
            "100 it is a luminance in cd/m2; otherwise a factor on the mean luminance of the task (-Sut), or "
-           "without a task on that of all directions in front of the eye. It is the -b of evalglare."});
+           "without a task on that of all directions in front of the eye, as in evalglare."});
   add({.name = "-Sut",
        .arguments = "below opening",
        .group = Group::sphere,
@@ -1004,9 +1004,10 @@ void addGlareOptions(const Add& add) {
        .unit = "degrees",
        .remark = "task: angle below the gaze, opening",
        .paragraph =
-           "The task: a disk of directions, as of a screen or a book, whose middle lies `below` degrees under "
-           "the line of sight and which is `opening` degrees wide. Its mean luminance, times -Sub of at most "
-           "100 (usually 5), is the threshold of glare sources. An opening of 0 means that there is no task.",
+           "The task: a disk of directions, as of a screen or a book, whose middle lies `below` degrees "
+           "under the line of sight and which is `opening` degrees wide. Its mean luminance, times -Sub of "
+           "at most 100 (usually 5), is the threshold of glare sources. An opening of 0 means that there is no "
+           "task.",
        .line = taskLine});
 }
 

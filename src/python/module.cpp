@@ -401,8 +401,8 @@ By reciprocity, a lamp at the point of 1 cd in all directions gives a goal of ar
 
 constexpr const char* kGlare = R"(Computes glare at eyes.
 
-eyes: an array (n, 3). gazes: the directions in which they look, (n, 3), or one (3,) for all; not vertical, z is
-up. Returns an object with an array (n,) for each letter of outputs (all if not given), and None for others:
+eyes: an array (n, 3). gazes: the directions in which they look, (n, 3), or one (3,) for all; not vertical, z
+is up. Returns an object with an array (n,) for each letter of outputs (all if not given), None for others:
 u ugr: unified glare rating (CIE 117), v illuminance at the eye (lx), b background luminance (cd/m2),
 g dgp: daylight glare probability (Wienold and Christoffersen 2006), U V B G their standard errors:
 ugr_standard_error, ...; t threshold of glare sources (cd/m2).
@@ -444,9 +444,8 @@ PYBIND11_MODULE(rsphere, m) {
       .def("contributions", &contributions, py::arg("rays"), py::arg("of"), py::kw_only(),
            py::arg("bins") = py::none(), py::arg("samples") = 8, py::arg("coefficients") = false,
            contributionsText.c_str());
-  m.def(
-      "zone_middles", &zoneMiddlesOf, py::arg("count"),
-      "The directions (count, 3) in the middle of zones of equal solid angle, 4 pi / count sr each.");
+  m.def("zone_middles", &zoneMiddlesOf, py::arg("count"),
+        "The directions (count, 3) in the middle of zones of equal solid angle, 4 pi / count sr each.");
   m.def("photometric", &photometricOf, py::arg("color"),
         "Turns colors (..., 3) of radiance (W/sr/m2) into luminance (cd/m2), and of irradiance (W/m2) into "
         "illuminance (lx).");

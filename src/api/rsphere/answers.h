@@ -85,10 +85,10 @@ struct GlareSource {
 // Glare at eyes, by the letters of Options::outputs. Luminances are in cd/m2 and illuminances in lx, whatever
 // colors the options ask for. Definitions and sources: GLARE in man/rsphere.1.
 struct GlareAnswers {
-  size_t size = 0;                // the number of eyes
-  Quantity unifiedGlareRating;    // u  UGR, CIE 117; 0 without glare sources, infinite before black
-  Quantity ugrStandardError;      // U  estimated, as the other standard errors
-  Quantity illuminance;           // v  at the eye, in a plane perpendicular to its gaze
+  size_t size = 0;                    // the number of eyes
+  Quantity unifiedGlareRating;        // u  UGR, CIE 117; 0 without glare sources, infinite before black
+  Quantity ugrStandardError;          // U  estimated, as the other standard errors
+  Quantity illuminance;               // v  at the eye, in a plane perpendicular to its gaze
   Quantity illuminanceStandardError;  // V
   Quantity background;                // b  luminance of the background: that of the rest of the illuminance
   Quantity backgroundStandardError;   // B

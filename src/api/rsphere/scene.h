@@ -64,8 +64,8 @@ class RSPHERE_API Scene {
   PointAnswers importance(std::span<const Point> points, const std::vector<std::string>& goals,
                           const Options& options = {}) const;
 
-  // Computes glare at eyes: the origin of each ray is an eye, and its direction (of any length) is the gaze; z
-  // is up. Throws as trace() does, and if a gaze has no length or is vertical (within 1e-6 rad).
+  // Computes glare at eyes: the origin of each ray is an eye, and its direction (of any length) is the gaze;
+  // z is up. Throws as trace() does, and if a gaze has no length or is vertical (within 1e-6 rad).
   GlareAnswers glare(std::span<const Ray> eyes, const Options& options = {}) const;
 
   // Computes what surfaces with each of these modifiers send along rays and the paths that they begin: light

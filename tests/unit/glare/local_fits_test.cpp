@@ -78,7 +78,8 @@ TEST(FitsOfOthers, OfDirectionsInALineAndTheSame) {
   for (int i = 0; i < 100; ++i) line.push_back(V3d(.01 * i, 1, 0).normalized());
   std::vector<double> values;
   for (int i = 0; i < 100; ++i) values.push_back(i);
-  const std::vector<double> onLine = fitsOfOthers(line, values, 50), together = fitsOfOthers(same, values, 128);
+  const std::vector<double> onLine = fitsOfOthers(line, values, 50),
+                            together = fitsOfOthers(same, values, 128);
   for (size_t i = 0; i < 100; ++i) {
     EXPECT_NEAR(onLine[i], values[i], .5) << i;
     EXPECT_NEAR(together[i], (4950 - values[i]) / 99, 1e-3) << i;

@@ -30,8 +30,8 @@ GlareAnswer glareIn(const SphereSetting& setting, const V3d& eye, const V3d& gaz
   return estimator.estimate(eye, *Gaze::upright(gaze), workspace);
 }
 
-// What an eye at the origin sees of a source of even luminance. Solid angle: van Oosterom and Strackee 1983, of
-// the triangles of a fan. The integral of the direction: Lambert's, half the sum over the edges.
+// What an eye at the origin sees of a source of even luminance. Solid angle: van Oosterom and Strackee 1983,
+// of the triangles of a fan. The integral of the direction: Lambert's, half the sum over the edges.
 SeenGlare seenPolygon(double luminance, const Corners& corners, const V3d& gaze) {
   SeenGlare seen;
   V3d vector(0, 0, 0);
@@ -40,8 +40,8 @@ SeenGlare seenPolygon(double luminance, const Corners& corners, const V3d& gaze)
     vector += .5 * std::acos(a.dot(b)) * a.cross(b).normalized();
     if (i == 0 || i + 1 == corners.size()) continue;
     const V3d first = corners[0].normalized();
-    seen.solidAngle += 2 * std::atan2(std::abs(first.dot(a.cross(b))),
-                                      1 + first.dot(a) + a.dot(b) + b.dot(first));
+    seen.solidAngle +=
+        2 * std::atan2(std::abs(first.dot(a.cross(b))), 1 + first.dot(a) + a.dot(b) + b.dot(first));
   }
   if (vector.dot(corners[0]) < 0) vector = -vector;
   seen.light = luminance * seen.solidAngle;
@@ -77,7 +77,8 @@ void expectStated(double found, double error, double exact, double rounding) {
 
 void expectIndices(const GlareAnswer& found, const GlareIndices& exact) {
   expectStated(found.indices.ugr, found.errors.ugr, exact.ugr, 1e-3);
-  expectStated(found.indices.illuminance, found.errors.illuminance, exact.illuminance, 1e-4 * exact.illuminance);
+  expectStated(found.indices.illuminance, found.errors.illuminance, exact.illuminance,
+               1e-4 * exact.illuminance);
   expectStated(found.indices.background, found.errors.background, exact.background, 1e-4 * exact.background);
   expectStated(found.indices.dgp, found.errors.dgp, exact.dgp, 1e-5);
   // The errors are small enough to tell something.
@@ -99,7 +100,8 @@ TEST(GlareEstimator, OfRectangles) {
   const double luminance = 20 * kPhotopicEfficacy;
   const Gaze gaze = *Gaze::upright(V3d(.3, 1, -.1));
   const V3d right = gaze.direction.cross(gaze.up);
-  for (const auto& [aside, above] : {std::pair{0., 0.}, {0., .5}, {1., 0.}, {-.7, .6}, {.4, -.8}, {-2., 1.}}) {
+  for (const auto& [aside, above] :
+       {std::pair{0., 0.}, {0., .5}, {1., 0.}, {-.7, .6}, {.4, -.8}, {-2., 1.}}) {
     SCOPED_TRACE(fmt::format("{} aside, {} above", aside, above));
     const V3d middle = 4. * (gaze.direction + aside * right + above * gaze.up);
     const V3d u(.5, .1, 0), v(0, -.2, .3);
@@ -126,9 +128,9 @@ TEST(GlareEstimator, OfDisks) {
   for (size_t i = 0; i < std::size(places); ++i) {
     const V3d towards = places[i].normalized(), at = 3. * towards;
     const double radiance = i == 1 ? 90 : 20;
-    text += fmt::format("{} ring d{} 0 0 8 {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} 0 {:.17g}\n",
-                        i == 1 ? "bright" : "lamp", i, at.x, at.y, at.z, -at.x, -at.y, -at.z,
-                        3 * std::tan(half));
+    text +=
+        fmt::format("{} ring d{} 0 0 8 {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} 0 {:.17g}\n",
+                    i == 1 ? "bright" : "lamp", i, at.x, at.y, at.z, -at.x, -at.y, -at.z, 3 * std::tan(half));
     if (i < 3) exact.push_back(seenDisk(kPhotopicEfficacy * radiance, towards, half, gaze.direction));
   }
   const SphereSetting setting(sceneOf(text));
@@ -168,7 +170,7 @@ TEST(GlareEstimator, ThresholdIsForTheRest) {
   EXPECT_EQ(sourcesOf(light), 1);
 }
 
-// The task is a disk around a direction below the line of sight: this one is of 179 cd/m2, or the lamp itself.
+// The task is a disk around a direction below the line of sight: here of 179 cd/m2, or the lamp itself.
 TEST(GlareEstimator, ThresholdIsOfTheTask) {
   const SphereSetting setting(
       sceneOf(kDomeText + "void glow lamp 0 0 4 20 20 20 0\nlamp ring r 0 0 8 0 3 0 0 -1 0 0 .5\n"));
@@ -196,7 +198,8 @@ TEST(GlareEstimator, RegionsEndAtTheThreshold) {
               kDomeText));
   const GlareAnswer found = glareIn(setting, V3d(0, 0, 0), gaze.direction, setting.options.sphere);
   ASSERT_EQ(found.sources.size(), 1);
-  const SeenGlare half = seenPolygon(1, {V3d(-1, 2, 0), V3d(1, 2, 0), V3d(1, 2, 1), V3d(-1, 2, 1)}, V3d(0, 1, 0));
+  const SeenGlare half =
+      seenPolygon(1, {V3d(-1, 2, 0), V3d(1, 2, 0), V3d(1, 2, 1), V3d(-1, 2, 1)}, V3d(0, 1, 0));
   expectStated(found.sources[0].solidAngle, found.sources[0].solidAngleError, half.solidAngle, 1e-4);
   EXPECT_LT(found.sources[0].solidAngleError, .03 * half.solidAngle);
   EXPECT_GT(found.sources[0].luminance, 2700);
@@ -205,11 +208,11 @@ TEST(GlareEstimator, RegionsEndAtTheThreshold) {
 
 // A ball and its image in a mirror at x = 1.5, which is a glare source if it is brighter than the threshold.
 TEST(GlareEstimator, AnImageIsASourceByItself) {
-  for (const char* mirror : {"void mirror silver 0 0 3 .8 .8 .8\n", "void metal silver 0 0 5 .8 .8 .8 1 0\n"}) {
-    const SphereSetting setting(
-        sceneOf(kDomeText + mirror +
-                "void light lamp 0 0 3 20 20 20\nlamp sphere ball 0 0 4 -1 4 0 .4\n"
-                "silver polygon glass 0 0 12 1.5 0 2 1.5 8 2 1.5 8 -2 1.5 0 -2\n"));
+  for (const char* mirror :
+       {"void mirror silver 0 0 3 .8 .8 .8\n", "void metal silver 0 0 5 .8 .8 .8 1 0\n"}) {
+    const SphereSetting setting(sceneOf(kDomeText + mirror +
+                                        "void light lamp 0 0 3 20 20 20\nlamp sphere ball 0 0 4 -1 4 0 .4\n"
+                                        "silver polygon glass 0 0 12 1.5 0 2 1.5 8 2 1.5 8 -2 1.5 0 -2\n"));
     SphereOptions options = setting.options.sphere;
     const Gaze gaze = *Gaze::upright(V3d(0, 1, 0));
     const GlareAnswer found = glareIn(setting, V3d(0, 0, 0), gaze.direction, options);
@@ -217,7 +220,8 @@ TEST(GlareEstimator, AnImageIsASourceByItself) {
     const double luminance = 20 * kPhotopicEfficacy;
     const V3d ball(-1, 4, 0), image(4, 4, 0);
     const auto seen = [&](const V3d& middle, double factor) {
-      return seenDisk(factor * luminance, middle.normalized(), std::asin(.4 / middle.length()), gaze.direction);
+      return seenDisk(factor * luminance, middle.normalized(), std::asin(.4 / middle.length()),
+                      gaze.direction);
     };
     expectSource(found.sources[0], seen(ball, 1), gaze);
     EXPECT_NEAR((found.sources[1].direction - image.normalized()).length(), 0, .005);
@@ -236,8 +240,8 @@ TEST(GlareEstimator, TheSunIsASourceOfItsOwn) {
   const GlareAnswer found = glareIn(setting, V3d(0, 0, 0), V3d(0, 1, 0), setting.options.sphere);
   ASSERT_EQ(found.sources.size(), 2);
   const Gaze gaze = *Gaze::upright(V3d(0, 1, 0));
-  const SeenGlare sun = seenDisk(1e6 * kPhotopicEfficacy, V3d(.2, 1, .3).normalized(),
-                                 .533 / 2 * kPi / 180, gaze.direction);
+  const SeenGlare sun =
+      seenDisk(1e6 * kPhotopicEfficacy, V3d(.2, 1, .3).normalized(), .533 / 2 * kPi / 180, gaze.direction);
   expectSource(found.sources[0], sun, gaze);
   EXPECT_NEAR(found.sources[1].luminance, 20 * kPhotopicEfficacy, 1e-3 * 20 * kPhotopicEfficacy);
   expectStated(found.sources[1].solidAngle, found.sources[1].solidAngleError, 2 * kPi, .01);
