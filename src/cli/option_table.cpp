@@ -983,9 +983,9 @@ void addGlareOptions(const Add& add) {
            "Toggles glare instead of means. A record is then an eye and its gaze: six numbers, the place and "
            "the direction in which it looks, which is not vertical; z is up. The answer is the unified glare "
            "rating, the illuminance at the eye (lx), the luminance of the background (cd/m2), and the "
-           "daylight glare probability; with -Sd, the list of the glare sources. See OUTPUT. Eight sets of -Sn base "
-           "directions and those for special objects are averaged, and their differences give the standard "
-           "errors. Not with -Sa, -Sb, -Sf, -Sg, -Si, -Sp, -Sw h, -Sw v, -Sz."});
+           "daylight glare probability; with -Sd, the list of the glare sources. See OUTPUT. Eight sets of "
+           "-Sn base directions and those for special objects are averaged, and their differences give the "
+           "standard errors. Not with -Sa, -Sb, -Sf, -Sg, -Si, -Sp, -Sw h, -Sw v, -Sz."});
   add({.name = "-Sub",
        .arguments = "factor",
        .group = Group::sphere,
@@ -1006,8 +1006,8 @@ void addGlareOptions(const Add& add) {
        .paragraph =
            "The task: a disk of directions, as of a screen or a book, whose middle lies `below` degrees "
            "under the line of sight and which is `opening` degrees wide. Its mean luminance, times -Sub of "
-           "at most 100 (usually 5), is the threshold of glare sources. An opening of 0 means that there is no "
-           "task.",
+           "at most 100 (usually 5), is the threshold of glare sources. An opening of 0 means that there is "
+           "no task.",
        .line = taskLine});
 }
 
