@@ -359,7 +359,7 @@ class Page(unittest.TestCase):
         with open(os.path.join(TESTS, "../examples/python/README.md")) as file:
             page = file.read()
         programs = re.findall(r"```python\n(.*?)```", page, re.S)
-        self.assertEqual(len(programs), 2)
+        self.assertEqual(len(programs), 3)
         lines = re.findall(r"\| `([^|`]*scene\.trace[^|`]*)` \|$", page, re.M)
         self.assertEqual(len(lines), 6)
         rays, options = some_rays(), "-ab 1 -ad 32 -fdd -h".split()
@@ -381,6 +381,8 @@ class Page(unittest.TestCase):
                 names["scene"] = rsphere.Scene("room.rad")
                 exec(programs[1], names)  # pylint: disable=exec-used
                 self.assertIn("(2, 2, 12, 3) (2, 2, 12, 3)", printed.getvalue())
+                exec(programs[2], names)  # pylint: disable=exec-used
+                self.assertRegex(printed.getvalue(), "\nlamp2 ")
                 shutil.copy(ROOM, "room.rad")
                 values = {
                     "scene": rsphere.Scene("room.rad"),
