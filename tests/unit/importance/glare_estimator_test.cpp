@@ -118,7 +118,7 @@ TEST(GlareEstimator, OfRectangles) {
   }
 }
 
-// Disks of two luminances, of which one is seen in half by the eye's field of view, and one not at all.
+// Disks of two luminances that face the eye, and one behind it.
 TEST(GlareEstimator, OfDisks) {
   const Gaze gaze = *Gaze::upright(V3d(0, 1, 0));
   const double half = .1;
