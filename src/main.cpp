@@ -14,6 +14,7 @@
 #include "answer/messages.h"
 #include "answer/record_reader.h"
 #include "answer/record_writer.h"
+#include "answer/report_interval.h"
 #include "answer/stop_signals.h"
 #include "cli/option_table.h"
 #include "cli/print_request.h"
@@ -42,6 +43,9 @@ void answer(const Options& given, const Messages& messages, StopSignals& signals
   const Scene& scene = lasting(new Scene(loadScene(given, warn)));
   Options options = given;
   options.contributors = scene.contributors;
+  options.progressSeconds = reportSeconds(
+      given.progressSeconds, given.progressGiven,
+      {.input = isatty(0) != 0, .output = isatty(1) != 0, .messages = isatty(messages.descriptor()) != 0});
   RecordWriter writer(1);
   if (options.listSpecial) {
     writer.write(specialObjectsText(scene, findSpecialObjects(scene, options.sphere.densityFactor)));

@@ -6,6 +6,7 @@
 #include "answer/number_format.h"
 #include "answer/output_colors.h"
 #include "importance/sphere_options.h"
+#include "scene/sensors.h"
 #include "transport/ray_options.h"
 
 namespace rsphere {
@@ -19,6 +20,7 @@ struct AnswerOptions {
   std::vector<std::string> scene;         // an octree, .rad files or '!command'
   bool commands = true;                   // -Sc  whether commands in the scene may run
   std::vector<std::string> goals;         // -Sg
+  std::vector<Sensor> sensors;            // -SG  goals as well
   bool separate = false;                  // -Sp  the part of each goal, or of each light source's modifier
   std::vector<std::string> contributors;  // their names; set once the scene is read. Empty: no parts
   // input
@@ -43,6 +45,7 @@ struct AnswerOptions {
   // work
   int threads = 1;             // -n; 0: one for each core
   double progressSeconds = 0;  // -t; 0: no progress reports
+  bool progressGiven = false;  // -t was given
 
   // Numbers of an input record: x y z of a point, or origin and direction of a ray, or an eye and its gaze.
   int numbersPerRecord() const { return sphereMode && !sphere.glare.wanted ? 3 : 6; }

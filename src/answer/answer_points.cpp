@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "answer/header.h"
+#include "answer/report_interval.h"
 #include "answer/threads.h"
 #include "base/spectral_sampling.h"
 #include "importance/draw_point.h"
@@ -17,9 +18,6 @@ constexpr uint64_t kPictureSeed = 0x70696374757265;  // "picture"
 
 // The relative error of a mean that is not above 0.
 constexpr double kAnyError = 1e30;
-
-// Seconds between reports on a terminal, where -t does not say.
-constexpr double kReportSeconds = 5;
 
 // Draws the pictures of points, with options of their own.
 class PictureMaker {

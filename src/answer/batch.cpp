@@ -289,10 +289,15 @@ void Batch::watch(uint64_t workers) {
   std::array<pollfd, 3> events{{{workerEnded_.descriptor(), POLLIN, 0},
                                 {wake_.descriptor(), POLLIN, 0},
                                 {signals_ != nullptr ? signals_->descriptor() : -1, POLLIN, 0}}};
-  const int delay = interval_ == 0 ? static_cast<int>(kLongestDelay.count()) : -1;
+  const bool awaited = interval_ == 0 || options_.progressSeconds > 0;
+  const int delay = awaited ? static_cast<int>(kLongestDelay.count()) : -1;
   uint64_t ended = 0;
   while (ended < workers && !stopping()) {
-    if (poll(events.data(), events.size(), delay) == 0) writeFinished();
+    if (poll(events.data(), events.size(), delay) == 0) {
+      if (interval_ == 0) writeFinished();
+      const std::unique_lock output = outputForWatcher();
+      reportProgress();
+    }
     ended += workerEnded_.count();
   }
   if (ended == workers) return;
@@ -531,6 +536,8 @@ void Batch::reportProgress() {
   lastReport_ = now;
   const double seconds = std::chrono::duration<double>(now - start_).count();
   const auto done = static_cast<double>(recordsOut_);
+  if (recordsOut_ == 0)
+    return messages_.report(fmt::format("no record finished after {:.1f} seconds", seconds));
   std::string text =
       fmt::format("{} records after {:.1f} seconds, {:.4g} a second", recordsOut_, seconds, done / seconds);
   if (const double all = expectedRecords(); all > 0 && done > 0)

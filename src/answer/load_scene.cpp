@@ -7,6 +7,7 @@
 #include "rad_parser/scene_file.h"
 #include "scene/build_scene.h"
 #include "scene/contributors.h"
+#include "scene/sensors.h"
 
 namespace rsphere {
 
@@ -19,7 +20,12 @@ Scene loadScene(const AnswerOptions& options, const rad::Warn& warn) {
     read.files = rad::FileAccess::foldersOf(named);
   }
   Scene scene = buildScene(rad::readScene(options.scene, read), read, options.goals);
-  if (options.separate) separateContributors(scene, options.goals);
+  addSensors(scene, options.sensors);
+  if (options.separate) {
+    std::vector<std::string> goals = options.goals;
+    for (std::string& name : namesOfSensors(options.sensors.size())) goals.push_back(std::move(name));
+    separateContributors(scene, goals);
+  }
 #ifdef __GLIBC__
   // The lists of a large scene have grown by moving, which leaves holes of megabytes.
   malloc_trim(0);

@@ -92,6 +92,7 @@ CommandOptions commandOptions(const Options& options, Records records) {
   refuse(parsed.sphere.glare.wanted != glare, "-Su", "glare() answers eyes, and sphere() points");
   refuse(!parsed.goals.empty(), "-Sg",
          "goals belong to the scene (SceneOptions), or are those of importance()");
+  refuse(!parsed.sensors.empty(), "-SG", "sensors are those of importanceOfSensors()");
   refuse(!parsed.commands, "-Sc", "commands belong to the scene: see SceneOptions");
   refuse(parsed.sphere.everyDirection, "-Sd", "only the command rsphere lists every direction");
   refuse(parsed.listSpecial, "-Sl", "only the command rsphere lists the special objects");

@@ -27,6 +27,7 @@
 #include "rad_parser/printable.h"
 #include "scene/contributors.h"
 #include "scene/scene.h"
+#include "scene/sensors.h"
 #include "transport/transport.h"
 
 namespace rsphere::v1 {
@@ -103,13 +104,28 @@ rsphere::Options optionsFor(const rsphere::Scene& scene, rsphere::Options option
   return options;
 }
 
+// The goals of importance(); empty in other calls.
+struct Goals {
+  std::span<const std::string> modifiers;
+  std::span<const double> sensors;  // x y z dx dy dz of each
+
+  bool empty() const { return modifiers.empty() && sensors.empty(); }
+};
+
 // Makes a call one for the importance of goals.
-void addGoals(CommandOptions& given, std::span<const std::string> goals) {
+void addGoals(CommandOptions& given, const Goals& goals) {
   given.options.separate = true;
-  given.options.goals.assign(goals.begin(), goals.end());
+  given.options.goals.assign(goals.modifiers.begin(), goals.modifiers.end());
+  given.options.sensors = sensorsOf(goals.sensors, "sensors");
+  if (!goals.sensors.empty() && given.options.sphere.weights != Weights::silhouettes)
+    throw rad::Error("sensors need -Sw c, which aims at them");
   for (std::string* const key : {&given.key, &given.sceneKey}) {
     key->append("-Sp").push_back('\0');
-    for (const std::string& goal : goals) key->append("-Sg").append(goal).push_back('\0');
+    for (const std::string& goal : goals.modifiers) key->append("-Sg").append(goal).push_back('\0');
+    if (goals.sensors.empty()) continue;
+    key->append("-SG").append(reinterpret_cast<const char*>(goals.sensors.data()),
+                              goals.sensors.size_bytes());
+    key->push_back('\0');
   }
 }
 
@@ -414,10 +430,9 @@ struct Scene::Implementation {
   std::unique_ptr<Answerer> take(const CommandOptions& given);
   void giveBack(const std::string& key, std::unique_ptr<Answerer> answerer);
 
-  // goals: those of importance(), and only then not empty.
   template <typename Answers>
   Answers answer(std::span<const double> numbers, const Options& options, Records records,
-                 std::span<const std::string> goals = {});
+                 const Goals& goals = {});
 
   Contributions contributions(std::span<const double> numbers, const std::vector<std::string>& of,
                               const ContributionOptions& options);
@@ -479,8 +494,11 @@ std::shared_ptr<PreparedScene> Scene::Implementation::prepare(const CommandOptio
 std::shared_ptr<const rsphere::Scene> Scene::Implementation::sceneFor(const rsphere::Options& options) const {
   if (!options.separate) return scene_;
   auto copy = std::make_shared<rsphere::Scene>(*scene_);
-  if (!options.goals.empty()) setGoals(*copy, options.goals);
-  separateContributors(*copy, options.goals.empty() ? goals_ : options.goals);
+  std::vector<std::string> goals = options.goals;
+  if (!goals.empty() || !options.sensors.empty()) setGoals(*copy, goals);
+  addSensors(*copy, options.sensors);
+  for (std::string& name : namesOfSensors(options.sensors.size())) goals.push_back(std::move(name));
+  separateContributors(*copy, goals.empty() ? goals_ : goals);
   return copy;
 }
 
@@ -494,7 +512,7 @@ void Scene::Implementation::giveBack(const std::string& key, std::unique_ptr<Ans
 
 template <typename Answers>
 Answers Scene::Implementation::answer(std::span<const double> numbers, const Options& options,
-                                      Records records, std::span<const std::string> goals) {
+                                      Records records, const Goals& goals) {
   Warnings warnings;
   std::shared_ptr<PreparedScene> prepared;
   const auto passWarnings = [&] {
@@ -609,7 +627,15 @@ PointAnswers Scene::importance(std::span<const Point> points, const std::vector<
                                const Options& options) const {
   if (goals.empty()) throw Error("importance() needs the modifier of at least one goal", Error::Cause::input);
   const std::span numbers(reinterpret_cast<const double*>(points.data()), 3 * points.size());
-  return implementation_->answer<PointAnswers>(numbers, options, Records::points, goals);
+  return implementation_->answer<PointAnswers>(numbers, options, Records::points, {goals, {}});
+}
+
+PointAnswers Scene::importanceOfSensors(std::span<const Point> points, std::span<const Sensor> sensors,
+                                        const Options& options) const {
+  if (sensors.empty()) throw Error("importanceOfSensors() needs at least one sensor", Error::Cause::input);
+  const std::span numbers(reinterpret_cast<const double*>(points.data()), 3 * points.size());
+  const std::span ofSensors(reinterpret_cast<const double*>(sensors.data()), 6 * sensors.size());
+  return implementation_->answer<PointAnswers>(numbers, options, Records::points, {{}, ofSensors});
 }
 
 GlareAnswers Scene::glare(std::span<const Ray> eyes, const Options& options) const {

@@ -338,6 +338,15 @@ void checkIrradiance(Options& options) {
 // finished, a kilobyte each.
 constexpr int kMostForAccuracy = 1000000, kMostToList = 100000;
 
+// -SG
+void checkSensors(const Options& options) {
+  if (options.sensors.empty()) return;
+  if (!options.sphereMode) commandLineError("-SG", "needs sphere mode: rays do not meet sensors");
+  if (options.sphere.weights != Weights::silhouettes)
+    commandLineError("-SG", "needs -Sw c, which aims at sensors");
+  if (!options.picture.empty()) commandLineError("-SG", "sensors cannot be seen: not with -Si");
+}
+
 // -Sp
 void checkParts(const Options& options) {
   if (!options.separate) return;
@@ -360,6 +369,7 @@ void checkGlare(const Options& options) {
   };
   if (!options.sphereMode) commandLineError("-Su", "needs sphere mode (-S)");
   refuse(!options.goals.empty(), "-Sg", "goals emit importance, which does not glare");
+  refuse(!options.sensors.empty(), "-SG", "goals emit importance, which does not glare");
   refuse(options.separate, "-Sp", "indices of glare have no parts");
   refuse(sphere.basicRadiance, "-Sb", "glare is that of radiance");
   refuse(sphere.zones > 0, "-Sz", "zones are those of means");
@@ -372,6 +382,7 @@ void checkGlare(const Options& options) {
 
 void checkTogether(Options& options, bool mostGiven) {
   checkParts(options);
+  checkSensors(options);
   checkGlare(options);
   if (options.ray.fieldMemory > 0 && !options.ray.ambientFile.empty())
     throw rad::Error("-Sm and -af exclude each other: an ambient file is kept in memory as a whole");
@@ -524,6 +535,7 @@ std::vector<Use> parse(std::span<const std::string> commandLine, const Companion
   if (options.outputs.empty()) options.outputs = usualOutputs(options);
   const bool answers = options.request == Request::answers;
   if (answers) options.scene = takeScene(words);
+  options.progressGiven = given.has("-t");
   options.numberedRays = given.has("-u") && options.ray.uncorrelated && !options.sphereMode;
   splitTree(options);
   checkLetters(options);

@@ -13,6 +13,7 @@
 #include "cli/word_file.h"
 #include "rad_parser/error.h"
 #include "rad_parser/number.h"
+#include "rad_parser/printable.h"
 
 namespace rsphere {
 namespace {
@@ -122,6 +123,26 @@ void setErrorFile(Options& options, const OptionEntry&, std::span<const std::str
 void setFunctionFile(Options& options, const OptionEntry&, std::span<const std::string> words,
                      std::string_view) {
   options.ray.definitions.push_back({true, words[0]});
+}
+
+// -SG names a file of sensors.
+void setSensors(Options& options, const OptionEntry& entry, std::span<const std::string> words,
+                std::string_view) {
+  const std::string& file = words[0];
+  std::vector<double> numbers;
+  for (const std::string& word : wordsOfFile("sensor file", file)) {
+    const auto number = rad::parseReal(word);
+    if (!number)
+      throw rad::Error(fmt::format("{}: sensor {}: \"{}\" is not a number", rad::printable(file),
+                                   numbers.size() / 6 + 1, rad::printable(word)));
+    numbers.push_back(*number);
+  }
+  if (numbers.empty() || numbers.size() % 6 != 0)
+    commandLineError(entry.name,
+                     fmt::format("\"{}\" has {} numbers; each sensor is x y z and the direction dx dy dz in "
+                                 "which it faces",
+                                 rad::printable(file), numbers.size()));
+  for (const Sensor& sensor : sensorsOf(numbers, rad::printable(file))) options.sensors.push_back(sensor);
 }
 
 void ignore(Options&, const OptionEntry&, std::span<const std::string>, std::string_view) {}
@@ -831,7 +852,9 @@ void addProgramOptions(const Add& add) {
        .paragraph =
            "Interval of progress reports on standard error. A report gives the number of answered "
            "records, the records per second and, if the end of the input is known (-y, or input from a "
-           "file), the time left. 0 disables reports. Pictures (-Si) have reports of their own."});
+           "file), the time left. 0 disables reports. If -t is not given, there is a report every 5 "
+           "seconds where standard error is a terminal but standard input and output are none, as in "
+           "'rsphere room.rad < points.txt > answers.txt'. Pictures (-Si) have reports of their own."});
 }
 
 void addDirectionOptions(const Add& add) {
@@ -935,6 +958,18 @@ void addAnswerOptions(const Add& add) {
            "Computes importance instead of radiance, for goals: surfaces with modifier mod emit 1 W/sr/m2 "
            "from their front, in addition to reflecting light, and every other source is dark. May be "
            "repeated for several modifiers."});
+  add({.name = "-SG",
+       .arguments = "file",
+       .group = Group::sphere,
+       .value = Custom{setSensors},
+       .remark = "sensors as goals",
+       .paragraph =
+           "Computes importance for sensors or eyes, places without a surface: the file, which is searched"
+           " for along RAYPATH, has x y z and the direction dx dy dz in which it faces of each, separated "
+           "by white space. A sensor receives light by the cosine, as rtrace -I does, and counts as a goal"
+           " of area 1. It blocks and reflects nothing. Its importance straight from a point, or by way of"
+           " one mirror, is exact. With -Sp the sensors are the contributors sensor1, sensor2 and so on, "
+           "after the goals of -Sg. May be repeated. Not with -Sw h and v, nor with -Si."});
   add({.name = "-Sp",
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.separate; },
@@ -985,7 +1020,7 @@ void addGlareOptions(const Add& add) {
            "rating, the illuminance at the eye (lx), the luminance of the background (cd/m2), and the "
            "daylight glare probability; with -Sd, the list of the glare sources. See OUTPUT. Eight sets of "
            "-Sn base directions and those for special objects are averaged, and their differences give the "
-           "standard errors. Not with -Sa, -Sb, -Sf, -Sg, -Si, -Sp, -Sw h, -Sw v, -Sz."});
+           "standard errors. Not with -Sa, -Sb, -Sf, -Sg, -SG, -Si, -Sp, -Sw h, -Sw v, -Sz."});
   add({.name = "-Sub",
        .arguments = "factor",
        .group = Group::sphere,
@@ -1090,8 +1125,9 @@ void addInspectionOptions(const Add& add) {
            "and with -t, the program reports how much is done, and the time left. RADIANCE pictures "
            "(.hdr, .pic) are angular fisheyes of 360 degrees, with +y in the middle and +z above it. "
            "Their header has the command, SOFTWARE= and VIEW=; pinterp converts them to other views, such "
-           "as the hemisphere that evalglare expects. In all other formats, the columns are azimuths from "
-           "the x axis, counterclockwise about z, and the rows go from the zenith to the nadir. EXR and "
+           "as the hemisphere that evalglare expects. In all other formats, +y is in the middle, too, +x to "
+           "the right of it at a quarter of the width, and -y at both edges; columns are azimuths, and rows "
+           "go from the zenith to the nadir. EXR and "
            "TIFF files contain radiance. Other files contain colors, exposed so that the median is "
            "mid-bright. %d in the name (or %04d and the like) is replaced by the number of the record, "
            "from 0."});

@@ -203,6 +203,7 @@ SphereEstimator::Workspace::Workspace(const SphereEstimator& estimator)
 // lit: directions that found light. Only with -Sw c do sources have directions of their own.
 bool SphereEstimator::isDark(const PointAnswer& answer, size_t lit) const {
   if (maxChannel(answer.mean.color) == 0) return true;
+  if (sources_.haveSensors()) return false;  // one direction is all that shows a sensor
   return options_.weights == Weights::silhouettes &&
          static_cast<double>(lit) < tuning::Dark::kShare * static_cast<double>(answer.directions);
 }

@@ -20,8 +20,8 @@ using std::numbers::pi;
 
 std::optional<V3d> PixelMap::direction(double x, double y) const {
   if (projection_ == Projection::latitudeLongitude) {
-    const double polar = pi * y / height_, azimuth = 2 * pi * x / width_, sine = std::sin(polar);
-    return V3d(sine * std::cos(azimuth), sine * std::sin(azimuth), std::cos(polar));
+    const double polar = pi * y / height_, right = 2 * pi * (x / width_ - .5), sine = std::sin(polar);
+    return V3d(sine * std::sin(right), sine * std::cos(right), std::cos(polar));
   }
   const double right = 2 * x / width_ - 1, up = 1 - 2 * y / height_, radius = std::hypot(right, up);
   if (radius > 1) return std::nullopt;
@@ -32,8 +32,7 @@ std::optional<V3d> PixelMap::direction(double x, double y) const {
 size_t PixelMap::pixelOf(const V3d& d) const {
   double x = 0, y = 0;
   if (projection_ == Projection::latitudeLongitude) {
-    const double azimuth = std::atan2(d.y, d.x);
-    x = (azimuth < 0 ? azimuth + 2 * pi : azimuth) / (2 * pi) * width_;
+    x = (.5 + std::atan2(d.x, d.y) / (2 * pi)) * width_;
     y = std::acos(std::clamp(d.z, -1., 1.)) / pi * height_;
   } else {
     const double sine = std::hypot(d.x, d.z), radius = std::atan2(sine, d.y) / pi;

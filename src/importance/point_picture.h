@@ -13,8 +13,8 @@ namespace rsphere {
 
 // The projection of directions onto a picture.
 enum class Projection {
-  // Columns are the azimuth from 0 at the left edge to 2 pi, counterclockwise about +z from +x; rows go from
-  // the zenith +z to the nadir.
+  // The sphere as seen from within: +y is in the middle, +x to the right of it at a quarter of the width, -y
+  // at both edges. Columns are the azimuth in even steps; rows go from the zenith +z to the nadir.
   latitudeLongitude,
   // RADIANCE's view -vta -vh 360 -vv 360 -vd 0 1 0 -vu 0 0 1: +y is in the middle and +z above it. The angle
   // from +y is proportional to the distance from the middle, pi at the rim. The corners are black. (RADIANCE

@@ -80,6 +80,19 @@ ShapeRef shapeOf(const PreparedScene& prepared, const Image& image) {
   return prepared.scene().surfaces[shownBy(prepared, image).source].shape;
 }
 
+// A sensor is so small that its middle stands for all of it.
+bool isSensor(const PreparedScene& prepared, LightId source) {
+  return prepared.scene().surfaces[prepared.lights().all()[source].surface].finish.sensor;
+}
+
+// The direction to a sensor (unit), and its solid angle, sr.
+double sightOfSensor(const LightSource& light, const V3d& eye, V3d& direction) {
+  const V3d to = light.center - eye;
+  const PlaneLight& square = *light.as<PlaneLight>();
+  direction = to.normalized();
+  return square.area * std::max(0., -square.normal.dot(direction)) / to.length2();
+}
+
 // Where the source is seen from: a point, or its mirror image behind the mirror.
 V3d eyeOf(const Scene& scene, const Image& image, const V3d& point) {
   return image.mirror == kNone ? point : Plane(scene.surfaces[image.mirror].shape).mirrored(point);
@@ -107,6 +120,7 @@ SeenSources::SeenSources(const PreparedScene& prepared) : prepared_(prepared) {
     // Instead of virtual sources, addMirrored() finds the images in mirrors that they represent.
     if (lights[i].isVirtual() || (material && std::holds_alternative<Illum>(*material))) continue;
     apart_[lights[i].surface] = true;
+    haveSensors_ = haveSensors_ || surface.finish.sensor;
     sources_.push_back(i);
   }
   if (sources_.empty()) return;
@@ -148,9 +162,8 @@ std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t
     Image image;
     image.source = i;
     image.region = silhouetteOf(surface.shape, scene.vertices, point);
-    image.solidAngle = image.region.regionSolidAngle();
+    setExtent(image, point);
     if (!(image.solidAngle > 0)) continue;
-    image.filled = fills(surface.shape, image.region);
     image.rays = std::pow(brightness(sourceRadiance(scene, surface)) * image.solidAngle, Tuning::kByLight);
     images.push_back(std::move(image));
   }
@@ -162,8 +175,11 @@ std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t
   for (size_t i = 0; i < images.size(); ++i) {
     Image& image = images[i];
     const double enough =
-        std::max({Tuning::kUsualRays, image.solidAngle / (Tuning::kSmallestPart * Tuning::kSmallestPart),
-                  Tuning::kSmallShare * static_cast<double>(most) / static_cast<double>(images.size())});
+        isSensor(prepared_, image.source)
+            ? 1
+            : std::max(
+                  {Tuning::kUsualRays, image.solidAngle / (Tuning::kSmallestPart * Tuning::kSmallestPart),
+                   Tuning::kSmallShare * static_cast<double>(most) / static_cast<double>(images.size())});
     image.rays = std::min(image.rays / sum * static_cast<double>(most), enough);
     if (i < straight && straight <= most) image.rays = std::max(image.rays, 1.);
   }
@@ -171,6 +187,27 @@ std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t
                               [](const Image& i) { return i.rays < Tuning::kSmallShare; }),
                images.end());
   return images;
+}
+
+// Sets solid angle, filled and region of an image as seen from an eye. window: of its mirror; null: none.
+void SeenSources::setExtent(Image& image, const V3d& eye, const Silhouette* window) const {
+  if (isSensor(prepared_, image.source)) {
+    V3d direction;
+    image.solidAngle = sightOfSensor(prepared_.lights().all()[image.source], eye, direction);
+    if (window && !window->contains(direction)) image.solidAngle = 0;
+    return;
+  }
+  image.filled = fills(shapeOf(prepared_, image), image.region);
+  if (window) image.region = image.region.within(*window);
+  image.solidAngle = image.region.regionSolidAngle();
+}
+
+// A direction in which an eye sees the image, at a place in the unit square.
+V3d SeenSources::directionIn(const Image& image, const V3d& eye, double u, double v) const {
+  if (!isSensor(prepared_, image.source)) return image.region.sample(u, v);
+  V3d direction;
+  sightOfSensor(prepared_.lights().all()[image.source], eye, direction);
+  return direction;
 }
 
 // As seen from the mirror image of the point, the mirror is a window through which the source is seen.
@@ -199,11 +236,9 @@ void SeenSources::addMirrored(const V3d& point, std::vector<Image>& images) cons
       image.source = i;
       image.mirror = m;
       image.region = silhouetteOf(surface.shape, scene.vertices, behind);
-      image.filled = fills(surface.shape, image.region);
-      image.region = image.region.within(*window);
-      image.solidAngle = image.region.regionSolidAngle();
+      setExtent(image, behind, &*window);
       if (!(image.solidAngle > 0)) continue;
-      const double cosine = std::abs(plane.normal.dot(image.region.sample(.5, .5)));
+      const double cosine = std::abs(plane.normal.dot(directionIn(image, behind, .5, .5)));
       image.rays = std::pow(
           brightness(sourceRadiance(scene, surface)) * image.solidAngle * sharpReflectance(material, cosine),
           Tuning::kByLight);
@@ -283,10 +318,10 @@ std::optional<SeenSources::Sample> SeenSources::sampleMirrored(const PathsFrom& 
   const Scene& scene = prepared_.scene();
   const double v = (cell.column + cell.random.uniform()) / cell.columns,
                u = (cell.row + cell.random.uniform()) / cell.rows;
-  const V3d direction = image.region.sample(u, v);
   const uint64_t seed = cell.random.bits();
   ShapeHit on;
   const V3d eye = eyeOf(scene, image, paths.point());
+  const V3d direction = directionIn(image, eye, u, v);
   if (!hits(scene, shapeOf(prepared_, image), eye, direction, on) || !(on.cosine > 0)) return std::nullopt;
   Sample s;
   s.row = cell.row;
@@ -310,7 +345,7 @@ std::optional<SeenSources::Sample> SeenSources::sampleStraight(const PathsFrom& 
     for (size_t k = 0; k < Tuning::kShadowsAlong; ++k) {
       const double u = (cell.row + (i + cell.random.uniform()) / Tuning::kShadowsAlong) / cell.rows,
                    v = (cell.column + (k + cell.random.uniform()) / Tuning::kShadowsAlong) / cell.columns;
-      const V3d direction = image.region.sample(u, v);
+      const V3d direction = directionIn(image, point, u, v);
       const double lot = cell.random.uniform();
       if (!hits(prepared_.scene(), shape, point, direction, on) || !(on.cosine > 0)) continue;
       ++s.aimed;

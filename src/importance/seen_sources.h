@@ -45,6 +45,9 @@ class SeenSources {
     return shown.source != kNone && shown.mirror == kNone && apart_[shown.source];
   }
 
+  // Whether there are sensors (scene/sensors.h) among the sources.
+  bool haveSensors() const { return haveSensors_; }
+
   // By index in Scene::surfaces: whether the surface is a source that is integrated separately
   // where it is seen directly.
   const ById<SurfaceId, bool>& apart() const { return apart_; }
@@ -80,6 +83,8 @@ class SeenSources {
     size_t row = 0, column = 0, rows = 1, columns = 1;
     Random& random;
   };
+  void setExtent(Image& image, const V3d& eye, const Silhouette* window = nullptr) const;
+  V3d directionIn(const Image& image, const V3d& eye, double u, double v) const;
   void addMirrored(const V3d& point, std::vector<Image>& images) const;
   std::vector<Sample> sampleImage(const PathsFrom& paths, const Image& image, const Share& share,
                                   uint64_t seed) const;
@@ -92,6 +97,7 @@ class SeenSources {
   ById<SurfaceId, bool> apart_;
   std::vector<LightId> sources_;  // those integrated separately
   std::vector<SurfaceId> mirrors_;
+  bool haveSensors_ = false;
 };
 
 }  // namespace rsphere

@@ -7,6 +7,7 @@
 
 #include "importance/tuning.h"
 #include "scene/random.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
 namespace {
@@ -139,7 +140,7 @@ Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDir
       density = usual > 0 ? (deviation / usual - 1) * baseDensity * densityFactor_
                           : static_cast<double>(most) / solidAngle;
     if (opening * solidAngle > Tuning::kLeastOpening * kFullSphere * meanBrightness)
-      density = std::max(density, Tuning::kDirectionsToOpening / solidAngle - baseDensity);
+      density = std::max(density, tuning::Caps::kProbes / solidAngle - baseDensity);
     if (!(density > 0) && solidAngle * baseDensity < Tuning::kFewestFitted) return;
     sum += density * solidAngle;
     targets.push_back({std::move(silhouette), density, density * solidAngle, continues});

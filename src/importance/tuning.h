@@ -75,8 +75,8 @@ struct Targets {
   // (points in office; error below 1%, time 7%).
   RSPHERE_TUNED(Targets, double, kLeastGlint, 1e-3);
   // Standard deviation of the brightness within a partly lit region, relative to the brightness of its lit
-  // part. .5 is the largest possible for values between 0 and 1: half of the region is lit. By measurement
-  // for the three kinds of regions:
+  // part: derived. .5 is the largest possible for values between 0 and 1: half of the region is lit. It is
+  // confirmed by measurement for the three kinds of regions:
   // - Images of light sources in balls. 30% less: error +12%; 30% more: error -20% (points beside chrome;
   //   noise: error 5%).
   // - Openings that show daylight. In a room with a window that shows a house below an uneven sky, the errors
@@ -84,14 +84,12 @@ struct Targets {
   //   5.9, 3.8 and 2.3% (none), in the same time within noise; without targets at openings 6.9 and 76%.
   // - Spots of daylight. With them, the default directions in two sunlit rooms have errors of 1.5 and 1.8%
   //   instead of 2.75 and 1.9%. .25 or 1: within noise.
-  RSPHERE_TUNED(Targets, double, kPartlyLit, .5);
+  static constexpr double kPartlyLit = .5;
   // An opening that, unoccluded, would give more than this fraction of the light at a point gets at least
-  // kDirectionsToOpening directions: chosen by experiment. At .1, a far window that happens to be dark in the
-  // rays around a point causes errors of up to 10% instead of 5%.
+  // Caps::kProbes directions: chosen by experiment. At .1, a far window that happens to be dark in the rays
+  // around a point causes errors of up to 10% instead of 5%. With 8 directions, an opening of which an eighth
+  // is hidden often looks unobstructed.
   RSPHERE_TUNED(Targets, double, kLeastOpening, .01);
-  // Minimum number of directions to such an opening: chosen by experiment. With 8, an opening of which an
-  // eighth is hidden often looks unobstructed.
-  RSPHERE_TUNED(Targets, double, kDirectionsToOpening, 32);
   // The cells in a target are fitted to its solid angle if at least this many directions are expected in it:
   // chosen by experiment. With 4 or 16 the errors in rooms with a window are the same. With fewer, the fit
   // would bias the mean where the number of directions is correlated with what they see. With 8 no bias is
@@ -250,7 +248,7 @@ struct Pictures {
   // It is also the number of samples of such a source for each pixel that it covers: by measurement. With 4
   // per pixel, lamps of 4 to 16 pixels lose 3 to 9% of their light in the picture, with 16 they lose 1 to
   // 3.5%. 30% less or more: the same answers in all cases.
-  RSPHERE_TUNED(Pictures, double, kSmallest, 16);
+  static constexpr double kSmallest = 16;
   // Minimum number of samples of such a source. The light of a minute lamp that is half hidden then has a
   // standard deviation of 12%; with one sample it is 34%. 30% less or more: the same answers in all cases.
   RSPHERE_TUNED(Pictures, double, kLeastSamples, 4);

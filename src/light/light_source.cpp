@@ -120,6 +120,8 @@ LightSource lightSourceOf(const Scene& scene, SurfaceId surface) {
   LightSource source =
       visit([&](const auto& shape) { return sourceOf(shape, scene); }, scene.surfaces[surface].shape);
   source.surface = surface;
+  // The vertices of so small a square are not flat to rounding.
+  if (scene.surfaces[surface].finish.sensor) source.hitsWhereAimed = true;
   if (!source.isDistant()) source.outermost = source.radius;
   return source;
 }

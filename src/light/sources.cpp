@@ -17,7 +17,7 @@ void LightSources::findSources() {
   // As in rtrace, luminous surfaces in octrees and meshes are visible but are not light sources.
   for (const SurfaceId i : scene_.outermostIds()) {
     const Surface& surface = scene_.surfaces[i];
-    if (surface.material == kNone) continue;
+    if (surface.material == kNone && !surface.finish.sensor) continue;
     if (scene_.importance) {
       if (surface.goal && canBeAimedAt(surface.shape, scene_)) sources_.push_back(lightSourceOf(scene_, i));
       continue;

@@ -161,14 +161,28 @@ py::object sphere(const py::object& self, const py::object& given, const py::kwa
   return arraysOf(withoutLock(options, [&] { return scene.sphere(points, options); }));
 }
 
-py::object importance(const py::object& self, const py::object& given, const std::vector<std::string>& goals,
+// Whether goals are given as names of modifiers. Throws what Python calls TypeError for a single word.
+bool areNames(const py::object& goals) {
+  if (py::isinstance<py::str>(goals)) throw py::type_error("goals must be a list: [\"desk\"]");
+  if (!py::isinstance<py::sequence>(goals)) return false;
+  const auto all = goals.cast<py::sequence>();
+  return all.size() == 0 || py::isinstance<py::str>(all[0]);
+}
+
+py::object importance(const py::object& self, const py::object& given, const py::object& goals,
                       const py::kwargs& keywords) {
   const Scene& scene = sceneOf(self);
   const Numbers array = numbersOf(given, "points");
   const std::span<const Point> points = recordsOf<Point>(array, "points");
   Options options = optionsOf(keywords);
   options.stop = interrupted;
-  return arraysOf(withoutLock(options, [&] { return scene.importance(points, goals, options); }));
+  if (areNames(goals)) {
+    const auto names = goals.cast<std::vector<std::string>>();
+    return arraysOf(withoutLock(options, [&] { return scene.importance(points, names, options); }));
+  }
+  const Numbers numbers = numbersOf(goals, "goals");
+  const std::span<const Sensor> sensors = recordsOf<Sensor>(numbers, "goals that are sensors");
+  return arraysOf(withoutLock(options, [&] { return scene.importanceOfSensors(points, sensors, options); }));
 }
 
 // Eyes and gazes of arrays; one gaze serves all eyes.
@@ -394,6 +408,10 @@ a second axis for them: mean (n, goals, 3), mean_standard_error, face_irradiance
 
 With bins=N: bins (n, goals, N, 3), the mean importance in each of N zones of equal solid angle, and
 bins_standard_error; zone_middles(N) has the directions of the zones.
+
+Goals may also be sensors or eyes, an array (goals, 6) of places and the directions in which they face:
+places without a surface, which block and reflect nothing, receive light by the cosine, and count as goals of
+area 1.
 
 By reciprocity, a lamp at the point of 1 cd in all directions gives a goal of area A (m2) the mean illuminance
 4 pi mean / A (lx), and a small downlight of cos(angle to -z) cd gives it face_irradiance[:, :, 5] / A.

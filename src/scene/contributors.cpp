@@ -72,7 +72,8 @@ void separateContributors(Scene& scene, std::span<const std::string> goals) {
   const BandScheme& parts = partsOf(names.size());
   for (Finish& finish : scene.surfaces.finishes())
     if (finish.goal)
-      finish.importance = Radiance(Color::ofContributor(V3d(1, 1, 1), positionOf(names, finish.name), parts));
+      finish.importance = Radiance(
+          Color::ofContributor(finish.importance.color.rgb(), positionOf(names, finish.name), parts));
   if (goals.empty())
     for (Modifier* modifier : emittersOf(scene)) {
       Color& emission = *emissionOf(*modifier);

@@ -20,6 +20,7 @@ struct Finish {
   uint64_t clip = 0;       // the bit of its modifier in Antimatter::clips; 0: not clipped by any
   bool goal = false;       // its surfaces emit importance from their fronts, in addition to their material
   Radiance importance{1};  // that its goals emit
+  bool sensor = false;     // its surface is the goal of a sensor, which only aimed rays meet (sensors.h)
   // Whether its modifier is called "Phong", the customary name of textures that smooth a surface by
   // interpolated normals. As in rtrace, such a texture does not deflect rays that pass straight through a
   // thin surface (trans, glass and the like). Refraction by dielectric and interface follows the perturbed

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/vector_widths.h"
+
 namespace rsphere {
 namespace {
 
@@ -22,7 +24,7 @@ struct alignas(64) Block {
 // Compiled for several vector widths. The answers do not depend on the width, because nothing is contracted.
 // Each loop is written so that GCC 12 vectorizes it: it selects only between values that are already
 // computed, and the square root is in a loop by itself.
-__attribute__((target_clones("avx512f", "avx2", "default"))) void tangents(Block& k) {
+RSPHERE_FOR_WIDTHS("avx512f", "avx2") void tangents(Block& k) {
   for (int i = 0; i < kBlock; ++i) {
     const double ux = k.ax[i] - k.cx[i], uy = k.ay[i] - k.cy[i], uz = k.az[i] - k.cz[i],
                  du = k.ah[i] - k.ch[i];
@@ -66,7 +68,7 @@ inline double arcTangentNearZero(double t) {
   return t - t * s * (1 / 3.0 - s * (1 / 5.0 - s * (1 / 7.0 - s * (1 / 9.0 - s * (1 / 11.0)))));
 }
 
-__attribute__((target_clones("avx512f", "avx2", "default"))) void arcTangents(double (&t)[kBlock]) {
+RSPHERE_FOR_WIDTHS("avx512f", "avx2") void arcTangents(double (&t)[kBlock]) {
   std::uint64_t large = 0;
   for (double x : t) large += std::abs(x) > 1 / 32.0;
   if (large == 0) {

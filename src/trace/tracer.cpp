@@ -16,6 +16,7 @@ namespace {
 // The properties of a surface that shadow rays and ties depend on, looked up once for each finish.
 struct Occluder {
   PrimitiveId modifier;  // the later definition wins ties
+  bool sensor = false;   // wins ties, and stops no shadow ray
   bool hasMaterial = false;
   bool transparent = false;
   bool opaqueFront = false, opaqueBack = false;  // certainly stops every shadow ray that hits this side
@@ -33,6 +34,7 @@ bool meetsMixture(const Scene& scene, const Finish& finish) {
 Occluder makeOccluder(const Scene& scene, const Finish& finish, bool backFacesVisible) {
   Occluder o;
   o.modifier = finish.described;
+  o.sensor = finish.sensor;
   if (finish.material == kNone) return o;
   o.hasMaterial = true;
   const Material* material = scene.materialAt(finish.material);
@@ -57,6 +59,7 @@ struct Owner {
 // Whether surface a takes precedence over b, if both are hit at the same place.
 bool wins(const Owner& ownerA, double cosineA, const Owner& ownerB, double cosineB) {
   const Occluder &a = *ownerA.occluder, &b = *ownerB.occluder;
+  if (a.sensor != b.sensor) return a.sensor;
   if (a.hasMaterial != b.hasMaterial) return a.hasMaterial;
   if (a.transparent != b.transparent) return b.transparent;
   if ((cosineA > 0) != (cosineB > 0)) return cosineA > 0;
@@ -265,6 +268,7 @@ class Tracer::Tree {
   bool isSmallNear(const Neighborhood& around, uint32_t primitive) const {
     const Surface& surface = scene_.surfaces[surfaceOf(primitive)];
     const Box3d box = boundsOf(surface);
+    if (surface.finish.sensor) return false;
     if (distanceTo(box, around.point) > around.radius) return false;
     const V3d size = box.size();
     if (std::max({size.x, size.y, size.z}) <= around.widest) return !liesInPlane(surface.shape, around);
@@ -469,7 +473,7 @@ class Tracer::Tree {
     const SurfaceId surface = surfaceOf(primitive);
     const Face& face = faces_[primitive];
     const Owner owner = query.standIn ? query.standIn : Owner{&occluders_[face.finish], surface};
-    if (owner.surface == query.source) return false;
+    if (owner.surface == query.source || owner.occluder->sensor) return false;
     if (!face.hasArea) return crossOther(query, surface, owner);
     ShapeHit hit;
     return meets(query, face, hit) && crosses(query, owner, hit);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/constants.h"
+#include "base/vector_widths.h"
 #include "shade/scattering.h"
 #include "transport/light_particles.h"
 #include "transport/panes.h"
@@ -234,8 +235,7 @@ void BrightSpots::keep(const Spot& spot) {
 
 // The contribution of a spot is that of a small flat surface with the spot's normal. Spots that contain the
 // point or are near to it are left out.
-__attribute__((target_clones("avx2", "default"))) void BrightSpots::aim(const V3d& point, const V3d& front,
-                                                                        Aim& aim) const {
+RSPHERE_FOR_WIDTHS("avx2") void BrightSpots::aim(const V3d& point, const V3d& front, Aim& aim) const {
   const auto atX = static_cast<float>(point.x - spots_.origin.x),
              atY = static_cast<float>(point.y - spots_.origin.y),
              atZ = static_cast<float>(point.z - spots_.origin.z);
@@ -273,8 +273,7 @@ V3d BrightSpots::sample(const Aim& aim, double u1, double u2, double u3) const {
   return onDisk(axis, std::sqrt(versine * (2 - versine)), 2 * kPi * u3) + (1 - versine) * axis;
 }
 
-__attribute__((target_clones("avx2", "default"))) double BrightSpots::density(const Aim& aim,
-                                                                              const V3d& direction) const {
+RSPHERE_FOR_WIDTHS("avx2") double BrightSpots::density(const Aim& aim, const V3d& direction) const {
   const auto dx = static_cast<float>(direction.x), dy = static_cast<float>(direction.y),
              dz = static_cast<float>(direction.z);
   std::array<bool, kRoom> in;

@@ -113,6 +113,7 @@ bool PlainSurfaces::isKnown(LightId source) const {
 void PlainSurfaces::findSurfaces() {
   for (const SurfaceId i : scene_.surfaces.ids()) {
     const Surface surface = scene_.surfaces[i];
+    if (surface.finish.sensor) continue;
     const Material* const material = scene_.materialAt(surface.material);
     const bool lamp = holds<Light>(material) || holds<Spotlight>(material);
     const bool known = lamp || knows(i);

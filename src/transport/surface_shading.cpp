@@ -117,7 +117,7 @@ bool SurfaceShading::shade(RayEnd& end, RayResult& result) {
   const LightId light = t_.lights().of(end.hit.surface);
   const SourceResponse emission = goalResponse(surface.finish.importance, light != kNone, seen);
   std::visit([&](const auto& outcome) { estimate(ofGoal, outcome, emitted); }, emission);
-  const bool shaded = ((end.context.kinds & kShadow) && end.ray.aimedAt == light) ||
+  const bool shaded = surface.finish.sensor || ((end.context.kinds & kShadow) && end.ray.aimedAt == light) ||
                       shadeChain(end, surface.modifier, result);
   result.value += emitted.value;
   return shaded;

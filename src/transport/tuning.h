@@ -28,8 +28,9 @@ struct Caps {
   // within 3% if single values vary as much as their mean. And it is the cap on the surfaces that a light
   // path meets, for mirrors that face each other; Russian roulette ends nearly all paths earlier.
   RSPHERE_TUNED(Caps, size_t, kAsked, 1024);
-  // Rays that measure a mean brightness: on each side of a pane, and around a point in sphere mode. Chosen by
-  // experiment. A mean is then known within 18% if single values vary as much as their mean. For panes, 30%
+  // Rays that measure a mean brightness: on each side of a pane, around a point in sphere mode, and at least
+  // to each opening that may matter there. Chosen by experiment. A mean is then known within 18% if single
+  // values vary as much as their mean. For panes, 30%
   // less: time +30%; 30% more: time +30% (sensors by panes; noise: error 19%, time 4%), because other panes
   // are then found to be openings. For points, 30% less or more: within noise (points beside goal; error 16%,
   // time 7%).

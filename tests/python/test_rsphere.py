@@ -107,6 +107,20 @@ class Contributors(unittest.TestCase):
             with self.assertRaises(rsphere.Error):
                 scene.importance(POINTS, goals)
 
+    def test_importance_of_sensors(self):
+        scene = rsphere.Scene(ROOM)
+        sensors = np.array([[1, 1, .8, 0, 0, 1], [1, 2, 1.2, 1, 0, 0]])
+        answers = scene.importance(POINTS, sensors, ambient_bounces=1, directions=128, bins=6)
+        self.assertEqual(answers.contributors, ["sensor1", "sensor2"])
+        self.assertEqual(answers.bins.shape, (3, 2, 6, 3))
+        one = scene.importance(POINTS, sensors[:1].tolist(), ambient_bounces=1, directions=128)
+        self.assertEqual(one.mean.shape, (3, 1, 3))
+        for goals in ("wall", [[1, 2, 3]], 7):
+            with self.assertRaises((TypeError, ValueError)):
+                scene.importance(POINTS, goals)
+        with self.assertRaisesRegex(rsphere.Error, "sensor 1: the direction that it faces is 0 0 0"):
+            scene.importance(POINTS, [[1, 1, 1, 0, 0, 0]])
+
     def test_lamps(self):
         scene = rsphere.Scene(ROOM)
         whole = scene.sphere(POINTS, directions=64)

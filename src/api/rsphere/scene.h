@@ -27,6 +27,12 @@ struct Ray {
   std::array<double, 3> direction;  // of any length; with -ld, the ray ends at that length
 };
 
+// A sensor or an eye: a place that receives light by the cosine, from the side that it faces.
+struct Sensor {
+  Point point;
+  std::array<double, 3> direction;  // in which it faces; of any length but 0
+};
+
 // A scene that was read from files.
 // 1. It does not change: any threads may call trace() and sphere() on the same scene at once.
 // 2. An answer depends on the scene, the ray or point, and the options. It is the same for any number of
@@ -63,6 +69,15 @@ class RSPHERE_API Scene {
   // are no goals, if one is named twice, or if no surface has one of the modifiers.
   PointAnswers importance(std::span<const Point> points, const std::vector<std::string>& goals,
                           const Options& options = {}) const;
+
+  // The same for sensors or eyes as goals, which are not in the scene: they block and reflect nothing. Each
+  // receives light by the cosine, as rays do with Options::irradianceAtOrigin, and counts as a goal of area
+  // A = 1: a lamp of 1 cd in all directions gives it 4 pi mean (lx). What goes straight from a point to a
+  // sensor, or by way of one mirror, is exact but for a share of the order of 1e-5 / distance (units of the
+  // scene): a sensor is a square with a side of that. PointAnswers::contributors are sensor1, sensor2 and
+  // so on. Throws as importance() does, and if a number is not finite or a direction is 0.
+  PointAnswers importanceOfSensors(std::span<const Point> points, std::span<const Sensor> sensors,
+                                   const Options& options = {}) const;
 
   // Computes glare at eyes: the origin of each ray is an eye, and its direction (of any length) is the gaze;
   // z is up. Throws as trace() does, and if a gaze has no length or is vertical (within 1e-6 rad).

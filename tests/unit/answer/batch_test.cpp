@@ -12,6 +12,7 @@
 #include <optional>
 #include <set>
 
+#include "answer/report_interval.h"
 #include "tests/unit/support/command_line.h"
 
 namespace rsphere {
@@ -370,6 +371,35 @@ TEST(RunRecords, ReportsProgress) {
              [](const Record&, unsigned, std::string&) { std::this_thread::sleep_for(15ms); });
   EXPECT_NE(contents(log.path).find("\nrsphere: 1 records after "), std::string::npos);
   EXPECT_NE(contents(log.path).find(" a second, 100.0% done, 0 seconds left\n"), std::string::npos);
+}
+
+// Also while the first record is in work, which may wait for the coarse solution.
+TEST(RunRecords, ReportsProgressOfASlowRecord) {
+  Options options = parse({"rsphere", "-t", "0.01", "s.oct"});
+  const TemporaryFile in("1 2 3"), out, log;
+  options.messages.errorFile = log.path;
+  Messages messages("rsphere");
+  messages.use(options.messages, "");
+  RecordReader reader(in.descriptor, NumberFormat::ascii, 3);
+  RecordWriter writer(out.descriptor);
+  const auto isReported = [&] {
+    return contents(log.path).find("\nrsphere: no record finished after ") != std::string::npos;
+  };
+  runRecords(reader, writer, options, messages, nullptr, [&](const Record&, unsigned, std::string&) {
+    for (int i = 0; i < 1000 && !isReported(); ++i) std::this_thread::sleep_for(10ms);
+  });
+  EXPECT_TRUE(isReported());
+}
+
+TEST(RunRecords, ReportsByItselfToAPersonAlone) {
+  const double usual = kReportSeconds;
+  EXPECT_EQ(reportSeconds(0, false, {.messages = true}), usual);
+  EXPECT_EQ(reportSeconds(0, true, {.messages = true}), 0);
+  EXPECT_EQ(reportSeconds(2, true, {.messages = true}), 2);
+  EXPECT_EQ(reportSeconds(2, true, {}), 2);
+  EXPECT_EQ(reportSeconds(0, false, {}), 0);
+  EXPECT_EQ(reportSeconds(0, false, {.input = true, .messages = true}), 0);
+  EXPECT_EQ(reportSeconds(0, false, {.output = true, .messages = true}), 0);
 }
 
 // With input from a pipe, the number of records is known only from -y.

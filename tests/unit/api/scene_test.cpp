@@ -402,6 +402,40 @@ TEST(Importance, HasTheBytesOfTheCommand) {
               &a.lightVector, &a.directions, &a.zones, &a.zonesStandardError});
 }
 
+TEST(Importance, OfSensorsHasTheBytesOfTheCommand) {
+  const Scene scene({kRoom});
+  const std::vector<rsphere::Point> points{{.5, .5, 1}, {1.5, 2.5, 2}};
+  const std::vector<rsphere::Sensor> sensors{{{1, 1, .8}, {0, 0, 2}}, {{1, 2, 1.2}, {1, 0, 0}}};
+  const Folder folder;
+  const std::string file = folder.write("sensors", "1 1 .8  0 0 2\n1 2 1.2  1 0 0\n");
+  Options options;
+  options.ambientBounces = 1;
+  options.directions = 256;
+  options.zones = 12;
+  const rsphere::PointAnswers a = scene.importanceOfSensors(points, sensors, options);
+  EXPECT_EQ(a.contributors, (std::vector<std::string>{"sensor1", "sensor2"}));
+  EXPECT_EQ(a.zones.columns, 72u);
+  expectSame(
+      command("rsphere", "-ab 1 -Sn 256 -Sz 12 -SG " + file + " -Sp -oveECHukzZ " + kRoom, numbersOf(points)),
+      a.size,
+      {&a.mean, &a.meanStandardError, &a.scalarIrradiance, &a.cylindricalIrradiance, &a.faceIrradiance,
+       &a.lightVector, &a.directions, &a.zones, &a.zonesStandardError});
+}
+
+TEST(Importance, RefusesSensorsThatAreNone) {
+  const Scene scene({kRoom});
+  const std::vector<rsphere::Point> points{{.5, .5, 1}};
+  const std::vector<rsphere::Sensor> nowhere{{{1, 1, 1}, {0, 0, 1}}, {{1, 1, 1}, {0, 0, 0}}};
+  EXPECT_EQ(faultOf([&] { scene.importanceOfSensors(points, {}); }),
+            "importanceOfSensors() needs at least one sensor");
+  EXPECT_EQ(faultOf([&] { scene.importanceOfSensors(points, nowhere); }),
+            "sensors: sensor 2: the direction that it faces is 0 0 0");
+  Options options;
+  options.arguments = {"-Sw", "h"};
+  EXPECT_EQ(faultOf([&] { scene.importanceOfSensors(points, std::span(nowhere).first(1), options); }),
+            "sensors need -Sw c, which aims at them");
+}
+
 // Goals belong to a call: the scene has its lamps before and after it.
 TEST(Importance, LeavesTheSceneAsItIs) {
   const Scene scene({kRoom});

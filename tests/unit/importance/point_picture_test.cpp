@@ -26,9 +26,10 @@ TEST(PixelMap, LatitudesAndLongitudes) {
   ASSERT_EQ(map.width(), 1024);
   ASSERT_EQ(map.height(), 512);
   const auto at = [&](double x, double y) { return *map.direction(x, y); };
-  EXPECT_LT((at(0, 256) - V3d(1, 0, 0)).length(), 1e-12);
-  EXPECT_LT((at(256, 256) - V3d(0, 1, 0)).length(), 1e-12);
-  EXPECT_LT((at(512, 256) - V3d(-1, 0, 0)).length(), 1e-12);
+  EXPECT_LT((at(512, 256) - V3d(0, 1, 0)).length(), 1e-12);
+  EXPECT_LT((at(768, 256) - V3d(1, 0, 0)).length(), 1e-12);  // who looks along +y has +x on the right
+  EXPECT_LT((at(256, 256) - V3d(-1, 0, 0)).length(), 1e-12);
+  EXPECT_LT((at(0, 256) - V3d(0, -1, 0)).length(), 1e-12);
   EXPECT_LT((at(300, 0) - V3d(0, 0, 1)).length(), 1e-12);
   EXPECT_LT((at(300, 512) - V3d(0, 0, -1)).length(), 1e-12);
 }
