@@ -3,6 +3,7 @@
 #include <ctime>
 #include <exception>
 
+#include "answer/answer_glare.h"
 #include "answer/answer_points.h"
 #include "answer/answer_rays.h"
 #include "answer/answer_writer.h"
@@ -67,11 +68,12 @@ void answer(const Options& given, const Messages& messages, StopSignals& signals
     end.ended = [&] {
       for (const std::string& text : summary.warnings(options.sphere, transport.prepared())) warn(text);
     };
+  const auto checkStop = [&] { signals.check(); };
   runRecords(reader, writer, options, messages, &signals,
-             options.sphereMode ? answerPoints(
-                                      transport, options, answers, warn, summary, [&] { signals.check(); },
-                                      pictureReport(options, messages))
-                                : answerRays(transport, options, answers, warn),
+             !options.sphereMode           ? answerRays(transport, options, answers, warn)
+             : options.sphere.glare.wanted ? answerGlare(transport, options, answers, warn, checkStop)
+                                           : answerPoints(transport, options, answers, warn, summary,
+                                                          checkStop, pictureReport(options, messages)),
              end);
 }
 

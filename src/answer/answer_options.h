@@ -47,8 +47,8 @@ struct AnswerOptions {
   double progressSeconds = 0;  // -t; 0: no progress reports
   bool progressGiven = false;  // -t was given
 
-  // Numbers of an input record: x y z of a point, or origin and direction of a ray.
-  int numbersPerRecord() const { return sphereMode ? 3 : 6; }
+  // Numbers of an input record: x y z of a point, or origin and direction of a ray, or an eye and its gaze.
+  int numbersPerRecord() const { return sphereMode && !sphere.glare.wanted ? 3 : 6; }
 };
 
 }  // namespace rsphere

@@ -62,6 +62,11 @@ void writeLetter(RecordText& text, char letter, const RayAnswer& answer, const O
 }  // namespace
 
 int componentCount(const AnswerOptions& options) {
+  if (options.sphereMode && options.sphere.glare.wanted) {
+    int count = 0;
+    for (const char letter : options.outputs) count += letter == 'o' || letter == 'd' ? 3 : 1;
+    return count;
+  }
   const int parts = std::max<int>(1, static_cast<int>(options.contributors.size()));
   const int color = OutputColors(options.color).count() * parts;
   int count = 0;
@@ -220,6 +225,85 @@ void AnswerWriter::write(std::string& bytes, const PointAnswer& answer) const {
         break;
       case 'Z':
         writeZoneErrors(text, answer);
+        break;
+    }
+  text.end();
+}
+
+void AnswerWriter::write(std::string& bytes, const GlareAnswer& answer) const {
+  RecordText text(bytes, options_.out);
+  for (const char letter : options_.outputs) switch (letter) {
+      case 'o':
+        text.vector(answer.eye);
+        break;
+      case 'd':
+        text.vector(answer.gaze);
+        break;
+      case 'n':
+        text.integer(answer.sources.size());
+        break;
+      case 't':
+        text.number(answer.threshold);
+        break;
+      case 'u':
+        text.number(answer.indices.ugr);
+        break;
+      case 'U':
+        text.number(answer.errors.ugr);
+        break;
+      case 'v':
+        text.number(answer.indices.illuminance);
+        break;
+      case 'V':
+        text.number(answer.errors.illuminance);
+        break;
+      case 'b':
+        text.number(answer.indices.background);
+        break;
+      case 'B':
+        text.number(answer.errors.background);
+        break;
+      case 'g':
+        text.number(answer.indices.dgp);
+        break;
+      case 'G':
+        text.number(answer.errors.dgp);
+        break;
+    }
+  text.end();
+}
+
+void AnswerWriter::write(std::string& bytes, const GlareSource& source, const GlareAnswer& eye,
+                         const Scene& scene, uint64_t record) const {
+  RecordText text(bytes, options_.out);
+  const bool known = source.surface != kNone;
+  for (const char letter : options_.outputs) switch (letter) {
+      case 'i':
+        text.integer(record);
+        break;
+      case 'o':
+        text.vector(eye.eye);
+        break;
+      case 'd':
+        text.vector(source.direction);
+        break;
+      case 'l':
+        text.number(source.luminance);
+        break;
+      case 'L':
+        text.number(source.luminanceError);
+        break;
+      case 'w':
+        text.number(source.solidAngle);
+        break;
+      case 'W':
+        text.number(source.solidAngleError);
+        break;
+      case 'p':
+        text.number(source.positionIndex);
+        break;
+      case 's':
+        text.name(known ? SurfaceName(scene, source.surface).text() : "*");
         break;
     }
   text.end();

@@ -5,6 +5,7 @@
 
 #include "answer/answer_options.h"
 #include "answer/output_colors.h"
+#include "importance/glare_answer.h"
 #include "importance/point_answer.h"
 #include "transport/ray_answer.h"
 
@@ -31,6 +32,13 @@ class AnswerWriter {
 
   // A point of sphere mode.
   void write(std::string& bytes, const PointAnswer& answer) const;
+
+  // An eye (-Su).
+  void write(std::string& bytes, const GlareAnswer& answer) const;
+
+  // A glare source of an eye (-Su -Sd). `record` is the number of the eye's record from 0, for letter i.
+  void write(std::string& bytes, const GlareSource& source, const GlareAnswer& eye, const Scene& scene,
+             uint64_t record) const;
 
  private:
   template <class Write>

@@ -8,13 +8,13 @@
 #include <span>
 #include <utility>
 
+#include "base/constants.h"
 #include "rad_parser/error.h"
 
 namespace rsphere {
 namespace {
 
-constexpr double kPhotopicEfficacy = 179;   // lm/W of equal-energy white, 380 to 780 nm
-constexpr double kScotopicEfficacy = 412;   // the same for V'(lambda)
+constexpr double kScotopicEfficacy = 412;   // lm/W, as kPhotopicEfficacy, for V'(lambda)
 constexpr double kMelanopicEfficacy = 179;  // RADIANCE's choice
 
 // Fractions of V'(lambda) and of the melanopic curve in the parts of the spectrum that red, green and blue

@@ -239,9 +239,12 @@ void RecordReader::readLine(std::string_view line, bool whole) {
   }
   if (count == perRecord_ && whole) return;
   const std::string got = whole ? std::to_string(count) : fmt::format("more than {} bytes", line.size());
-  constexpr int kRay = 6;
+  constexpr int kPoint = 3, kRay = 6;
+  const std::string_view hint = count == kRay && whole     ? "; use -S- for rays"
+                                : count == kPoint && whole ? "; with -Su they are an eye and its gaze"
+                                                           : "";
   throw rad::Error(fmt::format("{}:{}: expected {} {} on a line, got {}{}", name_, line_, perRecord_,
-                               counted(perRecord_), got, count == kRay && whole ? "; use -S- for rays" : ""));
+                               counted(perRecord_), got, hint));
 }
 
 size_t RecordReader::readLines(std::vector<double>& numbers, size_t most) {

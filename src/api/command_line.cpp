@@ -52,7 +52,7 @@ bool isOfOutput(const OptionEntry& entry) {
 }  // namespace
 
 CommandOptions commandOptions(const Options& options, Records records) {
-  const bool rays = records != Records::points;
+  const bool glare = records == Records::glare, rays = records != Records::points && !glare;
   Companion companion;
   if (records == Records::contributions)
     companion.defaults = [](rsphere::Options& o) { setContributionDefaults(o.ray); };
@@ -72,6 +72,7 @@ CommandOptions commandOptions(const Options& options, Records records) {
   words.add("-Sx", options.mostDirections);
   words.add("-Sa", options.accuracy);
   words.add("-Sz", options.zones);
+  if (glare) words.add("-Su+");
   if (!options.outputs.empty()) words.add("-o" + options.outputs);
   words.add("-n", std::optional(options.threads));
   for (const std::string& argument : options.arguments) words.add(argument);
@@ -88,6 +89,7 @@ CommandOptions commandOptions(const Options& options, Records records) {
   if (parsed.scene.size() > 1)
     throw rad::Error(fmt::format("\"{}\" is not an option: options begin with a hyphen", parsed.scene[0]));
   refuse(parsed.sphereMode == rays, "-S", "trace() and contributions() answer rays, and sphere() points");
+  refuse(parsed.sphere.glare.wanted != glare, "-Su", "glare() answers eyes, and sphere() points");
   refuse(!parsed.goals.empty(), "-Sg",
          "goals belong to the scene (SceneOptions), or are those of importance()");
   refuse(!parsed.sensors.empty(), "-SG", "sensors are those of importanceOfSensors()");
@@ -101,7 +103,13 @@ CommandOptions commandOptions(const Options& options, Records records) {
            "contributions are red, green and blue, or bands (-cs)");
   }
   const auto isOutputs = [](const UsedOption& option) { return option.entry->name == "-o"; };
-  if (!rays && std::none_of(used.begin(), used.end(), isOutputs)) {
+  const bool usual = std::none_of(used.begin(), used.end(), isOutputs);
+  if (glare && usual) parsed.outputs = "uUvVbBgGt";
+  refuse(
+      glare && parsed.outputs.find_first_of("odn") != std::string::npos, "-o",
+      "o, d and n are those of the command: eyes and gazes are the caller's, and the list of glare sources "
+      "has its length");
+  if (records == Records::points && usual) {
     const bool zones = parsed.sphere.zones > 0, errors = haveStandardErrors(parsed.color);
     parsed.outputs =
         std::string(errors ? "veECHuk" : "vECHuk") + (zones ? "z" : "") + (zones && errors ? "Z" : "");

@@ -7,7 +7,7 @@
 namespace rsphere::v1 {
 
 // What calls of the library answer.
-enum class Records { rays, points, contributions };
+enum class Records { rays, points, glare, contributions };
 
 // The options of a call as the command's parser reads them.
 struct CommandOptions {

@@ -14,6 +14,7 @@
 #include <mutex>
 #include <thread>
 
+#include "answer/answer_glare.h"
 #include "answer/answer_points.h"
 #include "answer/answer_rays.h"
 #include "answer/answer_writer.h"
@@ -138,9 +139,12 @@ struct Answerer {
     const auto checkStop = [this] {
       if (stop) throw Stopped();
     };
-    answer = options.sphereMode
-                 ? answerPoints(scene->transport, options, writer, warn, summary.emplace(), checkStop)
-                 : answerRays(scene->transport, options, writer, warn);
+    if (options.sphere.glare.wanted)
+      answer = withSources(checkStop);
+    else
+      answer = options.sphereMode
+                   ? answerPoints(scene->transport, options, writer, warn, summary.emplace(), checkStop)
+                   : answerRays(scene->transport, options, writer, warn);
   }
   // For contributions to rays.
   Answerer(std::shared_ptr<PreparedScene> prepared, const rsphere::Options& given,
@@ -164,7 +168,29 @@ struct Answerer {
   std::optional<RayContributions> contributions;
   std::atomic<bool> stop = false;
   AnswerRecord answer;
+
+ private:
+  AnswerRecord withSources(const std::function<void()>& checkStop);
 };
+
+// The letters of a glare source in the order in which takeSources() reads them.
+constexpr const char* kSourceLetters = "dlLwWps";
+
+// Appends the glare sources of an eye to its record.
+AnswerRecord Answerer::withSources(const std::function<void()>& checkStop) {
+  if (isDark(scene->transport.prepared())) warn("no light sources found");
+  const auto workers = std::make_shared<GlareWorkers>(scene->transport, options, checkStop);
+  const auto ofSources = std::make_shared<rsphere::Options>(options);
+  ofSources->outputs = kSourceLetters;
+  ofSources->sphere.everyDirection = true;
+  return [this, workers, ofSources](const Record& record, unsigned worker, std::string& bytes) {
+    const GlareAnswer glare = workers->answer(record, worker);
+    writer.write(bytes, glare);
+    const AnswerWriter list(*ofSources);
+    for (const rsphere::GlareSource& source : glare.sources)
+      list.write(bytes, source, glare, *scene->scene, record.index);
+  };
+}
 
 // Receives the answer to a record: bytes as the command writes them.
 using Keep = std::function<void(size_t record, const std::string& bytes)>;
@@ -261,7 +287,10 @@ void Call::answer(size_t index, unsigned worker, std::string& bytes) {
   for (const double number : numbers_.subspan(index * perRecord_, perRecord_))
     if (!std::isfinite(number))
       throw rad::Error(fmt::format("{}[{}]: {} is not a finite number",
-                                   answerer_.options.sphereMode ? "points" : "rays", index, number));
+                                   answerer_.options.sphere.glare.wanted ? "eyes"
+                                   : answerer_.options.sphereMode        ? "points"
+                                                                         : "rays",
+                                   index, number));
   bytes.clear();
   answerer_.answer(record(index), worker, bytes);
   keep_(index, bytes);
@@ -330,6 +359,12 @@ std::vector<Column> columnsOf(PointAnswers& a) {
           {'o', &a.point}};
 }
 
+std::vector<Column> columnsOf(GlareAnswers& a) {
+  return {{'u', &a.unifiedGlareRating},       {'U', &a.ugrStandardError}, {'v', &a.illuminance},
+          {'V', &a.illuminanceStandardError}, {'b', &a.background},       {'B', &a.backgroundStandardError},
+          {'g', &a.daylightGlareProbability}, {'G', &a.dgpStandardError}, {'t', &a.threshold}};
+}
+
 // The columns of the letters, in their order, with room for the answers.
 std::vector<Column> prepareColumns(const std::vector<Column>& all, const rsphere::Options& options,
                                    size_t records) {
@@ -355,8 +390,8 @@ std::vector<Column> prepareColumns(const std::vector<Column>& all, const rsphere
 }
 
 // Takes a record apart that AnswerWriter has written as float64: numbers as they are, names with a TAB behind
-// them.
-void takeApart(const std::string& bytes, const std::vector<Column>& columns, size_t record) {
+// them. Returns where it ends.
+const char* takeApart(const std::string& bytes, const std::vector<Column>& columns, size_t record) {
   const char* at = bytes.data();
   for (const Column& column : columns) {
     if (Quantity* const q = column.quantity) {
@@ -368,6 +403,21 @@ void takeApart(const std::string& bytes, const std::vector<Column>& columns, siz
     if (column.names) (*column.names)[record].assign(at, end);
     at = end + 1;
   }
+  return at;
+}
+
+// The glare sources that follow the record of an eye, from `at` to `end`.
+std::vector<GlareSource> takeSources(const char* at, const char* end) {
+  std::vector<GlareSource> sources;
+  while (at < end) {
+    std::array<double, 8> n;
+    std::memcpy(n.data(), at, sizeof n);
+    at += sizeof n;
+    const char* const nameEnd = std::find(at, end, '\t');
+    sources.push_back({{n[0], n[1], n[2]}, n[3], n[4], n[5], n[6], n[7], std::string(at, nameEnd)});
+    at = nameEnd + 1;
+  }
+  return sources;
 }
 
 }  // namespace
@@ -485,7 +535,12 @@ Answers Scene::Implementation::answer(std::span<const double> numbers, const Opt
     }
     answers.size = numbers.size() / static_cast<size_t>(parsed.numbersPerRecord());
     const std::vector<Column> columns = prepareColumns(columnsOf(answers), parsed, answers.size);
-    const auto keep = [&](size_t record, const std::string& bytes) { takeApart(bytes, columns, record); };
+    if constexpr (requires { answers.sources; }) answers.sources.resize(answers.size);
+    const auto keep = [&](size_t record, const std::string& bytes) {
+      [[maybe_unused]] const char* const at = takeApart(bytes, columns, record);
+      if constexpr (requires { answers.sources; })
+        answers.sources[record] = takeSources(at, bytes.data() + bytes.size());
+    };
 
     if (answerer->summary) answerer->summary.emplace();
     Call(*answerer, numbers, keep).run(options.stop);
@@ -581,6 +636,11 @@ PointAnswers Scene::importanceOfSensors(std::span<const Point> points, std::span
   const std::span numbers(reinterpret_cast<const double*>(points.data()), 3 * points.size());
   const std::span ofSensors(reinterpret_cast<const double*>(sensors.data()), 6 * sensors.size());
   return implementation_->answer<PointAnswers>(numbers, options, Records::points, {{}, ofSensors});
+}
+
+GlareAnswers Scene::glare(std::span<const Ray> eyes, const Options& options) const {
+  const std::span numbers(reinterpret_cast<const double*>(eyes.data()), 6 * eyes.size());
+  return implementation_->answer<GlareAnswers>(numbers, options, Records::glare);
 }
 
 Contributions Scene::contributions(std::span<const Ray> rays, const std::vector<std::string>& of,

@@ -5,6 +5,9 @@ namespace rsphere {
 
 inline constexpr double kPi = std::numbers::pi, kPerPi = std::numbers::inv_pi;
 
+// RADIANCE's luminous efficacy of white light, lm/W of equal-energy white from 380 to 780 nm.
+inline constexpr double kPhotopicEfficacy = 179;
+
 // Shares of light, cosines, slopes and roughnesses below this are treated as 0. RADIANCE's own figure.
 inline constexpr double kNegligible = 1e-6;
 

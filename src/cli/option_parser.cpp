@@ -251,8 +251,20 @@ void splitTree(Options& options) {
     options.treeOutputs = letters.substr(tree + 1);
 }
 
+// The letters of -o with -Su.
+void checkGlareLetters(const Options& options) {
+  const std::string_view known = options.sphere.everyDirection ? "iodlLwWps" : "oduUvVbBgGnt";
+  for (const char letter : options.outputs)
+    if (known.find(letter) == std::string_view::npos)
+      throw rad::Error(fmt::format("unrecognized output option '{}' (glare): the letters are {}; see -help",
+                                   letter, known));
+  if (options.out == NumberFormat::rgbe)
+    commandLineError("-Su", "indices of glare are no colors: not with -fac");
+}
+
 // Throws rad::Error if a letter of -o does not belong to the mode or to the format of the output.
 void checkLetters(const Options& options) {
+  if (options.sphereMode && options.sphere.glare.wanted) return checkGlareLetters(options);
   const bool points = options.sphereMode && !options.sphere.everyDirection;
   const std::string_view known = !options.sphereMode ? "odvVwWlLcpnNsmMrRxX~"
                                  : points            ? (options.sphere.zones > 0 ? "oveECHukzZ" : "oveECHuk")
@@ -288,8 +300,8 @@ void checkColorOutput(Options& options) {
   if (options.out == NumberFormat::rgbe && oneChannel)
     throw rad::Error("color format incompatible with -pY, -pS, -pM");
   const size_t error = options.outputs.find_first_of("eZ");
-  if (options.sphereMode && !options.sphere.everyDirection && !haveStandardErrors(color) &&
-      error != std::string::npos)
+  if (options.sphereMode && !options.sphere.glare.wanted && !options.sphere.everyDirection &&
+      !haveStandardErrors(color) && error != std::string::npos)
     throw rad::Error(fmt::format(
         "-o{} needs {}", options.outputs[error],
         color.bands > 3 ? "-co or -pY with -cs above 3: standard errors are those of bands, or of luminance"
@@ -348,9 +360,30 @@ void checkParts(const Options& options) {
     commandLineError("-Sp", "an ambient file (-af) does not keep the parts of light");
 }
 
+// -Su
+void checkGlare(const Options& options) {
+  const SphereOptions& sphere = options.sphere;
+  if (!sphere.glare.wanted) return;
+  const auto refuse = [](bool given, std::string_view name, std::string_view why) {
+    if (given) commandLineError(name, fmt::format("not with -Su: {}", why));
+  };
+  if (!options.sphereMode) commandLineError("-Su", "needs sphere mode (-S)");
+  refuse(!options.goals.empty(), "-Sg", "goals emit importance, which does not glare");
+  refuse(!options.sensors.empty(), "-SG", "goals emit importance, which does not glare");
+  refuse(options.separate, "-Sp", "indices of glare have no parts");
+  refuse(sphere.basicRadiance, "-Sb", "glare is that of radiance");
+  refuse(sphere.zones > 0, "-Sz", "zones are those of means");
+  refuse(sphere.accuracy > 0, "-Sa", "more directions (-Sn) reduce the errors");
+  refuse(sphere.clamp > 0, "-Sf", "the clamp is for means");
+  refuse(sphere.weights != Weights::silhouettes, "-Sw",
+         "it needs light sources that are integrated apart (c)");
+  refuse(!options.picture.empty(), "-Si", "pictures are those of points");
+}
+
 void checkTogether(Options& options, bool mostGiven) {
   checkParts(options);
   checkSensors(options);
+  checkGlare(options);
   if (options.ray.fieldMemory > 0 && !options.ray.ambientFile.empty())
     throw rad::Error("-Sm and -af exclude each other: an ambient file is kept in memory as a whole");
   if (!options.sphereMode) return;
@@ -410,6 +443,14 @@ struct Given {
     return std::any_of(uses.begin(), uses.end(), [&](const Use& use) { return use.entry->name == name; });
   }
 };
+
+// The letters of -o where it is not given.
+std::string_view usualOutputs(const Options& options) {
+  if (!options.sphereMode) return "v";
+  const SphereOptions& sphere = options.sphere;
+  if (sphere.glare.wanted) return sphere.everyDirection ? "idlwps" : "uvbg";
+  return sphere.everyDirection ? "odwv" : "v";
+}
 
 // Takes the option that `word` names, with the words after it.
 Use takeUse(Words& words, const Companion& companion, const std::string& word) {
@@ -491,8 +532,7 @@ std::vector<Use> parse(std::span<const std::string> commandLine, const Companion
   options.words.assign(words.before().begin(), words.before().end());
   for (const Use& use : given.uses)
     if (use.entry->name != "-S") apply(use, options);
-  if (options.outputs.empty())
-    options.outputs = options.sphereMode && options.sphere.everyDirection ? "odwv" : "v";
+  if (options.outputs.empty()) options.outputs = usualOutputs(options);
   const bool answers = options.request == Request::answers;
   if (answers) options.scene = takeScene(words);
   options.progressGiven = given.has("-t");

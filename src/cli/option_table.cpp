@@ -63,6 +63,23 @@ void setOutputs(Options& options, const OptionEntry&, std::span<const std::strin
   options.outputs = rest;
 }
 
+void setTask(Options& options, const OptionEntry& entry, std::span<const std::string> words,
+             std::string_view) {
+  const auto number = [&](const std::string& word, double least, double most) {
+    const auto x = rad::parseReal(word);
+    if (!x) notReal(entry.name, word);
+    if (*x < least || *x > most)
+      commandLineError(entry.name, fmt::format("{} is not from {} to {} degrees", *x, least, most));
+    return *x;
+  };
+  options.sphere.glare.taskBelow = number(words[0], -90, 90);
+  options.sphere.glare.taskOpening = number(words[1], 0, 180);
+}
+
+std::string taskLine(const Options& o) {
+  return fmt::format("-Sut {:g} {:g}\t\t\t", o.sphere.glare.taskBelow, o.sphere.glare.taskOpening);
+}
+
 void setThreads(Options& options, const OptionEntry& entry, std::span<const std::string> words,
                 std::string_view) {
   const auto n = rad::parseInteger(words[0]);
@@ -986,7 +1003,47 @@ void addAnswerOptions(const Add& add) {
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.sphere.everyDirection; },
        .remark = "every direction|mean of directions",
-       .paragraph = "Toggles a record for every direction instead of the mean of a point; see OUTPUT."});
+       .paragraph =
+           "Toggles a record for every direction instead of the mean of a point; with -Su, for every "
+           "glare source of an eye. See OUTPUT."});
+}
+
+// Glare at an eye.
+void addGlareOptions(const Add& add) {
+  add({.name = "-Su",
+       .group = Group::sphere,
+       .value = +[](O& o) -> bool& { return o.sphere.glare.wanted; },
+       .remark = "glare at an eye|means at a point",
+       .paragraph =
+           "Toggles glare instead of means. A record is then an eye and its gaze: six numbers, the place and "
+           "the direction in which it looks, which is not vertical; z is up. The answer is the unified glare "
+           "rating, the illuminance at the eye (lx), the luminance of the background (cd/m2), and the "
+           "daylight glare probability; with -Sd, the list of the glare sources. See OUTPUT. Eight sets of "
+           "-Sn base directions and those for special objects are averaged, and their differences give the "
+           "standard errors. Not with -Sa, -Sb, -Sf, -Sg, -SG, -Si, -Sp, -Sw h, -Sw v, -Sz."});
+  add({.name = "-Sub",
+       .arguments = "factor",
+       .group = Group::sphere,
+       .value = +[](O& o) -> double& { return o.sphere.glare.threshold; },
+       .range = kNotNegative,
+       .remark = "threshold of glare sources",
+       .paragraph =
+           "What is brighter than this is a glare source, besides the light sources, which always are. Above "
+           "100 it is a luminance in cd/m2; otherwise a factor on the mean luminance of the task (-Sut), or "
+           "without a task on that of all directions in front of the eye, as in evalglare."});
+  add({.name = "-Sut",
+       .arguments = "below opening",
+       .group = Group::sphere,
+       .value = Custom{setTask},
+       .range = {-90, 180},
+       .unit = "degrees",
+       .remark = "task: angle below the gaze, opening",
+       .paragraph =
+           "The task: a disk of directions, as of a screen or a book, whose middle lies `below` degrees "
+           "under the line of sight and which is `opening` degrees wide. Its mean luminance, times -Sub of "
+           "at most 100 (usually 5), is the threshold of glare sources. An opening of 0 means that there is "
+           "no task.",
+       .line = taskLine});
 }
 
 // Options of rsphere that hold in ray mode as well.
@@ -1092,8 +1149,8 @@ std::vector<OptionEntry> makeTable() {
        {addRecordOptions,    addFormatOptions,    addColorOptions,   addRayOptions,       addShadowOptions,
         addSourceOptions,    addSpecularOptions,  addAmbientOptions, addGatheringOptions, addMediumOptions,
         addSpectrumOptions,  addLimitOptions,     addPhotonOptions,  addModifierOptions,  addTreeOptions,
-        addProgramOptions,   addDirectionOptions, addWeightOptions,  addAnswerOptions,    addBothModesOptions,
-        addInspectionOptions})
+        addProgramOptions,   addDirectionOptions, addWeightOptions,  addAnswerOptions,    addGlareOptions,
+        addBothModesOptions, addInspectionOptions})
     addOptions([&table](const OptionEntry& entry) { table.push_back(entry); });
   return table;
 }

@@ -48,12 +48,43 @@ constexpr std::array kLetterNames = {
     LetterName{'Z', "zone_errors"},
 };
 
-std::string_view letterName(char letter, bool sphereRecord) {
-  if (sphereRecord && letter == 'o') return "point";
-  if (sphereRecord && letter == 'v') return "mean_radiance";
-  for (const LetterName& known : kLetterNames)
+// Those of -Su that differ.
+constexpr std::array kGlareLetterNames = {
+    LetterName{'o', "eye"},
+    LetterName{'d', "gaze"},
+    LetterName{'u', "UGR"},
+    LetterName{'v', "illuminance"},
+    LetterName{'b', "background"},
+    LetterName{'g', "DGP"},
+    LetterName{'U', "UGR_error"},
+    LetterName{'V', "illuminance_error"},
+    LetterName{'B', "background_error"},
+    LetterName{'G', "DGP_error"},
+    LetterName{'n', "glare_sources"},
+    LetterName{'t', "threshold"},
+};
+// And of its list of glare sources (-Sd).
+constexpr std::array kSourceLetterNames = {
+    LetterName{'o', "eye"},         LetterName{'l', "luminance"},         LetterName{'L', "luminance_error"},
+    LetterName{'w', "solid_angle"}, LetterName{'W', "solid_angle_error"}, LetterName{'p', "position_index"},
+};
+
+std::string_view nameIn(std::span<const LetterName> names, char letter) {
+  for (const LetterName& known : names)
     if (known.letter == letter) return known.name;
   return "";
+}
+
+std::string_view letterName(char letter, const Options& options) {
+  if (options.sphereMode && options.sphere.glare.wanted) {
+    const auto name = options.sphere.everyDirection ? nameIn(kSourceLetterNames, letter)
+                                                    : nameIn(kGlareLetterNames, letter);
+    if (!name.empty()) return name;
+  }
+  const bool sphereRecord = options.sphereMode && !options.sphere.everyDirection;
+  if (sphereRecord && letter == 'o') return "point";
+  if (sphereRecord && letter == 'v') return "mean_radiance";
+  return nameIn(kLetterNames, letter);
 }
 
 // The remark after '#' in -defaults, which may depend on the values.
@@ -74,9 +105,7 @@ std::string remarkOf(const OptionEntry& entry, const Options& options) {
     std::string remark(entry.remark);
     const std::string_view tree = options.treeShadows || !options.treeOutputs.empty() ? "t" : "";
     for (const char letter : fmt::format("{}{}{}", options.outputs, tree, options.treeOutputs))
-      if (const auto name = letterName(letter, options.sphereMode && !options.sphere.everyDirection);
-          !name.empty())
-        remark += fmt::format(" {}", name);
+      if (const auto name = letterName(letter, options); !name.empty()) remark += fmt::format(" {}", name);
     return remark;
   }
   return std::string(entry.remark);

@@ -138,6 +138,7 @@ void refuseWhatPointsHave(const CompareOptions& options) {
   if (options.separate) throw rad::Error("-Sp: sums are compared, not the parts of contributors");
   if (!options.goals.empty() || options.sphere.basicRadiance)
     throw rad::Error("-Sg and -Sb: the original does not compute importance");
+  if (options.sphere.glare.wanted) throw rad::Error("-Su: rtrace does not compute glare");
   if (!options.ray.sourcesVisible)
     throw rad::Error("-dv-: the original's irradiance includes the light of sources; compare rays");
 }

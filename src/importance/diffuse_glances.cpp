@@ -26,9 +26,9 @@ size_t glancesFor(const SphereOptions& options) {
   return std::min(Tuning::kPerDirection * base, std::max(base, Tuning::kMostGlances));
 }
 
-// With -Sa, sets of directions use different pools of light vertices, so that the error of the vertices is
-// averaged too.
-size_t poolsFor(const SphereOptions& options) { return options.accuracy > 0 ? 8 : 1; }
+size_t poolsFor(const SphereOptions& options) {
+  return options.accuracy > 0 || options.glare.wanted ? DiffuseGlances::kPools : 1;
+}
 
 size_t pathsFor(const SphereOptions& options) {
   const double finer = options.accuracy > 0 ? Tuning::kUsualAccuracy / options.accuracy : 0;
@@ -149,7 +149,7 @@ DiffuseGlances::Found DiffuseGlances::at(const SetAtPoint& set) const {
   const SpectralSampling* const sampling = prepared_.options().sampling;
   Records records(zones_ ? zones_->count() : 1);
   for (VertexLight::Record& record : records) record.sampling = sampling;
-  Found found(zones_.get());
+  Found found(zones_.get(), set.gaze());
   addJoins(set, joins, records, found);
 
   Glancing glancing{both, randomOf(set, Stream::glances), &joins, nullptr, 4 * kPi / n};

@@ -20,6 +20,10 @@ namespace rsphere {
 // Shared by all threads.
 class DiffuseGlances {
  public:
+  // With -Sa and -Su, sets of directions use this number of pools of light vertices in turn, so that the
+  // error of the vertices is averaged too.
+  static constexpr size_t kPools = 8;
+
   // Null if paths from both ends miss some of the light (PlainSurfaces::obstacle()). Keeps references.
   static std::unique_ptr<const DiffuseGlances> make(const PreparedScene& prepared,
                                                     const SphereOptions& options, const BaseSet& base);
@@ -29,7 +33,9 @@ class DiffuseGlances {
 
   // The result of one set of glances and joins at its point.
   struct Found {
-    explicit Found(const EqualZones* zones = nullptr) : moments(zones), ofZones(zones) {}
+    // gaze: Moments::gaze.
+    explicit Found(const EqualZones* zones = nullptr, const std::optional<V3d>& gaze = {})
+        : moments(zones, gaze), ofZones(zones) {}
     Moments moments;     // of the light
     Variance variance;   // of moments.total, due to choosing glances and joins; 0 unless errors are wanted
     SharedError shared;  // of moments.total, due to the light vertices; empty unless errors are wanted

@@ -123,12 +123,17 @@ SampledSet joined(std::vector<KeptSet> sets, const TwoHalves& halves, const Irra
   return all;
 }
 
-// An allowance for the error of the coarse solution, which all points of a run share.
-Variance coarseVariance(const Irradiance& total, const RayOptions& o) {
+// The relative error of the coarse solution, which all points of a run share.
+double coarseError(const RayOptions& o) {
   using Tuning = tuning::ErrorEstimate;
   const double rays = std::max(o.ambientDivisions + o.ambientSuperSamples, o.leastForPatches);
-  return Variance::of(total, o.sampling) *
-         (Tuning::kPatches * Tuning::kPatches * (1 + Tuning::kUsualRays / std::max(rays, 1.)));
+  return Tuning::kPatches * std::sqrt(1 + Tuning::kUsualRays / std::max(rays, 1.));
+}
+
+// An allowance for it.
+Variance coarseVariance(const Irradiance& total, const RayOptions& o) {
+  const double error = coarseError(o);
+  return Variance::of(total, o.sampling) * (error * error);
 }
 
 // Rounding may leave a variance a little below 0.
@@ -175,6 +180,10 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
   strategy_ = makeStrategy();
   if (options.accuracy > 0)
     dark_ = 4 * std::numbers::pi * tuning::Dark::kShare * typicalRadiance(tracing_, sources_);
+}
+
+double SphereEstimator::sharedError() const {
+  return tracing_.caches.coarse ? coarseError(tracing_.prepared.options()) : 0;
 }
 
 std::unique_ptr<const SamplingStrategy> SphereEstimator::makeStrategy() const {

@@ -60,6 +60,17 @@ class SphereEstimator {
   // after tuning::Dark::kSets sets.
   PointAnswer estimate(const V3d& point, Workspace& workspace) const;
 
+  // One set of directions, independent of those of other numbers up to DiffuseGlances::kPools, and its
+  // integrals. Their mean over sets is an estimate as that of estimate().
+  SampledSet sampleSet(const SetAtPoint& set, Workspace& workspace) const {
+    return strategy_->sample(set, workspace.tracer, workspace.voronoi_);
+  }
+  Moments momentsOf(const SampledSet& sampled, const SetAtPoint& set) const {
+    return sampled.moments(base_, set.gaze());
+  }
+  // The relative standard error that all sets and points share: that of the coarse solution (-aa above 0).
+  double sharedError() const;
+
   const SeenSources& sources() const { return sources_; }
 
  private:

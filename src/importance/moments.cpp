@@ -30,6 +30,7 @@ void Moments::add(const V3d& d, const Irradiance& part, const SpectralSampling* 
   for (int axis = 0; axis < 3; ++axis)
     facing[2 * axis + (d[axis] < 0)].color.addScaled(part.color, std::abs(d[axis]));
   light += photopicOf(part.color, sampling) * d;
+  if (gaze) atEye.color.addScaled(part.color, std::max(0., d.dot(*gaze)));
 }
 
 void Moments::add(const Moments& other, double share) {
@@ -37,6 +38,7 @@ void Moments::add(const Moments& other, double share) {
   cylindrical += other.cylindrical * share;
   for (int i = 0; i < 6; ++i) facing[i] += other.facing[i] * share;
   light += other.light * share;
+  atEye += other.atEye * share;
   for (size_t i = 0; i < other.ofZones.size(); ++i) {
     ofZones[i] += other.ofZones[i] * share;
     borders[i].addScaled(other.borders[i], share * share);

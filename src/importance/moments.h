@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "importance/point_answer.h"
@@ -13,14 +14,17 @@ struct Moments {
   Irradiance cylindrical;  // of L sin(angle to z)
   Irradiance facing[6];    // of L |cos(angle to the axis)| over the hemispheres around +x -x +y -y +z -z
   V3d light{0, 0, 0};      // of photopicOf(L) d, W/m2
+  // atEye: of L max(0, d . gaze), if somebody looks along the line of sight `gaze` (unit).
+  std::optional<V3d> gaze;
+  Irradiance atEye;
   // ofZones: integrals of L over each zone (-Sz). borders: the variance due to cells that cross the borders
   // of zones.
   const EqualZones* zones = nullptr;  // null: there are none
   std::vector<Irradiance> ofZones;
   std::vector<Color> borders;
 
-  explicit Moments(const EqualZones* by = nullptr)
-      : zones(by), ofZones(by ? by->count() : 0), borders(by ? by->count() : 0) {}
+  explicit Moments(const EqualZones* by = nullptr, const std::optional<V3d>& towards = {})
+      : gaze(towards), zones(by), ofZones(by ? by->count() : 0), borders(by ? by->count() : 0) {}
 
   // Adds one direction. part: its radiance times its solid angle. sampling: RayOptions::sampling. cell: the
   // solid angle (sr) around the direction that it represents, which is divided among zones; 0: a point.

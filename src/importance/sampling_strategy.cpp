@@ -4,8 +4,9 @@
 
 namespace rsphere {
 
-SetAtPoint::SetAtPoint(const V3d& point, uint64_t number, uint64_t rotation)
+SetAtPoint::SetAtPoint(const V3d& point, uint64_t number, uint64_t rotation, const std::optional<V3d>& gaze)
     : point_(point),
+      gaze_(gaze),
       number_(number),
       seed_(seedOf(std::initializer_list<double>{point.x, point.y, point.z},
                    mixBits(rotation + (number << 32)))) {}
@@ -15,8 +16,8 @@ std::vector<V3d> SetAtPoint::turned(std::span<const V3d> directions) const {
   return rotatedDirections(directions, mixBits(seed_));
 }
 
-Moments SampledSet::moments(const BaseSet& base) const {
-  Moments moments(base.zones.get());
+Moments SampledSet::moments(const BaseSet& base, const std::optional<V3d>& gaze) const {
+  Moments moments(base.zones.get(), gaze);
   for (const DirectionSample& s : samples)
     moments.add(s.direction, irradianceFrom(s.value, s.solidAngle), base.sampling, s.solidAngle,
                 !s.toSource && s.region == 0);

@@ -1,6 +1,7 @@
 #pragma once
 // Strategies of choosing and weighting directions (-Sw), and one set of directions at a point.
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,10 +17,11 @@ namespace rsphere {
 // One of the sets of directions that are averaged at a point.
 class SetAtPoint {
  public:
-  // point: world. number: of the sets at this point, from 0. rotation: -Sr.
-  SetAtPoint(const V3d& point, uint64_t number, uint64_t rotation);
+  // point: world. number: of the sets at this point, from 0. rotation: -Sr. gaze: Moments::gaze.
+  SetAtPoint(const V3d& point, uint64_t number, uint64_t rotation, const std::optional<V3d>& gaze = {});
 
   const V3d& point() const { return point_; }
+  const std::optional<V3d>& gaze() const { return gaze_; }
 
   uint64_t number() const { return number_; }
 
@@ -34,6 +36,7 @@ class SetAtPoint {
 
  private:
   V3d point_;
+  std::optional<V3d> gaze_;
   uint64_t number_, seed_;
 };
 
@@ -49,8 +52,8 @@ struct SampledSet {
   std::vector<SharedError> sharedByZone;  // in addition to ofZones; empty: none
   size_t litGlances = 0;                  // glances that found light (diffuse_glances.h)
 
-  // The set's estimate of the integrals over all directions.
-  Moments moments(const BaseSet& base) const;
+  // The set's estimate of the integrals over all directions. gaze: that of its SetAtPoint.
+  Moments moments(const BaseSet& base, const std::optional<V3d>& gaze = {}) const;
 };
 
 // Traces each direction once and gives it its solid angle (sr). The random numbers of direction i

@@ -126,7 +126,7 @@ SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, 
 SilhouetteWeights::View SilhouetteWeights::viewFrom(const SetAtPoint& set, PathTracer& tracer) const {
   const size_t base = base_.directions.size(), most = static_cast<size_t>(options_.mostDirections);
   View view;
-  view.glanced = DiffuseGlances::Found(base_.zones.get());
+  view.glanced = DiffuseGlances::Found(base_.zones.get(), set.gaze());
   view.images =
       sources_.findImages(set.point(), raysToImages(base, most > base ? most - base : 0, glances_ != nullptr),
                           options_.densityFactor);

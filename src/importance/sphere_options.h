@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "glare/glare_options.h"
+
 namespace rsphere {
 
 // How the directions of a point are weighted.
@@ -22,6 +24,7 @@ struct SphereOptions {
   uint64_t rotation = 0;                   // -Sr
   int zones = 0;                           // -Sz  of equal solid angle (sphere/equal_zones.h); 0: none
   bool verify = false;                     // -Sv
+  GlareOptions glare;                      // -Su -Sub -Sut
 
   // The rays of patches of the coarse solution, as RayOptions::leastForPatches. Their number grows with that
   // of the directions and with the accuracy, so that the error that all points share falls with the error of

@@ -185,6 +185,66 @@ py::object importance(const py::object& self, const py::object& given, const py:
   return arraysOf(withoutLock(options, [&] { return scene.importanceOfSensors(points, sensors, options); }));
 }
 
+// Eyes and gazes of arrays; one gaze serves all eyes.
+std::vector<Ray> eyesOf(const Numbers& eyes, const Numbers& gazes) {
+  const std::span<const Point> places = recordsOf<Point>(eyes, "eyes");
+  const bool one = gazes.ndim() == 1 && gazes.shape(0) == 3;
+  if (!one && (gazes.ndim() != 2 || gazes.shape(1) != 3 || gazes.shape(0) != eyes.shape(0)))
+    throw py::value_error("gazes must be an array of shape (n, 3) as eyes, or one gaze of three numbers");
+  std::vector<Ray> rays;
+  for (size_t i = 0; i < places.size(); ++i) {
+    const double* const gaze = gazes.data() + (one ? 0 : 3 * i);
+    rays.push_back({places[i], {gaze[0], gaze[1], gaze[2]}});
+  }
+  return rays;
+}
+
+py::object sourcesOf(const std::vector<GlareSource>& sources) {
+  Quantity directions{3, {}};
+  py::dict arrays;
+  std::vector<std::string> surfaces;
+  const auto add = [&](const char* name, double GlareSource::*member) {
+    Quantity quantity{1, {}};
+    for (const GlareSource& source : sources) quantity.numbers.push_back(source.*member);
+    arrays[name] = arrayOf(std::move(quantity), sources.size());
+  };
+  for (const GlareSource& source : sources) {
+    directions.numbers.insert(directions.numbers.end(), source.direction.begin(), source.direction.end());
+    surfaces.push_back(source.surface);
+  }
+  arrays["direction"] = arrayOf(std::move(directions), sources.size());
+  add("luminance", &GlareSource::luminance);
+  add("luminance_standard_error", &GlareSource::luminanceStandardError);
+  add("solid_angle", &GlareSource::solidAngle);
+  add("solid_angle_standard_error", &GlareSource::solidAngleStandardError);
+  add("position_index", &GlareSource::positionIndex);
+  arrays["surface"] = py::cast(surfaces);
+  return answersObject(arrays);
+}
+
+py::object glare(const py::object& self, const py::object& eyes, const py::object& gazes,
+                 const py::kwargs& keywords) {
+  const Scene& scene = sceneOf(self);
+  const std::vector<Ray> rays = eyesOf(numbersOf(eyes, "eyes"), numbersOf(gazes, "gazes"));
+  Options options = optionsOf(keywords);
+  options.stop = interrupted;
+  GlareAnswers a = withoutLock(options, [&] { return scene.glare(rays, options); });
+  py::dict arrays;
+  arrays["ugr"] = arrayOf(std::move(a.unifiedGlareRating), a.size);
+  arrays["ugr_standard_error"] = arrayOf(std::move(a.ugrStandardError), a.size);
+  arrays["illuminance"] = arrayOf(std::move(a.illuminance), a.size);
+  arrays["illuminance_standard_error"] = arrayOf(std::move(a.illuminanceStandardError), a.size);
+  arrays["background"] = arrayOf(std::move(a.background), a.size);
+  arrays["background_standard_error"] = arrayOf(std::move(a.backgroundStandardError), a.size);
+  arrays["dgp"] = arrayOf(std::move(a.daylightGlareProbability), a.size);
+  arrays["dgp_standard_error"] = arrayOf(std::move(a.dgpStandardError), a.size);
+  arrays["threshold"] = arrayOf(std::move(a.threshold), a.size);
+  py::list sources;
+  for (const std::vector<GlareSource>& ofEye : a.sources) sources.append(sourcesOf(ofEye));
+  arrays["sources"] = sources;
+  return answersObject(arrays);
+}
+
 // A number of zones, or a dict with the members of Bins by their names.
 Bins binsOf(const py::object& given) {
   Bins bins;
@@ -357,6 +417,18 @@ By reciprocity, a lamp at the point of 1 cd in all directions gives a goal of ar
 4 pi mean / A (lx), and a small downlight of cos(angle to -z) cd gives it face_irradiance[:, :, 5] / A.
 )";
 
+constexpr const char* kGlare = R"(Computes glare at eyes.
+
+eyes: an array (n, 3). gazes: the directions in which they look, (n, 3), or one (3,) for all; not vertical, z
+is up. Returns an object with an array (n,) for each letter of outputs (all if not given), None for others:
+u ugr: unified glare rating (CIE 117), v illuminance at the eye (lx), b background luminance (cd/m2),
+g dgp: daylight glare probability (Wienold and Christoffersen 2006), U V B G their standard errors:
+ugr_standard_error, ...; t threshold of glare sources (cd/m2).
+sources: for each eye an object with an array (k,) of each figure of its k glare sources, the worst first:
+direction (k, 3), luminance (cd/m2), luminance_standard_error, solid_angle (sr), solid_angle_standard_error,
+position_index, surface (a list of names). Sub=..., Sut=(below, opening): threshold and task.
+)";
+
 constexpr const char* kContributions =
     R"(Computes what modifiers contribute to rays: an array of shape (n, 6), origins and directions.
 
@@ -378,6 +450,7 @@ PYBIND11_MODULE(rsphere, m) {
   addError(m);
   const std::string traceText = std::string(kTrace) + kOptions, sphereText = std::string(kSphere) + kOptions,
                     importanceText = std::string(kImportance) + kOptions,
+                    glareText = std::string(kGlare) + kOptions,
                     contributionsText = std::string(kContributions) + kOptions;
   py::class_<Scene>(m, "Scene", kScene)
       .def(py::init(&readScene), py::arg("files"), py::kw_only(), py::arg("commands") = true,
@@ -385,6 +458,7 @@ PYBIND11_MODULE(rsphere, m) {
       .def("trace", &trace, py::arg("rays"), traceText.c_str())
       .def("sphere", &sphere, py::arg("points"), sphereText.c_str())
       .def("importance", &importance, py::arg("points"), py::arg("goals"), importanceText.c_str())
+      .def("glare", &glare, py::arg("eyes"), py::arg("gazes"), glareText.c_str())
       .def("contributions", &contributions, py::arg("rays"), py::arg("of"), py::kw_only(),
            py::arg("bins") = py::none(), py::arg("samples") = 8, py::arg("coefficients") = false,
            contributionsText.c_str());

@@ -340,6 +340,7 @@ void runTrade(const TradeOptions& options, std::span<const UsedOption> used, con
   if (options.scene.size() < 2)
     throw rad::Error("missing argument: a scene and a file of points are needed; see -help");
   if (!options.sphereMode) throw rad::Error("-S-: only settings of sphere mode can be measured");
+  if (options.sphere.glare.wanted) throw rad::Error("-Su: the errors of glare are stated by -oUVBG");
   if (options.separate) throw rad::Error("-Sp: errors are those of sums, not of the parts of contributors");
   requireSvgName("-Tp", options.plot, "the plot");
   Trade(options, used, messages, signals).run();

@@ -157,6 +157,48 @@ class Contributors(unittest.TestCase):
             rsphere.zone_middles(0)
 
 
+class Glare(unittest.TestCase):
+    EYES = np.array([[0.5, 1.3, 1.2], [0.9, 1.3, 1.2], [1.3, 1.3, 1.2], [1.5, 1.0, 1.0]])
+    GAZES = np.array([[1, 0, 0.5], [0, 1, 0.5], [-1, 0.2, 0], [0.3, -1, 0.5]])
+
+    def test_is_that_of_the_command(self):
+        scene = rsphere.Scene(ROOM)
+        answers = scene.glare(self.EYES, self.GAZES, ambient_bounces=1, directions=64)
+        columns = "ugr illuminance background dgp".split()
+        found = np.stack([getattr(answers, c + e) for c in columns for e in ("", "_standard_error")], axis=1)
+        records = np.hstack([self.EYES, self.GAZES])
+        options = "-Su -ab 1 -Sn 64".split()
+        self.assertEqual(found.tobytes(), command("rsphere", [*options, "-ouUvVbBgG"], records))
+        np.testing.assert_array_equal(answers.threshold, [2000] * 4)
+        rows = [
+            np.column_stack([s.direction, s.luminance, s.luminance_standard_error, s.solid_angle,
+                             s.solid_angle_standard_error, s.position_index])
+            for s in answers.sources
+        ]
+        self.assertEqual(np.vstack(rows).tobytes(), command("rsphere", [*options, "-Sd", "-odlLwWp"], records))
+        self.assertEqual(len(answers.sources), 4)
+        names = [name for s in answers.sources for name in s.surface]
+        self.assertEqual(len(names), sum(map(len, rows)))
+        self.assertLessEqual({"lamp1", "lamp2"}, set(names))
+
+    def test_one_gaze_for_all(self):
+        scene = rsphere.Scene(ROOM)
+        one = scene.glare(self.EYES, [0, 1, 0], directions=64, Sub=5, Sut=(30, 20), outputs="ut")
+        all_ = scene.glare(self.EYES, np.tile([0, 1, 0], (4, 1)), directions=64, Sub=5, Sut=(30, 20), outputs="ut")
+        np.testing.assert_array_equal(one.ugr, all_.ugr)
+        np.testing.assert_array_equal(one.threshold, all_.threshold)
+        self.assertIsNone(one.dgp)
+        for gazes in ([0, 1], np.zeros((3, 3)), [[0, 1, 0]], np.zeros((4, 2))):
+            with self.assertRaises(ValueError):
+                scene.glare(self.EYES, gazes)
+        with self.assertRaises(ValueError):
+            scene.glare([0, 1, 2], [0, 1, 0])
+        with self.assertRaises(rsphere.Error):
+            scene.glare(self.EYES, [0, 0, 1])
+        nobody = scene.glare(np.empty((0, 3)), [0, 1, 0])
+        self.assertEqual((nobody.ugr.shape, nobody.sources), ((0,), []))
+
+
 class Arrays(unittest.TestCase):
     def test_other_layouts_and_types(self):
         scene = rsphere.Scene(ROOM)
@@ -331,7 +373,7 @@ class Page(unittest.TestCase):
         with open(os.path.join(TESTS, "../examples/python/README.md")) as file:
             page = file.read()
         programs = re.findall(r"```python\n(.*?)```", page, re.S)
-        self.assertEqual(len(programs), 2)
+        self.assertEqual(len(programs), 3)
         lines = re.findall(r"\| `([^|`]*scene\.trace[^|`]*)` \|$", page, re.M)
         self.assertEqual(len(lines), 6)
         rays, options = some_rays(), "-ab 1 -ad 32 -fdd -h".split()
@@ -353,6 +395,8 @@ class Page(unittest.TestCase):
                 names["scene"] = rsphere.Scene("room.rad")
                 exec(programs[1], names)  # pylint: disable=exec-used
                 self.assertIn("(2, 2, 12, 3) (2, 2, 12, 3)", printed.getvalue())
+                exec(programs[2], names)  # pylint: disable=exec-used
+                self.assertRegex(printed.getvalue(), "\nlamp2 ")
                 shutil.copy(ROOM, "room.rad")
                 values = {
                     "scene": rsphere.Scene("room.rad"),

@@ -71,6 +71,34 @@ struct PointAnswers {
   Quantity point;               // o
 };
 
+// A glare source as an eye sees it.
+struct GlareSource {
+  std::array<double, 3> direction{};  // of the middle of its light, unit
+  double luminance = 0;               // mean (cd/m2)
+  double luminanceStandardError = 0;
+  double solidAngle = 0;  // of the part in view (sr)
+  double solidAngleStandardError = 0;
+  double positionIndex = 1;  // of Guth; below the line of sight that of Iwata
+  std::string surface;       // the light source, or the surface that most of the light comes from; "*": none
+};
+
+// Glare at eyes, by the letters of Options::outputs. Luminances are in cd/m2 and illuminances in lx, whatever
+// colors the options ask for. Definitions and sources: GLARE in man/rsphere.1.
+struct GlareAnswers {
+  size_t size = 0;                    // the number of eyes
+  Quantity unifiedGlareRating;        // u  UGR, CIE 117; 0 without glare sources, infinite before black
+  Quantity ugrStandardError;          // U  estimated, as the other standard errors
+  Quantity illuminance;               // v  at the eye, in a plane perpendicular to its gaze
+  Quantity illuminanceStandardError;  // V
+  Quantity background;                // b  luminance of the background: that of the rest of the illuminance
+  Quantity backgroundStandardError;   // B
+  Quantity daylightGlareProbability;  // g  DGP, Wienold and Christoffersen 2006, 0 to 1
+  Quantity dgpStandardError;          // G
+  Quantity threshold;                 // t  luminance above which regions are glare sources
+  // For each eye, the glare sources in the order of their weights L^2 omega / P^2, the largest first.
+  std::vector<std::vector<GlareSource>> sources;
+};
+
 // What modifiers contribute to rays: for each ray a color for each bin of each modifier. The bins of the
 // first modifier come first.
 struct Contributions {

@@ -50,8 +50,8 @@ struct Options {
   std::optional<int> zones;           // -Sz  zones of equal solid angle, whose means are computed, too
 
   // The quantities to compute: letters of -o, each of which fills the member of RayAnswers or PointAnswers
-  // behind whose name it is. Empty: "v" for rays; for points "veECHuk", with zones "veECHukzZ", without e and
-  // Z where colors have no standard error (other than RGB and -pY).
+  // behind whose name it is. Empty: "v" for rays; all of GlareAnswers; for points "veECHuk", with zones
+  // "veECHukzZ", without e and Z where colors have no standard error (other than RGB and -pY).
   std::string outputs;
 
   // -n  Threads that work on one call; 0: one for each core. They leave the answers the same, bit by bit.

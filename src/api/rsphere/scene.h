@@ -79,6 +79,10 @@ class RSPHERE_API Scene {
   PointAnswers importanceOfSensors(std::span<const Point> points, std::span<const Sensor> sensors,
                                    const Options& options = {}) const;
 
+  // Computes glare at eyes: the origin of each ray is an eye, and its direction (of any length) is the gaze;
+  // z is up. Throws as trace() does, and if a gaze has no length or is vertical (within 1e-6 rad).
+  GlareAnswers glare(std::span<const Ray> eyes, const Options& options = {}) const;
+
   // Computes what surfaces with each of these modifiers send along rays and the paths that they begin: light
   // sources, the sky, goals or any others. The contributions of all that emits sum to the value of trace()
   // without interpolation (-aa 0). Throws as trace() does, and if a modifier is named twice, or if bins are

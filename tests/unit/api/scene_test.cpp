@@ -480,6 +480,67 @@ TEST(Importance, RefusesGoalsThatAreNone) {
             "-Sg steel: the goal is given twice");
 }
 
+// Eyes in the middle of the room; the lamp is a glare source for those who look at it.
+std::vector<rsphere::Ray> someEyes() {
+  std::vector<rsphere::Ray> eyes;
+  for (int i = 0; i < 6; ++i) eyes.push_back({{.5 + .2 * i, 1.3, 1.2}, {std::cos(i), std::sin(i), .5}});
+  return eyes;
+}
+
+TEST(Glare, HasTheBytesOfTheCommand) {
+  const Scene scene({kRoom});
+  Options options;
+  options.ambientBounces = 1;
+  options.directions = 64;
+  const rsphere::GlareAnswers a = scene.glare(someEyes(), options);
+  ASSERT_EQ(a.size, 6u);
+  const std::string line = "-Su -ab 1 -Sn 64 ";
+  expectSame(
+      command("rsphere", line + "-ouUvVbBgGt " + kRoom, numbersOf(someEyes())), a.size,
+      {&a.unifiedGlareRating, &a.ugrStandardError, &a.illuminance, &a.illuminanceStandardError, &a.background,
+       &a.backgroundStandardError, &a.daylightGlareProbability, &a.dgpStandardError, &a.threshold});
+  std::vector<double> sources;
+  for (const auto& ofEye : a.sources)
+    for (const rsphere::GlareSource& s : ofEye) {
+      sources.insert(sources.end(), s.direction.begin(), s.direction.end());
+      sources.insert(sources.end(), {s.luminance, s.luminanceStandardError, s.solidAngle,
+                                     s.solidAngleStandardError, s.positionIndex});
+      EXPECT_TRUE(s.surface == "lamp1" || s.surface == "lamp2" || s.surface == "ball") << s.surface;
+    }
+  EXPECT_FALSE(sources.empty());
+  EXPECT_EQ(sources, command("rsphere", line + "-Sd -odlLwWp " + kRoom, numbersOf(someEyes())));
+  options.outputs = "g";
+  const rsphere::GlareAnswers one = scene.glare(someEyes(), options);
+  EXPECT_EQ(one.daylightGlareProbability.numbers, a.daylightGlareProbability.numbers);
+  EXPECT_TRUE(one.unifiedGlareRating.numbers.empty());
+  EXPECT_EQ(one.sources.size(), 6u);
+}
+
+TEST(Glare, RefusesWhatItCannotAnswer) {
+  const Scene scene({kRoom});
+  const auto fault = [&](const rsphere::Ray& eye, const Options& options = {}) {
+    return faultOf([&] { scene.glare(std::vector{eye}, options); });
+  };
+  EXPECT_EQ(fault({{1, 1, 1}, {0, 0, 1}}),
+            "record 1: the gaze 0 0 1 is vertical, so that nothing says which side is above: tilt it");
+  EXPECT_EQ(fault({{1, 1, 1}, {0, 0, 0}}),
+            "record 1: the gaze 0 0 0 has no length: it is a direction, not a point");
+  EXPECT_EQ(fault({{1, 1, 1}, {0, NAN, 0}}), "eyes[0]: nan is not a finite number");
+  Options options;
+  options.outputs = "n";
+  EXPECT_NE(fault({{1, 1, 1}, {0, 1, 0}}, options).find("'-o'"), std::string::npos);
+  options.outputs.clear();
+  options.zones = 3;
+  EXPECT_NE(fault({{1, 1, 1}, {0, 1, 0}}, options).find("'-Sz'"), std::string::npos);
+  options = {};
+  options.arguments = {"-Su"};
+  EXPECT_NE(faultOf([&] {
+              scene.sphere(std::vector<rsphere::Point>{{1, 1, 1}}, options);
+            }).find("'-Su'"),
+            std::string::npos);
+  EXPECT_TRUE(scene.glare({}).sources.empty());
+}
+
 TEST(Contributions, AddUpToTheValueOfTheRay) {
   const Scene scene({kRoom});
   std::vector<rsphere::Ray> rays = someRays();

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kZones = 24;
 
-const std::string kRoom =
+const std::string kRoomOfZones =
     "void plastic wall 0 0 5 .5 .5 .5 0 0\nvoid light lamp 0 0 3 9 8 7\nvoid light lamp2 0 0 3 3 3 3\n"
     "void plastic goal 0 0 5 .5 .4 .3 0 0\nvoid mirror silver 0 0 3 .8 .8 .8\n"
     "wall polygon f 0 0 12 0 0 0 5 0 0 5 4 0 0 4 0\nwall polygon c 0 0 12 0 0 3 0 4 3 5 4 3 5 0 3\n"
@@ -37,13 +37,13 @@ struct Case {
   double accuracy = 0;
 };
 std::vector<Case> cases() {
-  return {{"lamps", kRoom + kLamps, {}},
-          {"a goal", kRoom, {"goal"}},
-          {"a goal and a crystal", kRoom + kCrystal, {"goal"}},
-          {"lamps and a crystal", kRoom + kCrystal + kLamps, {}},
-          {"an accuracy", kRoom, {"goal"}, Weights::silhouettes, .01},
-          {"equal weights", kRoom + kLamps, {}, Weights::homogeneous},
-          {"cells", kRoom + kLamps, {}, Weights::voronoi}};
+  return {{"lamps", kRoomOfZones + kLamps, {}},
+          {"a goal", kRoomOfZones, {"goal"}},
+          {"a goal and a crystal", kRoomOfZones + kCrystal, {"goal"}},
+          {"lamps and a crystal", kRoomOfZones + kCrystal + kLamps, {}},
+          {"an accuracy", kRoomOfZones, {"goal"}, Weights::silhouettes, .01},
+          {"equal weights", kRoomOfZones + kLamps, {}, Weights::homogeneous},
+          {"cells", kRoomOfZones + kLamps, {}, Weights::voronoi}};
 }
 
 class Answers {

@@ -1,0 +1,72 @@
+#pragma once
+// Glare at an eye: what it receives from all directions, and which part of that comes from glare sources.
+//
+// - Light sources of the scene that are in view, except distant ones: each is a glare source, whatever its
+//   luminance (CIE 117). Their solid angles are known, and shadow rays find the part in view
+//   (seen_sources.h).
+// - Everything else, the sky and the sun, images in mirrors, sunlit and other bright surfaces: what is
+//   brighter than a threshold (GlareOptions). As in evalglare, bright directions that are near each other
+//   make one source, and peaks among them (the sun) sources of their own. The directions are those of the
+//   spherical mean, which keep to the outlines of openings, sunlit spots and other known objects; there are
+//   no pixels.
+//
+// The indirect light of a direction comes from one path and is noisy. What is compared with the threshold is
+// a smooth fit to the directions around that see the same surface (local_fits.h), without the direction's own
+// path, so that its noise does not decide whether it counts. What is summed up is the light that was found.
+//
+// Several independent sets of directions are averaged. The standard errors come from the differences between
+// the answers that leave out one set each (jackknife), which may find other sources. The errors of the
+// sources themselves are those of the directions that were found to belong to them.
+#include <array>
+
+#include "importance/estimator.h"
+#include "importance/glare_answer.h"
+
+namespace rsphere {
+
+// Shared by all threads. Keeps a reference to the transport.
+class GlareEstimator {
+ public:
+  // Of sets of directions. Each has its own pool of light vertices, so that no error is common to all.
+  static constexpr size_t kSets = DiffuseGlances::kPools;
+
+  // options: as for SphereEstimator, with -Sw c.
+  GlareEstimator(const Transport& transport, const SphereOptions& options);
+
+  // The state of one thread is that of the estimator of means.
+  const SphereEstimator& means() const { return means_; }
+
+  // Depends on the eye, the gaze, the scene and the options alone. eye: world.
+  GlareAnswer estimate(const V3d& eye, const Gaze& gaze, SphereEstimator::Workspace& workspace) const;
+
+ private:
+  struct Look;
+  struct View;
+  struct Source;
+  using Sources = std::vector<Source>;
+  struct Found {
+    Sources sources;
+    double threshold = 0;
+    GlareIndices indices, shifted;  // shifted: by the error that all sets share
+  };
+
+  void addSet(const SetAtPoint& set, SphereEstimator::Workspace& workspace, View& view) const;
+  Look lookAlong(const SetAtPoint& set, size_t number, const DirectionSample& sample, const TracedRay& ray,
+                 PathTracer& tracer) const;
+  void retrace(const V3d& eye, uint64_t seed, PathTracer& tracer, Look& look) const;
+  double taskLuminance(const SetAtPoint& set, const Gaze& gaze, PathTracer& tracer) const;
+  bool isLamp(SurfaceId surface) const;
+  double threshold(const View& view) const;
+  void addLamps(const View& view, Sources& sources) const;
+  void addBright(const View& view, double threshold, Sources& sources) const;
+  // The sources that a view shows, and the indices that follow.
+  Found find(View view) const;
+  double luminance(const Radiance& radiance) const;
+
+  const PreparedScene& prepared_;
+  SphereOptions options_;
+  SphereEstimator means_;
+  bool separates_;  // whether the indirect light of a ray can be told from the rest
+};
+
+}  // namespace rsphere
