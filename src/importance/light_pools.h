@@ -1,8 +1,8 @@
 #pragma once
-// The light vertices (transport/light_vertices.h) that points use. In a building, few of its sources light a
-// room, and paths from all of them would hardly meet it: rooms have vertices of their own, most of whose paths
-// come from the sources that can be seen there. Sources elsewhere keep the rest, because their light may
-// arrive by other rooms.
+// The light vertices (transport/light_vertices.h) that points use. In a building, few of its sources light
+// a room, and paths from all of them would hardly meet it: rooms have vertices of their own, most of whose
+// paths come from the sources that can be seen there. Sources elsewhere keep the rest, because their light
+// may arrive by other rooms.
 #include <cstdint>
 #include <map>
 #include <memory>

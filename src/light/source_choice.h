@@ -16,10 +16,11 @@ class SourceChoice {
   // Keeps no reference to the scene or to its lights.
   SourceChoice(const Scene& scene, const LightSources& lights);
 
-  // Sets the weight of each of these sources (numbers of LightIds) at a point: approximately the irradiance (W/m2, of brightness)
-  // that it causes on a surface there with the normal `front` (unit), or from all sides if front is 0. The
-  // weight is greater than 0 wherever LightSources::sample() can return a sample for the same front, so errors
-  // of the approximation increase the variance but cause no bias. Returns the sum of the weights.
+  // Sets the weight of each of these sources (numbers of LightIds) at a point: approximately the
+  // irradiance (W/m2, of brightness) that it causes on a surface there with the normal `front` (unit), or
+  // from all sides if front is 0. The weight is greater than 0 wherever LightSources::sample() can return
+  // a sample for the same front, so errors of the approximation increase the variance but cause no bias.
+  // Returns the sum of the weights.
   double weigh(const V3d& point, const V3d& front, std::span<const uint32_t> sources,
                std::vector<double>& weights) const;
 

@@ -201,7 +201,8 @@ bool HiddenBoxes::covers(const Blocker& blocker, const Box3d& from, const Box3d&
   return true;
 }
 
-// Calls use() with the polygons on the way that may be blockers, until it returns true. Returns whether it did.
+// Calls use() with the polygons on the way that may be blockers, until it returns true. Returns whether it
+// did.
 bool HiddenBoxes::anyBlocker(const V3d& from, const V3d& to, FunctionRef<bool(const Blocker&)> use) const {
   V3d way = to - from, origin = from;
   double left = way.length() - kSamePlace;
@@ -268,7 +269,8 @@ std::vector<uint32_t> HiddenBoxes::visibleFrom(const Box3d& region, std::span<co
   return visible;
 }
 
-// The polygons that hide boxes from places in a region, and how many of them; those that hide most first. Empty if dividing the region would not pay.
+// The polygons that hide boxes from places in a region, and how many of them; those that hide most first.
+// Empty if dividing the region would not pay.
 std::vector<std::pair<HiddenBoxes::Blocker, size_t>> HiddenBoxes::blockersIn(const Region& region) const {
   std::vector<std::pair<Blocker, size_t>> found;
   const double widest = region.box.size()[longestAxis(region.box)];
@@ -293,9 +295,9 @@ std::vector<std::pair<HiddenBoxes::Blocker, size_t>> HiddenBoxes::blockersIn(con
   return found;
 }
 
-// Decides whether and where a region is divided: beside the plane of a polygon that reaches across most of it,
-// so that points of the polygon itself are left in a region of their own; within the edges of one beside it;
-// or else in its middle.
+// Decides whether and where a region is divided: beside the plane of a polygon that reaches across most of
+// it, so that points of the polygon itself are left in a region of their own; within the edges of one
+// beside it; or else in its middle.
 void HiddenBoxes::divide(Region& region) const {
   if (region.places->size() <= kFew) return;
   const auto found = blockersIn(region);
@@ -348,9 +350,10 @@ const HiddenBoxes::Region& HiddenBoxes::half(const Region& region, int upper) co
   return *region.halves[which];
 }
 
-// A place in the region before a surface whose normal lies along an axis; otherwise the point itself. What a
-// polygon within kBeside of the region hides from there lies behind the surface as well, or is hidden from the
-// point by that polygon. Other polygons hide it from places that lie kBeside outside of the region, too.
+// A place in the region before a surface whose normal lies along an axis; otherwise the point itself. What
+// a polygon within kBeside of the region hides from there lies behind the surface as well, or is hidden
+// from the point by that polygon. Other polygons hide it from places that lie kBeside outside of the
+// region, too.
 V3d HiddenBoxes::beside(const V3d& point, const V3d& front) const {
   const double along = std::max({std::abs(front.x), std::abs(front.y), std::abs(front.z)});
   return along > 1 - 1e-12 ? point + kBeside * margin_ * front : point;

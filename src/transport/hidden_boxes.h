@@ -1,13 +1,13 @@
 #pragma once
 // Which boxes are certainly hidden from a place: in a building, the luminaires of all other storeys.
 //
-// A box is hidden from another if a single opaque convex polygon (a slab, a wall) cuts every segment between
-// the two. The segments between their corners decide: where these meet the polygon's plane, their convex hull
-// contains the points where all segments do ("shaft culling", Haines and Wallace 1991). A light source in such
-// a box need not be sampled: every shadow ray would be blocked.
+// A box is hidden from another if a single opaque convex polygon (a slab, a wall) cuts every segment
+// between the two. The segments between their corners decide: where these meet the polygon's plane, their
+// convex hull contains the points where all segments do ("shaft culling", Haines and Wallace 1991). A
+// light source in such a box need not be sampled: every shadow ray would be blocked.
 //
-// The scene is divided into regions along the planes of such polygons (as cells; Teller and Sequin 1991), where
-// points fall and as long as it pays. The division depends on the scene and the boxes alone.
+// The scene is divided into regions along the planes of such polygons (as cells; Teller and Sequin 1991),
+// where points fall and as long as it pays. The division depends on the scene and the boxes alone.
 #include <array>
 #include <atomic>
 #include <cstdint>

@@ -16,8 +16,9 @@ class SourceEmission {
   // paths: the number of paths from all sources together.
   SourceEmission(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t paths);
 
-  // The same with most paths from preferred sources (numbers of LightIds; for an image, from its source), each
-  // of these paths with less power. The noise of the others is at most twice what it is without preference.
+  // The same with most paths from preferred sources (numbers of LightIds; for an image, from its source),
+  // each of these paths with less power. The noise of the others is at most twice what it is without
+  // preference.
   SourceEmission preferring(std::span<const uint32_t> preferred) const;
 
   // Of the brightness, W; approximate unless the source is even. 0 for images.
