@@ -10,7 +10,8 @@ import numpy as np
 from fault import Fault, fault
 from start import HERE
 
-LIFT = 0.0005  # m: surfaces of goals lie this far above what they cover, and sensors above these
+LIFT = 0.004  # m: surfaces of goals lie this far above what they cover, and above sheets of paper on it
+PARTS = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) / 4  # points in a cell, from its middle, by its sides
 
 
 @dataclass
@@ -27,15 +28,18 @@ class Polygon:
 
 @dataclass
 class Surface:
-    """Polygons that are one goal, and sensors in cells of about equal area on them."""
+    """Polygons that are one goal, divided into cells of about equal area.
+
+    The illuminance of a cell, which stands for a sensor, is the mean of four points in it.
+    """
 
     name: str
     polygons: list
     side: int  # 1: their fronts, -1: their backs
     area: float  # in square units of the scene
-    points: np.ndarray  # (n, 3)
-    normals: np.ndarray  # (n, 3)
-    cells: list  # the corners (4, 3) of the cell around each point
+    cells: np.ndarray  # the corners (n, 4, 3)
+    points: np.ndarray  # (4 n, 3), those of a cell one after the other
+    normals: np.ndarray  # (4 n, 3)
 
 
 def program(name):
@@ -120,7 +124,7 @@ def cells_of(polygon, spacing, margin=0.0):
     low, high = flat.min(axis=0) + margin, flat.max(axis=0) - margin
     if not (high > low).all():
         return np.zeros((0, 3)), [], (0, 0)
-    counts = np.maximum(np.ceil((high - low) / spacing - 1e-6).astype(int), 1)
+    counts = np.maximum(np.ceil((high - low) / np.asarray(spacing) - 1e-6).astype(int), 1)
     step = (high - low) / counts
     v, u = np.meshgrid(*(low[i] + (np.arange(counts[i]) + 0.5) * step[i] for i in (1, 0)), indexing="ij")
     middles = np.stack([u.ravel(), v.ravel()], axis=1)
@@ -144,16 +148,17 @@ def surface_of(polygons, name, place, units, back=False, spacing=None, margin=0.
     area = sum(np.linalg.norm(p.vector()) for p in named)
     points, normals, cells = [], [], []
     for p in named:
-        size = np.ptp(p.corners @ np.stack(frame_of(p.vector() / np.linalg.norm(p.vector()))).T, axis=0)
-        most = spacing or min(standard_spacing(*(size / units)) * units, np.sqrt(np.linalg.norm(p.vector()) / 6))
-        at, around, _ = cells_of(p, most, margin)
         normal = side * p.vector() / np.linalg.norm(p.vector())
-        points += list(at + normal * 2 * LIFT * units)
-        normals += [normal] * len(at)
-        cells += around
+        size = np.ptp(p.corners @ np.stack(frame_of(normal)).T, axis=0)
+        most = spacing or min(standard_spacing(*(size / units)) * units, np.sqrt(np.linalg.norm(p.vector()) / 6))
+        for corners in cells_of(p, most, margin)[1]:
+            sides = np.stack([corners[1] - corners[0], corners[3] - corners[0]])
+            cells.append(corners)
+            points += list(corners.mean(axis=0) + PARTS @ sides + normal * 1.5 * LIFT * units)
+            normals += [normal] * 4
     if not points:
         raise fault(*place, f'no sensor fits on "{name}"; is its margin too wide?')
-    return Surface(name, named, side, area, np.array(points), np.array(normals), cells)
+    return Surface(name, named, side, area, np.array(cells), np.array(points), np.array(normals))
 
 
 def goal_text(surface, modifier, units):
