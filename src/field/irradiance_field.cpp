@@ -31,6 +31,11 @@ constexpr size_t kBlock = 16, kNode = 96;
 
 constexpr size_t kNoBound = SIZE_MAX;
 
+// On small surfaces that share the cells of their plane, finer cells are tried unless all sites see the
+// place: the sites may lie beside all of the surfaces, and a room may be smaller than a cell. 1 but for
+// rounding.
+constexpr double kAllServed = 1 - 1e-9;
+
 // The share of an answer that a level of cells gives: all below roughness 1, none above Tuning::kNoneAbove.
 double shareOf(double roughness) {
   return std::clamp((Tuning::kNoneAbove - roughness) / (Tuning::kNoneAbove - 1), 0., 1.);
@@ -215,7 +220,7 @@ bool IrradianceField::Cache::look(const SurfaceChart& chart, const SurfacePlace&
     around.weight[k] += weight;
     around.served += weight;
   }
-  if (around.count == 0 || (chart.isShared() && around.served < Tuning::kLeastServedOfShared)) return false;
+  if (around.count == 0 || (chart.isShared() && around.served < kAllServed)) return false;
   // Sites that another thread gathers at the moment come last: that thread may have finished by then.
   for (int k = 0; k < around.count; ++k) {
     Site& site = *sites[k];

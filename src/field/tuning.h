@@ -50,11 +50,6 @@ struct IrradianceField {
   // smaller the part of a picture that they cover. Chosen by experiment. 30% less or more: within noise
   // (picture by sun; error below 1%, time 4%).
   RSPHERE_TUNED(IrradianceField, double, kNoneAbove, 1.5);
-  // On small surfaces that share the cells of their plane, finer cells are tried where the sites that see the
-  // place have less than this share of the weights: chosen by experiment. The sites may lie beside all of the
-  // surfaces, and a room may be smaller than a cell, so that nearly all sites must see the place. .935 or
-  // .965: the same answers in all cases.
-  RSPHERE_TUNED(IrradianceField, double, kLeastServedOfShared, .95);
 };
 
 // Interpolation between the sites around a place (site_interpolation.cpp).

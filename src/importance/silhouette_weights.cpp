@@ -48,8 +48,7 @@ ById<SurfaceId, bool> unguessedSurfaces(const SeenSources& sources) {
 size_t raysToImages(size_t base, size_t beside, bool glances) {
   const size_t usual = std::max(base / Tuning::kBaseDirectionsPerRayToImages,
                                 static_cast<size_t>(tuning::SeenSources::kUsualRays));
-  return glances ? std::max(usual, std::min(tuning::DiffuseGlances::kRaysToImages * base, beside / 2))
-                 : usual;
+  return glances ? std::max(usual, std::min(base, beside / 2)) : usual;
 }
 
 // The directions of guesses; none by daylight, where these gain nothing.
@@ -90,7 +89,7 @@ SilhouetteWeights::SilhouetteWeights(const SphereTracing& tracing, const SphereO
   guidance_.emplace(Guidance{TargetChoice(tracing, special, sources, options.densityFactor),
                              RadianceGuess(tracing.prepared, unguessedSurfaces(sources)),
                              glances ? std::vector<V3d>() : glancesFor(tracing.prepared, options),
-                             baseDirections(Tuning::kRaysAround), std::nullopt});
+                             baseDirections(tuning::Caps::kProbes), std::nullopt});
   if (!base.neighbours || guidance_->glances.empty()) return;
   VoronoiWorkspace workspace;
   cellSolidAngles(guidance_->glances, workspace);
@@ -143,16 +142,17 @@ void SilhouetteWeights::lookAround(const SetAtPoint& set, PathTracer& tracer, Vi
   const PathsFrom paths(tracer, set.point());
   std::vector<RadianceGuess::Traced> traced;
   Random random(mixBits(seedOf(set, Stream::raysAround)));
-  for (int i = 0; i < Tuning::kRaysAround; ++i) {
+  for (int i = 0; i < tuning::Caps::kProbes; ++i) {
     // Stratified in height: slices of the sphere with equal areas.
-    const double z = 1 - 2 * (i + random.uniform()) / Tuning::kRaysAround, angle = 2 * pi * random.uniform();
+    const double z = 1 - 2 * (i + random.uniform()) / tuning::Caps::kProbes,
+                 angle = 2 * pi * random.uniform();
     const double r = std::sqrt(std::max(0., 1 - z * z));
     const V3d direction(r * std::cos(angle), r * std::sin(angle), z);
     const TracedRay ray = paths.trace(direction, random.bits());
     if (sources_.isOne(ray.shown, view.images)) continue;
     const Hit& hit = ray.firstHit;
     traced.push_back({guidance_->guess.placeOf(set.point(), direction, hit), ray.value});
-    view.meanBrightness += brightness(ray.value) / Tuning::kRaysAround;
+    view.meanBrightness += brightness(ray.value) / tuning::Caps::kProbes;
   }
   if (guidance_->glances.empty()) return;
   const uint64_t seed = seedOf(set, Stream::guess);
@@ -248,9 +248,9 @@ void SilhouetteWeights::addGlances(const SetAtPoint& set, const LocalGuess& gues
   }
   if (!guidance_->neighbours) return;
   ZoneVariances ofZones(base_.zones.get());
-  found.variance =
-      evenVariance(seen, *guidance_->neighbours, base_.sampling, zonesOf(ofZones)) * Tuning::kEvenGlances;
-  found.ofZones.add(ofZones, Tuning::kEvenGlances);
+  found.variance = evenVariance(seen, *guidance_->neighbours, base_.sampling, zonesOf(ofZones)) *
+                   tuning::ErrorEstimate::kEvenParts;
+  found.ofZones.add(ofZones, tuning::ErrorEstimate::kEvenParts);
 }
 
 Variance SilhouetteWeights::varianceOf(std::span<const DirectionSample> others, std::span<const size_t> runs,

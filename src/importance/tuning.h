@@ -29,20 +29,11 @@ struct Contrasts {
 
 // The strategy -Sw c as a whole (silhouette_weights.cpp).
 struct SilhouetteWeights {
-  // Rays at each point that measure the mean brightness around it, and to which the guess of radiance is
-  // fitted: chosen by experiment; 1.6% of the default number of directions. 30% less or more: within noise
-  // (points beside goal; error 16%, time 7%).
-  RSPHERE_TUNED(SilhouetteWeights, int, kRaysAround, 32);
   // Glances per base direction: by measurement. A glance takes .15 to .5 us, a direction 1 to 100. Twice as
   // many, with twice as many shadow rays to sources (SeenSources), reduced the error from .53% to .51% beside
   // a goal and from .41% to .40% in the open-plan office, in up to a fifth more time. 30% less or more:
   // within noise (points in office; error 27%, time 6%).
   RSPHERE_TUNED(SilhouetteWeights, size_t, kGlancesPerDirection, 4);
-  // The variance of glances, relative to that of as many directions with the same radiances. Guesses have
-  // edges but no noise of paths, and an even set leaves half of the variance of edges
-  // (ErrorEstimate::kEvenSet). Without bounces, in the open-plan office, the actual deviation is then 1.07
-  // times the predicted standard error.
-  RSPHERE_TUNED(SilhouetteWeights, double, kEvenGlances, .5);
   // Base directions for each direction to images of light sources, which are at least
   // SeenSources::kUsualRays: chosen by experiment. 30% less or more: within noise (points in office; error
   // 8%, time 6%).
@@ -71,10 +62,6 @@ struct DiffuseGlances {
   RSPHERE_TUNED(DiffuseGlances, double, kUsualAccuracy, .005);
   // Cap on the light paths of all pools together: about 400 MB.
   RSPHERE_TUNED(DiffuseGlances, double, kMostPaths, 1 << 20);
-  // Rays to images of light sources for each base direction. Only these rays show how much of a half-hidden
-  // source is visible. 1/4: an error of 3.2% instead of 2.7% at a point where the goal shows behind a
-  // partition.
-  RSPHERE_TUNED(DiffuseGlances, size_t, kRaysToImages, 1);
   // Assumed mean radiance of the light that glances do not find, as a fraction of the mean radiance that they
   // find. The variance of targets is compared with it. 1 and .3: single answers are 6% off around the goal,
   // where brushed steel shows it; .03: within noise, in 1.15 times the time.
@@ -207,6 +194,9 @@ struct ErrorEstimate {
   //   lamp of .1 m, half hidden                 .69          .98
   //   ceiling with a pattern of stripes         .70 to .76   .99 to 1.08
   // 30% less or more: the same answers in all cases.
+  //
+  // It is also the factor for glances, whose guesses have edges but no noise of paths. Without bounces, in
+  // the open-plan office, the actual deviation is then 1.07 times the predicted standard error.
   RSPHERE_TUNED(ErrorEstimate, double, kEvenParts, .5);
   // The same factor for n dynamic directions to a target is 1 / (1 + n^1/2 / kEvenRun). The root is derived:
   // an edge crosses about n^1/2 of the n cells. kEvenRun is chosen by experiment. n is the effective number
@@ -279,12 +269,13 @@ struct Pictures {
   // point; noise: error 1%, time 6%).
   RSPHERE_TUNED(Pictures, int, kIndirectPasses, 3);
   // Further passes for indirect and direct light, in which only pixels share whose light differs by less than
-  // kSameLight; and the passes for gloss. Chosen by experiment. The noise that the first passes leave is 2 to
-  // 5%. 1 or 3: within noise (picture from point; error below 1%, time 6%).
-  RSPHERE_TUNED(Pictures, int, kFinePasses, 2);
+  // kSameLight: chosen by experiment. The noise that the first passes leave is 2 to 5%.
   RSPHERE_TUNED(Pictures, float, kSameLight, .14f);
-  // Least roughness of surfaces whose pixels share gloss: derived. Their lobe is about as wide as the blur of
-  // two passes, 2.2 pixels or .014 radians.
+  // Passes of smoothing of gloss, and the further passes for other light; and the least roughness of surfaces
+  // whose pixels share gloss: derived. Their lobe is about as wide as the blur of two passes, 2.2 pixels or
+  // .014 radians. 1 or 3 further passes for other light: within noise (picture from point; error below 1%,
+  // time 6%), but with 3 a glossy desk below a window is rougher.
+  static constexpr int kFinePasses = 2;
   static constexpr double kLeastRoughness = .02;
   // Least cosine between the normals of pixels that share gloss: derived. It is that of 2 degrees, less than
   // the width of such a lobe.

@@ -56,8 +56,8 @@ class Probe {
   Seen through(const Rectangle& r, const V3d& normal) {
     Seen seen;
     look(r, normal, -lift_, [&](const V3d& point, const V3d& direction, uint64_t seed) {
-      seen.all += brightness(tracer_.glimpse(point, direction, seed)) / Tuning::kProbes;
-      seen.sky += skySeen(point, direction) / Tuning::kProbes;
+      seen.all += brightness(tracer_.glimpse(point, direction, seed)) / tuning::Caps::kProbes;
+      seen.sky += skySeen(point, direction) / tuning::Caps::kProbes;
     });
     return seen;
   }
@@ -71,7 +71,7 @@ class Probe {
     Room room;
     double squares = 0, hits = 0;
     look(r, normal, lift_, [&](const V3d& point, const V3d& direction, uint64_t seed) {
-      room.brightness += brightness(tracer_.glimpse(point, direction, seed)) / Tuning::kProbes;
+      room.brightness += brightness(tracer_.glimpse(point, direction, seed)) / tuning::Caps::kProbes;
       const Hit hit = t_.tracer().nearest(point, direction);
       if (hit.surface == kNone) return;
       squares += hit.distance * hit.distance;
@@ -84,7 +84,7 @@ class Probe {
  private:
   using Look = FunctionRef<void(const V3d& point, const V3d& direction, uint64_t seed)>;
   static void look(const Rectangle& r, const V3d& normal, double lift, Look each) {
-    for (int i = 0; i < Tuning::kProbes; ++i) {
+    for (int i = 0; i < tuning::Caps::kProbes; ++i) {
       const auto n = static_cast<size_t>(i);
       const Imath::V2d at = evenly(n, .5, .5), to = evenly(n, .1, .3);
       each(r.at(at.x, at.y) + lift * normal, diffuseDirection(normal, to.y, to.x), n);

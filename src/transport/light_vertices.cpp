@@ -120,7 +120,7 @@ class LightVertices::Path {
 
 void LightVertices::Path::send(double where) {
   if (!leave(where)) return;
-  for (int hits = 0; hits < Tuning::kMostHits && brightness(power_) > 0; ++hits) {
+  for (size_t hits = 0; hits < tuning::Caps::kAsked && brightness(power_) > 0; ++hits) {
     const Hit hit = all_.prepared_.tracer().nearest(origin_, direction_, kFarAway, start_);
     if (hit.surface == kNone) return;
     length_ += hit.distance;
@@ -310,7 +310,7 @@ LightVertices::LightVertices(const PreparedScene& prepared, const PlainSurfaces&
 
 // The widths depend on the size of the room, which is measured by the mean length of first segments.
 void LightVertices::measure(size_t paths, uint64_t seed) {
-  const size_t tried = std::min(paths, Tuning::kTried);
+  const size_t tried = std::min(paths, tuning::Caps::kAsked);
   double sum = 0;
   size_t met = 0;
   for (size_t i = 0; i < tried; ++i) {

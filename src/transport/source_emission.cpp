@@ -55,10 +55,10 @@ LightId SourceEmission::sourceAt(double share) const {
 SourceEmission::Leaving SourceEmission::leave(LightId source, Random& random,
                                               FunctionScratch& scratch) const {
   const Sender& sender = senders_[source];
-  const int tries = sender.even ? 1 : Tuning::kTries;
+  const size_t tries = sender.even ? 1 : tuning::VertexLight::kCandidates;
   Leaving chosen;
   double sum = 0;
-  for (int i = 0; i < tries; ++i) {
+  for (size_t i = 0; i < tries; ++i) {
     const Way tried = way(source, random, scratch);
     const double bright = std::max(0., brightness(tried.radiance)) * tried.weight;
     sum += bright;
@@ -66,7 +66,8 @@ SourceEmission::Leaving SourceEmission::leave(LightId source, Random& random,
     chosen = {tried.from, tried.direction,
               Irradiance(tried.radiance.color * (pathPower_ / brightness(tried.radiance)))};
   }
-  if (!sender.even) chosen.power = chosen.power * (kPi * sender.area * sum / (tries * sender.power));
+  if (!sender.even)
+    chosen.power = chosen.power * (kPi * sender.area * sum / (static_cast<double>(tries) * sender.power));
   return chosen;
 }
 
@@ -90,14 +91,14 @@ double SourceEmission::triedPower(LightId source) const {
   Random random(mixBits(source.index()));
   FunctionScratch scratch;
   double sum = 0;
-  for (int i = 0; i < Tuning::kTriesForPower; ++i) {
+  for (size_t i = 0; i < tuning::Caps::kAsked; ++i) {
     const Way tried = way(source, random, scratch);
     sum += std::max(0., brightness(tried.radiance)) * tried.weight;
   }
   const Scene& scene = prepared_.scene();
   const double plain =
       brightness(sourceRadiance(scene, scene.surfaces[prepared_.lights().all()[source].surface]));
-  return kPi * senders_[source].area * (sum / Tuning::kTriesForPower + Tuning::kMissed * plain);
+  return kPi * senders_[source].area * (sum / tuning::Caps::kAsked + Tuning::kMissed * plain);
 }
 
 double SourceEmission::divergence(LightId source, double distance) const {

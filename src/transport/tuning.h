@@ -22,7 +22,18 @@ struct Caps {
   RSPHERE_TUNED_ROOM(Caps, size_t, kAimed, 64);
   // Cap on the panes and holes that are probed, and on the balls and cylinders that are examined for
   // highlights; the largest are kept. 30% less or more: the same answers in all cases.
+  //
+  // It is also the number of light paths that measure the mean distance from the sources to the first
+  // surfaces, and of directions that estimate the power of a source with a pattern or a cone: both are known
+  // within 3% if single values vary as much as their mean. And it is the cap on the surfaces that a light
+  // path meets, for mirrors that face each other; Russian roulette ends nearly all paths earlier.
   RSPHERE_TUNED(Caps, size_t, kAsked, 1024);
+  // Rays that measure a mean brightness: on each side of a pane, and around a point in sphere mode. Chosen by
+  // experiment. A mean is then known within 18% if single values vary as much as their mean. For panes, 30%
+  // less: time +30%; 30% more: time +30% (sensors by panes; noise: error 19%, time 4%), because other panes
+  // are then found to be openings. For points, 30% less or more: within noise (points beside goal; error 16%,
+  // time 7%).
+  RSPHERE_TUNED(Caps, int, kProbes, 32);
 };
 
 // Patches of strong direct light that indirect rays are aimed at (bright_spots.cpp).
@@ -70,9 +81,6 @@ struct Openings {
   // the scene's box, because every opening costs time in every gather: chosen by experiment. A door of 2 m2
   // is found in a scene of up to 1400 m. 30% less or more: the same answers in all cases.
   RSPHERE_TUNED(Openings, double, kLeastArea, 1e-6);
-  // Probe rays on each side of a pane: chosen by experiment. 30% less: time +30%; 30% more: time +30%
-  // (sensors by panes; noise: error 19%, time 4%), because other panes are then found to be openings.
-  RSPHERE_TUNED(Openings, int, kProbes, 32);
   // A pane or hole is an opening if one side is at least this many times brighter than the other. The value
   // lies between the ratios of windows, 2 to 8 by day since panes also mirror the bright side, and of panes
   // between two rooms, about 1. Diffusing windows (1.6) and windows behind sunlit blinds (1.1) are below it;
@@ -201,11 +209,6 @@ struct Interpolation {
 // surfaces. The values were measured in the open-plan office, with a goal or with its lamps (-Sn 512, -ab 3);
 // errors are the rms errors of answers.
 struct LightVertices {
-  // Cap on the surfaces that a light path meets, for mirrors that face each other. Russian roulette ends
-  // nearly all paths earlier.
-  RSPHERE_TUNED(LightVertices, int, kMostHits, 100);
-  // Number of paths that measure the mean distance.
-  RSPHERE_TUNED(LightVertices, size_t, kTried, 1024);
   // The distance at which half of the light between diffuse surfaces is left to rays that look for near
   // surfaces (LightVertices::nearShare()). .05: error +40% around the goal; .2 and .3: within noise.
   RSPHERE_TUNED(LightVertices, double, kWidth, .15);
@@ -224,11 +227,8 @@ struct LightVertices {
 
 // Light that leaves sources (source_emission.h).
 struct SourceEmission {
-  // Candidates for each path from a source with a pattern or a cone; one of them is followed.
-  RSPHERE_TUNED(SourceEmission, int, kTries, 8);
-  // Random directions that estimate the power of such a source; and the radiance that is added for light that
-  // they may miss, in units of the source's radiance without patterns.
-  RSPHERE_TUNED(SourceEmission, int, kTriesForPower, 1024);
+  // The radiance that is added, in the power of a source with a pattern or a cone, for light that the
+  // directions to estimate it may miss; in units of the source's radiance without patterns.
   RSPHERE_TUNED(SourceEmission, double, kMissed, .01);
 };
 
@@ -236,7 +236,8 @@ struct SourceEmission {
 struct VertexLight {
   // Number of clusters of vertices, and of the candidates that are drawn from them at each place, by
   // estimates of the clusters' light there. Both together take as long as a shadow ray. 256 clusters:
-  // variance of this light -25%, half as long again for the whole estimate; 512: -50%, twice as long.
+  // variance of this light -25%, half as long again for the whole estimate; 512: -50%, 2.5 times as long.
+  // A path from a source with a pattern or a cone has as many candidates, of which one is followed.
   RSPHERE_TUNED_ROOM(VertexLight, size_t, kClusters, 128);
   RSPHERE_TUNED_ROOM(VertexLight, size_t, kCandidates, 8);
   // When vertices are clustered, those that face opposite ways are taken to be this far apart, in units of

@@ -170,23 +170,39 @@ void VertexClusters::weigh(const Receiver& to, Numbers& weights) const {
 }
 
 VertexClusters::Candidates VertexClusters::draw(const Receiver& to, Random& random) const {
-  Candidates found;
   Numbers weights;
   weigh(to, weights);
-  double sum = 0;
-  for (const float w : weights) sum += w;
-  if (!(sum > 0)) return found;
+  std::array<double, kCount / kGroup> groups{};
+  for (size_t g = 0; g < groups.size(); ++g)
+    for (size_t i = g * kGroup; i < (g + 1) * kGroup; ++i) groups[g] += weights[i];
+  const double sum = std::accumulate(groups.begin(), groups.end(), 0.);
+  if (!(sum > 0)) return {};
   const double scale = static_cast<double>(Tuning::kCandidates) / sum;
+  Candidates drawn;
   double due = random.uniform();
-  for (size_t i = 0; i < ends_.size(); ++i) {
+  const auto drawFrom = [&](size_t i) {
     const double expected = weights[i] * scale;
-    for (due += expected; due >= 1 && found.count < found.all.size(); --due) {
+    for (due += expected; due >= 1 && drawn.count < drawn.all.size(); --due) {
       const size_t first = firstOf(i), own = firstOf(i + 1) - first;
       const auto vertex =
           static_cast<uint32_t>(first + static_cast<size_t>(random.uniform() * static_cast<double>(own)));
-      const double weight = weightOf(vertices_[vertex], to, width2_);
-      if (weight > 0) found.all[found.count++] = {vertex, expected / static_cast<double>(own), weight};
+      // Vertices are seldom in the cache: all are asked for before the first is used.
+      __builtin_prefetch(&vertices_[vertex]);
+      __builtin_prefetch(&vertices_[vertex].bounces);
+      drawn.all[drawn.count++] = {vertex, expected / static_cast<double>(own)};
     }
+  };
+  for (size_t g = 0; g < groups.size(); ++g)
+    if (const double all = due + groups[g] * scale; all < 1)
+      due = all;
+    else
+      for (size_t i = g * kGroup; i < (g + 1) * kGroup; ++i) drawFrom(i);
+  Candidates found;
+  for (size_t k = 0; k < drawn.count; ++k) {
+    Candidate& candidate = found.all[found.count];
+    candidate = drawn.all[k];
+    candidate.weight = weightOf(vertices_[candidate.vertex], to, width2_);
+    found.count += candidate.weight > 0;
   }
   return found;
 }

@@ -49,6 +49,9 @@ class VertexClusters {
 
  private:
   static constexpr size_t kCount = tuning::VertexLight::kClustersRoom;
+  // Clusters whose weights are added up first, so that most need not be looked at one by one.
+  static constexpr size_t kGroup = 8;
+  static_assert(kCount % kGroup == 0);
   using Numbers = std::array<float, kCount>;
 
   size_t firstOf(size_t cluster) const { return cluster > 0 ? ends_[cluster - 1] : 0; }
