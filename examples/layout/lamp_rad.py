@@ -34,8 +34,17 @@ def data_text(photometry):
     return "\n".join(lines) + "\n"
 
 
-def pattern_text(photometry, name, data, factor):
-    """The pattern and the material of the luminous surfaces. factor: on the light."""
+def turning_words(aim, turn):
+    """The options of xform that turn a luminaire as rotation() does."""
+    aim = np.asarray(aim, dtype=float) / np.linalg.norm(aim)
+    across = np.hypot(aim[0], aim[1])
+    azimuth = np.degrees(np.arctan2(aim[1], aim[0])) if across >= 1e-12 else 0.0
+    steps = (("-rz", turn - azimuth), ("-ry", -np.degrees(np.arctan2(across, -aim[2]))), ("-rz", azimuth))
+    return [word for axis, angle in steps if abs(angle) > 1e-9 for word in (axis, f"{angle:.9g}")]
+
+
+def pattern_text(photometry, name, data, factor, turning=()):
+    """The pattern and the material of the luminous surfaces. factor: on the light. turning: options of xform."""
     x, y, h = photometry.size
     sides = all(photometry.shines()) and h > 0
     if photometry.shape in ("sphere", "point"):
@@ -48,7 +57,8 @@ def pattern_text(photometry, name, data, factor):
     else:
         function, numbers = "box", [factor, x, y, h]
     shown = " ".join(f"{v:.9g}" for v in numbers)
-    return (f"void brightdata {name}_light\n5 {function} {data} lamp.cal azimuth gamma\n0\n{len(numbers)} {shown}\n"
+    words = ["", function, data, "lamp.cal", "azimuth", "gamma", *turning]
+    return (f"void brightdata {name}_light\n{len(words) - 1}{' '.join(words)}\n0\n{len(numbers)} {shown}\n"
             f"{name}_light light {name}\n0\n0\n3 1 1 1\n")
 
 
