@@ -55,17 +55,33 @@ def extents(design, candidate):
 
 
 def too_near(design, candidates):
-    """Pairs of candidates that overlap, or are nearer to each other than `apart`. Those at the same place are cliques."""
+    """Which candidates cannot hang together: they overlap, are nearer than `apart`, or are at the same place."""
     position = np.array([c.position for c in candidates])
     half = np.array([extents(design, c) for c in candidates])
-    pairs = []
-    for i in range(len(candidates) - 1):
-        apart = np.abs(position[i + 1 :] - position[i])
-        overlap = (apart < half[i + 1 :] + half[i] - 1e-9 * design.units).all(axis=1)
-        near = np.hypot(*(apart[:, :2].T)) < design.apart * (1 - 1e-9)
-        same = (apart < 1e-9 * design.units).all(axis=1)
-        pairs += [(i, i + 1 + k) for k in np.flatnonzero((overlap | near) & ~same)]
-    return pairs
+    near = np.zeros((len(candidates),) * 2, dtype=bool)
+    for i in range(len(candidates)):
+        apart = np.abs(position - position[i])
+        overlap = (apart < half + half[i] - 1e-9 * design.units).all(axis=1)
+        near[i] = overlap | (np.hypot(*apart[:, :2].T) < max(design.apart * (1 - 1e-9), 1e-9 * design.units))
+    np.fill_diagonal(near, False)
+    return near
+
+
+def cliques(near):
+    """Sets of candidates of which at most one can hang, that have all pairs of `near`: few rows and tight bounds."""
+    left = np.triu(near)
+    for i in range(len(near)):
+        for j in range(i + 1, len(near)):
+            if not left[i, j]:
+                continue
+            members, common = [i, j], near[i] & near[j]
+            while common.any():
+                k = int(np.flatnonzero(common)[np.argmax(left[:, common].sum(axis=0))])
+                members.append(k)
+                common &= near[k]
+            for a in members:
+                left[a, members] = False
+            yield np.array(members)
 
 
 def mirror_of(design, candidates, axis, coordinate):
@@ -86,13 +102,8 @@ def mirror_of(design, candidates, axis, coordinate):
 
 def arrange(program, design, candidates, x):
     """The constraints on where luminaires may hang together."""
-    places, which = np.unique(np.round([c.position for c in candidates], 9), axis=0, return_inverse=True)
-    for place in range(len(places)):
-        same = np.flatnonzero(which.ravel() == place)
-        if len(same) > 1:
-            program.constrain(x[same], np.ones(len(same)), 0, 1)
-    for i, j in too_near(design, candidates):
-        program.constrain([x[i], x[j]], [1, 1], 0, 1)
+    for members in cliques(too_near(design, candidates)):
+        program.constrain(x[members], np.ones(len(members)), 0, 1)
     if design.most is not None:
         program.constrain(x, np.ones(len(x)), 0, design.most)
     for axis, coordinate in design.mirrors:

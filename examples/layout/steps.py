@@ -56,15 +56,14 @@ class Steps:
     def matrix_error(self):
         """rms of the standard errors, each by what all candidates together give to its receiver on average."""
         mean = self.matrix.total().mean(axis=1, keepdims=True)
-        return float(np.sqrt(((self.matrix.error / mean) ** 2).mean()))
+        return float(np.sqrt(((self.matrix.error() / mean) ** 2).mean()))
 
     def daylight_in(self, scene):
         if not scene.daylight:
             return None
         outdoors = self.rsphere.Scene([*scene.daylight, *self.given.room])
         direct = self.timed("daylight", lambda: daylight_of(self.transfer, outdoors, DAYLIGHT_DIVISIONS))
-        none = np.zeros((len(direct), 1))
-        return Light(direct, none, none, {})
+        return Light(direct, np.zeros((1, len(direct), 1)), {})
 
     def searched(self):
         scenes = [rows_of(self.transfer, s.goals, self.light, day, self.lit, {})

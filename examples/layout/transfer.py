@@ -7,8 +7,8 @@ illuminance is linear in the light of the luminaires:
 
 where W is the importance that arrives at the luminaire when the goal, of area A, emits. rsphere gives W as means over
 zones of directions. Within a zone I is averaged, which is right for light that has been reflected diffusely, because W
-then varies slowly. Light that goes straight to the receiver does not: for it, the difference between I(d) and the
-zone's average is added along shadow rays from points of the receiver to points of the luminaire.
+then varies slowly. Light that goes straight to the receiver does not: it is left out of W, and computed by shadow rays
+from points of the receiver to points of the luminaire.
 """
 from dataclasses import dataclass
 
@@ -23,6 +23,9 @@ PART = 0.4  # m: luminous openings are divided into parts of at most this size f
 SPARK = 1e-4  # m, the radius of the lamps that shadow rays go to
 MOST_PARTS = 16
 MOST_SHADOWS = 4_000_000  # shadow rays of one call
+MOST_VALUES = 4_000_000  # of importance in one call
+SETS = 4  # of directions, from whose spread standard errors follow
+WEIGHTS = np.array([0.265, 0.670, 0.065])  # of red, green and blue in brightness
 
 
 @dataclass
@@ -41,11 +44,14 @@ class Matrix:
     """Rows are receivers, columns candidates; lx for the luminaires at full power."""
 
     direct: np.ndarray
-    reflected: np.ndarray
-    error: np.ndarray  # standard error of reflected
+    sets: np.ndarray  # what is reflected, by each set of directions: (SETS, receivers, candidates)
 
     def total(self):
-        return self.direct + self.reflected
+        return self.direct + self.sets.mean(axis=0)
+
+    def error(self):
+        """The standard error, from the spread of the sets."""
+        return self.sets.std(axis=0, ddof=1) / np.sqrt(len(self.sets))
 
 
 def probe_text(modifier, receiver, units):
@@ -157,48 +163,47 @@ class Transfer:
         factor = luminaire.factor * self.design.maintenance * luminaire.photometry.tilt_factor(angle)
         return luminaire.photometry.intensity(directions @ candidate.matrix()) * factor
 
-    def matrix(self, candidates, directions, zone_count=500, seed=0):
-        """The Matrix of candidates. directions: of importance at each place (-Sn)."""
+    def matrix(self, candidates, directions, zone_count=500):
+        """The Matrix of candidates. directions: of importance at each place (-Sn), in SETS sets."""
         zones = Zones(self.rsphere.zone_middles(zone_count))
         mean = self.zone_intensities(candidates, zones)
         places, which = np.unique([c.position for c in candidates], axis=0, return_inverse=True)
-        goals, errors = self.importance(places, directions, zone_count, seed)
+        which = which.ravel()
         square = self.design.units**2  # importance has no unit of length, areas have
-        whole, error = np.zeros((goals.shape[1], len(candidates))), np.zeros((goals.shape[1], len(candidates)))
-        for j, place in enumerate(which.ravel()):
-            whole[:, j] = goals[place] @ mean[j] * zones.solid_angle * square
-            error[:, j] = np.sqrt(errors[place] ** 2 @ mean[j] ** 2) * zones.solid_angle * square
-        self.points = Direct(self, candidates, zones, mean)
-        exact, by_zone = self.points.means()
-        rows = [r.surface for r in self.receivers]
-        return Matrix(exact, whole[rows] - by_zone, error[rows])
+        sets = np.zeros((SETS, sum(len(g[1]) for g in self.groups), len(candidates)))
+        for number in range(len(self.groups)):
+            scene, first = self.scene_with(self.groups[number][0], f"goals{number}"), self.groups[number][3]
+            step = max(1, MOST_VALUES // (len(self.groups[number][1]) * zone_count))
+            for begin in range(0, len(places), step):
+                here = np.flatnonzero((which >= begin) & (which < begin + step))
+                for k in range(SETS):
+                    values = self.reflected(scene, self.groups[number], places[begin : begin + step], directions // SETS, zone_count, k)
+                    for j in here:
+                        sets[k, first : first + values.shape[1], j] = values[which[j] - begin] @ mean[j] * zones.solid_angle * square
+        self.points = Direct(self, candidates)
+        return Matrix(self.points.means(), sets[:, [r.surface for r in self.receivers]])
 
-    def importance(self, places, directions, zone_count, seed):
-        """The importance of all goals over their area, by zone: (places, goals, zones), and its standard error."""
-        weights = np.array([0.265, 0.670, 0.065])
-        values, errors = [], []
-        for number, (text, names, areas, _) in enumerate(self.groups):
-            scene = self.scene_with(text, f"goals{number}")
-            a = scene.importance(places, goals=names, bins=zone_count, outputs="zZ", ambient_bounces=self.bounces,
-                                 directions=directions, rotation=seed)
-            shape = (len(places), len(names), zone_count, 3)
-            values.append((a.bins.reshape(shape) @ weights) / areas[None, :, None])
-            spread = np.nan_to_num(a.bins_standard_error.reshape(shape), nan=0.0, posinf=0.0)
-            errors.append((spread @ weights) / areas[None, :, None])
-        return np.concatenate(values, axis=1), np.concatenate(errors, axis=1)
+    def reflected(self, scene, group, places, directions, zone_count, rotation):
+        """The importance of goals over their area that is not seen straight, by zone: (places, goals, zones)."""
+        _, names, areas, _ = group
+        found = []
+        # What is seen straight, also through panes, has the same directions and the same noise: the difference has none.
+        for more in dict(ambient_bounces=self.bounces), dict(ambient_bounces=0, lr=0):
+            a = scene.importance(places, goals=names, bins=zone_count, outputs="z", directions=directions, rotation=rotation, **more)
+            found.append(a.bins.reshape(len(places), len(names), zone_count, 3) @ WEIGHTS)
+        return (found[0] - found[1]) / areas[None, :, None]
 
 
 class Direct:
     """Light that goes straight from candidates to points of receivers, by shadow rays (panes let it pass)."""
 
-    def __init__(self, transfer, candidates, zones, mean):
-        self.t, self.candidates, self.zones, self.mean = transfer, candidates, zones, mean
+    def __init__(self, transfer, candidates):
+        self.t, self.candidates = transfer, candidates
         self.exact = [None] * len(transfer.receivers)  # (points, candidates)
-        self.by_zone = [None] * len(transfer.receivers)
         self.compute()
 
     def means(self):
-        return np.array([e.mean(axis=0) for e in self.exact]), np.array([e.mean(axis=0) for e in self.by_zone])
+        return np.array([e.mean(axis=0) for e in self.exact])
 
     def lamps(self):
         """The points that shadow rays go to, each once: (n, 3), and for each candidate those of its parts."""
@@ -256,7 +261,7 @@ class Direct:
 
     def fill(self, i, receiver, lamps, of, seen):
         points = len(receiver.points)
-        self.exact[i], self.by_zone[i] = np.zeros((points, len(of))), np.zeros((points, len(of)))
+        self.exact[i] = np.zeros((points, len(of)))
         square = self.t.design.units**2
         for j, (candidate, mine) in enumerate(zip(self.candidates, of)):
             to = receiver.points[:, None] - lamps[mine][None]
@@ -264,9 +269,3 @@ class Direct:
             away = to / np.sqrt(distance)[..., None]
             weight = sees(-away, receiver.kind, receiver.normals[:, None]) / distance * seen[:, mine] * square
             self.exact[i][:, j] = (weight * self.t.light(candidate, away)).mean(axis=1)
-            # The zones belong to rays from the place of the luminaire.
-            middle = receiver.points - candidate.position
-            length = (middle**2).sum(axis=-1)
-            middle = middle / np.sqrt(length)[:, None]
-            there = sees(-middle, receiver.kind, receiver.normals) / length * seen[:, mine].mean(axis=1) * square
-            self.by_zone[i][:, j] = there * self.mean[j][self.zones.at(middle)]

@@ -11,9 +11,16 @@ class Light:
     """What the receivers of a design get: of each candidate at full power, or of daylight (one column)."""
 
     direct: list  # of each receiver: (points, candidates)
-    reflected: np.ndarray  # (receivers, candidates)
-    error: np.ndarray  # its standard error
+    sets: np.ndarray  # what is reflected, by each set of directions: (sets, receivers, candidates)
     glare: dict  # of each eye with a gaze: (candidates,)
+
+    def __post_init__(self):
+        self.reflected = self.sets.mean(axis=0)
+
+    def error(self, i, levels):
+        """The standard error of what receiver i gets, from the spread of the sets."""
+        values = self.sets[:, i] @ levels
+        return float(values.std(ddof=1) / np.sqrt(len(values))) if len(values) > 1 else 0.0
 
 
 @dataclass
@@ -33,13 +40,7 @@ def light_of(transfer, candidates, matrix):
         if eye.gaze is not None:
             seen = transfer.points.seen_by(transfer.index[eye.name, "eye"])
             glare[eye.name] = glare_terms(transfer, candidates, eye, seen)
-    return Light(transfer.points.exact, matrix.reflected, matrix.error, glare)
-
-
-def columns(light, chosen):
-    """The light of some of the candidates."""
-    return Light([d[:, chosen] for d in light.direct], light.reflected[:, chosen], light.error[:, chosen],
-                 {k: v[chosen] for k, v in light.glare.items()})
+    return Light(transfer.points.exact, matrix.sets, glare)
 
 
 def receiver_of(transfer, name, kinds=("plane", "cylinder")):
@@ -109,11 +110,11 @@ def answers(transfer, goals, light, levels, daylight, lit):
             eye = transfer.index[goal.target, "eye"]
             background = float(light.reflected[eye] @ levels) / np.pi
             total = float(light.glare[goal.target] @ levels**2)
-            share = np.sqrt(light.error[eye] ** 2 @ levels**2) / np.pi / max(background, 1e-9)
+            share = light.error(eye, levels) / np.pi / max(background, 1e-9)
             found.append(Answer(goal, rating(total, background), 8 / np.log(10) * share))
             continue
         i = receiver_of(transfer, goal.target, ("cylinder",) if goal.kind == "cylindrical" else ("plane",))
-        error = float(np.sqrt(light.error[i] ** 2 @ levels**2))
+        error = light.error(i, levels)
         value = float(mean_row(light, i) @ levels) + (mean_row(daylight, i)[0] if daylight else 0)
         if goal.kind == "uniformity":
             at = cells(transfer, i, light.direct[i])[lit[i]] @ levels + light.reflected[i] @ levels
