@@ -7,6 +7,8 @@ from scipy.sparse import coo_matrix, csr_matrix
 
 from fault import fault
 
+FLAT = 0.01  # m: the height of a flat luminaire, where others do not fit
+
 
 @dataclass
 class Layout:
@@ -51,7 +53,7 @@ class Program:
 def extents(design, candidate):
     """Half the size of a luminaire along x, y and z, in units of the scene."""
     size = np.array(design.luminaires[candidate.luminaire].photometry.size)
-    return np.abs(candidate.matrix()) @ size / 2 * design.units
+    return np.abs(candidate.matrix()) @ np.maximum(size, FLAT) / 2 * design.units
 
 
 def too_near(design, candidates):

@@ -184,7 +184,8 @@ class Steps:
         path = os.path.join(self.given.output, f"plan_{scene.name or 'all'}.svg")
         size = np.ptp(floor.corners[:, :2], axis=0).max() if floor else 10 * d.units
         outlines = list(d.surfaces)[:60] + [f"{d.luminaires[self.candidates[j].luminaire].name}.{n + 1}.1"
-                                            for n, (j, l) in enumerate(zip(self.layout.chosen, self.layout.levels[s])) if l >= 1e-4]
+                                            for n, (j, l) in enumerate(zip(self.layout.chosen, self.layout.levels[s]))
+                                            if l >= 1e-4 and d.luminaires[self.candidates[j].luminaire].photometry.shape == "box"]
         command = [program("plan"), "-s", name, "-h", f"{height:g}", "-d", f"{size / 28:g}", "-z", "-o", path, "-t",
                    f"Illuminance {height / d.units:.2f} m above {name} (lx){': ' + scene.name if scene.name else ''}"]
         command += [word for o in outlines for word in ("-c", o)]

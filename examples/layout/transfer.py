@@ -7,8 +7,8 @@ illuminance is linear in the light of the luminaires:
 
 where W is the importance that arrives at the luminaire when the goal, of area A, emits. rsphere gives W as means over
 zones of directions. Within a zone I is averaged, which is right for light that has been reflected diffusely, because W
-then varies slowly. Light that goes straight to the receiver does not: it is left out of W, and computed by shadow rays
-from points of the receiver to points of the luminaire.
+then varies slowly. Light that goes straight to the receiver does not: for it, the difference between I(d) and the
+zone's average is added along shadow rays from points of the receiver to points of the luminaire.
 """
 from dataclasses import dataclass
 
@@ -44,7 +44,7 @@ class Matrix:
     """Rows are receivers, columns candidates; lx for the luminaires at full power."""
 
     direct: np.ndarray
-    sets: np.ndarray  # what is reflected, by each set of directions: (SETS, receivers, candidates)
+    sets: np.ndarray  # what comes on other ways, by each set of directions: (SETS, receivers, candidates)
 
     def total(self):
         return self.direct + self.sets.mean(axis=0)
@@ -177,33 +177,32 @@ class Transfer:
             for begin in range(0, len(places), step):
                 here = np.flatnonzero((which >= begin) & (which < begin + step))
                 for k in range(SETS):
-                    values = self.reflected(scene, self.groups[number], places[begin : begin + step], directions // SETS, zone_count, k)
+                    values = self.importance(scene, self.groups[number], places[begin : begin + step], directions // SETS, zone_count, k)
                     for j in here:
                         sets[k, first : first + values.shape[1], j] = values[which[j] - begin] @ mean[j] * zones.solid_angle * square
-        self.points = Direct(self, candidates)
-        return Matrix(self.points.means(), sets[:, [r.surface for r in self.receivers]])
+        self.points = Direct(self, candidates, zones, mean)
+        exact, by_zone = self.points.means()
+        return Matrix(exact, sets[:, [r.surface for r in self.receivers]] - by_zone)
 
-    def reflected(self, scene, group, places, directions, zone_count, rotation):
-        """The importance of goals over their area that is not seen straight, by zone: (places, goals, zones)."""
+    def importance(self, scene, group, places, directions, zone_count, rotation):
+        """The importance of goals over their area, by zone: (places, goals, zones)."""
         _, names, areas, _ = group
-        found = []
-        # What is seen straight, also through panes, has the same directions and the same noise: the difference has none.
-        for more in dict(ambient_bounces=self.bounces), dict(ambient_bounces=0, lr=0):
-            a = scene.importance(places, goals=names, bins=zone_count, outputs="z", directions=directions, rotation=rotation, **more)
-            found.append(a.bins.reshape(len(places), len(names), zone_count, 3) @ WEIGHTS)
-        return (found[0] - found[1]) / areas[None, :, None]
+        a = scene.importance(places, goals=names, bins=zone_count, outputs="z", ambient_bounces=self.bounces,
+                             directions=directions, rotation=rotation)
+        return a.bins.reshape(len(places), len(names), zone_count, 3) @ WEIGHTS / areas[None, :, None]
 
 
 class Direct:
     """Light that goes straight from candidates to points of receivers, by shadow rays (panes let it pass)."""
 
-    def __init__(self, transfer, candidates):
-        self.t, self.candidates = transfer, candidates
+    def __init__(self, transfer, candidates, zones, mean):
+        self.t, self.candidates, self.zones, self.mean = transfer, candidates, zones, mean
         self.exact = [None] * len(transfer.receivers)  # (points, candidates)
+        self.by_zone = [None] * len(transfer.receivers)
         self.compute()
 
     def means(self):
-        return np.array([e.mean(axis=0) for e in self.exact])
+        return np.array([e.mean(axis=0) for e in self.exact]), np.array([e.mean(axis=0) for e in self.by_zone])
 
     def lamps(self):
         """The points that shadow rays go to, each once: (n, 3), and for each candidate those of its parts."""
@@ -261,7 +260,7 @@ class Direct:
 
     def fill(self, i, receiver, lamps, of, seen):
         points = len(receiver.points)
-        self.exact[i] = np.zeros((points, len(of)))
+        self.exact[i], self.by_zone[i] = np.zeros((points, len(of))), np.zeros((points, len(of)))
         square = self.t.design.units**2
         for j, (candidate, mine) in enumerate(zip(self.candidates, of)):
             to = receiver.points[:, None] - lamps[mine][None]
@@ -269,3 +268,9 @@ class Direct:
             away = to / np.sqrt(distance)[..., None]
             weight = sees(-away, receiver.kind, receiver.normals[:, None]) / distance * seen[:, mine] * square
             self.exact[i][:, j] = (weight * self.t.light(candidate, away)).mean(axis=1)
+            # The zones belong to rays from the place of the luminaire.
+            middle = receiver.points - candidate.position
+            length = (middle**2).sum(axis=-1)
+            middle = middle / np.sqrt(length)[:, None]
+            there = sees(-middle, receiver.kind, receiver.normals) / length * seen[:, mine].mean(axis=1) * square
+            self.by_zone[i][:, j] = there * self.mean[j][self.zones.at(middle)]
