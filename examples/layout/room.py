@@ -65,6 +65,14 @@ def read_polygons(files):
     return polygons
 
 
+def has_mirrors(files):
+    """Whether surfaces mirror light without blur: special objects (rsphere -Sl) that are not panes of glass."""
+    command = [program("rsphere"), "-h", "-w-", "-Sl", *files]
+    run = subprocess.run(command, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
+    kinds = [line.split("\t")[1].split(" ")[0] for line in run.stdout.splitlines() if line.count("\t") >= 3]
+    return any(kind not in ("glass", "mist", "antimatter") for kind in kinds)
+
+
 def names_matching(polygons, pattern):
     """Names of polygons, or else of their modifiers, that match a pattern (desk*), in the order of the scene."""
     for names in ([p.name for p in polygons], [p.modifier for p in polygons]):

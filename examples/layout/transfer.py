@@ -7,18 +7,20 @@ illuminance is linear in the light of the luminaires:
 
 where W is the importance that arrives at the luminaire when the goal, of area A, emits. rsphere gives W as means over
 zones of directions. Within a zone I is averaged, which is right for light that has been reflected diffusely, because W
-then varies slowly. Light that goes straight to the receiver does not: for it, the difference between I(d) and the
-zone's average is added along shadow rays from points of the receiver to points of the luminaire.
+then varies slowly. Light that goes straight to the receiver does not: it is left out of W (-dv-), and computed by
+shadow rays from points of the receiver to points of the luminaire, through panes as well. Light by mirrors alone is the
+rest of W without reflections by diffuse surfaces; it is added for surfaces, with averages over zones.
 """
 from dataclasses import dataclass
 
 import numpy as np
 
 from lamp_rad import faces
-from room import LIFT, goal_text
+from room import LIFT, goal_text, has_mirrors
 from zones import Zones
 
 PROBE = 0.05  # m, the radius of the disks and cylinders that emit importance for sensors and eyes
+SIDES = 8  # of the prism
 PART = 0.4  # m: luminous openings are divided into parts of at most this size for shadow rays
 SPARK = 1e-4  # m, the radius of the lamps that shadow rays go to
 MOST_PARTS = 16
@@ -60,10 +62,18 @@ def probe_text(modifier, receiver, units):
     p, n = receiver.points[0], receiver.normals[0]
     text = f"void plastic {modifier} 0 0 5 0 0 0 0 0\n"
     if receiver.kind == "cylinder":
-        shown = " ".join(f"{v:.9g}" for v in (*(p - [0, 0, r]), *(p + [0, 0, r]), r))
-        return text + f"{modifier} cylinder {modifier}.1 0 0 7 {shown}\n", 4 * np.pi * r * r
+        return text + prism_text(modifier, p, r), SIDES * 2 * r * 2 * r * np.sin(np.pi / SIDES)
     shown = " ".join(f"{v:.9g}" for v in (*(p + n * LIFT * units), *n, 0, r))
     return text + f"{modifier} ring {modifier}.1 0 0 8 {shown}\n", np.pi * r * r
+
+
+def prism_text(modifier, middle, r):
+    """The sides of a prism that stands for a cylinder of radius r and height 2 r, as polygons that face outwards."""
+    text, angles = "", 2 * np.pi * np.arange(SIDES + 1) / SIDES
+    for i, (a, b) in enumerate(zip(angles, angles[1:])):
+        corners = [middle + r * np.array([np.cos(t), np.sin(t), h]) for t, h in ((a, -1), (b, -1), (b, 1), (a, 1))]
+        text += f"{modifier} polygon {modifier}.{i + 1} 0 0 12 " + " ".join(f"{v:.9g}" for v in np.ravel(corners)) + "\n"
+    return text
 
 
 def lamp_points(photometry, matrix, position, units):
@@ -97,6 +107,8 @@ class Transfer:
         self.index = {}
         self.add_surfaces()
         self.add_probes()
+        self.scenes = [self.scene_with(group[0], f"goals{i}") for i, group in enumerate(self.groups)]
+        self.mirrors = has_mirrors(files)
 
     def add(self, receiver):
         self.index[receiver.name, receiver.kind] = len(self.receivers)
@@ -167,29 +179,35 @@ class Transfer:
         """The Matrix of candidates. directions: of importance at each place (-Sn), in SETS sets."""
         zones = Zones(self.rsphere.zone_middles(zone_count))
         mean = self.zone_intensities(candidates, zones)
+        self.points = Direct(self, candidates, zones, mean)
+        direct, by_zone = self.points.means()
+        rows = [r.surface for r in self.receivers]
+        # -dv-: goals that are seen straight or in mirrors are black.
+        sets = self.sets(candidates, mean, zones, directions // SETS, ambient_bounces=self.bounces, dv=False)[:, rows]
+        if self.mirrors:
+            seen = dict(ambient_bounces=0, dv=True), dict(ambient_bounces=0, dv=False)
+            all_seen, none = (self.sets(candidates, mean, zones, directions // SETS, **s)[:, rows] for s in seen)
+            surfaces = np.array([r.surface < len(self.design.surfaces) for r in self.receivers])
+            sets = sets + (all_seen - none - by_zone) * surfaces[:, None]
+        return Matrix(direct, sets)
+
+    def sets(self, candidates, mean, zones, directions, **options):
+        """What goals get by their importance, one after the other of all groups: (SETS, goals, candidates)."""
         places, which = np.unique([c.position for c in candidates], axis=0, return_inverse=True)
         which = which.ravel()
-        square = self.design.units**2  # importance has no unit of length, areas have
-        sets = np.zeros((SETS, sum(len(g[1]) for g in self.groups), len(candidates)))
-        for number in range(len(self.groups)):
-            scene, first = self.scene_with(self.groups[number][0], f"goals{number}"), self.groups[number][3]
-            step = max(1, MOST_VALUES // (len(self.groups[number][1]) * zone_count))
+        area = zones.solid_angle * self.design.units**2  # importance has no unit of length, areas have
+        values = np.zeros((SETS, sum(len(g[1]) for g in self.groups), len(candidates)))
+        for scene, (_, names, areas, first) in zip(self.scenes, self.groups):
+            step = max(1, MOST_VALUES // (len(names) * zones.count))
             for begin in range(0, len(places), step):
                 here = np.flatnonzero((which >= begin) & (which < begin + step))
                 for k in range(SETS):
-                    values = self.importance(scene, self.groups[number], places[begin : begin + step], directions // SETS, zone_count, k)
+                    a = scene.importance(places[begin : begin + step], goals=names, bins=zones.count, outputs="z",
+                                         directions=directions, rotation=k, **options)
+                    bins = a.bins.reshape(-1, len(names), zones.count, 3) @ WEIGHTS / areas[:, None]
                     for j in here:
-                        sets[k, first : first + values.shape[1], j] = values[which[j] - begin] @ mean[j] * zones.solid_angle * square
-        self.points = Direct(self, candidates, zones, mean)
-        exact, by_zone = self.points.means()
-        return Matrix(exact, sets[:, [r.surface for r in self.receivers]] - by_zone)
-
-    def importance(self, scene, group, places, directions, zone_count, rotation):
-        """The importance of goals over their area, by zone: (places, goals, zones)."""
-        _, names, areas, _ = group
-        a = scene.importance(places, goals=names, bins=zone_count, outputs="z", ambient_bounces=self.bounces,
-                             directions=directions, rotation=rotation)
-        return a.bins.reshape(len(places), len(names), zone_count, 3) @ WEIGHTS / areas[None, :, None]
+                        values[k, first : first + len(names), j] = bins[which[j] - begin] @ mean[j] * area
+        return values
 
 
 class Direct:
