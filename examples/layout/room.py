@@ -145,7 +145,7 @@ def cells_of(polygon, spacing, margin=0.0):
 def standard_spacing(length, width):
     """The largest spacing of EN 12464-1 (m)."""
     longer, shorter = max(length, width), min(length, width)
-    d = shorter if longer >= 2 * shorter else longer
+    d = shorter if longer >= 2 * shorter * (1 - 1e-9) else longer
     return min(0.2 * 5 ** np.log10(max(d, 1e-3)), 10.0)
 
 

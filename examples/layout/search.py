@@ -1,4 +1,5 @@
 """The search: which candidates, and at which levels, take the least watts. A mixed integer program, by HiGHS."""
+import time
 from dataclasses import dataclass
 
 import numpy as np
@@ -7,6 +8,7 @@ from scipy.sparse import coo_matrix, csr_matrix
 
 from fault import fault
 
+MOST_MISSED = 4  # rows of a goal that are added at once
 FLAT = 0.01  # m: the height of a flat luminaire, where others do not fit
 
 
@@ -15,7 +17,8 @@ class Layout:
     chosen: np.ndarray  # indices of candidates
     levels: list  # of each scene: levels of the chosen, 0 to 1
     bound: float  # no layout takes less (W); 0 if that is not known
-    misses: list  # (scene, goal, by what share of its size), if not all goals can be met
+    misses: list  # (scene, goal, by what share of its size), if not all goals are met
+    proven: bool  # that these goals cannot all be met; otherwise the time was too short
 
 
 class Program:
@@ -158,7 +161,7 @@ def constrain_goal(program, row, variables, slack=None):
 
 def build(design, candidates, watts, scenes, elastic):
     """scenes: the rows of each. elastic: goals may be missed, which is what costs; slacks are by goal."""
-    program, slacks = Program(), []
+    program, slacks, by_scene = Program(), [], []
     x = program.variables(len(candidates), 1e-6 * watts if elastic else watts, integer=True)
     arrange(program, design, candidates, x)
     for s, rows in enumerate(scenes):
@@ -167,6 +170,7 @@ def build(design, candidates, watts, scenes, elastic):
             levels = program.variables(len(candidates), 1e-9 * watts)
             for i in range(len(candidates)):
                 program.constrain([levels[i], x[i]], [1, -1], -1, 0)
+        by_scene.append(levels)
         by_goal = {}
         for row in rows:
             slack = None
@@ -177,17 +181,59 @@ def build(design, candidates, watts, scenes, elastic):
                     slacks.append((s, row.goal, by_goal[key]))
                 slack = by_goal[key]
             constrain_goal(program, row, levels, slack)
-    return program, x, slacks
+    return program, x, by_scene, slacks
+
+
+class Rows:
+    """The rows of scenes. Of those of uniformity, one for each point, only those that matter take part in the search."""
+
+    def __init__(self, scenes):
+        self.scenes = scenes
+        self.used = [np.array([row.goal.kind != "uniformity" for row in rows]) for rows in scenes]
+
+    def taken(self):
+        return [[row for row, use in zip(rows, used) if use] for rows, used in zip(self.scenes, self.used)]
+
+    def add_missed(self, levels, allowed):
+        """Takes those that a solution misses: of each goal the MOST_MISSED worst. Whether there are any."""
+        count = 0
+        for s, rows in enumerate(self.scenes):
+            by_goal = {}
+            for i, row in enumerate(rows):
+                miss = -row.sense * (row.coefficients @ levels[s] + row.constant) / row.size - allowed.get((s, id(row.goal)), 0)
+                if not self.used[s][i] and miss > 1e-6:
+                    by_goal.setdefault(id(row.goal), []).append((miss, i))
+            for misses in by_goal.values():
+                worst = [i for _, i in sorted(misses, reverse=True)[:MOST_MISSED]]
+                self.used[s][worst] = True
+                count += len(worst)
+        return count > 0
+
+
+def solved(design, candidates, watts, scenes, elastic, end, gap):
+    """Solves until no row is missed that was left out, or until the time `end`. Returns found, x, slacks and levels."""
+    rows = Rows(scenes)
+    while True:
+        program, x, levels, slacks = build(design, candidates, watts, rows.taken(), elastic)
+        found = program.solve(max((end - time.monotonic()) / 2, 0.5), gap)  # the rest is for rows that are missed
+        if found.x is None:
+            return found, x, slacks
+        values = [found.x[v] for v in levels]
+        allowed = {(s, id(goal)): found.x[v] for s, goal, v in slacks}
+        if not rows.add_missed(values, allowed):
+            return found, x, slacks
+        if time.monotonic() > end:
+            return found, x, slacks
 
 
 def search(design, candidates, watts, scenes, seconds=30.0, gap=0.005):
     """The Layout of least watts. watts: of each candidate. scenes: the rows of each scene."""
-    program, x, slacks = build(design, candidates, watts, scenes, False)
-    found = program.solve(seconds, gap)
+    end = time.monotonic() + seconds
+    found, x, slacks = solved(design, candidates, watts, scenes, False, end, gap)
     misses, bound = [], getattr(found, "mip_dual_bound", None) or 0.0
+    proven = found.status == 2  # not just out of time
     if found.x is None:
-        program, x, slacks = build(design, candidates, watts, scenes, True)
-        found = program.solve(seconds, gap)
+        found, x, slacks = solved(design, candidates, watts, scenes, True, time.monotonic() + seconds, gap)
         if found.x is None:
             raise fault(design.file, None, "the arrangement (rows, mirror, apart, most) leaves no layout")
         misses = [(s, goal, float(found.x[v])) for s, goal, v in slacks if found.x[v] > 1e-3]
@@ -195,7 +241,7 @@ def search(design, candidates, watts, scenes, seconds=30.0, gap=0.005):
     chosen = np.flatnonzero(found.x[x] > 0.5)
     allowed = {(s, id(goal)): slack for s, goal, slack in misses}
     levels = [dim(design, watts[chosen], s, rows, chosen, allowed, seconds) for s, rows in enumerate(scenes)]
-    return Layout(chosen, levels, bound, misses)
+    return Layout(chosen, levels, bound, misses, proven)
 
 
 def dim(design, watts, scene, rows, chosen, allowed, seconds):

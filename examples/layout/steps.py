@@ -17,8 +17,8 @@ from search import search
 from transfer import Transfer
 from wanted import Light, answers, light_of, lit_cells, rows_of
 
-UNITS_OF = {"ugr": "", "uniformity": ""}
 TOLERANCE = 0.03  # of the check: what was planned and what is found agree within it
+AGREE = {None: TOLERANCE, "uniformity": 0.03, "ugr": 0.2}  # the others by their difference
 DAYLIGHT_DIVISIONS = 1024
 
 
@@ -85,7 +85,10 @@ class Steps:
         print(f"Layout: {len(layout.chosen)} luminaires, {total:g} W{bound} ({self.seconds['search']:.1f} s)")
         for s, goal, slack in layout.misses:
             name = d.all_scenes()[s].name
-            print(f"Cannot be met{' in ' + name if name else ''}: {self.miss_text(s, goal)}")
+            print(f"{self.miss_head()}{' in ' + name if name else ''}: {self.miss_text(s, goal)}")
+
+    def miss_head(self):
+        return "Cannot be met" if self.layout.proven else "Not found in the time of -s"
 
     def miss_text(self, s, goal):
         planned = self.planned(s)
@@ -152,11 +155,13 @@ class Steps:
         with open(os.path.join(self.given.output, "table.txt"), "w", encoding="utf-8") as stream:
             stream.write(text + self.verdict() + "\n")
 
-    def largest(self):
-        """The largest deviation of what was planned from what is found; UGR aside, which is a logarithm."""
-        found = [abs(p.value / f.value - 1) for _, g, p, f in self.rows if f and g.kind != "ugr" and f.value > 0]
-        glare = [abs(p.value - f.value) for _, g, p, f in self.rows if f and g.kind == "ugr"]
-        return max(found, default=0.0), max(glare, default=None)
+    def differences(self, kind):
+        """How far what was planned is from what is found: by goals of a kind, None for illuminances (ratios)."""
+        both = [(p.value, f.value) for _, g, p, f in self.rows if f and (g.kind if g.kind in AGREE else None) == kind]
+        return [abs(p - f) if kind else abs(p / f - 1) for p, f in both if kind or f > 0]
+
+    def agree(self):
+        return all(d <= most for kind, most in AGREE.items() for d in self.differences(kind))
 
     def met(self):
         return not self.layout.misses and all(f is None or f.met(TOLERANCE) for *_, f in self.rows)
@@ -164,12 +169,13 @@ class Steps:
     def verdict(self):
         if not any(f for *_, f in self.rows):
             return "Not checked."
-        ratio, glare = self.largest()
-        text = f"The largest deviation is {ratio:.1%}" + (f", of UGR {glare:.1f}." if glare is not None else ".")
+        largest = [(f"of {kind} {max(d):.2f}" if kind else f"{max(d):.1%}") for kind in AGREE for d in [self.differences(kind)] if d]
+        text = (f"Planned and found {'agree' if self.agree() else 'DO NOT agree'} within {TOLERANCE:.0%}: the largest deviation is "
+                f"{', '.join(largest)}.")
         missed = sum(not f.met(TOLERANCE) for *_, f in self.rows if f)
         if missed or self.layout.misses:
             return f"{max(missed, len(self.layout.misses))} of {len(self.rows)} goals are not met. {text}"
-        return f"All goals are met. {text}"
+        return f"All {len(self.rows)} goals are met. {text}"
 
     def falsecolor(self, s, scene):
         floor = max((p for p in self.polygons if p.vector()[2] > 0), key=lambda p: p.vector()[2], default=None)
@@ -202,7 +208,7 @@ class Steps:
         page, d = Page(self.title), self.design
         page.banner(self.met(), self.verdict())
         for s, goal, _ in self.layout.misses:
-            page.banner(False, f"Cannot be met: {d.all_scenes()[s].name} {self.miss_text(s, goal)}")
+            page.banner(False, f"{self.miss_head()}: {d.all_scenes()[s].name} {self.miss_text(s, goal)}")
         for s, (scene, levels) in enumerate(zip(d.all_scenes(), self.layout.levels)):
             title = f"{len(self.layout.chosen)} luminaires, {self.scene_watts(levels):.0f} W" + (f": {scene.name}" if scene.name else "")
             svg = drawing(d, self.polygons, self.candidates, self.layout.chosen, levels, title)
@@ -243,4 +249,6 @@ def shown(goal, value, error=False):
 def deviation_text(planned, found):
     if planned.goal.kind == "ugr":
         return f"{planned.value - found.value:+.1f}"
+    if planned.goal.kind == "uniformity":
+        return f"{planned.value - found.value:+.3f}"
     return f"{planned.value / found.value - 1:+.1%}" if found.value > 0 else "-"
