@@ -21,9 +21,9 @@ from zones import Zones
 
 PROBE = 0.05  # m, the radius of the disks and cylinders that emit importance for sensors and eyes
 SIDES = 8  # of the prism
-PART = 0.4  # m: luminous openings are divided into parts of at most this size for shadow rays
+PART = 0.2  # m: luminous openings are divided into parts of at most this size for shadow rays
 SPARK = 1e-4  # m, the radius of the lamps that shadow rays go to
-MOST_PARTS = 16
+MOST_PARTS = 12
 MOST_SHADOWS = 4_000_000  # shadow rays of one call
 MOST_VALUES = 4_000_000  # of importance in one call
 SETS = 4  # of directions, from whose spread standard errors follow
