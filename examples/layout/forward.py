@@ -16,7 +16,7 @@ class Forward:
         """scene: an rsphere.Scene of the room with its luminaires lit."""
         self.t, self.scene, self.repeats = transfer, scene, repeats
         # One reflection more than importance: there, the first surface is not yet a reflection.
-        self.options = dict(ambient_bounces=transfer.bounces + 1, aa=0, ad=divisions, dj=1, dt=0, ds=0.05, lw=0.02)
+        self.options = dict(ambient_bounces=transfer.bounces + 1, aa=0, ad=divisions, dj=1, dt=0, ds=0.05, lw=0.64 / max(divisions, 1))
         self.lux = transfer.rsphere.photometric
 
     def points(self, i, bounces=None):
