@@ -181,29 +181,26 @@ class Transfer:
         mean = self.zone_intensities(candidates, zones)
         self.points = Direct(self, candidates, zones, mean)
         direct, by_zone = self.points.means()
-        rows = [r.surface for r in self.receivers]
-        # -dv-: goals that are seen straight or in mirrors are black.
-        sets = self.sets(candidates, mean, zones, directions // SETS, ambient_bounces=self.bounces, dv=False)[:, rows]
-        if self.mirrors:
-            seen = dict(ambient_bounces=0, dv=True), dict(ambient_bounces=0, dv=False)
-            all_seen, none = (self.sets(candidates, mean, zones, directions // SETS, **s)[:, rows] for s in seen)
-            surfaces = np.array([r.surface < len(self.design.surfaces) for r in self.receivers])
-            sets = sets + (all_seen - none - by_zone) * surfaces[:, None]
+        sets = self.sets(candidates, mean, zones, directions // SETS)[:, [r.surface for r in self.receivers]]
+        if self.mirrors:  # what surfaces get straight is among it
+            sets -= by_zone * np.array([r.surface < len(self.design.surfaces) for r in self.receivers])[:, None]
         return Matrix(direct, sets)
 
-    def sets(self, candidates, mean, zones, directions, **options):
+    def sets(self, candidates, mean, zones, directions):
         """What goals get by their importance, one after the other of all groups: (SETS, goals, candidates)."""
         places, which = np.unique([c.position for c in candidates], axis=0, return_inverse=True)
         which = which.ravel()
         area = zones.solid_angle * self.design.units**2  # importance has no unit of length, areas have
         values = np.zeros((SETS, sum(len(g[1]) for g in self.groups), len(candidates)))
         for scene, (_, names, areas, first) in zip(self.scenes, self.groups):
+            # -dv-: goals are black to rays that meet them without a reflection by a diffuse surface.
+            options = dict(ambient_bounces=self.bounces, directions=directions, dv=self.mirrors and first < len(self.design.surfaces))
             step = max(1, MOST_VALUES // (len(names) * zones.count))
             for begin in range(0, len(places), step):
                 here = np.flatnonzero((which >= begin) & (which < begin + step))
                 for k in range(SETS):
                     a = scene.importance(places[begin : begin + step], goals=names, bins=zones.count, outputs="z",
-                                         directions=directions, rotation=k, **options)
+                                         rotation=k, **options)
                     bins = a.bins.reshape(-1, len(names), zones.count, 3) @ WEIGHTS / areas[:, None]
                     for j in here:
                         values[k, first : first + len(names), j] = bins[which[j] - begin] @ mean[j] * area
