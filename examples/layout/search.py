@@ -9,6 +9,7 @@ from scipy.sparse import coo_matrix, csr_matrix
 from fault import fault
 
 MOST_MISSED = 4  # rows of a goal that are added at once
+SHARE = 0.4  # of the time that is left, for the whole program at once
 FLAT = 0.01  # m: the height of a flat luminaire, where others do not fit
 
 
@@ -47,10 +48,14 @@ class Program:
         values = np.concatenate([c for _, c in self.entries]) if self.entries else np.zeros(0)
         return csr_matrix(coo_matrix((values, (rows, columns)), shape=(len(self.entries), len(self.cost))))
 
-    def solve(self, seconds, gap):
+    def solve(self, seconds, gap, fixed=(), values=()):
+        """fixed: variables that keep these values."""
         constraints = [LinearConstraint(self.matrix(), self.low, self.high)] if self.entries else []
+        low, high = np.zeros(len(self.cost)), np.array(self.upper, dtype=float)
+        fixed = np.asarray(fixed, dtype=int)
+        low[fixed] = high[fixed] = values
         return milp(np.array(self.cost), constraints=constraints, integrality=np.array(self.integer),
-                    bounds=Bounds(0, np.array(self.upper)), options={"time_limit": seconds, "mip_rel_gap": gap})
+                    bounds=Bounds(low, high), options={"time_limit": seconds, "mip_rel_gap": gap})
 
 
 def extents(design, candidate):
@@ -210,34 +215,70 @@ class Rows:
         return count > 0
 
 
-def solved(design, candidates, watts, scenes, elastic, end, gap):
-    """Solves until no row is missed that was left out, or until the time `end`. Returns found, x, slacks and levels."""
-    rows = Rows(scenes)
-    while True:
-        program, x, levels, slacks = build(design, candidates, watts, rows.taken(), elastic)
-        found = program.solve(max((end - time.monotonic()) / 2, 0.5), gap)  # the rest is for rows that are missed
-        if found.x is None:
-            return found, x, slacks
-        values = [found.x[v] for v in levels]
-        allowed = {(s, id(goal)): found.x[v] for s, goal, v in slacks}
-        if not rows.add_missed(values, allowed):
-            return found, x, slacks
-        if time.monotonic() > end:
-            return found, x, slacks
+class Solver:
+    """Solves until no row is missed that was left out; what time is left goes into better layouts."""
+
+    def __init__(self, design, candidates, watts, scenes, elastic):
+        self.design, self.candidates, self.watts, self.elastic = design, candidates, watts, elastic
+        self.rows = Rows(scenes)
+        self.build()
+
+    def build(self):
+        """Rows that are added leave the numbers of the variables as they are."""
+        self.program, self.x, self.levels, self.slacks = build(self.design, self.candidates, self.watts, self.rows.taken(), self.elastic)
+
+    def missed(self, found):
+        """Whether rows are missed that were left out; then they are there from now on."""
+        allowed = {(s, id(goal)): found.x[v] for s, goal, v in self.slacks}
+        missed = self.rows.add_missed([found.x[v] for v in self.levels], allowed)
+        if missed:
+            self.build()
+        return missed
+
+    def solve(self, seconds, gap):
+        end = time.monotonic() + seconds
+        while True:
+            found = self.program.solve(max(SHARE * (end - time.monotonic()), 0.5), gap)
+            if found.x is None or not self.missed(found) or time.monotonic() > end:
+                break
+        if found.x is not None and found.status != 0:
+            bound = found.mip_dual_bound
+            found = self.improved(found, end, bound, gap)
+            found.mip_dual_bound = bound
+        return found
+
+    def improved(self, best, end, bound, gap):
+        """Sets some luminaires free that hang near to each other, all others kept, and solves again; more if that does not help."""
+        random = np.random.default_rng(1)
+        position = np.array([c.position[:2] for c in self.candidates])
+        free, failed = min(60, len(position)), 0
+        while time.monotonic() < end and best.fun > bound + gap * abs(best.fun):
+            middle = position[random.choice(len(position))]
+            others = np.argsort(np.hypot(*(position - middle).T), kind="stable")[free:]
+            found = self.program.solve(min(3.0, max(end - time.monotonic(), 0.1)), 1e-4, self.x[others], np.round(best.x[self.x[others]]))
+            if found.x is not None and found.fun < best.fun - 1e-6 and not self.missed(found):
+                best, failed = found, 0
+                continue
+            failed += 1
+            if failed == 8:
+                free, failed = int(1.3 * free), 0
+        return best
 
 
 def search(design, candidates, watts, scenes, seconds=30.0, gap=0.005):
     """The Layout of least watts. watts: of each candidate. scenes: the rows of each scene."""
-    end = time.monotonic() + seconds
-    found, x, slacks = solved(design, candidates, watts, scenes, False, end, gap)
+    solver = Solver(design, candidates, watts, scenes, False)
+    found = solver.solve(seconds, gap)
     misses, bound = [], getattr(found, "mip_dual_bound", None) or 0.0
     proven = found.status == 2  # not just out of time
     if found.x is None:
-        found, x, slacks = solved(design, candidates, watts, scenes, True, time.monotonic() + seconds, gap)
+        solver = Solver(design, candidates, watts, scenes, True)
+        found = solver.solve(seconds, gap)
         if found.x is None:
             raise fault(design.file, None, "the arrangement (rows, mirror, apart, most) leaves no layout")
-        misses = [(s, goal, float(found.x[v])) for s, goal, v in slacks if found.x[v] > 1e-3]
+        misses = [(s, goal, float(found.x[v])) for s, goal, v in solver.slacks if found.x[v] > 1e-3]
         bound = 0.0
+    x = solver.x
     chosen = np.flatnonzero(found.x[x] > 0.5)
     allowed = {(s, id(goal)): slack for s, goal, slack in misses}
     levels = [dim(design, watts[chosen], s, rows, chosen, allowed, seconds) for s, rows in enumerate(scenes)]
