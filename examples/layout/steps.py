@@ -1,9 +1,11 @@
 """The steps from goals to a page: matrix, search, luminaires as built, check by light traced forward, plans."""
+import contextlib
 import os
 import statistics
 import subprocess
 import tempfile
 import time
+from dataclasses import replace
 
 import numpy as np
 
@@ -20,6 +22,21 @@ from wanted import Light, answers, light_of, lit_cells, rows_of
 TOLERANCE = 0.03  # of the check: what was planned and what is found agree within it
 AGREE = {None: TOLERANCE, "uniformity": 0.05, "ugr": 0.2}  # the others by their difference
 DAYLIGHT_DIVISIONS = 1024
+IN_FRONT = 0.001  # m: light begins this far before a luminaire that is a body
+
+
+@contextlib.contextmanager
+def raypath(folder):
+    """RAYPATH with a folder in front."""
+    before = os.environ.get("RAYPATH")
+    os.environ["RAYPATH"] = f"{os.path.abspath(folder)}:{before or '.'}"
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ["RAYPATH"]
+        else:
+            os.environ["RAYPATH"] = before
 
 
 class Steps:
@@ -49,6 +66,7 @@ class Steps:
             print(f"Matrix: {len(self.transfer.receivers)} receivers, {len(d.candidates)} candidates, standard error "
                   f"{self.matrix_error():.1%}, {self.seconds['matrix']:.1f} s")
             self.layout = self.timed("search", self.searched)
+            self.timed("plan", lambda: self.plan_as_built(folder))
             self.tell_layout()
             self.check()
             self.pages()
@@ -70,13 +88,22 @@ class Steps:
                   for s, day in zip(self.design.all_scenes(), self.daylight)]
         return search(self.design, self.candidates, self.watts, scenes, self.given.seconds, self.given.gap)
 
+    def plan_as_built(self, folder):
+        """The light of the chosen luminaires once more, where they hang: they hide and absorb light, as bodies."""
+        d, chosen = self.design, self.layout.chosen
+        self.planned_light = Light([a[:, chosen] for a in self.light.direct], self.light.sets[:, :, chosen],
+                                   {k: v[chosen] for k, v in self.light.glare.items()})
+        lamps = [self.candidates[j] for j in chosen]
+        if not lamps or any(all(d.luminaires[c.luminaire].photometry.shines()) for c in lamps):
+            return  # the middle of a luminaire that shines both ways is inside of its body
+        bodies = write_lamps(d, self.candidates, chosen, np.ones(len(chosen)), folder, "bodies")
+        with raypath(folder):
+            transfer = Transfer(self.rsphere, [*self.given.room, bodies], d, folder, self.given.bounces)
+            before = [replace(c, position=c.position + IN_FRONT * d.units * c.aim) for c in lamps]
+            self.planned_light = light_of(transfer, before, transfer.matrix(before, self.given.directions))
+
     def scene_watts(self, levels):
         return float(self.watts[self.layout.chosen] @ levels)
-
-    def levels_of(self, levels):
-        full = np.zeros(len(self.candidates))
-        full[self.layout.chosen] = levels
-        return full
 
     def tell_layout(self):
         layout, d = self.layout, self.design
@@ -97,7 +124,7 @@ class Steps:
 
     def planned(self, s):
         scene = self.design.all_scenes()[s]
-        return answers(self.transfer, scene.goals, self.light, self.levels_of(self.layout.levels[s]), self.daylight[s], self.lit)
+        return answers(self.transfer, scene.goals, self.planned_light, self.layout.levels[s], self.daylight[s], self.lit)
 
     def check(self):
         self.files = []
@@ -114,9 +141,7 @@ class Steps:
 
     def found(self, scene, levels, file):
         """Answers by light traced forward. Glare is that of luminaires alone, as planned."""
-        rayed = os.environ.get("RAYPATH")
-        os.environ["RAYPATH"] = ":".join(p for p in (os.path.abspath(self.given.output), rayed or ".") if p)
-        try:
+        with raypath(self.given.output):
             lamps = [self.candidates[j] for j, l in zip(self.layout.chosen, levels) if l >= 1e-4]
             electric = Forward(self.transfer, self.rsphere.Scene([*self.given.room, file]), self.given.check)
             if not scene.daylight:
@@ -126,11 +151,6 @@ class Steps:
             glare = iter(electric.answers([g for g in scene.goals if g.kind == "ugr"], self.lit, lamps))
             rest = iter(both.answers([g for g in scene.goals if g.kind != "ugr"], self.lit, lamps))
             return [next(glare if g.kind == "ugr" else rest) for g in scene.goals]
-        finally:
-            if rayed is None:
-                del os.environ["RAYPATH"]
-            else:
-                os.environ["RAYPATH"] = rayed
 
     def table_rows(self):
         for scene, goal, planned, found in self.rows:
