@@ -11,6 +11,7 @@ from fault import Fault, fault
 from start import HERE
 
 LIFT = 0.004  # m: surfaces of goals lie this far above what they cover, and above sheets of paper on it
+MOST_CELLS = 20000  # of a polygon
 PARTS = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) / 4  # points in a cell, from its middle, by its sides
 
 
@@ -133,6 +134,8 @@ def cells_of(polygon, spacing, margin=0.0):
     if not (high > low).all():
         return np.zeros((0, 3)), [], (0, 0)
     counts = np.maximum(np.ceil((high - low) / np.asarray(spacing) - 1e-6).astype(int), 1)
+    if np.prod(counts.astype(float)) > MOST_CELLS:
+        raise Fault(f'spacing: more than {MOST_CELLS} points on "{polygon.name}"; is it in the units of the scene?')
     step = (high - low) / counts
     v, u = np.meshgrid(*(low[i] + (np.arange(counts[i]) + 0.5) * step[i] for i in (1, 0)), indexing="ij")
     middles = np.stack([u.ravel(), v.ravel()], axis=1)
