@@ -271,4 +271,16 @@ std::vector<Ring> findOutlines(const Description& scene, std::span<const std::st
   return outlines;
 }
 
+std::vector<PolygonCorners> allPolygons(const Description& scene) {
+  std::vector<PolygonCorners> polygons;
+  for (const Primitive& p : scene.primitives) {
+    if (p.type != rad::Type::polygon) continue;
+    const bool none = p.modifier == rad::PrimitiveId(rad::kVoid);
+    polygons.push_back({rad::printable(p.name),
+                        none ? "void" : rad::printable(scene.primitives[p.modifier].name),
+                        verticesOf(scene, p)});
+  }
+  return polygons;
+}
+
 }  // namespace grid

@@ -61,4 +61,12 @@ Area findArea(const rad::Description& scene, std::span<const std::string> names,
 std::vector<Ring> findOutlines(const rad::Description& scene, std::span<const std::string> names,
                                const Plane& plane);
 
+struct PolygonCorners {
+  std::string name, modifier;  // printable; the modifier is void if there is none
+  std::vector<V3d> corners;
+};
+
+// All polygons of the scene, in its order. Those inside of instances and meshes are not among them.
+std::vector<PolygonCorners> allPolygons(const rad::Description& scene);
+
 }  // namespace grid

@@ -41,6 +41,7 @@ constexpr const char* kUsage =
   -t TITLE  title of the plan
   -x FILE   write a table: x y z and illuminance of each point
   -p        print the sensors, as rtrace reads them, and stop
+  -a        print all polygons, one a line, and stop: name, modifier, x y z of each corner; behind tabs
   -i FILE   read the illuminances from a file, in the order of -p, instead of running rtrace
 
 Scene files are scene text or one octree. rtrace is run with)";
@@ -53,6 +54,7 @@ struct Settings {
   std::vector<std::string> surfaces, context, files, rtrace = kDefaults;
   double height = 0, spacing = 0, margin = 0, maintenance = 1;
   bool upOnly = false, reversed = false, skipDark = false, values = false, onlyPoints = false;
+  bool allPolygons = false;
   std::string picture, title, table, readings;
   std::vector<double> levels;
 };
@@ -124,12 +126,14 @@ Settings settingsOf(const std::vector<std::string>& words) {
       s.values = true;
     else if (word == "-p")
       s.onlyPoints = true;
+    else if (word == "-a")
+      s.allPolygons = true;
     else if (word.size() > 1 && word[0] == '-')
       throw rad::Error(fmt::format("unknown option \"{}\"; options of rtrace come behind --", word));
     else
       s.files.push_back(word);
   }
-  if (s.surfaces.empty()) throw rad::Error("no polygon is named; -s NAME names one");
+  if (s.surfaces.empty() && !s.allPolygons) throw rad::Error("no polygon is named; -s NAME names one");
   if (s.files.empty()) throw rad::Error("no scene file is named");
   rsphere::requireSvgName("-o", s.picture, "the plan");
   return s;
@@ -188,8 +192,17 @@ std::string titleOf(const Settings& s) {
 
 void warn(std::string_view text) { fmt::print(stderr, "plan: warning - {}\n", text); }
 
+void printPolygons(const rad::Description& scene) {
+  for (const PolygonCorners& polygon : allPolygons(scene)) {
+    fmt::print("{}\t{}\t", polygon.name, polygon.modifier);
+    for (const V3d& p : polygon.corners) fmt::print("{:.9g} {:.9g} {:.9g} ", p.x, p.y, p.z);
+    fmt::print("\n");
+  }
+}
+
 void run(const Settings& s) {
   const rad::Description scene = rad::readScene(s.files, {.warn = warn});
+  if (s.allPolygons) return printPolygons(scene);
   const Area area = findArea(scene, s.surfaces, s.reversed, s.upOnly);
   const Plane& plane = area.plane();
   Grid grid = layGrid(area, s.spacing, s.margin);

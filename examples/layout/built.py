@@ -1,0 +1,42 @@
+"""The luminaires as built: scene text that rsphere, rtrace and RADIANCE's programs read."""
+import os
+
+import numpy as np
+
+from lamp_rad import pattern_text, surfaces_text, turning_words, word, write_data
+
+
+def write_lamps(design, candidates, chosen, levels, folder, name):
+    """Writes the chosen luminaires at their levels into FOLDER/NAME.rad, and their data files beside it."""
+    text = "# Luminaires by examples/layout. The maintenance factor and the levels of the scene are in their light.\n"
+    materials = {}
+    for number, (j, level) in enumerate(zip(chosen, levels)):
+        c = candidates[j]
+        luminaire = design.luminaires[c.luminaire]
+        if level < 1e-4:
+            continue
+        data = write_data(luminaire.photometry, folder, luminaire.name)
+        tilt = np.degrees(np.arccos(np.clip(-c.aim[2], -1, 1)))
+        factor = luminaire.factor * design.maintenance * luminaire.photometry.tilt_factor(tilt) * level
+        key = (c.luminaire, tuple(c.aim), c.turn, f"{factor:.6g}")
+        if key not in materials:
+            materials[key] = f"{luminaire.name}_{name}{len(materials) + 1}"
+            text += pattern_text(luminaire.photometry, materials[key], data, float(key[3]), turning_words(c.aim, c.turn))
+        text += f"# {number + 1}: {luminaire.name} at {level:.0%}\n"
+        text += surfaces_text(luminaire.photometry, f"{word(luminaire.name)}.{number + 1}", materials[key], c.matrix(),
+                              c.position, design.units)
+    path = os.path.join(folder, f"{name}.rad")
+    with open(path, "w", encoding="ascii") as stream:
+        stream.write(text)
+    return path
+
+
+def outline(design, candidate):
+    """The corners (4, 2) of a luminaire from above, in units of the scene."""
+    x, y, _ = (candidate.matrix() * candidate_size(design, candidate)).T
+    signs = np.array([[-1, -1], [-1, 1], [1, 1], [1, -1]]) / 2 * design.units
+    return candidate.position[:2] + np.stack([signs @ x[:2], signs @ y[:2]], axis=1)
+
+
+def candidate_size(design, candidate):
+    return np.maximum(design.luminaires[candidate.luminaire].photometry.size, 0.05)

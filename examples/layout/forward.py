@@ -1,0 +1,86 @@
+"""What the goals get from the luminaires as built: light traced forward, by rtrace's rules (-I), with standard errors.
+
+Each value is the mean of repeats with other random numbers; its standard error follows from their spread.
+"""
+import numpy as np
+
+from glare import position_index, rating
+from transfer import lamp_points
+from wanted import Answer, cells, receiver_of
+
+REPEATS = 6
+
+
+class Forward:
+    def __init__(self, transfer, scene, divisions, repeats=REPEATS):
+        """scene: an rsphere.Scene of the room with its luminaires lit."""
+        self.t, self.scene, self.repeats = transfer, scene, repeats
+        # One reflection more than importance: there, the first surface is not yet a reflection.
+        self.options = dict(ambient_bounces=transfer.bounces + 1, aa=0, ad=divisions, dj=1, dt=0, ds=0.05, lw=0.64 / max(divisions, 1))
+        self.lux = transfer.rsphere.photometric
+
+    def points(self, i, bounces=None):
+        """The illuminance of each point of a receiver: (repeats, points)."""
+        receiver = self.t.receivers[i]
+        found = []
+        for repeat in range(1, self.repeats + 1):
+            if receiver.kind == "cylinder":
+                a = self.scene.sphere(receiver.points, ambient_bounces=self.t.bounces, outputs="C", rotation=repeat)
+                found.append(self.lux(a.cylindrical_irradiance))
+                continue
+            options = dict(self.options, rotation=repeat)
+            if bounces is not None:
+                options["ambient_bounces"] = bounces
+            rays = np.hstack([receiver.points, receiver.normals])
+            found.append(self.lux(self.scene.trace(rays, irradiance_at_origin=True, **options).value))
+        return np.array(found)
+
+    def answers(self, goals, lit, lamps):
+        """The Answer of each goal. lit: cells that count, by receiver. lamps: the candidates that are on."""
+        found, known = [], {}
+        for goal in goals:
+            if goal.kind == "ugr":
+                found.append(self.glare(goal, lamps))
+                continue
+            i = receiver_of(self.t, goal.target, ("cylinder",) if goal.kind == "cylindrical" else ("plane",))
+            if i not in known:
+                known[i] = self.points(i)
+            values = known[i].mean(axis=1)
+            if goal.kind == "uniformity":
+                at = np.array([cells(self.t, i, v)[lit[i]] for v in known[i]])
+                # Of the mean over all repeats: the least of noisy values is too low.
+                value = at.mean(axis=0).min() / at.mean()
+                lowest = int(at.mean(axis=0).argmin())
+                values = at[:, lowest] / at.mean(axis=1)
+                found.append(Answer(goal, float(value), self.error(values)))
+            else:
+                found.append(Answer(goal, float(values.mean()), self.error(values)))
+        return found
+
+    def error(self, values):
+        return float(values.std(ddof=1) / np.sqrt(len(values)))
+
+    def glare(self, goal, lamps):
+        """UGR, with the luminances that rays from the eye meet on the luminaires."""
+        eye, units = self.t.design.eyes[goal.target], self.t.design.units
+        i = self.t.index[goal.target, "eye"]
+        background = (self.points(i) - self.points(i, 0))[:, 0] / np.pi
+        total = 0.0
+        for c in lamps:
+            photometry = self.t.design.luminaires[c.luminaire].photometry
+            points = lamp_points(photometry, c.matrix(), c.position, units)
+            to = points - eye.position
+            distance = np.linalg.norm(c.position - eye.position) / units
+            area = photometry.projected_area((eye.position - c.position) / units / distance @ c.matrix())
+            rays = np.hstack([np.broadcast_to(eye.position, to.shape), to / np.linalg.norm(to, axis=1)[:, None]])
+            seen = self.lux(self.scene.trace(rays, ambient_bounces=0).value).mean()
+            direction = (c.position - eye.position) / units / distance
+            total += seen**2 * area / distance**2 / position_index(eye.gaze, direction) ** 2
+        value = rating(total, float(background.mean()))
+        return Answer(goal, value, 8 / np.log(10) * self.error(background) / max(float(background.mean()), 1e-9))
+
+
+def daylight_of(transfer, scene, divisions, repeats=REPEATS):
+    """The illuminance (points, 1) of each receiver from the sky and the sun, as the direct part of a Light."""
+    forward = Forward(transfer, scene, divisions, repeats)
+    return [forward.points(i).mean(axis=0)[:, None] for i in range(len(transfer.receivers))]

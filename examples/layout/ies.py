@@ -1,0 +1,155 @@
+"""Reads IES LM-63 files (1986 to 2019, photometry of type C)."""
+import os
+
+import numpy as np
+
+from fault import fault, lines_of, number, whole
+from photometry import Photometry, checked_angles, unfolded
+
+MOST_ANGLES = 3601  # a tenth of a degree, all round
+FOOT = 0.3048
+TOLERANCE = 1e-3  # degrees, and metres where dimensions are compared
+
+
+class Words:
+    """The numbers behind the line TILT=, with the lines that they are on."""
+
+    def __init__(self, file, lines, first):
+        self.file, self.line, self.last = file, first, len(lines)
+        self.words = self.split(lines, first)
+
+    def split(self, lines, first):
+        for index in range(first, len(lines)):
+            for word in lines[index].split():
+                yield index + 1, word[:-1] if len(word) > 1 and word.endswith(",") else word
+
+    def word(self, what):
+        self.line, word = next(self.words, (self.last, None))
+        if word is None:
+            raise fault(self.file, self.line, f"the file ends before {what}")
+        return word
+
+    def number(self, what, least=-1e9, most=1e9):
+        return number(self.word(what), self.file, self.line, what, least, most)
+
+    def whole(self, what, least, most):
+        return whole(self.word(what), self.file, self.line, what, least, most)
+
+    def numbers(self, count, what, least, most):
+        return [self.number(f"{what} {i + 1} of {count}", least, most) for i in range(count)]
+
+    def end(self):
+        for line, word in self.words:
+            raise fault(self.file, line, f'"{word[:40]}" follows the last candela value; are the counts of angles right?')
+
+
+def head(file, lines):
+    """The keywords, and the index and the value of the line TILT=."""
+    keywords = {}
+    for index, line in enumerate(lines):
+        text = line.strip()
+        if text.upper().startswith("TILT="):
+            return keywords, index, text[5:].strip()
+        if text.startswith("[") and "]" in text:
+            key, value = text[1:].split("]", 1)
+            keywords.setdefault(key.strip().upper(), value.strip())
+    raise fault(file, len(lines), "there is no line TILT=; is this an IES file?")
+
+
+def read_tilt(words):
+    words.whole("the lamp's position in the luminaire (after TILT=INCLUDE)", 1, 3)
+    count = words.whole("the number of tilt angles", 1, MOST_ANGLES)
+    angles = words.numbers(count, "tilt angle", 0, 180)
+    checked_angles(angles, words.file, words.line, "tilt angles")
+    return tuple(angles), tuple(words.numbers(count, "tilt factor", 0, 100))
+
+
+def tilt_of(file, value, words):
+    if value.upper() == "NONE":
+        return (0.0, 180.0), (1.0, 1.0)
+    if value.upper() == "INCLUDE":
+        return read_tilt(words)
+    other = os.path.join(os.path.dirname(file), value)
+    tilt_words = Words(other, lines_of(other), 0)
+    tilt = read_tilt(tilt_words)
+    tilt_words.end()
+    return tilt
+
+
+def opening_of(words, width, length, height, metres):
+    """The shape and the size along x, y and z (m): length is along the plane 0, which is +x, and width across it."""
+    w, l, h = (abs(v) * metres for v in (width, length, height))
+    if max(w, l, h) > 100:
+        raise fault(words.file, words.line, f"the luminous opening is larger than 100 m: {w:g} x {l:g} x {h:g}")
+    if w == 0 and l == 0:
+        if h > TOLERANCE:
+            return "box", (TOLERANCE, TOLERANCE, h)
+        return "point", (TOLERANCE, TOLERANCE, TOLERANCE)
+    if width < 0 and length <= 0 or width == 0 and length < 0:  # round; before 1995, one diameter alone was negative
+        diameter = max(w, l)
+        if height < 0 and abs(h - diameter) < TOLERANCE:
+            return "sphere", (diameter,) * 3
+        return "cylinder", (diameter, diameter, h)
+    return "box", (max(l, TOLERANCE), max(w, TOLERANCE), h)
+
+
+def all_round(words, planes, candela):
+    """Intensities for planes from 0 to 360, by the symmetry that the first and the last plane of the file state."""
+    first, last = planes[0], planes[-1]
+
+    def at(value, wanted):
+        return abs(value - wanted) < TOLERANCE
+
+    if len(planes) == 1 and at(first, 0):
+        return np.array([0.0]), candela
+    if at(first, 0) and at(last, 90):
+        planes, candela = unfolded(planes, candela, 90)
+        half = planes <= 180 + TOLERANCE
+        return unfolded(planes[half], candela[half], 180)
+    if at(first, 0) and at(last, 180):
+        return unfolded(planes, candela, 180)
+    if at(first, 90) and at(last, 270):
+        return unfolded(planes, candela, 90)
+    if at(first, 0) and at(last, 360):
+        return planes, candela
+    raise fault(
+        words.file,
+        words.line,
+        f"horizontal angles from {first:g} to {last:g} are none of 0, 0 to 90, 0 to 180, 90 to 270 and 0 to 360",
+    )
+
+
+def read_ies(file):
+    """The Photometry of an IES file. Raises Fault with its line."""
+    lines = lines_of(file)
+    keywords, index, tilt_value = head(file, lines)
+    words = Words(file, lines, index + 1)
+    tilt = tilt_of(file, tilt_value, words)
+    lamps = words.whole("the number of lamps", 1, 10000)
+    lumens = words.number("the lumens of a lamp", -1, 1e9)
+    if -1 < lumens <= 0:
+        raise fault(file, words.line, "the lumens of a lamp must be above 0, or -1 for absolute photometry")
+    multiplier = words.number("the multiplier", 1e-9, 1e9)
+    gammas = words.whole("the number of vertical angles", 2, MOST_ANGLES)
+    planes = words.whole("the number of horizontal angles", 1, MOST_ANGLES)
+    kind = words.whole("the photometric type", 1, 3)
+    if kind != 1:
+        raise fault(file, words.line, f"photometry of type {' CBA'[kind]} is not supported, but type C (1) is")
+    metres = FOOT if words.whole("the unit of lengths (1 feet, 2 metres)", 1, 2) == 1 else 1.0
+    size = [words.number(f"the {what} of the luminous opening", -1e4, 1e4) for what in ("width", "length", "height")]
+    shape, size = opening_of(words, *size, metres)
+    factor = words.number("the ballast factor", 1e-9, 100)
+    factor *= words.number("the factor behind the ballast factor", 1e-9, 100)
+    watts = words.number("the watts", 0, 1e6)
+    vertical = checked_angles(words.numbers(gammas, "vertical angle", 0, 180), file, words.line, "vertical angles")
+    if min(vertical[0], abs(vertical[0] - 90)) > TOLERANCE or min(abs(vertical[-1] - 90), 180 - vertical[-1]) > TOLERANCE:
+        raise fault(file, words.line, f"vertical angles must begin at 0 or 90 and end at 90 or 180, not {vertical[0]:g} and {vertical[-1]:g}")
+    horizontal = checked_angles(words.numbers(planes, "horizontal angle", 0, 360), file, words.line, "horizontal angles")
+    values = words.numbers(gammas * planes, "candela value", 0, 1e9)
+    horizontal, candela = all_round(words, horizontal, np.array(values).reshape(planes, gammas))
+    words.end()
+    if not candela.any():
+        raise fault(file, words.line, "all candela values are 0")
+    name = " ".join(keywords.get(key, "") for key in ("MANUFAC", "LUMCAT", "LUMINAIRE")).strip()
+    return Photometry(file, name or os.path.basename(file), horizontal, vertical,
+                      candela * multiplier * factor, shape, size, watts, tilt)

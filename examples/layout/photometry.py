@@ -1,0 +1,98 @@
+"""Luminous intensity distributions: what the readers of IES and EULUMDAT files return.
+
+A luminaire hangs at the origin, and its main direction is -z. C is the azimuth from +x towards +y, and gamma the
+angle from -z, in degrees.
+"""
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from fault import fault
+
+
+TINY = 0.0005  # m; degrees
+
+
+@dataclass
+class Photometry:
+    """Intensities and luminous opening of a luminaire. Lengths are metres."""
+
+    file: str
+    name: str
+    planes: np.ndarray  # C angles, ascending from 0 to 360; a single 0 if intensities do not depend on C
+    gammas: np.ndarray  # ascending, within 0 to 180; there is no light beyond them
+    candela: np.ndarray  # (planes, gammas), of the whole luminaire: all factors and lamps are in it
+    shape: str  # box (flat if the height is 0), cylinder (vertical; a disk if the height is 0), sphere or point
+    size: tuple  # along x, along y, height
+    watts: float
+    tilt: tuple = field(default=((0.0, 180.0), (1.0, 1.0)))  # angles of the luminaire, and factors on its light
+
+    def intensity(self, directions):
+        """cd in directions (..., 3): unit vectors from the luminaire. Linear between the angles of the file."""
+        d = np.asarray(directions, dtype=float)
+        gamma = np.degrees(np.arctan2(np.hypot(d[..., 0], d[..., 1]), -d[..., 2]))
+        g = np.interp(gamma, self.gammas, np.arange(len(self.gammas)))
+        low = np.minimum(g.astype(int), max(len(self.gammas) - 2, 0))
+        high = np.minimum(low + 1, len(self.gammas) - 1)
+        t = g - low
+        if len(self.planes) == 1:
+            value = self.candela[0][low] * (1 - t) + self.candela[0][high] * t
+        else:
+            azimuth = np.degrees(np.arctan2(d[..., 1], d[..., 0])) % 360
+            c = np.interp(azimuth, self.planes, np.arange(len(self.planes)))
+            left = np.minimum(c.astype(int), len(self.planes) - 2)
+            s = c - left
+            first = self.candela[left, low] * (1 - t) + self.candela[left, high] * t
+            second = self.candela[left + 1, low] * (1 - t) + self.candela[left + 1, high] * t
+            value = first * (1 - s) + second * s
+        outside = (gamma < self.gammas[0] - 1e-6) | (gamma > self.gammas[-1] + 1e-6)
+        return np.where(outside, 0.0, value)
+
+    def lumens(self):
+        """The luminous flux: the integral of the intensities."""
+        fine = np.radians(np.linspace(0, 180, 3601))
+        mean = self.candela[0]
+        if len(self.planes) > 1:
+            mean = np.sum((self.candela[1:] + self.candela[:-1]) / 2 * np.diff(self.planes)[:, None], axis=0) / 360
+        curve = np.interp(np.degrees(fine), self.gammas, mean, left=0, right=0)
+        return 2 * np.pi * np.trapz(curve * np.sin(fine), fine)
+
+    def tilt_factor(self, angle):
+        """The factor on the light of a luminaire whose main direction is turned by an angle (degrees) from -z."""
+        return float(np.interp(angle, *self.tilt))
+
+    def shines(self):
+        """Whether there is light below and above the horizontal, by the angles of the file."""
+        return bool(self.gammas[0] < 90), bool(self.gammas[-1] > 90)
+
+    def projected_area(self, directions):
+        """The luminous area (m2) seen from directions (..., 3): unit vectors from the luminaire."""
+        d = np.abs(np.asarray(directions, dtype=float))
+        x, y, h = self.size
+        if self.shape in ("sphere", "point"):
+            return np.full(d.shape[:-1], np.pi / 4 * x * x)
+        across = np.hypot(d[..., 0], d[..., 1])
+        sides = all(self.shines()) and h > 0
+        if self.shape == "cylinder":
+            return np.pi / 4 * x * x * d[..., 2] + (x * h * across if sides else 0)
+        return x * y * d[..., 2] + ((y * h * d[..., 0] + x * h * d[..., 1]) if sides else 0)
+
+
+def checked_angles(angles, file, line, what):
+    """Angles as an array. Raises Fault if they do not ascend."""
+    for before, after in zip(angles, angles[1:]):
+        if not before < after:
+            raise fault(file, line, f"{what} must ascend, but {after:g} follows {before:g}")
+    return np.array(angles)
+
+
+def unfolded(planes, candela, middle):
+    """Planes all round, from those of one half, which is mirrored in the plane `middle` (0, 90 or 180)."""
+    mirrored = (2 * middle - planes) % 360
+    both = np.concatenate([planes % 360, mirrored])
+    order, first = np.unique(np.round(both, 9), return_index=True)
+    rows = np.concatenate([candela, candela])[first]
+    order, rows = np.append(order, order[0] + 360), np.vstack([rows, rows[:1]])
+    if order[0] > 0:
+        order, rows = np.insert(order, 0, order[-2] - 360), np.vstack([rows[-2:-1], rows])
+    return order, rows

@@ -1,0 +1,274 @@
+"""The steps from goals to a page: matrix, search, luminaires as built, check by light traced forward, plans."""
+import contextlib
+import os
+import statistics
+import subprocess
+import tempfile
+import time
+from dataclasses import replace
+
+import numpy as np
+
+from built import write_lamps
+from design import read_design
+from fault import Fault
+from forward import Forward, daylight_of
+from page import Page, drawing, table
+from room import program, read_polygons
+from search import search
+from transfer import Transfer
+from wanted import Light, answers, light_of, lit_cells, rows_of
+
+TOLERANCE = 0.03  # of the check: what was planned and what is found agree within it
+AGREE = {None: TOLERANCE, "uniformity": 0.05, "ugr": 0.2}  # the others by their difference
+DAYLIGHT_DIVISIONS = 1024
+IN_FRONT = 0.001  # m: light begins this far before a luminaire that is a body
+
+
+@contextlib.contextmanager
+def raypath(folder):
+    """RAYPATH with a folder in front."""
+    before = os.environ.get("RAYPATH")
+    os.environ["RAYPATH"] = f"{os.path.abspath(folder)}:{before or '.'}"
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ["RAYPATH"]
+        else:
+            os.environ["RAYPATH"] = before
+
+
+class Steps:
+    def __init__(self, rsphere, given):
+        self.rsphere, self.given, self.seconds = rsphere, given, {}
+        self.polygons = read_polygons(given.room)
+        self.design = read_design(given.goals, self.polygons)
+        self.title = given.title or f"Layout for {os.path.basename(given.goals)}"
+        self.rows = []  # of the table: (scene, goal, planned, found)
+
+    def timed(self, name, function):
+        begin = time.monotonic()
+        value = function()
+        self.seconds[name] = time.monotonic() - begin
+        return value
+
+    def run(self):
+        with tempfile.TemporaryDirectory() as folder:
+            d = self.design
+            self.transfer = Transfer(self.rsphere, self.given.room, d, folder, self.given.bounces)
+            self.candidates = d.candidates
+            self.watts = np.array([d.luminaires[c.luminaire].watts for c in d.candidates])
+            self.matrix = self.timed("matrix", lambda: self.transfer.matrix(d.candidates, self.given.directions))
+            self.light = light_of(self.transfer, d.candidates, self.matrix)
+            self.lit = [lit_cells(self.light, i) for i in range(len(self.transfer.receivers))]
+            self.daylight = [self.daylight_in(s) for s in d.all_scenes()]
+            print(f"Matrix: {len(self.transfer.receivers)} receivers, {len(d.candidates)} candidates, standard error "
+                  f"{self.matrix_error():.1%}, {self.seconds['matrix']:.1f} s")
+            self.layout = self.timed("search", self.searched)
+            self.timed("plan", lambda: self.plan_as_built(folder))
+            self.tell_layout()
+            self.check()
+            self.pages()
+
+    def matrix_error(self):
+        """rms of the standard errors, each by what all candidates together give to its receiver on average."""
+        mean = self.matrix.total().mean(axis=1, keepdims=True)
+        return float(np.sqrt(((self.matrix.error() / mean) ** 2).mean()))
+
+    def daylight_in(self, scene):
+        if not scene.daylight:
+            return None
+        outdoors = self.rsphere.Scene([*scene.daylight, *self.given.room])
+        direct = self.timed("daylight", lambda: daylight_of(self.transfer, outdoors, DAYLIGHT_DIVISIONS))
+        return Light(direct, np.zeros((1, len(direct), 1)), {})
+
+    def searched(self):
+        scenes = [rows_of(self.transfer, s.goals, self.light, day, self.lit, {})
+                  for s, day in zip(self.design.all_scenes(), self.daylight)]
+        return search(self.design, self.candidates, self.watts, scenes, self.given.seconds, self.given.gap)
+
+    def plan_as_built(self, folder):
+        """The light of the chosen luminaires once more, where they hang: they hide and absorb light, as bodies."""
+        d, chosen = self.design, self.layout.chosen
+        self.planned_light = Light([a[:, chosen] for a in self.light.direct], self.light.sets[:, :, chosen],
+                                   {k: v[chosen] for k, v in self.light.glare.items()})
+        lamps = [self.candidates[j] for j in chosen]
+        if not lamps or any(all(d.luminaires[c.luminaire].photometry.shines()) for c in lamps):
+            return  # the middle of a luminaire that shines both ways is inside of its body
+        bodies = write_lamps(d, self.candidates, chosen, np.ones(len(chosen)), folder, "bodies")
+        with raypath(folder):
+            transfer = Transfer(self.rsphere, [*self.given.room, bodies], d, folder, self.given.bounces)
+            before = [replace(c, position=c.position + IN_FRONT * d.units * c.aim) for c in lamps]
+            self.planned_light = light_of(transfer, before, transfer.matrix(before, self.given.directions))
+
+    def scene_watts(self, levels):
+        return float(self.watts[self.layout.chosen] @ levels)
+
+    def tell_layout(self):
+        layout, d = self.layout, self.design
+        total = float(self.watts[layout.chosen].sum())
+        bound = f"; none takes less than {layout.bound:.0f} W" if layout.bound > 0 else ""
+        print(f"Layout: {len(layout.chosen)} luminaires, {total:g} W{bound} ({self.seconds['search']:.1f} s)")
+        for s, goal, slack in layout.misses:
+            name = d.all_scenes()[s].name
+            print(f"{self.miss_head()}{' in ' + name if name else ''}: {self.miss_text(s, goal)}")
+
+    def miss_head(self):
+        return "Cannot be met" if self.layout.proven else "Not found in the time of -s"
+
+    def miss_text(self, s, goal):
+        planned = self.planned(s)
+        value = next(a for a in planned if a.goal is goal)
+        return f"{goal.kind} {goal.target}: {shown(goal, goal.value)} is wanted, {shown(goal, value.value)} is the nearest to all goals"
+
+    def planned(self, s):
+        scene = self.design.all_scenes()[s]
+        return answers(self.transfer, scene.goals, self.planned_light, self.layout.levels[s], self.daylight[s], self.lit)
+
+    def check(self):
+        self.files = []
+        for s, (scene, levels) in enumerate(zip(self.design.all_scenes(), self.layout.levels)):
+            name = f"lamps_{scene.name}" if scene.name else "lamps"
+            file = write_lamps(self.design, self.candidates, self.layout.chosen, levels, self.given.output, name)
+            self.files.append(file)
+            planned = self.planned(s)
+            found = [None] * len(planned)
+            if self.given.check and len(self.layout.chosen):
+                found = self.timed(f"check {s}", lambda: self.found(scene, levels, file))  # noqa: B023
+            self.rows += [(scene, p.goal, p, f) for p, f in zip(planned, found)]
+        self.tell_table()
+
+    def found(self, scene, levels, file):
+        """Answers by light traced forward. Glare is that of luminaires alone, as planned."""
+        with raypath(self.given.output):
+            lamps = [self.candidates[j] for j, l in zip(self.layout.chosen, levels) if l >= 1e-4]
+            electric = Forward(self.transfer, self.rsphere.Scene([*self.given.room, file]), self.given.check)
+            if not scene.daylight:
+                return electric.answers(scene.goals, self.lit, lamps)
+            both = Forward(self.transfer, self.rsphere.Scene([*scene.daylight, *self.given.room, file]),
+                           max(self.given.check, DAYLIGHT_DIVISIONS))
+            glare = iter(electric.answers([g for g in scene.goals if g.kind == "ugr"], self.lit, lamps))
+            rest = iter(both.answers([g for g in scene.goals if g.kind != "ugr"], self.lit, lamps))
+            return [next(glare if g.kind == "ugr" else rest) for g in scene.goals]
+
+    def table_rows(self):
+        for scene, goal, planned, found in self.rows:
+            row = [scene.name, goal.kind, goal.target, shown(goal, goal.value), shown(goal, planned.value)]
+            if found:
+                row += [shown(goal, found.value), shown(goal, found.error, True), deviation_text(planned, found),
+                        "yes" if found.met(TOLERANCE) else "!no"]
+            yield row if self.design.scenes else row[1:]
+
+    def head(self):
+        head = ["scene", "goal", "of", "wanted", "planned", "found", "+-", "deviation", "met"]
+        return head if self.design.scenes else head[1:]
+
+    def tell_table(self):
+        rows = [[c.removeprefix("!") for c in row] for row in [self.head(), *self.table_rows()]]
+        widths = [max(len(r[i]) for r in rows if i < len(r)) for i in range(max(map(len, rows)))]
+        words = 3 if self.design.scenes else 2
+        lines = ["  ".join(c.ljust(w) if i < words else c.rjust(w) for i, (c, w) in enumerate(zip(r, widths))).rstrip() for r in rows]
+        text = "\n".join(lines) + "\n"
+        print(text, end="")
+        print(self.verdict())
+        with open(os.path.join(self.given.output, "table.txt"), "w", encoding="utf-8") as stream:
+            stream.write(text + self.verdict() + "\n")
+
+    def differences(self, kind):
+        """How far what was planned is from what is found: by goals of a kind, None for illuminances (ratios)."""
+        both = [(p.value, f.value) for _, g, p, f in self.rows if f and (g.kind if g.kind in AGREE else None) == kind]
+        return [abs(p - f) if kind else abs(p / f - 1) for p, f in both if kind or f > 0]
+
+    def agree(self):
+        return all(d <= most for kind, most in AGREE.items() for d in self.differences(kind))
+
+    def met(self):
+        return not self.layout.misses and all(f is None or f.met(TOLERANCE) for *_, f in self.rows)
+
+    def verdict(self):
+        if not any(f for *_, f in self.rows):
+            return "Not checked."
+        largest = [(f"of {kind} {max(d):.2f}" if kind else f"{max(d):.1%}") for kind in AGREE for d in [self.differences(kind)] if d]
+        text = (f"Planned and found {'agree' if self.agree() else 'DO NOT agree'} within {TOLERANCE:.0%}: the largest deviation is "
+                f"{', '.join(largest)}.")
+        missed = sum(not f.met(TOLERANCE) for *_, f in self.rows if f)
+        if missed or self.layout.misses:
+            return f"{max(missed, len(self.layout.misses))} of {len(self.rows)} goals are not met. {text}"
+        return f"All {len(self.rows)} goals are met. {text}"
+
+    def falsecolor(self, s, scene):
+        floor = max((p for p in self.polygons if p.vector()[2] > 0), key=lambda p: p.vector()[2], default=None)
+        name = self.given.plan or (floor and floor.name)
+        if self.given.no_plan or not name:
+            return None
+        d = self.design
+        heights = [surface.points[0, 2] for surface in d.surfaces.values()]
+        height = self.given.height
+        if height is None:
+            height = statistics.median(heights) - floor.corners[0, 2] if heights and not self.given.plan else 0.75 * d.units
+        path = os.path.join(self.given.output, f"plan_{scene.name or 'all'}.svg")
+        size = np.ptp(floor.corners[:, :2], axis=0).max() if floor else 10 * d.units
+        outlines = list(d.surfaces)[:60] + [f"{d.luminaires[self.candidates[j].luminaire].name}.{n + 1}.1"
+                                            for n, (j, l) in enumerate(zip(self.layout.chosen, self.layout.levels[s]))
+                                            if l >= 1e-4 and d.luminaires[self.candidates[j].luminaire].photometry.shape == "box"]
+        command = [program("plan"), "-s", name, "-h", f"{height:g}", "-d", f"{size / 28:g}", "-z", "-o", path, "-t",
+                   f"Illuminance {height / d.units:.2f} m above {name} (lx){': ' + scene.name if scene.name else ''}"]
+        command += [word for o in outlines for word in ("-c", o)]
+        command += [*scene.daylight, *self.given.room, self.files[s], "--", "-ab", str(self.given.bounces + 1), "-ad", "512", "-as", "128"]
+        folder = os.path.abspath(self.given.output)
+        path_of = ":".join(p for p in (folder, os.environ.get("RAYPATH", ".")) if p)
+        run = subprocess.run(command, capture_output=True, text=True, check=False, env=dict(os.environ, RAYPATH=path_of))
+        if run.returncode:
+            raise Fault(run.stderr.strip().split("\n")[-1])
+        with open(path, encoding="utf-8") as stream:
+            return stream.read()
+
+    def pages(self):
+        page, d = Page(self.title), self.design
+        page.banner(self.met(), self.verdict())
+        for s, goal, _ in self.layout.misses:
+            page.banner(False, f"{self.miss_head()}: {d.all_scenes()[s].name} {self.miss_text(s, goal)}")
+        for s, (scene, levels) in enumerate(zip(d.all_scenes(), self.layout.levels)):
+            title = f"{len(self.layout.chosen)} luminaires, {self.scene_watts(levels):.0f} W" + (f": {scene.name}" if scene.name else "")
+            svg = drawing(d, self.polygons, self.candidates, self.layout.chosen, levels, title)
+            with open(os.path.join(self.given.output, f"layout_{scene.name}.svg" if scene.name else "layout.svg"), "w", encoding="utf-8") as stream:
+                stream.write(svg)
+            page.heading(title)
+            page.figure(svg)
+            plan = self.timed(f"plan {s}", lambda: self.falsecolor(s, scene))  # noqa: B023
+            if plan:
+                page.figure(plan)
+        page.heading("Planned against found")
+        page.add(table(self.head(), list(self.table_rows()), 3 if d.scenes else 2))
+        page.note(f"Planned: by the importance of the goals at {len(self.candidates)} candidates, {self.given.bounces} reflections, standard "
+                  f"error {self.matrix_error():.1%}. Found: light traced forward from the luminaires as built (rsphere -I), with its "
+                  f"standard error. A goal is met if what is found keeps it within {TOLERANCE:.0%}, a limit of UGR within .1.")
+        page.heading("Luminaires")
+        page.add(table(["number", "luminaire", "x", "y", "z", "turn", *(s.name or "level" for s in d.all_scenes())], list(self.lamp_rows()), 2))
+        page.note(f"Scene text: {', '.join(os.path.basename(f) for f in self.files)}. Seconds: "
+                  + ", ".join(f"{k} {v:.1f}" for k, v in self.seconds.items()) + ".")
+        with open(os.path.join(self.given.output, "page.html"), "w", encoding="utf-8") as stream:
+            stream.write(page.html())
+
+    def lamp_rows(self):
+        for n, j in enumerate(self.layout.chosen):
+            c = self.candidates[j]
+            yield [str(n + 1), self.design.luminaires[c.luminaire].name, *(f"{v:.3f}" for v in c.position), f"{c.turn:g}",
+                   *(f"{levels[n]:.0%}" for levels in self.layout.levels)]
+
+
+def shown(goal, value, error=False):
+    if goal.kind == "uniformity":
+        return f"{value:.3f}" if error else f"{value:.2f}"
+    if goal.kind == "ugr":
+        return f"{value:.2f}" if error else f"{value:.1f}"
+    return f"{value:.1f} lx" if error else f"{value:.0f} lx"
+
+
+def deviation_text(planned, found):
+    if planned.goal.kind == "ugr":
+        return f"{planned.value - found.value:+.1f}"
+    if planned.goal.kind == "uniformity":
+        return f"{planned.value - found.value:+.3f}"
+    return f"{planned.value / found.value - 1:+.1%}" if found.value > 0 else "-"

@@ -1,0 +1,291 @@
+"""What each candidate gives to each receiver, by importance: the matrix of the search.
+
+A receiver is a surface, a point on one, a sensor, or an eye (cylindrical, or vertical across its gaze). Its
+illuminance is linear in the light of the luminaires:
+
+    E = (1 / A) integral of I(d) W(d) over all directions d
+
+where W is the importance that arrives at the luminaire when the goal, of area A, emits. rsphere gives W as means over
+zones of directions. Within a zone I is averaged, which is right for light that has been reflected diffusely, because W
+then varies slowly. Light that goes straight to the receiver does not: it is left out of W (-dv-), and computed by
+shadow rays from points of the receiver to points of the luminaire, through panes as well. Light by mirrors alone is the
+rest of W without reflections by diffuse surfaces; it is added for surfaces, with averages over zones.
+"""
+from dataclasses import dataclass
+
+import numpy as np
+
+from lamp_rad import faces
+from room import LIFT, goal_text, has_mirrors
+from zones import Zones
+
+PROBE = 0.05  # m, the radius of the disks and cylinders that emit importance for sensors and eyes
+SIDES = 8  # of the prism
+PART = 0.2  # m: luminous openings are divided into parts of at most this size for shadow rays
+SPARK = 1e-4  # m, the radius of the lamps that shadow rays go to
+MOST_PARTS = 12
+MOST_SHADOWS = 4_000_000  # shadow rays of one call
+MOST_VALUES = 4_000_000  # of importance in one call
+SETS = 4  # of directions, from whose spread standard errors follow
+WEIGHTS = np.array([0.265, 0.670, 0.065])  # of red, green and blue in brightness
+
+
+@dataclass
+class Receiver:
+    """surface: the goal whose reflected light it has a share of, by the number of its column of importance."""
+
+    name: str
+    kind: str  # plane, cylinder or eye (vertical, across the gaze)
+    points: np.ndarray  # (n, 3)
+    normals: np.ndarray  # (n, 3)
+    surface: int
+
+
+@dataclass
+class Matrix:
+    """Rows are receivers, columns candidates; lx for the luminaires at full power."""
+
+    direct: np.ndarray
+    sets: np.ndarray  # what comes on other ways, by each set of directions: (SETS, receivers, candidates)
+
+    def total(self):
+        return self.direct + self.sets.mean(axis=0)
+
+    def error(self):
+        """The standard error, from the spread of the sets."""
+        return self.sets.std(axis=0, ddof=1) / np.sqrt(len(self.sets))
+
+
+def probe_text(modifier, receiver, units):
+    """Scene text of a black disk, or of a cylinder, that emits importance for a sensor or an eye, and its area."""
+    r = PROBE * units
+    p, n = receiver.points[0], receiver.normals[0]
+    text = f"void plastic {modifier} 0 0 5 0 0 0 0 0\n"
+    if receiver.kind == "cylinder":
+        return text + prism_text(modifier, p, r), SIDES * 2 * r * 2 * r * np.sin(np.pi / SIDES)
+    shown = " ".join(f"{v:.9g}" for v in (*(p + n * LIFT * units), *n, 0, r))
+    return text + f"{modifier} ring {modifier}.1 0 0 8 {shown}\n", np.pi * r * r
+
+
+def prism_text(modifier, middle, r):
+    """The sides of a prism that stands for a cylinder of radius r and height 2 r, as polygons that face outwards."""
+    text, angles = "", 2 * np.pi * np.arange(SIDES + 1) / SIDES
+    for i, (a, b) in enumerate(zip(angles, angles[1:])):
+        corners = [middle + r * np.array([np.cos(t), np.sin(t), h]) for t, h in ((a, -1), (b, -1), (b, 1), (a, 1))]
+        text += f"{modifier} polygon {modifier}.{i + 1} 0 0 12 " + " ".join(f"{v:.9g}" for v in np.ravel(corners)) + "\n"
+    return text
+
+
+def lamp_points(photometry, matrix, position, units):
+    """Points (n, 3) spread over the luminous opening of a luminaire; a single one if it is small."""
+    x, y, h = photometry.size
+    counts = [max(1, int(np.ceil(v / PART))) for v in (x, y, h if all(photometry.shines()) else 0)]
+    while np.prod(counts) > MOST_PARTS:
+        counts[int(np.argmax(counts))] -= 1
+    grid = np.meshgrid(*((np.arange(c) + 0.5) / c - 0.5 for c in counts), indexing="ij")
+    at = np.stack([g.ravel() for g in grid], axis=1) * [x, y, h]
+    if photometry.shape == "cylinder" and len(at) > 1:
+        at[:, :2] *= np.sqrt(np.pi) / 2  # the square of the same area
+    if not photometry.shines()[1]:
+        at[:, 2] = min(f[1][2] for f in faces(photometry))  # the opening is the underside
+    return position + (at * units) @ matrix.T
+
+
+def sees(directions, receiver_kind, normals):
+    """The cosine, or for cylinders what takes its place, by which light from unit directions (..., 3) is weighted."""
+    if receiver_kind == "cylinder":
+        return np.hypot(directions[..., 0], directions[..., 1]) / np.pi
+    return np.maximum((directions * normals).sum(axis=-1), 0)
+
+
+class Transfer:
+    """Computes matrices for a design. The scene may have luminaires already: bodies, which are dark."""
+
+    def __init__(self, rsphere, files, design, folder, bounces):
+        self.rsphere, self.files, self.design, self.folder, self.bounces = rsphere, list(files), design, folder, bounces
+        self.receivers, self.groups = [], []
+        self.index = {}
+        self.add_surfaces()
+        self.add_probes()
+        self.scenes = [self.scene_with(group[0], f"goals{i}") for i, group in enumerate(self.groups)]
+        self.mirrors = has_mirrors(files)
+
+    def add(self, receiver):
+        self.index[receiver.name, receiver.kind] = len(self.receivers)
+        self.receivers.append(receiver)
+
+    def add_surfaces(self):
+        """One receiver for each surface, whose points are its sensors."""
+        text, areas = "", []
+        for i, surface in enumerate(self.design.surfaces.values()):
+            text += goal_text(surface, f"layout_goal{i}", self.design.units)
+            areas.append(surface.area)
+            self.add(Receiver(surface.name, "plane", surface.points, surface.normals, i))
+        if areas:
+            self.groups.append((text, [f"layout_goal{i}" for i in range(len(areas))], np.array(areas), 0))
+
+    def probes(self):
+        """Receivers of sensors and eyes, in two groups that must not hide each other."""
+        first, second = [], []
+        for s in self.design.sensors.values():
+            first.append(Receiver(s.name, "plane", s.position[None], s.normal[None], 0))
+        for e in self.design.eyes.values():
+            first.append(Receiver(e.name, "cylinder", e.position[None], np.array([[0, 0, 1.0]]), 0))
+            if e.gaze is not None:
+                second.append(Receiver(e.name, "eye", e.position[None], e.gaze[None], 0))
+        return first, second
+
+    def add_probes(self):
+        for group in self.probes():
+            text, areas, names = "", [], []
+            first = sum(len(g[1]) for g in self.groups)
+            for receiver in group:
+                receiver.surface = first + len(areas)
+                name = f"layout_probe{receiver.surface}"
+                part, area = probe_text(name, receiver, self.design.units)
+                text += part
+                names.append(name)
+                areas.append(area)
+                self.add(receiver)
+            if group:
+                self.groups.append((text, names, np.array(areas), first))
+
+    def scene_with(self, text, name):
+        path = f"{self.folder}/{name}.rad"
+        with open(path, "w", encoding="utf-8", errors="surrogateescape") as stream:
+            stream.write(text)
+        return self.rsphere.Scene([*self.files, path])
+
+    def zone_intensities(self, candidates, zones):
+        """The mean intensity (candidates, zones) in each zone (cd), at full power."""
+        samples = zones.samples()
+        found = {}
+        rows = []
+        for c in candidates:
+            key = (c.luminaire, tuple(c.aim), c.turn)
+            if key not in found:
+                found[key] = self.light(c, samples).mean(axis=1)
+            rows.append(found[key])
+        return np.array(rows)
+
+    def light(self, candidate, directions):
+        """The intensity (cd) of a candidate in directions of the room, maintenance and tilt included."""
+        luminaire = self.design.luminaires[candidate.luminaire]
+        angle = np.degrees(np.arccos(np.clip(-candidate.aim[2], -1, 1)))
+        factor = luminaire.factor * self.design.maintenance * luminaire.photometry.tilt_factor(angle)
+        return luminaire.photometry.intensity(directions @ candidate.matrix()) * factor
+
+    def matrix(self, candidates, directions, zone_count=500):
+        """The Matrix of candidates. directions: of importance at each place (-Sn), in SETS sets."""
+        zones = Zones(self.rsphere.zone_middles(zone_count))
+        mean = self.zone_intensities(candidates, zones)
+        self.points = Direct(self, candidates, zones, mean)
+        direct, by_zone = self.points.means()
+        sets = self.sets(candidates, mean, zones, directions // SETS)[:, [r.surface for r in self.receivers]]
+        if self.mirrors:  # what surfaces get straight is among it
+            sets -= by_zone * np.array([r.surface < len(self.design.surfaces) for r in self.receivers])[:, None]
+        return Matrix(direct, sets)
+
+    def sets(self, candidates, mean, zones, directions):
+        """What goals get by their importance, one after the other of all groups: (SETS, goals, candidates)."""
+        places, which = np.unique([c.position for c in candidates], axis=0, return_inverse=True)
+        which = which.ravel()
+        area = zones.solid_angle * self.design.units**2  # importance has no unit of length, areas have
+        values = np.zeros((SETS, sum(len(g[1]) for g in self.groups), len(candidates)))
+        for scene, (_, names, areas, first) in zip(self.scenes, self.groups):
+            # -dv-: goals are black to rays that meet them without a reflection by a diffuse surface.
+            options = dict(ambient_bounces=self.bounces, directions=directions, dv=self.mirrors and first < len(self.design.surfaces))
+            step = max(1, MOST_VALUES // (len(names) * zones.count))
+            for begin in range(0, len(places), step):
+                here = np.flatnonzero((which >= begin) & (which < begin + step))
+                for k in range(SETS):
+                    a = scene.importance(places[begin : begin + step], goals=names, bins=zones.count, outputs="z",
+                                         rotation=k, **options)
+                    bins = a.bins.reshape(-1, len(names), zones.count, 3) @ WEIGHTS / areas[:, None]
+                    for j in here:
+                        values[k, first : first + len(names), j] = bins[which[j] - begin] @ mean[j] * area
+        return values
+
+
+class Direct:
+    """Light that goes straight from candidates to points of receivers, by shadow rays (panes let it pass)."""
+
+    def __init__(self, transfer, candidates, zones, mean):
+        self.t, self.candidates, self.zones, self.mean = transfer, candidates, zones, mean
+        self.exact = [None] * len(transfer.receivers)  # (points, candidates)
+        self.by_zone = [None] * len(transfer.receivers)
+        self.compute()
+
+    def means(self):
+        return np.array([e.mean(axis=0) for e in self.exact]), np.array([e.mean(axis=0) for e in self.by_zone])
+
+    def lamps(self):
+        """The points that shadow rays go to, each once: (n, 3), and for each candidate those of its parts."""
+        design, points, number, of = self.t.design, [], {}, []
+        for c in self.candidates:
+            photometry = design.luminaires[c.luminaire].photometry
+            mine = []
+            for p in lamp_points(photometry, c.matrix(), c.position, design.units):
+                key = tuple(np.round(p, 9))
+                if key not in number:
+                    number[key] = len(points)
+                    points.append(p)
+                mine.append(number[key])
+            of.append(mine)
+        return np.array(points), of
+
+    def compute(self):
+        """Shadow rays from all points of all receivers to all points of luminaires; a cylinder looks four ways."""
+        lamps, self.of = self.lamps()
+        around = np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0]], dtype=float)
+        rays, ends = [], []
+        for r in self.t.receivers:
+            normals = around if r.kind == "cylinder" else r.normals
+            rays += [[*p, *n] for p, n in zip(np.broadcast_to(r.points, (len(normals), 3)) if r.kind == "cylinder" else r.points, normals)]
+            ends.append(len(rays))
+        rays, step = np.array(rays), max(1, MOST_SHADOWS // len(rays))
+        seen = np.hstack([self.visibility(rays, lamps[i : i + step]) for i in range(0, len(lamps), step)])
+        self.seen = np.split(seen, ends[:-1])
+        for i, r in enumerate(self.t.receivers):
+            if r.kind == "cylinder":
+                self.seen[i] = self.seen[i].max(axis=0)[None]
+            self.fill(i, r, lamps, self.of, self.seen[i])
+
+    def seen_by(self, i):
+        """The share of light that passes from each candidate to the single point of a receiver."""
+        return np.array([self.seen[i][0, mine].mean() for mine in self.of])
+
+    def visibility(self, rays, lamps):
+        t, radius = self.t, SPARK * self.t.design.units
+        radiance = 1 / (179 * np.pi * radius**2)  # 1 cd
+        text, names = "", [f"layout_spark{i}" for i in range(len(lamps))]
+        for name, p in zip(names, lamps):
+            at = " ".join(f"{v:.12g}" for v in p)
+            text += f"void light {name} 0 0 3 {radiance:.9g} {radiance:.9g} {radiance:.9g}\n{name} sphere {name}.1 0 0 4 {at} {radius:.9g}\n"
+        scene = t.scene_with(text, "sparks")
+        answer = scene.contributions(rays, of=names, samples=1, irradiance_at_origin=True, ambient_bounces=0,
+                                     dr=0, dt=0, dj=0, ds=0, lr=0, lw=0)
+        lux = t.rsphere.photometric(answer.value).reshape(len(rays), len(lamps))
+        to = lamps[None] - rays[:, None, :3]
+        square = (to**2).sum(axis=-1)
+        cosine = (to * rays[:, None, 3:]).sum(axis=-1) / np.sqrt(square)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            seen = np.where(cosine > 1e-4, lux * square / cosine, 0)
+        return np.clip(np.nan_to_num(seen), 0, 1)
+
+    def fill(self, i, receiver, lamps, of, seen):
+        points = len(receiver.points)
+        self.exact[i], self.by_zone[i] = np.zeros((points, len(of))), np.zeros((points, len(of)))
+        square = self.t.design.units**2
+        for j, (candidate, mine) in enumerate(zip(self.candidates, of)):
+            to = receiver.points[:, None] - lamps[mine][None]
+            distance = (to**2).sum(axis=-1)
+            away = to / np.sqrt(distance)[..., None]
+            weight = sees(-away, receiver.kind, receiver.normals[:, None]) / distance * seen[:, mine] * square
+            self.exact[i][:, j] = (weight * self.t.light(candidate, away)).mean(axis=1)
+            # The zones belong to rays from the place of the luminaire.
+            middle = receiver.points - candidate.position
+            length = (middle**2).sum(axis=-1)
+            middle = middle / np.sqrt(length)[:, None]
+            there = sees(-middle, receiver.kind, receiver.normals) / length * seen[:, mine].mean(axis=1) * square
+            self.by_zone[i][:, j] = there * self.mean[j][self.zones.at(middle)]

@@ -1,0 +1,70 @@
+"""Goals of examples/layout: each fault is one line with file and line, and nothing else happens.
+
+PROGRAMS in the environment is the folder of rsphere and plan; PYTHONPATH has the folder of the module rsphere.
+"""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TESTS = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+LAYOUT = os.path.join(TESTS, "../examples/layout")
+OFFICE = os.path.join(LAYOUT, "cases/office.rad")
+GOOD = ["luminaire panel panel.ies", "grid panel ceiling spacing 3 margin .5", "illuminance desk1 50"]
+FAULTS = (
+    (0, "luminaire panel nowhere.ies", None, r"nowhere\.ies: cannot be read"),
+    (0, "luminaire", 1, "luminaire needs a name"),
+    (0, "luminaire panel panel.ies watts -3", 1, "the watts must be from"),
+    (0, "luminare panel panel.ies", 1, '"luminare" is none of .*luminaire'),
+    (1, "grid spot ceiling", 2, 'there is no luminaire "spot" above'),
+    (1, "grid panel ceilling", 2, 'no polygon or modifier "ceilling"; it has ceiling'),
+    (1, "grid panel ceiling spacing nan", 2, 'the spacing must be a number, not "nan"'),
+    (1, "grid panel ceiling spacing 0", 2, "the spacing must be from"),
+    (1, "grid panel ceiling spacing .001", None, "more than 20000 points"),
+    (1, "grid panel ceiling margin 9", 2, "no place fits"),
+    (1, "grid panel ceiling aim 0 0 0", 2, "must not be 0 0 0"),
+    (2, "illuminance desk9 500", 3, 'no polygon or modifier "desk9"'),
+    (2, "illuminance desk1", 3, "illuminance needs the illuminance"),
+    (2, "illuminance desk1 5OO", 3, 'must be a number, not "5OO"'),
+    (2, "illuminance desk1 500 uniformity 1.2", 3, "the uniformity must be from 0 to 1"),
+    (2, "illuminance desk1 500 most 100", 3, "most is below"),
+    (2, "illuminance desk1 500 500", 3, '"500" is none of'),
+    (2, "cylindrical me 150", 3, 'there is no eye "me" above'),
+    (2, "daylight sky.rad", 3, "daylight belongs to a scene"),
+    (2, "# nothing is wanted", None, "there is no goals"),
+)
+
+
+class Goals(unittest.TestCase):
+    def run_on(self, lines):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "goals.txt")
+            with open(file, "w", encoding="utf-8") as stream:
+                stream.write("\n".join(lines).replace("panel.ies", os.path.join(LAYOUT, "cases/panel.ies")) + "\n")
+            command = [sys.executable, os.path.join(LAYOUT, "layout"), file, OFFICE, "-o", os.path.join(folder, "out")]
+            command += ["--no-plan", "-c", "0", "-d", "64", "-b", "0"]
+            run = subprocess.run(command, capture_output=True, text=True, check=False)
+            return run, file
+
+    def test_good(self):
+        run, _ = self.run_on(GOOD)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertRegex(run.stdout, r"illuminance  desk1 +50 lx +[0-9]+ lx")
+
+    def test_faults(self):
+        for index, text, line, words in FAULTS:
+            with self.subTest(text=text):
+                run, file = self.run_on([*GOOD[:index], text, *GOOD[index + 1 :]])
+                self.assertEqual(run.returncode, 1, run.stdout + run.stderr)
+                self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
+                self.assertRegex(run.stderr, (re.escape(f"layout: {file}:{line}: ") if line else "layout: ") + ".*" + words)
+
+    def test_second_goal(self):
+        run, _ = self.run_on([*GOOD, "illuminance floor 100", "illuminance floor 200"])
+        self.assertRegex(run.stderr, r"goals\.txt:5: a second goal of illuminance for floor")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,241 @@
+"""Readers of IES and EULUMDAT files of examples/layout: faults with file and line, and luminaires as RADIANCE scenes."""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+import rsphere
+
+TESTS = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+LAYOUT = os.path.join(TESTS, "../examples/layout")
+sys.path.insert(0, LAYOUT)
+from fault import Fault  # noqa: E402
+from luminaire_file import read_luminaire  # noqa: E402
+
+PANEL = os.path.join(LAYOUT, "cases/panel.ies")
+DOWNLIGHT = os.path.join(LAYOUT, "cases/downlight.ies")
+
+# Light up and down from a box, symmetric about one plane, in feet, with factors.
+BOX = """IESNA:LM-63-2002
+TILT=NONE
+2 1000 1.5 7 5 1 1 1 2 .3
+.9 1 70
+0 30 60 90 120 150 180
+0 45 90 135 180
+100 95 60 20 40 70 80
+110 99 61 21 41 72 80
+120 103 66 25 48 74 80
+115 101 64 24 44 73 80
+105 97 61 22 42 71 80
+"""
+
+# Radiance (W/sr/m2) in 20 directions by ies2rad, oconv and rtrace of RADIANCE 6.1a. source_corr() there leaves out A1
+# where it is the only argument, though source.cal documents it: for the flat luminaires it is multiplied here.
+OF_BOX = [
+    2.971905, 2.868735, 2.629824, 2.424545, 2.477176, 2.311401, 2.379878, 2.508254, 2.495524, 3.868403,
+    2.735286, 3.183294, 3.177694, 3.864310, 3.302926, 3.504616, 3.385507, 3.884027, 3.873877, 4.194701]
+OF_PANEL = [
+    8.906339, 8.886847, 8.847693, 8.788144, 8.703984, 8.592359, 8.459602, 8.303202, 8.112931, 7.883423, 7.630459,
+    7.274743, 6.436834, 4.781246, 3.847934, 2.707871, .9490356, .3388491, .2409763, .1654637]
+OF_DOWNLIGHT = [
+    8.705229, 8.626258, 8.383040, 8.083650, 7.691896, 7.203990, 6.675329, 6.082506, 5.459833, 4.811321, 4.151640,
+    3.482145, 2.788023, 2.113687, 1.456176, .8372111, .4688085, .1874212, .07759523, .03038701]
+
+
+def eulumdat(**changes):
+    """A text like BOX's kind: a box of .3 x 1.2 m, symmetric about both planes, 90 cd/klm straight down."""
+    lines = ["maker", "1", "4", "4", "90", "3", "45", "report", "strip", "7", "file.ldt", "today",
+             "1200", "300", "80", "1190", "290", "0", "0", "0", "0", "100", "80", "1", "0",
+             "1", "2", "LED", "4000", "830", "80", "36", *["0"] * 10,
+             "0", "90", "180", "270", "0", "45", "90", "90", "50", "0", "90", "60", "10"]
+    for place, text in changes.items():
+        lines[int(place[1:]) - 1] = text
+    return "\r\n".join(lines) + "\r\n"
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def file(self, text, name="lamp.ies"):
+        path = os.path.join(self.folder.name, name)
+        with open(path, "wb") as stream:
+            stream.write(text if isinstance(text, bytes) else text.encode("latin-1"))
+        return path
+
+    def refused(self, text, line, words, name="lamp.ies"):
+        path = self.file(text, name)
+        with self.assertRaises(Fault) as caught:
+            read_luminaire(path)
+        place = path if line is None else f"{path}:{line}"
+        self.assertTrue(str(caught.exception).startswith(place + ": "), str(caught.exception))
+        self.assertNotIn("\n", str(caught.exception))
+        self.assertRegex(str(caught.exception), words)
+
+
+class Ies(Files):
+    def changed(self, before, after):
+        self.assertIn(before, BOX)
+        return BOX.replace(before, after, 1)
+
+    def test_hostile(self):
+        for text, line, words in (
+            ("", 1, "no line TILT="),
+            (b"IESNA\nTILT=NO\0NE\n", 2, "not a text file"),
+            ("a\nb\n", 3, "no line TILT="),
+            (self.changed("1000 1.5", "nan 1.5"), 3, 'lumens of a lamp must be a number, not "nan"'),
+            (self.changed("1000 1.5", "1e999 1.5"), 3, "must be from"),
+            (self.changed("1000 1.5", "0 1.5"), 3, "above 0"),
+            (self.changed("1.5", "1,5"), 3, "decimals need a point"),
+            (self.changed("7 5 1 1", "7 5 2 1"), 3, "type B is not supported"),
+            (self.changed("7 5 1 1", "7 5 1 3"), 3, "unit of lengths"),
+            (self.changed("7 5 1 1", "7 1000000000 1 1"), 3, "horizontal angles must be from"),
+            (self.changed("7 5 1 1", "6 5 1 1"), 5, "vertical angles must begin"),
+            (self.changed("7 5 1 1", "7.5 5 1 1"), 3, "whole number"),
+            (self.changed("7 5 1 1", "-7 5 1 1"), 3, "vertical angles must be from"),
+            (self.changed("2 .3", "1e9 .3"), 3, "must be from"),
+            (self.changed("30 60", "60 30"), 5, "must ascend, but 30 follows 60"),
+            (self.changed("45 90 135 180", "45 90 135 170"), None, "none of 0, 0 to 90"),
+            (self.changed(" 71 80\n", " 71\n"), None, "the file ends before candela value 35 of 35"),
+            (BOX + "17\n", 12, '"17" follows the last candela value'),
+            (self.changed("100 95", "-100 95"), 7, "candela value 1 of 35 must be from 0"),
+            (self.changed("TILT=NONE", "TILT=nowhere.tlt"), None, "cannot be read"),
+            (self.changed("TILT=NONE", "TILT=INCLUDE\n1\n2\n0 90\n1"), None, ""),
+            ("TILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 5\n0 90\n0\n0 0\n", 6, "all candela values are 0"),
+        ):
+            with self.subTest(words=words, text=text[:200]):
+                if line is None:
+                    with self.assertRaisesRegex(Fault, words):
+                        read_luminaire(self.file(text))
+                else:
+                    self.refused(text, line, words)
+
+    def test_each_word_replaced(self):
+        """Whatever a word is replaced by: a fault with a line, or a luminaire of finite intensities; nothing else."""
+        words = re.split(r"(\s+)", BOX)
+        refused = 0
+        for i in range(0, len(words), 2):
+            for other in ("x", "-1", "1e300", "0", "99999999", ""):
+                path = self.file("".join([*words[:i], other, *words[i + 1 :]]))
+                try:
+                    self.assertTrue(np.isfinite(read_luminaire(path).candela).all())
+                except Fault as text:
+                    refused += 1
+                    self.assertRegex(str(text), re.escape(path) + r":\d+: ")
+        self.assertGreater(refused, len(words))
+
+    def test_each_truncation(self):
+        for end in range(len(BOX.rstrip())):
+            path = self.file(BOX[:end])
+            with self.subTest(end=end), self.assertRaises(Fault):
+                if end < len(BOX.rstrip()) - 1:
+                    read_luminaire(path)
+                else:
+                    raise Fault("80 cut to 8 is a number as well")
+
+    def test_intensities(self):
+        lamp = read_luminaire(self.file(BOX))
+        down = lamp.intensity(np.array([0, 0, -1.0]))
+        self.assertAlmostEqual(float(down), 100 * 1.5 * .9, places=9)
+        left, right = (lamp.intensity(np.array([.6, y, 0])) for y in (.8, -.8))
+        self.assertAlmostEqual(float(left), float(right), places=9)  # mirrored in the plane from 0 to 180
+        np.testing.assert_allclose(lamp.size, (.6096, .3048, .09144), rtol=1e-9)
+        self.assertEqual(lamp.watts, 70)
+
+
+class Eulumdat(Files):
+    def test_hostile(self):
+        for changes, line, words in (
+            ({"l3": "7"}, 3, "symmetry"),
+            ({"l4": "3"}, 4, "do not fit symmetry"),
+            ({"l4": "1e9"}, 4, "C planes must be from"),
+            ({"l6": "0"}, 6, "angles in a plane must be from"),
+            ({"l24": "0"}, 24, "factor on intensities"),
+            ({"l26": "0"}, 26, "sets of lamps"),
+            ({"l27": "0"}, 27, "must not be 0"),
+            ({"l29": "nan"}, 29, "must be a number"),
+            ({"l48": "0"}, 49, "must ascend"),
+            ({"l53": "x"}, 53, 'must be a number, not "x"'),
+            ({"l55": "5\r\n9"}, 56, "follows the last intensity"),
+        ):
+            with self.subTest(changes=changes):
+                path = self.file(eulumdat(**changes), "lamp.ldt")
+                with self.assertRaises(Fault) as caught:
+                    read_luminaire(path)
+                self.assertRegex(str(caught.exception), re.escape(path) + rf":{line}: .*{words}")
+
+    def test_each_line_replaced_and_missing(self):
+        lines = eulumdat().split("\r\n")[:-1]
+        for i in range(len(lines)):
+            for other in (["x"], ["-1"], ["1e300"], []):
+                path = self.file("\r\n".join([*lines[:i], *other, *lines[i + 1 :]]) + "\r\n", "lamp.ldt")
+                try:
+                    self.assertTrue(np.isfinite(read_luminaire(path).candela).all())
+                    self.assertTrue(other)  # with a line less, what follows is short of one
+                except Fault as text:
+                    self.assertRegex(str(text), re.escape(path) + r":\d+: ")
+
+    def test_intensities(self):
+        lamp = read_luminaire(self.file(eulumdat(), "lamp.ldt"))
+        # cd per 1000 lm, of 4000 lm; C0 is across the length.
+        self.assertAlmostEqual(float(lamp.intensity(np.array([0, 0, -1.0]))), 90 * 4, places=9)
+        s = np.sqrt(.5)
+        self.assertAlmostEqual(float(lamp.intensity(np.array([s, 0, -s]))), 50 * 4, places=9)
+        self.assertAlmostEqual(float(lamp.intensity(np.array([0, -s, -s]))), 60 * 4, places=9)
+        np.testing.assert_allclose(lamp.size[:2], (.29, 1.19))
+        self.assertEqual(lamp.watts, 36)
+
+
+class AsScene(Files):
+    def made(self, file):
+        run = subprocess.run([sys.executable, os.path.join(LAYOUT, "luminaire"), file, "-o", self.folder.name],
+                             capture_output=True, text=True, check=False)
+        self.assertEqual(run.stderr, "")
+        return self.file(run.stdout, "lamp.rad")
+
+    def radiance(self, file, rays):
+        scene = self.made(file)
+        before, os.environ["RAYPATH"] = os.environ.get("RAYPATH"), self.folder.name
+        try:
+            return rsphere.Scene([scene]).trace(rays).value[:, 1]
+        finally:
+            if before is None:
+                del os.environ["RAYPATH"]
+            else:
+                os.environ["RAYPATH"] = before
+
+    def rays(self, gammas, turn=0.0):
+        """Rays from 3 m away to the middle of the luminaire. gammas: angles from -z (degrees)."""
+        g, c = np.radians(gammas), np.radians(np.arange(20) * 137.50776 + turn)
+        d = np.stack([np.sin(g) * np.cos(c), np.sin(g) * np.sin(c), -np.cos(g)], axis=1)
+        return np.hstack([np.round(3 * d, 6), np.round(-d, 6)])
+
+    def test_box(self):
+        gammas = np.degrees(np.arccos(-(1 - 2 * (np.arange(20) + .5) / 20)))
+        found = self.radiance(self.file(BOX, "box.ies"), self.rays(gammas, 11))
+        np.testing.assert_allclose(found, OF_BOX, rtol=1e-4)
+
+    def test_flat(self):
+        found = self.radiance(PANEL, self.rays(4.4 * (np.arange(20) + .5)))
+        np.testing.assert_allclose(found, np.array(OF_PANEL) * 2.89771, rtol=1e-4)
+        self.assertFalse(np.allclose(found, np.array(OF_PANEL) * 2.899, rtol=1e-4))
+
+    def test_disk(self):
+        found = self.radiance(DOWNLIGHT, self.rays(3.2 * (np.arange(20) + .5)))
+        np.testing.assert_allclose(found, np.array(OF_DOWNLIGHT) * 56.5884, rtol=1e-4)
+
+    def test_fault(self):
+        run = subprocess.run([sys.executable, os.path.join(LAYOUT, "luminaire"), self.file("TILT=NONE\n1 x\n")],
+                             capture_output=True, text=True, check=False)
+        self.assertEqual(run.returncode, 1)
+        self.assertRegex(run.stderr, r'\Aluminaire: .*lamp\.ies:2: the lumens of a lamp must be a number, not "x"\n\Z')
+        self.assertEqual(run.stdout, "")
+
+
+if __name__ == "__main__":
+    unittest.main()
