@@ -51,6 +51,10 @@ RSPHERE_TUNED(SpecialObjects, double, kPane, .002);
 // the default base set.
 inline const double kSpecialIrregularity = 16 / kDirectionsPerSr;
 
+// Up to this number it takes less time to look at special objects than to find out that they are hidden
+// (HiddenBoxes). By measurement.
+inline constexpr size_t kFewHidden = 1024;
+
 struct SpecialObject {
   SurfaceId surface;
   double irregularity = 0;

@@ -11,9 +11,12 @@
 namespace rsphere {
 namespace {
 
-// Up to this number, it takes less time to try the boxes than could be saved. Also the number of boxes that a
-// division of a region has to save. By measurement of time.
-constexpr size_t kFew = 8;
+constexpr size_t kMostKnown = 8;  // blockers that a region keeps in mind
+// A region is divided if polygons hide at least this share of its boxes from places in it, but not after
+// so many divisions in a row that have not hidden a quarter of them. One beside a slab takes five: above
+// or below it, and within its four edges.
+constexpr double kWorthHiding = .4;
+constexpr int kMostInVain = 6;
 // So many of a region's boxes show whether a division pays.
 constexpr size_t kProbes = 32;
 // So many surfaces on the way to a box are tried, since furniture or glass may be in front of a wall.
@@ -92,7 +95,9 @@ struct HiddenBoxes::Region {
   List visible;  // positions of boxes that are not certainly hidden, ascending
   List places;   // of those that may be hidden, in order_
   std::vector<Blocker> blockers;
-  int axis = -1;  // that it is divided along; -1: not divided
+  int inVain = 0;     // divisions since a quarter was hidden
+  size_t before = 0;  // number of places then
+  int axis = -1;      // that it is divided along; -1: not divided
   double at = 0;
   mutable std::array<std::unique_ptr<const Region>, 2> halves;
   mutable std::array<std::atomic<const Region*>, 2> ready{};
@@ -101,11 +106,11 @@ struct HiddenBoxes::Region {
 HiddenBoxes::~HiddenBoxes() = default;
 HiddenBoxes::HiddenBoxes(HiddenBoxes&&) noexcept = default;
 
-HiddenBoxes::HiddenBoxes(const Scene& scene, const Tracer& tracer, std::vector<Box3d> boxes)
-    : scene_(scene), tracer_(tracer), boxes_(std::move(boxes)), all_(boxes_.size()) {
+HiddenBoxes::HiddenBoxes(const Scene& scene, const Tracer& tracer, std::vector<Box3d> boxes, size_t few)
+    : scene_(scene), tracer_(tracer), few_(few), boxes_(std::move(boxes)), all_(boxes_.size()) {
   std::iota(all_.begin(), all_.end(), 0);
   for (const uint32_t i : all_) (boxes_[i].isEmpty() ? never_ : order_).push_back(i);
-  if (order_.size() <= kFew || tracer.bounds().isEmpty()) return;
+  if (order_.size() <= few_ || tracer.bounds().isEmpty()) return;
   makeNode(0, order_.size());
   margin_ = 2 * marginOver(tracer.bounds().size().length());
   root_ = std::make_unique<Region>();
@@ -115,6 +120,7 @@ HiddenBoxes::HiddenBoxes(const Scene& scene, const Tracer& tracer, std::vector<B
   std::vector<uint32_t> places(order_.size());
   std::iota(places.begin(), places.end(), 0);
   root_->places = std::make_shared<const std::vector<uint32_t>>(std::move(places));
+  root_->before = order_.size();
   divide(*root_);
 }
 
@@ -237,7 +243,7 @@ bool HiddenBoxes::hides(const Box3d& from, const Box3d& to, std::vector<Blocker>
     const auto isIt = [&](const Blocker& b) { return b.surface == blocker.surface; };
     if (std::any_of(known.begin(), known.end(), isIt) || !covers(blocker, from, to)) return false;
     known.insert(known.begin(), blocker);
-    if (known.size() > kFew) known.pop_back();
+    if (known.size() > kMostKnown) known.pop_back();
     return true;
   });
 }
@@ -289,7 +295,8 @@ std::vector<std::pair<HiddenBoxes::Blocker, size_t>> HiddenBoxes::blockersIn(con
             found.emplace_back(blocker, 1);
           return true;
         });
-  if (hidden * step < kFew || kFew * hidden < probes) return {};
+  if (2 * hidden * step < few_ || static_cast<double>(hidden) < kWorthHiding * static_cast<double>(probes))
+    return {};
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });
   return found;
@@ -299,7 +306,7 @@ std::vector<std::pair<HiddenBoxes::Blocker, size_t>> HiddenBoxes::blockersIn(con
 // it, so that points of the polygon itself are left in a region of their own; within the edges of one
 // beside it; or else in its middle.
 void HiddenBoxes::divide(Region& region) const {
-  if (region.places->size() <= kFew) return;
+  if (region.places->size() <= few_) return;
   const auto found = blockersIn(region);
   if (found.empty()) return;
   const Box3d& box = region.box;
@@ -344,7 +351,10 @@ const HiddenBoxes::Region& HiddenBoxes::half(const Region& region, int upper) co
     made->visible = std::make_shared<const std::vector<uint32_t>>(std::move(visible));
     made->places = std::make_shared<const std::vector<uint32_t>>(std::move(places));
   }
-  divide(*made);
+  const bool shrunk = 4 * made->places->size() <= 3 * region.before;
+  made->inVain = shrunk ? 0 : region.inVain + 1;
+  made->before = shrunk ? made->places->size() : region.before;
+  if (made->inVain < kMostInVain) divide(*made);
   region.ready[which].store(made.get(), std::memory_order_release);
   region.halves[which] = std::move(made);
   return *region.halves[which];

@@ -24,7 +24,8 @@ namespace rsphere {
 class HiddenBoxes {
  public:
   // Keeps references to the scene and the tracer. An empty box is never hidden. boxes: fewer than 2^32.
-  HiddenBoxes(const Scene& scene, const Tracer& tracer, std::vector<Box3d> boxes);
+  // few: up to this number, what depends on the boxes takes less time than could be saved.
+  HiddenBoxes(const Scene& scene, const Tracer& tracer, std::vector<Box3d> boxes, size_t few);
   ~HiddenBoxes();
   HiddenBoxes(HiddenBoxes&&) noexcept;
 
@@ -76,6 +77,7 @@ class HiddenBoxes {
 
   const Scene& scene_;
   const Tracer& tracer_;
+  size_t few_;
   double margin_ = 0;            // between regions and the planes that divide them (world units)
   std::vector<Box3d> boxes_;     // by position
   std::vector<uint32_t> all_;    // their positions

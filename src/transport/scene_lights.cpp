@@ -39,6 +39,10 @@ Box3d boxOf(const Scene& scene, const LightSource& light) {
   return box;
 }
 
+// Up to this number it takes less time to sample sources than to find out that they are hidden. By
+// measurement.
+constexpr size_t kFewSources = 16;
+
 std::vector<Box3d> boxesOf(const Scene& scene, const LightSources& lights) {
   std::vector<Box3d> boxes;
   for (const LightSource& light : lights.all()) boxes.push_back(boxOf(scene, light));
@@ -77,7 +81,7 @@ SceneLights::SceneLights(const Scene& scene, const Tracer& tracer, const Surface
     : LightSources(scene, relays, functions, warn),
       presumedShadows_(scene, tracer, *this),
       choice_(scene, *this),
-      hidden_(scene, tracer, boxesOf(scene, *this)),
+      hidden_(scene, tracer, boxesOf(scene, *this), kFewSources),
       ofMists_(scene, *this, warn),
       luminous_(scene.surfaces.size()) {
   constantRadiance_.resize(all().size());

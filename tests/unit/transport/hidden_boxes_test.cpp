@@ -51,7 +51,7 @@ struct Building {
   explicit Building(const std::string& text) : scene(sceneOf(text)), tracer(scene, true) {}
   Scene scene;
   Tracer tracer;
-  HiddenBoxes hidden{scene, tracer, lamps()};
+  HiddenBoxes hidden{scene, tracer, lamps(), 8};
 };
 
 V3d placeIn(const Box3d& box, Random& random) {
