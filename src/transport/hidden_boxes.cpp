@@ -16,6 +16,7 @@ constexpr size_t kMostKnown = 8;  // blockers that a region keeps in mind
 // so many divisions in a row that have not hidden a quarter of them. One beside a slab takes five: above
 // or below it, and within its four edges.
 constexpr double kWorthHiding = .4;
+constexpr size_t kLeastHidden = 2;  // of its boxes
 constexpr int kMostInVain = 6;
 // So many of a region's boxes show whether a division pays.
 constexpr size_t kProbes = 32;
@@ -102,6 +103,8 @@ struct HiddenBoxes::Region {
   mutable std::array<std::unique_ptr<const Region>, 2> halves;
   mutable std::array<std::atomic<const Region*>, 2> ready{};
 };
+
+bool HiddenBoxes::divides() const { return root_ && root_->axis >= 0; }
 
 HiddenBoxes::~HiddenBoxes() = default;
 HiddenBoxes::HiddenBoxes(HiddenBoxes&&) noexcept = default;
@@ -295,7 +298,8 @@ std::vector<std::pair<HiddenBoxes::Blocker, size_t>> HiddenBoxes::blockersIn(con
             found.emplace_back(blocker, 1);
           return true;
         });
-  if (2 * hidden * step < few_ || static_cast<double>(hidden) < kWorthHiding * static_cast<double>(probes))
+  if (hidden * step < kLeastHidden ||
+      static_cast<double>(hidden) < kWorthHiding * static_cast<double>(probes))
     return {};
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });
@@ -306,7 +310,7 @@ std::vector<std::pair<HiddenBoxes::Blocker, size_t>> HiddenBoxes::blockersIn(con
 // it, so that points of the polygon itself are left in a region of their own; within the edges of one
 // beside it; or else in its middle.
 void HiddenBoxes::divide(Region& region) const {
-  if (region.places->size() <= few_) return;
+  if (region.places->size() <= kLeastHidden) return;
   const auto found = blockersIn(region);
   if (found.empty()) return;
   const Box3d& box = region.box;

@@ -46,6 +46,9 @@ class HiddenBoxes {
   std::span<const uint32_t> widestWhere(const V3d& point,
                                         FunctionRef<bool(std::span<const uint32_t>)> enough) const;
 
+  // Whether there are regions that some boxes may be hidden from.
+  bool divides() const;
+
   // Whether a polygon hides everything in box `to` from everything in box `from`.
   bool hides(const Box3d& from, const Box3d& to) const;
 

@@ -109,14 +109,28 @@ VertexClusters::Order VertexClusters::orderOf(std::span<const LightVertex> verti
 }
 
 VertexClusters::VertexClusters(std::span<const LightVertex> vertices, std::span<const uint32_t> ends,
-                               double width)
-    : vertices_(vertices), ends_(ends.begin(), ends.end()), width2_(width * width) {
+                               double width, std::optional<HiddenBoxes> hidden)
+    : vertices_(vertices),
+      ends_(ends.begin(), ends.end()),
+      hidden_(std::move(hidden)),
+      width2_(width * width) {
   Box3d box;
   for (const LightVertex& v : vertices) box.extendBy(v.point());
   if (!vertices.empty()) middle_ = box.center();
   for (Numbers* const size : {&halfX_, &halfY_, &halfZ_, &halfAlong_, &spread_})
     size->fill(1);  // where there is no cluster
   for (size_t i = 0; i < ends_.size(); ++i) measure(i);
+}
+
+std::vector<Box3d> VertexClusters::boxesOf(std::span<const LightVertex> vertices,
+                                           std::span<const uint32_t> ends) {
+  std::vector<Box3d> boxes;
+  uint32_t first = 0;
+  for (const uint32_t end : ends) {
+    Box3d& box = boxes.emplace_back();
+    for (; first < end; ++first) box.extendBy(vertices[first].point());
+  }
+  return boxes;
 }
 
 void VertexClusters::measure(size_t i) {
@@ -149,7 +163,8 @@ void VertexClusters::measure(size_t i) {
   sine_[i] = least > 0 ? static_cast<float>(std::sqrt(1 - std::min(1., least * least)) + kRounding) : 1.f;
 }
 
-// Estimates of the light of each cluster. An estimate is 0 only if the weights of all its vertices are 0.
+// Estimates of the light of each cluster. An estimate is 0 only if all its vertices are hidden, or if their
+// weights are 0.
 void VertexClusters::weigh(const Receiver& to, Numbers& weights) const {
   const V3d from = to.point - middle_;
   const auto px = static_cast<float>(from.x), py = static_cast<float>(from.y),
@@ -167,6 +182,10 @@ void VertexClusters::weigh(const Receiver& to, Numbers& weights) const {
     const float away = square + spread_[i];
     weights[i] = power_[i] * (here / away) * (there / (away + width2));
   }
+  if (!hidden_) return;
+  Numbers seen{};
+  for (const uint32_t i : hidden_->notHiddenFrom(to.point, to.normal)) seen[i] = weights[i];
+  weights = seen;
 }
 
 VertexClusters::Candidates VertexClusters::draw(const Receiver& to, Random& random) const {

@@ -3,6 +3,7 @@
 // send to it.
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,9 +26,13 @@ class VertexClusters {
   };
   static Order orderOf(std::span<const LightVertex> vertices);
 
+  // The box around each cluster.
+  static std::vector<Box3d> boxesOf(std::span<const LightVertex> vertices, std::span<const uint32_t> ends);
+
   // The vertices must be in this order, with these ends. Keeps the span of vertices. width:
-  // LightVertices::width(), world units.
-  VertexClusters(std::span<const LightVertex> vertices, std::span<const uint32_t> ends, double width);
+  // LightVertices::width(), world units. hidden: the clusters' boxes; none where little is hidden.
+  VertexClusters(std::span<const LightVertex> vertices, std::span<const uint32_t> ends, double width,
+                 std::optional<HiddenBoxes> hidden = {});
 
   // The place that light arrives at.
   struct Receiver {
@@ -60,6 +65,7 @@ class VertexClusters {
 
   std::span<const LightVertex> vertices_;
   std::vector<uint32_t> ends_;
+  std::optional<HiddenBoxes> hidden_;
   double width2_;
   V3d middle_{0, 0, 0};
   // One element for each cluster; separate arrays, so that several clusters are weighed at a time (SIMD).

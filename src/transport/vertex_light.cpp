@@ -27,6 +27,14 @@ size_t chooseOne(size_t count, double sum, const WeightOf& weightOf, Random& ran
   return chosen;
 }
 
+// Only in scenes where light sources are hidden from regions, because others have few regions that do not see
+// each other.
+std::optional<HiddenBoxes> hiddenClusters(const PreparedScene& prepared, const LightVertices& vertices) {
+  if (!prepared.lights().hidden().divides()) return {};
+  return HiddenBoxes(prepared.scene(), prepared.tracer(),
+                     VertexClusters::boxesOf(vertices.all(), vertices.clusterEnds()), 0);
+}
+
 }  // namespace
 
 VertexLight::VertexLight(const PreparedScene& prepared, const PlainSurfaces& surfaces,
@@ -34,7 +42,8 @@ VertexLight::VertexLight(const PreparedScene& prepared, const PlainSurfaces& sur
     : prepared_(prepared),
       surfaces_(surfaces),
       vertices_(prepared, surfaces, std::move(emission), paths, seed),
-      clusters_(vertices_.all(), vertices_.clusterEnds(), vertices_.width()) {}
+      clusters_(vertices_.all(), vertices_.clusterEnds(), vertices_.width(),
+                hiddenClusters(prepared, vertices_)) {}
 
 void VertexLight::Record::add(uint8_t batch, const Irradiance& part, double notChosen) {
   batches[batch] += part;
