@@ -105,8 +105,8 @@ TEST_P(WaysOfLight, AgreeWithPathsFromTheEye) {
                         way.point);
 }
 
-// Four rooms above one another, each with twelve lamps. Those of the upper ones are brighter, and some of their
-// light falls through a shaft into the lowest room, most of whose light paths come from its own lamps.
+// Four rooms above one another, each with twelve lamps. Those of the upper ones are brighter, and some of
+// their light falls through a shaft into the lowest room, most of whose light paths come from its own lamps.
 TEST(DiffuseGlances, StoreysWithAShaft) {
   std::string text =
       "void plastic wall 0 0 5 .6 .55 .5 0 0\nvoid light dim 0 0 3 4 4 4\nvoid light lamp 0 0 3 12 12 12\n";
