@@ -49,12 +49,14 @@ class DiffuseGlances::Joins {
     const double radius = Tuning::kJoinRadius * vertices.meanLength();
     radius2_ = radius * radius;
     const auto& visible = vertices.visible();
-    shown_.reserve(visible.size());
+    shown_.resize(visible.size());
     double sum = 0;
-    for (const LightVertices::Visible& v : visible) {
-      shown_.push_back(static_cast<float>(shownBy(v)));
-      sum += shown_.back();
-    }
+    vertices.visibleFrom(point, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) {
+        shown_[i] = static_cast<float>(shownBy(visible[i]));
+        sum += shown_[i];
+      }
+    });
     factor_ = sum > 0 ? expected / sum : 0;
   }
 

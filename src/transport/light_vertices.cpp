@@ -305,6 +305,7 @@ LightVertices::LightVertices(const PreparedScene& prepared, const PlainSurfaces&
     Path(*this, i, seed).send(where);
   }
   sort();
+  findHidden();
   if (met_ > 0 && surfaces_.knowAllSources())
     shareOfRest_ = std::clamp(Tuning::kRest * static_cast<double>(metUnknown_) / static_cast<double>(met_),
                               Tuning::kLeastRest, 1.);
@@ -337,6 +338,21 @@ void LightVertices::sort() {
   permute(hits_, order);
   ends_ = std::move(clustered.ends);
   permute(visible_, orderByPlace(visible_.size(), [&](size_t i) { return visible_[i].vertex.point(); }));
+}
+
+// Only in scenes where light sources are hidden from regions, because others have few regions that do not see
+// each other.
+void LightVertices::findHidden() {
+  if (!prepared_.lights().hidden().divides()) return;
+  std::vector<Box3d> boxes((visible_.size() + kBlock - 1) / kBlock);
+  for (size_t i = 0; i < visible_.size(); ++i) boxes[i / kBlock].extendBy(visible_[i].vertex.point());
+  hidden_.emplace(prepared_.scene(), prepared_.tracer(), std::move(boxes), 0);
+}
+
+void LightVertices::visibleFrom(const V3d& point, FunctionRef<void(size_t begin, size_t end)> use) const {
+  if (!hidden_) return use(0, visible_.size());
+  for (const uint32_t block : hidden_->notHiddenFrom(point))
+    use(block * kBlock, std::min((block + 1) * kBlock, visible_.size()));
 }
 
 double LightVertices::closeShare(double distance, double fromEye) const {

@@ -7,8 +7,11 @@
 // - The light of a source reaches the first diffuse surface directly, through panes, or by a rough highlight,
 //   but not by a sharp reflection, because shadow rays do not follow sharp reflections either.
 // - Surfaces on the way reflect it diffusely, sharply or by a rough highlight, diffusely at most -ab times.
+#include <optional>
 #include <vector>
 
+#include "transport/function_ref.h"
+#include "transport/hidden_boxes.h"
 #include "transport/light_vertex.h"
 #include "transport/plain_surfaces.h"
 #include "transport/source_emission.h"
@@ -46,6 +49,9 @@ class LightVertices {
     double shadowRays;
   };
   const std::vector<Visible>& visible() const { return visible_; }
+  // Calls use(begin, end) for ranges of visible(), in ascending order, that contain all vertices but some that
+  // are hidden from the point.
+  void visibleFrom(const V3d& point, FunctionRef<void(size_t begin, size_t end)> use) const;
 
   // The same ratio as Visible::shadowRays, for a shadow ray whose source was drawn with this probability.
   // normal: at the origin of the ray (unit).
@@ -80,6 +86,8 @@ class LightVertices {
 
  private:
   class Path;
+  static constexpr size_t kBlock = 256;
+  void findHidden();
   void measure(size_t paths, uint64_t seed);
   void sort();
   double aimedDensity(LightId light, double distance, double cosine) const;
@@ -95,6 +103,7 @@ class LightVertices {
   std::vector<SurfaceId> hits_;
   std::vector<uint32_t> ends_;
   std::vector<Visible> visible_;
+  std::optional<HiddenBoxes> hidden_;  // blocks of kBlock of visible_; none where little is hidden
 };
 
 // Approximate reflectance of a place for light that arrives from one direction (unit) and goes to the eye, as
