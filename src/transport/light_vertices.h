@@ -49,7 +49,7 @@ class LightVertices {
     double shadowRays;
   };
   const std::vector<Visible>& visible() const { return visible_; }
-  // Calls use(begin, end) for ranges of visible(), in ascending order, that contain all vertices but some that
+  // Calls use(begin, end) for ranges of visible(), ascending, that contain all vertices but some that
   // are hidden from the point.
   void visibleFrom(const V3d& point, FunctionRef<void(size_t begin, size_t end)> use) const;
 
