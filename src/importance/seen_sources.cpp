@@ -80,7 +80,7 @@ ShapeRef shapeOf(const PreparedScene& prepared, const Image& image) {
   return prepared.scene().surfaces[shownBy(prepared, image).source].shape;
 }
 
-// A sensor is so small that its middle stands for all of it.
+// A sensor is so small that its middle represents all of it.
 bool isSensor(const PreparedScene& prepared, LightId source) {
   return prepared.scene().surfaces[prepared.lights().all()[source].surface].finish.sensor;
 }
