@@ -128,8 +128,9 @@ struct SeenSources {
   // that 36 balls hide partly is 2.9% instead of .5% (2048 base directions). 30% less or more: the same
   // answers in all cases.
   RSPHERE_TUNED(SeenSources, double, kSmallestPart, .02);
-  // The multiple of an even share. Without it, the error of a small lamp that is half hidden would stay at
-  // 4.2% with any number of base directions. With it, the error falls from 4.2% with 256 to .33% with 16384.
+  // The fraction of an even share in this cap. Without it, the error of a small lamp that is half hidden
+  // would stay at 4.2% with any number of base directions. With it, the error falls from 4.2% with 256 to
+  // .33% with 16384.
   //
   // Also, images in mirrors that would get fewer rays than this, on average, are left to the base directions:
   // chosen by experiment. A tenth of a ray means a ray at one of ten points, with ten times the weight. 30%
