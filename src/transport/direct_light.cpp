@@ -201,10 +201,11 @@ uint32_t DirectLight::findContributions(Receiver at, DirectCoefficient coefficie
   const bool splitsBalls = settings_.mode.firstBounce == FirstBounce::interpolated && ray.ambientLevel == 0;
   const SourceSampling how{divides ? o.sourceSubstructuring / ray.weight : 0, o.directJitter, front,
                            splitsBalls};
-  // Shadow rays to known sources find nothing that is left, unless they may pass what is not known.
+  // Known sources need no shadow rays if paths from both ends bring all of their direct light. Only light
+  // that has passed unknown surfaces would be left to shadow rays.
   const PlainSurfaces* const leftOut =
       at.leftToBothEnds && !at.leftToBothEnds->passUnknown() ? at.leftToBothEnds : nullptr;
-  // Shadow rays that are shown to the observer are all of them.
+  // If the observer is to be shown all shadow rays, those to hidden sources are traced too.
   const std::span<const uint32_t> sources = state_.request.shadows == ShownShadows::all
                                                 ? t_.lights().hidden().all()
                                                 : t_.lights().hidden().notHiddenFrom(at.point, front);
