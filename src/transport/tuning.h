@@ -30,10 +30,9 @@ struct Caps {
   RSPHERE_TUNED(Caps, size_t, kAsked, 1024);
   // Rays that measure a mean brightness: on each side of a pane, around a point in sphere mode, and at least
   // to each opening that may matter there. Chosen by experiment. A mean is then known within 18% if single
-  // values vary as much as their mean. For panes, 30%
-  // less: time +30%; 30% more: time +30% (sensors by panes; noise: error 19%, time 4%), because other panes
-  // are then found to be openings. For points, 30% less or more: within noise (points beside goal; error 16%,
-  // time 7%).
+  // values vary as much as their mean. For panes, 30% less: time +30%; 30% more: time +30% (sensors by panes;
+  // noise: error 19%, time 4%), because other panes are then found to be openings. For points, 30% less or
+  // more: within noise (points beside goal; error 16%, time 7%).
   RSPHERE_TUNED(Caps, int, kProbes, 32);
 };
 
