@@ -27,8 +27,8 @@ size_t chooseOne(size_t count, double sum, const WeightOf& weightOf, Random& ran
   return chosen;
 }
 
-// Only in scenes where light sources are hidden from regions, because others have few regions that do not see
-// each other.
+// Only in scenes where light sources are hidden from some regions. In other scenes, few regions are hidden
+// from each other.
 std::optional<HiddenBoxes> hiddenClusters(const PreparedScene& prepared, const LightVertices& vertices) {
   if (!prepared.lights().hidden().divides()) return {};
   return HiddenBoxes(prepared.scene(), prepared.tracer(),
@@ -160,7 +160,7 @@ Radiance VertexLight::indirectAt(const PlainPlace& at, const Indirect& how, Rand
 // in proportion to the light that they would send if unoccluded.
 Radiance VertexLight::ofVertices(const PlainPlace& at, const Indirect& how, Random& random) const {
   const VertexClusters::Candidates drawn = clusters_.draw({at.point, at.normal, how.bounces}, random);
-  // Each stands for others as well.
+  // Each candidate represents the vertices that were not drawn, too.
   const auto light = [&](size_t i) { return drawn.all[i].weight / drawn.all[i].drawn; };
   double all = 0;
   for (size_t i = 0; i < drawn.count; ++i) all += light(i);
