@@ -94,8 +94,8 @@ struct CoarseSolution {
   // the time.
   RSPHERE_TUNED(CoarseSolution, double, kLeastPatch, .05);
   // Factor on kSpacing, kFarPatch and kLeastPatch in scenes without openings for daylight: by measurement.
-  // There finer patches take a third more time, and the errors of pictures are the same. Patches have more
-  // area by its square, and so has the least number of their rays.
+  // There finer patches take a third more time, and the errors of pictures are the same. The area of patches
+  // grows with the square of this factor, and kLeastRays is multiplied by the same square.
   RSPHERE_TUNED(CoarseSolution, double, kCoarserByLamps, 2);
   // The extent of a surface is at most this, in sizes of the scene: chosen by experiment. Where the
   // ground is wide, rooms are small. 30% less: time +65%; 30% more: within noise (sensors by sun; noise:
