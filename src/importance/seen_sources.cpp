@@ -332,8 +332,8 @@ std::optional<SeenSources::Sample> SeenSources::sampleMirrored(const PathsFrom& 
   return s;
 }
 
-// Sends shadow rays to places all over one cell of the image's grid. The sample is one of those that reached
-// the source, or one of all if something opaque stopped each of them.
+// Sends shadow rays to places all over one cell of the image's grid. The sample is drawn from the rays that
+// reached the source, or from all rays if something opaque stopped each of them.
 std::optional<SeenSources::Sample> SeenSources::sampleStraight(const PathsFrom& paths, const Image& image,
                                                                const Cell& cell) const {
   const V3d& point = paths.point();
