@@ -35,7 +35,7 @@ namespace rsphere {
 class SilhouetteWeights : public SamplingStrategy {
  public:
   // Keeps references to all of them. glances: null if they do not find all of the light of diffuse surfaces;
-  // otherwise they replace the guess.
+  // otherwise they are used instead of the guess.
   SilhouetteWeights(const SphereTracing& tracing, const SphereOptions& options, const BaseSet& base,
                     std::span<const SpecialObject> special, const SeenSources& sources,
                     const DiffuseGlances* glances);
