@@ -44,9 +44,10 @@ struct Relay {
   std::vector<V3d> hull;     // its points lie in the hull of these: see hullOf()
 };
 
-// What the light of an image has left or come through, in a straight line as seen from behind the last relay:
-// first the source, unless it is distant, then the relays, the last of them where it is, the others and the
-// source as the relays that follow show them.
+// One of the things that the light of an image has left or passed: first the source, unless it is distant,
+// then the relays. They are placed as seen from behind the last relay, where the path of the light is a
+// straight line: the last relay where it is, the source and the other relays where the relays after them show
+// their images.
 struct Passage {
   Ball ball;  // around it
   Beam beam;  // holds all that light from it reaches behind the last relay, as seen from the ball's center
