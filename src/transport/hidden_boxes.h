@@ -27,8 +27,8 @@ namespace rsphere {
 class HiddenBoxes {
  public:
   // Keeps references to the scene and the tracer. An empty box is never hidden. boxes: fewer than 2^32. few:
-  // up to this number of boxes, none is looked for, because doing without the hidden ones would save less
-  // time than it takes to find them.
+  // with at most this number of boxes, all count as visible, because finding the hidden ones would take more
+  // time than it saves.
   HiddenBoxes(const Scene& scene, const Tracer& tracer, std::vector<Box3d> boxes, size_t few);
   ~HiddenBoxes();
   HiddenBoxes(HiddenBoxes&&) noexcept;
