@@ -18,7 +18,7 @@ namespace rsphere {
 enum class FirstBounce : uint8_t {
   interpolated,  // from cache records
   fromPatches,   // from the coarse solution
-  gathered       // from rays, and beyond a rough reflection from the coarse solution
+  gathered       // from rays; behind a rough reflection, from the coarse solution
 };
 
 // Choices that a tracer makes for all of its paths.
