@@ -88,7 +88,7 @@ class PlainSurfaces {
   std::vector<const Opaque*> opaque_;   // by finish
   std::vector<const Glass*> panes_;     // by finish
   std::vector<const Mirror*> mirrors_;  // by finish
-  std::vector<ModifierId> patterns_;    // by finish: the first one; kNone: none
+  std::vector<ModifierId> patterns_;    // by finish: the first in its chain; kNone: none
   ById<LightId, bool> knownSources_;
   bool hasPanes_ = false, hasKnownSources_ = false, knowAllSources_ = true;
   bool bringAll_ = true, bringAllDirect_ = true, passUnknown_ = false;
