@@ -187,7 +187,7 @@ LocalGuess RadianceGuess::fit(const V3d& point, std::span<const V3d> glances, st
   local.bright_ = Tuning::kBright * arriving / static_cast<double>(std::max<size_t>(1, glances.size()));
   // The median instead of the mean, because a few directions hit something very bright by chance.
   std::vector<double> around[3];
-  Color parts;  // of contributors, in proportion to which they share the median
+  Color parts;  // the light of contributors; they share the median in this proportion
   for (const Traced& t : traced) {
     const Place& at = t.place;
     if (!(brightness(at.reflectance) > 0)) continue;
