@@ -26,7 +26,7 @@ class Coordinates {
   double of(uint32_t i, int axis) const {
     return axis < 3 ? vertices_[i].place[axis] : vertices_[i].facing[axis - 3] * length_;
   }
-  // The coordinate in which some vertices vary most, and its range.
+  // The coordinate in which the given vertices vary most, and its range.
   struct Widest {
     int axis = 0;
     double least = 0, most = 0;
