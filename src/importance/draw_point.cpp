@@ -18,17 +18,16 @@ namespace {
 
 using Tuning = tuning::Pictures;
 
-const Smoothing kOfIndirect{Tuning::kIndirectPasses, Tuning::kFinePasses, Tuning::kSameLight,
-                            Tuning::kSameNormal,     Tuning::kNear,       Tuning::kNear};
-const Smoothing kOfGloss{Tuning::kFinePasses, 0, 0, Tuning::kSameGlossNormal, Tuning::kNear, Tuning::kNear};
+// On a ball, points whose height over each other's planes is the largest that tuning::Pictures::kNear allows
+// have normals with this cosine. It excludes surfaces that meet in an edge.
+const float kSameNormal = 1 - 2 * Tuning::kNear * Tuning::kNear;
+
+const Smoothing kOfIndirect{Tuning::kIndirectPasses, Tuning::kFinePasses, Tuning::kSameLight, kSameNormal,
+                            Tuning::kNear};
+const Smoothing kOfGloss{Tuning::kFinePasses, 0, 0, Tuning::kSameGlossNormal, Tuning::kNear};
 // The first pass blurs edges of sharp shadows by a pixel. Pixels at such edges differ visibly from their
 // neighbors, so that they are traced again (refine()).
-const Smoothing kOfDirect{1,
-                          Tuning::kFinePasses,
-                          Tuning::kSameLight,
-                          Tuning::kSameNormal,
-                          Tuning::kNear,
-                          Tuning::kNear};
+const Smoothing kOfDirect{1, Tuning::kFinePasses, Tuning::kSameLight, kSameNormal, Tuning::kNear};
 
 constexpr double kTracingShare = .85;  // of the time of a picture; for progress reports only
 
@@ -78,7 +77,7 @@ SmallSources smallSources(const PathsFrom& paths, const PixelMap& map, const See
   for (SeenSources::Image& image : small.images) {
     const double there = map.solidAngle(map.pixelOf(image.region.sample(.5, .5)));
     const double pixels = there > 0 ? image.solidAngle / there : Tuning::kSmallest;
-    image.rays = pixels < Tuning::kSmallest ? std::max(Tuning::kLeastSamples, Tuning::kSmallest * pixels) : 0;
+    image.rays = pixels < Tuning::kSmallest ? Tuning::kSmallest * std::max(1., pixels) : 0;
   }
   small.images.erase(std::remove_if(small.images.begin(), small.images.end(),
                                     [](const auto& image) { return image.rays == 0; }),

@@ -24,7 +24,7 @@ LightPools::LightPools(const PreparedScene& prepared, const PlainSurfaces& surfa
       emission_(prepared, surfaces, paths),
       pools_(pools),
       paths_(paths),
-      most_(std::max(pools + 1, static_cast<size_t>(tuning::DiffuseGlances::kMostPaths) / paths)),
+      most_(std::max(pools + 1, tuning::DiffuseGlances::kMost / paths)),
       seed_(seed) {}
 
 double LightPools::powerOf(std::span<const uint32_t> sources) const {

@@ -29,8 +29,9 @@ struct PixelLight {
 struct Smoothing {
   int passes = 0;   // each reaches twice as far as the one before
   int careful = 0;  // the number of further passes, in which pixels share light only if it is nearly the same
-  float sameLight = 0;                            // largest relative difference: tuning::Pictures::kSameLight
-  float sameNormal = 0, samePlane = 0, near = 0;  // tuning::Pictures::kSameNormal, kNear
+  float sameLight = 0;   // largest relative difference: tuning::Pictures::kSameLight
+  float sameNormal = 0;  // least cosine between the normals
+  float near = 0;        // tuning::Pictures::kNear
 };
 
 // Whether two pixels show the same material on the same flat or slightly curved surface.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "light/tuning.h"
 #include "transport/tuning.h"
 
 namespace rsphere {
@@ -104,7 +105,8 @@ double RadianceGuess::factor(LightId source, const Place& at) const {
         [&](const PlaneLight::Disk&) { return plane.area * cosine * front / (squared + plane.area / kPi); },
         [&](const PlaneLight::Fan& fan) { return irradianceFromFan(fan.vertices, at.point, at.normal); },
         [&](const OneOf<PlaneLight::Parallelogram, PlaneLight::Square> auto&) {
-          if (distance > Tuning::kNear * light.radius) return plane.area * cosine * front / squared;
+          const double width = 2 * std::max(plane.extentU, plane.extentV);
+          if (width <= tuning::SourceParts::kNear * distance) return plane.area * cosine * front / squared;
           return irradianceFrom<4>({to - u - v, to + u - v, to + u + v, to - u + v}, at.normal);
         });
   };
@@ -143,7 +145,7 @@ double RadianceGuess::shareThatArrives(const Light& light, std::span<const doubl
   double due = random.uniform();
   for (size_t i = 0; i < places.size(); ++i) {
     const Place& at = places[i];
-    due += sent[i] / sum * Tuning::kShadowRays;
+    due += sent[i] / sum * tuning::Caps::kProbes;
     if (due < 1) continue;
     due -= std::floor(due);
     samples.clear();
