@@ -18,8 +18,8 @@ constexpr double kTiny = 1e-6;  // world units, cosines: RADIANCE's own figure f
 // Bounds of relays are enlarged by this share of their distance, so that rounding loses no relay in them.
 constexpr double kRounding = 1e-9;
 // Light that has passed more relays than this is bounded by its source and by the last of them, because all
-// relays of a chain of n would take a memory of n^2. The bounds of the light are wider without the others, which
-// changes memory and time, but no answer: two facing mirrors with -dr 2000 take 19 MB.
+// relays of a chain of n would take a memory of n^2. The bounds of the light are wider without the others,
+// which changes memory and time, but no answer: two facing mirrors with -dr 2000 take 19 MB.
 constexpr size_t kMostRelays = 8;
 
 // An affine map that leaves the points of a relay's plane fixed: p goes to p + height(p) * shift. It

@@ -14,8 +14,9 @@ namespace {
 
 using Tuning = tuning::GatherDirections;
 
-// Caps on the fractions of directions that are aimed. Other directions then have at most twice the weight that
-// they have without aiming (with highlights, another third more), which bounds the growth of their variance.
+// Caps on the fractions of directions that are aimed. Other directions then have at most twice the weight
+// that they have without aiming (with highlights, another third more), which bounds the growth of their
+// variance.
 constexpr double kMostToOpenings = 1 - 1. / 2, kMostToHighlights = 1 - 3. / 4;
 
 // The mean radiance (W/sr/m2) from directions that are not aimed. Both estimates with openings are made near

@@ -25,10 +25,10 @@ struct Caps {
   // or more: the same answers in all cases.
   //
   // It is also the number of light paths that measure the mean distance from the sources to the first
-  // surfaces, the least number in a batch of light paths, and the number of directions that estimate the power
-  // of a source with a pattern or a cone: means are known within 3% if single values vary as much as their
-  // mean. And it is the cap on the surfaces that a light path meets, for mirrors that face each other; Russian
-  // roulette ends nearly all paths earlier.
+  // surfaces, the least number in a batch of light paths, and the number of directions that estimate the
+  // power of a source with a pattern or a cone: means are known within 3% if single values vary as much as
+  // their mean. And it is the cap on the surfaces that a light path meets, for mirrors that face each other;
+  // Russian roulette ends nearly all paths earlier.
   RSPHERE_TUNED(Caps, size_t, kAsked, 1024);
   // Rays that measure a mean brightness: on each side of a pane, around a point in sphere mode, and at least
   // to each opening that may matter there. Also the shadow rays that measure the mean visibility of a source
