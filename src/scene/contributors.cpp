@@ -64,7 +64,7 @@ void separateContributors(Scene& scene, std::span<const std::string> goals) {
     names.push_back(goal);
   }
   if (goals.empty())
-    for (const Modifier* modifier : emittersOf(scene)) add(modifier->described.name);
+    for (const Modifier* modifier : emittersOf(scene)) add(modifier->decoded.name);
   if (names.empty()) throw rad::Error("-Sp: the scene has neither goals (-Sg) nor light sources");
   if (names.size() > kMostContributors)
     throw rad::Error(
@@ -77,7 +77,7 @@ void separateContributors(Scene& scene, std::span<const std::string> goals) {
   if (goals.empty())
     for (Modifier* modifier : emittersOf(scene)) {
       Color& emission = *emissionOf(*modifier);
-      emission = Color::ofContributor(emission.rgb(), positionOf(names, modifier->described.name), parts);
+      emission = Color::ofContributor(emission.rgb(), positionOf(names, modifier->decoded.name), parts);
     }
   scene.contributors = std::move(names);
 }
