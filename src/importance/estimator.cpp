@@ -172,9 +172,10 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
     special_ = findSpecialObjects(prepared.scene(), options.densityFactor);
   if (options.weights == Weights::silhouettes && options.densityFactor > 0) {
     glances_ = DiffuseGlances::make(prepared, options, base_);
-    if (glances_) lightOfAll_ = glances_->lightOfAll();
-    tracing_.vertexLight = lightOfAll_.get();
-    if (!glances_) tracing_.ofPoints = findAimsOfPoints(prepared);
+    if (glances_)
+      tracing_.vertexLight = glances_->lightOfAll();
+    else
+      tracing_.ofPoints = findAimsOfPoints(prepared);
     tracing_.aims = joined(transport.aims(), tracing_.ofPoints);
   }
   strategy_ = makeStrategy();

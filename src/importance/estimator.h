@@ -82,7 +82,6 @@ class SphereEstimator {
   SeenSources sources_;
   std::vector<SpecialObject> special_;             // none with -Sw h
   std::unique_ptr<const DiffuseGlances> glances_;  // null where light vertices do not bring all of the light
-  std::shared_ptr<const VertexLight> lightOfAll_;  // tracing_.vertexLight
   SphereTracing tracing_;
   std::unique_ptr<const SamplingStrategy> strategy_;
   double dark_ = 0;  // -Sa: points with a smaller integral of radiance are dark, W/m2
