@@ -78,7 +78,7 @@ class alignas(64) InWork {
     size_ = taken_ = 0;
     return rest;
   }
-  // By any thread: what is not taken yet, if it belongs to this claim.
+  // Takes away the answers that are there, if they belong to this claim. Any thread may call it.
   std::string take(uint64_t claim) {
     const std::lock_guard lock(mutex_);
     return claim_ == claim ? untaken() : std::string();

@@ -110,7 +110,7 @@ class LightVertices::Path {
   double cosineAtSource_ = 0;
   Irradiance power_;
   LightVertex::Way way_ = LightVertex::direct;
-  bool senderIsUnbounded_ = false;  // the vertex that sent the diffuse light has isUnbounded()
+  bool senderIsUnbounded_ = false;  // isUnbounded() of the vertex that sent the light
   bool fromSource_ = true;          // nothing has reflected it yet
   int bounces_ = 0;
   double length_ = 0, firstLength_ = 0;  // since the last reflection; and of the first segment

@@ -74,7 +74,7 @@ SourceEmission SourceEmission::preferring(std::span<const uint32_t> preferred) c
 }
 
 LightId SourceEmission::sourceAt(double share) const {
-  // 1 is beyond the last one.
+  // A share of 1 lies beyond the last source.
   const auto sender = std::upper_bound(senders_.begin(), senders_.end(), share,
                                        [](double w, const Sender& s) { return w < s.upTo; });
   return sender == senders_.end() ? LightId() : LightId(static_cast<size_t>(sender - senders_.begin()));
