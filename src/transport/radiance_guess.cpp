@@ -149,7 +149,7 @@ double RadianceGuess::shareThatArrives(const Light& light, std::span<const doubl
     if (due < 1) continue;
     due -= std::floor(due);
     samples.clear();
-    prepared_.lights().sample(light.source, at.point, {0, 1, at.normal}, random, samples);
+    prepared_.lights().sample(light.source, at.point, {0, 1, at.normal, false, true}, random, samples);
     ++asked;
     if (samples.empty()) continue;
     const SourceSample& s = samples[0];
