@@ -25,6 +25,7 @@ LightId sourceNamed(const Scene& scene, const LightSources& lights, std::string_
   return kNone;
 }
 
+static_assert(kLightForms == 8, "May samples lie outside the surface?");
 // What samples of a source lie in: of an image, the relay that rays to it hit first. Empty for distant
 // sources.
 Box3d boxOf(const Scene& scene, const LightSource& light) {
