@@ -171,6 +171,7 @@ class PartSampler {
   std::vector<SourceSample>& samples_;
 };
 
+static_assert(kLightForms == 8, "Where do rays meet it that are aimed at it?");
 // Sets the hit of a ray that is aimed at the source; false if it misses.
 bool PartSampler::hit(const V3d& direction, double length, SourceSample& sample) const {
   if (source_.hitsWhereAimed) {
@@ -251,8 +252,7 @@ void PartSampler::addPartsOfBall(const V3d& middle, double sine, double distance
 
 void PartSampler::addBall(const V3d& towards, double distance) {
   if (distance <= source_.radius) return;
-  const bool isSplit =
-      splitsBalls_ && jitter_ > 0 && allowed_ > 0 && source_.radius > allowed_ * distance;
+  const bool isSplit = splitsBalls_ && jitter_ > 0 && allowed_ > 0 && source_.radius > allowed_ * distance;
   if (isSplit) return addPartsOfBall(towards / distance, source_.radius / distance, distance);
   addRound(towards / distance, source_.radius / distance, distance);
 }

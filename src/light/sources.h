@@ -56,6 +56,7 @@ class LightSources {
               std::vector<SourceSample>& samples) const {
     // Most sources face away or lie behind the surface, and most images shine elsewhere. These tests are
     // inline because they save the call in most cases.
+    static_assert(kLightForms == 8, "Does it shine to one side only?");
     const LightSource& light = sources_[source];
     const V3d towards = light.isDistant() ? light.center : light.center - point;
     if (const auto* plane = light.as<PlaneLight>(); plane && towards.dot(plane->normal) >= 0) return;

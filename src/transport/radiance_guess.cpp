@@ -84,6 +84,7 @@ RadianceGuess::Place RadianceGuess::placeOf(const V3d& point, const V3d& directi
           unguessed_[hit.surface] ? Coefficient() : reflectance_[finish]};
 }
 
+static_assert(kLightForms == 8, "Does it shine to one side only?");
 // Unoccluded irradiance from a source of radiance 1, sr.
 double RadianceGuess::factor(LightId source, const Place& at) const {
   const LightSource& light = prepared_.lights().all()[source];
