@@ -24,6 +24,8 @@ double reflectanceOf(const Material& material) {
   return mirrored->brightness;
 }
 
+static_assert(kShapes == 8, "Does a new shape mirror sources, or has it corners?");
+static_assert(kLightForms == 8, "Is its image that of a parallelogram, a disk or a polygon?");
 // A part of a source, so small that its image in a ball is hardly curved. Its members are places, or
 // directions (unit) if the source is distant.
 struct Part {

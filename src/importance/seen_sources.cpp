@@ -88,7 +88,7 @@ bool isSensor(const PreparedScene& prepared, LightId source) {
 // The direction to a sensor (unit), and its solid angle, sr.
 double sightOfSensor(const LightSource& light, const V3d& eye, V3d& direction) {
   const V3d to = light.center - eye;
-  const PlaneLight& square = *light.as<PlaneLight>();
+  const PlaneLight& square = std::get<PlaneLight>(light.shape);
   direction = to.normalized();
   return square.area * std::max(0., -square.normal.dot(direction)) / to.length2();
 }

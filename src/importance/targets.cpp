@@ -32,6 +32,7 @@ std::vector<V3d> cornersOf(const Box3d& box) {
   return corners;
 }
 
+static_assert(kShapes == 8, "May a new shape be the pane of an opening?");
 // Whether the object is a polygon that lies in the rectangle, but for rounding.
 bool liesIn(const Scene& scene, const SpecialObject& object, const Rectangle& place) {
   const auto* polygon = shapeOf(scene, object).as<Polygon>();

@@ -129,6 +129,7 @@ double extent(const LightSource& source, const V3d& along) {
       [&](const DistantLight&) { return source.outermost; });
 }
 
+static_assert(kLightForms == 8, "Which of its members does a mirror move?");
 LightShape imageOf(LightShape shape, const Projection& projection) {
   match(
       shape,

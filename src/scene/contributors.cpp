@@ -18,11 +18,12 @@ size_t positionOf(const std::vector<std::string>& names, const std::string& name
 Color* emissionOf(Modifier& modifier) {
   auto* const material = std::get_if<Material>(&modifier.content);
   if (!material) return nullptr;
-  if (auto* const m = std::get_if<Light>(material)) return &m->radiance;
-  if (auto* const m = std::get_if<Illum>(material)) return &m->radiance;
-  if (auto* const m = std::get_if<Glow>(material)) return &m->radiance;
-  if (auto* const m = std::get_if<Spotlight>(material)) return &m->radiance;
-  return nullptr;
+  return std::visit(
+      [](auto& kind) -> Color* {
+        if constexpr (requires { kind.radiance; }) return &kind.radiance;
+        return nullptr;
+      },
+      *material);
 }
 
 // The modifiers that emit light, in the order of the scene.

@@ -151,6 +151,7 @@ size_t HiddenBoxes::makeNode(size_t begin, size_t end) {
   return index;
 }
 
+static_assert(kShapes == 8, "Does a new shape hide what is behind it?");
 // An opaque convex polygon of the world as a blocker, for rays that come from a point; false if it is none.
 bool HiddenBoxes::findBlocker(SurfaceId id, const V3d& from, Blocker& blocker) const {
   if (id.index() >= scene_.outermostIds().size()) return false;

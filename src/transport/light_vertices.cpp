@@ -363,6 +363,7 @@ double LightVertices::closeShare(double distance, double fromEye) const {
   return std::max(0., (share - kRest) / (1 - kRest));
 }
 
+static_assert(kLightForms == 8, "Where are shadow rays aimed?");
 // The density of the points on a source at which shadow rays from a place are aimed (1/m2); 0 if it is not
 // known. distance: of the source's point. cosine: there, between the ray and the normal.
 double LightVertices::aimedDensity(LightId light, double distance, double cosine) const {

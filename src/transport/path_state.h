@@ -33,6 +33,9 @@ struct TracingMode {
   bool boundsWork = false;
 };
 
+// Tracers of sphere mode have other choices for the first bounce.
+inline bool isRayMode(const TracingMode& mode) { return mode.firstBounce == FirstBounce::interpolated; }
+
 // How a tracer traces all of its paths.
 struct PathSettings {
   const Caches& caches;

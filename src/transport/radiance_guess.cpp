@@ -84,6 +84,7 @@ RadianceGuess::Place RadianceGuess::placeOf(const V3d& point, const V3d& directi
           unguessed_[hit.surface] ? Coefficient() : reflectance_[finish]};
 }
 
+static_assert(kLightForms == 8, "Does it shine to one side only?");
 // Unoccluded irradiance from a source of radiance 1, sr.
 double RadianceGuess::factor(LightId source, const Place& at) const {
   const LightSource& light = prepared_.lights().all()[source];
@@ -149,7 +150,7 @@ double RadianceGuess::shareThatArrives(const Light& light, std::span<const doubl
     if (due < 1) continue;
     due -= std::floor(due);
     samples.clear();
-    prepared_.lights().sample(light.source, at.point, {0, 1, at.normal}, random, samples);
+    prepared_.lights().sample(light.source, at.point, {0, 1, at.normal, false, true}, random, samples);
     ++asked;
     if (samples.empty()) continue;
     const SourceSample& s = samples[0];

@@ -25,6 +25,7 @@ LightId sourceNamed(const Scene& scene, const LightSources& lights, std::string_
   return kNone;
 }
 
+static_assert(kLightForms == 8, "May samples lie outside the surface?");
 // A box that contains all samples of a source. For an image of a source, it contains the relay that rays to
 // the image hit first. Empty for distant sources.
 Box3d boxOf(const Scene& scene, const LightSource& light) {
