@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "base/constants.h"
 #include "base/overloaded.h"
 #include "importance/special_objects.h"
 #include "importance/tuning.h"
@@ -22,7 +23,7 @@ double sharpReflectance(const Material& material, double cosine = 1) {
   const auto mirrored = mirrorReflection(material);
   if (!mirrored) return 0;
   if (mirrored->boundaries > 0) {
-    const double schlick = Tuning::kFresnel + (1 - Tuning::kFresnel) * std::pow(1 - cosine, 5);  // of glass
+    const double schlick = kGlassReflectance + (1 - kGlassReflectance) * std::pow(1 - cosine, 5);
     return std::min(1., mirrored->boundaries * schlick);
   }
   return mirrored->roughness > 0 ? 0 : mirrored->share;

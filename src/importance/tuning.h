@@ -103,12 +103,10 @@ struct CellsInTargets {
 
 // Images of light sources in mirroring balls (glints.cpp).
 struct Glints {
-  // Reflectance of dielectrics at normal incidence: Fresnel's for the index 1.5.
-  static constexpr double kFresnel = .04;
   // A source is divided so that half the width of a part is at most this, relative to its distance from the
   // ball, because the image of a wider part is noticeably curved: chosen by experiment. There are at most
-  // Silhouettes::kCorners parts along each side. 30% less or more: within noise (points beside chrome; error
-  // 2%, time 5%).
+  // Silhouettes::kCorners parts along each side. .25 (Highlights::kHalf): within noise (points beside chrome;
+  // error 1%, time 1%).
   RSPHERE_TUNED(Glints, double, kHalfPart, .12);
 };
 
@@ -142,8 +140,6 @@ struct SeenSources {
   // points where the goal shows behind the edge of a partition, 2: error 3% instead of 1.8%, in the same
   // time; 8: within noise.
   RSPHERE_TUNED(SeenSources, size_t, kShadowsAlong, 4);
-  // Reflectance of glass at normal incidence: Fresnel's for the index 1.5.
-  static constexpr double kFresnel = .04;
 };
 
 // The regions that replace silhouettes (silhouette.cpp, silhouette_index.cpp).
