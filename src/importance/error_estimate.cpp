@@ -73,6 +73,18 @@ double sharing(std::span<const DirectionSample> samples, const SpectralSampling*
   return fourth > 0 ? std::min(n, kUniform * second * second / fourth) : n;
 }
 
+// The variance of the sum of all batches, from the differences between them. It contains what the random
+// choice of vertices adds to these differences.
+Variance spreadOf(const SharedError& error, const SpectralSampling* sampling) {
+  const auto n = static_cast<double>(error.batches.size());
+  if (n < 2) return {};
+  Irradiance mean;
+  for (const Irradiance& b : error.batches) mean += b / n;
+  Variance spread;
+  for (const Irradiance& b : error.batches) spread += Variance::of(b - mean, sampling) * (n / (n - 1));
+  return spread;
+}
+
 }  // namespace
 
 void SharedError::add(const SharedError& other, double share) {
@@ -82,15 +94,20 @@ void SharedError::add(const SharedError& other, double share) {
 }
 
 Variance sharedVariance(const SharedError& error, const SpectralSampling* sampling) {
-  const auto n = static_cast<double>(error.batches.size());
-  if (n < 2) return {};
-  Irradiance mean;
-  for (const Irradiance& b : error.batches) mean += b / n;
-  Variance spread;
-  for (const Irradiance& b : error.batches) spread += Variance::of(b - mean, sampling) * (n / (n - 1));
+  const Variance spread = spreadOf(error, sampling);
   const auto beyond = [](double all, double part) { return std::max(0., all - part); };
   return {combined(spread.channels, error.chosen.channels, beyond),
           beyond(spread.brightness, error.chosen.brightness)};
+}
+
+Variance varianceWith(const SharedError& error, Variance own, const SpectralSampling* sampling) {
+  const Variance spread = spreadOf(error, sampling);
+  own += sharedVariance(error, sampling);
+  // The spread of n independent sums is known with a relative standard deviation of (2 / (n - 1))^1/2.
+  const auto n = static_cast<double>(error.batches.size());
+  const double least = n < 2 ? 0 : Tuning::kLeastShared * std::sqrt(2 / (n - 1));
+  const auto larger = [&](double all, double part) { return std::max(all, least * part); };
+  return {combined(own.channels, spread.channels, larger), larger(own.brightness, spread.brightness)};
 }
 
 void ZoneVariances::add(const V3d& direction, double cell, const Variance& variance) {

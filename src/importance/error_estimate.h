@@ -42,6 +42,9 @@ struct SharedError {
 };
 // The variance of the shared error, from the differences between batches.
 Variance sharedVariance(const SharedError& error, const SpectralSampling* sampling);
+// The sum of the shared variance and of the directions' own. It is at least a part of the spread of the
+// batches (tuning::ErrorEstimate::kLeastShared).
+Variance varianceWith(const SharedError& error, Variance own, const SpectralSampling* sampling);
 
 // The variances of zones of directions (-Sz).
 struct ZoneVariances {

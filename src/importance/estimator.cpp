@@ -152,7 +152,7 @@ std::vector<PointAnswer::ZoneError> zoneErrorsOf(const Half& sums, const EqualZo
     Variance variance = sums.ofZones.all[i];
     const Color& border = sums.moments.borders[i];
     variance += {border, brightness(border)};
-    if (i < sums.sharedByZone.size()) variance += sharedVariance(sums.sharedByZone[i], sampling);
+    if (i < sums.sharedByZone.size()) variance = varianceWith(sums.sharedByZone[i], variance, sampling);
     if (coarse) variance += coarseVariance(sums.moments.ofZones[i], *coarse);
     errors.push_back(standardErrorOf(variance, zones.solidAngle()));
   }
@@ -227,7 +227,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
     const Moments moments = set.moments(base_);
     halves[*next].add(set, moments);
     decision.add(*next, photopicOf(moments.total.color, base_.sampling),
-                 set.variance.brightness + sharedVariance(set.shared, base_.sampling).brightness);
+                 varianceWith(set.shared, set.variance, base_.sampling).brightness);
     directions += set.samples.size();
     lit += static_cast<size_t>(std::ranges::count_if(
         set.samples, [](const DirectionSample& s) { return maxChannel(s.value.color) != 0; }));
@@ -238,8 +238,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
   Half all(base_.zones.get());
   for (size_t k = 0; k < halves.size(); ++k)
     if (const double share = decision.share(k); share > 0) all.add(halves[k], share);
-  Variance variance = all.variance;
-  variance += sharedVariance(all.shared, base_.sampling);
+  Variance variance = varianceWith(all.shared, all.variance, base_.sampling);
   if (tracing_.caches.coarse) variance += coarseVariance(all.moments.total, tracing_.prepared.options());
   SampledSet samples = joined(std::move(kept), decision, all.excess, options_.everyDirection);
   workspace.samples = std::move(samples.samples);

@@ -78,6 +78,9 @@ Numbers numbersOf(const py::object& array, const std::string& name) {
     throw py::type_error(name + " must not be a masked array: choose the rows, and pass array.data");
   if (numpy.attr("iscomplexobj")(array).cast<bool>())
     throw py::type_error(name + " must be real numbers, not complex");
+  if (const auto kind = numpy.attr("asarray")(array).attr("dtype").attr("kind").cast<std::string>();
+      kind == "b" || kind == "M" || kind == "m")
+    throw py::type_error(name + " must be numbers, not truth values or dates");
   return array.cast<Numbers>();
 }
 

@@ -55,6 +55,7 @@ ModifierId ModifierBuilder::modifier(PrimitiveId described) {
       if (auto* material = std::get_if<Material>(&made.content)) {
         setFunctions(*material, index);
         warnOfExcess(target, *material, converted);
+        warnOfNegativeLight(target, *material);
       }
       scene_.modifiers.push_back(
           {std::move(made.content), std::move(made.arguments), converted, target, primitive(target)});
@@ -259,8 +260,20 @@ void ModifierBuilder::warnOfExcess(PrimitiveId i, const Material& material, Modi
   const std::string text =
       fmt::format("{} {:g} is above {:.3g}, so that more light leaves the surface than arrives",
                   excess->argument, excess->value, excess->most);
+  warnOnce(i, text);
+}
+
+// Warns of a source that would take light away: rays that hit it have its radiance, but it lights nothing.
+void ModifierBuilder::warnOfNegativeLight(PrimitiveId i, const Material& material) {
+  const std::optional<Radiance> radiance = sourceRadiance(material);
+  if (!radiance || maxChannel(radiance->color) > 0 || !(minChannel(radiance->color) < 0)) return;
+  if (const auto* glow = std::get_if<Glow>(&material); glow && glow->reach <= 0) return;
+  warnOnce(i, "negative radiance: it is seen, but lights nothing");
+}
+
+void ModifierBuilder::warnOnce(PrimitiveId i, const std::string& text) {
   const rad::Primitive p = primitive(i);
-  if (excesses_.insert(fmt::format("{} {} {}", static_cast<int>(p.type), p.name, text)).second)
+  if (warned_.insert(fmt::format("{} {} {}", static_cast<int>(p.type), p.name, text)).second)
     PrimitiveArguments(scene_.description, i).warn(warn_, text);
 }
 

@@ -70,6 +70,8 @@ class ModifierBuilder {
   Material antimatter(PrimitiveId i, const AntimatterArguments& arguments);
   Material mist(Mist read);
   void warnOfExcess(PrimitiveId i, const Material& material, ModifierId next);
+  void warnOfNegativeLight(PrimitiveId i, const Material& material);
+  void warnOnce(PrimitiveId i, const std::string& text);
 
   Scene& scene_;
   const rad::Warn& warn_;
@@ -78,7 +80,7 @@ class ModifierBuilder {
   int depth_ = 0;                            // of nested conversions by such names
   std::unordered_map<PrimitiveId, uint64_t> clipOf_;
   uint32_t mists_ = 0;
-  std::set<std::string> excesses_;  // that were warned of, so that the copies of an array give one warning
+  std::set<std::string> warned_;  // so that the copies of an array give one warning
   ById<PrimitiveId, ModifierId> modifierOf_;
 };
 

@@ -25,6 +25,14 @@ std::optional<Shape> unknownOrientation(const PrimitiveArguments& a, const Warn&
   return std::nullopt;
 }
 
+// Throws if a coordinate or size is beyond single precision, in which rays are traced: its square, an area or
+// a distance might not be finite.
+void needTraceable(const PrimitiveArguments& a) {
+  for (const double real : a.reals())
+    if (std::abs(real) > std::numeric_limits<float>::max())
+      a.fail(fmt::format("{:g} is too large: coordinates and sizes must be below 3.4e38", real));
+}
+
 std::optional<Shape> finishCone(const PrimitiveArguments& a, const Warn& warn, Cone cone) {
   if (!(cone.radius0 > 0 || cone.radius1 > 0)) return illegalRadii(a, warn);
   cone.length = cone.axis.length();
@@ -39,6 +47,7 @@ std::optional<Polygon> readPolygon(const PrimitiveArguments& a, const Warn& warn
                                    std::span<const V3d> vertices) {
   const size_t reals = a.reals().size();
   if (reals < 9 || reals % 3) a.fail(fmt::format("expected at least 9 coordinates in threes, got {}", reals));
+  needTraceable(a);
   size_t count = reals / 3;
   if (count > 3 && (a.vector(0) - a.vector(reals - 3)).length() <= kSamePlace) --count;
   if (vertices.size() > std::numeric_limits<uint32_t>::max() || count >= Polygon::kMostVertices)
@@ -56,6 +65,7 @@ std::optional<Polygon> readPolygon(const PrimitiveArguments& a, const Warn& warn
 
 std::optional<Shape> readSphere(const PrimitiveArguments& a, const Warn& warn) {
   a.needReals(4);
+  needTraceable(a);
   Sphere sphere{a.vector(0), a.reals()[3], a.type() == Type::bubble};
   if (sphere.radius < 0) {
     a.warn(warn, "negative radius");
@@ -68,6 +78,7 @@ std::optional<Shape> readSphere(const PrimitiveArguments& a, const Warn& warn) {
 
 std::optional<Shape> readCylinder(const PrimitiveArguments& a, const Warn& warn) {
   a.needReals(7);
+  needTraceable(a);
   const double radius = a.reals()[6];
   Cone cone{a.vector(0), a.vector(3) - a.vector(0), 0, radius, radius, a.type() == Type::tube};
   if (cone.radius0 < 0) {
@@ -80,6 +91,7 @@ std::optional<Shape> readCylinder(const PrimitiveArguments& a, const Warn& warn)
 
 std::optional<Shape> readCone(const PrimitiveArguments& a, const Warn& warn) {
   a.needReals(8);
+  needTraceable(a);
   const auto r = a.reals();
   Cone cone{a.vector(0), a.vector(3) - a.vector(0), 0, r[6], r[7], a.type() == Type::cup};
   if (cone.radius0 < 0 || cone.radius1 < 0) {
@@ -94,6 +106,7 @@ std::optional<Shape> readCone(const PrimitiveArguments& a, const Warn& warn) {
 
 std::optional<Shape> readRing(const PrimitiveArguments& a, const Warn& warn) {
   a.needReals(8);
+  needTraceable(a);
   const auto r = a.reals();
   const double length = a.vector(3).length();
   if (r[6] < 0 || r[7] < 0 || r[6] == r[7]) return illegalRadii(a, warn);

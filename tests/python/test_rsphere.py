@@ -296,6 +296,10 @@ class Faults(unittest.TestCase):
         # The imaginary parts and the mask used to be dropped.
         with self.assertRaisesRegex(TypeError, "^points must be real numbers, not complex"):
             scene.sphere(np.array([[0, 0, 1j]]))
+        # Truth values and dates used to be taken as numbers.
+        for wrong in np.zeros((1, 3), bool), np.zeros((1, 3), "M8[s]"), np.zeros((1, 3), "m8[s]"):
+            with self.assertRaisesRegex(TypeError, "^points must be numbers, not truth values or dates"):
+                scene.sphere(wrong)
         with self.assertRaisesRegex(TypeError, "^points must not be a masked array"):
             scene.sphere(np.ma.array([[0, 0, 1.0]], mask=[[0, 0, 1]]))
         with self.assertRaisesRegex(ValueError, r"^points must be an array of shape \(n, 3\)"):

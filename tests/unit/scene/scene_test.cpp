@@ -64,6 +64,49 @@ TEST(Scene, ReadsEveryTypeOfSurface) {
   }
 }
 
+// Rays are traced in single precision. A cone with a radius of 1e308 made answers that are not a number.
+TEST(Scene, CoordinatesBeyondSinglePrecisionAreErrors) {
+  const std::pair<const char*, const char*> shapes[] = {
+      {"polygon", "9 -1e39 0 0 1 0 0 1 1 0"},   {"sphere", "4 0 0 0 1e308"},
+      {"cylinder", "7 0 0 -1e300 0 0 4 1"},     {"cone", "8 0 0 0 0 0 1 1 1e308"},
+      {"ring", "8 0 0 0 0 0 1 0 3.5e38"},       {"bubble", "4 1e40 0 0 1"},
+      {"tube", "7 0 0 0 0 0 1e39 1"},           {"cup", "8 0 0 0 0 0 1 1e39 1"},
+  };
+  for (const auto& [type, numbers] : shapes) {
+    const std::string text = std::string(kGray) + "gray " + type + " s\n0\n0\n" + numbers + "\n";
+    try {
+      sceneOf(text);
+      ADD_FAILURE() << type;
+    } catch (const rad::Error& e) {
+      EXPECT_NE(std::string(e.what()).find("is too large: coordinates and sizes must be below 3.4e38"),
+                std::string::npos)
+          << e.what();
+    }
+  }
+  EXPECT_EQ(sceneOf(std::string(kGray) + "gray sphere s\n0\n0\n4 0 0 0 1e30\n").surfaces.size(), 1u);
+}
+
+TEST(Scene, SourcesOfNegativeRadianceAreWarnedOf) {
+  const std::pair<const char*, const char*> sources[] = {
+      {"light", "3 -1 -1 -1"}, {"illum", "3 0 -1 0"}, {"glow", "4 -1 -2 -3 5"},
+      {"spotlight", "7 -1 -1 -1 90 0 0 -1"}};
+  for (const auto& [type, numbers] : sources) {
+    std::vector<std::string> warnings;
+    sceneOf(std::string("void ") + type + " l\n0\n0\n" + numbers + "\nl sphere s\n0\n0\n4 0 0 0 1\n" +
+                "l sphere t\n0\n0\n4 4 0 0 1\n",
+            &warnings);
+    ASSERT_EQ(warnings.size(), 1u) << type;
+    EXPECT_EQ(warnings[0],
+              std::string("room.rad:1: ") + type + " \"l\": negative radiance: it is seen, but lights nothing");
+  }
+  // Light of some colors, none at all, and glow that is no source are as usual.
+  for (const char* fine : {"light l 0 0 3 1 -1 0", "light l 0 0 3 0 0 0", "glow l 0 0 4 -1 -1 -1 0"}) {
+    std::vector<std::string> warnings;
+    sceneOf(std::string("void ") + fine + "\nl sphere s\n0\n0\n4 0 0 0 1\n", &warnings);
+    EXPECT_TRUE(warnings.empty()) << fine;
+  }
+}
+
 TEST(Scene, TurnsNegativeRadiiInsideOutWithAWarning) {
   for (const auto& [type, inward] : {std::pair("sphere", true), {"bubble", false}}) {
     std::vector<std::string> warnings;
