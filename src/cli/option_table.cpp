@@ -1077,6 +1077,17 @@ void addBothModesOptions(const Add& add) {
            "of them; for rays of less weight it is smaller. The sources are drawn at random, in "
            "proportion to their contribution without shadows; -dt, -dc, -dj and -ds do not apply to them. "
            "0 tests all sources. Holds in ray mode as well."});
+  add({.name = "-Sh",
+       .arguments = "N",
+       .group = Group::indirect,
+       .value = +[](O& o) -> int& { return o.ray.firstRays; },
+       .range = {0, 1000},
+       .remark = "first rays for each that goes on",
+       .paragraph =
+           "Where daylight enters through openings, nothing is interpolated and there are no light sources, "
+           "the first gather of a path sends N times as many rays. The rays of -ad go on beyond the diffuse "
+           "surfaces that they meet; the others bring only what they meet themselves, such as the sky. 0 "
+           "chooses 2, 4 or 8 for -ab 2, 3 or more, which suits contributions by bins of the sky."});
   add({.name = "-Sm",
        .arguments = "MB",
        .group = Group::sphere,
