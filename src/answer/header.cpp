@@ -8,7 +8,7 @@
 #include "answer/answer_writer.h"
 #include "answer/output_colors.h"
 #include "base/version.h"
-#include "sphere/equal_zones.h"
+#include "sphere/direction_bins.h"
 
 namespace rsphere {
 namespace {
@@ -35,6 +35,17 @@ std::string joinedNames(const std::vector<std::string>& names) {
 std::string dateText(const std::tm& date) {
   return fmt::format("{:04}:{:02}:{:02} {:02}:{:02}:{:02}", date.tm_year + 1900, date.tm_mon + 1,
                      date.tm_mday, date.tm_hour, date.tm_min, date.tm_sec);
+}
+
+// sr of each bin, eight in a line.
+std::string solidAngleLines(const DirectionBins& bins) {
+  std::string lines;
+  for (size_t i = 0; i < bins.count(); ++i) {
+    if (i % 8 == 0) lines += "SOLIDANGLES=";
+    lines += fmt::format(" {:.6g}", bins.solidAngle(i));
+    if (i % 8 == 7 || i + 1 == bins.count()) lines += '\n';
+  }
+  return lines;
 }
 
 }  // namespace
@@ -109,7 +120,9 @@ void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<c
   RecordLayout layout{counts ? componentCount(options) : 0};
   if (!options.contributors.empty())
     layout.lines = "CONTRIBUTORS=" + joinedNames(options.contributors) + '\n';
-  if (options.sphereMode && options.sphere.zones > 0) {
+  if (options.sphereMode && options.sphere.bins) {
+    layout.lines += solidAngleLines(*options.sphere.bins);
+  } else if (options.sphereMode && options.sphere.zones > 0) {
     layout.lines += "ZONES=";
     for (const size_t zones : EqualZones(static_cast<size_t>(options.sphere.zones)).rows())
       layout.lines += fmt::format(" {}", zones);

@@ -38,6 +38,19 @@ class Words {
   std::vector<std::string> words_;
 };
 
+// Parameters become definitions behind those of the files, which they replace.
+void addBins(const Bins& bins, Words& words) {
+  if (bins.zones > 1) throw rad::Error("directionBins have an expression; Options::zones are equal zones");
+  for (const std::string& file : bins.files) words.add("-f", std::optional(file));
+  for (size_t begin = 0; begin < bins.parameters.size();) {
+    const size_t end = std::min(bins.parameters.find_first_of(",:;", begin), bins.parameters.size());
+    words.add("-e", std::optional(bins.parameters.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  words.add("-Szb", std::optional(bins.expression));
+  words.add("-Szn", std::optional(bins.count));
+}
+
 void refuse(bool given, std::string_view option, std::string_view reason) {
   if (given) throw rad::Error(fmt::format("option '{}': {}", option, reason));
 }
@@ -72,6 +85,7 @@ CommandOptions commandOptions(const Options& options, Records records) {
   words.add("-Sx", options.mostDirections);
   words.add("-Sa", options.accuracy);
   words.add("-Sz", options.zones);
+  if (options.directionBins) addBins(*options.directionBins, words);
   if (glare) words.add("-Su+");
   if (!options.outputs.empty()) words.add("-o" + options.outputs);
   words.add("-n", std::optional(options.threads));

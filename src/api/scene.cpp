@@ -531,7 +531,11 @@ Answers Scene::Implementation::answer(std::span<const double> numbers, const Opt
     Answers answers;
     if constexpr (requires { answers.contributors; }) {
       answers.contributors = given.options.contributors;
-      answers.zoneCount = static_cast<size_t>(given.options.sphere.zones);
+      const SphereOptions& sphere = given.options.sphere;
+      answers.zoneCount = static_cast<size_t>(sphere.zones);
+      for (size_t i = 0; i < answers.zoneCount; ++i)
+        answers.zoneSolidAngles.push_back(sphere.bins ? sphere.bins->solidAngle(i)
+                                                      : 4 * std::numbers::pi / sphere.zones);
     }
     answers.size = numbers.size() / static_cast<size_t>(parsed.numbersPerRecord());
     const std::vector<Column> columns = prepareColumns(columnsOf(answers), parsed, answers.size);

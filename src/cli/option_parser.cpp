@@ -14,6 +14,7 @@
 #include "cli/option_table.h"
 #include "cli/option_words.h"
 #include "cli/word_file.h"
+#include "contrib/direction_functions.h"
 #include "rad_parser/error.h"
 #include "rad_parser/nearest_name.h"
 #include "rad_parser/number.h"
@@ -272,7 +273,7 @@ void checkLetters(const Options& options) {
   for (const char letter : options.outputs + options.treeOutputs) {
     if (known.find(letter) != std::string_view::npos) continue;
     if (points && (letter == 'z' || letter == 'Z'))
-      throw rad::Error(fmt::format("-o{} needs -Sz N, a number of zones", letter));
+      throw rad::Error(fmt::format("-o{} needs -Sz N, a number of zones, or -Szb", letter));
     const std::string_view hint = options.sphereMode ? " (sphere mode)" : "";
     throw rad::Error(fmt::format("unrecognized output option '{}'{}: the letters are {}{}; see -help", letter,
                                  hint, known, options.sphereMode ? "" : " and t, T for ray trees"));
@@ -358,6 +359,18 @@ void checkParts(const Options& options) {
     commandLineError("-Sp", "a pixel has no room for parts: not with -fac");
   if (!options.ray.ambientFile.empty())
     commandLineError("-Sp", "an ambient file (-af) does not keep the parts of light");
+}
+
+// -Szb -Szn
+void makeBins(Options& options) {
+  SphereOptions& sphere = options.sphere;
+  if (sphere.zoneOf.empty() && sphere.zoneCount.empty()) return;
+  if (!options.sphereMode) commandLineError("-Szb", "needs sphere mode; rcontrib has the bins of rays");
+  if (sphere.zoneOf.empty()) commandLineError("-Szn", "needs -Szb, an expression of the bin");
+  if (sphere.zoneCount.empty()) commandLineError("-Szb", "needs -Szn, the number of bins");
+  if (sphere.zones > 0) commandLineError("-Szb", "bins and zones (-Sz) exclude each other");
+  sphere.bins = directionBins(sphere.zoneOf, sphere.zoneCount, {options.ray.definitions, {}});
+  sphere.zones = static_cast<int>(sphere.bins->count());
 }
 
 // -Su
@@ -538,6 +551,7 @@ std::vector<Use> parse(std::span<const std::string> commandLine, const Companion
   options.progressGiven = given.has("-t");
   options.numberedRays = given.has("-u") && options.ray.uncorrelated && !options.sphereMode;
   splitTree(options);
+  if (answers) makeBins(options);
   checkLetters(options);
   if (answers) checkColorOutput(options);
   checkIrradiance(options);

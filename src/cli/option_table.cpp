@@ -992,6 +992,24 @@ void addAnswerOptions(const Add& add) {
        .paragraph =
            "Divides all directions into N zones of equal solid angle, whose mean radiances the letter z of "
            "-o writes, and Z their standard errors; see OUTPUT. 0: there are no zones."});
+  add({.name = "-Szb",
+       .arguments = "bin",
+       .group = Group::sphere,
+       .value = +[](O& o) -> std::string& { return o.sphere.zoneOf; },
+       .remark = "bins of directions",
+       .paragraph =
+           "Divides all directions into bins of your own instead of -Sz zones: an expression of the number "
+           "of the bin, from 0, for a direction Dx, Dy, Dz in which the point looks; it is rounded. It may "
+           "use what -e and -f define, for example reinhart.cal. Directions with a negative number, or one "
+           "of at least -Szn, are in no bin. Borders of bins are followed to .1 degrees. The letter z of -o "
+           "has the mean radiance of each bin, and the header the solid angles (sr), eight in each line of "
+           "SOLIDANGLES=. Needs -Szn."});
+  add({.name = "-Szn",
+       .arguments = "count",
+       .group = Group::sphere,
+       .value = +[](O& o) -> std::string& { return o.sphere.zoneCount; },
+       .remark = "number of bins",
+       .paragraph = "Number of bins of -Szb, as an expression that is constant: at most 100,000."});
   add({.name = "-Sb",
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.sphere.basicRadiance; },
@@ -1059,6 +1077,17 @@ void addBothModesOptions(const Add& add) {
            "of them; for rays of less weight it is smaller. The sources are drawn at random, in "
            "proportion to their contribution without shadows; -dt, -dc, -dj and -ds do not apply to them. "
            "0 tests all sources. Holds in ray mode as well."});
+  add({.name = "-Sh",
+       .arguments = "N",
+       .group = Group::indirect,
+       .value = +[](O& o) -> int& { return o.ray.firstRays; },
+       .range = {0, 1000},
+       .remark = "first rays for each that goes on",
+       .paragraph =
+           "Where daylight enters through openings, nothing is interpolated and there are no light sources, "
+           "the first gather of a path sends N times as many rays. The rays of -ad go on beyond the diffuse "
+           "surfaces that they meet; the others bring only what they meet themselves, such as the sky. 0 "
+           "chooses 2, 4 or 8 for -ab 2, 3 or more, which suits contributions by bins of the sky."});
   add({.name = "-Sm",
        .arguments = "MB",
        .group = Group::sphere,

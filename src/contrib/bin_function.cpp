@@ -66,6 +66,15 @@ bool BinDefinitions::operator==(const BinDefinitions& other) const {
 
 std::optional<double> BinFunction::at(const RayEnd& end, BinScratch& scratch) const {
   setInputs(end, scratch.inputs);
+  return evaluate(scratch);
+}
+
+std::optional<double> BinFunction::at(const V3d& direction, BinScratch& scratch) const {
+  put(&scratch.inputs[calc::Dx], direction);
+  return evaluate(scratch);
+}
+
+std::optional<double> BinFunction::evaluate(BinScratch& scratch) const {
   const double value = program_->evaluate({scratch.inputs, {}, {}}, scratch.state);
   if (!std::isfinite(value)) return std::nullopt;
   return std::floor(value + .5);
@@ -87,11 +96,11 @@ calc::Library& BinFunctions::libraryOf(const BinDefinitions& definitions) {
 }
 
 BinFunction BinFunctions::compile(std::string_view option, const std::string& expression,
-                                  const BinDefinitions& definitions) {
+                                  const BinDefinitions& definitions, BinInputs inputs) {
   calc::Request request;
   request.place = fmt::format("{} '{}'", option, expression);
   request.expressions = {&expression, 1};
-  request.available = calc::kPointInputs;
+  request.available = inputs == BinInputs::ray ? calc::kPointInputs : uint64_t{7} << calc::Dx;
   request.reals = std::span<const double>();
   return BinFunction(libraryOf(definitions).compile(request));
 }

@@ -22,6 +22,9 @@ struct BinDefinitions {
   bool operator==(const BinDefinitions& other) const;
 };
 
+// What of a ray an expression may use: all that function files may, or its direction alone.
+enum class BinInputs : uint8_t { ray, direction };
+
 // Working memory for the evaluations of one thread.
 struct BinScratch {
   rad::calc::State state;
@@ -37,11 +40,15 @@ class BinFunction {
   // The value at the end of a ray, to the nearest whole number. Empty if it is not a number. Throws
   // rad::Error if the expression uses a name that does not exist.
   std::optional<double> at(const RayEnd& end, BinScratch& scratch) const;
+  // The same for a unit direction. REQUIRES: compiled for BinInputs::direction.
+  std::optional<double> at(const V3d& direction, BinScratch& scratch) const;
 
   bool isConstant() const { return program_->isConstant(); }
   double constant() const;
 
  private:
+  std::optional<double> evaluate(BinScratch& scratch) const;
+
   std::shared_ptr<const rad::calc::Program> program_;
 };
 
@@ -50,7 +57,7 @@ class BinFunctions {
  public:
   // Throws rad::Error if a definition or the expression is wrong; option: the one that gives the expression.
   BinFunction compile(std::string_view option, const std::string& expression,
-                      const BinDefinitions& definitions);
+                      const BinDefinitions& definitions, BinInputs inputs = BinInputs::ray);
 
  private:
   rad::calc::Library& libraryOf(const BinDefinitions& definitions);

@@ -6,6 +6,7 @@ void setContributionDefaults(RayOptions& options) {
   options.ambientBounces = 1;
   options.ambientDivisions = 350;
   options.ambientSuperSamples = 0;
+  options.firstRays = 0;
   options.ambientAccuracy = 0;
   options.directThreshold = 0;
   options.directJitter = .9;

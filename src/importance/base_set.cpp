@@ -10,7 +10,9 @@ namespace rsphere {
 BaseSet makeBaseSet(const SphereOptions& options, const SpectralSampling* sampling, bool standardErrors) {
   const auto count = static_cast<size_t>(options.baseDirections);
   BaseSet base{rotatedDirections(baseDirections(count), options.rotation), {}, std::nullopt, sampling};
-  if (options.zones > 0) base.zones = std::make_shared<const EqualZones>(static_cast<size_t>(options.zones));
+  base.zones = options.bins;
+  if (!base.zones && options.zones > 0)
+    base.zones = std::make_shared<const DirectionBins>(static_cast<size_t>(options.zones));
   const bool equal = options.weights == Weights::homogeneous;
   if (equal) base.solidAngles.assign(count, 4 * std::numbers::pi / static_cast<double>(count));
   if (equal && !standardErrors && !options.verify) return base;

@@ -5,7 +5,7 @@
 
 #include "importance/error_estimate.h"
 #include "importance/sphere_options.h"
-#include "sphere/equal_zones.h"
+#include "sphere/direction_bins.h"
 #include "sphere/voronoi.h"
 
 namespace rsphere {
@@ -16,7 +16,7 @@ struct BaseSet {
   std::vector<double> solidAngles;            // solid angles that the directions represent, sr
   std::optional<Neighbours> neighbours;       // if standard errors are wanted
   const SpectralSampling* sampling;           // RayOptions::sampling
-  std::shared_ptr<const EqualZones> zones{};  // zones by which light is divided; null: none
+  std::shared_ptr<const DirectionBins> zones{};  // zones by which light is divided; null: none
 };
 
 // -Sn directions, rotated as -Sr says. Their solid angles are all the same with -Sw h, otherwise those of

@@ -153,7 +153,7 @@ DiffuseGlances::Found DiffuseGlances::at(const SetAtPoint& set) const {
   const auto n = static_cast<double>(glances_.size());
   const Joins joins(both.vertices(), set.point(), joins_, n);
   const SpectralSampling* const sampling = prepared_.options().sampling;
-  Records records(zones_ ? zones_->count() : 1);
+  Records records(zones_ ? zones_->count() + 1 : 1);
   for (VertexLight::Record& record : records) record.sampling = sampling;
   Found found(zones_.get(), set.gaze());
   addJoins(set, joins, records, found);
@@ -179,7 +179,7 @@ DiffuseGlances::Found DiffuseGlances::at(const SetAtPoint& set) const {
 }
 
 VertexLight::Record& DiffuseGlances::recordFor(const V3d& direction, Records& records) const {
-  return records[zones_ ? zones_->zoneAt(direction) : 0];
+  return records[zones_ ? zones_->binAt(direction) : 0];
 }
 
 void DiffuseGlances::addJoins(const SetAtPoint& set, const Joins& joins, Records& records,

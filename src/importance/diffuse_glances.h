@@ -34,7 +34,7 @@ class DiffuseGlances {
   // The result of one set of glances and joins at its point.
   struct Found {
     // gaze: Moments::gaze.
-    explicit Found(const EqualZones* zones = nullptr, const std::optional<V3d>& gaze = {})
+    explicit Found(const DirectionBins* zones = nullptr, const std::optional<V3d>& gaze = {})
         : moments(zones, gaze), ofZones(zones) {}
     Moments moments;     // of the light
     Variance variance;   // of moments.total, due to choosing glances and joins; 0 unless errors are wanted
@@ -67,7 +67,7 @@ class DiffuseGlances {
     double cell = 0;                        // solid angle of a glance, sr
     VertexLight::Scratch scratch{};
   };
-  // One for each zone, or a single one without zones.
+  // One for each zone and one for what lies in none, or a single one without zones.
   using Records = std::vector<VertexLight::Record>;
   VertexLight::Record& recordFor(const V3d& direction, Records& records) const;
   void addJoins(const SetAtPoint& set, const Joins& joins, Records& records, Found& found) const;
@@ -77,7 +77,7 @@ class DiffuseGlances {
   PlainSurfaces surfaces_;
   LightPools lights_;
   std::vector<V3d> glances_;
-  std::shared_ptr<const EqualZones> zones_;  // null: light is not divided
+  std::shared_ptr<const DirectionBins> zones_;  // null: light is not divided
   std::optional<Neighbours> neighbours_;     // if standard errors are wanted
   double joins_;                             // expected number of joins at a point
 };

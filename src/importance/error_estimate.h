@@ -9,7 +9,7 @@
 #include "base/colorimetry.h"
 #include "importance/direction_sample.h"
 #include "importance/seen_sources.h"
-#include "sphere/equal_zones.h"
+#include "sphere/direction_bins.h"
 
 namespace rsphere {
 
@@ -48,10 +48,10 @@ Variance varianceWith(const SharedError& error, Variance own, const SpectralSamp
 
 // The variances of zones of directions (-Sz).
 struct ZoneVariances {
-  const EqualZones* zones = nullptr;  // null: there are none
+  const DirectionBins* zones = nullptr;  // null: there are none
   std::vector<Variance> all;
 
-  explicit ZoneVariances(const EqualZones* by = nullptr) : zones(by), all(by ? by->count() : 0) {}
+  explicit ZoneVariances(const DirectionBins* by = nullptr) : zones(by), all(by ? by->count() : 0) {}
   // Adds the variance of what a direction contributes. cell: as for Moments::add().
   void add(const V3d& direction, double cell, const Variance& variance);
   void add(const ZoneVariances& other, double factor);

@@ -70,7 +70,7 @@ struct Half {
   ZoneVariances ofZones;
   std::vector<SharedError> sharedByZone;
 
-  explicit Half(const EqualZones* zones) : moments(zones), ofZones(zones) {}
+  explicit Half(const DirectionBins* zones) : moments(zones), ofZones(zones) {}
 
   // ofSet: the moments of the set.
   void add(const SampledSet& set, const Moments& ofSet) {
@@ -138,14 +138,14 @@ Variance coarseVariance(const Irradiance& total, const RayOptions& o) {
 
 // Rounding may leave a variance a little below 0.
 PointAnswer::ZoneError standardErrorOf(const Variance& variance, double solidAngle) {
-  const auto root = [&](double v) { return std::sqrt(std::max(0., v)) / solidAngle; };
+  const auto root = [&](double v) { return solidAngle > 0 ? std::sqrt(std::max(0., v)) / solidAngle : 0; };
   PointAnswer::ZoneError error{Radiance(variance.channels), root(variance.brightness)};
   error.channels.color.transform(root);
   return error;
 }
 
 // coarse: the options if there is a coarse solution, otherwise null.
-std::vector<PointAnswer::ZoneError> zoneErrorsOf(const Half& sums, const EqualZones& zones,
+std::vector<PointAnswer::ZoneError> zoneErrorsOf(const Half& sums, const DirectionBins& zones,
                                                  const SpectralSampling* sampling, const RayOptions* coarse) {
   std::vector<PointAnswer::ZoneError> errors;
   for (size_t i = 0; i < zones.count(); ++i) {
@@ -154,7 +154,7 @@ std::vector<PointAnswer::ZoneError> zoneErrorsOf(const Half& sums, const EqualZo
     variance += {border, brightness(border)};
     if (i < sums.sharedByZone.size()) variance = varianceWith(sums.sharedByZone[i], variance, sampling);
     if (coarse) variance += coarseVariance(sums.moments.ofZones[i], *coarse);
-    errors.push_back(standardErrorOf(variance, zones.solidAngle()));
+    errors.push_back(standardErrorOf(variance, zones.solidAngle(i)));
   }
   return errors;
 }

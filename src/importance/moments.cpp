@@ -15,6 +15,8 @@ namespace {
 // disk. By measurement where radiance is even. For cells in which the direction may lie anywhere, the factor
 // is 1.
 constexpr double kBorder = .05;
+// sr, smaller than any bin: one without any direction has no light, and no division by 0.
+constexpr double kLeastSolidAngle = 1e-12;
 
 }  // namespace
 
@@ -56,7 +58,8 @@ PointAnswer Moments::answer(const V3d& point, size_t directions) const {
   a.cylindricalIrradiance = cylindrical / pi;
   std::copy(std::begin(facing), std::end(facing), std::begin(a.facing));
   a.lightVector = light;
-  for (const Irradiance& zone : ofZones) a.zones.push_back(meanRadiance(zone, zones->solidAngle()));
+  for (size_t i = 0; i < ofZones.size(); ++i)
+    a.zones.push_back(meanRadiance(ofZones[i], std::max(zones->solidAngle(i), kLeastSolidAngle)));
   return a;
 }
 

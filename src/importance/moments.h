@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "importance/point_answer.h"
-#include "sphere/equal_zones.h"
+#include "sphere/direction_bins.h"
 
 namespace rsphere {
 
@@ -19,11 +19,11 @@ struct Moments {
   Irradiance atEye;
   // ofZones: integrals of L over each zone (-Sz). borders: the variance due to cells that cross the borders
   // of zones.
-  const EqualZones* zones = nullptr;  // null: there are none
+  const DirectionBins* zones = nullptr;  // null: there are none
   std::vector<Irradiance> ofZones;
   std::vector<Color> borders;
 
-  explicit Moments(const EqualZones* by = nullptr, const std::optional<V3d>& towards = {})
+  explicit Moments(const DirectionBins* by = nullptr, const std::optional<V3d>& towards = {})
       : gaze(towards), zones(by), ofZones(by ? by->count() : 0), borders(by ? by->count() : 0) {}
 
   // Adds one direction. part: its radiance times its solid angle. sampling: RayOptions::sampling. cell: the

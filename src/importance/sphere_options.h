@@ -2,8 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
+#include <string>
 
 #include "glare/glare_options.h"
+#include "sphere/direction_bins.h"
 
 namespace rsphere {
 
@@ -22,7 +25,9 @@ struct SphereOptions {
   bool basicRadiance = false;              // -Sb
   bool everyDirection = false;             // -Sd
   uint64_t rotation = 0;                   // -Sr
-  int zones = 0;                           // -Sz  of equal solid angle (sphere/equal_zones.h); 0: none
+  int zones = 0;                           // -Sz  of equal solid angle, or bins; 0: none
+  std::string zoneOf, zoneCount;           // -Szb -Szn  expressions of bins; empty: not given
+  std::shared_ptr<const DirectionBins> bins{};  // of these; their count is `zones`
   bool verify = false;                     // -Sv
   GlareOptions glare;                      // -Su -Sub -Sut
 

@@ -149,6 +149,9 @@ py::object arraysOf(PointAnswers&& a) {
   arrays["light_vector"] = arrayOf(std::move(a.lightVector), a.size, {parts});
   arrays["bins"] = arrayOf(std::move(a.zones), a.size, {parts, a.zoneCount});
   arrays["bins_standard_error"] = arrayOf(std::move(a.zonesStandardError), a.size, {parts, a.zoneCount});
+  arrays["bins_solid_angle"] =
+      a.zoneCount > 0 ? py::object(py::array_t<double>(py::ssize_t(a.zoneCount), a.zoneSolidAngles.data()))
+                      : py::none();
   arrays["directions"] = arrayOf(std::move(a.directions), a.size);
   arrays["point"] = arrayOf(std::move(a.point), a.size);
   if (!arrays["directions"].is_none()) arrays["directions"] = arrays["directions"].attr("astype")("int64");
@@ -246,33 +249,6 @@ py::object glare(const py::object& self, const py::object& eyes, const py::objec
   for (const std::vector<GlareSource>& ofEye : a.sources) sources.append(sourcesOf(ofEye));
   arrays["sources"] = sources;
   return answersObject(arrays);
-}
-
-// A number of zones, or a dict with the members of Bins by their names.
-Bins binsOf(const py::object& given) {
-  Bins bins;
-  if (given.is_none()) return bins;
-  if (py::isinstance<py::int_>(given)) {
-    bins.zones = given.cast<int>();
-    return bins;
-  }
-  if (!py::isinstance<py::dict>(given))
-    throw py::type_error(
-        "bins must be a number of zones, or a dict of expression, count, parameters and files");
-  for (const auto& [key, value] : given.cast<py::dict>()) {
-    const auto name = key.cast<std::string>();
-    if (name == "expression")
-      bins.expression = value.cast<std::string>();
-    else if (name == "count")
-      bins.count = py::str(value);
-    else if (name == "parameters")
-      bins.parameters = value.cast<std::string>();
-    else if (name == "files")
-      bins.files = pathsOf(py::reinterpret_borrow<py::object>(value));
-    else
-      throw py::type_error("bins have no '" + name + "', but expression, count, parameters and files");
-  }
-  return bins;
 }
 
 py::object contributions(const py::object& self, const py::object& given, const std::vector<std::string>& of,
@@ -400,7 +376,10 @@ E scalar_irradiance: F/4 (W/m2; its standard error is pi times that of mean), C 
 H face_irradiance (n, 6, 3): +x -x +y -y +z -z, u light_vector, k directions, o point.
 With Sp=True, what each modifier of a light source gives: contributors are their names, and arrays but
 directions and point have a second axis for them. With bins=N: bins (n, N, 3), mean radiances of zones of
-equal solid angle, and bins_standard_error; zone_middles(N) has the directions of the zones.
+equal solid angle, bins_standard_error, and bins_solid_angle (N); zone_middles(N) has the directions of the
+zones. bins may also be a dict that numbers directions Dx, Dy, Dz as rcontrib does, with the keys expression,
+count, parameters and files: {"files": "reinhart.cal", "parameters": "MF=1", "expression": "rbin", "count":
+"Nrbins"}. Directions of other numbers are in no bin. Borders are followed to .1 degrees.
 )";
 
 constexpr const char* kImportance = R"(Computes the importance of each goal at points, of all in one pass.
@@ -410,7 +389,7 @@ other sources are dark. Returns the object of sphere() whose contributors are th
 a second axis for them: mean (n, goals, 3), mean_standard_error, face_irradiance (n, goals, 6, 3).
 
 With bins=N: bins (n, goals, N, 3), the mean importance in each of N zones of equal solid angle, and
-bins_standard_error; zone_middles(N) has the directions of the zones.
+bins_standard_error; or with bins of your own, as for sphere().
 
 Goals may also be sensors or eyes, an array (goals, 6) of places and the directions in which they face:
 places without a surface, which block and reflect nothing, receive light by the cosine, and count as goals of

@@ -85,6 +85,10 @@ Options optionsOf(const py::kwargs& keywords) {
     keyword.set("directions", options.directions, "Sn");
     keyword.set("most_directions", options.mostDirections, "Sx");
     keyword.set("accuracy", options.accuracy, "Sa");
+    if (text == "bins" && py::isinstance<py::dict>(value)) {
+      options.directionBins = binsOf(py::reinterpret_borrow<py::object>(value));
+      continue;
+    }
     keyword.set("bins", options.zones, "Sz");
     keyword.set("outputs", options.outputs, "o");
     keyword.set("threads", options.threads, "n");
@@ -104,6 +108,32 @@ std::vector<std::string> pathsOf(const py::object& files) {
   std::vector<std::string> paths;
   for (const py::handle& file : files) paths.push_back(path(file));
   return paths;
+}
+
+Bins binsOf(const py::object& given) {
+  Bins bins;
+  if (given.is_none()) return bins;
+  if (py::isinstance<py::int_>(given)) {
+    bins.zones = given.cast<int>();
+    return bins;
+  }
+  if (!py::isinstance<py::dict>(given))
+    throw py::type_error(
+        "bins must be a number of zones, or a dict of expression, count, parameters and files");
+  for (const auto& [key, value] : given.cast<py::dict>()) {
+    const auto name = key.cast<std::string>();
+    if (name == "expression")
+      bins.expression = value.cast<std::string>();
+    else if (name == "count")
+      bins.count = py::str(value);
+    else if (name == "parameters")
+      bins.parameters = value.cast<std::string>();
+    else if (name == "files")
+      bins.files = pathsOf(py::reinterpret_borrow<py::object>(value));
+    else
+      throw py::type_error("bins have no '" + name + "', but expression, count, parameters and files");
+  }
+  return bins;
 }
 
 }  // namespace rsphere::python

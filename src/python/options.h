@@ -20,4 +20,7 @@ Options optionsOf(const pybind11::kwargs& keywords);
 // The path or paths (str, bytes or os.PathLike) as the system knows them. Throws pybind11::type_error.
 std::vector<std::string> pathsOf(const pybind11::object& files);
 
+// A number of zones, or a dict with the members of Bins by their names.
+Bins binsOf(const pybind11::object& given);
+
 }  // namespace rsphere::python

@@ -48,19 +48,6 @@ size_t EqualZones::zoneAt(const V3d& d) const {
   return first + std::min(static_cast<size_t>(along), zones - 1);
 }
 
-void EqualZones::placePoints(const V3d& direction, double solidAngle,
-                             std::array<V3d, kPoints>& points) const {
-  // At this distance from the middle, the mean square over all points is that over the disk, r2 / 2.
-  const double distance = std::sqrt(solidAngle / pi * kPoints / (2. * (kPoints - 1)));
-  const V3d aside = std::abs(direction.z) < .9 ? V3d(0, 0, 1) : V3d(1, 0, 0);
-  const V3d x = direction.cross(aside).normalized(), y = direction.cross(x);
-  points[0] = direction;
-  for (size_t i = 1; i < kPoints; ++i) {
-    const double angle = 2 * pi * static_cast<double>(i) / (kPoints - 1);
-    points[i] = (direction + distance * (std::cos(angle) * x + std::sin(angle) * y)).normalized();
-  }
-}
-
 V3d EqualZones::middle(size_t zone) const {
   const auto row = std::upper_bound(first_.begin(), first_.end() - 1, zone);
   const size_t first = *(row - 1), zones = *row - first;

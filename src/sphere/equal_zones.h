@@ -4,7 +4,6 @@
 // Source: Leopardi 2006, "A partition of the unit sphere into regions of equal area and small diameter".
 #include <Imath/ImathVec.h>
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -31,36 +30,8 @@ class EqualZones {
   // A direction (unit) in the middle of a zone; that of a cap is its pole.
   V3d middle(size_t zone) const;
 
-  // Divides a cell around a direction (unit) among the zones that it lies in: calls f(zone, share) once for
-  // each. The shares sum to 1. solidAngle: of the cell, sr, which is taken for a disk; it is represented by
-  // points whose second moment is that of the disk. 0: it is a point.
-  template <class F>
-  void divide(const V3d& direction, double solidAngle, const F& f) const;
-
  private:
-  static constexpr size_t kPoints = 7;  // the middle and a hexagon
-  void placePoints(const V3d& direction, double solidAngle, std::array<V3d, kPoints>& points) const;
-
   std::vector<size_t> first_;  // the number of the first zone in each row; then count()
 };
-
-template <class F>
-void EqualZones::divide(const V3d& direction, double solidAngle, const F& f) const {
-  if (!(solidAngle > 0) || count() == 1) return f(zoneAt(direction), 1.);
-  std::array<V3d, kPoints> points;
-  placePoints(direction, solidAngle, points);
-  std::array<size_t, kPoints> zone;
-  bool same = true;
-  for (size_t i = 0; i < kPoints; ++i) {
-    zone[i] = zoneAt(points[i]);
-    same = same && zone[i] == zone[0];
-  }
-  if (same) return f(zone[0], 1.);
-  for (size_t i = 0; i < kPoints; ++i) {
-    size_t times = 0, before = 0;
-    for (size_t k = 0; k < kPoints; ++k) (k < i ? before : times) += zone[k] == zone[i];
-    if (before == 0) f(zone[i], static_cast<double>(times) / kPoints);
-  }
-}
 
 }  // namespace rsphere

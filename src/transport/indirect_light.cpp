@@ -120,12 +120,42 @@ int IndirectLight::raysOf(const PathContext& ray, const Coefficient& coefficient
   return side * side;
 }
 
+// How many times as many rays the first gather of a path sends as go on. What they meet themselves, such as
+// patches of the sky through windows, is most of the variance of contributions by bin, and what follows is
+// most of the time. Not where there are light sources: each ray that meets a surface would look for them.
+int IndirectLight::firstRays() const {
+  // By measurement, by 2306 bins of the sky in a classroom with -ab 5: 4, 8 and 16 times reduce variance
+  // times time to .19, .13 and .13; with 16 it takes more time than the original.
+  constexpr int kMostDoublings = 3;
+  const RayOptions& o = t_.options();
+  const bool daylit = settings_.aims.openings && t_.lights().all().empty();
+  if (settings_.caches.field || !daylit || o.ambientBounces < 2) return 1;
+  return o.firstRays > 0 ? o.firstRays : 1 << std::min(o.ambientBounces - 1, kMostDoublings);
+}
+
 void IndirectLight::gather(const RayEnd& end, const DiffuseSide& side, Radiance& value) {
-  const int rays = raysOf(end.context, side.coefficient);
+  const int rays = raysOf(end.context, side.coefficient), level = end.context.ambientLevel;
+  const int times = level <= 1 ? firstRays() : 1;
+  if (times == 1) return send(end, side, rays, {rays, 1}, value);
+  if (level == 1) {
+    if (!looksOnly_) send(end, side, rays, {rays, static_cast<double>(times)}, value);
+    return;
+  }
+  // Rays that go on are as evenly distributed as without the others.
+  looksOnly_ = false;
+  send(end, side, rays, {rays, 1. / times}, value);
+  looksOnly_ = true;
+  send(end, side, rays * (times - 1), {rays, 1 - 1. / times}, value);
+  looksOnly_ = false;
+}
+
+void IndirectLight::send(const RayEnd& end, const DiffuseSide& side, int rays, const Share& share,
+                         Radiance& value) {
   const GatherDirections directions(settings_.aims, side.point, side.normal, side.trueNormal, rays);
-  const Coefficient weight = settings_.caches.field ? Coefficient(kMeanReflectance) : side.coefficient / rays;
-  sendOverHemisphere(t_, directions, state_, end, side.point, side.kind, rays, side.coefficient, weight,
-                     [&](const NextRay& next) {
+  const Coefficient weight =
+      settings_.caches.field ? Coefficient(kMeanReflectance) : side.coefficient / share.weighedAs;
+  sendOverHemisphere(t_, directions, state_, end, side.point, side.kind, rays, side.coefficient * share.part,
+                     weight, [&](const NextRay& next) {
                        if (next.context.ambientLevel == 1) countDescendants(settings_, state_, next.context);
                        value += follower_.follow(next.query, next.context).value * next.coefficient;
                      });

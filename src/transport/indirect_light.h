@@ -40,7 +40,14 @@ class IndirectLight {
   bool addFromPatch(const RayEnd& end, const DiffuseSide& side, Radiance& value);
   Patch* patchAt(const RayEnd& end, const DiffuseSide& side);
   int raysOf(const PathContext& ray, const Coefficient& coefficient) const;
+  int firstRays() const;
   void gather(const RayEnd& end, const DiffuseSide& side, Radiance& value);
+  // What rays of a gather bring: a part of it, each ray with the weight that it has among `weighedAs`.
+  struct Share {
+    int weighedAs;
+    double part;
+  };
+  void send(const RayEnd& end, const DiffuseSide& side, int rays, const Share& share, Radiance& value);
   void link(const RayEnd& end, const DiffuseSide& side);
 
   const PreparedScene& t_;
@@ -48,6 +55,7 @@ class IndirectLight {
   PathState& state_;
   RayFollower& follower_;
   FieldReader reader_;
+  bool looksOnly_ = false;  // rays of the first gather do not go on beyond diffuse surfaces (-Sh)
 };
 
 }  // namespace rsphere

@@ -34,6 +34,7 @@ struct RayOptions {
   int ambientResolution = 256;    // -ar
   int ambientDivisions = 1024;    // -ad
   int ambientSuperSamples = 512;  // -as
+  int firstRays = 1;              // -Sh  0: chosen by -ab
   Radiance ambientValue;          // -av
   int ambientWeight = 0;          // -aw
   // The number of rays of patches of the coarse solution is computed as if -ad + -as were at least this, and

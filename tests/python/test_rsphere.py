@@ -156,6 +156,21 @@ class Contributors(unittest.TestCase):
         with self.assertRaises(ValueError):
             rsphere.zone_middles(0)
 
+    def test_bins_of_directions(self):
+        scene = rsphere.Scene(ROOM)
+        points = [[0.5, 1.3, 1.2], [0.9, 1.3, 1.2]]
+        halves = {"parameters": "limit=0", "expression": "if(Dz-limit,0,1)", "count": 2}
+        found = scene.sphere(points, bins=halves, ambient_bounces=1, directions=64)
+        np.testing.assert_allclose(found.bins_solid_angle, 2 * np.pi, rtol=1e-6)
+        np.testing.assert_allclose(found.bins.mean(axis=1), found.mean, rtol=1e-6)
+        self.assertTrue((found.bins_standard_error > 0).all())
+        options = ["-Szb", "if(Dz,0,1)", "-Szn", "2", "-ab", "1", "-Sn", "64", "-oz"]
+        self.assertEqual(found.bins.tobytes(), command("rsphere", options, points))
+        zones = scene.sphere(points, bins=5, directions=64)
+        np.testing.assert_allclose(zones.bins_solid_angle, [4 * np.pi / 5] * 5)
+        with self.assertRaises(rsphere.Error):
+            scene.sphere(points, bins={"expression": "Px", "count": 2})
+
 
 class Glare(unittest.TestCase):
     EYES = np.array([[0.5, 1.3, 1.2], [0.9, 1.3, 1.2], [1.3, 1.3, 1.2], [1.5, 1.0, 1.0]])

@@ -64,10 +64,12 @@ struct PointAnswers {
   Quantity faceIrradiance;         // H  of faces towards +x -x +y -y +z -z, a color for each (W/m2)
   Quantity lightVector;  // u  integral of L d over directions d, of brightness, towards more light (W/m2)
   Quantity directions;   // k  number of directions used
-  // z  mean radiance of each of Options::zones in turn (W/sr/m2); their mean is `mean`, up to rounding
+  // z  mean radiance of each of Options::zones or directionBins in turn (W/sr/m2). Times zoneSolidAngles they
+  // sum to 4 pi times `mean`, up to rounding, if each direction is in a bin.
   Quantity zones;
   Quantity zonesStandardError;  // Z  of these, estimated
-  size_t zoneCount = 0;         // Options::zones
+  size_t zoneCount = 0;         // the number of zones or bins
+  std::vector<double> zoneSolidAngles;  // sr, of each
   Quantity point;               // o
 };
 

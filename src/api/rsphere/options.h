@@ -24,6 +24,17 @@ struct SceneOptions {
   Warn warn;
 };
 
+// The bins of a modifier that contributes to rays, or of the directions at a point.
+struct Bins {
+  // Zones of equal solid angle in which the directions of rays lie that meet the modifier, numbered as
+  // zoneMiddles() has them. 1: a single bin. (At a point, Options::zones.)
+  int zones = 1;
+  // Or, if it is not empty, an expression of function files as rcontrib's -b, and -bn -p -f for it. The files
+  // are searched for along RAYPATH.
+  std::string expression, count, parameters;
+  std::vector<std::string> files;
+};
+
 // How rays and points are answered. All options of the command rsphere work here. Members that are empty
 // leave the command's default, which is rtrace's for rays, and for points one that suits means over thousands
 // of directions. man/rsphere.1 describes each option by the name behind its member.
@@ -48,6 +59,9 @@ struct Options {
   std::optional<int> mostDirections;  // -Sx  most directions at a point in all
   std::optional<double> accuracy;     // -Sa  relative standard error to reach with more directions
   std::optional<int> zones;           // -Sz  zones of equal solid angle, whose means are computed, too
+  // -Szb -Szn  instead of zones, bins of the directions Dx Dy Dz in which a point looks: the expression, its
+  // count, parameters and files. Borders are followed to .1 degrees.
+  std::optional<Bins> directionBins;
 
   // The quantities to compute: letters of -o, each of which fills the member of RayAnswers or PointAnswers
   // behind whose name it is. Empty: "v" for rays; all of GlareAnswers; for points "veECHuk", with zones
@@ -69,17 +83,6 @@ struct Options {
   // If given, it is asked about ten times a second, on the thread that called the library, whether to give
   // up: true ends the call with Error::Cause::stopped as soon as the rays that are being traced are done.
   std::function<bool()> stop;
-};
-
-// The bins of a modifier that contributes to rays.
-struct Bins {
-  // Zones of equal solid angle in which the directions of rays lie that meet the modifier, numbered as
-  // zoneMiddles() has them. 1: a single bin.
-  int zones = 1;
-  // Or, if it is not empty, an expression of function files as rcontrib's -b, and -bn -p -f for it. The files
-  // are searched for along RAYPATH.
-  std::string expression, count, parameters;
-  std::vector<std::string> files;
 };
 
 // How contributions to rays are computed. The members left empty have the defaults of rcontrib.

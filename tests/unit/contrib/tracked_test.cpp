@@ -79,6 +79,53 @@ TEST(Tracked, SumOverAllThatEmitsIsTheAnswer) {
     }
 }
 
+// A room with a window, without light sources.
+const std::string kDaylit =
+    "void plastic white 0 0 5 .6 .5 .4 0 0\nvoid glass clear 0 0 3 .9 .8 .7\nvoid glow sky 0 0 4 1 1 1 0\n"
+    "sky source heaven 0 0 4 0 0 1 180\nsky source below 0 0 4 0 0 -1 180\n"
+    "white polygon floor 0 0 12 0 0 0 4 0 0 4 4 0 0 4 0\n"
+    "white polygon ceiling 0 0 12 0 0 3 0 4 3 4 4 3 4 0 3\n"
+    "white polygon west 0 0 12 0 0 0 0 4 0 0 4 3 0 0 3\nwhite polygon east 0 0 12 4 0 0 4 0 3 4 4 3 4 4 0\n"
+    "white polygon north 0 0 12 0 4 0 4 4 0 4 4 3 0 4 3\n"
+    "white polygon south 0 0 30 0 0 0 4 0 0 4 0 3 0 0 3 0 0 0 1.5 0 1 1.5 0 2 2.5 0 2 2.5 0 1 1.5 0 1\n"
+    "clear polygon window 0 0 12 1.5 0 1 2.5 0 1 2.5 0 2 1.5 0 2\n";
+
+// Mean and standard error of what all bins of the sky give to a sensor.
+struct ByBins {
+  double mean = 0, error = 0;
+};
+ByBins byBins(int firstRays, double spoil = 1) {
+  RayOptions o = rayOptions(3);
+  o.ambientDivisions = 256;
+  o.firstRays = firstRays;
+  const Traced room(kDaylit, o, IrradianceAt::point);
+  TrackedModifier sky{"sky", 24, std::nullopt};
+  sky.zones = std::make_shared<const EqualZones>(24);
+  const Tracked tracked(room.prepared(), {sky}, Contributed::values);
+  ContributionTracer tracer(room.transport().pathTracer(), tracked);
+  constexpr int kRuns = 60;
+  double sum = 0, square = 0;
+  for (uint64_t seed = 1; seed <= kRuns; ++seed) {
+    const ContributionList& list = tracer.trace(V3d(2, 2.5, .8), V3d(0, 0, 1), 0, seed);
+    expectEqual(sumOf(list), tracer.radiance().color, 1e-12);
+    double all = 0;
+    for (size_t i = 0; i < list.columns().size(); ++i) all += spoil * list.values()[3 * i];
+    sum += all, square += all * all;
+  }
+  return {sum / kRuns, std::sqrt((square / kRuns - sum * sum / kRuns / kRuns) / kRuns)};
+}
+
+// More rays of the first gather (-Sh) leave the mean as it is, with no more noise; 10% more are found out.
+TEST(Tracked, MoreFirstRaysGiveTheSameMean) {
+  const ByBins plain = byBins(1), more = byBins(8), spoiled = byBins(8, 1.1);
+  const auto apart = [&](const ByBins& b) {
+    return std::abs(b.mean - plain.mean) / std::hypot(b.error, plain.error);
+  };
+  EXPECT_LT(apart(more), 4);
+  EXPECT_GT(apart(spoiled), 4);
+  EXPECT_LT(more.error, 1.3 * plain.error);
+}
+
 // The same sum without the light that shadow rays bring with nothing in their way.
 TEST(Tracked, SumLacksWhatTheObserverIsNotShown) {
   Traced room(kRoom, rayOptions(1));

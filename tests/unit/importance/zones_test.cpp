@@ -1,7 +1,10 @@
 // Zones of directions (-Sz): their mean radiances and standard errors.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -51,7 +54,9 @@ class Answers {
   explicit Answers(const Case& how, bool separate = false)
       : how_(how), setting_(sceneOf(how, separate), [](RayOptions& o) { o.ambientBounces = 2; }) {}
 
-  PointAnswer at(uint64_t rotation, int zones = kZones, int directions = 512) const {
+  // bins: instead of zones.
+  PointAnswer at(uint64_t rotation, int zones = kZones, int directions = 512,
+                 const std::shared_ptr<const DirectionBins>& bins = {}) const {
     SphereOptions o = setting_.options.sphere;
     o.weights = how_.weights;
     o.baseDirections = directions;
@@ -60,6 +65,7 @@ class Answers {
     o.mostForAccuracy = 20000;
     o.rotation = rotation;
     o.zones = zones;
+    o.bins = bins;
     const SphereEstimator estimator(*setting_.transport, o, true);
     SphereEstimator::Workspace workspace(estimator);
     return estimator.estimate(V3d(2.6, 1.6, 1.4), workspace);
@@ -90,6 +96,36 @@ TEST(Zones, AverageToTheMean) {
   }
 }
 
+// Slices of different width by height, the lowest in no bin.
+std::shared_ptr<const DirectionBins> slices() {
+  return std::make_shared<const DirectionBins>(3, [](const V3d& d) {
+    return d.z < -.6 ? 9 : d.z < -.2 ? 2 : d.z < .5 ? 1 : size_t{0};
+  });
+}
+
+TEST(Zones, OfAFunctionAddUpToTheMean) {
+  const auto bins = slices();
+  const auto all = std::make_shared<const DirectionBins>(
+      4, [&](const V3d& d) { return std::min(bins->binAt(d), size_t{3}); });
+  for (const Case& how : cases()) {
+    SCOPED_TRACE(how.name);
+    const Answers answers(how);
+    const PointAnswer whole = answers.at(1, 0), divided = answers.at(1, 4, 512, all),
+                      part = answers.at(1, 3, 512, bins);
+    ASSERT_EQ(divided.zones.size(), 4);
+    double sum = 0;
+    for (size_t i = 0; i < 4; ++i)
+      sum += brightness(divided.zones[i]) * all->solidAngle(i) / (4 * std::numbers::pi);
+    EXPECT_NEAR(sum, brightness(whole.mean), 1e-12 * sum);
+    ASSERT_EQ(part.zones.size(), 3);
+    for (size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(brightness(part.zones[i]), brightness(divided.zones[i]), 1e-12 * sum);
+      EXPECT_NEAR(part.zoneErrors[i].brightness, divided.zoneErrors[i].brightness, 1e-9 * sum);
+    }
+    EXPECT_NEAR(part.brightnessError, whole.brightnessError, 1e-9 * whole.brightnessError);
+  }
+}
+
 TEST(Zones, HavePartsOfContributors) {
   const Answers plain(cases()[0]), divided(cases()[0], true);
   const PointAnswer a = plain.at(1), b = divided.at(1);
@@ -101,12 +137,13 @@ TEST(Zones, HavePartsOfContributors) {
 }
 
 // The mean over many repeats, of the squares of deviations over those that are stated. factor: of the errors.
-double deviation(const Answers& answers, double factor) {
+double deviation(const Answers& answers, double factor, int zones = kZones,
+                 const std::shared_ptr<const DirectionBins>& bins = {}) {
   constexpr int kRepeats = 12;
   std::vector<PointAnswer> all;
-  for (uint64_t r = 0; r < kRepeats; ++r) all.push_back(answers.at(r + 1));
+  for (uint64_t r = 0; r < kRepeats; ++r) all.push_back(answers.at(r + 1, zones, 512, bins));
   double squares = 0, stated = 0;
-  for (size_t i = 0; i < kZones; ++i) {
+  for (size_t i = 0; i < all[0].zones.size(); ++i) {
     double mean = 0;
     for (const PointAnswer& a : all) mean += brightness(a.zones[i]) / kRepeats;
     for (const PointAnswer& a : all) {
@@ -127,6 +164,14 @@ TEST(Zones, StateTheirErrors) {
     EXPECT_GT(found, .25);
     EXPECT_GT(deviation(answers, .125), 2);
   }
+}
+
+TEST(Zones, OfAFunctionStateTheirErrors) {
+  const Answers answers(cases()[1]);
+  const double found = deviation(answers, 1, 3, slices());
+  EXPECT_LT(found, 2);
+  EXPECT_GT(found, .25);
+  EXPECT_GT(deviation(answers, .125, 3, slices()), 2);
 }
 
 // In a furnace the radiance is 1 in all directions, so that deviations are those of cells at borders.
