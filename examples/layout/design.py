@@ -312,7 +312,10 @@ class Reader:
 
     def read_eye(self, w):
         name, position = self.named_place(w)
-        self.design.eyes[name] = Eye(name, position, w.unit("the gaze") if w.more() else None)
+        gaze = w.unit("the gaze") if w.more() else None
+        if gaze is not None and np.hypot(*gaze[:2]) < 1e-6:
+            raise w.fault("the gaze must not be vertical")
+        self.design.eyes[name] = Eye(name, position, gaze)
 
     def eye(self, w):
         name = w.text("the name of an eye")

@@ -21,6 +21,7 @@ from zones import Zones
 
 PROBE = 0.05  # m, the radius of the disks and cylinders that emit importance for sensors and eyes
 SIDES = 8  # of the prism
+APART = 0.3  # m: the least distance of disks and cylinders that are in the scene at once
 PART = 0.2  # m: luminous openings are divided into parts of at most this size for shadow rays
 SPARK = 1e-4  # m, the radius of the lamps that shadow rays go to
 MOST_PARTS = 12
@@ -125,15 +126,20 @@ class Transfer:
             self.groups.append((text, [f"layout_goal{i}" for i in range(len(areas))], np.array(areas), 0))
 
     def probes(self):
-        """Receivers of sensors and eyes, in two groups that must not hide each other."""
-        first, second = [], []
-        for s in self.design.sensors.values():
-            first.append(Receiver(s.name, "plane", s.position[None], s.normal[None], 0))
+        """Receivers of sensors and eyes, in groups of which the members hide little of each other."""
+        receivers = [Receiver(s.name, "plane", s.position[None], s.normal[None], 0) for s in self.design.sensors.values()]
         for e in self.design.eyes.values():
-            first.append(Receiver(e.name, "cylinder", e.position[None], np.array([[0, 0, 1.0]]), 0))
+            receivers.append(Receiver(e.name, "cylinder", e.position[None], np.array([[0, 0, 1.0]]), 0))
             if e.gaze is not None:
-                second.append(Receiver(e.name, "eye", e.position[None], e.gaze[None], 0))
-        return first, second
+                receivers.append(Receiver(e.name, "eye", e.position[None], e.gaze[None], 0))
+        groups = []
+        for r in receivers:
+            apart = [all(np.linalg.norm(r.points - o.points) > APART * self.design.units for o in group) for group in groups]
+            if True not in apart:
+                groups.append([])
+                apart.append(True)
+            groups[apart.index(True)].append(r)
+        return groups
 
     def add_probes(self):
         for group in self.probes():

@@ -64,7 +64,7 @@ def mean_row(light, i):
 
 
 def rows_of(transfer, goals, light, daylight, lit, factors):
-    """The rows of goals. lit: cells that count, by receiver. factors: on each goal's light, from earlier checks."""
+    """The rows of goals. lit: cells that count, by receiver. factors: on what each goal gets, from luminaires as built."""
     rows = []
     for goal in goals:
         factor = factors.get((goal.kind, goal.target), 1.0)
@@ -77,12 +77,13 @@ def rows_of(transfer, goals, light, daylight, lit, factors):
         i = receiver_of(transfer, goal.target, ("cylinder",) if goal.kind == "cylindrical" else ("plane",))
         mean, day = mean_row(light, i) * factor, mean_row(daylight, i)[0] if daylight else 0.0
         if goal.kind == "uniformity":
-            at = cells(transfer, i, light.direct[i])[lit[i]] * factor + light.reflected[i] * factor
+            least = min(goal.value / factor, 1.0)
+            at = cells(transfer, i, light.direct[i])[lit[i]] + light.reflected[i]
             day_at = cells(transfer, i, daylight.direct[i])[lit[i], 0] + daylight.reflected[i] if daylight else np.zeros(len(at))
             average, day_average = at.mean(axis=0), day_at.mean()
             size = next((g.value for g in goals if g.kind == "illuminance" and g.target == goal.target), 100.0)
             for row, there in zip(at, day_at):
-                rows.append(Row(goal, row - goal.value * average, float(there - goal.value * day_average), 1, size or 1.0))
+                rows.append(Row(goal, row - least * average, float(there - least * day_average), 1, size or 1.0))
         else:
             rows.append(Row(goal, mean, float(day - goal.value), -1 if goal.kind == "most" else 1, goal.value or 1.0))
     return rows

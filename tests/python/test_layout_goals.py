@@ -32,19 +32,21 @@ FAULTS = (
     (2, "illuminance desk1 500 most 100", 3, "most is below"),
     (2, "illuminance desk1 500 500", 3, '"500" is none of'),
     (2, "cylindrical me 150", 3, 'there is no eye "me" above'),
+    (2, "ugr me 19", 3, 'there is no eye "me" above'),
+    (2, "eye me 1 1 1.2 0 0 0", 3, "the gaze must not be 0 0 0"),
+    (2, "eye me 1 1 1.2 0 0 1", 3, "the gaze must not be vertical"),
     (2, "daylight sky.rad", 3, "daylight belongs to a scene"),
     (2, "# nothing is wanted", None, "there is no goals"),
 )
 
 
 class Goals(unittest.TestCase):
-    def run_on(self, lines):
+    def run_on(self, lines, options=("-c", "0", "-d", "64", "-b", "0")):
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "goals.txt")
             with open(file, "w", encoding="utf-8") as stream:
                 stream.write("\n".join(lines).replace("panel.ies", os.path.join(LAYOUT, "cases/panel.ies")) + "\n")
-            command = [sys.executable, os.path.join(LAYOUT, "layout"), file, OFFICE, "-o", os.path.join(folder, "out")]
-            command += ["--no-plan", "-c", "0", "-d", "64", "-b", "0"]
+            command = [sys.executable, os.path.join(LAYOUT, "layout"), file, OFFICE, "-o", os.path.join(folder, "out"), "--no-plan", *options]
             run = subprocess.run(command, capture_output=True, text=True, check=False)
             return run, file
 
@@ -60,6 +62,20 @@ class Goals(unittest.TestCase):
                 self.assertEqual(run.returncode, 1, run.stdout + run.stderr)
                 self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
                 self.assertRegex(run.stderr, (re.escape(f"layout: {file}:{line}: ") if line else "layout: ") + ".*" + words)
+
+    def test_glare(self):
+        """UGR as planned is that of rsphere -Su, for lamps ahead, beside, and half of which is behind the eye."""
+        gazes = ["1 .6 0", "-.2 1 .3", "0 -1 -.1"]
+        lines = [*GOOD, "place panel 1.8 3.2 2.8", "place panel 3.1 1.2 2.8 turn 30", "illuminance floor 150"]
+        for i, gaze in enumerate(gazes):
+            lines += [f"eye sitter{i} 1.8 1.2 1.2 {gaze}", f"ugr sitter{i} 30"]
+        run, _ = self.run_on(lines, ("-c", "8", "-d", "128", "-b", "1"))
+        rows = [line.split() for line in run.stdout.splitlines() if line.startswith("ugr")]
+        planned, found = ([float(row[i]) for row in rows] for i in (3, 4))
+        self.assertEqual(len(rows), len(gazes), run.stdout + run.stderr)
+        for p, f in zip(planned, found):
+            self.assertAlmostEqual(p, f, delta=0.3)
+        self.assertGreater(max(abs(p - f) for p, f in zip(planned, found[1:] + found[:1])), 1, "those of other gazes differ")
 
     def test_second_goal(self):
         run, _ = self.run_on([*GOOD, "illuminance floor 100", "illuminance floor 200"])
