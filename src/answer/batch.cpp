@@ -59,7 +59,7 @@ struct Claim {
 // are there while it computes the next. Appending takes no lock unless there is no more room.
 class alignas(64) InWork {
  public:
-  // By the thread of the claim.
+  // Begins a claim. Called by the thread that answers it.
   void begin(uint64_t claim) {
     const std::lock_guard lock(mutex_);
     claim_ = claim;

@@ -60,8 +60,8 @@ class SphereEstimator {
   // after tuning::Dark::kSets sets.
   PointAnswer estimate(const V3d& point, Workspace& workspace) const;
 
-  // One set of directions, independent of those of other numbers up to DiffuseGlances::kPools, and its
-  // integrals. Their mean over sets is an estimate as that of estimate().
+  // One set of directions, and its integrals. The mean of the integrals over sets is an estimate like that of
+  // estimate(). Sets of different numbers below DiffuseGlances::kPools are independent of each other.
   SampledSet sampleSet(const SetAtPoint& set, Workspace& workspace) const {
     return strategy_->sample(set, workspace.tracer, workspace.voronoi_);
   }

@@ -80,7 +80,7 @@ ShapeRef shapeOf(const PreparedScene& prepared, const Image& image) {
   return prepared.scene().surfaces[shownBy(prepared, image).source].shape;
 }
 
-// A sensor is so small that its middle stands for all of it.
+// A sensor is so small that its middle represents all of it.
 bool isSensor(const PreparedScene& prepared, LightId source) {
   return prepared.scene().surfaces[prepared.lights().all()[source].surface].finish.sensor;
 }
@@ -332,8 +332,8 @@ std::optional<SeenSources::Sample> SeenSources::sampleMirrored(const PathsFrom& 
   return s;
 }
 
-// Sends shadow rays to places all over one cell of the image's grid. The sample is one of those that reached
-// the source, or one of all if something opaque stopped each of them.
+// Sends shadow rays to places all over one cell of the image's grid. The sample is drawn from the rays that
+// reached the source, or from all rays if something opaque stopped each of them.
 std::optional<SeenSources::Sample> SeenSources::sampleStraight(const PathsFrom& paths, const Image& image,
                                                                const Cell& cell) const {
   const V3d& point = paths.point();

@@ -70,7 +70,7 @@ void chooseFitted(std::vector<Target>& targets, double baseDensity) {
     if (expected(target) > Tuning::kFewestFitted) large.push_back(&target);
   std::ranges::stable_sort(large,
                            [&](const Target* a, const Target* b) { return expected(*a) > expected(*b); });
-  if (large.size() > Tuning::kMostFitted) large.resize(Tuning::kMostFitted);
+  if (large.size() > tuning::Caps::kAsked) large.resize(tuning::Caps::kAsked);
   for (Target* target : large) {
     target->fitted = std::ranges::none_of(
         chosen, [&](const Target* other) { return overlap(target->silhouette, other->silhouette); });

@@ -32,6 +32,10 @@ struct SourceSampling {
   // Balls are split as well if they are jittered. rtrace never splits them, and where many rays are averaged
   // it would not pay.
   bool splitsBalls = false;
+  // Jittered samples of cylinders lie on the side that faces the point. Otherwise they lie in the plane
+  // through the axis, as in rtrace, so that rays aimed past the rim miss, and a short wide cylinder loses much
+  // of its light ("source aspect too small").
+  bool tubesInDepth = false;
 };
 
 class LightSources {

@@ -340,8 +340,8 @@ void LightVertices::sort() {
   permute(visible_, orderByPlace(visible_.size(), [&](size_t i) { return visible_[i].vertex.point(); }));
 }
 
-// Only in scenes where light sources are hidden from regions, because others have few regions that do not see
-// each other.
+// This is done only in scenes where light sources are hidden from some regions. In other scenes, few regions
+// are hidden from each other.
 void LightVertices::findHidden() {
   if (!prepared_.lights().hidden().divides()) return;
   std::vector<Box3d> boxes((visible_.size() + kBlock - 1) / kBlock);

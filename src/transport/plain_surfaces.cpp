@@ -23,8 +23,8 @@ const Material* materialOfFinish(const Scene& scene, const Finish& finish) {
   return scene.materialAt(finish.material);
 }
 
-// Whether all modifiers from one on are patterns of a kind. What is wrong with a pattern is said when a ray
-// meets it.
+// Whether all modifiers from one on are patterns of a kind. Faults of a pattern are reported when a ray meets
+// it.
 template <class IsOfKind>
 bool arePatterns(const Scene& scene, ModifierId modifier, const IsOfKind& isOfKind) {
   for (; modifier != kNone; modifier = scene.modifiers[modifier].next) {
