@@ -148,9 +148,9 @@ class TreeReader {
   std::vector<float> values_;
 };
 
-class Reader {
+class BsdfReader {
  public:
-  Reader(std::string_view text, std::string_view name, const Warn& warn)
+  BsdfReader(std::string_view text, std::string_view name, const Warn& warn)
       : text_(text), name_(name), warn_(warn) {}
 
   BsdfFile read() {
@@ -386,7 +386,7 @@ const AngleBasis* klemsBasis(std::string_view name) {
 }
 
 BsdfFile BsdfFile::parse(std::string_view text, std::string_view name, const Warn& warn) {
-  return Reader(text, name, warn).read();
+  return BsdfReader(text, name, warn).read();
 }
 
 }  // namespace rad

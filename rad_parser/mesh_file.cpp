@@ -15,7 +15,7 @@
 namespace rad {
 namespace {
 
-constexpr int kMagic = 319;  // the format number minus the width of object numbers
+constexpr int kMeshMagic = 319;  // the format number minus the width of object numbers
 
 // The number of a vertex consists of the number of its patch and its number in the patch, of 8 bits.
 constexpr uint32_t kPatchVertices = 256;
@@ -26,15 +26,15 @@ constexpr double kSteps = 4294967296.;  // 2^32: steps along the cube's edge, an
 // Bits of a patch's first byte: the data that its vertices have.
 constexpr int kHasPosition = 1, kHasNormal = 2, kHasUv = 4;
 
-class Reader {
+class MeshReader {
  public:
-  Reader(BinaryReader& input, const Warn& warn) : input_(input), warn_(warn) {}
+  MeshReader(BinaryReader& input, const Warn& warn) : input_(input), warn_(warn) {}
 
   Mesh read() {
     BinaryReader::Header header = input_.header();
     // As in rtrace, the number behind the header decides, even if the header names a different format.
     const bool named = header.format == "Radiance_tmesh";
-    const int width = readIndexWidth(input_, kMagic, named ? "" : header.format);
+    const int width = readIndexWidth(input_, kMeshMagic, named ? "" : header.format);
     const Cube cube = readCube(input_);
     if (cube.size <= 0) throw input_.fault("damaged bounds");
     for (int i = 0; i < 2; ++i) {
@@ -233,7 +233,7 @@ Mesh readMesh(const std::string& name, const Warn& warn, const FileAccess& acces
     throw Error(fmt::format("{}: cannot open mesh file: {}", printableName(*path), std::strerror(errno)),
                 Status::system);
   BinaryReader input(file.descriptor(), *path, "mesh");
-  Mesh mesh = Reader(input, warn).read();
+  Mesh mesh = MeshReader(input, warn).read();
   file.requireUnchanged(*path);
   return mesh;
 }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view kFormat = "Radiance_octree";
 constexpr std::string_view kFirst = "#?";  // the first characters of most information headers
-constexpr int kMagic = 283;                // the format number minus the width of object numbers
+constexpr int kOctreeMagic = 283;          // the format number minus the width of object numbers
 constexpr size_t kBeginning = 1 << 16;
 
 // The offset behind the empty line that ends the header; npos if there is none.
@@ -70,7 +70,7 @@ bool isOctree(std::string_view beginning, std::string_view name) {
   bool hasNumber = false;
   if (end != beginning.npos && beginning.size() >= end + 2) {
     const int number = static_cast<uint8_t>(beginning[end]) << 8 | static_cast<uint8_t>(beginning[end + 1]);
-    hasNumber = number > kMagic && number <= kMagic + 8;
+    hasNumber = number > kOctreeMagic && number <= kOctreeMagic + 8;
   }
   if (format && (hasNumber || beginning.starts_with(kFirst)))
     throw Error(fmt::format("{}: not an octree: its header says FORMAT={}", printable(name, kLongestName),
@@ -85,7 +85,7 @@ void readOctree(BinaryReader& input, uint32_t file, DescriptionBuilder& builder,
   BinaryReader::Header header = input.header();
   if (!header.format.empty() && header.format != kFormat) throw input.otherFormat(header.format);
   d.header = std::move(header.lines);
-  const int width = readIndexWidth(input, kMagic);
+  const int width = readIndexWidth(input, kOctreeMagic);
   d.cube = readCube(input);
   bool frozen = true;
   for (std::string name; !(name = input.string()).empty(); frozen = false) sceneFile(name);

@@ -49,10 +49,10 @@ bool isWordOfObj(std::string_view word) {
   return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
 }
 
-class Reader {
+class SceneReader {
  public:
   // alone: whether only one name was given, which may then be an octree.
-  Reader(const ReadOptions& options, bool alone) : options_(options), alone_(alone) {}
+  SceneReader(const ReadOptions& options, bool alone) : options_(options), alone_(alone) {}
 
   void file(const std::string& name) {
     if (name.starts_with('!')) return command(name.substr(1), {SourceFile::kNoFile, 0}, {});
@@ -378,19 +378,19 @@ class Reader {
 }  // namespace
 
 Description readScene(std::span<const std::string> names, const ReadOptions& options) {
-  Reader reader(options, names.size() == 1);
+  SceneReader reader(options, names.size() == 1);
   for (const std::string& name : names) reader.file(name);
   return reader.take();
 }
 
 Description readSceneText(std::string_view text, std::string_view name, const ReadOptions& options) {
-  Reader reader(options, false);
+  SceneReader reader(options, false);
   reader.memory(text, name);
   return reader.take();
 }
 
 Description readOctree(const std::string& name, const ReadOptions& options) {
-  Reader reader(options, true);
+  SceneReader reader(options, true);
   reader.octreeFile(name);
   return reader.take();
 }

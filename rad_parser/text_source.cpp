@@ -15,8 +15,8 @@ namespace rad {
 namespace {
 
 // A block can hold the longest word, and is small enough for the second-level cache.
-constexpr size_t kBlock = 1 << 18;
-static_assert(kBlock > 2 * TextSource::kLongestWord);
+constexpr size_t kTextBlock = 1 << 18;
+static_assert(kTextBlock > 2 * TextSource::kLongestWord);
 
 enum Kind : uint8_t { plain, space, quote, nul };
 
@@ -34,7 +34,7 @@ Kind kindOf(char c) { return kKinds[static_cast<unsigned char>(c)]; }
 
 TextSource::TextSource(int descriptor, uint32_t file, const DescriptionBuilder& builder,
                        std::string_view ahead)
-    : descriptor_(descriptor), file_(file), builder_(builder), block_(new char[kBlock]) {
+    : descriptor_(descriptor), file_(file), builder_(builder), block_(new char[kTextBlock]) {
   std::copy(ahead.begin(), ahead.end(), block_.get());
   next_ = block_.get();
   end_ = next_ + ahead.size();
@@ -47,7 +47,7 @@ TextSource::TextSource(std::string_view text, uint32_t file, const DescriptionBu
 // text, returns false and moves nothing.
 bool TextSource::refill(const char*& keep) {
   if (descriptor_ < 0) return false;
-  return readOn(descriptor_, block_.get(), kBlock, keep, next_, end_, [&] {
+  return readOn(descriptor_, block_.get(), kTextBlock, keep, next_, end_, [&] {
     return builder_.description().at({file_, 0});
   });
 }

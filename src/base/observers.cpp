@@ -81,7 +81,7 @@ V3d tristimulusInRadiance(const Spectrum& spectrum) {
   const double longest = static_cast<float>(std::max(spectrum.first, spectrum.last));
   const double width = (longest - shortest) / static_cast<double>(count);
   const auto& [x, y, z] = colorMatching();
-  const auto upTo = [&](size_t fromShortest) {
+  const auto upTo = [&, &x = x, &y = y, &z = z](size_t fromShortest) {
     const double limit = std::floor(shortest + static_cast<double>(fromShortest) * width) + kColorShift;
     return V3d(x.upTo(limit), y.upTo(limit), z.upTo(limit));
   };

@@ -307,6 +307,7 @@ void addRecordOptions(const Add& add) {
        .range = kCount,
        .unit = "records",
        .remark = "flush interval",
+       .help = "answers written at a time; 0: whenever input pauses",
        .paragraph =
            "Number of records in a scanline. If -y is 0, answers are written after every res records, and "
            "only then. With -x 1 they are written after every record, whatever -y is. With -x 0 they are "
@@ -474,6 +475,7 @@ void addSourceOptions(const Add& add) {
        .range = kCount,
        .unit = "reflections",
        .remark = "direct relays",
+       .help = "most mirrors between a light source and a surface",
        .paragraph =
            "Largest number of successive plane surfaces of mirror, prism1 or prism2 through which "
            "next-event estimation reaches a light source. Each such surface makes a virtual source of "
@@ -887,7 +889,8 @@ void addDirectionOptions(const Add& add) {
            "Directions to light sources are at most a quarter of -Sn unless there are more sources than "
            "that; they are sent even if they exceed the limit. Where light paths are used (see -Sw), up to "
            "-Sn of them are sent, but no more than half of what the limit leaves. Shadow rays and glances do "
-           "not count. If -Sx is not given, it is twice -Sn where that is more than the default; see -Sa."});
+           "not count. Without -Sx, the limit is the default or twice -Sn, whichever is more; -Sa has a "
+           "limit of its own."});
 }
 
 void addWeightOptions(const Add& add) {
@@ -912,10 +915,10 @@ void addWeightOptions(const Add& add) {
            "Adaptive accuracy: the program averages sets of directions, each of -Sn base directions and "
            "those for special objects, until the estimated standard error of the mean's brightness is "
            "below acc times the mean. There are at least two sets. The total number of directions is at "
-           "most -Sx if that is given, otherwise a million, or 100,000 with -Sd. Each half of the sets "
-           "decides on the number of sets in the other half, so that stopping causes hardly any bias. At "
-           "the end, a warning gives the number of points that did not reach the accuracy, and the "
-           "largest error. 0 uses one set."});
+           "most -Sx if that is given, otherwise a million, or 100,000 with -Sd. To stop as soon as the "
+           "error looks small would favor sets that are too dark by chance; therefore one half of the sets "
+           "decides when the other half stops, and the other way round. At the end, a warning gives the "
+           "number of points that did not reach the accuracy, and the largest error. 0 uses one set."});
   add({.name = "-Sf",
        .arguments = "share",
        .group = Group::sphere,
@@ -928,8 +931,9 @@ void addWeightOptions(const Add& add) {
            "Directions to light sources that are integrated separately are not limited. The clamp makes "
            "the mean too small wherever it takes effect; at the end, a warning gives the number of points "
            "where it did and how much light it took. Standard errors are those of the clamped mean and do "
-           "not contain this bias. A direction contributes 1/N of the mean on average (-Sn N), so that "
-           "values below 20/N take more than outliers. Only with -Sw c. 0 does not clamp."});
+           "not contain this bias. With -Sn N, a direction contributes 1/N of the mean on average; values "
+           "below 20/N therefore limit ordinary directions, too, and not only outliers. Only with -Sw c. 0 "
+           "does not clamp."});
   add({.name = "-Sw",
        .arguments = "letter",
        .group = Group::sphere,
@@ -1154,7 +1158,8 @@ void addInspectionOptions(const Add& add) {
            "and with -t, the program reports how much is done, and the time left. RADIANCE pictures "
            "(.hdr, .pic) are angular fisheyes of 360 degrees, with +y in the middle and +z above it. "
            "Their header has the command, SOFTWARE= and VIEW=; pinterp converts them to other views, such "
-           "as the hemisphere that evalglare expects. In all other formats, +y is in the middle, too, +x to "
+           "as the hemisphere that evalglare expects. pcond of RADIANCE 6.1 crashes on any view of 360 "
+           "degrees, so that a picture is converted before it. In all other formats, +y is in the middle, too, +x to "
            "the right of it at a quarter of the width, and -y at both edges; columns are azimuths, and rows "
            "go from the zenith to the nadir. EXR and "
            "TIFF files contain radiance. Other files contain colors, exposed so that the median is "

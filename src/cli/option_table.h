@@ -62,6 +62,7 @@ struct OptionEntry {
   Range range{};                 // for each of its numbers
   std::string_view unit{};       // of the numbers, if any
   std::string_view remark{};     // one line for -defaults; for switches "on|off"
+  std::string_view help{};       // the same for -help, where rtrace's remark is a riddle
   std::string_view paragraph{};  // for the manual
   Support support = Support::full;
   std::string_view reason{};  // why it is refused

@@ -240,7 +240,9 @@ std::string helpLine(const OptionEntry& entry, Options& values) {
                                       entry.arguments);
   const std::string value = valueOf(entry, values);
   return fmt::format("  {:<20} {}{}\n", use,
-                     isSwitch ? entry.remark.substr(0, entry.remark.find('|')) : entry.remark,
+                     isSwitch             ? entry.remark.substr(0, entry.remark.find('|'))
+                     : entry.help.empty() ? entry.remark
+                                          : entry.help,
                      value.empty() ? "" : fmt::format(" [{}]", value));
 }
 

@@ -306,7 +306,7 @@ VoronoiCells voronoiCells(const VoronoiWorkspace& workspace) {
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t site = last(delaunay.standsFor, siteOf[i]);
     cells.mergedInto[i] = order[site];
-    delaunay.around(site, [&](std::uint32_t t, int c) {
+    delaunay.around(site, [&, &delaunay = delaunay, &order = order](std::uint32_t t, int c) {
       const Triangle& triangle = delaunay.triangles[t];
       const std::uint32_t a = triangle.corner[Delaunay::kAfter[c]], b = triangle.corner[Delaunay::kBefore[c]];
       cells.neighbour.push_back(order[a]);
