@@ -86,7 +86,7 @@ TEST(Scene, SourcesOfNegativeRadianceAreWarnedOf) {
             &warnings);
     ASSERT_EQ(warnings.size(), 1u) << type;
     EXPECT_EQ(warnings[0],
-              std::string("room.rad:1: ") + type + " \"l\": negative radiance: it is seen, but lights nothing");
+              fmt::format("room.rad:1: {} \"l\": negative radiance: it is seen, but lights nothing", type));
   }
   // Light of some colors, none at all, and glow that is no source are as usual.
   for (const char* fine : {"light l 0 0 3 1 -1 0", "light l 0 0 3 0 0 0", "glow l 0 0 4 -1 -1 -1 0"}) {
