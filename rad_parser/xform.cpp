@@ -64,47 +64,6 @@ std::optional<Similarity> readStep(std::span<const std::string_view> words, size
   return step;
 }
 
-// Whether a primitive of this type is transformed by xform options behind its string arguments, which apply
-// to its function file, data, picture, octree or mesh.
-bool carriesTransform(Type type) {
-  switch (type) {
-    case Type::instance:
-    case Type::mesh:
-    case Type::texfunc:
-    case Type::texdata:
-    case Type::plastic2:
-    case Type::metal2:
-    case Type::trans2:
-    case Type::ashik2:
-    case Type::plasfunc:
-    case Type::metfunc:
-    case Type::transfunc:
-    case Type::brtdfunc:
-    case Type::plasdata:
-    case Type::metdata:
-    case Type::transdata:
-    case Type::bsdf:
-    case Type::absdf:
-    case Type::wgmdfunc:
-    case Type::prism1:
-    case Type::prism2:
-    case Type::colorfunc:
-    case Type::brightfunc:
-    case Type::specfunc:
-    case Type::colordata:
-    case Type::brightdata:
-    case Type::specdata:
-    case Type::colorpict:
-    case Type::specpict:
-    case Type::mixfunc:
-    case Type::mixdata:
-    case Type::mixpict:
-      return true;
-    default:
-      return false;
-  }
-}
-
 // "a>b" becomes "prefix.a>prefix.b". Mist lists surfaces in the order in which the light meets them.
 std::string prefixSources(std::string_view path, const std::string& prefix) {
   std::string result;
@@ -127,19 +86,14 @@ class ArgumentTransform {
         reals_(builder.description().reals(p)) {}
 
   void apply() {
-    if (carriesTransform(p_.type)) {
-      for (const std::string& argument : transform_.arguments) builder_.addString(p_, argument);
-      return;
-    }
-    const bool changed = isSurface(p_.type) ? surface() : modifier();
-    if (!changed) return;
+    if (!arguments()) return;
     for (const double value : reals_)
       if (!std::isfinite(value)) throw error("transformed arguments are not finite numbers");
   }
 
  private:
-  // Whether the transform concerns the type.
-  bool surface() {
+  // Transforms the arguments, as their meaning requires. Returns whether numbers have changed.
+  bool arguments() {
     switch (p_.type) {
       case Type::source:
         need(4);
@@ -176,13 +130,6 @@ class ArgumentTransform {
         scaleLength(6);
         scaleLength(7);
         return true;
-      default:
-        return false;
-    }
-  }
-
-  bool modifier() {
-    switch (p_.type) {
       case Type::glow:
         need(4);
         scaleLength(3);
@@ -212,9 +159,56 @@ class ArgumentTransform {
         turnVector(3);
         turnVector(6);
         return true;
-      default:
+      // Their function file, data, picture, octree or mesh is transformed, by xform options behind the string
+      // arguments.
+      case Type::instance:
+      case Type::mesh:
+      case Type::texfunc:
+      case Type::texdata:
+      case Type::plastic2:
+      case Type::metal2:
+      case Type::trans2:
+      case Type::ashik2:
+      case Type::plasfunc:
+      case Type::metfunc:
+      case Type::transfunc:
+      case Type::brtdfunc:
+      case Type::plasdata:
+      case Type::metdata:
+      case Type::transdata:
+      case Type::bsdf:
+      case Type::absdf:
+      case Type::wgmdfunc:
+      case Type::prism1:
+      case Type::prism2:
+      case Type::colorfunc:
+      case Type::brightfunc:
+      case Type::specfunc:
+      case Type::colordata:
+      case Type::brightdata:
+      case Type::specdata:
+      case Type::colorpict:
+      case Type::specpict:
+      case Type::mixfunc:
+      case Type::mixdata:
+      case Type::mixpict:
+        for (const std::string& argument : transform_.arguments) builder_.addString(p_, argument);
+        return false;
+      // These have no lengths, places or directions.
+      case Type::light:
+      case Type::illum:
+      case Type::mirror:
+      case Type::plastic:
+      case Type::metal:
+      case Type::trans:
+      case Type::glass:
+      case Type::antimatter:
+      case Type::spectrum:
+      case Type::specfile:
+      case Type::alias:
         return false;
     }
+    return false;
   }
 
   void polygon() {
@@ -321,6 +315,7 @@ Similarity readTransform(std::span<const std::string_view> words, size_t& used) 
 }
 
 Type Transform::typeOf(Type type) const {
+  static_assert(static_cast<int>(Type::mesh) == 10, "If a new surface has an inside, its type belongs here.");
   if (!inverted) return type;
   switch (type) {
     case Type::sphere:

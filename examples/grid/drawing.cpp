@@ -183,9 +183,9 @@ void drawLabels(Canvas& canvas, const Scale& scale, const std::vector<std::vecto
 
 // Below and above the levels, the smallest and the largest value: bands at the ends may reach far.
 void drawLegend(Canvas& canvas, const std::vector<double>& levels, const std::vector<Color>& colors,
-                const Summary& summary, double left, double top, double height) {
+                const Summary& summary, const std::string& unit, double left, double top, double height) {
   const double step = std::min(26., height / static_cast<double>(colors.size()));
-  canvas.text(left, top - 8, "lx", "font-weight=\"bold\"");
+  canvas.text(left, top - 8, unit, "font-weight=\"bold\"");
   for (size_t i = 0; i < colors.size(); ++i) {
     const double bottom = top + step * static_cast<double>(colors.size() - i);
     canvas.rectangle({left, bottom - step, left + 22, bottom},
@@ -273,7 +273,8 @@ std::string planAsSvg(const Area& area, const Grid& grid, std::span<const double
 
   drawAxes(canvas, scale);
   const double legendHeight = std::max(frame.bottom - frame.top, 18. * static_cast<double>(colors.size()));
-  drawLegend(canvas, levels, colors, Summary(values), frame.right + 24, kTop + 8, legendHeight - 8);
+  drawLegend(canvas, levels, colors, Summary(values), drawing.unit, frame.right + 24, kTop + 8,
+             legendHeight - 8);
   double bottom = kTop + legendHeight + 30;
   for (const std::string& remark : drawing.remarks) canvas.text(kLeft - 40, bottom += 17, remark, "");
   double width = frame.right + 24 + 104;

@@ -21,6 +21,7 @@ struct Drawing {
   std::vector<double> levels;        // of the isolines (lx), ascending
   std::vector<Ring> context;         // outlines of other surfaces
   bool values = false;               // write the value at each point
+  std::string unit = "lx";
 };
 
 // An illuminance with three significant digits, or all digits before the point: "0.125", "12.5", "1250".

@@ -43,6 +43,7 @@ constexpr const char* kUsage =
   -p        print the sensors, as rtrace reads them, and stop
   -a        print all polygons, one a line, and stop: name, modifier, x y z of each corner; behind tabs
   -i FILE   read the illuminances from a file, in the order of -p, instead of running rtrace
+  -q UNIT   of what -i reads, if it is no illuminance: -q % for shares of time
 
 Scene files are scene text or one octree. rtrace is run with)";
 
@@ -55,7 +56,7 @@ struct Settings {
   double height = 0, spacing = 0, margin = 0, maintenance = 1;
   bool upOnly = false, reversed = false, skipDark = false, values = false, onlyPoints = false;
   bool allPolygons = false;
-  std::string picture, title, table, readings;
+  std::string picture, title, table, readings, unit = "lx";
   std::vector<double> levels;
 };
 
@@ -116,6 +117,8 @@ Settings settingsOf(const std::vector<std::string>& words) {
       s.table = argument();
     else if (word == "-i")
       s.readings = argument();
+    else if (word == "-q")
+      s.unit = argument();
     else if (word == "-u")
       s.upOnly = true;
     else if (word == "-r")
@@ -135,6 +138,7 @@ Settings settingsOf(const std::vector<std::string>& words) {
   }
   if (s.surfaces.empty() && !s.allPolygons) throw rad::Error("no polygon is named; -s NAME names one");
   if (s.files.empty()) throw rad::Error("no scene file is named");
+  if (s.unit != "lx" && s.readings.empty()) throw rad::Error("-q is for what -i reads");
   rsphere::requireSvgName("-o", s.picture, "the plan");
   return s;
 }
@@ -170,6 +174,11 @@ std::vector<std::string> remarksOf(const Settings& s, const Plane& plane, const 
   if (dark > 0)
     lines.push_back(
         fmt::format("Left out: {} of 0 lx", dark == 1 ? "1 point" : fmt::format("{} points", dark)));
+  if (s.unit != "lx") {
+    lines.push_back(fmt::format("Mean {0} {3}, smallest {1} {3}, largest {2} {3}", luxText(summary.average),
+                                luxText(summary.smallest), luxText(summary.largest), s.unit));
+    return lines;
+  }
   const std::string average =
       s.maintenance == 1
           ? "average illuminance (no maintenance factor)"
@@ -186,6 +195,7 @@ std::vector<std::string> remarksOf(const Settings& s, const Plane& plane, const 
 std::string titleOf(const Settings& s) {
   const std::string where =
       s.height == 0 ? "on" : fmt::format("{:.4g} {}", std::abs(s.height), s.height > 0 ? "above" : "behind");
+  if (s.unit != "lx") return fmt::format("{} {} ({})", where, fmt::join(s.surfaces, ", "), s.unit);
   return fmt::format("{} {} {} (lx)", s.maintenance == 1 ? "Illuminance" : "Maintained illuminance", where,
                      fmt::join(s.surfaces, ", "));
 }
@@ -236,20 +246,20 @@ void run(const Settings& s) {
       }
     values.resize(kept);
     sensors.resize(kept);
-  } else if (dark > 0) {
+  } else if (dark > 0 && s.unit == "lx") {
     warn(dark == lit.size()
              ? fmt::format("0 lx at all {} points; is there a light source, and is -h in the units of the "
                            "scene?",
                            dark)
              : fmt::format("0 lx at {} of {} points; if these are inside of furniture, -z leaves them out",
                            dark, lit.size()));
-    dark = 0;
   }
+  if (!s.skipDark) dark = 0;
 
   const Summary summary(values);
   Drawing drawing{s.title.empty() ? titleOf(s) : s.title, remarksOf(s, plane, grid, dark, summary),
                   s.levels.empty() ? roundLevels(values) : s.levels, findOutlines(scene, s.context, plane),
-                  s.values};
+                  s.values, s.unit};
   for (const std::string& line : drawing.remarks) fmt::print("{}\n", line);
   if (!s.table.empty()) {
     std::string table;

@@ -4,11 +4,10 @@ Each value is the mean of repeats with other random numbers; its standard error 
 """
 import numpy as np
 
-from glare import position_index, rating
-from transfer import lamp_points
 from wanted import Answer, cells, receiver_of
 
 REPEATS = 6
+BEYOND = 1e12  # cd/m2
 
 
 class Forward:
@@ -19,7 +18,7 @@ class Forward:
         self.options = dict(ambient_bounces=transfer.bounces + 1, aa=0, ad=divisions, dj=1, dt=0, ds=0.05, lw=0.64 / max(divisions, 1))
         self.lux = transfer.rsphere.photometric
 
-    def points(self, i, bounces=None):
+    def points(self, i):
         """The illuminance of each point of a receiver: (repeats, points)."""
         receiver = self.t.receivers[i]
         found = []
@@ -29,18 +28,16 @@ class Forward:
                 found.append(self.lux(a.cylindrical_irradiance))
                 continue
             options = dict(self.options, rotation=repeat)
-            if bounces is not None:
-                options["ambient_bounces"] = bounces
             rays = np.hstack([receiver.points, receiver.normals])
             found.append(self.lux(self.scene.trace(rays, irradiance_at_origin=True, **options).value))
         return np.array(found)
 
-    def answers(self, goals, lit, lamps):
-        """The Answer of each goal. lit: cells that count, by receiver. lamps: the candidates that are on."""
+    def answers(self, goals, lit):
+        """The Answer of each goal. lit: cells that count, by receiver."""
         found, known = [], {}
         for goal in goals:
             if goal.kind == "ugr":
-                found.append(self.glare(goal, lamps))
+                found.append(self.glare(goal))
                 continue
             i = receiver_of(self.t, goal.target, ("cylinder",) if goal.kind == "cylindrical" else ("plane",))
             if i not in known:
@@ -60,24 +57,11 @@ class Forward:
     def error(self, values):
         return float(values.std(ddof=1) / np.sqrt(len(values)))
 
-    def glare(self, goal, lamps):
-        """UGR, with the luminances that rays from the eye meet on the luminaires."""
-        eye, units = self.t.design.eyes[goal.target], self.t.design.units
-        i = self.t.index[goal.target, "eye"]
-        background = (self.points(i) - self.points(i, 0))[:, 0] / np.pi
-        total = 0.0
-        for c in lamps:
-            photometry = self.t.design.luminaires[c.luminaire].photometry
-            points = lamp_points(photometry, c.matrix(), c.position, units)
-            to = points - eye.position
-            distance = np.linalg.norm(c.position - eye.position) / units
-            area = photometry.projected_area((eye.position - c.position) / units / distance @ c.matrix())
-            rays = np.hstack([np.broadcast_to(eye.position, to.shape), to / np.linalg.norm(to, axis=1)[:, None]])
-            seen = self.lux(self.scene.trace(rays, ambient_bounces=0).value).mean()
-            direction = (c.position - eye.position) / units / distance
-            total += seen**2 * area / distance**2 / position_index(eye.gaze, direction) ** 2
-        value = rating(total, float(background.mean()))
-        return Answer(goal, value, 8 / np.log(10) * self.error(background) / max(float(background.mean()), 1e-9))
+    def glare(self, goal):
+        """UGR by rsphere -Su, of luminaires alone (CIE 117): no other surface is as bright as BEYOND."""
+        eye = self.t.design.eyes[goal.target]
+        a = self.scene.glare([eye.position], [eye.gaze], ambient_bounces=self.t.bounces, Sub=BEYOND)
+        return Answer(goal, float(a.ugr[0]), float(a.ugr_standard_error[0]))
 
 
 def daylight_of(transfer, scene, divisions, repeats=REPEATS):

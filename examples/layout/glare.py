@@ -6,26 +6,28 @@ in the sum; the level itself, which is larger, stands for it, so that the limit 
 """
 import numpy as np
 
-LEAST_AREA = 1e-6  # m2, seen from the eye
+from lamp_rad import faces
+
+FINE = 16  # parts of a luminous opening along each side
 
 
 def position_index(gaze, directions):
-    """Guth's index of directions (..., 3) from the eye, above the line of sight; below it, that of Iwata and others.
+    """Guth's index of unit directions (..., 3) from the eye; infinite behind it. The formulas of rsphere -Su.
 
-    Sources: CIE 117 (1995); Iwata, Shukuya, Somekawa, Kimura 1992. Infinite behind the eye.
+    On and above the line of sight that of Levin 1975 for Guth's data, as in the IES Lighting Handbook; below it that of
+    Iwata and Osterhaus 2010. At most 16, as in evalglare.
     """
     up = np.array([0, 0, 1.0]) - gaze * gaze[2]
-    up = up / np.linalg.norm(up) if np.linalg.norm(up) > 1e-9 else np.array([0, 1.0, 0])
-    ahead, height = directions @ gaze, directions @ up
-    side = np.abs(directions @ np.cross(gaze, up))
-    beta = np.degrees(np.arccos(np.clip(ahead, -1, 1)))
-    alpha = np.degrees(np.arctan2(side, np.maximum(height, 0)))
-    above = np.exp((35.2 - 0.31889 * alpha - 1.22 * np.exp(-2 * alpha / 9)) * 1e-3 * beta
-                   + (21 + 0.26667 * alpha - 0.002963 * alpha**2) * 1e-5 * beta**2)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ratio = np.minimum(np.hypot(height, side) / ahead, 3)
-    below = 1 + np.where(ratio < 0.6, 0.8, 1.2) * ratio
-    return np.where(ahead > 0, np.where(height >= 0, above, below), np.inf)
+    up /= np.linalg.norm(up)
+    ahead, height, aside = directions @ gaze, directions @ up, np.abs(directions @ np.cross(gaze, up))
+    tau = np.arctan2(aside, height)
+    sigma, degrees = np.degrees(np.arctan2(np.hypot(height, aside), ahead)), np.degrees(tau)
+    above = ((35.2 - 0.31889 * degrees - 1.22 * np.exp(-2 * degrees / 9)) * sigma / 1e3
+             + (21 + 0.26667 * degrees - 0.002963 * degrees**2) * sigma**2 / 1e5)
+    beta = np.degrees(np.arctan2(np.hypot(height, aside) * np.sqrt(1 + 0.3225 * np.cos(tau) ** 2), ahead))
+    below = 6.49 * beta / 1e3 + 21 * beta**2 / 1e5
+    index = np.minimum(np.exp(np.minimum(np.where(height >= 0, above, below), 10)), 16)
+    return np.where(ahead > 0, index, np.inf)
 
 
 def factor_of_limit(limit):
@@ -36,20 +38,40 @@ def rating(total, background):
     """UGR of sum L^2 w / P^2 and a background luminance (cd/m2)."""
     if not (total > 0 and background > 0):
         return 0.0
-    return max(0.0, 8 * np.log10(0.25 * total / background))
+    return 8 * np.log10(0.25 * total / background)
 
 
-def glare_terms(transfer, candidates, eye, seen):
-    """L^2 w / P^2 of each candidate at full power for an eye. seen: the share of its light that arrives."""
-    units, terms = transfer.design.units, np.zeros(len(candidates))
-    for j, c in enumerate(candidates):
-        to_eye = (eye.position - c.position) / units
-        distance = np.linalg.norm(to_eye)
-        direction = to_eye / distance
-        photometry = transfer.design.luminaires[c.luminaire].photometry
-        area = photometry.projected_area(direction @ c.matrix())
-        if area < LEAST_AREA:
+def opening(photometry):
+    """Points (n, 3) spread finely over the luminous opening, around the middle of the luminaire (m)."""
+    x, y, h = photometry.size
+    rows = FINE if all(photometry.shines()) and h > 0 else 1
+    at = (np.stack(np.meshgrid(*((np.arange(n) + 0.5) / n - 0.5 for n in (FINE, FINE, rows)), indexing="ij"), axis=-1)).reshape(-1, 3)
+    if photometry.shape != "box":
+        at = at[np.hypot(at[:, 0], at[:, 1]) < 0.5]
+    at = at * [x, y, h]
+    if not photometry.shines()[1]:
+        at[:, 2] = min(f[1][2] for f in faces(photometry))
+    return at
+
+
+def glare_terms(transfer, candidates, eye):
+    """L^2 w / P^2 of each candidate at full power for an eye, from what is in front of it of the luminous opening."""
+    design, terms = transfer.design, np.zeros(len(candidates))
+    fine = [opening(l.photometry) for l in design.luminaires]
+    for j, (c, (parts, seen)) in enumerate(zip(candidates, transfer.points.parts_seen(transfer.index[eye.name, "eye"]))):
+        photometry = design.luminaires[c.luminaire].photometry
+        points = c.position + fine[c.luminaire] * design.units @ c.matrix().T
+        if len(parts) > 1:  # shadow rays went to these alone
+            seen = seen[((points[:, None] - parts) ** 2).sum(axis=-1).argmin(axis=1)]
+        to_eye = (eye.position - points) / design.units
+        distance = np.linalg.norm(to_eye, axis=1)
+        away = to_eye / distance[:, None]
+        share = (away @ eye.gaze < 0) / len(points) / distance**2
+        # Of a part that something hides no solid angle is left; a pane reduces the luminance.
+        angle = photometry.projected_area(away @ c.matrix()) * share * (seen > 0)
+        light = transfer.light(c, away) * share * seen
+        if not light.sum() > 0 or not angle.sum() > 0:
             continue
-        luminance = transfer.light(c, direction) / area * seen[j]
-        terms[j] = luminance**2 * area / distance**2 / position_index(eye.gaze, -direction) ** 2
+        middle = -(light @ away)
+        terms[j] = light.sum() ** 2 / angle.sum() / position_index(eye.gaze, middle / np.linalg.norm(middle)) ** 2
     return terms

@@ -135,21 +135,20 @@ class Steps:
             planned = self.planned(s)
             found = [None] * len(planned)
             if self.given.check and len(self.layout.chosen):
-                found = self.timed(f"check {s}", lambda: self.found(scene, levels, file))  # noqa: B023
+                found = self.timed(f"check {s}", lambda: self.found(scene, file))  # noqa: B023
             self.rows += [(scene, p.goal, p, f) for p, f in zip(planned, found)]
         self.tell_table()
 
-    def found(self, scene, levels, file):
+    def found(self, scene, file):
         """Answers by light traced forward. Glare is that of luminaires alone, as planned."""
         with raypath(self.given.output):
-            lamps = [self.candidates[j] for j, l in zip(self.layout.chosen, levels) if l >= 1e-4]
             electric = Forward(self.transfer, self.rsphere.Scene([*self.given.room, file]), self.given.check)
             if not scene.daylight:
-                return electric.answers(scene.goals, self.lit, lamps)
+                return electric.answers(scene.goals, self.lit)
             both = Forward(self.transfer, self.rsphere.Scene([*scene.daylight, *self.given.room, file]),
                            max(self.given.check, DAYLIGHT_DIVISIONS))
-            glare = iter(electric.answers([g for g in scene.goals if g.kind == "ugr"], self.lit, lamps))
-            rest = iter(both.answers([g for g in scene.goals if g.kind != "ugr"], self.lit, lamps))
+            glare = iter(electric.answers([g for g in scene.goals if g.kind == "ugr"], self.lit))
+            rest = iter(both.answers([g for g in scene.goals if g.kind != "ugr"], self.lit))
             return [next(glare if g.kind == "ugr" else rest) for g in scene.goals]
 
     def table_rows(self):

@@ -235,25 +235,26 @@ class Direct:
         return np.array(points), of
 
     def compute(self):
-        """Shadow rays from all points of all receivers to all points of luminaires; a cylinder looks four ways."""
-        lamps, self.of = self.lamps()
-        around = np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0]], dtype=float)
+        """Shadow rays from all points of all receivers to all points of luminaires; an eye looks four ways and up."""
+        self.lamp_points, self.of = self.lamps()
+        lamps = self.lamp_points
+        around = np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1]], dtype=float)
         rays, ends = [], []
         for r in self.t.receivers:
-            normals = around if r.kind == "cylinder" else r.normals
-            rays += [[*p, *n] for p, n in zip(np.broadcast_to(r.points, (len(normals), 3)) if r.kind == "cylinder" else r.points, normals)]
+            normals = r.normals if r.kind == "plane" else around
+            rays += [[*p, *n] for p, n in zip(r.points if r.kind == "plane" else np.broadcast_to(r.points, (len(normals), 3)), normals)]
             ends.append(len(rays))
         rays, step = np.array(rays), max(1, MOST_SHADOWS // len(rays))
         seen = np.hstack([self.visibility(rays, lamps[i : i + step]) for i in range(0, len(lamps), step)])
         self.seen = np.split(seen, ends[:-1])
         for i, r in enumerate(self.t.receivers):
-            if r.kind == "cylinder":
+            if r.kind != "plane":
                 self.seen[i] = self.seen[i].max(axis=0)[None]
             self.fill(i, r, lamps, self.of, self.seen[i])
 
-    def seen_by(self, i):
-        """The share of light that passes from each candidate to the single point of a receiver."""
-        return np.array([self.seen[i][0, mine].mean() for mine in self.of])
+    def parts_seen(self, i):
+        """For each candidate its points, and the shares of their light that pass to the single point of a receiver."""
+        return [(self.lamp_points[mine], self.seen[i][0, mine]) for mine in self.of]
 
     def visibility(self, rays, lamps):
         t, radius = self.t, SPARK * self.t.design.units

@@ -38,8 +38,7 @@ def light_of(transfer, candidates, matrix):
     glare = {}
     for eye in transfer.design.eyes.values():
         if eye.gaze is not None:
-            seen = transfer.points.seen_by(transfer.index[eye.name, "eye"])
-            glare[eye.name] = glare_terms(transfer, candidates, eye, seen)
+            glare[eye.name] = glare_terms(transfer, candidates, eye)
     return Light(transfer.points.exact, matrix.sets, glare)
 
 

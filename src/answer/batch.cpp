@@ -59,7 +59,7 @@ struct Claim {
 // are there while it computes the next. Appending takes no lock unless there is no more room.
 class alignas(64) InWork {
  public:
-  // By the thread of the claim.
+  // Begins a claim. Called by the thread that answers it.
   void begin(uint64_t claim) {
     const std::lock_guard lock(mutex_);
     claim_ = claim;
@@ -78,7 +78,7 @@ class alignas(64) InWork {
     size_ = taken_ = 0;
     return rest;
   }
-  // By any thread: what is not taken yet, if it belongs to this claim.
+  // Takes away the answers that are there, if they belong to this claim. Any thread may call it.
   std::string take(uint64_t claim) {
     const std::lock_guard lock(mutex_);
     return claim_ == claim ? untaken() : std::string();

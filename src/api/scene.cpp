@@ -88,7 +88,7 @@ auto guarded(const PassWarnings& passWarnings, const Work& work) {
   }
 }
 
-// The scene prepared for a set of options. Its warnings come also while it is used.
+// The scene prepared for a set of options. Warnings may also be added while it is used.
 struct PreparedScene {
   PreparedScene(std::shared_ptr<const rsphere::Scene> of, const rsphere::Options& options)
       : scene(std::move(of)),

@@ -58,7 +58,7 @@ struct Bands::Spares {
       spare = block->next;
     } else {
       static thread_local Closer closer;
-      closer.open = true;  // so that it is made
+      closer.open = true;  // makes this thread construct it, so that it is destroyed when the thread ends
       if (kind < kLargeRoom) room = kind == 0 ? kOnePart : kUsualRoom;
       block = static_cast<Block*>(::operator new(sizeof(Block) + room * sizeof(double)));
       block->room = static_cast<uint32_t>(room);

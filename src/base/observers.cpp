@@ -62,8 +62,6 @@ V3d tristimulus(const Spectrum& spectrum) {
   return V3d(x.of(spectrum), y.of(spectrum), z.of(spectrum));
 }
 
-double photopic(const Spectrum& spectrum) { return colorMatching().y.of(spectrum); }
-
 double scotopic(const Spectrum& spectrum) {
   static const Cumulative curve(scotopicEfficiency());
   return curve.of(spectrum);

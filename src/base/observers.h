@@ -19,9 +19,8 @@ struct Spectrum {
   double first = 780, last = 380;  // nm
 };
 
-// X, Y, Z, photopic (= Y), scotopic and melanopic integrals.
+// X, Y (the photopic integral), Z; scotopic and melanopic integrals.
 V3d tristimulus(const Spectrum& spectrum);
-double photopic(const Spectrum& spectrum);
 double scotopic(const Spectrum& spectrum);
 double melanopic(const Spectrum& spectrum);
 

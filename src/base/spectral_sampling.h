@@ -15,6 +15,7 @@ using Imath::V3d;
 // The part of the spectrum that is computed (-cw), nm.
 struct WavelengthLimits {
   double shortest = 380, longest = 780;
+  bool operator==(const WavelengthLimits&) const = default;
 };
 
 // How the spectrum is divided: into bands of equal width, of which each is also a part of one channel.

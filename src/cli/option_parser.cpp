@@ -507,7 +507,7 @@ RayOptions rayOptionsOfPictures(const Given& given, const Options& options) {
     if (use.entry->name != "-S") apply(use, own);
   own.ray.sampling = options.ray.sampling;
   own.ray.wavelengths = options.ray.wavelengths;
-  own.ray.ambientFile.clear();  // that of the answers, which have other options
+  own.ray.ambientFile.clear();  // it holds the light of answers, which have other options
   return own.ray;
 }
 

@@ -5,7 +5,7 @@
 
 namespace rsphere {
 
-// Bytes of a word in a file, as in scene text. An endless device is found out by it.
+// Cap on the bytes of a word in a file, as in scene text. It ends the reading of a device without end.
 inline constexpr size_t kLongestWord = 65536;
 
 // The words of a file that the command line names, at most a million. As in rtrace, it is searched for along

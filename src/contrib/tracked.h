@@ -23,7 +23,7 @@ struct TrackedModifier {
   std::shared_ptr<const EqualZones> zones{};
 };
 
-// What is added up of each ray that meets a tracked modifier.
+// The quantity that is summed over all rays that meet a tracked modifier.
 enum class Contributed : uint8_t {
   coefficients,  // the share of its radiance in that of the primary ray
   values         // this share times its radiance

@@ -86,7 +86,8 @@ class SurfaceChart {
   std::optional<GatherSite> site(const CellGrid& grid, const CellKey& key) const;
 
  private:
-  // Each sets the chart of a shape around a place on it; false if it has none there.
+  // Each sets the chart to that of a shape around a place on the shape. Returns false if there is no chart
+  // there.
   bool setBall(const Sphere& ball, const SurfacePlace& place);
   bool setCone(const Cone& cone, const SurfacePlace& place);
   bool setPolygon(const Polygon& polygon, const SurfacePlace& place);

@@ -5,9 +5,9 @@
 // Each comment gives the meaning and the unit, then after the colon where the value comes from. "Chosen by
 // experiment" means that it was the best of some values that were tried on pictures of furnished rooms
 // (tests/bench/rtrace/runs/2026-11-21-interpolated.txt), and that the results for the others were not kept.
-// The last sentence says what less and more of the constant do to error and time in the case of
-// tests/bench/sensitivity where it matters most (2026-11-24.txt in its folder runs, and 2026-11-22.txt for
-// what has not changed since).
+// The last sentence gives the effect of smaller and larger values on error and time, in the case of
+// tests/bench/sensitivity where it is largest (2026-11-24.txt in its folder runs, and 2026-11-22.txt for what
+// has not changed since).
 #include "base/tuned.h"
 
 namespace rsphere::tuning {
@@ -63,10 +63,11 @@ struct SiteInterpolation {
   // because gradients do not show a shadow's edge between the sites. 30% less or more: within noise (picture
   // by sun; error 3%, time 6%).
   RSPHERE_TUNED(SiteInterpolation, double, kByStep, 5);
-  // The relative error of an extrapolation by a distance d where the harmonic mean distance of the
-  // surroundings is R: in units of (d / R)^2, and then, like the change that gradients predict over d, times
-  // this once more, to be on the safe side. Chosen by experiment. 30% less or more: within noise (picture of
-  // office; error 1%, time 11%).
+  // The relative error of an extrapolation over a distance d is predicted as the larger of two quantities:
+  // this constant times (d / R)^2, where R is the harmonic mean distance of the surroundings; and the
+  // relative change that gradients predict over d. The result is multiplied by this constant once more, as a
+  // margin of safety. Chosen by experiment. 30% less or more: within noise (picture of office; error 1%, time
+  // 11%).
   RSPHERE_TUNED(SiteInterpolation, double, kBeyond, 1.5);
 };
 
@@ -80,10 +81,10 @@ struct CoarseSolution {
   // fifth more time. Near a window with blinds .6, with .18 for kFarPatch and .1 for kLeastPatch, leaves
   // sensors 17% too bright.
   RSPHERE_TUNED(CoarseSolution, double, kSpacing, .3);
-  // The side of a patch is at most this share of the distance that it is seen from; a place that is seen from
-  // nearer than this many sides of the smallest patches is not served, so that the path is followed; and a
-  // surface smaller than this share of a patch's side has no patch. Chosen by experiment. 30% less or more:
-  // within noise (picture by sun; error 2%, time 6%).
+  // The side of a patch is at most this fraction of the distance that it is seen from. Paths are followed
+  // instead of using patches where that distance is less than this multiple of a patch's side, and on
+  // surfaces whose extent is less than this multiple of it. Chosen by experiment. 30% less or more: within
+  // noise (picture by sun; error 2%, time 6%).
   RSPHERE_TUNED(CoarseSolution, double, kHalf, .5);
   // The side of a patch need not be smaller than this share of the distance that it is seen from: by
   // measurement, together with kSpacing.
@@ -93,8 +94,8 @@ struct CoarseSolution {
   // the time.
   RSPHERE_TUNED(CoarseSolution, double, kLeastPatch, .05);
   // Factor on kSpacing, kFarPatch and kLeastPatch in scenes without openings for daylight: by measurement.
-  // There finer patches take a third more time, and the errors of pictures are the same. Patches have more
-  // area by its square, and so has the least number of their rays.
+  // There finer patches take a third more time, and the errors of pictures are the same. The area of patches
+  // grows with the square of this factor, and kLeastRays is multiplied by the same square.
   RSPHERE_TUNED(CoarseSolution, double, kCoarserByLamps, 2);
   // The extent of a surface is at most this, in sizes of the scene: chosen by experiment. Where the
   // ground is wide, rooms are small. 30% less: time +65%; 30% more: within noise (sensors by sun; noise:

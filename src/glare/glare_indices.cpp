@@ -32,11 +32,10 @@ double unifiedGlareRating(double background, double sum) {
 }
 
 double daylightGlareProbability(double illuminance, double sum) {
-  constexpr double kDim = 1000;  // lx
-  if (!(illuminance > 0)) return 0;
-  const double dgp = 5.87e-5 * illuminance + .0918 * std::log10(1 + sum / std::pow(illuminance, 1.87)) + .16;
-  const double correction = illuminance < kDim ? 1 / (1 + std::exp(4 - .024 * illuminance)) : 1;
-  return std::min(1., dgp) * correction;
+  constexpr double kLeast = .16;
+  if (!(illuminance > 0)) return kLeast;
+  return std::min(
+      1., 5.87e-5 * illuminance + .0918 * std::log10(1 + sum / std::pow(illuminance, 1.87)) + kLeast);
 }
 
 GlareIndices glareIndices(double illuminance, std::span<const SeenGlare> sources, const Gaze& gaze) {

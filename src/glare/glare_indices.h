@@ -33,10 +33,10 @@ double unifiedGlareRating(double background, double sum);
 
 // Daylight glare probability, 0 to 1: the share of people who are disturbed. Source: Wienold and
 // Christoffersen 2006, Energy and Buildings 38, 743-757,
-//   5.87e-5 Ev + .0918 lg(1 + sum(L^2 omega / P^2) / Ev^1.87) + .16,
-// times the correction for dim scenes of Wienold 2009 (Building Simulation) below 1000 lx, as evalglare has
-// it: exp(.024 Ev - 4) / (1 + exp(.024 Ev - 4)). illuminance: at the eye, Ev, in a plane perpendicular to the
-// line of sight. sum: of the weights of the sources.
+//   5.87e-5 Ev + .0918 lg(1 + sum(L^2 omega / P^2) / Ev^1.87) + .16
+// without the correction for dim scenes of Wienold 2009 (Building Simulation), which evalglare applies only
+// on request (-C l+). illuminance: at the eye, Ev, in a plane perpendicular to the line of sight. sum: of the
+// weights of the sources.
 double daylightGlareProbability(double illuminance, double sum);
 
 struct GlareIndices {

@@ -26,15 +26,18 @@ uint64_t NearbyDirections::key(const Cell& cell) {
 }
 
 void NearbyDirections::takeNear(const V3d& direction, std::vector<size_t>& taken) {
-  eachCellAround(direction, [&](uint64_t cell) {
-    const auto found = cells_.find(cell);
-    if (found == cells_.end()) return;
-    std::erase_if(found->second, [&](size_t index) {
-      if (!isNear(index, direction)) return false;
-      taken.push_back(index);
-      return true;
-    });
-  });
+  const auto [x, y, z] = cellOf(direction);
+  for (int64_t i = x - 1; i <= x + 1; ++i)
+    for (int64_t j = y - 1; j <= y + 1; ++j)
+      for (int64_t k = z - 1; k <= z + 1; ++k) {
+        const auto found = cells_.find(key({i, j, k}));
+        if (found == cells_.end()) continue;
+        std::erase_if(found->second, [&](size_t index) {
+          if ((directions_[index] - direction).length2() > chord_ * chord_) return false;
+          taken.push_back(index);
+          return true;
+        });
+      }
 }
 
 std::vector<size_t> connectedGroups(std::span<const V3d> directions, double angle) {

@@ -18,17 +18,6 @@ class NearbyDirections {
   // angle: the largest between directions that are near each other, rad; above 0 and below pi.
   NearbyDirections(std::span<const V3d> directions, double angle);
 
-  // Calls f(index) for each of them near `direction`, in an order that depends on the directions alone.
-  template <class F>
-  void eachNear(const V3d& direction, const F& f) const {
-    eachCellAround(direction, [&](uint64_t cell) {
-      const auto found = cells_.find(cell);
-      if (found == cells_.end()) return;
-      for (const size_t index : found->second)
-        if (isNear(index, direction)) f(index);
-    });
-  }
-
   // Appends those near `direction` to `taken` and removes them from this object.
   void takeNear(const V3d& direction, std::vector<size_t>& taken);
 
@@ -38,17 +27,6 @@ class NearbyDirections {
   };
   Cell cellOf(const V3d& direction) const;
   static uint64_t key(const Cell& cell);
-  bool isNear(size_t index, const V3d& direction) const {
-    return (directions_[index] - direction).length2() <= chord_ * chord_;
-  }
-  // The cells that may hold directions near this one.
-  template <class F>
-  void eachCellAround(const V3d& direction, const F& f) const {
-    const auto [x, y, z] = cellOf(direction);
-    for (int64_t i = x - 1; i <= x + 1; ++i)
-      for (int64_t j = y - 1; j <= y + 1; ++j)
-        for (int64_t k = z - 1; k <= z + 1; ++k) f(key({i, j, k}));
-  }
 
   std::span<const V3d> directions_;
   double chord_;

@@ -16,8 +16,8 @@ namespace {
 // The folders in which the shared object may lie.
 std::vector<std::filesystem::path> folders() {
   std::vector<std::filesystem::path> found;
-  // Part of librsphere.so: below the folder of the library, or beside it where Debian's name of the machine
-  // is between.
+  // Part of librsphere.so: the folder rsphere is beside the library or, if the library's own folder is named
+  // after the machine as on Debian, beside that folder.
   Dl_info info;
   link_map* object = nullptr;
   const bool known = dladdr1(reinterpret_cast<const void*>(&imageCodec), &info,

@@ -137,7 +137,8 @@ void PictureFile::write(const Raster& raster, std::string_view header) {
   const int fd = open(name_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
   const bool written = writeAll(fd, bytes);
   const int why = errno;
-  // Some readers would take a cut picture for a complete one. A device cannot be emptied, which is no fault.
+  // The file is emptied, because some readers would take an incomplete picture for a complete one. That this
+  // fails for a device does not matter.
   if (fd >= 0 && !written) [[maybe_unused]]
     const int emptied = ftruncate(fd, 0);
   if (fd >= 0) close(fd);

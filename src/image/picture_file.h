@@ -39,7 +39,7 @@ class PictureFile {
  private:
   std::string name_;
   PictureFormat format_;
-  std::string target_;  // the name to replace, which is not that of a link; empty: the file itself is written
+  std::string target_;  // the file to replace, behind all links; empty: the file itself is written
 };
 
 }  // namespace rsphere

@@ -18,8 +18,8 @@ struct CellInTarget {
 
 // The solid angles (sr) with which the directions enter the mean, in the same order; 0 for those that do not
 // enter it. Two steps scale the cells:
-// - In each target that is to be fitted, they add up to its solid angle. This removes the error due to how
-//   many directions fall inside the target, and to cells that its edge divides.
+// - In each target that is to be fitted, they add up to its solid angle. This removes the error due to the
+//   random number of directions inside the target, and to cells that its edge divides.
 // - All cells that enter the mean add up to `total` (sr). Only those outside the fitted targets are scaled,
 //   unless they would have to change too much.
 std::vector<double> cellsInTargets(std::vector<CellInTarget> cells, const Targets& targets, double total);

@@ -90,7 +90,7 @@ Contrasts measureContrasts(const SphereTracing& tracing, std::span<const Special
     alike[scene.surfaces[object.surface].modifier].push_back(object);
   PathTracer tracer = tracing.tracer();
   PathRequest request;
-  request.vertexLight = tracing.vertexLight;
+  request.vertexLight = tracing.vertexLight.get();
   if (!tracing.vertexLight)
     contrasts.baseError =
         measureTypicalView(scene, sources, tracing.prepared.options().sampling, tracer).baseError;

@@ -9,6 +9,7 @@
 #include "scene/random.h"
 #include "shade/scattering.h"
 #include "sphere/directions.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
 namespace {
@@ -23,18 +24,21 @@ Random randomOf(const SetAtPoint& set, Stream stream, uint64_t number = 0) {
 
 size_t glancesFor(const SphereOptions& options) {
   const auto base = static_cast<size_t>(options.baseDirections);
-  return std::min(Tuning::kPerDirection * base, std::max(base, Tuning::kMostGlances));
+  return std::min(Tuning::kPerDirection * base, std::max(base, Tuning::kMost));
 }
 
 size_t poolsFor(const SphereOptions& options) {
   return options.accuracy > 0 || options.glare.wanted ? DiffuseGlances::kPools : 1;
 }
 
+// The error due to light vertices is estimated from the differences between batches, so that each batch has
+// to show all of the light: its mean is known within 3%, if single paths vary as much as their mean.
 size_t pathsFor(const SphereOptions& options) {
+  const double least = LightVertex::kBatches * static_cast<double>(tuning::Caps::kAsked);
   const double finer = options.accuracy > 0 ? Tuning::kUsualAccuracy / options.accuracy : 0;
-  const double paths = std::max(Tuning::kLeastPaths, Tuning::kPathsPerDirection * options.baseDirections) *
-                       std::max(1., finer * finer);
-  return static_cast<size_t>(std::min(paths, Tuning::kMostPaths / static_cast<double>(poolsFor(options))));
+  const double paths =
+      std::max(least, Tuning::kPathsPerDirection * options.baseDirections) * std::max(1., finer * finer);
+  return static_cast<size_t>(std::min(paths, static_cast<double>(Tuning::kMost / poolsFor(options))));
 }
 
 }  // namespace

@@ -49,12 +49,12 @@ class DiffuseGlances {
   // The same light from one direction (W/sr/m2), estimated by one glance. number: of the direction.
   Radiance along(const SetAtPoint& set, const V3d& direction, size_t number) const;
 
-  // The light vertices for a set, to be used at surfaces that its directions see by reflection or through
-  // others.
+  // The light vertices for a set, to be used at surfaces that its directions see in reflections or through
+  // other surfaces.
   std::shared_ptr<const VertexLight> light(const SetAtPoint& set) const {
     return lights_.at(set.point(), set.number());
   }
-  std::shared_ptr<const VertexLight> lightOfAll() const { return lights_.ofAll(); }  // for no point
+  std::shared_ptr<const VertexLight> lightOfAll() const { return lights_.ofAll(); }  // for any point
 
  private:
   class Joins;

@@ -18,17 +18,16 @@ namespace {
 
 using Tuning = tuning::Pictures;
 
-const Smoothing kOfIndirect{Tuning::kIndirectPasses, Tuning::kFinePasses, Tuning::kSameLight,
-                            Tuning::kSameNormal,     Tuning::kNear,       Tuning::kNear};
-const Smoothing kOfGloss{Tuning::kFinePasses, 0, 0, Tuning::kSameGlossNormal, Tuning::kNear, Tuning::kNear};
-// The first pass blurs edges of sharp shadows by a pixel. They differ visibly, so that these pixels are
-// traced again (refine()).
-const Smoothing kOfDirect{1,
-                          Tuning::kFinePasses,
-                          Tuning::kSameLight,
-                          Tuning::kSameNormal,
-                          Tuning::kNear,
-                          Tuning::kNear};
+// On a ball, points whose height over each other's planes is the largest that tuning::Pictures::kNear allows
+// have normals with this cosine. It excludes surfaces that meet in an edge.
+const float kSameNormal = 1 - 2 * Tuning::kNear * Tuning::kNear;
+
+const Smoothing kOfIndirect{Tuning::kIndirectPasses, Tuning::kFinePasses, Tuning::kSameLight, kSameNormal,
+                            Tuning::kNear};
+const Smoothing kOfGloss{Tuning::kFinePasses, 0, 0, Tuning::kSameGlossNormal, Tuning::kNear};
+// The first pass blurs edges of sharp shadows by a pixel. Pixels at such edges differ visibly from their
+// neighbors, so that they are traced again (refine()).
+const Smoothing kOfDirect{1, Tuning::kFinePasses, Tuning::kSameLight, kSameNormal, Tuning::kNear};
 
 constexpr double kTracingShare = .85;  // of the time of a picture; for progress reports only
 
@@ -78,7 +77,7 @@ SmallSources smallSources(const PathsFrom& paths, const PixelMap& map, const See
   for (SeenSources::Image& image : small.images) {
     const double there = map.solidAngle(map.pixelOf(image.region.sample(.5, .5)));
     const double pixels = there > 0 ? image.solidAngle / there : Tuning::kSmallest;
-    image.rays = pixels < Tuning::kSmallest ? std::max(Tuning::kLeastSamples, Tuning::kSmallest * pixels) : 0;
+    image.rays = pixels < Tuning::kSmallest ? Tuning::kSmallest * std::max(1., pixels) : 0;
   }
   small.images.erase(std::remove_if(small.images.begin(), small.images.end(),
                                     [](const auto& image) { return image.rays == 0; }),
@@ -135,7 +134,7 @@ struct Pixels {
     if (sample.sharesGloss) value += V3d(gloss.light[pixel]);
     return value;
   }
-  // Of the ray through the middle of the pixel.
+  // The sample of the ray through the middle of the pixel.
   PixelSample own(size_t pixel) const {
     PixelSample own;
     own.rest = rest[pixel];
@@ -155,7 +154,7 @@ struct Pixels {
 // The mean of what the rays of a pixel see, and whether they differ visibly.
 class RaysOfPixel {
  public:
-  // most: of a color that the picture can show.
+  // most: the largest value of a color that the picture can show.
   RaysOfPixel(double exposure, double most) : exposure_(exposure), most_(most) {}
 
   void add(const V3d& value) {
@@ -180,8 +179,9 @@ class RaysOfPixel {
   int count_ = 0;
 };
 
-// Removes the noise of soft shadows. Differences count in relation to all diffuse light, because the eye sees
-// them so: where little direct light is left, its noise is large only beside itself.
+// Removes the noise of soft shadows. Differences are judged relative to all diffuse light, as the eye
+// perceives them. Where little of that is direct, the noise of direct light is large only relative to the
+// direct light itself.
 void smoothDirect(Pixels& pixels) {
   std::vector<Imath::V3f>& light = pixels.direct.light;
   const std::vector<Imath::V3f>& indirect = pixels.indirect.light;
@@ -234,7 +234,8 @@ class Painter {
   const int sharing_;  // one pixel in a square of this side gathers
 };
 
-// Empty beyond the rim, and where a small source is seen, whose light is added later.
+// What is seen at a place of the picture. Empty beyond the rim, and where a small source is seen, because the
+// light of small sources is added later.
 std::optional<PixelSample> Painter::look(double x, double y, uint64_t seed, PixelParts parts) {
   const auto direction = map_.direction(x, y);
   if (!direction) return std::nullopt;
@@ -243,7 +244,8 @@ std::optional<PixelSample> Painter::look(double x, double y, uint64_t seed, Pixe
   return sample;
 }
 
-// Empty like look(), unless a place beside the middle shows something else.
+// The same at the middle of a pixel. Where a small source is seen there, places beside the middle are tried
+// instead.
 std::optional<PixelSample> Painter::middle(int column, int row, PixelParts parts) {
   const size_t pixel = at(column, row);
   if (!map_.direction(column + .5, row + .5)) return std::nullopt;
@@ -254,7 +256,7 @@ std::optional<PixelSample> Painter::middle(int column, int row, PixelParts parts
   return sample;
 }
 
-// One pixel of each block gathers. Which one it is changes from block to block, lest the blocks show.
+// One pixel of each block gathers, a different one from block to block, so that the blocks are not visible.
 bool Painter::gathers(int column, int row) const {
   const auto chosen = static_cast<int>(mixBits(streams_.middle(at(column / sharing_, row / sharing_))) %
                                        static_cast<uint64_t>(sharing_ * sharing_));

@@ -186,7 +186,7 @@ Variance unseenVariance(std::span<const DirectionSample> samples, const Spectral
   struct Found {
     Irradiance sum;
     int count = 0;
-    V3d direction{0, 0, 1};  // one of them
+    V3d direction{0, 0, 1};  // of one of the samples
   };
   std::map<RegionId, Found> found;
   for (const DirectionSample& s : samples) {
@@ -243,7 +243,7 @@ Variance partsVariance(std::span<const SeenSources::Sample> samples, const Spect
 Variance choiceVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling,
                         ZoneVariances* to) {
   struct Chosen {
-    Irradiance found;  // of the image, with the weight of those that were not chosen
+    Irradiance found;  // light of the image, weighted to represent the images that were not chosen
     double chance;
     V3d direction;  // of one of its samples
   };

@@ -33,7 +33,7 @@ struct Variance {
   Variance operator*(double factor) const { return {channels * factor, brightness * factor}; }
 };
 
-// The error of light vertices, which all directions of a point, and all points, share.
+// The error due to light vertices. It is common to all directions of a point, and to all points.
 struct SharedError {
   std::vector<Irradiance> batches;  // sums of contributions by batch of light paths; empty: no light vertices
   Variance chosen;  // the part of the batches' spread that is due to the choice of vertices for each glance
@@ -68,18 +68,18 @@ struct Neighbours {
 
 // Variance of the sum of solid angle times radiance over even directions. Each contributes its solid angle
 // times its second difference: the difference between its radiance and the mean of its neighbours, minus the
-// mean of the neighbours' differences. This contains the noise of paths, and edges, but not light that varies
-// smoothly, which an even set integrates. An even set averages out a part of the edges, so that the sum is
-// multiplied by tuning::ErrorEstimate::kEvenSet. In regions other than 0 the factor is 1, because single
-// directions there may find much light, such as a lamp that a chrome column mirrors. Only neighbours in the
-// same region are compared, if there are any: the edge of a region is no error, because cells keep to
-// regions. Directions in kNoRegion are left out.
+// mean of the neighbours' differences. This contains the noise of paths and the error due to edges, but not
+// light that varies smoothly, which an even set integrates accurately. An even set also averages out a part
+// of the error due to edges, so that the sum is multiplied by tuning::ErrorEstimate::kEvenSet. In regions
+// other than 0 the factor is 1, because single directions there may find much light, such as a lamp that a
+// chrome column mirrors. Only neighbours in the same region are compared, if there are any: the edge of a
+// region is no error, because cells keep to regions. Directions in kNoRegion are left out.
 Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours& neighbours,
                       const SpectralSampling* sampling, ZoneVariances* to = nullptr);
 
 // The same for a run of dynamic directions. They are spread evenly over a region, but successive ones are not
-// neighbours. It is the variance of independent directions, reduced because they are even, except where few
-// of them find most of the light, such as a lamp that is mirrored twice.
+// neighbours. It is the variance of independent directions, reduced because the directions are evenly spread.
+// It is not reduced where few of them find most of the light, such as that of a lamp that is mirrored twice.
 Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling,
                         ZoneVariances* to = nullptr);
 
@@ -95,13 +95,13 @@ Variance loneVariance(const DirectionSample& sample, std::span<const DirectionSa
 Variance unseenVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling,
                         ZoneVariances* to = nullptr);
 
-// The same for the samples of one image of a light source, in the order of its grid: from differences between
-// neighbouring cells, because an occluder hides cells that lie together.
+// The variance of the samples of one image of a light source, in the order of its grid. It is computed from
+// differences between neighbouring cells, because an occluder hides cells that lie together.
 Variance partsVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling,
                        ZoneVariances* to = nullptr);
 
-// The same for the choice of images that are sampled by chance, because there are more images than samples:
-// from differences between images that are chosen in succession. samples: of all images.
+// The variance due to the random choice of images, which is necessary if there are more images than samples.
+// It is computed from differences between images that are chosen in succession. samples: of all images.
 Variance choiceVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling,
                         ZoneVariances* to = nullptr);
 

@@ -28,7 +28,7 @@ void shareOut(const Irradiance& excess, std::vector<DirectionSample>& samples) {
     guessed += irradianceFrom(s.guess, s.solidAngle);
     solidAngle += s.solidAngle;
   }
-  // For one channel or band. all: of the guesses; more: of the excess.
+  // The factor for one channel or band. all: its sum over the guesses; more: its excess.
   const auto scaleOf = [](double all, double more) { return all > 0 ? more / all : 0; };
   const auto shiftOf = [&](double all, double more) {
     return all > 0 || !(solidAngle > 0) ? 0 : more / solidAngle;
@@ -72,7 +72,7 @@ struct Half {
 
   explicit Half(const EqualZones* zones) : moments(zones), ofZones(zones) {}
 
-  // ofSet: its moments.
+  // ofSet: the moments of the set.
   void add(const SampledSet& set, const Moments& ofSet) {
     moments.add(ofSet, 1);
     excess += set.excess.total;
@@ -130,7 +130,7 @@ double coarseError(const RayOptions& o) {
   return Tuning::kPatches * std::sqrt(1 + Tuning::kUsualRays / std::max(rays, 1.));
 }
 
-// An allowance for it.
+// The variance due to that error.
 Variance coarseVariance(const Irradiance& total, const RayOptions& o) {
   const double error = coarseError(o);
   return Variance::of(total, o.sampling) * (error * error);
@@ -144,7 +144,7 @@ PointAnswer::ZoneError standardErrorOf(const Variance& variance, double solidAng
   return error;
 }
 
-// coarse: the options, if there is a coarse solution.
+// coarse: the options if there is a coarse solution, otherwise null.
 std::vector<PointAnswer::ZoneError> zoneErrorsOf(const Half& sums, const EqualZones& zones,
                                                  const SpectralSampling* sampling, const RayOptions* coarse) {
   std::vector<PointAnswer::ZoneError> errors;
@@ -172,9 +172,10 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
     special_ = findSpecialObjects(prepared.scene(), options.densityFactor);
   if (options.weights == Weights::silhouettes && options.densityFactor > 0) {
     glances_ = DiffuseGlances::make(prepared, options, base_);
-    if (glances_) lightOfAll_ = glances_->lightOfAll();
-    tracing_.vertexLight = lightOfAll_.get();
-    if (!glances_) tracing_.ofPoints = findAimsOfPoints(prepared);
+    if (glances_)
+      tracing_.vertexLight = glances_->lightOfAll();
+    else
+      tracing_.ofPoints = findAimsOfPoints(prepared);
     tracing_.aims = joined(transport.aims(), tracing_.ofPoints);
   }
   strategy_ = makeStrategy();
@@ -201,7 +202,8 @@ std::unique_ptr<const SamplingStrategy> SphereEstimator::makeStrategy() const {
 SphereEstimator::Workspace::Workspace(const SphereEstimator& estimator)
     : tracer(estimator.tracing_.tracer()) {}
 
-// lit: directions that found light. Only with -Sw c do sources have directions of their own.
+// lit: number of directions that found light. A small number is a sign of a dark point with -Sw c only, where
+// directions are sent to the sources; with other strategies all directions may miss small sources.
 bool SphereEstimator::isDark(const PointAnswer& answer, size_t lit) const {
   if (maxChannel(answer.mean.color) == 0) return true;
   if (sources_.haveSensors()) return false;  // one direction is all that shows a sensor

@@ -60,8 +60,8 @@ class SphereEstimator {
   // after tuning::Dark::kSets sets.
   PointAnswer estimate(const V3d& point, Workspace& workspace) const;
 
-  // One set of directions, independent of those of other numbers up to DiffuseGlances::kPools, and its
-  // integrals. Their mean over sets is an estimate as that of estimate().
+  // One set of directions, and its integrals. The mean of the integrals over sets is an estimate like that of
+  // estimate(). Sets of different numbers below DiffuseGlances::kPools are independent of each other.
   SampledSet sampleSet(const SetAtPoint& set, Workspace& workspace) const {
     return strategy_->sample(set, workspace.tracer, workspace.voronoi_);
   }
@@ -82,7 +82,6 @@ class SphereEstimator {
   SeenSources sources_;
   std::vector<SpecialObject> special_;             // none with -Sw h
   std::unique_ptr<const DiffuseGlances> glances_;  // null where light vertices do not bring all of the light
-  std::shared_ptr<const VertexLight> lightOfAll_;  // tracing_.vertexLight
   SphereTracing tracing_;
   std::unique_ptr<const SamplingStrategy> strategy_;
   double dark_ = 0;  // -Sa: points with a smaller integral of radiance are dark, W/m2

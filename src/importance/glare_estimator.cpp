@@ -19,19 +19,21 @@ namespace {
 constexpr double kSameSource = .1;  // rad
 constexpr double kPeak = 50000;     // cd/m2
 
-// Makes the random numbers of repeated rays, and of those to the task, differ from those of the first.
+// With these numbers, rays that are traced a second time, and rays to the task, have other random numbers
+// than rays that are traced first.
 constexpr uint64_t kAgain = 0x676c617265, kTask = 0x7461736b;  // "glare", "task"
 
 constexpr size_t kTaskRays = 256;
 
 SphereOptions withDirections(SphereOptions options) {
   options.everyDirection = true;
-  options.glare.wanted = true;  // light vertices of its own for each set
+  options.glare.wanted = true;  // a separate pool of light vertices for each set
   options.accuracy = 0;
   return options;
 }
 
-// The most directions to one fit. With more directions both its noise and its error vanish.
+// Cap on the directions of one fit. It grows more slowly than the number of directions, so that both the
+// noise of fits and their bias tend to 0.
 size_t directionsOfFit(size_t directions) {
   return std::max<size_t>(16, static_cast<size_t>(std::sqrt(static_cast<double>(directions))));
 }
@@ -51,7 +53,7 @@ double jackknifeError(size_t n, const Value& without) {
 struct GlareEstimator::Look {
   V3d direction{0, 0, 1};
   double solidAngle = 0;            // sr
-  double direct = 0, indirect = 0;  // luminance, cd/m2: of indirect light, and all other
+  double direct = 0, indirect = 0;  // luminance, cd/m2: indirect light; all other light
   double smooth = 0;                // luminance without the noise of indirect light
   SurfaceId surface = kNone;        // that is seen, perhaps through panes
   bool toLamp = false;              // whether that is a light source with samples of its own, seen directly
@@ -70,7 +72,7 @@ struct GlareEstimator::View {
   std::vector<Look> looks;
   struct Set {
     double illuminance = 0;    // at the eye, lx
-    double taskLuminance = 0;  // 0 if nobody asks for it
+    double taskLuminance = 0;  // 0 if it is not wanted
   };
   std::array<Set, kSets> sets{};
   size_t leftOut = kSets;  // the set that is left out; kSets: none
@@ -102,7 +104,7 @@ struct GlareEstimator::Source {
   SurfaceId surface;
   std::array<SeenGlare, kSets> seen{};
 
-  // Over all sets but this one; kSets: over all.
+  // The mean over all sets but this one; kSets: over all sets.
   SeenGlare mean(size_t leftOut = kSets) const {
     SeenGlare sum;
     for (size_t k = 0; k < kSets; ++k)
@@ -126,7 +128,8 @@ GlareSource GlareEstimator::Source::answer(const Gaze& gaze) const {
   return source;
 }
 
-// The indirect light of each look is that of the looks around it that see the same surface.
+// Replaces the indirect light of each look, in `smooth`, by a fit to the looks around it that see the same
+// surface.
 void GlareEstimator::View::smoothIndirect() {
   std::map<SurfaceId, std::vector<Look*>> bySurface;
   for (Look& look : looks) {
@@ -191,7 +194,7 @@ GlareEstimator::Look GlareEstimator::lookAlong(const SetAtPoint& set, size_t num
   return look;
 }
 
-// Traces the direction once more, and tells indirect light from the rest.
+// Traces the direction once more, to separate indirect light from other light.
 void GlareEstimator::retrace(const V3d& eye, uint64_t seed, PathTracer& tracer, Look& look) const {
   Radiance indirect;
   int depth = -1;
@@ -242,7 +245,8 @@ void GlareEstimator::addLamps(const View& view, Sources& sources) const {
   for (const auto& [surface, lamp] : lamps) sources.push_back(lamp);
 }
 
-// Regions above the threshold, and peaks apart from them.
+// Adds the sources among directions that exceed the threshold. Peaks form sources separate from their
+// surroundings.
 void GlareEstimator::addBright(const View& view, double threshold, Sources& sources) const {
   std::array<std::vector<const Look*>, 2> bright;
   for (const Look& look : view.looks)

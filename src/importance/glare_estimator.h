@@ -4,19 +4,20 @@
 // - Light sources of the scene that are in view, except distant ones: each is a glare source, whatever its
 //   luminance (CIE 117). Their solid angles are known, and shadow rays find the part in view
 //   (seen_sources.h).
-// - Everything else, the sky and the sun, images in mirrors, sunlit and other bright surfaces: what is
-//   brighter than a threshold (GlareOptions). As in evalglare, bright directions that are near each other
-//   make one source, and peaks among them (the sun) sources of their own. The directions are those of the
+// - Everything else that is brighter than a threshold (GlareOptions): the sky and the sun, images in mirrors,
+//   sunlit and other bright surfaces. As in evalglare, bright directions that are near each other form one
+//   source, and peaks among them, such as the sun, form separate sources. The directions are those of the
 //   spherical mean, which keep to the outlines of openings, sunlit spots and other known objects; there are
 //   no pixels.
 //
-// The indirect light of a direction comes from one path and is noisy. What is compared with the threshold is
-// a smooth fit to the directions around that see the same surface (local_fits.h), without the direction's own
-// path, so that its noise does not decide whether it counts. What is summed up is the light that was found.
+// The indirect light of a direction comes from one path and is noisy. The threshold is therefore compared
+// with a smooth fit to the surrounding directions that see the same surface (local_fits.h). The fit leaves
+// out the direction's own path, so that the noise of that path does not decide whether the direction belongs
+// to a source. The integrals over a source contain the light that the paths found, not the fit.
 //
 // Several independent sets of directions are averaged. The standard errors come from the differences between
-// the answers that leave out one set each (jackknife), which may find other sources. The errors of the
-// sources themselves are those of the directions that were found to belong to them.
+// answers that leave out one set each (jackknife); each of these answers looks for sources again. The errors
+// of single sources, however, are computed for the directions that belong to them in the whole answer.
 #include <array>
 
 #include "importance/estimator.h"
@@ -27,13 +28,14 @@ namespace rsphere {
 // Shared by all threads. Keeps a reference to the transport.
 class GlareEstimator {
  public:
-  // Of sets of directions. Each has its own pool of light vertices, so that no error is common to all.
+  // Number of sets of directions. Each has its own pool of light vertices, so that no error is common to all
+  // sets.
   static constexpr size_t kSets = DiffuseGlances::kPools;
 
   // options: as for SphereEstimator, with -Sw c.
   GlareEstimator(const Transport& transport, const SphereOptions& options);
 
-  // The state of one thread is that of the estimator of means.
+  // The estimator of means. Its Workspace is also the state of one thread here.
   const SphereEstimator& means() const { return means_; }
 
   // Depends on the eye, the gaze, the scene and the options alone. eye: world.
@@ -66,7 +68,7 @@ class GlareEstimator {
   const PreparedScene& prepared_;
   SphereOptions options_;
   SphereEstimator means_;
-  bool separates_;  // whether the indirect light of a ray can be told from the rest
+  bool separates_;  // whether the indirect light of a ray can be separated from its other light
 };
 
 }  // namespace rsphere

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/constants.h"
 #include "importance/tuning.h"
 #include "transport/ball_reflection.h"
 #include "transport/tuning.h"
@@ -12,18 +13,19 @@ namespace rsphere {
 namespace {
 
 using std::numbers::pi;
-using Tuning = tuning::Glints;
 
 // The fraction of the brightness that the outer boundary of a ball mirrors at normal incidence. Images in
 // balls of trans are ignored.
 double reflectanceOf(const Material& material) {
   const auto mirrored = mirrorReflection(material);
   if (!mirrored) return 0;
-  if (mirrored->boundaries > 0) return Tuning::kFresnel;
+  if (mirrored->boundaries > 0) return kGlassReflectance;
   if (isTransparent(material) || mirrored->roughness > kSharpRoughness) return 0;
   return mirrored->brightness;
 }
 
+static_assert(kShapes == 8, "Does a new shape mirror sources, or has it corners?");
+static_assert(kLightForms == 8, "Is its image that of a parallelogram, a disk or a polygon?");
 // A part of a source, so small that its image in a ball is hardly curved. Its members are places, or
 // directions (unit) if the source is distant.
 struct Part {
@@ -62,7 +64,7 @@ std::vector<Part> partsOf(const Scene& scene, const LightSource& source, const S
       [&](const DistantLight& cone) { setRound(away.normalized(), cone.sinHalfAngle); });
   const auto divided = [&](const V3d& half) {
     if (source.isDistant()) return 1;
-    return static_cast<int>(std::min(std::ceil(half.length() / (Tuning::kHalfPart * distance)),
+    return static_cast<int>(std::min(std::ceil(half.length() / (tuning::Glints::kHalfPart * distance)),
                                      static_cast<double>(tuning::Silhouettes::kCorners)));
   };
   const int columns = divided(u), rows = divided(v);

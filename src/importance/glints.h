@@ -50,8 +50,8 @@ class Glints {
 
   const PreparedScene& prepared_;
   std::vector<Ball> balls_;
-  ById<LightId, std::optional<Light>> lights_;  // but images and dark ones
-  HiddenBoxes hidden_;                          // balls_
+  ById<LightId, std::optional<Light>> lights_;  // empty for images and dark sources
+  HiddenBoxes hidden_;                          // the boxes around balls_
 };
 
 }  // namespace rsphere

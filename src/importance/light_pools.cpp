@@ -8,10 +8,11 @@
 namespace rsphere {
 namespace {
 
-// A place has vertices of its own if the sources that can be seen there have less than this share of all
-// power. With more, its paths would hardly be more.
+// A place has its own vertices if the sources that can be seen there have less than this share of all power.
+// If they have more, a sufficient number of the paths from all sources reach the place.
 constexpr double kFewPower = .25;
-// Places share vertices as long as those of each have at least this share of the sources' power.
+// Vertices are shared by a region of places. The region around a place is as large as possible while the
+// sources seen at the place have at least this share of the power of all sources seen in the region.
 constexpr double kShared = .75;
 
 }  // namespace
@@ -23,7 +24,7 @@ LightPools::LightPools(const PreparedScene& prepared, const PlainSurfaces& surfa
       emission_(prepared, surfaces, paths),
       pools_(pools),
       paths_(paths),
-      most_(std::max(pools + 1, static_cast<size_t>(tuning::DiffuseGlances::kMostPaths) / paths)),
+      most_(std::max(pools + 1, tuning::DiffuseGlances::kMost / paths)),
       seed_(seed) {}
 
 double LightPools::powerOf(std::span<const uint32_t> sources) const {
@@ -32,7 +33,8 @@ double LightPools::powerOf(std::span<const uint32_t> sources) const {
   return sum;
 }
 
-// The sources that most paths for a point should come from; none if it needs no paths of its own.
+// The sources that most paths for a point should come from; none if the vertices for no particular place
+// suffice.
 std::span<const uint32_t> LightPools::preferredAt(const V3d& point) const {
   const HiddenBoxes& hidden = prepared_.lights().hidden();
   const std::span<const uint32_t> seen = hidden.notHiddenFrom(point);
@@ -56,7 +58,8 @@ std::shared_ptr<const VertexLight> LightPools::pool(std::span<const uint32_t> pr
     if (!known) known = std::make_shared<Pool>();
     found = known;
     found->asked = ++asked_;
-    // The one that has not been asked for the longest time goes; points still use it until they are done.
+    // The pool whose latest request is the oldest is removed; points that still use it keep it until they are
+    // done.
     if (made_.size() > most_)
       made_.erase(std::min_element(made_.begin(), made_.end(), [](const auto& a, const auto& b) {
         return a.second->asked < b.second->asked;

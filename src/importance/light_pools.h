@@ -1,8 +1,8 @@
 #pragma once
-// The light vertices (transport/light_vertices.h) that points use. In a building, few of its sources light
-// a room, and paths from all of them would hardly meet it: rooms have vertices of their own, most of whose
-// paths come from the sources that can be seen there. Sources elsewhere keep the rest, because their light
-// may arrive by other rooms.
+// The light vertices (transport/light_vertices.h) that points use. In a building, few of the sources light
+// any one room, and few paths from all sources would reach it. Each room therefore has its own vertices. Most
+// of their paths come from the sources that can be seen in the room; the others come from all other sources,
+// whose light may arrive through other rooms.
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -17,21 +17,22 @@ namespace rsphere {
 // Shared by all threads.
 class LightPools {
  public:
-  // pools: independent sets of vertices for each place. paths: of each. seed: of all. Keeps references.
+  // pools: number of independent pools of vertices for each place. paths: number of light paths in each pool.
+  // seed: of all random numbers. Keeps references.
   LightPools(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t pools, size_t paths,
              uint64_t seed);
 
-  // The vertices for a point (world), of the pool that a set of directions with this number uses. Made when
-  // first asked for; the same for the same arguments, whatever was asked before.
+  // The vertices for a point (world), from the pool that the set of directions with this number uses. They
+  // are computed at the first request, and do not depend on earlier requests.
   std::shared_ptr<const VertexLight> at(const V3d& point, uint64_t set) const;
-  // Those of no place, whose paths come from all sources by their power.
+  // Vertices for no particular place: their paths come from all sources in proportion to power.
   std::shared_ptr<const VertexLight> ofAll() const { return pool({}, 0); }
 
  private:
   struct Pool {
     std::once_flag made;
     std::shared_ptr<const VertexLight> light;
-    uint64_t asked = 0;  // when last
+    uint64_t asked = 0;  // number of the latest request
   };
   using Key = std::pair<std::vector<uint32_t>, size_t>;  // preferred sources and number of the pool
 
@@ -42,9 +43,9 @@ class LightPools {
   const PreparedScene& prepared_;
   const PlainSurfaces& surfaces_;
   SourceEmission emission_;
-  size_t pools_, paths_, most_;  // most_: pools that are kept
+  size_t pools_, paths_, most_;  // most_: cap on the pools in memory
   uint64_t seed_;
-  mutable std::mutex mutex_;  // of the two below
+  mutable std::mutex mutex_;  // guards the two members below
   mutable std::map<Key, std::shared_ptr<Pool>> made_;
   mutable uint64_t asked_ = 0;
 };

@@ -10,9 +10,10 @@
 namespace rsphere {
 namespace {
 
-// The variance of the part of a cell that a zone gets, for each share (1 - share) of its square: a cell is no
-// disk, and its division is that of a few points. By measurement where radiance is even; it is 1 for cells in
-// which the direction may lie anywhere.
+// If a zone gets a share of a cell, the variance of its part is this times share (1 - share) times the
+// squared light of the cell. It is not 0, because the cell is divided approximately, as a few points of a
+// disk. By measurement where radiance is even. For cells in which the direction may lie anywhere, the factor
+// is 1.
 constexpr double kBorder = .05;
 
 }  // namespace

@@ -19,7 +19,8 @@ struct PixelSample {
   V3d value() const { return rest + pattern * indirect + gloss + direct; }
 };
 
-// Which components a ray is to have. Where they cannot be separated, `rest` has everything in any case.
+// Which components of a ray are computed. Where they cannot be separated, `rest` contains all of the light in
+// any case.
 enum class PixelParts : uint8_t { all, noIndirect, restAlone };
 
 // Traces the rays of a picture, and separates components that vary little between pixels from all other

@@ -37,7 +37,7 @@ class PixelMap {
   size_t count() const { return static_cast<size_t>(width_) * static_cast<size_t>(height_); }
 
   // The direction (unit, world) of a place on the picture, in pixels from its upper left corner. The middles
-  // of pixels are at halves. Empty beyond the rim.
+  // of pixels have half-integer coordinates. Empty beyond the rim.
   std::optional<V3d> direction(double x, double y) const;
   // The index of the pixel that shows a direction (unit), row by row.
   size_t pixelOf(const V3d& direction) const;

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "base/constants.h"
 #include "base/overloaded.h"
 #include "importance/special_objects.h"
 #include "importance/tuning.h"
@@ -22,7 +23,7 @@ double sharpReflectance(const Material& material, double cosine = 1) {
   const auto mirrored = mirrorReflection(material);
   if (!mirrored) return 0;
   if (mirrored->boundaries > 0) {
-    const double schlick = Tuning::kFresnel + (1 - Tuning::kFresnel) * std::pow(1 - cosine, 5);  // of glass
+    const double schlick = kGlassReflectance + (1 - kGlassReflectance) * std::pow(1 - cosine, 5);
     return std::min(1., mirrored->boundaries * schlick);
   }
   return mirrored->roughness > 0 ? 0 : mirrored->share;
@@ -80,7 +81,7 @@ ShapeRef shapeOf(const PreparedScene& prepared, const Image& image) {
   return prepared.scene().surfaces[shownBy(prepared, image).source].shape;
 }
 
-// A sensor is so small that its middle stands for all of it.
+// A sensor is so small that its middle represents all of it.
 bool isSensor(const PreparedScene& prepared, LightId source) {
   return prepared.scene().surfaces[prepared.lights().all()[source].surface].finish.sensor;
 }
@@ -88,7 +89,7 @@ bool isSensor(const PreparedScene& prepared, LightId source) {
 // The direction to a sensor (unit), and its solid angle, sr.
 double sightOfSensor(const LightSource& light, const V3d& eye, V3d& direction) {
   const V3d to = light.center - eye;
-  const PlaneLight& square = *light.as<PlaneLight>();
+  const PlaneLight& square = std::get<PlaneLight>(light.shape);
   direction = to.normalized();
   return square.area * std::max(0., -square.normal.dot(direction)) / to.length2();
 }
@@ -332,8 +333,8 @@ std::optional<SeenSources::Sample> SeenSources::sampleMirrored(const PathsFrom& 
   return s;
 }
 
-// Sends shadow rays to places all over one cell of the image's grid. The sample is one of those that reached
-// the source, or one of all if something opaque stopped each of them.
+// Sends shadow rays to places all over one cell of the image's grid. The sample is drawn from the rays that
+// reached the source, or from all rays if something opaque stopped each of them.
 std::optional<SeenSources::Sample> SeenSources::sampleStraight(const PathsFrom& paths, const Image& image,
                                                                const Cell& cell) const {
   const V3d& point = paths.point();

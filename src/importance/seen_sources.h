@@ -37,10 +37,10 @@ class SeenSources {
   // Whether the source that a primary ray showed is one of a point's images.
   bool isOne(const ShownSource& shown, const std::vector<Image>& images) const;
 
-  // Whether it is the source of one of these images, seen directly.
+  // Whether a primary ray showed directly the source of one of these images.
   bool isOneStraight(const ShownSource& shown, const std::vector<Image>& images) const;
 
-  // Whether it is a source, seen directly, that is integrated separately at all points.
+  // Whether a primary ray showed directly a source that is integrated separately at all points.
   bool isApart(const ShownSource& shown) const {
     return shown.source != kNone && shown.mirror == kNone && apart_[shown.source];
   }

@@ -56,7 +56,7 @@ std::vector<V3d> glancesFor(const PreparedScene& prepared, const SphereOptions& 
   if (!prepared.lights().distant().empty()) return {};
   const auto count = static_cast<size_t>(options.baseDirections);
   const size_t glances =
-      std::min(Tuning::kGlancesPerDirection * count, std::max(count, tuning::DiffuseGlances::kMostGlances));
+      std::min(Tuning::kGlancesPerDirection * count, std::max(count, tuning::DiffuseGlances::kMost));
   return rotatedDirections(baseDirections(glances), options.rotation);
 }
 

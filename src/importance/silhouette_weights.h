@@ -26,16 +26,16 @@ namespace rsphere {
 //   own.
 // - Indirect rays are aimed at openings that daylight enters through (transport/openings.h), and at diffuse
 //   surfaces that receive much direct light (transport/bright_spots.h).
-// - By lamps, the light of plain diffuse surfaces does not come from these directions but from many glances,
-//   and from shadow rays to light vertices (diffuse_glances.h).
-// - Elsewhere by lamps, a control variate reduces the variance of diffuse surfaces
+// - In scenes with lamps, many glances and shadow rays to light vertices, instead of these directions,
+//   estimate the light of plain diffuse surfaces (diffuse_glances.h).
+// - In other scenes with lamps, a control variate reduces the variance of diffuse surfaces
 //   (transport/radiance_guess.h). Many glances, rays that are not followed beyond their first hit, estimate
 //   its integral. Directions only estimate the difference.
 // With -Sk 0 only the first of these applies.
 class SilhouetteWeights : public SamplingStrategy {
  public:
   // Keeps references to all of them. glances: null if they do not find all of the light of diffuse surfaces;
-  // otherwise they replace the guess.
+  // otherwise they are used instead of the guess.
   SilhouetteWeights(const SphereTracing& tracing, const SphereOptions& options, const BaseSet& base,
                     std::span<const SpecialObject> special, const SeenSources& sources,
                     const DiffuseGlances* glances);

@@ -51,7 +51,7 @@ bool mayShare(const SeenSurface& a, const SeenSurface& b, const Smoothing& smoot
   if (a.material != b.material || a.normal.dot(b.normal) < smoothing.sameNormal) return false;
   const Imath::V3f apart = b.point - a.point;
   const float square = apart.length2(), rise = apart.dot(a.normal);
-  return rise * rise <= smoothing.samePlane * smoothing.samePlane * square &&
+  return rise * rise <= smoothing.near * smoothing.near * square &&
          square <= smoothing.near * smoothing.near * a.distance * a.distance;
 }
 

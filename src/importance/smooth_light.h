@@ -29,19 +29,21 @@ struct PixelLight {
 struct Smoothing {
   int passes = 0;   // each reaches twice as far as the one before
   int careful = 0;  // the number of further passes, in which pixels share light only if it is nearly the same
-  float sameLight = 0;                            // largest relative difference: tuning::Pictures::kSameLight
-  float sameNormal = 0, samePlane = 0, near = 0;  // tuning::Pictures::kSameNormal, kNear
+  float sameLight = 0;   // largest relative difference: tuning::Pictures::kSameLight
+  float sameNormal = 0;  // least cosine between the normals
+  float near = 0;        // tuning::Pictures::kNear
 };
 
 // Whether two pixels show the same material on the same flat or slightly curved surface.
 bool mayShare(const SeenSurface& a, const SeenSurface& b, const Smoothing& smoothing);
 
 // Averages the light over nearby pixels that may share it. Pixels without light of their own get that of
-// their neighbors, and stay at known 0 if they have none. Edges of surfaces are not crossed. Passes with
-// steps of 1, 2 and 4 pixels are together like a Gaussian with a standard deviation of 4.6 pixels: light that
-// changes within that is blurred, and the noise falls to a sixteenth. Small differences that are then left
-// are mostly noise, and large ones shadows: careful passes blur the former alone. Source: Dammertz, Sewtz,
-// Hanika, Lensch, "Edge-avoiding a-trous wavelet transform for fast global illumination filtering" (2010).
+// their neighbors, and stay at known 0 if they have none. Edges of surfaces are not crossed. Together, passes
+// with steps of 1, 2 and 4 pixels act like a Gaussian with a standard deviation of 4.6 pixels: they blur
+// light that changes over shorter distances, and reduce the noise to a sixteenth. Of the differences that
+// remain, small ones are mostly noise and large ones are shadows; careful passes blur small ones only.
+// Source: Dammertz, Sewtz, Hanika, Lensch, "Edge-avoiding a-trous wavelet transform for fast global
+// illumination filtering" (2010).
 void smoothLight(const SeenSurfaces& seen, const Smoothing& smoothing, PixelLight& light);
 
 }  // namespace rsphere

@@ -303,7 +303,7 @@ std::string specialObjectsText(const Scene& scene, const std::vector<SpecialObje
   for (const SpecialObject& o : objects) {
     const Surface& s = scene.surfaces[o.surface];
     const Modifier& m = *mostIrregular(scene, s.modifier).modifier;
-    const rad::Primitive& p = m.described;
+    const rad::Primitive& p = m.decoded;
     fmt::format_to(std::back_inserter(text), "{}\t{} \"{}\"\t{:.6g} per sr\t{}\n", scene.place(s),
                    rad::typeName(p.type), p.name, o.density,
                    why(std::get<Material>(m.content), o.irregularity));

@@ -1,4 +1,6 @@
 #pragma once
+#include <memory>
+
 #include "transport/path_tracer.h"
 
 namespace rsphere {
@@ -7,9 +9,9 @@ namespace rsphere {
 struct SphereTracing {
   const PreparedScene& prepared;
   const Caches& caches;
-  Aims aims{};                               // of indirect rays
-  const VertexLight* vertexLight = nullptr;  // PathRequest::vertexLight
-  FoundAims ofPoints{};                      // owns those of `aims` that were found for points alone
+  Aims aims{};                                       // of indirect rays
+  std::shared_ptr<const VertexLight> vertexLight{};  // PathRequest::vertexLight; null: none
+  FoundAims ofPoints{};                              // owns those of `aims` that were found for points alone
 
   // Each thread needs its own.
   PathTracer tracer() const {

@@ -32,6 +32,7 @@ std::vector<V3d> cornersOf(const Box3d& box) {
   return corners;
 }
 
+static_assert(kShapes == 8, "May a new shape be the pane of an opening?");
 // Whether the object is a polygon that lies in the rectangle, but for rounding.
 bool liesIn(const Scene& scene, const SpecialObject& object, const Rectangle& place) {
   const auto* polygon = shapeOf(scene, object).as<Polygon>();
@@ -69,7 +70,7 @@ void chooseFitted(std::vector<Target>& targets, double baseDensity) {
     if (expected(target) > Tuning::kFewestFitted) large.push_back(&target);
   std::ranges::stable_sort(large,
                            [&](const Target* a, const Target* b) { return expected(*a) > expected(*b); });
-  if (large.size() > Tuning::kMostFitted) large.resize(Tuning::kMostFitted);
+  if (large.size() > tuning::Caps::kAsked) large.resize(tuning::Caps::kAsked);
   for (Target* target : large) {
     target->fitted = std::ranges::none_of(
         chosen, [&](const Target* other) { return overlap(target->silhouette, other->silhouette); });

@@ -71,7 +71,7 @@ class TargetChoice {
   std::vector<double> radiances_;
   double densityFactor_;
   Contrasts contrasts_;
-  HiddenBoxes hidden_;  // contrasts_.objects
+  HiddenBoxes hidden_;  // the boxes around contrasts_.objects
   Glints glints_;
 };
 

@@ -45,23 +45,20 @@ struct DiffuseGlances {
   // Glances for each base direction. They take most of the time of a point. The error falls with the square
   // root of their number.
   RSPHERE_TUNED(DiffuseGlances, size_t, kPerDirection, 12);
-  // Cap on the glances at one point, to limit their memory to about 100 MB. They are never fewer than the
-  // base directions.
-  RSPHERE_TUNED(DiffuseGlances, size_t, kMostGlances, 1 << 20);
+  // Cap on the glances at one point, about 100 MB; they are never fewer than the base directions. Also the
+  // cap on the light paths of all pools together, about 400 MB.
+  RSPHERE_TUNED(DiffuseGlances, size_t, kMost, 1 << 20);
   // Joins for each base direction. 4: error +5% around the goal at a fiftieth less time; 16: within noise.
   RSPHERE_TUNED(DiffuseGlances, double, kJoinsPerDirection, 8);
   // Radius, as a fraction of the mean length of light paths, within which a smaller distance hardly increases
   // the number of joins. .1 or .3: within noise.
   RSPHERE_TUNED(DiffuseGlances, double, kJoinRadius, .17);
-  // Light paths for each base direction; then the minimum. They are traced once for all points. Around the
-  // goal, 256 for each: error -10%, and a start of .4 s instead of .1 s.
+  // Light paths for each base direction. They are traced once for all points. Around the goal, 256: error
+  // -10%, and a start of .4 s instead of .1 s.
   RSPHERE_TUNED(DiffuseGlances, double, kPathsPerDirection, 64);
-  RSPHERE_TUNED(DiffuseGlances, double, kLeastPaths, 32768);
-  // With -Sa, those numbers of light paths suffice down to this accuracy. Below it, they grow with the
+  // With -Sa, this number of light paths suffices down to this accuracy. Below it, the number grows with the
   // inverse square of the accuracy.
   RSPHERE_TUNED(DiffuseGlances, double, kUsualAccuracy, .005);
-  // Cap on the light paths of all pools together: about 400 MB.
-  RSPHERE_TUNED(DiffuseGlances, double, kMostPaths, 1 << 20);
   // Assumed mean radiance of the light that glances do not find, as a fraction of the mean radiance that they
   // find. The variance of targets is compared with it. 1 and .3: single answers are 6% off around the goal,
   // where brushed steel shows it; .03: within noise, in 1.15 times the time.
@@ -95,9 +92,6 @@ struct Targets {
   // would bias the mean where the number of directions is correlated with what they see. With 8 no bias is
   // found: .02 +- .02% (128 base directions).
   RSPHERE_TUNED(Targets, double, kFewestFitted, 8);
-  // Cap on the targets that are considered for fitting, to limit the time of comparing all pairs: chosen
-  // without measurement.
-  RSPHERE_TUNED(Targets, size_t, kMostFitted, 256);
 };
 
 // The cells of directions in targets (cells_in_targets.cpp).
@@ -109,12 +103,10 @@ struct CellsInTargets {
 
 // Images of light sources in mirroring balls (glints.cpp).
 struct Glints {
-  // Reflectance of dielectrics at normal incidence: Fresnel's for the index 1.5.
-  static constexpr double kFresnel = .04;
   // A source is divided so that half the width of a part is at most this, relative to its distance from the
   // ball, because the image of a wider part is noticeably curved: chosen by experiment. There are at most
-  // Silhouettes::kCorners parts along each side. 30% less or more: within noise (points beside chrome; error
-  // 2%, time 5%).
+  // Silhouettes::kCorners parts along each side. .25 (Highlights::kHalf): within noise (points beside chrome;
+  // error 1%, time 1%).
   RSPHERE_TUNED(Glints, double, kHalfPart, .12);
 };
 
@@ -128,8 +120,9 @@ struct SeenSources {
   // that 36 balls hide partly is 2.9% instead of .5% (2048 base directions). 30% less or more: the same
   // answers in all cases.
   RSPHERE_TUNED(SeenSources, double, kSmallestPart, .02);
-  // The multiple of an even share. Without it, the error of a small lamp that is half hidden would stay at
-  // 4.2% with any number of base directions. With it, the error falls from 4.2% with 256 to .33% with 16384.
+  // The fraction of an even share in this cap. Without it, the error of a small lamp that is half hidden
+  // would stay at 4.2% with any number of base directions. With it, the error falls from 4.2% with 256 to
+  // .33% with 16384.
   //
   // Also, images in mirrors that would get fewer rays than this, on average, are left to the base directions:
   // chosen by experiment. A tenth of a ray means a ray at one of ten points, with ten times the weight. 30%
@@ -147,16 +140,15 @@ struct SeenSources {
   // points where the goal shows behind the edge of a partition, 2: error 3% instead of 1.8%, in the same
   // time; 8: within noise.
   RSPHERE_TUNED(SeenSources, size_t, kShadowsAlong, 4);
-  // Reflectance of glass at normal incidence: Fresnel's for the index 1.5.
-  static constexpr double kFresnel = .04;
 };
 
 // The regions that replace silhouettes (silhouette.cpp, silhouette_index.cpp).
 struct Silhouettes {
   // Largest half angle (rad) of an object, as seen from the point, for which a hull is computed instead of a
-  // cap: chosen by experiment. Hulls are computed on a plane, which cannot hold a hemisphere (1.57). 30% less
-  // or more: within noise (points beside chrome; error 10%, time 8%).
-  RSPHERE_TUNED(Silhouettes, double, kWidestHull, 1.2);
+  // cap: derived. Hulls are computed on a plane, which cannot hold a hemisphere (1.57). At this angle, the
+  // projection stretches directions by 14 and 14^2, so that rounding costs two digits of sixteen. 1.2: error
+  // +30% beside chrome, in the same time.
+  static constexpr double kWidestHull = 1.5;
   // Corners of the polygon around a circle: chosen by experiment. The area of the polygon is 1.3% larger.
   // Where balls show images of light sources, sources with more corners than this are replaced by squares
   // around them. 30% less or more: within noise (points beside chrome; error below 1%, time 8%).
@@ -251,13 +243,10 @@ struct Pictures {
   // holds the middles of 14 to 21 of them, so that its light has a standard deviation of 6%. The light of a
   // lamp of 1.4 pixels would have one of 38% instead of .1%.
   //
-  // It is also the number of samples of such a source for each pixel that it covers: by measurement. With 4
-  // per pixel, lamps of 4 to 16 pixels lose 3 to 9% of their light in the picture, with 16 they lose 1 to
-  // 3.5%. 30% less or more: the same answers in all cases.
+  // It is also the number of samples of such a source for each pixel that it covers, and the least number of
+  // its samples: by measurement. With 4 per pixel, lamps of 4 to 16 pixels lose 3 to 9% of their light in the
+  // picture, with 16 they lose 1 to 3.5%. 30% less or more: the same answers in all cases.
   static constexpr double kSmallest = 16;
-  // Minimum number of samples of such a source. The light of a minute lamp that is half hidden then has a
-  // standard deviation of 12%; with one sample it is 34%. 30% less or more: the same answers in all cases.
-  RSPHERE_TUNED(Pictures, double, kLeastSamples, 4);
   // Offsets from the middle of a pixel (in pixels) at which the background of a small source is sampled:
   // chosen by experiment.
   static constexpr std::array<std::array<double, 2>, 4> kBeside = {
@@ -301,13 +290,10 @@ struct Pictures {
   // Rows are traced in sweeps that skip all but one in this number, so that each sweep takes about as long as
   // another and progress reports are honest. It changes no picture.
   static constexpr int kSweeps = 16;
-  // Two pixels share indirect light if the cosine between their normals is at least this: chosen by
-  // experiment. .87 or .93: within noise (picture from point; error below 1%, time 6%).
-  RSPHERE_TUNED(Pictures, float, kSameNormal, .9f);
-  // Furthermore, their distance from each other must be at most this fraction of the distance from the eye,
-  // and the height of one point over the plane of the other at most this fraction of their distance. 30%
-  // less: error +25%; 30% more: error -13% (picture from point, which has 1% of the pixels, so that edges
-  // count more; noise: error 2%, time 6%).
+  // Two pixels share light if the distance between the points that they show is at most this fraction of the
+  // distance from the eye, and the height of one point over the plane of the other at most this fraction of
+  // the distance between them: chosen by experiment. 30% less: error +25%; 30% more: error -13% (picture from
+  // point, which has 1% of the pixels, so that edges count more; noise: error 2%, time 6%).
   RSPHERE_TUNED(Pictures, float, kNear, .25f);
 };
 

@@ -108,6 +108,7 @@ LightSource sourceOf(const NestedShape auto&, const Scene&) { return {}; }
 
 }  // namespace
 
+static_assert(kLightForms == 8, "How does rtrace split it?");
 void measure(PlaneLight& light) {
   light.extentU = light.u.length();
   light.extentV = light.v.length();

@@ -44,6 +44,10 @@ struct DistantLight {
 };
 // A visitor that lacks an answer for one of them does not compile.
 using LightShape = std::variant<PlaneLight, BallLight, TubeLight, DistantLight>;
+// The number of shapes and of maps. Code that asks for one of them alone asserts it, and so fails to compile
+// for a new one until it was read again.
+inline constexpr size_t kLightForms =
+    std::variant_size_v<LightShape> + std::variant_size_v<decltype(PlaneLight::map)>;
 
 // A surface that is sampled by the direct calculation: light, spotlight, illum, and glow within its reach. If
 // the scene has importance goals, the goals are the only sources.

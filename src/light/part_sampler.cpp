@@ -132,6 +132,7 @@ class PartSampler {
         jitter_(how.jitter),
         allowed_(how.largest / 2),
         splitsBalls_(how.splitsBalls),
+        tubesInDepth_(how.tubesInDepth && how.jitter > 0),
         random_(random),
         samples_(samples) {}
 
@@ -165,10 +166,12 @@ class PartSampler {
   double jitter_;   // -dj
   double allowed_;  // the limit for the half-extents of parts relative to their distance (-ds)
   bool splitsBalls_;
+  bool tubesInDepth_;
   Random& random_;
   std::vector<SourceSample>& samples_;
 };
 
+static_assert(kLightForms == 8, "Where do rays meet it that are aimed at it?");
 // Sets the hit of a ray that is aimed at the source; false if it misses.
 bool PartSampler::hit(const V3d& direction, double length, SourceSample& sample) const {
   if (source_.hitsWhereAimed) {
@@ -249,8 +252,7 @@ void PartSampler::addPartsOfBall(const V3d& middle, double sine, double distance
 
 void PartSampler::addBall(const V3d& towards, double distance) {
   if (distance <= source_.radius) return;
-  const bool isSplit =
-      splitsBalls_ && jitter_ > 0 && allowed_ > 0 && source_.radius > allowed_ * distance;
+  const bool isSplit = splitsBalls_ && jitter_ > 0 && allowed_ > 0 && source_.radius > allowed_ * distance;
   if (isSplit) return addPartsOfBall(towards / distance, source_.radius / distance, distance);
   addRound(towards / distance, source_.radius / distance, distance);
 }
@@ -319,9 +321,24 @@ void PartSampler::addTube(const TubeLight& tube, const V3d& towards) {
   const double fromAxis = (towards - along * axis).length();
   if (fromAxis <= radius) return;  // inside, or looking at an open end
   const auto at = [&](double s, double) { return source_.center + (2 * s - 1) * tube.half; };
+  const V3d facing = (along * axis - towards) / fromAxis, aside = axis.cross(facing);
+  // The sine of the largest angle around the axis from `facing` at which the surface is seen.
+  const double widest = std::sqrt(1 - radius * radius / (fromAxis * fromAxis));
+  // Uniform along the axis and, seen from `facing`, across: the element of area is dx dz / cosine.
+  const auto addOnSide = [&](const SourcePart& part, const V3d& middle) {
+    const double sine = jitter_ * (2 * random_.uniform() - 1) * widest;
+    const double cosine = std::sqrt(1 - sine * sine);
+    const V3d normal = cosine * facing + sine * aside, aim = middle + radius * normal;
+    const double length = aim.length();
+    add(aim / length,
+        tube.area * (part.s1 - part.s0) * widest / cosine * std::max(0., -aim.dot(normal)) /
+            (length * length * length),
+        length);
+  };
   const auto use = [&](const SourcePart& part, const V3d& unjittered) {
     const V3d middle =
         jitter_ > 0 ? at(jittered(part.s0, part.s1, jitter_, random_), 0) - point_ : unjittered;
+    if (tubesInDepth_) return addOnSide(part, middle);
     const V3d across = axis.cross(middle).normalized();
     const double side = jitter_ > 0 ? jitter_ * (2 * random_.uniform() - 1) * radius : 0;
     const V3d aim = middle + side * across;

@@ -9,17 +9,18 @@
 #include "base/overloaded.h"
 #include "light/penumbra.h"
 #include "light/relay_tree.h"
-#include "light/tuning.h"
 #include "shade/scattering.h"
 
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::Relays;
-
 constexpr double kTiny = 1e-6;  // world units, cosines: RADIANCE's own figure for "in the plane"
 // Bounds of relays are enlarged by this share of their distance, so that rounding loses no relay in them.
 constexpr double kRounding = 1e-9;
+// Light that has passed more relays than this is bounded by its source and by the last of them, because all
+// relays of a chain of n would take a memory of n^2. The bounds of the light are wider without the others,
+// which changes memory and time, but no answer: two facing mirrors with -dr 2000 take 19 MB.
+constexpr size_t kMostRelays = 8;
 
 // An affine map that leaves the points of a relay's plane fixed: p goes to p + height(p) * shift. It
 // preserves volume if shift . normal is 0 (a shear) or -2 (a shear combined with a reflection).
@@ -44,9 +45,10 @@ struct Relay {
   std::vector<V3d> hull;     // its points lie in the hull of these: see hullOf()
 };
 
-// What the light of an image has left or come through, in a straight line as seen from behind the last relay:
-// first the source, unless it is distant, then the relays, the last of them where it is, the others and the
-// source as the relays that follow show them.
+// One of the things that the light of an image has left or passed: first the source, unless it is distant,
+// then the relays. They are placed as seen from behind the last relay, where the path of the light is a
+// straight line: the last relay where it is, the source and the other relays where the relays after them show
+// their images.
 struct Passage {
   Ball ball;  // around it
   Beam beam;  // holds all that light from it reaches behind the last relay, as seen from the ball's center
@@ -127,6 +129,7 @@ double extent(const LightSource& source, const V3d& along) {
       [&](const DistantLight&) { return source.outermost; });
 }
 
+static_assert(kLightForms == 8, "Which of its members does a mirror move?");
 LightShape imageOf(LightShape shape, const Projection& projection) {
   match(
       shape,
@@ -412,8 +415,7 @@ class Images {
       for (const Passage& passage : before.passages) {
         // Between the source and the last relays the oldest ones are left out: they narrow the light least.
         const size_t fromEnd = static_cast<size_t>(&before.passages.back() - &passage);
-        if (fromEnd >= Tuning::kMostRelays && !(&passage == &before.passages.front() && !image.isDistant()))
-          continue;
+        if (fromEnd >= kMostRelays && !(&passage == &before.passages.front() && !image.isDistant())) continue;
         Passage& shown = passages.emplace_back(passage);
         shown.ball.center = projection.point(shown.ball.center);
         shown.beam.axis = projection.vector(shown.beam.axis);

@@ -52,7 +52,7 @@ SourceChoice::SourceChoice(const Scene& scene, const LightSources& lights) {
   }
 }
 
-// usual: its weight without limits.
+// usual: the weight that the source has if its reach and its spot do not matter.
 double SourceChoice::weightOf(const Special& special, const Near& near, const V3d& point, const V3d& front,
                               double usual) {
   if (special.distant)

@@ -32,6 +32,10 @@ struct SourceSampling {
   // Balls are split as well if they are jittered. rtrace never splits them, and where many rays are averaged
   // it would not pay.
   bool splitsBalls = false;
+  // Jittered samples of cylinders lie on the side that faces the point. Otherwise they lie in the plane
+  // through the axis, as in rtrace, so that rays aimed past the rim miss, and a short wide cylinder loses
+  // much of its light ("source aspect too small").
+  bool tubesInDepth = false;
 };
 
 class LightSources {
@@ -52,6 +56,7 @@ class LightSources {
               std::vector<SourceSample>& samples) const {
     // Most sources face away or lie behind the surface, and most images shine elsewhere. These tests are
     // inline because they save the call in most cases.
+    static_assert(kLightForms == 8, "Does it shine to one side only?");
     const LightSource& light = sources_[source];
     const V3d towards = light.isDistant() ? light.center : light.center - point;
     if (const auto* plane = light.as<PlaneLight>(); plane && towards.dot(plane->normal) >= 0) return;

@@ -12,17 +12,10 @@ namespace rsphere::tuning {
 // How light sources are divided into parts and sampled (sources.cpp).
 struct SourceParts {
   // A part of a plane source is sampled by solid angle instead of by area if its width is larger than this,
-  // relative to its distance: chosen by experiment. Over a narrower part, cosine / distance^2 varies little.
-  // 30% less or more: within noise (points in workshop; error below 1%, time 4%).
+  // relative to its distance: chosen by experiment. Over a narrower part, cosine / distance^2 varies little,
+  // so that its middle is used for guesses of its light (radiance_guess.h). 30% less or more: within noise
+  // (points in workshop; error below 1%, time 4%).
   RSPHERE_TUNED(SourceParts, double, kNear, .5);
-};
-
-// How the light of virtual sources is bounded (relays.cpp).
-struct Relays {
-  // Light that has passed more relays than this is bounded by its source and by the last of them, because
-  // all relays of a chain of n would take a memory of n^2: chosen by experiment. 30% less or more: the same
-  // answers; two facing mirrors with -dr 2000 take 17 or 19 MB instead of 19, rings of mirrors the same.
-  RSPHERE_TUNED(Relays, size_t, kMostRelays, 8);
 };
 
 }  // namespace rsphere::tuning

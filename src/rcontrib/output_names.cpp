@@ -13,7 +13,7 @@ struct Format {
   enum class Kind : uint8_t { text, modifier, number };
   struct Part {
     Kind kind;
-    std::string text;  // or the digits between % and d
+    std::string text;  // of a number: the digits between % and d
   };
   std::vector<Part> parts;
 

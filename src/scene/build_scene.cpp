@@ -72,7 +72,8 @@ class Builder {
     modifiers_.beginFile(firstPrimitive);
   }
 
-  // Appends another file's description and begins with it; returns the index of its first primitive.
+  // Appends the description of another file, to which the following primitives belong. Returns the index of
+  // its first primitive.
   uint32_t adopt(rad::Description&& description, Place from) {
     const auto first = static_cast<uint32_t>(scene_.description.primitives.size());
     rad::append(scene_.description, std::move(description), from);

@@ -18,11 +18,12 @@ size_t positionOf(const std::vector<std::string>& names, const std::string& name
 Color* emissionOf(Modifier& modifier) {
   auto* const material = std::get_if<Material>(&modifier.content);
   if (!material) return nullptr;
-  if (auto* const m = std::get_if<Light>(material)) return &m->radiance;
-  if (auto* const m = std::get_if<Illum>(material)) return &m->radiance;
-  if (auto* const m = std::get_if<Glow>(material)) return &m->radiance;
-  if (auto* const m = std::get_if<Spotlight>(material)) return &m->radiance;
-  return nullptr;
+  return std::visit(
+      [](auto& kind) -> Color* {
+        if constexpr (requires { kind.radiance; }) return &kind.radiance;
+        return nullptr;
+      },
+      *material);
 }
 
 // The modifiers that emit light, in the order of the scene.
@@ -64,7 +65,7 @@ void separateContributors(Scene& scene, std::span<const std::string> goals) {
     names.push_back(goal);
   }
   if (goals.empty())
-    for (const Modifier* modifier : emittersOf(scene)) add(modifier->described.name);
+    for (const Modifier* modifier : emittersOf(scene)) add(modifier->decoded.name);
   if (names.empty()) throw rad::Error("-Sp: the scene has neither goals (-Sg) nor light sources");
   if (names.size() > kMostContributors)
     throw rad::Error(
@@ -77,7 +78,7 @@ void separateContributors(Scene& scene, std::span<const std::string> goals) {
   if (goals.empty())
     for (Modifier* modifier : emittersOf(scene)) {
       Color& emission = *emissionOf(*modifier);
-      emission = Color::ofContributor(emission.rgb(), positionOf(names, modifier->described.name), parts);
+      emission = Color::ofContributor(emission.rgb(), positionOf(names, modifier->decoded.name), parts);
     }
   scene.contributors = std::move(names);
 }

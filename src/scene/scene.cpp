@@ -33,7 +33,7 @@ std::string Scene::surfaceName(const Surface& s) const {
 }
 
 std::string_view Scene::materialName(const Surface& s) const {
-  return s.material == kNone ? "void" : std::string_view(modifiers[s.material].described.name);
+  return s.material == kNone ? "void" : std::string_view(modifiers[s.material].decoded.name);
 }
 
 std::string Scene::place(PrimitiveId i) const { return placeOf(description, i); }

@@ -37,8 +37,8 @@ struct Modifier {
   // are read, and functions compiled, when the modifier is first evaluated: shade/surface_functions.h.
   std::shared_ptr<const EvaluatedArguments> arguments;
   ModifierId next;
-  PrimitiveId primitive;     // in Scene::description; of the target if it was an alias
-  rad::Primitive described;  // that primitive, so that no ray has to decode it
+  PrimitiveId primitive;   // in Scene::description; of the target if it was an alias
+  rad::Primitive decoded;  // that primitive, so that no ray has to decode it
 };
 
 // Surfaces that share one coordinate system and are traced together: the scene itself, or an octree, which is

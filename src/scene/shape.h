@@ -104,6 +104,8 @@ struct MeshInstance {
 struct MeshFaces {};
 
 using Shape = std::variant<Polygon, Sphere, Cone, Ring, Distant, Instance, MeshInstance, MeshFaces>;
+// Code that asks for one shape alone asserts this number, and so fails to compile until it was read again.
+inline constexpr size_t kShapes = std::variant_size_v<Shape>;
 
 // Every shape is Distant, a PlainShape or a NestedShape. The two concepts list their types, so that a visitor
 // that uses them does not compile for a new type of shape until the type is added to one of the lists or the
@@ -153,6 +155,12 @@ inline const V3d* planeNormal(ShapeRef shape) {
       shape, [](const OneOf<Polygon, Ring> auto& flat) -> Answer { return &flat.normal; },
       [](const OneOf<Sphere, Cone, Distant> auto&) -> Answer { return nullptr; },
       [](const NestedShape auto&) -> Answer { return nullptr; });
+}
+// Whether the normal is the same everywhere, as RADIANCE sees it: faces of meshes are flat, too.
+inline bool isFlat(ShapeRef shape) {
+  return match(
+      shape, [](const OneOf<Polygon, Ring, MeshFaces> auto&) { return true; },
+      [](const OneOf<Sphere, Cone, Distant, Instance, MeshInstance> auto&) { return false; });
 }
 // normal . p for the points p of the plane. REQUIRES planeNormal(); 0 for shapes that are not plane.
 double planeOffset(ShapeRef shape);

@@ -56,8 +56,9 @@ Tristimulus ofChromaticity(double y, double u, double v) {
 
 // ---- the diffuse part
 
-// 1/sr. A smaller diffuse part is not separated from the data, because a diffuse calculation is not worth its
-// cost; nor is the diffuse part of grey trees separated from the second figure on.
+// 1/sr. A diffuse part below the first value is not separated from the data, because a diffuse calculation
+// would not be worth its cost. In grey trees, a diffuse part from the second value on is not separated
+// either.
 constexpr double kLeastDiffuse = .01 / kPi;
 constexpr double kMostDiffuseTree = 1.5 / kPi;
 

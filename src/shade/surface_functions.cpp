@@ -94,7 +94,7 @@ class SurfaceFunctions::Maker {
       : functions_(functions),
         scene_(functions.scene_),
         modifier_(scene_.modifiers[modifier]),
-        arguments_(scene_.description, modifier_.described) {}
+        arguments_(scene_.description, modifier_.decoded) {}
 
   std::unique_ptr<Function> make() {
     return std::visit([&](const auto& read) { return makeFrom(read); }, *modifier_.arguments);
@@ -508,7 +508,7 @@ const SurfaceFunctions::Function& SurfaceFunctions::prepare(ModifierId modifier)
 }
 
 std::span<const double> SurfaceFunctions::realsOf(ModifierId modifier) const {
-  return scene_.description.reals(scene_.modifiers[modifier].described);
+  return scene_.description.reals(scene_.modifiers[modifier].decoded);
 }
 
 const Placement* SurfaceFunctions::placementOf(const Function& f, const FunctionPoint& at,

@@ -90,12 +90,10 @@ std::uint32_t last(const std::vector<std::uint32_t>& standsFor, std::uint32_t si
 }  // namespace
 
 struct BaseTriangulation::Data {
-  std::vector<V3d> directions;
   Triangulation triangulation;
   std::vector<Kites> kites;
   std::vector<std::uint8_t> wide;
   bool anyUnused = false, anyWide = false;
-  std::vector<double> solidAngles;
 };
 
 struct VoronoiWorkspace::Data {
@@ -236,9 +234,7 @@ BaseTriangulation::BaseTriangulation(std::span<const V3d> directions) {
   VoronoiWorkspace workspace;
   workspace.data_->build(sites);
   auto data = std::make_unique<Data>();
-  data->directions.assign(directions.begin(), directions.end());
   data->triangulation = std::move(workspace.data_->triangulation);
-  data->solidAngles = std::move(workspace.data_->solidAngles);
   if (!data->triangulation.isFlat()) {
     const Delaunay& delaunay = data->triangulation.delaunay;
     std::vector<std::uint32_t> all(delaunay.triangles.size());
@@ -256,10 +252,6 @@ BaseTriangulation::BaseTriangulation(std::span<const V3d> directions) {
   data_ = std::move(data);
 }
 BaseTriangulation::~BaseTriangulation() = default;
-BaseTriangulation::BaseTriangulation(BaseTriangulation&&) noexcept = default;
-BaseTriangulation& BaseTriangulation::operator=(BaseTriangulation&&) noexcept = default;
-std::span<const V3d> BaseTriangulation::directions() const { return data_->directions; }
-std::span<const double> BaseTriangulation::solidAngles() const { return data_->solidAngles; }
 
 VoronoiWorkspace::VoronoiWorkspace() : data_(std::make_unique<Data>()) {}
 VoronoiWorkspace::~VoronoiWorkspace() = default;

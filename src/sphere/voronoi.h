@@ -40,11 +40,6 @@ class BaseTriangulation {
  public:
   explicit BaseTriangulation(std::span<const V3d> directions);
   ~BaseTriangulation();
-  BaseTriangulation(BaseTriangulation&&) noexcept;
-  BaseTriangulation& operator=(BaseTriangulation&&) noexcept;
-
-  std::span<const V3d> directions() const;
-  std::span<const double> solidAngles() const;  // [sr], in the order of the directions
 
  private:
   friend class VoronoiWorkspace;

@@ -44,7 +44,7 @@ struct Trial {
   std::vector<std::string> words;  // its options
   RepeatedAnswers answers;
   std::vector<double> estimates;  // standard errors that it estimates; that at i is of point i % points
-  size_t timed = 0;               // the answers whose means the next and the last member are
+  size_t timed = 0;               // number of answers; `seconds` and `directions` are means over them
   double seconds = 0;             // CPU time for a point, without its error estimate unless -Sa needs it
   double setupSeconds = 0;        // CPU time before the first point
   double directions = 0;          // for a point

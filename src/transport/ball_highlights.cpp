@@ -76,7 +76,7 @@ void BallHighlights::aim(const V3d& point, const V3d& front, double least, Aim& 
     const double toImage = distance - ball.sphere.radius / 2, falloff = cosine / (toImage * toImage);
     if (!(ball.hot * falloff > least)) continue;
     aim.way[aim.count] = way;
-    // Less than it is, by more than rounding.
+    // Reduced by more than rounding errors, so that no direction that meets the ball is rejected.
     aim.tangent2[aim.count] =
         (1 - 1e-12) * distance * distance - 1.0001 * ball.sphere.radius * ball.sphere.radius;
     aim.add(number, ball.intensity * falloff);

@@ -10,29 +10,40 @@ namespace {
 
 // A fingerprint of everything but the scene that determines gathered light, the program's version included.
 uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAccess& access) {
+  // All members by name, so that this does not compile for a new one. Add it below if it changes gathered
+  // light. Spectral runs (sampling) keep nothing, -aw changes nothing, and -af and -Sm say where and how much
+  // is kept.
+  const auto& [sampling, wavelengths, directThreshold, directCertainty, directJitter, sourceSubstructuring,
+               directRelays, chosenSources, directPretest, sourcesVisible, specularSampling,
+               specularThreshold, ambientBounces, ambientAccuracy, ambientResolution, ambientDivisions,
+               ambientSuperSamples, ambientValue, ambientWeight, leastForPatches, coarserLinks, ambientFile,
+               fieldMemory, ambientExcluded, ambientIncluded, reflectionLimit, weightLimit, mediumExtinction,
+               mediumAlbedo, mediumEccentricity, mediumSampling, definitions, backFacesVisible, uncorrelated,
+               rotation] = o;
   Fingerprint print;
   print.add(kVersion);
   print.add(uint64_t{7});  // increase it if the method of gathering changes between two versions
   for (const double x :
-       {o.directThreshold, o.directCertainty, o.directJitter, o.sourceSubstructuring, o.specularSampling,
-        o.specularThreshold, o.ambientAccuracy, o.weightLimit, o.mediumEccentricity, o.mediumSampling})
+       {directThreshold, directCertainty, directJitter, sourceSubstructuring, specularSampling,
+        specularThreshold, ambientAccuracy, weightLimit, mediumEccentricity, mediumSampling})
     print.add(x);
-  for (const Color& color : {o.ambientValue.color, o.mediumExtinction, o.mediumAlbedo})
+  for (const Color& color : {ambientValue.color, mediumExtinction, mediumAlbedo})
     for (int c = 0; c < 3; ++c) print.add(static_cast<double>(color[c]));
-  for (const int n : {o.directRelays, o.chosenSources, o.directPretest, o.ambientBounces, o.ambientResolution,
-                      o.ambientDivisions, o.ambientSuperSamples, o.leastForPatches, o.reflectionLimit})
+  for (const int n : {directRelays, chosenSources, directPretest, ambientBounces, ambientResolution,
+                      ambientDivisions, ambientSuperSamples, leastForPatches, reflectionLimit})
     print.add(static_cast<uint64_t>(n));
-  if (o.rotation != 0) print.add(o.rotation);
-  if (o.coarserLinks != 0) print.add(static_cast<uint64_t>(o.coarserLinks));
-  for (const bool b : {o.sourcesVisible, o.backFacesVisible, o.uncorrelated, basicRadiance})
-    print.add(uint64_t{b});
-  for (const auto* names : {&o.ambientExcluded, &o.ambientIncluded}) {
+  if (wavelengths != WavelengthLimits())
+    for (const double x : {wavelengths.shortest, wavelengths.longest}) print.add(x);
+  if (rotation != 0) print.add(rotation);
+  if (coarserLinks != 0) print.add(static_cast<uint64_t>(coarserLinks));
+  for (const bool b : {sourcesVisible, backFacesVisible, uncorrelated, basicRadiance}) print.add(uint64_t{b});
+  for (const auto* names : {&ambientExcluded, &ambientIncluded}) {
     print.add(uint64_t{names->size()});
     for (const std::string& name : *names) print.add(name);
   }
-  for (const SharedDefinitions& definitions : o.definitions) {
-    print.add(definitions.text);
-    if (definitions.isFile) addFile(print, definitions.text, access);
+  for (const SharedDefinitions& definition : definitions) {
+    print.add(definition.text);
+    if (definition.isFile) addFile(print, definition.text, access);
   }
   return print.value();
 }

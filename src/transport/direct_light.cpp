@@ -198,13 +198,14 @@ uint32_t DirectLight::findContributions(Receiver at, DirectCoefficient coefficie
   const bool divides =
       o.sourceSubstructuring > kNegligible && !(isOfGather(settings_, ray) && o.directJitter > kWideJitter);
   // The noise of later bounces, and of the directions of sphere mode, averages out.
-  const bool splitsBalls = settings_.mode.firstBounce == FirstBounce::interpolated && ray.ambientLevel == 0;
+  const bool splitsBalls = isRayMode(settings_.mode) && ray.ambientLevel == 0;
   const SourceSampling how{divides ? o.sourceSubstructuring / ray.weight : 0, o.directJitter, front,
-                           splitsBalls};
-  // Shadow rays to known sources find nothing that is left, unless they may pass what is not known.
+                           splitsBalls, !isRayMode(settings_.mode)};
+  // Known sources need no shadow rays if paths from both ends bring all of their direct light. Only light
+  // that has passed unknown surfaces would be left to shadow rays.
   const PlainSurfaces* const leftOut =
       at.leftToBothEnds && !at.leftToBothEnds->passUnknown() ? at.leftToBothEnds : nullptr;
-  // Shadow rays that are shown to the observer are all of them.
+  // If the observer is to be shown all shadow rays, those to hidden sources are traced too.
   const std::span<const uint32_t> sources = state_.request.shadows == ShownShadows::all
                                                 ? t_.lights().hidden().all()
                                                 : t_.lights().hidden().notHiddenFrom(at.point, front);
@@ -314,14 +315,15 @@ void DirectLight::addOfChosen(Receiver at, DirectCoefficient coefficientOf, cons
   double next = state_.random.uniform() * step, passed = 0;
   for (size_t i = 0; i < sources.size(); ++i) {
     for (passed += scratch_.sourceWeights[i]; next < passed; next += step)
-      addSamples(at, LightId(sources[i]), {0, 1, front}, coefficientOf, step / scratch_.sourceWeights[i],
-                 value);
+      addSamples(at, LightId(sources[i]), {0, 1, front, false, !isRayMode(settings_.mode)}, coefficientOf,
+                 step / scratch_.sourceWeights[i], value);
   }
 }
 
 void DirectLight::addFromSource(const RayEnd& end, LightId source, DirectCoefficient coefficientOf,
                                 Radiance& value) {
-  addSamples({end, end.hit.point}, source, {0, t_.options().directJitter}, coefficientOf, 1, value);
+  const SourceSampling how{0, t_.options().directJitter, {0, 0, 0}, false, !isRayMode(settings_.mode)};
+  addSamples({end, end.hit.point}, source, how, coefficientOf, 1, value);
 }
 
 // Adds factor times the light of all samples of one source.

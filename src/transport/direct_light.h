@@ -17,8 +17,9 @@ namespace rsphere {
 // source (unit) and the solid angle (sr) of a sample of it.
 using DirectCoefficient = FunctionRef<Coefficient(const V3d& toSource, double solidAngle)>;
 
-// The part of that coefficient that samples of a highlight's lobe estimate instead, if nothing is in the
-// sample's way (shared_highlights.h).
+// The part of a DirectCoefficient that samples of a highlight's lobe estimate instead of shadow rays
+// (shared_highlights.h). It is left out for a sample of the source only if nothing lies between it and the
+// surface.
 using PartOfLobe = FunctionRef<Coefficient(const SourceSample& sample)>;
 
 class DirectLight {

@@ -104,6 +104,7 @@ class Probe {
   double lift_;
 };
 
+static_assert(kShapes == 8, "May a new shape be a window pane?");
 std::vector<Opening> panesOf(const PreparedScene& prepared, double leastArea) {
   const Scene& scene = prepared.scene();
   std::vector<Opening> panes;

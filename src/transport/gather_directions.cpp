@@ -14,8 +14,9 @@ namespace {
 
 using Tuning = tuning::GatherDirections;
 
-// Caps on the shares of directions that are aimed. Other directions then have at most twice the weight that
-// they have without aiming (with highlights, another third more), which bounds the growth of their variance.
+// Caps on the fractions of directions that are aimed. Other directions then have at most twice the weight
+// that they have without aiming (with highlights, another third more), which bounds the growth of their
+// variance.
 constexpr double kMostToOpenings = 1 - 1. / 2, kMostToHighlights = 1 - 3. / 4;
 
 // The mean radiance (W/sr/m2) from directions that are not aimed. Both estimates with openings are made near
@@ -46,7 +47,9 @@ GatherDirections::GatherDirections(const Aims& aims, const V3d& point, const V3d
     highlights_.share = std::min(kMostToHighlights, highlights_.aim.mean / all);
   }
   if (!(aimedAt > 0)) return;
-  const double unseen = std::max(0., 1 - Tuning::kSeenAnyway * openings_.aim.seen);
+  // Unaimed directions hit openings too, in proportion to the form factor. No direction is aimed where they
+  // alone send the largest fraction there.
+  const double unseen = std::max(0., 1 - openings_.aim.seen / kMostToOpenings);
   openings_.share = std::min(kMostToOpenings, Tuning::kAimed * openings_.aim.mean / all * unseen);
   spots_.share = Tuning::kAimed * spots_.aim.mean / all;
 }

@@ -11,31 +11,35 @@
 namespace rsphere {
 namespace {
 
-constexpr size_t kMostKnown = 8;  // blockers that a region keeps in mind
-// A region is divided if polygons hide at least this share of its boxes from places in it, but not after
-// so many divisions in a row that have not hidden a quarter of them. One beside a slab takes five: above
-// or below it, and within its four edges.
+constexpr size_t kMostKnown = 8;  // blockers that a region remembers
+// A region is divided if polygons hide at least kWorthHiding of its boxes, and at least kLeastHidden boxes,
+// from places in it; but not after kMostInVain divisions in a row of which none has hidden a quarter of them.
+// To find the region on one side of a slab takes five divisions: one along the slab, and one for each of its
+// four edges.
 constexpr double kWorthHiding = .4;
-constexpr size_t kLeastHidden = 2;  // of its boxes
+constexpr size_t kLeastHidden = 2;  // boxes
 constexpr int kMostInVain = 6;
-// So many of a region's boxes show whether a division pays.
+// Number of boxes of a region that are examined to decide whether it is divided.
 constexpr size_t kProbes = 32;
-// So many surfaces on the way to a box are tried, since furniture or glass may be in front of a wall.
+// Number of surfaces on the way to a box that are examined, because furniture or glass may stand before a
+// wall.
 constexpr int kSurfacesInTheWay = 6;
-// A region that is wider than this share of a polygon's size is divided to find places that the polygon
-// hides: those within it are too small to pay.
+// A region is not divided because of polygons whose size, times this, exceeds the width of the region: the
+// division would gain little.
 constexpr double kWorthDividing = .25;
-// So many tests at most find what is hidden from a region, in groups if there are many boxes.
+// Cap on the tests by which the boxes hidden from a region are found. If there are many boxes, groups of them
+// are tested.
 constexpr size_t kMostTests = 4096;
 // Polygons of more vertices are rarely convex.
 constexpr uint32_t kMostVertices = 8;
 
-// How far before a surface the region is looked up that its points use (HiddenBoxes::margin_).
+// Distance from a surface, in units of HiddenBoxes::margin_, of the place whose region is used for a point of
+// the surface (see beside()).
 constexpr double kBeside = 2.25;
 
-// How far boxes must be from the plane of a polygon between them (world units). Nearer than
-// kSamePlace to a ray's begin or to its end nothing blocks, and rays whose cosine to the plane is at most
-// kSamePlace miss it.
+// The least distance of boxes from the plane of a polygon between them (world units). It is needed because
+// surfaces nearer than kSamePlace to an end of a ray do not block it, and rays whose cosine to a plane is at
+// most kSamePlace miss the plane.
 double marginOver(double length) { return 10 * kSamePlace + 2 * kSamePlace * length; }
 
 std::array<V3d, 8> cornersOf(const Box3d& box) {
@@ -58,7 +62,7 @@ V3d middleOfOctant(const Box3d& box, size_t octant) {
   return {at(0, 1), at(1, 2), at(2, 4)};
 }
 
-// The share of a box's section across an axis that another box overlaps.
+// The share of a box that another box overlaps, both projected along an axis.
 double shareAcross(const Box3d& box, const Box3d& other, int axis) {
   double share = 1;
   for (int i = 0; i < 3; ++i) {
@@ -90,15 +94,15 @@ struct HiddenBoxes::Blocker {
 };
 
 struct HiddenBoxes::Region {
-  using List = std::shared_ptr<const std::vector<uint32_t>>;  // shared by regions that hide nothing more
+  using List = std::shared_ptr<const std::vector<uint32_t>>;  // shared with the parent if no more are hidden
 
   Box3d box{};
-  List visible;  // positions of boxes that are not certainly hidden, ascending
-  List places;   // of those that may be hidden, in order_
+  List visible;  // positions of boxes that are not certainly hidden, in ascending order
+  List places;   // those of them that may be hidden, as places in order_
   std::vector<Blocker> blockers;
-  int inVain = 0;     // divisions since a quarter was hidden
-  size_t before = 0;  // number of places then
-  int axis = -1;      // that it is divided along; -1: not divided
+  int inVain = 0;     // number of divisions since a quarter of the boxes was hidden
+  size_t before = 0;  // number of places at that time
+  int axis = -1;      // along which it is divided; -1: not divided
   double at = 0;
   mutable std::array<std::unique_ptr<const Region>, 2> halves;
   mutable std::array<std::atomic<const Region*>, 2> ready{};
@@ -117,7 +121,7 @@ HiddenBoxes::HiddenBoxes(const Scene& scene, const Tracer& tracer, std::vector<B
   makeNode(0, order_.size());
   margin_ = 2 * marginOver(tracer.bounds().size().length());
   root_ = std::make_unique<Region>();
-  // Points of the outermost walls are rounded.
+  // Rounding may place points of the outermost walls outside of the bounds.
   root_->box = {tracer.bounds().min - V3d(margin_), tracer.bounds().max + V3d(margin_)};
   root_->visible = std::make_shared<const std::vector<uint32_t>>(all_);
   std::vector<uint32_t> places(order_.size());
@@ -147,6 +151,7 @@ size_t HiddenBoxes::makeNode(size_t begin, size_t end) {
   return index;
 }
 
+static_assert(kShapes == 8, "Does a new shape hide what is behind it?");
 // An opaque convex polygon of the world as a blocker, for rays that come from a point; false if it is none.
 bool HiddenBoxes::findBlocker(SurfaceId id, const V3d& from, Blocker& blocker) const {
   if (id.index() >= scene_.outermostIds().size()) return false;
@@ -180,8 +185,8 @@ bool HiddenBoxes::findBlocker(SurfaceId id, const V3d& from, Blocker& blocker) c
   return turn < 3 * kPi;
 }
 
-// Whether every segment between the boxes cuts the polygon, coming from its front as blockerOf() met it,
-// before anything could refract it.
+// Whether every segment from one box to the other cuts the polygon from its front, the side from which
+// findBlocker() met it, before it meets anything that refracts light.
 bool HiddenBoxes::covers(const Blocker& blocker, const Box3d& from, const Box3d& to) const {
   Box3d both = from;
   both.extendBy(to);
@@ -210,8 +215,8 @@ bool HiddenBoxes::covers(const Blocker& blocker, const Box3d& from, const Box3d&
   return true;
 }
 
-// Calls use() with the polygons on the way that may be blockers, until it returns true. Returns whether it
-// did.
+// Calls use() with each polygon between two points that may be a blocker, until use() returns true. Returns
+// whether it did.
 bool HiddenBoxes::anyBlocker(const V3d& from, const V3d& to, FunctionRef<bool(const Blocker&)> use) const {
   V3d way = to - from, origin = from;
   double left = way.length() - kSamePlace;
@@ -235,7 +240,7 @@ bool HiddenBoxes::hides(const Box3d& from, const Box3d& to) const {
   return hides(from, to, known);
 }
 
-// known: blockers that were found for near boxes, the last one that did hide something first.
+// known: blockers that were found for nearby boxes; the first one is the last that hid something.
 bool HiddenBoxes::hides(const Box3d& from, const Box3d& to, std::vector<Blocker>& known) const {
   for (size_t i = 0; i < known.size(); ++i)
     if (covers(known[i], from, to)) {
@@ -251,7 +256,7 @@ bool HiddenBoxes::hides(const Box3d& from, const Box3d& to, std::vector<Blocker>
   });
 }
 
-// Those of the places (ascending) that are not hidden from a region.
+// The places, of those given in ascending order, that are not hidden from a region.
 std::vector<uint32_t> HiddenBoxes::visibleFrom(const Box3d& region, std::span<const uint32_t> places,
                                                std::vector<Blocker>& known) const {
   struct Some {
@@ -259,7 +264,7 @@ std::vector<uint32_t> HiddenBoxes::visibleFrom(const Box3d& region, std::span<co
     std::span<const uint32_t> places;
   };
   std::vector<uint32_t> visible;
-  // Large groups first: what is left when kMostTests are done counts as visible.
+  // Large groups are tested first. Groups that are left after kMostTests tests count as visible.
   std::vector<Some> all{{0, places}};
   for (size_t i = 0; i < all.size(); ++i) {
     const auto [index, some] = all[i];
@@ -306,9 +311,9 @@ std::vector<std::pair<HiddenBoxes::Blocker, size_t>> HiddenBoxes::blockersIn(con
   return found;
 }
 
-// Decides whether and where a region is divided: beside the plane of a polygon that reaches across most of
-// it, so that points of the polygon itself are left in a region of their own; within the edges of one
-// beside it; or else in its middle.
+// Decides whether and where a region is divided. If a polygon reaches across most of the region, it is
+// divided along a plane beside the polygon, so that points of the polygon lie in a thin region of their own;
+// or, if the polygon lies outside, along planes within its edges. Otherwise it is divided in its middle.
 void HiddenBoxes::divide(Region& region) const {
   if (region.places->size() <= kLeastHidden) return;
   const auto found = blockersIn(region);
@@ -364,10 +369,11 @@ const HiddenBoxes::Region& HiddenBoxes::half(const Region& region, int upper) co
   return *region.halves[which];
 }
 
-// A place in the region before a surface whose normal lies along an axis; otherwise the point itself. What
-// a polygon within kBeside of the region hides from there lies behind the surface as well, or is hidden
-// from the point by that polygon. Other polygons hide it from places that lie kBeside outside of the
-// region, too.
+// For a point of a surface that is perpendicular to an axis, a place in the region in front of the surface;
+// otherwise the point itself. Whatever is hidden from that place, and lies in front of the surface, is hidden
+// from the point too: covers() requires that polygons hide it from all places within kBeside of the region,
+// unless they are perpendicular to an axis. What such a polygon hides from the place is either hidden from
+// the point by it too, or lies behind the surface.
 V3d HiddenBoxes::beside(const V3d& point, const V3d& front) const {
   const double along = std::max({std::abs(front.x), std::abs(front.y), std::abs(front.z)});
   return along > 1 - 1e-12 ? point + kBeside * margin_ * front : point;

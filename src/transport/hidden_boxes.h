@@ -1,13 +1,16 @@
 #pragma once
-// Which boxes are certainly hidden from a place: in a building, the luminaires of all other storeys.
+// Finds boxes that are certainly hidden from a place, such as the luminaires of all other storeys of a
+// building.
 //
-// A box is hidden from another if a single opaque convex polygon (a slab, a wall) cuts every segment
-// between the two. The segments between their corners decide: where these meet the polygon's plane, their
-// convex hull contains the points where all segments do ("shaft culling", Haines and Wallace 1991). A
-// light source in such a box need not be sampled: every shadow ray would be blocked.
+// A box is hidden from another if a single opaque convex polygon (a slab, a wall) cuts every segment between
+// the two. It suffices to look at the segments between their corners: the points where these meet the
+// polygon's plane have a convex hull that contains the points where all segments meet it ("shaft culling",
+// Haines and Wallace 1991). A light source in such a box need not be sampled: every shadow ray would be
+// blocked.
 //
-// The scene is divided into regions along the planes of such polygons (as cells; Teller and Sequin 1991),
-// where points fall and as long as it pays. The division depends on the scene and the boxes alone.
+// The scene is divided into regions along the planes of such polygons (cells: Teller and Sequin 1991). A
+// region is divided when a point in it is first looked up, and only if that saves time. The result depends on
+// the scene and the boxes alone.
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -23,8 +26,9 @@ namespace rsphere {
 
 class HiddenBoxes {
  public:
-  // Keeps references to the scene and the tracer. An empty box is never hidden. boxes: fewer than 2^32.
-  // few: up to this number, what depends on the boxes takes less time than could be saved.
+  // Keeps references to the scene and the tracer. An empty box is never hidden. boxes: fewer than 2^32. few:
+  // with at most this number of boxes, all count as visible, because finding the hidden ones would take more
+  // time than it saves.
   HiddenBoxes(const Scene& scene, const Tracer& tracer, std::vector<Box3d> boxes, size_t few);
   ~HiddenBoxes();
   HiddenBoxes(HiddenBoxes&&) noexcept;
@@ -34,9 +38,9 @@ class HiddenBoxes {
   std::span<const uint32_t> notHiddenFrom(const V3d& point) const { return root_ ? find(point) : all_; }
   std::span<const uint32_t> all() const { return all_; }
 
-  // The same for a point of a surface: of the boxes that are not entirely behind the plane through the point
-  // with the normal `front` (unit), those that are not certainly hidden, and perhaps others. Fewer are found
-  // from slabs and walls themselves.
+  // The same for a point of a surface that faces `front` (unit), as far as boxes in front of the surface are
+  // concerned: a box that lies entirely behind it may be left out or not. On slabs and walls, more boxes are
+  // then found to be hidden.
   std::span<const uint32_t> notHiddenFrom(const V3d& point, const V3d& front) const {
     return root_ ? find(beside(point, front)) : all_;
   }

@@ -55,6 +55,7 @@ class Highlights {
   }
 
  private:
+  static_assert(kShapes == 8, "Do highlights of a new shape need directions?");
   static bool anyOn(const Scene& scene) {
     for (const Surface& surface : scene.outermost())
       if ((surface.shape.as<Sphere>() || surface.shape.as<Cone>()) && roughReflector(scene, surface))

@@ -32,6 +32,7 @@ PlaneKey planeOf(const Polygon& polygon, const V3d& fromOrigin, double size) {
   return key;
 }
 
+static_assert(kShapes == 8, "May a new shape be a wall that has holes?");
 // The walls of a scene, the largest first.
 std::vector<Wall> wallsOf(const Scene& scene, const Box3d& bounds, double leastArea, IsWall isWall) {
   const double size = std::max({bounds.size().x, bounds.size().y, bounds.size().z, kSamePlace});

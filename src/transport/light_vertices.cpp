@@ -110,7 +110,7 @@ class LightVertices::Path {
   double cosineAtSource_ = 0;
   Irradiance power_;
   LightVertex::Way way_ = LightVertex::direct;
-  bool senderIsUnbounded_ = false;  // the vertex that sent the diffuse light has isUnbounded()
+  bool senderIsUnbounded_ = false;  // isUnbounded() of the vertex that sent the light
   bool fromSource_ = true;          // nothing has reflected it yet
   int bounces_ = 0;
   double length_ = 0, firstLength_ = 0;  // since the last reflection; and of the first segment
@@ -340,8 +340,8 @@ void LightVertices::sort() {
   permute(visible_, orderByPlace(visible_.size(), [&](size_t i) { return visible_[i].vertex.point(); }));
 }
 
-// Only in scenes where light sources are hidden from regions, because others have few regions that do not see
-// each other.
+// This is done only in scenes where light sources are hidden from some regions. In other scenes, few regions
+// are hidden from each other.
 void LightVertices::findHidden() {
   if (!prepared_.lights().hidden().divides()) return;
   std::vector<Box3d> boxes((visible_.size() + kBlock - 1) / kBlock);
@@ -363,6 +363,7 @@ double LightVertices::closeShare(double distance, double fromEye) const {
   return std::max(0., (share - kRest) / (1 - kRest));
 }
 
+static_assert(kLightForms == 8, "Where are shadow rays aimed?");
 // The density of the points on a source at which shadow rays from a place are aimed (1/m2); 0 if it is not
 // known. distance: of the source's point. cosine: there, between the ray and the normal.
 double LightVertices::aimedDensity(LightId light, double distance, double cosine) const {

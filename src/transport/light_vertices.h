@@ -103,7 +103,7 @@ class LightVertices {
   std::vector<SurfaceId> hits_;
   std::vector<uint32_t> ends_;
   std::vector<Visible> visible_;
-  std::optional<HiddenBoxes> hidden_;  // blocks of kBlock of visible_; none where little is hidden
+  std::optional<HiddenBoxes> hidden_;  // boxes around blocks of visible_; none where little is hidden
 };
 
 // Approximate reflectance of a place for light that arrives from one direction (unit) and goes to the eye, as

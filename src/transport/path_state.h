@@ -18,7 +18,7 @@ namespace rsphere {
 enum class FirstBounce : uint8_t {
   interpolated,  // from cache records
   fromPatches,   // from the coarse solution
-  gathered       // from rays, and beyond a rough reflection from the coarse solution
+  gathered       // from rays; behind a rough reflection, from the coarse solution
 };
 
 // Choices that a tracer makes for all of its paths.
@@ -32,6 +32,9 @@ struct TracingMode {
   // rays. The mean stays the same.
   bool boundsWork = false;
 };
+
+// Tracers of sphere mode have other choices for the first bounce.
+inline bool isRayMode(const TracingMode& mode) { return mode.firstBounce == FirstBounce::interpolated; }
 
 // How a tracer traces all of its paths.
 struct PathSettings {

@@ -69,7 +69,7 @@ class PathTracer::Path final : public RayFollower {
   }
   // What has been found along the primary ray.
   TracedRay traced(const RayEnd& end, const RayResult& result) const;
-  // Of a primary ray.
+  // The context of a primary ray.
   PathContext context() const {
     PathContext primary;
     primary.space.medium = t_.options().medium();

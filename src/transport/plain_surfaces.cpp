@@ -23,8 +23,8 @@ const Material* materialOfFinish(const Scene& scene, const Finish& finish) {
   return scene.materialAt(finish.material);
 }
 
-// Whether all modifiers from one on are patterns of a kind. What is wrong with a pattern is said when a ray
-// meets it.
+// Whether all modifiers from one on are patterns of a kind. Faults of a pattern are reported when a ray meets
+// it.
 template <class IsOfKind>
 bool arePatterns(const Scene& scene, ModifierId modifier, const IsOfKind& isOfKind) {
   for (; modifier != kNone; modifier = scene.modifiers[modifier].next) {
@@ -64,6 +64,7 @@ Interaction plainInteraction(const V3d& direction, const V3d& normal, bool flat,
   return at;
 }
 
+static_assert(kMaterials == 19, "Is its answer known without following a ray?");
 PlainSurfaces::PlainSurfaces(const PreparedScene& prepared)
     : prepared_(prepared), scene_(prepared.scene()), tracer_(prepared.tracer()) {
   for (const Finish& finish : scene_.surfaces.finishes()) {
@@ -93,6 +94,7 @@ void PlainSurfaces::findSources() {
   }
 }
 
+static_assert(kLightForms == 8, "Are samples spread over all of it?");
 bool PlainSurfaces::isKnown(LightId source) const {
   const LightSource& light = prepared_.lights().all()[source];
   if (light.isDistant() || light.reach > 0) return false;
@@ -233,8 +235,7 @@ Color PlainSurfaces::patternFrom(ModifierId first, const FunctionPoint& here,
 }
 
 bool PlainSurfaces::isFlat(SurfaceId surface) const {
-  const ShapeRef shape = scene_.surfaces[surface].shape;
-  return shape.as<Polygon>() || shape.as<Ring>() || shape.as<MeshFaces>();
+  return rsphere::isFlat(scene_.surfaces[surface].shape);
 }
 
 Coefficient shownOfSource(const PlainPlace& at, const V3d& view, const V3d& toSource, double solidAngle,

@@ -57,7 +57,8 @@ class PlainSurfaces {
   double weigh(const V3d& point, const V3d& normal, std::span<const uint32_t>& sources,
                std::vector<double>& weights) const;
 
-  // direction: unit. start: the surface that the line starts on, or kNone.
+  // Follows a straight line through panes of glass. direction: unit. start: the surface that the line starts
+  // on, or kNone.
   Sight look(const V3d& origin, const V3d& direction, double farthest, SurfaceId start) const;
   // The share of light that passes straight between two places (world): black if anything but panes lies
   // between. start: as for look().
@@ -87,7 +88,7 @@ class PlainSurfaces {
   std::vector<const Opaque*> opaque_;   // by finish
   std::vector<const Glass*> panes_;     // by finish
   std::vector<const Mirror*> mirrors_;  // by finish
-  std::vector<ModifierId> patterns_;    // by finish: the first one; kNone: none
+  std::vector<ModifierId> patterns_;    // by finish: the first in its chain; kNone: none
   ById<LightId, bool> knownSources_;
   bool hasPanes_ = false, hasKnownSources_ = false, knowAllSources_ = true;
   bool bringAll_ = true, bringAllDirect_ = true, passUnknown_ = false;

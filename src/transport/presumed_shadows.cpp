@@ -69,6 +69,7 @@ bool PresumedShadows::middleOfCell(const LightSource& light, const V3d& point, c
   }
   // The side of a cube of directions. If the source is plane, the cube is aligned with the source.
   V3d axes[3] = {V3d(1, 0, 0), V3d(0, 1, 0), V3d(0, 0, 1)};
+  static_assert(kLightForms == 8, "Which axes has its cube of directions?");
   const auto* plane = light.as<PlaneLight>();
   if (plane) {
     axes[2] = plane->normal;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "light/tuning.h"
 #include "transport/tuning.h"
 
 namespace rsphere {
@@ -83,6 +84,7 @@ RadianceGuess::Place RadianceGuess::placeOf(const V3d& point, const V3d& directi
           unguessed_[hit.surface] ? Coefficient() : reflectance_[finish]};
 }
 
+static_assert(kLightForms == 8, "Does it shine to one side only?");
 // Unoccluded irradiance from a source of radiance 1, sr.
 double RadianceGuess::factor(LightId source, const Place& at) const {
   const LightSource& light = prepared_.lights().all()[source];
@@ -104,7 +106,8 @@ double RadianceGuess::factor(LightId source, const Place& at) const {
         [&](const PlaneLight::Disk&) { return plane.area * cosine * front / (squared + plane.area / kPi); },
         [&](const PlaneLight::Fan& fan) { return irradianceFromFan(fan.vertices, at.point, at.normal); },
         [&](const OneOf<PlaneLight::Parallelogram, PlaneLight::Square> auto&) {
-          if (distance > Tuning::kNear * light.radius) return plane.area * cosine * front / squared;
+          const double width = 2 * std::max(plane.extentU, plane.extentV);
+          if (width <= tuning::SourceParts::kNear * distance) return plane.area * cosine * front / squared;
           return irradianceFrom<4>({to - u - v, to + u - v, to + u + v, to - u + v}, at.normal);
         });
   };
@@ -143,11 +146,11 @@ double RadianceGuess::shareThatArrives(const Light& light, std::span<const doubl
   double due = random.uniform();
   for (size_t i = 0; i < places.size(); ++i) {
     const Place& at = places[i];
-    due += sent[i] / sum * Tuning::kShadowRays;
+    due += sent[i] / sum * tuning::Caps::kProbes;
     if (due < 1) continue;
     due -= std::floor(due);
     samples.clear();
-    prepared_.lights().sample(light.source, at.point, {0, 1, at.normal}, random, samples);
+    prepared_.lights().sample(light.source, at.point, {0, 1, at.normal, false, true}, random, samples);
     ++asked;
     if (samples.empty()) continue;
     const SourceSample& s = samples[0];
@@ -187,7 +190,7 @@ LocalGuess RadianceGuess::fit(const V3d& point, std::span<const V3d> glances, st
   local.bright_ = Tuning::kBright * arriving / static_cast<double>(std::max<size_t>(1, glances.size()));
   // The median instead of the mean, because a few directions hit something very bright by chance.
   std::vector<double> around[3];
-  Color parts;  // of contributors, in proportion to which they share the median
+  Color parts;  // the light of contributors; they share the median in this proportion
   for (const Traced& t : traced) {
     const Place& at = t.place;
     if (!(brightness(at.reflectance) > 0)) continue;

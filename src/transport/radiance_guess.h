@@ -39,8 +39,6 @@ class LocalGuess {
   // The guessed radiance along a ray from a point (world), W/sr/m2.
   Radiance along(const V3d& point, const V3d& direction) const;
 
-  bool expectsLight() const { return !lights_.empty(); }
-
  private:
   friend class RadianceGuess;
   explicit LocalGuess(const RadianceGuess& guess) : guess_(&guess) {}

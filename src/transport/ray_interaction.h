@@ -39,7 +39,7 @@ inline Interaction interactionOf(const Scene& scene, const RayEnd& end) {
   at.kinds = end.context.kinds;
   if (hit.surface != kNone) {
     const Surface& surface = scene.surfaces[hit.surface];
-    at.flat = surface.shape.as<Polygon>() || surface.shape.as<Ring>() || surface.shape.as<MeshFaces>();
+    at.flat = isFlat(surface.shape);
     at.smoothed = surface.smoothed;
   }
   return at;

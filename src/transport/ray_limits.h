@@ -34,25 +34,27 @@ inline bool survives(Random& random, double least, NextRay& next) {
 // increased if the patch survived roulette.
 bool asksForPatch(PathState& state, const PathContext& ray, Coefficient& coefficient);
 
-// Begins to count the descendants of a primary ray, if work is bounded. rays: -ad + -as.
+// Begins to count the descendants of a primary ray, if their number is limited (TracingMode::boundsWork).
+// rays: -ad + -as.
 inline Descendants descendantsOfPrimary(const TracingMode& mode, int rays) {
   return {mode.boundsWork ? tuning::RayLimits::kMostDescendants * std::max(rays, 1) : 0, 1, 0, 0, 0};
 }
 
-// The same for a ray that only estimates where light comes from. level: its ambientLevel.
+// Begins to count the descendants of a ray of PathTracer::glimpse(). level: its ambientLevel.
 inline Descendants descendantsOfGlimpse(int level) {
   return {tuning::RayLimits::kMostDescendants, 1, 0, level, 0};
 }
 
-// The same for all rays of a patch of the coarse solution together. depth: of the imagined ray that they
-// leave.
+// Begins to count the descendants of all rays of a patch of the coarse solution together. depth: of the
+// imagined ray at whose end they begin.
 inline Descendants descendantsOfPatch(int rays, int depth) {
   return {tuning::RayLimits::kMostOfPatch * rays, kMeanReflectance, depth + 1, 1, 0};
 }
 
-// The same for a gather's ray, if light is interpolated. If work is bounded, the count of the primary ray
-// goes on instead. Within a patch, the count of the patch goes on, but each of its rays begins a new count of
-// the patches that it uses.
+// Begins to count the descendants of a gather's ray, if light is interpolated. Two kinds of rays are counted
+// with an earlier ray instead: if the descendants of the primary ray are limited, all rays count as its
+// descendants; and the rays of a patch count together, except that each has a count of its own of the patches
+// that it uses.
 inline void countDescendants(const PathSettings& settings, PathState& state, const PathContext& ray) {
   if (state.links)
     state.descendants.patches = 0;

@@ -25,8 +25,9 @@ LightId sourceNamed(const Scene& scene, const LightSources& lights, std::string_
   return kNone;
 }
 
-// What samples of a source lie in: of an image, the relay that rays to it hit first. Empty for distant
-// sources.
+static_assert(kLightForms == 8, "May samples lie outside the surface?");
+// A box that contains all samples of a source. For an image of a source, it contains the relay that rays to
+// the image hit first. Empty for distant sources.
 Box3d boxOf(const Scene& scene, const LightSource& light) {
   if (light.isDistant() && !light.isVirtual()) return {};
   Box3d box = bounds(scene.surfaces[light.surface].shape, scene.vertices);

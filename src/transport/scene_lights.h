@@ -54,7 +54,8 @@ class SceneLights : public LightSources {
   const std::vector<SurfaceId>& distant() const { return distant_; }
   const PresumedShadows& presumedShadows() const { return presumedShadows_; }
   const SourceChoice& choice() const { return choice_; }
-  // The light sources as boxes, by their numbers; an image is hidden if the relay is that shows it.
+  // Finds light sources that are hidden from a point, by their numbers. An image of a source is hidden if the
+  // relay that shows it is.
   const HiddenBoxes& hidden() const { return hidden_; }
   const MistSources& ofMists() const { return ofMists_; }
 

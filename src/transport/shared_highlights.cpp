@@ -24,6 +24,7 @@ double apparentSize(const LightSource& source, double distance, double cosine) {
 
 }  // namespace
 
+static_assert(kLightForms == 8, "Is the solid angle of the whole known?");
 bool sharesHighlights(const PreparedScene& prepared, LightId source) {
   const LightSource& light = prepared.lights().all()[source];
   if (light.isVirtual() || light.reach > 0 || light.spot || light.as<TubeLight>() ||

@@ -65,7 +65,8 @@ SourceEmission SourceEmission::preferring(std::span<const uint32_t> preferred) c
   double own = 0, others = 0;
   for (const LightId i : senders_.ids()) (isPreferred[i] ? own : others) += senders_[i].power;
   if (!(own > 0)) return changed;
-  // Three of four paths; the others have a quarter of the paths that they would have, and so twice the noise.
+  // Preferred sources get three of four paths. The others keep a quarter of their paths, which doubles their
+  // noise.
   const double factor = std::max(1., 3 * others / own);
   for (const LightId i : senders_.ids()) changed.senders_[i].factor = isPreferred[i] ? factor : 1;
   changed.share();
@@ -73,7 +74,7 @@ SourceEmission SourceEmission::preferring(std::span<const uint32_t> preferred) c
 }
 
 LightId SourceEmission::sourceAt(double share) const {
-  // 1 is beyond the last one.
+  // A share of 1 lies beyond the last source.
   const auto sender = std::upper_bound(senders_.begin(), senders_.end(), share,
                                        [](double w, const Sender& s) { return w < s.upTo; });
   return sender == senders_.end() ? LightId() : LightId(static_cast<size_t>(sender - senders_.begin()));

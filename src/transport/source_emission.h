@@ -38,7 +38,8 @@ class SourceEmission {
   bool isEven(LightId source) const { return senders_[source].even; }
   // The density of the paths that begin on an even source (1/m2); 0 for other sources.
   double density(LightId source) const { return senders_[source].density; }
-  // Mean brightness of the paths, W, before candidates are chosen; without preference, that of each.
+  // Mean power of a path, W (brightness). All paths from even sources have this power unless some sources are
+  // preferred.
   double pathPower() const { return pathPower_; }
 
   // Factor on the light at this distance from its source (world units): the light of a spot diverges from a
@@ -61,7 +62,7 @@ class SourceEmission {
     SurfacePoint from;
     V3d direction{0, 0, 1};
     Radiance radiance{};
-    double weight = 1;  // density of diffuse emission (by the cosine) over the density of such candidates
+    double weight = 1;  // density of such light from a diffuse emitter, over the density of candidates
   };
   Way way(LightId source, Random& random, FunctionScratch& scratch) const;
   double triedPower(LightId source) const;

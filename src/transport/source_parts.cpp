@@ -16,6 +16,7 @@ namespace {
 // sources (Caps::kAimed).
 const double kMostAlong = std::sqrt(static_cast<double>(tuning::Caps::kAimed));
 
+static_assert(kLightForms == 8, "Is it round?");
 std::vector<SourcePart> partsOf(const LightSource& source, const V3d& from) {
   const V3d way = source.isDistant() ? source.center : source.center - from;
   const double distance = way.length();

@@ -69,7 +69,7 @@ class SurfaceShading {
   // The light of known paths (PlainSurfaces) that paths from both ends bring, so that the surface's usual
   // shading leaves it out. They bring it either here, or to the eye or an earlier surface.
   struct FromBothEnds {
-    const PlainSurfaces* direct = nullptr;    // includes that of the rough highlight; null: none
+    const PlainSurfaces* direct = nullptr;    // with that of the rough highlight; null: none
     const PlainSurfaces* indirect = nullptr;  // null: none
     Shown directHere = Shown::none;
     bool indirectHere = false;

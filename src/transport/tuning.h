@@ -20,20 +20,22 @@ struct Caps {
   // ray has to evaluate the density of all of them. 30% less or more: within noise (sensors by sun; error 5%,
   // time 4%).
   RSPHERE_TUNED_ROOM(Caps, size_t, kAimed, 64);
-  // Cap on the panes and holes that are probed, and on the balls and cylinders that are examined for
-  // highlights; the largest are kept. 30% less or more: the same answers in all cases.
+  // Cap on the panes and holes that are probed, on the balls and cylinders that are examined for highlights,
+  // and on the targets of a point that may be fitted (Targets::kFewestFitted); the largest are kept. 30% less
+  // or more: the same answers in all cases.
   //
   // It is also the number of light paths that measure the mean distance from the sources to the first
-  // surfaces, and of directions that estimate the power of a source with a pattern or a cone: both are known
-  // within 3% if single values vary as much as their mean. And it is the cap on the surfaces that a light
-  // path meets, for mirrors that face each other; Russian roulette ends nearly all paths earlier.
+  // surfaces, the least number in a batch of light paths, and the number of directions that estimate the
+  // power of a source with a pattern or a cone: means are known within 3% if single values vary as much as
+  // their mean. And it is the cap on the surfaces that a light path meets, for mirrors that face each other;
+  // Russian roulette ends nearly all paths earlier.
   RSPHERE_TUNED(Caps, size_t, kAsked, 1024);
   // Rays that measure a mean brightness: on each side of a pane, around a point in sphere mode, and at least
-  // to each opening that may matter there. Chosen by experiment. A mean is then known within 18% if single
-  // values vary as much as their mean. For panes, 30%
-  // less: time +30%; 30% more: time +30% (sensors by panes; noise: error 19%, time 4%), because other panes
-  // are then found to be openings. For points, 30% less or more: within noise (points beside goal; error 16%,
-  // time 7%).
+  // to each opening that may matter there. Also the shadow rays that measure the mean visibility of a source
+  // (radiance_guess.cpp). Chosen by experiment. A mean is then known within 18% if single
+  // values vary as much as their mean. For panes, 30% less: time +30%; 30% more: time +30% (sensors by panes;
+  // noise: error 19%, time 4%), because other panes are then found to be openings. For points, 30% less or
+  // more: within noise (points beside goal; error 16%, time 7%).
   RSPHERE_TUNED(Caps, int, kProbes, 32);
 };
 
@@ -106,18 +108,10 @@ struct Openings {
 
 // The control variate of sphere mode (radiance_guess.cpp).
 struct RadianceGuess {
-  // Shadow rays that estimate the mean visibility of a source: chosen by experiment. 30% less or more: within
-  // noise (points in workshop; error 11%, time 4%).
-  RSPHERE_TUNED(RadianceGuess, double, kShadowRays, 12);
   // If a source adds more than this many times the mean guess at a place, a shadow ray to the source's middle
   // replaces the mean visibility: chosen by experiment. This concerns a few percent of the glances, which
   // carry most of the light. 30% less or more: within noise (points beside goal; error 4%, time 3%).
   RSPHERE_TUNED(RadianceGuess, double, kBright, 16);
-  // Up to a distance of this many times its radius, the exact form factor of a source with four corners is
-  // used: by calculation. Farther away the formula for a small surface is used. Its error is at most a
-  // seventh, at grazing angles, which is accurate enough for a guess. 30% less: within noise; 30% more: time
-  // +10% (points beside goal; noise: error 10%, time 3%).
-  RSPHERE_TUNED(RadianceGuess, double, kNear, 3);
 };
 
 // Next-event estimation (direct_light.cpp).
@@ -150,10 +144,6 @@ struct GatherDirections {
   // where rooms are brighter than farther inside. By measurement: at 1 the work is 4.8, 2.3, .8 and 1 times
   // that at .5.
   RSPHERE_TUNED(GatherDirections, double, kFartherInside, .5);
-  // The fraction of directions aimed at openings is multiplied by 1 minus this times the form factor to all
-  // openings, because unaimed rays also hit openings that fill much of the view: chosen by experiment. 30%
-  // less or more: within noise (sensors by sun; error 6%, time 5%).
-  RSPHERE_TUNED(GatherDirections, double, kSeenAnyway, 2);
 };
 
 // Highlights of light sources on rough balls and cylinders, which indirect rays are aimed at (highlights.h,

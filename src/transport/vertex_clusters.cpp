@@ -26,7 +26,7 @@ class Coordinates {
   double of(uint32_t i, int axis) const {
     return axis < 3 ? vertices_[i].place[axis] : vertices_[i].facing[axis - 3] * length_;
   }
-  // The coordinate in which some vertices vary most, and its range.
+  // The coordinate in which the given vertices vary most, and its range.
   struct Widest {
     int axis = 0;
     double least = 0, most = 0;
@@ -205,7 +205,7 @@ VertexClusters::Candidates VertexClusters::draw(const Receiver& to, Random& rand
       const size_t first = firstOf(i), own = firstOf(i + 1) - first;
       const auto vertex =
           static_cast<uint32_t>(first + static_cast<size_t>(random.uniform() * static_cast<double>(own)));
-      // Vertices are seldom in the cache: all are asked for before the first is used.
+      // Vertices are seldom in the processor's cache, so that all are prefetched before the first is used.
       __builtin_prefetch(&vertices_[vertex]);
       __builtin_prefetch(&vertices_[vertex].bounces);
       drawn.all[drawn.count++] = {vertex, expected / static_cast<double>(own)};

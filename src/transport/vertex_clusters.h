@@ -54,7 +54,8 @@ class VertexClusters {
 
  private:
   static constexpr size_t kCount = tuning::VertexLight::kClustersRoom;
-  // Clusters whose weights are added up first, so that most need not be looked at one by one.
+  // Number of clusters in a group. A group is chosen by its total weight first, so that the clusters of other
+  // groups need not be looked at one by one.
   static constexpr size_t kGroup = 8;
   static_assert(kCount % kGroup == 0);
   using Numbers = std::array<float, kCount>;

@@ -27,8 +27,8 @@ size_t chooseOne(size_t count, double sum, const WeightOf& weightOf, Random& ran
   return chosen;
 }
 
-// Only in scenes where light sources are hidden from regions, because others have few regions that do not see
-// each other.
+// Only in scenes where light sources are hidden from some regions. In other scenes, few regions are hidden
+// from each other.
 std::optional<HiddenBoxes> hiddenClusters(const PreparedScene& prepared, const LightVertices& vertices) {
   if (!prepared.lights().hidden().divides()) return {};
   return HiddenBoxes(prepared.scene(), prepared.tracer(),
@@ -63,7 +63,8 @@ VertexLight::Chosen VertexLight::chooseSource(const PlainPlace& at, double fines
   if (source == weights.size()) return {};
   auto& samples = scratch.samples;
   samples.clear();
-  prepared_.lights().sample(LightId(sources[source]), at.point, {finest, 1, at.normal}, random, samples);
+  prepared_.lights().sample(LightId(sources[source]), at.point, {finest, 1, at.normal, false, true}, random,
+                             samples);
   const auto arrives = [&](size_t i) {
     const double cosine = at.normal.dot(samples[i].direction);
     return samples[i].cosine > 0 && cosine > kNegligible ? cosine * samples[i].solidAngle : 0;
@@ -160,7 +161,7 @@ Radiance VertexLight::indirectAt(const PlainPlace& at, const Indirect& how, Rand
 // in proportion to the light that they would send if unoccluded.
 Radiance VertexLight::ofVertices(const PlainPlace& at, const Indirect& how, Random& random) const {
   const VertexClusters::Candidates drawn = clusters_.draw({at.point, at.normal, how.bounces}, random);
-  // Each stands for others as well.
+  // Each candidate represents the vertices that were not drawn, too.
   const auto light = [&](size_t i) { return drawn.all[i].weight / drawn.all[i].drawn; };
   double all = 0;
   for (size_t i = 0; i < drawn.count; ++i) all += light(i);
@@ -185,7 +186,7 @@ Radiance VertexLight::ofVertex(const PlainPlace& at, size_t i) const {
   const V3d to = v.point() - at.point;
   const double square = to.length2(), d = std::sqrt(square);
   const double here = to.dot(at.normal) / d, there = -to.dot(v.normal()) / d;
-  // Along a wall rounding would join its two sides.
+  // Between two places on one wall, rounding errors would decide whether they see each other.
   if (!(here > kNegligible) || !(there > kNegligible)) return {};
   const Coefficient passed = surfaces_.passing(at.point, v.point(), at.surface);
   if (isBlack(passed)) return {};

@@ -229,6 +229,19 @@ class AsScene(Files):
         found = self.radiance(DOWNLIGHT, self.rays(3.2 * (np.arange(20) + .5)))
         np.testing.assert_allclose(found, np.array(OF_DOWNLIGHT) * 56.5884, rtol=1e-4)
 
+    def test_short_cylinder(self):
+        """As a cylinder of .5 m across and .2 m high it lost up to half of its light: rtrace's rays pass by the rim."""
+        scene = self.made(self.file("IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 1 1 2 -.5 -.5 .2\n1 1 40\n0 90 180\n0\n500 500 500\n"))
+        angles = np.radians([20, 50, 80, 90, 100, 130, 160])
+        down = np.stack([np.sin(angles) * .6, np.sin(angles) * .8, -np.cos(angles)], axis=1)
+        os.environ["RAYPATH"] = self.folder.name
+        try:
+            found = rsphere.Scene([scene]).trace(np.hstack([8 * down, -down]), irradiance_at_origin=True, ambient_bounces=0,
+                                                 dt=0, dj=0, ds=.02).value
+        finally:
+            del os.environ["RAYPATH"]
+        np.testing.assert_allclose(rsphere.photometric(found) * 64, 500, rtol=.02)
+
     def test_fault(self):
         run = subprocess.run([sys.executable, os.path.join(LAYOUT, "luminaire"), self.file("TILT=NONE\n1 x\n")],
                              capture_output=True, text=True, check=False)

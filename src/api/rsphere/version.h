@@ -6,8 +6,8 @@
 #define RSPHERE_VERSION_MINOR 0
 #define RSPHERE_VERSION_PATCH 0
 
-// Everything public is in namespace rsphere. The library's own types have the same names without v1, so that
-// v1 is not inline where they are compiled together; the names in the library are the same either way.
+// Programs find everything public in namespace rsphere. Its symbols are in rsphere::v1 in any case. v1 is not
+// inline where the library itself is compiled, because internal types of the same names are in rsphere.
 #ifdef RSPHERE_LIBRARY_SOURCE
 #define RSPHERE_API_NAMESPACE rsphere::v1
 #else

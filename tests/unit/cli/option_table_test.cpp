@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -291,6 +292,47 @@ TEST(Features, AreListedAndAskedFor) {
   EXPECT_EQ(ask({"Aliases=x"}).missing, "Aliases=x");
   EXPECT_EQ(ask({"Alias"}).missing, "Alias");
   EXPECT_EQ(ask({"Aliases", "Hyperspectral"}).missing, "Hyperspectral");
+}
+
+// The letters that -o accepts behind these words.
+std::string acceptedLetters(std::vector<std::string> words) {
+  std::string accepted;
+  words.insert(words.end(), {"-o", "s.oct"});
+  for (char letter = '!'; letter <= '~'; ++letter) {
+    words[words.size() - 2] = std::string("-o") + letter;
+    try {
+      if (parseOptions(words).outputs == std::string_view(&letter, 1)) accepted += letter;  // t, T: trees
+    } catch (const rad::Error&) {
+    }
+  }
+  return accepted;
+}
+
+TEST(OutputLetters, HaveNamesInDefaults) {
+  const std::vector<std::vector<std::string>> modes = {
+      {"rtrace"}, {"rsphere", "-Sz", "4"}, {"rsphere", "-Sd"}, {"rsphere", "-Su"}, {"rsphere", "-Su", "-Sd"}};
+  for (const auto& mode : modes) {
+    const std::string letters = acceptedLetters(mode);
+    EXPECT_GE(letters.size(), 6u);
+    for (const char letter : letters) {
+      if (letter == 'c') continue;  // has no name in rtrace either
+      std::vector<std::string> words = mode;
+      words.insert(words.end(), {std::string("-o") + letter, "s.oct"});
+      const std::string text = defaultsText(parseOptions(words));
+      const size_t line = text.find(std::string("\n-o") + letter + ' ');
+      ASSERT_NE(line, std::string::npos) << mode.back() << ' ' << letter;
+      EXPECT_LT(text.find("# output ", line), text.find('\n', line + 1)) << mode.back() << ' ' << letter;
+    }
+  }
+}
+
+TEST(OutputLetters, OfRaysAreListedAmongTheFeatures) {
+  const std::string letters = acceptedLetters({"rtrace"});
+  EXPECT_GE(letters.size(), 19u);
+  for (const char letter : letters) {
+    const std::vector<std::string> wanted = {std::string("Outputs=") + letter};
+    EXPECT_EQ(featureReport(wanted).missing, "") << letter;
+  }
 }
 
 }  // namespace

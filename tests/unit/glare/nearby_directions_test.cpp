@@ -20,7 +20,8 @@ TEST(NearbyDirections, AreThoseOfAllPairs) {
     const NearbyDirections nearby(directions, angle);
     for (const V3d& direction : randomDirections(20, 2)) {
       std::vector<size_t> found, expected;
-      nearby.eachNear(direction, [&](size_t i) { found.push_back(i); });
+      NearbyDirections left = nearby;
+      left.takeNear(direction, found);
       for (size_t i = 0; i < directions.size(); ++i)
         if (angleBetween(directions[i], direction) <= angle) expected.push_back(i);
       std::ranges::sort(found);

@@ -328,8 +328,7 @@ TEST(PointPicture, ReportsHowMuchIsDone) {
 
 // ---- averages of light
 
-constexpr Smoothing kThreePasses{
-    3, 0, 0, tuning::Pictures::kSameNormal, tuning::Pictures::kNear, tuning::Pictures::kNear};
+constexpr Smoothing kThreePasses{3, 0, 0, .875f, tuning::Pictures::kNear};
 
 struct Plane {
   SeenSurfaces seen{64, 64, false, {}};

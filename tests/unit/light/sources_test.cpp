@@ -171,6 +171,29 @@ TEST(Source, LongTubeLightsAsAnEndlessOneDoes) {
   expectMean(meanIrradiance(scene, V3d(0, 0, 0), kUp, SourceSampling{.05, 1}, 20000), kPi * .02 / 2, 1.05);
 }
 
+// A short wide cylinder: its front half, integrated over the surface. With samples in the plane through its
+// axis, as in rtrace, rays pass by the rim.
+TEST(Source, ShortWideCylinderLightsByItsSurface) {
+  const Scene scene = sceneOf(light("cylinder s\n0\n0\n7 0 0 2 0 0 2.1 .05\n"));
+  for (const V3d& point : {V3d(1, 0, 0), V3d(.3, .2, 1), V3d(.4, 0, 2.05), V3d(.2, 0, -1)}) {
+    double exact = 0;
+    constexpr int kSteps = 400;
+    for (int i = 0; i < kSteps; ++i)
+      for (int k = 0; k < kSteps; ++k) {
+        const double angle = 2 * kPi * (i + .5) / kSteps, z = 2 + .1 * (k + .5) / kSteps;
+        const V3d normal(std::cos(angle), std::sin(angle), 0), to = .05 * normal + V3d(0, 0, z) - point;
+        const double length = to.length();
+        exact += .05 * 2 * kPi * .1 / (kSteps * kSteps) * std::max(0., -to.dot(normal)) *
+                 std::max(0., to.z) / std::pow(length, 4);
+      }
+    const auto mean = [&](bool inDepth) {
+      return meanIrradiance(scene, point, kUp, SourceSampling{.2, 1, V3d(0, 0, 0), false, inDepth}, 20000);
+    };
+    expectMean(mean(true), exact, 1.04);
+    if (point.z < 1.5) EXPECT_LT(mean(false).mean(), .9 * exact) << "as in rtrace";
+  }
+}
+
 // ---- who is lit
 
 TEST(Source, PlaneSourcesLightTheirFrontOnly) {

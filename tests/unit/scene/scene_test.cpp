@@ -96,6 +96,17 @@ TEST(Scene, SourcesOfNegativeRadianceAreWarnedOf) {
   }
 }
 
+// A message about the arguments says that the type has a reader.
+TEST(Scene, ReadsEveryTypeOfSurface) {
+  for (int i = 0; i < rad::kTypes; ++i) {
+    const auto type = static_cast<rad::Type>(i);
+    if (!rad::isSurface(type)) continue;
+    const std::string error = errorOf(fmt::format("{}gray {} s\n0\n0\n0\n", kGray, rad::typeName(type)));
+    EXPECT_NE(error, "no error") << rad::typeName(type);
+    EXPECT_EQ(error.find("not supported"), std::string::npos) << error;
+  }
+}
+
 TEST(Scene, TurnsNegativeRadiiInsideOutWithAWarning) {
   for (const auto& [type, inward] : {std::pair("sphere", true), {"bubble", false}}) {
     std::vector<std::string> warnings;

@@ -147,6 +147,7 @@ TEST(Voronoi, RotationDoesNotMatter) {
 TEST(Voronoi, ANewDirectionOnlyTakesFromItsNeighbours) {
   const auto directions = randomDirections(500, 11);
   const BaseTriangulation base(directions);
+  const std::vector<double> before = cellSolidAngles(directions);
   VoronoiWorkspace workspace;
   const std::vector<V3d> added = {V3d(0.6, 0, 0.8)};
   const auto areas = cellSolidAngles(base, added, workspace);
@@ -155,9 +156,9 @@ TEST(Voronoi, ANewDirectionOnlyTakesFromItsNeighbours) {
     const auto begin = cells.neighbour.begin() + cells.first[500],
                end = cells.neighbour.begin() + cells.first[501];
     if (std::find(begin, end, i) == end) {
-      EXPECT_NEAR(areas[i], base.solidAngles()[i], 1e-15);
+      EXPECT_NEAR(areas[i], before[i], 1e-15);
     } else {
-      EXPECT_LT(areas[i], base.solidAngles()[i]);
+      EXPECT_LT(areas[i], before[i]);
     }
   }
 }

@@ -1,0 +1,27 @@
+"""Where the sun stands."""
+import math
+
+MONTHS = (31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31)
+
+
+def day_of_year(month, day):
+    return sum(MONTHS[: month - 1]) + min(day, MONTHS[month - 1])
+
+
+def sun_position(month, day, hour, latitude, longitude, zone):
+    """Altitude, and azimuth from north towards east (radians), at an hour of local standard time. Latitude, longitude and the
+    meridian of the time zone in degrees north and east. By the formulas of RADIANCE's gensky (IES RP-21, 1984)."""
+    j = day_of_year(month, day)
+    declination = 0.4093 * math.sin(2 * math.pi * (j - 81) / 368)
+    equation = 0.170 * math.sin(4 * math.pi * (j - 80) / 373) - 0.129 * math.sin(2 * math.pi * (j - 8) / 355)
+    turn = math.pi * (hour + equation + (longitude - zone) / 15 - 12) / 12
+    north = math.radians(latitude)
+    up = math.sin(north) * math.sin(declination) + math.cos(north) * math.cos(declination) * math.cos(turn)
+    east = -math.cos(declination) * math.sin(turn)
+    northwards = math.cos(north) * math.sin(declination) - math.sin(north) * math.cos(declination) * math.cos(turn)
+    return math.asin(max(-1.0, min(1.0, up))), math.atan2(east, northwards)
+
+
+def air_mass(altitude):
+    """Relative to that at the zenith: Kasten 1965."""
+    return 1 / (math.sin(altitude) + 0.15 * (math.degrees(altitude) + 3.885) ** -1.253)
