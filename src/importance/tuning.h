@@ -204,7 +204,7 @@ struct ErrorEstimate {
   // this number of standard deviations of the spread: chosen by experiment. Where a tiny lamp lights a white
   // room (-ab 0), 10% of the answers were off by more than six stated errors without the minimum; with it,
   // none of 600.
-  RSPHERE_TUNED(ErrorEstimate, double, kLeastShared, .5);
+  static constexpr double kLeastShared = .5;
 };
 
 // When -Sa has enough sets (two_halves.cpp).

@@ -53,17 +53,6 @@ TEST(Scene, WarnsOfSurfacesWithoutAreaAndLeavesThemOut) {
   }
 }
 
-// A message about the arguments says that the type has a reader.
-TEST(Scene, ReadsEveryTypeOfSurface) {
-  for (int i = 0; i < rad::kTypes; ++i) {
-    const auto type = static_cast<rad::Type>(i);
-    if (!rad::isSurface(type)) continue;
-    const std::string error = errorOf(fmt::format("{}gray {} s\n0\n0\n0\n", kGray, rad::typeName(type)));
-    EXPECT_NE(error, "no error") << rad::typeName(type);
-    EXPECT_EQ(error.find("not supported"), std::string::npos) << error;
-  }
-}
-
 // Rays are traced in single precision. A cone with a radius of 1e308 made answers that are not a number.
 TEST(Scene, CoordinatesBeyondSinglePrecisionAreErrors) {
   const std::pair<const char*, const char*> shapes[] = {
@@ -97,13 +86,24 @@ TEST(Scene, SourcesOfNegativeRadianceAreWarnedOf) {
             &warnings);
     ASSERT_EQ(warnings.size(), 1u) << type;
     EXPECT_EQ(warnings[0],
-              std::string("room.rad:1: ") + type + " \"l\": negative radiance: it is seen, but lights nothing");
+              fmt::format("room.rad:1: {} \"l\": negative radiance: it is seen, but lights nothing", type));
   }
   // Light of some colors, none at all, and glow that is no source are as usual.
   for (const char* fine : {"light l 0 0 3 1 -1 0", "light l 0 0 3 0 0 0", "glow l 0 0 4 -1 -1 -1 0"}) {
     std::vector<std::string> warnings;
     sceneOf(std::string("void ") + fine + "\nl sphere s\n0\n0\n4 0 0 0 1\n", &warnings);
     EXPECT_TRUE(warnings.empty()) << fine;
+  }
+}
+
+// A message about the arguments says that the type has a reader.
+TEST(Scene, ReadsEveryTypeOfSurface) {
+  for (int i = 0; i < rad::kTypes; ++i) {
+    const auto type = static_cast<rad::Type>(i);
+    if (!rad::isSurface(type)) continue;
+    const std::string error = errorOf(fmt::format("{}gray {} s\n0\n0\n0\n", kGray, rad::typeName(type)));
+    EXPECT_NE(error, "no error") << rad::typeName(type);
+    EXPECT_EQ(error.find("not supported"), std::string::npos) << error;
   }
 }
 
