@@ -33,8 +33,8 @@ struct SourceSampling {
   // it would not pay.
   bool splitsBalls = false;
   // Jittered samples of cylinders lie on the side that faces the point. Otherwise they lie in the plane
-  // through the axis, as in rtrace, so that rays aimed past the rim miss, and a short wide cylinder loses much
-  // of its light ("source aspect too small").
+  // through the axis, as in rtrace, so that rays aimed past the rim miss, and a short wide cylinder loses
+  // much of its light ("source aspect too small").
   bool tubesInDepth = false;
 };
 

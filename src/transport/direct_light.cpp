@@ -314,8 +314,8 @@ void DirectLight::addOfChosen(Receiver at, DirectCoefficient coefficientOf, cons
   double next = state_.random.uniform() * step, passed = 0;
   for (size_t i = 0; i < sources.size(); ++i) {
     for (passed += scratch_.sourceWeights[i]; next < passed; next += step)
-      addSamples(at, LightId(sources[i]), {0, 1, front, false, !isRayMode(settings_.mode)}, coefficientOf, step / scratch_.sourceWeights[i],
-                 value);
+      addSamples(at, LightId(sources[i]), {0, 1, front, false, !isRayMode(settings_.mode)}, coefficientOf,
+                 step / scratch_.sourceWeights[i], value);
   }
 }
 
