@@ -35,7 +35,7 @@ def outline(design, candidate):
     """The corners (4, 2) of a luminaire from above, in units of the scene."""
     x, y, _ = (candidate.matrix() * candidate_size(design, candidate)).T
     signs = np.array([[-1, -1], [-1, 1], [1, 1], [1, -1]]) / 2 * design.units
-    return candidate.position[:2] + np.stack([signs @ x[:2], signs @ y[:2]], axis=1)
+    return candidate.position[:2] + signs @ np.stack([x[:2], y[:2]])
 
 
 def candidate_size(design, candidate):

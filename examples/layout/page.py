@@ -18,49 +18,72 @@ figure { margin: 1em 0; background: white; overflow-x: auto; } svg { max-width: 
 COLORS = ("#e8a200", "#2277cc", "#bb3377", "#228855", "#775544")  # of kinds of luminaires
 
 
-def at_height(text, size, across, down):
-    return f'<text x="{across:.1f}" y="{down:.1f}" font-size="{size}" fill="#222">{escape(text)}</text>'
+def label(text, size, across, down, anchor="start", color="#222"):
+    return f'<text x="{across:.1f}" y="{down:.1f}" font-size="{size}" text-anchor="{anchor}" fill="{color}">{escape(text)}</text>'
 
 
 def shape(corners, style):
     return f'<path d="M{"L".join(f"{x:.1f} {y:.1f}" for x, y in corners)}Z" {style}/>'
 
 
-def drawing(design, polygons, candidates, chosen, levels, title, context=()):
-    """Outlines of the room and of what is wanted, candidates as dots, luminaires to scale with their levels in %."""
+def scale_bar(pixels, units, down):
+    """A bar of 1 m (or 2, 5, 10, ...) at the right; pixels: in a unit of the scene."""
+    metres = next((m for m in (1, 2, 5, 10, 20, 50) if m * units * pixels > 40), 100)
+    length = metres * units * pixels
+    return (f'<path d="M{680 - length:.1f} {down - 5:.1f}v5h{length:.1f}v-5" fill="none" stroke="#222"/>'
+            + label(f"{metres} m", 12, 680 - length - 6, down, "end"))
+
+
+def drawing(design, polygons, candidates, chosen, levels, title):
+    """Outlines of the room and of what is wanted, candidates as dots, luminaires to scale with their numbers and levels."""
     flat = [p for p in polygons if abs(p.vector()[2]) > 0.9 * np.linalg.norm(p.vector()) > 0]
     room = max(flat, key=lambda p: abs(p.vector()[2]))
     low, high = room.corners[:, :2].min(axis=0), room.corners[:, :2].max(axis=0)
     scale = 660 / max(high[0] - low[0], 1e-9)
     height = (high[1] - low[1]) * scale
     to = lambda p: np.stack([(p[..., 0] - low[0]) * scale + 20, height - (p[..., 1] - low[1]) * scale + 40], axis=-1)  # noqa: E731
-    parts = [at_height(title, 15, 20, 24), shape(to(room.corners), 'fill="#f6f4ef" stroke="#555" stroke-width="2"')]
-    for p in (p for p in flat if p.name in context or p.modifier in context):
-        parts.append(shape(to(p.corners), 'fill="none" stroke="#999"'))
+    parts, names = [label(title, 15, 20, 24), shape(to(room.corners), 'fill="#f6f4ef" stroke="#555" stroke-width="2"')], []
     for surface in design.surfaces.values():
         for p in surface.polygons:
-            parts.append(shape(to(p.corners), 'fill="#cfe3d2" stroke="#5a8a63"'))
+            corners = to(p.corners)
+            # A goal as large as the room would cover all others.
+            style = 'fill="none" stroke="#5a8a63" stroke-dasharray="6 4"' if p is room else 'fill="#cfe3d2" stroke="#5a8a63"'
+            parts.append(shape(corners, style))
+        size, (x, y) = np.ptp(corners, axis=0), [corners[:, 0].min(), corners[:, 1].max()]
+        if size[0] > 6.2 * len(surface.name) and size[1] > 16:
+            names.append(label(surface.name, 10, x + 4, y - 4, color="#3a6343"))
+    for x, y in to(np.unique(np.round([c.position for c in candidates], 6), axis=0)):
+        parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="1.3" fill="#999"/>')
     for eye in design.eyes.values():
         x, y = to(eye.position)
-        parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" fill="#36c"/>')
+        parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" fill="#b22"/>')
         if eye.gaze is not None:
-            parts.append(f'<path d="M{x:.1f} {y:.1f}l{14 * eye.gaze[0]:.1f} {-14 * eye.gaze[1]:.1f}" stroke="#36c" stroke-width="2"/>')
-    for x, y in to(np.unique(np.round([c.position for c in candidates], 6), axis=0)):
-        parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="1.5" fill="#888"/>')
-    for j, level in zip(chosen, levels):
-        color = COLORS[candidates[j].luminaire % len(COLORS)]
+            parts.append(f'<path d="M{x:.1f} {y:.1f}l{16 * eye.gaze[0]:.1f} {-16 * eye.gaze[1]:.1f}" stroke="#b22" stroke-width="2"/>')
+        names.append(label(eye.name, 10, x, y + 15, "middle", "#b22"))
+    for sensor in design.sensors.values():
+        x, y = to(sensor.position)
+        parts.append(f'<path d="M{x - 4:.1f} {y:.1f}h8m-4 -4v8" stroke="#3a6343" stroke-width="2"/>')
+        names.append(label(sensor.name, 10, x, y + 15, "middle", "#3a6343"))
+    for number, (j, level) in enumerate(zip(chosen, levels), 1):
+        color, photometry = COLORS[candidates[j].luminaire % len(COLORS)], design.luminaires[candidates[j].luminaire].photometry
         corners = to(outline(design, candidates[j]))
-        parts.append(shape(corners, f'fill="{color}" fill-opacity="{0.15 + 0.7 * level:.2f}" stroke="#222"'))
-        if level < 0.995:
-            x, y = corners.mean(axis=0)
-            parts.append(f'<text x="{x:.1f}" y="{y + 4:.1f}" font-size="11" text-anchor="middle">{level:.0%}</text>')
-    names = [f"{l.name} {l.watts:g} W" for l in design.luminaires]
-    for i, name in enumerate(names):
-        parts.append(f'<rect x="{20 + 180 * i}" y="{height + 54:.0f}" width="22" height="12" fill="{COLORS[i % len(COLORS)]}" stroke="#222"/>')
-        parts.append(at_height(name, 12, 48 + 180 * i, height + 64))
-    parts.append(at_height("dots: where luminaires may hang; green: goals; blue: eyes", 12, 20, height + 86))
-    return (f'<svg xmlns="http://www.w3.org/2000/svg" width="700" height="{height + 100:.0f}" viewBox="0 0 700 {height + 100:.0f}" '
-            f'font-family="sans-serif"><rect width="100%" height="100%" fill="white"/>{"".join(parts)}</svg>\n')
+        style = f'fill="{color}" fill-opacity="{0.15 + 0.7 * level:.2f}" stroke="#222"'
+        (x, y), half = corners.mean(axis=0), np.ptp(corners, axis=0) / 2
+        round_one = photometry.shape != "box" and abs(candidates[j].aim[2]) > 0.999
+        parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{half[0]:.1f}" {style}/>' if round_one else shape(corners, style))
+        text = str(number) if level > 0.995 else f"{number}: {level:.0%}"
+        inside = half[0] > 3.4 * len(text) and half[1] > 7
+        names.append(label(text, 11, *((x, y + 4, "middle") if inside else (x + half[0] + 2, y - half[1] + 2))))
+    for i, l in enumerate(design.luminaires):
+        parts.append(f'<rect x="{20 + 180 * (i % 3)}" y="{height + 54 + 20 * (i // 3):.0f}" width="22" height="12" '
+                     f'fill="{COLORS[i % len(COLORS)]}" stroke="#222"/>')
+        parts.append(label(f"{l.name} {l.watts:g} W", 12, 48 + 180 * (i % 3), height + 64 + 20 * (i // 3)))
+    bottom = height + 64 + 20 * ((len(design.luminaires) - 1) // 3)
+    parts.append(scale_bar(scale, design.units, bottom))
+    legend = "dots: where luminaires may hang" + "; green: goals" * bool(design.surfaces or design.sensors) + "; red: eyes" * bool(design.eyes)
+    parts.append(label(legend, 12, 20, bottom + 22))
+    return (f'<svg xmlns="http://www.w3.org/2000/svg" width="700" height="{bottom + 36:.0f}" viewBox="0 0 700 {bottom + 36:.0f}" '
+            f'font-family="sans-serif"><rect width="100%" height="100%" fill="white"/>{"".join(parts)}{"".join(names)}</svg>\n')
 
 
 def table(head, rows, words=1):

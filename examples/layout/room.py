@@ -2,6 +2,7 @@
 import difflib
 import fnmatch
 import os
+import re
 import subprocess
 from dataclasses import dataclass
 
@@ -11,7 +12,9 @@ from fault import Fault, fault
 from start import HERE
 
 LIFT = 0.004  # m: surfaces of goals lie this far above what they cover, and above sheets of paper on it
+FACE = re.compile(r"\.(1540|4620|6457|3267|5137|2310)\Z")  # behind the name of a box
 MOST_CELLS = 20000  # of a polygon
+FINE = 6  # points along each side of a cell
 PARTS = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) / 4  # points in a cell, from its middle, by its sides
 
 
@@ -20,6 +23,10 @@ class Polygon:
     name: str
     modifier: str
     corners: np.ndarray  # (n, 3), in units of the scene
+
+    def box(self):
+        """The name of the box of RADIANCE's genbox that this is a face of; else the polygon's own."""
+        return FACE.sub("", self.name)
 
     def vector(self):
         """The normal of the front, as long as the area is large."""
@@ -41,6 +48,13 @@ class Surface:
     cells: np.ndarray  # the corners (n, 4, 3)
     points: np.ndarray  # (4 n, 3), those of a cell one after the other
     normals: np.ndarray  # (4 n, 3)
+
+    def fine_points(self):
+        """Points spread over all cells, FINE along each of their sides."""
+        part = (np.arange(FINE) + 0.5) / FINE
+        u, v = (x.ravel()[:, None] for x in np.meshgrid(part, part))
+        corner, right, up = self.cells[:, :1], self.cells[:, 1:2] - self.cells[:, :1], self.cells[:, 3:] - self.cells[:, :1]
+        return (corner + u * right + v * up).reshape(-1, 3)
 
 
 def program(name):
@@ -75,8 +89,8 @@ def has_mirrors(files):
 
 
 def names_matching(polygons, pattern):
-    """Names of polygons, or else of their modifiers, that match a pattern (desk*), in the order of the scene."""
-    for names in ([p.name for p in polygons], [p.modifier for p in polygons]):
+    """Names of boxes and polygons, or else of their modifiers, that match a pattern (desk*), in the order of the scene."""
+    for names in ([p.box() for p in polygons], [p.modifier for p in polygons], [p.name for p in polygons]):
         found = [n for n in dict.fromkeys(names) if fnmatch.fnmatchcase(n, pattern)]
         if found:
             return found
@@ -84,15 +98,15 @@ def names_matching(polygons, pattern):
 
 
 def polygons_named(polygons, name, place):
-    """The polygons of a name, or else of a modifier; of these, those that face up if some do. place: file and line."""
+    """The polygons of a name, or else of a box or a modifier; of these, those that face up if some do. place: file and line."""
     named = [p for p in polygons if p.name == name]
     if not named:
-        named = [p for p in polygons if p.modifier == name]
+        named = [p for p in polygons if p.box() == name] or [p for p in polygons if p.modifier == name]
         up = [p for p in named if p.vector()[2] > 0.999 * np.linalg.norm(p.vector())]
         named = up or named
     named = [p for p in named if np.linalg.norm(p.vector()) > 0]
     if not named:
-        known = sorted({p.name for p in polygons} | {p.modifier for p in polygons})
+        known = sorted({p.box() for p in polygons} | {p.modifier for p in polygons})
         near = difflib.get_close_matches(name, known, 4, 0.5) or [p.name for p in sorted(polygons, key=lambda p: -abs(p.vector()[2]))[:4]]
         raise fault(*place, f'the scene has no polygon or modifier "{name}"; it has {", ".join(near) or "no polygons"}')
     return named

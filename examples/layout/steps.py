@@ -22,6 +22,7 @@ from wanted import Light, answers, light_of, lit_cells, rows_of
 TOLERANCE = 0.03  # of the check: what was planned and what is found agree within it
 AGREE = {None: TOLERANCE, "uniformity": 0.05, "ugr": 0.2}  # the others by their difference
 SHARES = (0.6, 0.2, 0.2)  # of the time for searches: the first, and those with what the first has shown
+MOST_FINER = 4  # times the directions, where the few luminaires that are left allow it
 DAYLIGHT_DIVISIONS = 1024
 IN_FRONT = 0.001  # m: light begins this far before a luminaire that is a body
 
@@ -143,7 +144,8 @@ class Steps:
         with raypath(folder):
             transfer = Transfer(self.rsphere, [*self.given.room, bodies], d, folder, self.given.bounces)
             before = [replace(c, position=c.position + IN_FRONT * d.units * c.aim) for c in lamps]
-            self.planned_light = light_of(transfer, before, transfer.matrix(before, self.given.directions))
+            finer = min(max(len(self.candidates) // (2 * len(before)), 1), MOST_FINER)
+            self.planned_light = light_of(transfer, before, transfer.matrix(before, finer * self.given.directions))
 
     def scene_watts(self, levels):
         return float(self.watts[self.layout.chosen] @ levels)
@@ -251,7 +253,7 @@ class Steps:
             height = statistics.median(heights) - floor.corners[0, 2] if heights and not self.given.plan else 0.75 * d.units
         path = os.path.join(self.given.output, f"plan_{scene.name or 'all'}.svg")
         size = np.ptp(floor.corners[:, :2], axis=0).max() if floor else 10 * d.units
-        outlines = list(d.surfaces)[:60] + [f"{d.luminaires[self.candidates[j].luminaire].name}.{n + 1}.1"
+        outlines = list(dict.fromkeys(p.name for surface in d.surfaces.values() for p in surface.polygons))[:60] + [f"{d.luminaires[self.candidates[j].luminaire].name}.{n + 1}.1"
                                             for n, (j, l) in enumerate(zip(self.layout.chosen, self.layout.levels[s]))
                                             if l >= 1e-4 and d.luminaires[self.candidates[j].luminaire].photometry.shape == "box"]
         command = [program("plan"), "-s", name, "-h", f"{height:g}", "-d", f"{size / 28:g}", "-z", "-o", path, "-t",

@@ -8,8 +8,8 @@ illuminance is linear in the light of the luminaires:
 where W is the importance that arrives at the luminaire when the goal, of area A, emits. rsphere gives W as means over
 zones of directions. Within a zone I is averaged, which is right for light that has been reflected diffusely, because W
 then varies slowly. Light that goes straight to the receiver does not: it is left out of W (-dv-), and computed by
-shadow rays from points of the receiver to points of the luminaire, through panes as well. Light by mirrors alone is the
-rest of W without reflections by diffuse surfaces; it is added for surfaces, with averages over zones.
+shadow rays from points of the receiver to points of the luminaire, through panes as well. Light by mirrors alone is added for
+surfaces: what W has without -dv-, in zones from which nothing goes straight to the surface.
 """
 from dataclasses import dataclass
 
@@ -185,12 +185,19 @@ class Transfer:
         """The Matrix of candidates. directions: of importance at each place (-Sn), in SETS sets."""
         zones = Zones(self.rsphere.zone_middles(zone_count))
         mean = self.zone_intensities(candidates, zones)
-        self.points = Direct(self, candidates, zones, mean)
-        direct, by_zone = self.points.means()
+        self.points = Direct(self, candidates)
         sets = self.sets(candidates, mean, zones, directions // SETS)[:, [r.surface for r in self.receivers]]
-        if self.mirrors:  # what surfaces get straight is among it
-            sets -= by_zone * np.array([r.surface < len(self.design.surfaces) for r in self.receivers])[:, None]
-        return Matrix(direct, sets)
+        return Matrix(self.points.means(), sets)
+
+    def beside(self, candidates, zones):
+        """By surface and candidate, the zones that hold no direction straight to the surface."""
+        found = np.ones((len(self.design.surfaces), len(candidates), zones.count), dtype=bool)
+        for i, surface in enumerate(self.design.surfaces.values()):
+            points = surface.fine_points()
+            for j, c in enumerate(candidates):
+                to = points - c.position
+                found[i, j, zones.at(to / np.linalg.norm(to, axis=1)[:, None])] = False
+        return found
 
     def sets(self, candidates, mean, zones, directions):
         """What goals get by their importance, one after the other of all groups: (SETS, goals, candidates)."""
@@ -199,31 +206,38 @@ class Transfer:
         area = zones.solid_angle * self.design.units**2  # importance has no unit of length, areas have
         values = np.zeros((SETS, sum(len(g[1]) for g in self.groups), len(candidates)))
         for scene, (_, names, areas, first) in zip(self.scenes, self.groups):
-            # -dv-: goals are black to rays that meet them without a reflection by a diffuse surface.
-            options = dict(ambient_bounces=self.bounces, directions=directions, dv=self.mirrors and first < len(self.design.surfaces))
+            mirrors = self.mirrors and first < len(self.design.surfaces)
+            beside = self.beside(candidates, zones) if mirrors else None
             step = max(1, MOST_VALUES // (len(names) * zones.count))
             for begin in range(0, len(places), step):
                 here = np.flatnonzero((which >= begin) & (which < begin + step))
                 for k in range(SETS):
-                    a = scene.importance(places[begin : begin + step], goals=names, bins=zones.count, outputs="z",
-                                         rotation=k, **options)
-                    bins = a.bins.reshape(-1, len(names), zones.count, 3) @ WEIGHTS / areas[:, None]
+                    # -dv-: goals are black to rays that meet them without a reflection by a diffuse surface.
+                    def bins(bounces, dv, scene=scene, names=names, areas=areas, here=places[begin : begin + step], k=k):
+                        a = scene.importance(here, goals=names, bins=zones.count, outputs="z", rotation=k, ambient_bounces=bounces,
+                                             directions=directions, dv=dv)
+                        return a.bins.reshape(-1, len(names), zones.count, 3) @ WEIGHTS / areas[:, None]
+
+                    reflected = bins(self.bounces, False)
+                    mirrored = bins(0, True) - bins(0, False) if mirrors else None
                     for j in here:
-                        values[k, first : first + len(names), j] = bins[which[j] - begin] @ mean[j] * area
+                        w = reflected[which[j] - begin]
+                        if mirrors:
+                            w = w + mirrored[which[j] - begin] * beside[:, j]
+                        values[k, first : first + len(names), j] = w @ mean[j] * area
         return values
 
 
 class Direct:
     """Light that goes straight from candidates to points of receivers, by shadow rays (panes let it pass)."""
 
-    def __init__(self, transfer, candidates, zones, mean):
-        self.t, self.candidates, self.zones, self.mean = transfer, candidates, zones, mean
+    def __init__(self, transfer, candidates):
+        self.t, self.candidates = transfer, candidates
         self.exact = [None] * len(transfer.receivers)  # (points, candidates)
-        self.by_zone = [None] * len(transfer.receivers)
         self.compute()
 
     def means(self):
-        return np.array([e.mean(axis=0) for e in self.exact]), np.array([e.mean(axis=0) for e in self.by_zone])
+        return np.array([e.mean(axis=0) for e in self.exact])
 
     def lamps(self):
         """The points that shadow rays go to, each once: (n, 3), and for each candidate those of its parts."""
@@ -282,7 +296,7 @@ class Direct:
 
     def fill(self, i, receiver, lamps, of, seen):
         points = len(receiver.points)
-        self.exact[i], self.by_zone[i] = np.zeros((points, len(of))), np.zeros((points, len(of)))
+        self.exact[i] = np.zeros((points, len(of)))
         square = self.t.design.units**2
         for j, (candidate, mine) in enumerate(zip(self.candidates, of)):
             to = receiver.points[:, None] - lamps[mine][None]
@@ -290,9 +304,3 @@ class Direct:
             away = to / np.sqrt(distance)[..., None]
             weight = sees(-away, receiver.kind, receiver.normals[:, None]) / distance * seen[:, mine] * square
             self.exact[i][:, j] = (weight * self.t.light(candidate, away)).mean(axis=1)
-            # The zones belong to rays from the place of the luminaire.
-            middle = receiver.points - candidate.position
-            length = (middle**2).sum(axis=-1)
-            middle = middle / np.sqrt(length)[:, None]
-            there = sees(-middle, receiver.kind, receiver.normals) / length * seen[:, mine].mean(axis=1) * square
-            self.by_zone[i][:, j] = there * self.mean[j][self.zones.at(middle)]
