@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
+#include <span>
 #include <utility>
 
 #include "base/constants.h"
@@ -331,7 +331,8 @@ class Images {
     const LightSource& source = sources_[index];
     if (source.isVirtual()) {
       const auto [away, offset] = sideLit(index);
-      if (mostOver(relay, [&](const V3d& p) { return p.dot(away) - offset; }) <= kTiny) return false;
+      const auto beyond = [away = away, offset = offset](const V3d& p) { return p.dot(away) - offset; };
+      if (mostOver(relay, beyond) <= kTiny) return false;
       if (!meetsBeams(source, way, relay.ball)) return false;
     }
     if (source.isDistant()) return true;
@@ -393,7 +394,7 @@ class Images {
     if (passages.size() < 2) return;
     std::vector<HalfSpace> seen;
     addPenumbra(part, passages.back().hull, seen);
-    for (Passage& passage : passages | std::views::take(passages.size() - 1)) {
+    for (Passage& passage : std::span(passages).first(passages.size() - 1)) {
       if (passage.isFlat) {
         passage.hull = clipped(std::move(passage.hull), seen);
       } else {

@@ -20,7 +20,6 @@ namespace {
 using rad::Type;
 namespace calc = rad::calc;
 
-constexpr uint64_t bit(calc::Input input) { return uint64_t{1} << input; }
 constexpr uint64_t bits(calc::Input first, int count) { return ((uint64_t{1} << count) - 1) << first; }
 
 void put(double* to, const V3d& v) {

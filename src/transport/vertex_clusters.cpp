@@ -92,10 +92,10 @@ VertexClusters::Order VertexClusters::orderOf(std::span<const LightVertex> verti
     std::pop_heap(clusters.begin(), clusters.end());
     const Cluster widest = clusters.back();
     const double middle = .5 * (widest.widest.least + widest.widest.most);
-    const auto upper =
-        std::ranges::partition(widest.own, [&](uint32_t i) { return at.of(i, widest.widest.axis) < middle; });
-    const size_t lower = widest.own.size() - upper.size();
-    if (lower == 0 || upper.empty()) break;
+    const auto isLow = [&](uint32_t i) { return at.of(i, widest.widest.axis) < middle; };
+    const auto upper = std::partition(widest.own.begin(), widest.own.end(), isLow);
+    const auto lower = static_cast<size_t>(upper - widest.own.begin());
+    if (lower == 0 || lower == widest.own.size()) break;
     clusters.back() = clusterOf(widest.own.first(lower));
     std::push_heap(clusters.begin(), clusters.end());
     clusters.push_back(clusterOf(widest.own.subspan(lower)));

@@ -9,6 +9,7 @@
 
 #include "base/color.h"
 #include "scene/random.h"
+#include "transport/hidden_boxes.h"
 #include "transport/tuning.h"
 
 namespace rsphere {

@@ -15,7 +15,12 @@
 namespace rsphere {
 
 using Imath::V3d;
+#ifdef __SIZEOF_FLOAT128__
 using Quad = __float128;
+#else  // arm64
+using Quad = long double;
+#endif
+static_assert(sizeof(Quad) == 16);
 
 class Reference {
  public:
