@@ -12,7 +12,7 @@ namespace {
 
 using Tuning = tuning::Pictures;
 
-static_assert(kMaterials == 19, "Do neighboring pixels share its light?");
+static_assert(kMaterialTypes == 19, "Do neighboring pixels share its light?");
 // Whether the gloss of neighboring pixels is nearly the same: lobes are wider than a few pixels, and neither
 // a pattern nor a texture changes them from pixel to pixel.
 bool sharesGloss(const Material& material, const SurfaceHit& hit) {

@@ -161,6 +161,6 @@ using Material = std::variant<Opaque, Trans, Anisotropic, Ashikhmin, FunctionSca
                               WgmdFunction, BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism,
                               Antimatter, Mist, Light, Illum, Glow, Spotlight>;
 // Code that asks for one material alone asserts this number, and so fails to compile until it was read again.
-inline constexpr size_t kMaterials = std::variant_size_v<Material>;
+inline constexpr size_t kMaterialTypes = std::variant_size_v<Material>;
 
 }  // namespace rsphere

@@ -100,7 +100,7 @@ struct BrightSpots::Node {
   }
 };
 
-static_assert(kMaterials == 19, "Is it a pane that light passes?");
+static_assert(kMaterialTypes == 19, "Is it a pane that light passes?");
 // Follows a particle to the first diffuse surface, through panes; empty if it reaches none.
 std::optional<BrightSpots::Particle> BrightSpots::arrived(const Scene& scene, const Tracer& tracer,
                                                           const V3d& origin, const V3d& direction,

@@ -11,15 +11,15 @@ namespace {
 // A fingerprint of everything but the scene that determines gathered light, the program's version included.
 uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAccess& access) {
   // All members by name, so that this does not compile for a new one. Add it below if it changes gathered
-  // light. Spectral runs (sampling) keep nothing, -aw changes nothing, and -af and -Sm say where and how much
-  // is kept.
+  // light. Spectral runs (sampling) keep nothing, -aw changes nothing, -Sh does nothing where light
+  // is gathered for sites, and -af and -Sm say where and how much is kept.
   const auto& [sampling, wavelengths, directThreshold, directCertainty, directJitter, sourceSubstructuring,
                directRelays, chosenSources, directPretest, sourcesVisible, specularSampling,
                specularThreshold, ambientBounces, ambientAccuracy, ambientResolution, ambientDivisions,
-               ambientSuperSamples, ambientValue, ambientWeight, leastForPatches, coarserLinks, ambientFile,
-               fieldMemory, ambientExcluded, ambientIncluded, reflectionLimit, weightLimit, mediumExtinction,
-               mediumAlbedo, mediumEccentricity, mediumSampling, definitions, backFacesVisible, uncorrelated,
-               rotation] = o;
+               ambientSuperSamples, firstRays, ambientValue, ambientWeight, leastForPatches, coarserLinks,
+               ambientFile, fieldMemory, ambientExcluded, ambientIncluded, reflectionLimit, weightLimit,
+               mediumExtinction, mediumAlbedo, mediumEccentricity, mediumSampling, definitions,
+               backFacesVisible, uncorrelated, rotation] = o;
   Fingerprint print;
   print.add(kVersion);
   print.add(uint64_t{7});  // increase it if the method of gathering changes between two versions

@@ -65,7 +65,7 @@ Highlight::Highlight(const V3d& at, const V3d& normal, const Bend& bend, double 
                        a * b * place.xy, b * b * place.yy);
 }
 
-static_assert(kMaterials == 19, "Has it a lobe of one width?");
+static_assert(kMaterialTypes == 19, "Has it a lobe of one width?");
 const Opaque* roughReflector(const Scene& scene, const Surface& surface) {
   const Material* any = scene.materialOf(surface);
   const auto* material = any ? std::get_if<Opaque>(any) : nullptr;

@@ -8,7 +8,7 @@ namespace rsphere {
 // from leaving a pane.
 constexpr int kMostPanes = 1000;
 
-static_assert(kMaterials == 19, "Does diffuse light pass?");
+static_assert(kMaterialTypes == 19, "Does diffuse light pass?");
 bool lightPasses(const PreparedScene& prepared, const Surface& surface) {
   const Material* material = prepared.scene().materialOf(surface);
   if (!material || enclosesVolume(*material) || isLightSource(*material)) return false;

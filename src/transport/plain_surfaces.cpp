@@ -64,7 +64,7 @@ Interaction plainInteraction(const V3d& direction, const V3d& normal, bool flat,
   return at;
 }
 
-static_assert(kMaterials == 19, "Is its answer known without following a ray?");
+static_assert(kMaterialTypes == 19, "Is its answer known without following a ray?");
 PlainSurfaces::PlainSurfaces(const PreparedScene& prepared)
     : prepared_(prepared), scene_(prepared.scene()), tracer_(prepared.tracer()) {
   for (const Finish& finish : scene_.surfaces.finishes()) {
