@@ -65,7 +65,7 @@ CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const Fi
       room_(room),
       effort_(effortFor(options, room > 0)),
       bounces_(std::max(options.bounces, 1)),
-      coarserLinks_(options.coarserLinks),
+      coarserLinks_(std::max(options.coarserLinks, room > 0 ? 0 : Tuning::kCoarserLinksByLamps)),
       hasBands_(options.spectral || !scene.contributors.empty()),
       ambient_(V3d(V3f(options.ambientValue.color.rgb()))),  // in single precision as all light here
       divisions_(std::make_unique<InsertOnce<CellKey, Division>>(kLogDivisionBuckets)),
@@ -82,9 +82,9 @@ CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bo
             Tuning::kCoarserByLamps * Tuning::kLeastPatch,
             Tuning::kCoarserByLamps * Tuning::kFarPatch,
             Tuning::kRays * options.rays,
+            Tuning::kFewerRays,
             1,
-            1,
-            Tuning::kCoarserByLamps * Tuning::kCoarserByLamps * Tuning::kLeastRays};
+            Tuning::kLeastRays};
   return {Tuning::kSpacing * finer, Tuning::kLeastPatch,
           Tuning::kFarPatch,        Tuning::kRays * options.rays * std::max(1., 1 / accuracy),
           Tuning::kFewerRays,       Tuning::kMoreRays,

@@ -93,10 +93,13 @@ struct CoarseSolution {
   // Patches in a corner, where everything is near, would otherwise be divided without end. .02: three times
   // the time.
   RSPHERE_TUNED(CoarseSolution, double, kLeastPatch, .05);
-  // Factor on kSpacing, kFarPatch and kLeastPatch in scenes without openings for daylight: by measurement.
-  // There finer patches take a third more time, and the errors of pictures are the same. The area of patches
-  // grows with the square of this factor, and kLeastRays is multiplied by the same square.
-  RSPHERE_TUNED(CoarseSolution, double, kCoarserByLamps, 2);
+  // Factor on kSpacing, kFarPatch and kLeastPatch in scenes without openings for daylight: by measurement, in
+  // RADIANCE's office and cabin (tests/bench/rtrace/runs/2026-11-25-lamps.txt). 2: a tenth to a fifth more
+  // time for the same error of pictures; 4: a tenth to a fifth less time.
+  RSPHERE_TUNED(CoarseSolution, double, kCoarserByLamps, 3);
+  // In the same scenes, patches that only other patches see are larger by so many levels: by measurement. 0:
+  // a fifth more time for the same error of pictures.
+  static constexpr int kCoarserLinksByLamps = 2;
   // The extent of a surface is at most this, in sizes of the scene: chosen by experiment. Where the
   // ground is wide, rooms are small. 30% less: time +65%; 30% more: within noise (sensors by sun; noise:
   // error below 1%, time 4%).
@@ -131,9 +134,9 @@ struct CoarseSolution {
   // place of the room's size gives patches below desks and in gaps so many rays that the same error takes 1.3
   // to 3 times the time. .012: 15% more noise in sunlit rooms, a tenth less time.
   RSPHERE_TUNED(CoarseSolution, double, kUsualShare, .008);
-  // Bounds on the number of rays, as a multiple of the usual one: by measurement. .1 takes 1.3 times the time
-  // at -aa .05, for the same error; at 2.5, a sunlit classroom has 15% more noise, at 8 the same as at 4 in a
-  // sixth more time.
+  // Bounds on the number of rays, as a multiple of the usual one; by lamps it is at most 1. By measurement:
+  // .1 takes 1.3 times the time at -aa .05, for the same error; at 2.5, a sunlit classroom has 15% more
+  // noise, at 8 the same as at 4 in a sixth more time.
   RSPHERE_TUNED(CoarseSolution, double, kFewerRays, .03);
   RSPHERE_TUNED(CoarseSolution, double, kMoreRays, 4);
   // The least number of rays of a patch: by measurement. 16 takes up to a sixth more time, for the same

@@ -69,9 +69,11 @@ Caches makeCaches(const PreparedScene& prepared, const Aims& aims, const rad::Wa
   const Scene& scene = prepared.scene();
   const Box3d& bounds = prepared.tracer().bounds();
   caches.field = std::make_unique<IrradianceField>(scene, bounds, fieldOptions(o));
+  // Where there is no distant source, openings only bring the light of lamps from one room to another.
+  const bool isDaylit = aims.openings && !prepared.lights().distant().empty();
   if (o.ambientBounces > 1)
     caches.coarse = std::make_unique<CoarseSolution>(scene, bounds, fieldOptions(o),
-                                                     aims.openings ? aims.openings->depth() : 0);
+                                                     isDaylit ? aims.openings->depth() : 0);
   if (o.ambientFile.empty()) return caches;
   if (o.sampling) {
     if (warn) warn("-af: nothing is kept of a spectral run (-cs above 3); the ambient file is ignored");
