@@ -129,10 +129,7 @@ double coarseError(const SphereTracing& tracing) {
   if (!tracing.caches.coarse) return 0;
   const RayOptions& o = tracing.prepared.options();
   const double rays = std::max(o.ambientDivisions + o.ambientSuperSamples, o.leastForPatches);
-  // As where the coarse solution is made (transport/caches.cpp).
-  const bool isDaylit = tracing.caches.aims.openings && !tracing.prepared.lights().distant().empty();
-  return std::hypot(isDaylit ? Tuning::kPatches : Tuning::kPatchesByLamps,
-                    Tuning::kPatches * std::sqrt(Tuning::kUsualRays / std::max(rays, 1.)));
+  return Tuning::kPatches * std::sqrt(1 + Tuning::kUsualRays / std::max(rays, 1.));
 }
 
 // The variance due to that error.

@@ -186,7 +186,7 @@ TEST(StatedErrors, OfRoomsWithAWindow) {
 }
 
 // With -aa above 0 the coarse solution has an error of its own, which all directions share. In rooms with
-// even light it is larger than that of the directions. Above the lamp there is a scrap of trans, with which
+// even light it is as large as that of the directions. Above the lamp there is a scrap of trans, with which
 // light vertices are not used. expected: by -aa 0, -Sn 4096 and six rotations.
 TEST(StatedErrors, ContainThatOfTheCoarseSolution) {
   const std::string lit = "void plastic white 0 0 5 .6 .6 .6 0 0\n" + roomOf("white", V3d(6, 5, 2.8)) +
