@@ -44,7 +44,9 @@ GatherDirections::GatherDirections(const Aims& aims, const V3d& point, const V3d
   const double all = aimedAt + usualRadiance(aims);
   if (aims.highlights) {
     aims.highlights->aim(point, normal, all, rays, highlights_.aim);
-    highlights_.share = std::min(kMostToHighlights, highlights_.aim.mean / all);
+    // all may be 0: an estimate of a room that light hardly enters.
+    if (highlights_.aim.mean > 0)
+      highlights_.share = std::min(kMostToHighlights, highlights_.aim.mean / all);
   }
   if (!(aimedAt > 0)) return;
   // Unaimed directions hit openings too, in proportion to the form factor. No direction is aimed where they

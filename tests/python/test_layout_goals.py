@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xml.dom.minidom
 
 TESTS = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 LAYOUT = os.path.join(TESTS, "../examples/layout")
@@ -54,6 +55,31 @@ class Goals(unittest.TestCase):
         run, _ = self.run_on(GOOD)
         self.assertEqual((run.returncode, run.stderr), (0, ""))
         self.assertRegex(run.stdout, r"illuminance  desk1 +50 lx +[0-9]+ lx")
+
+    def run_curve(self, lines):
+        with tempfile.TemporaryDirectory() as folder:
+            goals, figure = os.path.join(folder, "goals.txt"), os.path.join(folder, "curve.svg")
+            with open(goals, "w", encoding="utf-8") as stream:
+                stream.write("\n".join(lines).replace("panel.ies", os.path.join(LAYOUT, "cases/panel.ies")) + "\n")
+            command = [sys.executable, os.path.join(LAYOUT, "curve"), goals, OFFICE, "-o", figure, "-b", "0", "-d", "64", "-c", "1", "-r", "3"]
+            run = subprocess.run(command, capture_output=True, text=True, check=False)
+            return run, xml.dom.minidom.parse(figure) if os.path.exists(figure) else None
+
+    def test_curve(self):
+        """One luminaire lights one desk: all ways find it."""
+        run, figure = self.run_curve(GOOD)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        found = re.findall(r"program: ([0-9]+) W after", run.stdout)
+        self.assertEqual(len(found), 2)
+        self.assertEqual(found[0], found[1])
+        self.assertIn(f"3 of 3 runs of 3000 come to {found[0]} W", run.stdout)
+        self.assertEqual(len(figure.getElementsByTagName("circle")), 5)
+
+    def test_curve_needs_goals_that_can_be_met(self):
+        for lines, words in (([*GOOD[:2], "illuminance desk1 50000"], "no layout was found"), ([*GOOD, "dimming yes"], "without scenes")):
+            run, figure = self.run_curve(lines)
+            self.assertEqual((run.returncode, figure), (1, None))
+            self.assertRegex(run.stderr, words)
 
     def test_faults(self):
         for index, text, line, words in FAULTS:

@@ -95,6 +95,17 @@ void expectSource(const GlareSource& found, const SeenGlare& exact, const Gaze& 
   EXPECT_NEAR((found.direction - exact.direction()).length(), 0, .005);
 }
 
+// The spoiled twins: a lamp of a tenth more light, and one of a tenth more solid angle, are rejected.
+void expectTwinsRejected(const GlareAnswer& found, const SeenGlare& exact, const Gaze& gaze) {
+  SeenGlare brighter = exact;
+  brighter.light *= 1.1;
+  brighter.towards *= 1.1;
+  brighter.illuminance *= 1.1;
+  EXPECT_GT(std::abs(found.indices.ugr - exactIndices({brighter}, gaze).ugr), kMostSigmas * found.errors.ugr);
+  EXPECT_GT(std::abs(found.sources[0].solidAngle - 1.1 * exact.solidAngle),
+            kMostSigmas * found.sources[0].solidAngleError);
+}
+
 // A rectangle before the eye, at many places in its field of view; 20 W/sr/m2 are 3580 cd/m2.
 TEST(GlareEstimator, OfRectangles) {
   const double luminance = 20 * kPhotopicEfficacy;
@@ -115,6 +126,7 @@ TEST(GlareEstimator, OfRectangles) {
     expectIndices(found, exactIndices({exact}, gaze));
     ASSERT_EQ(found.sources.size(), 1);
     expectSource(found.sources[0], exact, gaze);
+    expectTwinsRejected(found, exact, gaze);
   }
 }
 

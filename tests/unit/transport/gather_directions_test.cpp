@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/unit/transport/highlight_scene.h"
 #include "tests/unit/transport/transport_fixture.h"
 
 namespace rsphere {
@@ -54,6 +55,24 @@ TEST(GatherDirections, AreAimedWhereThatPays) {
   EXPECT_TRUE(areAimed({openings, V3d(2, 2, 1.5), south, south, 64}));
   EXPECT_FALSE(areAimed({openings, V3d(2, .3, 1.5), south, south, 64}))
       << "the window fills half of the view";
+}
+
+// A room whose openings seem dark inside: no mean radiance is known, and no highlight may be in view.
+TEST(GatherDirections, AreNotAimedWhereNothingIsSeen) {
+  const Traced room(highlight_scene::kMaterials + "chrome sphere ball 0 0 4 2 2 1 .1\n" +
+                        highlight_scene::kBulb + roomOf("matt", V3d(4, 4, 3)),
+                    unbiased(1));
+  const Openings dark({}, 0, 1);
+  const Aims aims{&dark, nullptr, room.transport().aims().highlights};
+  ASSERT_TRUE(aims.highlights);
+  const V3d floor(1.5, 2, 0), up(0, 0, 1);
+  EXPECT_TRUE(areAimed({aims, floor, up, up, 64}));
+  EXPECT_FALSE(areAimed({aims, floor, -up, -up, 64}));
+  const GatherDirections directions(aims, floor, -up, -up, 64);
+  Random random(1);
+  double parts = 0;
+  directions.draw(64, random, [&](const V3d&, double part) { parts += part; });
+  EXPECT_NEAR(parts, 1, 1e-12);
 }
 
 // Three bounces, each aimed at the window and at the sunlit floor. The ray ends on the north wall, where no
