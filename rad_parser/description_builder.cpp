@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "rad_parser/nearest_name.h"
 
 namespace rad {

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "rad_parser/description.h"
+#include "rad_parser/error.h"
 #include "rad_parser/printable.h"
 
 namespace rad {

@@ -561,7 +561,9 @@ void addGatheringOptions(const Add& add) {
        .paragraph =
            "Relative error that the interpolation of indirect light may add; see Interpolation. 0 "
            "disables the irradiance cache and the coarse solution, and each path gathers indirect light "
-           "anew. This is faster for a few rays or points in a detailed scene."});
+           "anew. This is faster for a few rays or points in a detailed scene. In sphere mode, -aa makes no "
+           "difference where light paths from the sources bring all of the light (see -Sw): the program then "
+           "makes no coarse solution, because light paths take less time for the same error."});
   add({.name = "-ar",
        .arguments = "res",
        .group = Group::indirect,
@@ -946,8 +948,8 @@ void addWeightOptions(const Add& add) {
            "separately by next-event estimation. Then the light of diffuse surfaces comes from glances, rays "
            "that only find a surface: with light paths from the sources where these know all surfaces and "
            "sources (plastic, metal, glass and curved mirrors without patterns, textures and mixtures; light "
-           "without patterns, not distant; -aa 0), otherwise as a control variate, but not by daylight. "
-           "With h and v, a light source is a surface like any other.",
+           "without patterns, not distant), whatever -aa is, otherwise as a control variate, but not by "
+           "daylight. With h and v, a light source is a surface like any other.",
        .line = weightsLine});
 }
 

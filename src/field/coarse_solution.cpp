@@ -65,7 +65,8 @@ CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const Fi
       room_(room),
       effort_(effortFor(options, room > 0)),
       bounces_(std::max(options.bounces, 1)),
-      coarserLinks_(std::max(options.coarserLinks, room > 0 ? 0 : Tuning::kCoarserLinksByLamps)),
+      coarserLinks_(std::max(options.coarserLinks,
+                             room > 0 || options.patchesAtFirst ? 0 : Tuning::kCoarserLinksByLamps)),
       hasBands_(options.spectral || !scene.contributors.empty()),
       ambient_(V3d(V3f(options.ambientValue.color.rgb()))),  // in single precision as all light here
       divisions_(std::make_unique<InsertOnce<CellKey, Division>>(kLogDivisionBuckets)),
@@ -82,9 +83,10 @@ CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bo
             Tuning::kCoarserByLamps * Tuning::kLeastPatch,
             Tuning::kCoarserByLamps * Tuning::kFarPatch,
             Tuning::kRays * options.rays,
-            Tuning::kFewerRays,
+            options.patchesAtFirst ? 1 : Tuning::kFewerRays,
             1,
-            Tuning::kLeastRays};
+            options.patchesAtFirst ? Tuning::kCoarserByLamps * Tuning::kCoarserByLamps * Tuning::kLeastRays
+                                   : Tuning::kLeastRays};
   return {Tuning::kSpacing * finer, Tuning::kLeastPatch,
           Tuning::kFarPatch,        Tuning::kRays * options.rays * std::max(1., 1 / accuracy),
           Tuning::kFewerRays,       Tuning::kMoreRays,

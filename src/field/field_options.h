@@ -12,6 +12,8 @@ struct FieldOptions {
   // Patches of the coarse solution that only others see are larger by so many levels, each of which doubles
   // their side.
   int coarserLinks = 0;
+  // Whether patches serve the first diffuse surface too, so that their errors are those of the answer.
+  bool patchesAtFirst = false;
   Radiance ambientValue;  // -av
   bool spectral = false;  // a spectral run: light has bands
   double memory = 0;      // -Sm  MB of the irradiance cache; 0: no bound

@@ -94,11 +94,13 @@ struct CoarseSolution {
   // the time.
   RSPHERE_TUNED(CoarseSolution, double, kLeastPatch, .05);
   // Factor on kSpacing, kFarPatch and kLeastPatch in scenes without openings for daylight: by measurement, in
-  // RADIANCE's office and cabin (tests/bench/rtrace/runs/2026-11-25-lamps.txt). 2: a tenth to a fifth more
-  // time for the same error of pictures; 4: a tenth to a fifth less time.
-  RSPHERE_TUNED(CoarseSolution, double, kCoarserByLamps, 3);
-  // In the same scenes, patches that only other patches see are larger by so many levels: by measurement. 0:
-  // a fifth more time for the same error of pictures.
+  // RADIANCE's office and cabin (tests/bench/rtrace/runs/2026-11-25-lamps.txt). 1: a third more time for the
+  // same error of pictures. 3: a tenth to a sixth less time, but errors of spherical means become 1.4 times as
+  // large. Where patches serve the first bounce, the least number of their rays grows with its square, as
+  // their area does.
+  RSPHERE_TUNED(CoarseSolution, double, kCoarserByLamps, 2);
+  // In the same scenes, patches that only other patches see are larger by so many levels, except where they
+  // serve the first bounce: by measurement. There, 2 makes errors of spherical means three times as large.
   static constexpr int kCoarserLinksByLamps = 2;
   // The extent of a surface is at most this, in sizes of the scene: chosen by experiment. Where the
   // ground is wide, rooms are small. 30% less: time +65%; 30% more: within noise (sensors by sun; noise:

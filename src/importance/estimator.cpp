@@ -123,17 +123,21 @@ SampledSet joined(std::vector<KeptSet> sets, const TwoHalves& halves, const Irra
   return all;
 }
 
-// The relative error of the coarse solution, which all points of a run share.
-double coarseError(const RayOptions& o) {
+// The relative error of the coarse solution, which all points of a run share; 0 without one.
+double coarseError(const SphereTracing& tracing) {
   using Tuning = tuning::ErrorEstimate;
+  if (!tracing.caches.coarse) return 0;
+  const RayOptions& o = tracing.prepared.options();
   const double rays = std::max(o.ambientDivisions + o.ambientSuperSamples, o.leastForPatches);
-  return Tuning::kPatches * std::sqrt(1 + Tuning::kUsualRays / std::max(rays, 1.));
+  // As where the coarse solution is made (transport/caches.cpp).
+  const bool isDaylit = tracing.caches.aims.openings && !tracing.prepared.lights().distant().empty();
+  return std::hypot(isDaylit ? Tuning::kPatches : Tuning::kPatchesByLamps,
+                    Tuning::kPatches * std::sqrt(Tuning::kUsualRays / std::max(rays, 1.)));
 }
 
 // The variance due to that error.
-Variance coarseVariance(const Irradiance& total, const RayOptions& o) {
-  const double error = coarseError(o);
-  return Variance::of(total, o.sampling) * (error * error);
+Variance coarseVariance(const Irradiance& total, const SpectralSampling* sampling, double error) {
+  return Variance::of(total, sampling) * (error * error);
 }
 
 // Rounding may leave a variance a little below 0.
@@ -144,19 +148,39 @@ PointAnswer::ZoneError standardErrorOf(const Variance& variance, double solidAng
   return error;
 }
 
-// coarse: the options if there is a coarse solution, otherwise null.
+// coarse: coarseError().
 std::vector<PointAnswer::ZoneError> zoneErrorsOf(const Half& sums, const DirectionBins& zones,
-                                                 const SpectralSampling* sampling, const RayOptions* coarse) {
+                                                 const SpectralSampling* sampling, double coarse) {
   std::vector<PointAnswer::ZoneError> errors;
   for (size_t i = 0; i < zones.count(); ++i) {
     Variance variance = sums.ofZones.all[i];
     const Color& border = sums.moments.borders[i];
     variance += {border, brightness(border)};
     if (i < sums.sharedByZone.size()) variance = varianceWith(sums.sharedByZone[i], variance, sampling);
-    if (coarse) variance += coarseVariance(sums.moments.ofZones[i], *coarse);
+    variance += coarseVariance(sums.moments.ofZones[i], sampling, coarse);
     errors.push_back(standardErrorOf(variance, zones.solidAngle(i)));
   }
   return errors;
+}
+
+// Null where light vertices do not bring all of the light, and with weights that leave them out.
+std::unique_ptr<const DiffuseGlances> glancesFor(const PreparedScene& prepared, const SphereOptions& options,
+                                                 const BaseSet& base) {
+  if (options.weights != Weights::silhouettes || !(options.densityFactor > 0)) return nullptr;
+  return DiffuseGlances::make(prepared, options, base);
+}
+
+// Light vertices replace the caches of interpolated light: they are unbiased, and need less time for the same
+// error (tests/bench/rtrace/runs/2026-11-25-lamps.txt). All is then as with -aa 0, where bright spots are
+// looked for only beyond openings.
+const Caches& cachesFor(const Transport& transport, bool haveVertices) {
+  static const Caches none;
+  return haveVertices ? none : transport.caches();
+}
+Aims aimsFor(const Transport& transport, bool haveVertices) {
+  Aims aims = transport.aims();
+  if (haveVertices && !aims.openings) aims.spots = nullptr;
+  return aims;
 }
 
 }  // namespace
@@ -166,26 +190,24 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
       base_(makeBaseSet(options, transport.prepared().options().sampling,
                         standardError || options.accuracy > 0)),
       sources_(transport.prepared()),
-      tracing_{transport.prepared(), transport.caches()} {
+      glances_(glancesFor(transport.prepared(), options, base_)),
+      tracing_{transport.prepared(), cachesFor(transport, glances_ != nullptr)} {
   const PreparedScene& prepared = transport.prepared();
   if (options.weights != Weights::homogeneous)
     special_ = findSpecialObjects(prepared.scene(), options.densityFactor);
   if (options.weights == Weights::silhouettes && options.densityFactor > 0) {
-    glances_ = DiffuseGlances::make(prepared, options, base_);
     if (glances_)
       tracing_.vertexLight = glances_->lightOfAll();
     else
       tracing_.ofPoints = findAimsOfPoints(prepared);
-    tracing_.aims = joined(transport.aims(), tracing_.ofPoints);
+    tracing_.aims = joined(aimsFor(transport, glances_ != nullptr), tracing_.ofPoints);
   }
   strategy_ = makeStrategy();
   if (options.accuracy > 0)
     dark_ = 4 * std::numbers::pi * tuning::Dark::kShare * typicalRadiance(tracing_, sources_);
 }
 
-double SphereEstimator::sharedError() const {
-  return tracing_.caches.coarse ? coarseError(tracing_.prepared.options()) : 0;
-}
+double SphereEstimator::sharedError() const { return coarseError(tracing_); }
 
 std::unique_ptr<const SamplingStrategy> SphereEstimator::makeStrategy() const {
   switch (options_.weights) {
@@ -239,7 +261,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
   for (size_t k = 0; k < halves.size(); ++k)
     if (const double share = decision.share(k); share > 0) all.add(halves[k], share);
   Variance variance = varianceWith(all.shared, all.variance, base_.sampling);
-  if (tracing_.caches.coarse) variance += coarseVariance(all.moments.total, tracing_.prepared.options());
+  variance += coarseVariance(all.moments.total, base_.sampling, sharedError());
   SampledSet samples = joined(std::move(kept), decision, all.excess, options_.everyDirection);
   workspace.samples = std::move(samples.samples);
   workspace.rays = std::move(samples.rays);
@@ -248,8 +270,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
   answer.standardError = error.channels;
   answer.brightnessError = error.brightness;
   if (base_.zones && base_.neighbours)
-    answer.zoneErrors = zoneErrorsOf(all, *base_.zones, base_.sampling,
-                                     tracing_.caches.coarse ? &tracing_.prepared.options() : nullptr);
+    answer.zoneErrors = zoneErrorsOf(all, *base_.zones, base_.sampling, sharedError());
   answer.clamped = photopicOf(all.clamped.color, base_.sampling) / (4 * std::numbers::pi);
   answer.isDark = isDark(answer, lit) || decision.gaveUp();
   answer.reached = options_.accuracy <= 0 || decision.isReached();

@@ -6,6 +6,7 @@
 // component is treated as diffuse (plasfunc and the like) or omitted (BRTDfunc). Whether a material conserves
 // energy depends on its functions.
 #include <array>
+#include <cmath>
 
 #include "base/constants.h"
 #include "shade/scattering.h"

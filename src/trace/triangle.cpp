@@ -1,5 +1,6 @@
 #include "trace/triangle.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 

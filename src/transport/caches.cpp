@@ -56,6 +56,7 @@ FieldOptions fieldOptions(const RayOptions& o) {
           o.ambientResolution,
           static_cast<double>(std::max(o.ambientDivisions + o.ambientSuperSamples, o.leastForPatches)),
           o.coarserLinks,
+          o.leastForPatches > 0,
           o.ambientValue,
           o.sampling != nullptr,
           o.fieldMemory};

@@ -40,7 +40,7 @@ bool arePatterns(const Scene& scene, ModifierId modifier, const IsOfKind& isOfKi
 
 bool changeNothing(const RayOptions& o) {
   return o.backFacesVisible && o.directJitter >= 1 && o.specularSampling >= 1 && o.specularThreshold <= 0 &&
-         o.directThreshold <= 0 && o.chosenSources == 0 && o.ambientDivisions > 0 && o.ambientAccuracy <= 0 &&
+         o.directThreshold <= 0 && o.chosenSources == 0 && o.ambientDivisions > 0 &&
          o.ambientExcluded.empty() && o.ambientIncluded.empty() && isBlack(o.ambientValue) &&
          maxChannel(o.mediumExtinction) <= 0;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -391,6 +392,46 @@ TEST(Estimator, PatchesGiveTheMeanOfPathsWithLessNoise) {
   // With few directions and no noise of paths, the stated error takes bends of smooth light for noise.
   EXPECT_GT(trueToStated, .4);
   EXPECT_LT(trueToStated, 1.25);
+}
+
+// By lamps, light vertices take the place of the coarse solution: -aa changes nothing, and no patches are made.
+// The glass in the window is known, and a sky is not.
+TEST(Estimator, LightVerticesTakeThePlaceOfPatches) {
+  const std::string lamp = "void light l 0 0 3 9 9 9\nl sphere lamp 0 0 4 1.5 1.5 1.5 .1\n",
+                    closed =
+                        "void plastic gray 0 0 5 .5 .5 .5 .04 .1\n"
+                        "gray bubble hall 0 0 4 2 2 1 3\n" +
+                        lamp,
+                    byDay = daylitRoom() + lamp;
+  std::string byNight = byDay;
+  byNight.erase(byNight.find("sky_glow source"),
+                byNight.find("gray polygon floor") - byNight.find("sky_glow source"));
+  const auto answerOf = [](const std::string& text, double accuracy, size_t& patches) {
+    const SphereSetting setting(sceneOf(text), [&](RayOptions& o) {
+      o.ambientBounces = 3;
+      o.ambientAccuracy = accuracy;
+      o.leastForPatches = 128;
+    });
+    SphereOptions options = setting.options.sphere;
+    options.baseDirections = 256;
+    const SphereEstimator estimator(*setting.transport, options, true);
+    SphereEstimator::Workspace workspace(estimator);
+    const PointAnswer a = estimator.estimate(V3d(2.3, 2, 1.2), workspace);
+    const CoarseSolution* const coarse = setting.transport->caches().coarse.get();
+    EXPECT_EQ(coarse != nullptr, accuracy > 0);
+    patches = coarse ? coarse->patches() : 0;
+    return std::array{a.mean.color.x, a.standardError.color.x, a.brightnessError};
+  };
+  size_t patches = 0;
+  for (const std::string& scene : {closed, byNight}) {
+    const auto without = answerOf(scene, 0, patches);
+    EXPECT_GT(without[0], 0);
+    EXPECT_EQ(answerOf(scene, .1, patches), without);
+    EXPECT_EQ(patches, 0U);
+  }
+  const auto without = answerOf(byDay, 0, patches);
+  EXPECT_NE(answerOf(byDay, .1, patches), without) << "by daylight, patches are used";
+  EXPECT_GT(patches, 0U);
 }
 
 // The sun lights a patch of the floor, and nothing else is bright. Where no light is reflected twice,

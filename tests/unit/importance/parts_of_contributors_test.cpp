@@ -89,7 +89,7 @@ std::vector<Case> cases() {
           {"mirrors and panes", kMirrors},
           {"a crystal and a screen", kCrystal + kScreen},
           {"a pattern and a mist", kWoven + "void mist fog 0 0 4 .1 .1 .1 .5\nfog sphere f 0 0 4 4 3 2 .4\n"},
-          {"interpolated light", kWoven, .2},
+          {"interpolated light", kWoven, .2, Weights::voronoi},
           {"equal weights", kMirrors, 0, Weights::homogeneous},
           {"cells", kMirrors, 0, Weights::voronoi},
           {"an accuracy", kMirrors, 0, Weights::silhouettes, .02},

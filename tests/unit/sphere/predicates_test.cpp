@@ -34,11 +34,12 @@ TEST(CircleHolds, EachStageAnswersItsOwn) {
   EXPECT_FALSE(circleHolds(V3d(1, 0, 0), V3d(0, 1, 0), V3d(0, 0, 1), V3d(-1, 0, 0), counts));
   EXPECT_EQ(counts.lifted, 2u);
 
-  // Four of a circle about (1, 1, 1), one of them moved by one ulp.
+  // Four of a circle about (1, 1, 1), one of them moved by less than long double resolves, also where it has
+  // 113 bits, as on arm64.
   const V3d a(0.6, 0.8, 0), b(0, 0.6, 0.8), c(0.8, 0, 0.6), d(0.8, 0.6, 0);
   V3d out = d, in = d;
-  out.z = -0x1p-70;
-  in.z = 0x1p-70;
+  out.z = -0x1p-140;
+  in.z = 0x1p-140;
   EXPECT_FALSE(circleHolds(a, b, c, out, counts));
   EXPECT_TRUE(circleHolds(a, b, c, in, counts));
   EXPECT_EQ(counts.exact, 2u);

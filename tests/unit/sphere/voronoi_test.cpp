@@ -96,7 +96,8 @@ TEST(Voronoi, RandomDegenerateSetsMatchQuadPrecision) {
   }
   EXPECT_GT(all.filter, 10000u);
   EXPECT_GT(all.lifted, 1000u);
-  EXPECT_GT(all.exact, 100u);
+  // The second precision, long double, answers most of these where it has 113 bits, as on arm64.
+  EXPECT_GT(all.exact, std::numeric_limits<long double>::digits > 64 ? 0u : 100u);
   EXPECT_GT(all.symbolic, 100u);
 }
 
