@@ -1161,9 +1161,9 @@ void addInspectionOptions(const Add& add) {
            "(.hdr, .pic) are angular fisheyes of 360 degrees, with +y in the middle and +z above it. "
            "Their header has the command, SOFTWARE= and VIEW=; pinterp converts them to other views, such "
            "as the hemisphere that evalglare expects. pcond of RADIANCE 6.1 crashes on any view of 360 "
-           "degrees, so that a picture is converted before it. In all other formats, +y is in the middle, too, "
-           "+x to the right of it at a quarter of the width, and -y at both edges; columns are azimuths, and rows "
-           "go from the zenith to the nadir. EXR and "
+           "degrees, so that a picture is converted before it. In all other formats, +y is in the middle, "
+           "too, +x to the right of it at a quarter of the width, and -y at both edges; columns are "
+           "azimuths, and rows go from the zenith to the nadir. EXR and "
            "TIFF files contain radiance. Other files contain colors, exposed so that the median is "
            "mid-bright. %d in the name (or %04d and the like) is replaced by the number of the record, "
            "from 0."});
