@@ -95,8 +95,8 @@ struct CoarseSolution {
   RSPHERE_TUNED(CoarseSolution, double, kLeastPatch, .05);
   // Factor on kSpacing, kFarPatch and kLeastPatch in scenes without openings for daylight: by measurement, in
   // RADIANCE's office and cabin (tests/bench/rtrace/runs/2026-11-25-lamps.txt). 1: a third more time for the
-  // same error of pictures. 3: a tenth to a sixth less time, but errors of spherical means become 1.4 times as
-  // large. Where patches serve the first bounce, the least number of their rays grows with its square, as
+  // same error of pictures. 3: a tenth to a sixth less time, but errors of spherical means become 1.4 times
+  // as large. Where patches serve the first bounce, the least number of their rays grows with its square, as
   // their area does.
   RSPHERE_TUNED(CoarseSolution, double, kCoarserByLamps, 2);
   // In the same scenes, patches that only other patches see are larger by so many levels, except where they

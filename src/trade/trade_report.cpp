@@ -119,7 +119,7 @@ std::string tradePlot(std::span<const Figures> all, const TradeSubject& subject)
             [](const Figures& a, const Figures& b) { return a.seconds < b.seconds; });
   std::vector<PlotPoint> curve;
   for (const Figures& f : best) curve.push_back(pointOf(f));
-  plot.line(curve, kInk, kDashes);
+  if (curve.size() > 1) plot.line(curve, kInk, kDashes);
   for (const Figures& f : all)
     if (isDrawn(f))
       plot.mark(pointOf(f), f.best ? 5 : 3.5, kSeries[seriesOf(f)].color,
@@ -131,7 +131,7 @@ std::string tradePlot(std::span<const Figures> all, const TradeSubject& subject)
     plot.ring(pointOf(f), kRing);
     plot.legend(Plot::Key::ring, kRing, recommendedText(subject));
   }
-  plot.legend(Plot::Key::line, kInk, "nothing is as fast and as accurate", kDashes);
+  if (curve.size() > 1) plot.legend(Plot::Key::line, kInk, "nothing is as fast and as accurate", kDashes);
   plot.legend(Plot::Key::line, kInk, fmt::format("the accuracy asked for: {:g}%", wanted), kDots);
   return plot.svg();
 }

@@ -41,6 +41,19 @@ Case threeSettings() {
   return c;
 }
 
+// A curve needs two settings: with one, the legend named a dashed line that was not drawn.
+TEST(TradePlot, NamesTheDashedLineOnlyWhereItIsDrawn) {
+  const std::string dashes = "stroke-dasharray=\"4 3\"", name = "nothing is as fast and as accurate";
+  Case c = threeSettings();
+  const std::string three = tradePlot(c.all, c.subject);
+  EXPECT_NE(three.find(dashes), std::string::npos);
+  EXPECT_NE(three.find(name), std::string::npos);
+  for (Figures& f : c.all) f.best = &f == &c.all[1];
+  const std::string one = tradePlot(c.all, c.subject);
+  EXPECT_EQ(one.find(dashes), std::string::npos);
+  EXPECT_EQ(one.find(name), std::string::npos);
+}
+
 TEST(TradePage, HasEveryFigureOfTheTable) {
   const Case c = threeSettings();
   const auto page = parsed(tradePage(c.all, c.reference, c.subject, 0));
