@@ -97,8 +97,8 @@ struct CoarseSolution {
   // RADIANCE's office and cabin (tests/bench/rtrace/runs/2026-11-25-lamps.txt). 2: a tenth to a fifth more
   // time for the same error of pictures; 4: a tenth to a fifth less time.
   RSPHERE_TUNED(CoarseSolution, double, kCoarserByLamps, 3);
-  // In the same scenes, patches that only other patches see are larger by so many levels: by measurement. 0:
-  // a fifth more time for the same error of pictures.
+  // In the same scenes, patches that only other patches see are larger by so many levels: by measurement
+  // while the cabin counted as daylit. 0: a fifth more time for the same error of its picture.
   static constexpr int kCoarserLinksByLamps = 2;
   // The extent of a surface is at most this, in sizes of the scene: chosen by experiment. Where the
   // ground is wide, rooms are small. 30% less: time +65%; 30% more: within noise (sensors by sun; noise:

@@ -162,11 +162,11 @@ struct Silhouettes {
 // The standard error of a mean (error_estimate.cpp).
 struct ErrorEstimate {
   // Relative standard error of the mean that is due to the coarse solution (-aa above 0), assumed independent
-  // of the error of the directions. Its patches cause kPatches by daylight and kPatchesByLamps by lamps, where
-  // they are larger. Its rays cause kPatches if gathers have kUsualRays rays, and otherwise in inverse
+  // of the error of the directions. Its patches cause kPatches by daylight, and kPatchesByLamps by lamps,
+  // where they are larger. Its rays cause kPatches if gathers have kUsualRays rays, and otherwise in inverse
   // proportion to the square root of their number. By measurement: in a white room with a lamp, with and
-  // without a desk, means are .25 to .6% too bright, with 512 rays and with 4096. In daylit rooms means are .1
-  // to .2% too dark, beside stated errors of .6 to 1%.
+  // without a desk, means are .25 to .6% too bright, with 512 rays and with 4096. In daylit rooms means are
+  // .1 to .2% too dark, beside stated errors of .6 to 1%.
   RSPHERE_TUNED(ErrorEstimate, double, kPatches, .0006);
   static constexpr double kPatchesByLamps = .005;
   static constexpr double kUsualRays = 1024;
