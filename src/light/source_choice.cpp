@@ -81,8 +81,11 @@ double SourceChoice::weigh(const V3d& point, const V3d& front, std::span<const u
     const double square = std::max(towards.length2(), s.radius * s.radius);
     const double distance = std::sqrt(square);
     const double above = -towards.dot(s.normal);
+    // In the plane of the source itself, above is a rounding error. Its sign would let places on a luminous
+    // surface, such as a goal, choose that surface half of the time.
+    const bool inFront = above > kNegligible * distance;
     const double facing =
-        s.everywhere * distance + (above > 0 ? above + s.radius * s.radius * s.radius / (2 * square) : 0);
+        s.everywhere * distance + (inFront ? above + s.radius * s.radius * s.radius / (2 * square) : 0);
     const double cosine = anySide * distance + before(towards.dot(front), s.radius) * (1 - anySide);
     weights[i] = s.power * facing * cosine / (square * square);
     if (s.special > 0) weights[i] = weightOf(special_[s.special - 1], s, point, front, weights[i]);

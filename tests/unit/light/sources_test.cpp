@@ -190,7 +190,9 @@ TEST(Source, ShortWideCylinderLightsByItsSurface) {
       return meanIrradiance(scene, point, kUp, SourceSampling{.2, 1, V3d(0, 0, 0), false, inDepth}, 20000);
     };
     expectMean(mean(true), exact, 1.04);
-    if (point.z < 1.5) EXPECT_LT(mean(false).mean(), .9 * exact) << "as in rtrace";
+    if (point.z < 1.5) {
+      EXPECT_LT(mean(false).mean(), .9 * exact) << "as in rtrace";
+    }
   }
 }
 
