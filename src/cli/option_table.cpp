@@ -989,7 +989,7 @@ void addAnswerOptions(const Add& add) {
            "for the ambient value (-av), which has no contributor. Standard errors (e) are those of the "
            "parts; with -pY they are upper bounds, because the errors of red, green and blue are taken for "
            "fully correlated. With the same -Sn they are larger than in a run of each goal alone, because "
-           "the goals share the light paths: 1.8 times for eight desks in an office, in 1.5 times the "
+           "the goals share the light paths: 2.3 times for eight desks in an office, in 1.5 times the "
            "time of one. -Sa looks at the sum. Not with -cs above 3, -af or pixels (-fac)."});
   add({.name = "-Sz",
        .arguments = "N",
