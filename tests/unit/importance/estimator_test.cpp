@@ -394,9 +394,8 @@ TEST(Estimator, PatchesGiveTheMeanOfPathsWithLessNoise) {
   EXPECT_LT(trueToStated, 1.25);
 }
 
-// By lamps, light vertices take the place of the coarse solution: -aa changes nothing,
-// and no patches are made.
-// The glass in the window is known, and a sky is not.
+// By lamps, light vertices take the place of the coarse solution: -aa changes nothing, and no patches are
+// made. The glass in the window is known, and a sky is not.
 TEST(Estimator, LightVerticesTakeThePlaceOfPatches) {
   const std::string lamp = "void light l 0 0 3 9 9 9\nl sphere lamp 0 0 4 1.5 1.5 1.5 .1\n",
                     closed =
