@@ -23,8 +23,8 @@ struct NearLight {
   double width = 0;       // distance at which share() is 1/2
   double meanLength = 1;  // of light paths from sources to first surfaces
 
-  // The fraction of the light between two diffuse surfaces at this distance that rays bring, because the noise
-  // of vertices would be too large.
+  // The fraction of the light between two diffuse surfaces at this distance that rays bring, because the
+  // noise of vertices would be too large.
   double share(double distance) const { return width * width / (distance * distance + width * width); }
   // The part of share() that rays leave to joins with the eye, because they meet narrow gaps too rarely. Gaps
   // are narrow relative to fromEye, the distance of the place from the eye.

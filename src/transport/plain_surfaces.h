@@ -30,8 +30,8 @@ struct Sight {
   Coefficient passed{1};  // share of the light that the panes in between let pass
 };
 
-// What a finish (scene/surface_list.h) is to paths from both ends. Null: it is none of that material, or not a
-// known one.
+// What a finish (scene/surface_list.h) is to paths from both ends. Null: it is none of that material, or not
+// a known one.
 struct PlainFinish {
   const Opaque* opaque = nullptr;  // plastic or metal
   const Glass* pane = nullptr;

@@ -314,10 +314,10 @@ void SurfaceShading::addFromVertices(const RayEnd& end, const V3d& normal, const
 
 void SurfaceShading::addFromSource(const RayEnd& end, const V3d& normal, Shown shown, Radiance& value) {
   const VertexLight& light = *state_.request.vertexLight;
-  const SurfaceId surface = end.hit.surface;
-  const PlainPlace at{
-      end.hit.point,  normal, light.surfaces().finishOf(surface).opaque, surface, light.surfaces().isFlat(surface),
-      end.hit.pattern};
+  const PlainSurfaces& known = light.surfaces();
+  const SurfaceId hit = end.hit.surface;
+  const PlainPlace at{end.hit.point,     normal,         known.finishOf(hit).opaque, hit,
+                      known.isFlat(hit), end.hit.pattern};
   value += light.directOf(at, {.view = end.ray.direction, .shown = shown}, state_.random, scratch_);
 }
 
@@ -386,7 +386,8 @@ template <ScattersLight S>
                           value);
     }
   }
-  if (!scattering.takesDirect(side) || (both.direct && (both.direct->coverage().allDirect || !(both.rest > 0))))
+  if (!scattering.takesDirect(side) ||
+      (both.direct && (both.direct->coverage().allDirect || !(both.rest > 0))))
     return;
   const auto coefficient = [&](const V3d& toSource, double solidAngle) {
     return scattering.coefficient(side, toSource, solidAngle, state_.random);
