@@ -12,53 +12,6 @@ namespace {
 // the surface that it lies on.
 constexpr double kSensorHeight = 1.1e-4;
 
-// Writes the quantity of a ray that an -o letter names.
-void writeLetter(RecordText& text, char letter, const RayAnswer& answer, const OutputColors& colors) {
-  switch (letter) {
-    case 'o':
-      return text.vector(answer.origin);
-    case 'd':
-      return text.vector(answer.direction);
-    case 'v':
-      return colors.write(text, answer.value);
-    case 'V':
-      return colors.write(text, answer.value * answer.contribution);
-    case 'r':
-      return colors.write(text, answer.mirroredContribution);
-    case 'x':
-      return colors.write(text, answer.unmirroredContribution);
-    case 'R':
-      return text.number(answer.mirroredLength);
-    case 'X':
-      return text.number(answer.unmirroredLength);
-    case 'l':
-      return text.number(answer.effectiveLength);
-    case 'L':
-      return text.number(answer.firstLength);
-    case 'c':
-      text.number(answer.u);
-      return text.number(answer.v);
-    case 'p':
-      return text.vector(answer.point);
-    case 'n':
-      return text.vector(answer.normal);
-    case 'N':
-      return text.vector(answer.unperturbedNormal);
-    case 's':
-      return text.name(answer.surface.text());
-    case 'm':
-      return text.name(answer.modifier);
-    case 'M':
-      return text.name(answer.material);
-    case 'w':
-      return text.number(answer.rayWeight);
-    case 'W':
-      return colors.write(text, answer.contribution);
-    case '~':
-      return text.name("~");
-  }
-}
-
 }  // namespace
 
 int componentCount(const AnswerOptions& options) {
@@ -68,18 +21,20 @@ int componentCount(const AnswerOptions& options) {
     return count;
   }
   const int parts = std::max<int>(1, static_cast<int>(options.contributors.size()));
-  const int color = OutputColors(options.color).count() * parts;
+  const int coefficient = OutputColors(options.color).count(), color = coefficient * parts;
   int count = 0;
   for (const char letter : options.outputs) switch (letter) {
       case 'v':
       case 'V':
       case 'r':
       case 'x':
-      case 'W':
       case 'e':
       case 'E':
       case 'C':
         count += color;
+        break;
+      case 'W':
+        count += coefficient;
         break;
       case 'o':
       case 'd':
@@ -110,6 +65,62 @@ int componentCount(const AnswerOptions& options) {
   return count;
 }
 
+// Calls write() for the color, or for each contributor's part of it.
+template <class Write>
+void AnswerWriter::eachPart(const Color& color, const Write& write) const {
+  if (options_.contributors.empty()) return write(color);
+  for (size_t i = 0; i < options_.contributors.size(); ++i) write(color.part(i));
+}
+
+void AnswerWriter::writeLetter(RecordText& text, char letter, const RayAnswer& answer) const {
+  const auto radiance = [&](const Radiance& all) {
+    eachPart(all.color, [&](const Color& part) { colors_.write(text, Radiance(part)); });
+  };
+  switch (letter) {
+    case 'o':
+      return text.vector(answer.origin);
+    case 'd':
+      return text.vector(answer.direction);
+    case 'v':
+      return radiance(answer.value);
+    case 'V':
+      return radiance(answer.value * answer.contribution);
+    case 'r':
+      return radiance(answer.mirroredContribution);
+    case 'x':
+      return radiance(answer.unmirroredContribution);
+    case 'R':
+      return text.number(answer.mirroredLength);
+    case 'X':
+      return text.number(answer.unmirroredLength);
+    case 'l':
+      return text.number(answer.effectiveLength);
+    case 'L':
+      return text.number(answer.firstLength);
+    case 'c':
+      text.number(answer.u);
+      return text.number(answer.v);
+    case 'p':
+      return text.vector(answer.point);
+    case 'n':
+      return text.vector(answer.normal);
+    case 'N':
+      return text.vector(answer.unperturbedNormal);
+    case 's':
+      return text.name(answer.surface.text());
+    case 'm':
+      return text.name(answer.modifier);
+    case 'M':
+      return text.name(answer.material);
+    case 'w':
+      return text.number(answer.rayWeight);
+    case 'W':
+      return colors_.write(text, answer.contribution);
+    case '~':
+      return text.name("~");
+  }
+}
+
 void AnswerWriter::write(std::string& bytes, const RayAnswer& answer, uint64_t record) const {
   if (options_.outputs.empty()) return;  // -ot alone: only the trees are written
   RecordText text(bytes, options_.out);
@@ -118,19 +129,10 @@ void AnswerWriter::write(std::string& bytes, const RayAnswer& answer, uint64_t r
       text.integer(record);
     else if (letter == 'w' && options_.sphereMode)
       text.number(answer.solidAngle);
-    else if (letter == 'v')
-      eachPart(answer.value.color, [&](const Color& part) { colors_.write(text, Radiance(part)); });
     else
-      writeLetter(text, letter, answer, colors_);
+      writeLetter(text, letter, answer);
   }
   text.end();
-}
-
-// Calls write() for the color, or for each contributor's part of it.
-template <class Write>
-void AnswerWriter::eachPart(const Color& color, const Write& write) const {
-  if (options_.contributors.empty()) return write(color);
-  for (size_t i = 0; i < options_.contributors.size(); ++i) write(color.part(i));
 }
 
 void AnswerWriter::writeError(RecordText& text, const PointAnswer& answer) const {
@@ -165,7 +167,7 @@ void AnswerWriter::writeBranch(std::string& bytes, const RayAnswer& answer, int 
   if (hit && named(options_.treeExcluded)) return;
   bytes.append(static_cast<size_t>(ancestors), '\t');
   RecordText text(bytes, options_.out);
-  for (const char letter : options_.treeOutputs) writeLetter(text, letter, answer, colors_);
+  for (const char letter : options_.treeOutputs) writeLetter(text, letter, answer);
   text.end();
 }
 

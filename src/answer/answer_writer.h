@@ -16,8 +16,9 @@ namespace rsphere {
 int componentCount(const AnswerOptions& options);
 
 // Appends records to a string of bytes: the quantities that the -o letters name, in their order, in the
-// output format. With contributors (-Sp), the letters v e E C H u z Z each have the part of every contributor
-// in turn. REQUIRES: the options are from parseOptions() and live as long as the writer.
+// output format. With contributors (-Sp), the letters v e E C H u z Z, in ray mode v V r x, each have the
+// part of every contributor in turn. REQUIRES: the options are from parseOptions() and live as long as the
+// writer.
 class AnswerWriter {
  public:
   explicit AnswerWriter(const AnswerOptions& options) : options_(options), colors_(options.color) {}
@@ -43,6 +44,8 @@ class AnswerWriter {
  private:
   template <class Write>
   void eachPart(const Color& color, const Write& write) const;
+  // Writes the quantity of a ray that an -o letter names.
+  void writeLetter(RecordText& text, char letter, const RayAnswer& answer) const;
   void writeError(RecordText& text, const PointAnswer& answer) const;
   void writeErrorOfPart(RecordText& text, const Color& part) const;
   void writeZones(RecordText& text, const PointAnswer& answer) const;

@@ -351,8 +351,6 @@ void checkSensors(const Options& options) {
 // -Sp
 void checkParts(const Options& options) {
   if (!options.separate) return;
-  if (!options.sphereMode)
-    commandLineError("-Sp", "needs sphere mode; rcontrib has the contributions to rays");
   if (options.color.bands > 3)
     commandLineError("-Sp", "needs red, green and blue: -cs above 3 is not possible");
   if (options.out == NumberFormat::rgbe)

@@ -983,14 +983,16 @@ void addAnswerOptions(const Add& add) {
        .paragraph =
            "Toggles the part of each contributor instead of their sum, in one pass. The contributors are the "
            "goals in the order of -Sg, or without goals the modifiers of light sources in the order of the "
-           "scene; the header lists them after CONTRIBUTORS=. Each of the letters v e E C H u z Z then has "
-           "the numbers of all contributors in turn: -oHv of two goals are 18 numbers of H for the first "
-           "goal, 18 for the second, and 3 of v for each. The parts add up to the answers without -Sp, but "
-           "for the ambient value (-av), which has no contributor. Standard errors (e) are those of the "
-           "parts; with -pY they are upper bounds, because the errors of red, green and blue are taken for "
-           "fully correlated. With the same -Sn they are larger than in a run of each goal alone, because "
-           "the goals share the light paths: 2.3 times for eight desks in an office, in 1.5 times the "
-           "time of one. -Sa looks at the sum. Not with -cs above 3, -af or pixels (-fac)."});
+           "scene; the header lists them after CONTRIBUTORS=. Each of the letters v e E C H u z Z, in ray "
+           "mode v V r x, then has the numbers of all contributors in turn: -oHv of two goals are 18 numbers "
+           "of H for the first goal, 18 for the second, and 3 of v for each. The parts add up to the answers "
+           "without -Sp, but for the ambient value (-av), which has no contributor. In ray mode light may be "
+           "interpolated (-aa above 0); rcontrib does not interpolate, but has bins and tracks any surface. "
+           "Standard errors (e) are those of the parts; with -pY they are upper bounds, because the errors "
+           "of red, green and blue are taken for fully correlated. With the same -Sn they are larger than in "
+           "a run of each goal alone, because the goals share the light paths: 2.3 times for eight desks in "
+           "an office, in 1.5 times the time of one. -Sa looks at the sum. At most 1000 contributors. Not "
+           "with -cs above 3, -af or pixels (-fac)."});
   add({.name = "-Sz",
        .arguments = "N",
        .group = Group::sphere,

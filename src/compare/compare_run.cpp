@@ -135,7 +135,6 @@ std::vector<std::string> pointOptions(const Options& options, std::span<const Us
 }
 
 void refuseWhatPointsHave(const CompareOptions& options) {
-  if (options.separate) throw rad::Error("-Sp: sums are compared, not the parts of contributors");
   if (!options.goals.empty() || options.sphere.basicRadiance)
     throw rad::Error("-Sg and -Sb: the original does not compute importance");
   if (options.sphere.glare.wanted) throw rad::Error("-Su: rtrace does not compute glare");
@@ -223,6 +222,7 @@ CompareStatus runCompare(CompareOptions options, std::span<const UsedOption> use
   if (options.scene.size() < 2)
     throw rad::Error("missing argument: a scene and a file of records are needed; see -help");
   const bool points = options.sphereMode;
+  if (options.separate) throw rad::Error("-Sp: sums are compared, not the parts of contributors");
   if (points) refuseWhatPointsHave(options);
   const OriginalProgram program = findOriginal();
   CompareSubject subject;

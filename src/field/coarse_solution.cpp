@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "field/hemisphere.h"
 #include "field/tuning.h"
 #include "scene/even_sequence.h"
 
@@ -229,13 +230,14 @@ Color CoarseSolution::light(Patch& patch, int bounces, FieldRays& rays) {
         [&] { return colorAt(link.coefficient, links.bandsOfLinks, i) * arriving; });
   }
   for (int c = 0; c < 3; ++c) kept.mean[c].store(sum[c], std::memory_order_relaxed);
-  if (inBands.bands()) {
+  const Bands bands = bandsBeside(sum, inBands);
+  if (bands) {
     const Bands* first = nullptr;
-    auto made = std::make_unique<const Bands>(inBands.bands());
+    auto made = std::make_unique<const Bands>(bands);
     if (kept.bands.compare_exchange_strong(first, made.get(), std::memory_order_acq_rel)) made.release();
   }
   kept.known.store(true, std::memory_order_release);
-  return Color(V3d(sum), inBands.bands());
+  return Color(V3d(sum), bands);
 }
 
 }  // namespace rsphere

@@ -133,9 +133,7 @@ GatheredLight HemisphereCells::sum(std::span<const Radiance> radiance, std::span
   light.reach = static_cast<float>(count() / inverse);
   light.noise = static_cast<float>(std::sqrt(variance) / count());
   light.noisePerLength = static_cast<float>(std::sqrt(slopeVariance));
-  const Color average = mean.color / count();
-  light.mean = V3f(average.rgb());
-  light.bands = average.bands();
+  light.setColor(mean.color / count());
   for (int b = 0; b < 3; ++b) light.perLength[b] = V3f(move[b][0] * x + move[b][1] * y);
   return light;
 }
@@ -176,15 +174,22 @@ Radiance GatheredLight::meanOfTilted(const V3d& normal, const V3d& perturbed) co
   return Radiance(turned.color());
 }
 
+void GatheredLight::setColor(const Color& color) {
+  mean = V3f(color.rgb());
+  bands = bandsBeside(mean, color);
+}
+
 void GatheredLight::setMean(const V3f& changed) {
-  if (bands) {
-    const auto values = bands.values();
-    for (size_t i = 0; i < values.size(); ++i) {
-      const int c = bands.scheme().channel[i];
-      values[i] *= mean[c] > 0 ? changed[c] / mean[c] : 0;
-    }
-  }
+  bands = bandsBeside(changed, color());
   mean = changed;
+}
+
+Bands bandsBeside(const V3f& channels, const Color& color) {
+  if (!color.bands()) return {};
+  V3d ratio(0, 0, 0);
+  for (int c = 0; c < 3; ++c)
+    if (color[c] != 0) ratio[c] = double{channels[c]} / color[c];
+  return (color * Color(ratio)).bands();
 }
 
 }  // namespace rsphere

@@ -17,6 +17,10 @@ namespace rsphere {
 
 using Imath::V3f;
 
+// The bands of a color whose red, green and blue are stored as `channels`, in single precision. Each band
+// keeps its ratio to its channel, so that the parts of contributors add up to what is stored.
+Bands bandsBeside(const V3f& channels, const Color& color);
+
 // A point where indirect light is gathered, over the hemisphere around the normal.
 struct GatherSite {
   V3d point{0, 0, 0};
@@ -60,6 +64,7 @@ struct GatheredLight {
   float reach = 0;  // harmonic mean distance of the surfaces that are seen (world units)
 
   Color color() const { return Color(V3d(mean), bands); }  // of the mean
+  void setColor(const Color& color);                       // the mean and its bands
   // Changes the mean, and its bands in proportion to their channels.
   void setMean(const V3f& changed);
   // The mean if a texture perturbs the normal of the surface from `normal` to `perturbed` (both unit). Light

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 
+#include "base/band_scheme.h"
 #include "base/constants.h"
 #include "field/insert_once.h"
 #include "field/site_interpolation.h"
@@ -181,7 +182,8 @@ const GatheredLight& IrradianceField::Cache::lightOf(Site& site, const Asked& as
   const GatheredLight* first = nullptr;
   if (!site.light.compare_exchange_strong(first, gathered.get(), std::memory_order_acq_rel)) return *first;
   const GatheredLight& light = *gathered.release();
-  asked.memory.add(sizeof(GatheredLight) + kBlock);
+  const size_t bands = light.bands ? light.bands.scheme().count() * sizeof(double) : 0;
+  asked.memory.add(sizeof(GatheredLight) + bands + kBlock);
   if (stored_ && !known) stored_->add(site.key, light);
   return light;
 }

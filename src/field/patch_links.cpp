@@ -1,16 +1,19 @@
 #include "field/patch_links.h"
 
+#include "field/hemisphere.h"
+
 namespace rsphere {
 namespace {
 
 // Adds a color to an element.
 void addAt(std::vector<V3f>& channels, std::vector<Bands>& bands, size_t i, const Color& color) {
   if (channels.size() <= i) channels.resize(i + 1, V3f(0, 0, 0));
+  const V3f sum = channels[i] + V3f(color.rgb());
   if (color.bands() || i < bands.size()) {
     if (bands.size() <= i) bands.resize(i + 1);
-    bands[i] = (colorAt(channels[i], bands, i) + color).bands();
+    bands[i] = bandsBeside(sum, colorAt(channels[i], bands, i) + color);
   }
-  channels[i] += V3f(color.rgb());
+  channels[i] = sum;
 }
 
 }  // namespace
@@ -18,7 +21,7 @@ void addAt(std::vector<V3f>& channels, std::vector<Bands>& bands, size_t i, cons
 void PatchLinks::add(Patch* patch, const Coefficient& coefficient, int bounces) {
   if (coefficient.color.bands()) {
     bandsOfLinks.resize(links.size() + 1);
-    bandsOfLinks.back() = coefficient.color.bands();
+    bandsOfLinks.back() = bandsBeside(V3f(coefficient.color.rgb()), coefficient.color);
   }
   links.push_back({patch, V3f(coefficient.color.rgb()), bounces});
 }

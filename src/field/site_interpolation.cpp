@@ -34,8 +34,9 @@ V3f luminanceOf(const V3f (&change)[3]) {
 }  // namespace
 
 void blend(GatheredLight& into, const GatheredLight& light, float share) {
-  if (into.bands || light.bands) into.bands = (into.color() + light.color() * share).bands();
-  into.mean += share * light.mean;
+  const V3f mean = into.mean + share * light.mean;
+  if (into.bands || light.bands) into.bands = bandsBeside(mean, into.color() + light.color() * share);
+  into.mean = mean;
   into.tilted.add(light.tilted, share);
 }
 

@@ -12,6 +12,7 @@
 #include "scene/build_scene.h"
 #include "scene/contributors.h"
 #include "tests/unit/support/sphere_setting.h"
+#include "tests/unit/support/statistics.h"
 
 namespace rsphere {
 namespace {
@@ -117,8 +118,7 @@ void expectSameColor(const Color& a, const Color& b, const char* what, double to
 // With parts, an answer is the same, and the parts add up to it.
 void expectParts(const std::string& text, const Names& goals, size_t contributors, const Case& how) {
   const PointAnswer plain = answer(text, goals, false, how), divided = answer(text, goals, true, how);
-  // The coarse solution adds up in single precision.
-  const double tolerance = how.accuracy > 0 ? 1e-5 : 1e-12;
+  constexpr double tolerance = 1e-12;
   EXPECT_EQ(plain.directions, divided.directions);
   EXPECT_GT(brightness(plain.mean), 0);
   const auto check = [&](const Color& one, const Color& other, const char* what) {
@@ -176,6 +176,84 @@ TEST(PartsOfContributors, AreWhatEachGoalGivesAlone) {
     EXPECT_TRUE(partsAreThoseOfGoalsAlone(how, 1));
     EXPECT_FALSE(partsAreThoseOfGoalsAlone(how, how.weights == Weights::silhouettes ? 1.3 : 4));
   }
+}
+
+// What rays find in ray mode, with three diffuse bounces. accuracy: -aa.
+std::vector<Radiance> ofRays(const std::string& text, const Names& goals, bool separate, double accuracy,
+                             uint64_t seed) {
+  const Scene scene = sceneWith(text, goals, separate);
+  RayOptions options = modeDefaults(false).ray;
+  options.ambientBounces = 3;
+  options.ambientAccuracy = accuracy;
+  options.ambientDivisions = 64;
+  options.rotation = seed;
+  const Transport transport(scene, options, IrradianceAt::none);
+  PathTracer tracer = transport.pathTracer();
+  std::vector<Radiance> found;
+  for (const V3d& towards : {V3d(0, .3, -1), V3d(-1, -1, -.6), V3d(.5, 1, .4), V3d(-1, .7, .9)})
+    found.push_back(tracer.trace(V3d(2.2, 1.4, 2.3), towards.normalized(), 0, mixBits(seed)).value);
+  return found;
+}
+
+void expectPartsOfRays(const std::string& text, const Names& goals, size_t contributors) {
+  for (const double accuracy : {.2, 0.}) {
+    const auto plain = ofRays(text, goals, false, accuracy, 1);
+    const auto divided = ofRays(text, goals, true, accuracy, 1);
+    for (size_t ray = 0; ray < plain.size(); ++ray) {
+      Color sum(0);
+      for (size_t i = 0; i < contributors; ++i) sum += divided[ray].color.part(i);
+      EXPECT_GT(brightness(plain[ray]), 0);
+      expectSameColor(plain[ray].color, Color(divided[ray].color.rgb()), "ray", 1e-12);
+      expectSameColor(plain[ray].color, sum, "sum over contributors", 1e-12);
+    }
+  }
+}
+
+TEST(PartsOfContributors, OfInterpolatedLightAddUp) {
+  for (const std::string& more : {kMirrors, kCrystal + kScreen + kWoven}) {
+    expectPartsOfRays(room() + more, kGoals, 3);
+    expectPartsOfRays(room(true) + lamps() + more, {}, 7);
+  }
+}
+
+// The parts of each contributor, added up over the rays, in several runs.
+std::vector<Sample> partsOfRays(const std::string& text, const Names& goals, size_t contributors,
+                                double accuracy) {
+  std::vector<Sample> parts(contributors);
+  for (uint64_t run = 1; run <= 6; ++run) {
+    const auto rays = ofRays(text, goals, true, accuracy, run);
+    for (size_t i = 0; i < contributors; ++i) {
+      double sum = 0;
+      for (const Radiance& ray : rays) sum += brightness(ray.color.part(i));
+      parts[i].add(sum);
+    }
+  }
+  return parts;
+}
+
+// Each part of interpolated light is that of rays that are followed, within noise and 2% of the sum of all
+// parts; parts that are 15% larger are not.
+void expectPartsOfFollowedRays(const std::string& text, const Names& goals, size_t contributors) {
+  const auto interpolated = partsOfRays(text, goals, contributors, .1);
+  const auto followed = partsOfRays(text, goals, contributors, 0);
+  double whole = 0;
+  for (const Sample& part : followed) whole += part.mean();
+  const auto isSame = [&](size_t i, double factor) {
+    const double error = std::hypot(factor * interpolated[i].standardError(), followed[i].standardError());
+    const double difference = factor * interpolated[i].mean() - followed[i].mean();
+    return std::abs(difference) < kMostSigmas * error + .02 * whole;
+  };
+  bool spoiledIsSame = true;
+  for (size_t i = 0; i < contributors; ++i) {
+    EXPECT_TRUE(isSame(i, 1)) << "contributor " << i;
+    spoiledIsSame = spoiledIsSame && isSame(i, 1.15);
+  }
+  EXPECT_FALSE(spoiledIsSame);
+}
+
+TEST(PartsOfContributors, OfInterpolatedLightAreThoseOfFollowedRays) {
+  expectPartsOfFollowedRays(room() + kWoven, kGoals, 3);
+  expectPartsOfFollowedRays(room(true) + lamps() + kMirrors, {}, 7);
 }
 
 TEST(PartsOfContributors, HaveTheNamesInTheirOrder) {
