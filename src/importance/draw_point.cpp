@@ -51,6 +51,10 @@ class PictureStreams {
   uint64_t middle(size_t pixel) const { return mixBits(seed_ + 16 + pixel); }
   // beside: index in Tuning::kBeside.
   uint64_t aside(size_t pixel, size_t beside) const { return mixBits(middle(pixel) + 1 + beside); }
+  // repeat: below Tuning::kRepeats.
+  uint64_t direct(size_t pixel, int repeat) const {
+    return mixBits(middle(pixel) + 128 + static_cast<uint64_t>(repeat));
+  }
   // around: index in Tuning::kAround.
   uint64_t around(size_t pixel, size_t around) const { return mixBits(middle(pixel) + 64 + around); }
 
@@ -210,6 +214,7 @@ class Painter {
   std::optional<PixelSample> look(double x, double y, uint64_t seed, PixelParts parts);
   std::optional<PixelSample> middle(int column, int row, PixelParts parts);
   void gatherWhereUnknown(Pixels& pixels);
+  void repeatDirect(Pixels& pixels);
   std::vector<bool> uneven(const Raster& raster, double exposure) const;
   bool gathers(int column, int row) const;
   std::optional<V3d> around(const Pixels& pixels, int column, int row, size_t place);
@@ -286,6 +291,55 @@ void Painter::gatherWhereUnknown(Pixels& pixels) {
       if (pixels.seen.pixels[pixel].material == kNone || pixels.indirect.known[pixel] > 0) continue;
       if (const auto sample = middle(column, row, PixelParts::all))
         pixels.indirect.light[pixel] = Imath::V3f(sample->indirect);
+    }
+}
+
+// The pixels of soft shadows whose direct light differs from that of pixels nearby by more than smoothing may
+// even out.
+std::vector<bool> noisyShadows(const Pixels& pixels) {
+  const int width = pixels.seen.width, height = pixels.seen.height;
+  std::vector<bool> marked(pixels.sharesDirect.size(), false);
+  const auto compare = [&](size_t here, int column, int row) {
+    if (row >= height || (column >= width && !pixels.seen.wraps)) return;
+    const size_t there =
+        static_cast<size_t>(row) * static_cast<size_t>(width) + static_cast<size_t>(column % width);
+    if (!pixels.sharesDirect[there] ||
+        !mayShare(pixels.seen.pixels[here], pixels.seen.pixels[there], kOfDirect))
+      return;
+    const Imath::V3f a = pixels.ownDirect[here] + pixels.indirect.light[here],
+                     b = pixels.ownDirect[there] + pixels.indirect.light[there], apart = b - a;
+    if (apart.length() > Tuning::kSameLight * (a + b).length() / 2) marked[here] = marked[there] = true;
+  };
+  for (int row = 0; row < height; ++row)
+    for (int column = 0; column < width; ++column) {
+      const size_t here = static_cast<size_t>(row) * static_cast<size_t>(width) + static_cast<size_t>(column);
+      if (!pixels.sharesDirect[here]) continue;
+      for (int step = 1; step <= 2; ++step) {
+        compare(here, column + step, row);
+        compare(here, column, row + step);
+      }
+    }
+  return marked;
+}
+
+// Traces the direct light of soft shadows several times. Its noise would be too large for smoothLight() to
+// tell it from the edge of a shadow, which would become ragged.
+void Painter::repeatDirect(Pixels& pixels) {
+  const std::vector<bool> marked = noisyShadows(pixels);
+  for (int row = 0; row < map_.height(); ++row)
+    for (int column = 0; column < map_.width(); ++column) {
+      const size_t pixel = at(column, row);
+      if (!marked[pixel]) continue;
+      V3d sum(pixels.ownDirect[pixel]);
+      int count = 1;
+      for (int repeat = 0; repeat < Tuning::kRepeats; ++repeat) {
+        const auto sample =
+            look(column + .5, row + .5, streams_.direct(pixel, repeat), PixelParts::restAlone);
+        if (!sample || !mayShare(pixels.seen.pixels[pixel], sample->seen, kOfDirect)) continue;
+        sum += sample->direct;
+        ++count;
+      }
+      pixels.direct.light[pixel] = pixels.ownDirect[pixel] = Imath::V3f(sum / count);
     }
 }
 
@@ -382,6 +436,7 @@ Raster Painter::draw(bool forScreen) {
   smoothLight(pixels.seen, kOfIndirect, pixels.indirect);
   smoothLight(pixels.seen, kOfGloss, pixels.gloss);
   gatherWhereUnknown(pixels);
+  repeatDirect(pixels);
   smoothDirect(pixels);
   Raster raster{map_.width(), map_.height(), std::vector<float>(3 * map_.count())};
   for (size_t pixel = 0; pixel < map_.count(); ++pixel) setValue(raster, pixel, pixels.value(pixel));

@@ -276,6 +276,29 @@ TEST(PointPicture, SoftShadowsHaveNoGrain) {
   EXPECT_GT(grainOf(ofRays, 76, 124), .03) << "single rays would pass";
 }
 
+// The dark edge of a wide penumbra had teeth: smoothing took the noise of few shadow rays for an edge.
+TEST(PointPicture, SoftShadowsHaveNoTeeth) {
+  const std::string text =
+      "void plastic floor 0 0 5 .25 .25 .25 0 0\nvoid light lamp 0 0 3 20 20 20\n"
+      "void light faint 0 0 3 .2 .2 .2\nfaint polygon sky 0 0 12 -9 -9 9 -9 9 9 9 9 9 9 -9 9\n"
+      "floor polygon ground 0 0 12 -4 -4 -1.2 4 -4 -1.2 4 4 -1.2 -4 4 -1.2\n"
+      "floor polygon desk 0 0 12 -.8 .4 -.5 .8 .4 -.5 .8 1.2 -.5 -.8 1.2 -.5\n"
+      "lamp polygon lamp1 0 0 12 -1.2 -.2 1.4 -1.2 .4 1.4 -.6 .4 1.4 -.6 -.2 1.4\n"
+      "lamp polygon lamp2 0 0 12 .6 -.2 1.4 .6 .4 1.4 1.2 .4 1.4 1.2 -.2 1.4\n";
+  const Drawn drawn(text, V3d(0, 0, 0), 0, Projection::latitudeLongitude, 256);
+  const Raster other = drawn.again(V3d(0, 0, 0), 2);
+  double squares = 0, sum = 0;
+  constexpr size_t kRows = 22, kColumns = 90;
+  for (size_t row = 95; row < 95 + kRows; ++row)
+    for (size_t pixel = 256 * row + 83; pixel < 256 * row + 83 + kColumns; ++pixel) {
+      const double apart = drawn.at(pixel) - other.pixels[3 * pixel + 1];
+      squares += apart * apart;
+      sum += drawn.at(pixel);
+    }
+  constexpr double kPixels = kRows * kColumns;
+  EXPECT_LT(std::sqrt(squares / 2 / kPixels) / (sum / kPixels), .025) << "without repeated shadow rays: .027";
+}
+
 // Averages over neighbors do not blur the edge of what the sun shines on.
 TEST(PointPicture, SharpShadowsStaySharp) {
   const std::string text =
