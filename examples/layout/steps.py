@@ -151,6 +151,8 @@ class Steps:
 
     def tell_layout(self):
         layout, d = self.layout, self.design
+        # The program asks for all that is wanted; what is nearer than the check's tolerance counts as met.
+        layout.misses = [m for m in layout.misses if not next(a for a in self.planned(m[0]) if a.goal is m[1]).met(TOLERANCE)]
         total = float(self.watts[layout.chosen].sum())
         bound = f"; none takes less than {layout.bound:.0f} W" if layout.bound > 0 else ""
         print(f"Layout: {len(layout.chosen)} luminaires, {total:g} W{bound} ({self.seconds['search']:.1f} s)")
