@@ -281,69 +281,6 @@ class Parser {
   const std::vector<std::string>* parameters_ = nullptr;
 };
 
-// The precedence of a tree as an operand: 0 sum, 1 product, 2 power, 3 sign, 4 primary.
-int binding(const Syntax& s) {
-  switch (s.kind) {
-    case Kind::sum:
-      return 0;
-    case Kind::product:
-      return 1;
-    case Kind::power:
-      return 2;
-    case Kind::negate:
-      return 3;
-    default:
-      return 4;
-  }
-}
-
-void printTo(std::string& out, const Syntax& s, int least) {
-  const bool enclose = binding(s) < least;
-  if (enclose) out += '(';
-  switch (s.kind) {
-    case Kind::number:
-      // Infinity has no notation of its own; 1e999 is read as infinity.
-      out += s.number > 1.7976931348623157e308 ? "1e999" : fmt::format("{}", s.number);
-      break;
-    case Kind::channel:
-      out += fmt::format("${}", s.index);
-      break;
-    case Kind::name:
-    case Kind::parameter:
-      out += s.text;
-      break;
-    case Kind::call:
-      out += s.args[0].text + "(";
-      for (size_t i = 1; i < s.args.size(); ++i) {
-        if (i > 1) out += ", ";
-        printTo(out, s.args[i], 0);
-      }
-      out += ')';
-      break;
-    case Kind::negate:
-      out += '-';
-      printTo(out, s.args[0], 4);
-      break;
-    case Kind::sum:
-    case Kind::product: {
-      const int level = binding(s);
-      for (size_t i = 0; i < s.args.size(); ++i) {
-        if (i > 0) out += s.text[i - 1];
-        // Also around the first operand, because a sum whose first operand is a sum is a different
-        // tree from one sum of all.
-        printTo(out, s.args[i], level + 1);
-      }
-      break;
-    }
-    case Kind::power:
-      printTo(out, s.args[0], 3);
-      out += '^';
-      printTo(out, s.args[1], 2);
-      break;
-  }
-  if (enclose) out += ')';
-}
-
 }  // namespace
 
 bool isNamePart(char c) { return isLetter(c) || isDigit(c) || c == '_' || c == '.' || c == kContextMark; }
@@ -354,17 +291,6 @@ std::vector<Definition> parseDefinitions(std::string_view text, std::string_view
 
 Syntax parseExpression(std::string_view text, std::string_view place) {
   return Parser(text, place, 1, true).expression();
-}
-
-std::string print(const Syntax& syntax) {
-  std::string out;
-  printTo(out, syntax, 0);
-  return out;
-}
-
-std::string print(const Definition& d) {
-  return fmt::format("{}{}{}{} {} {};", d.name, d.isFunction() ? "(" : "", fmt::join(d.parameters, ", "),
-                     d.isFunction() ? ")" : "", d.constant ? ':' : '=', print(d.body));
 }
 
 bool same(const Syntax& a, const Syntax& b) {

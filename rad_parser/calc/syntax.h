@@ -59,11 +59,6 @@ std::vector<Definition> parseDefinitions(std::string_view text, std::string_view
 // Parses one expression, which must be all of text. Throws Error "PLACE: expected ... in "TEXT"".
 Syntax parseExpression(std::string_view text, std::string_view place);
 
-// Text that parses to an equal tree. Numbers are printed with as many digits as it takes to
-// read them back exactly.
-std::string print(const Syntax& syntax);
-std::string print(const Definition& definition);
-
 // Whether two trees are equal. Lines and symbols are not compared.
 bool same(const Syntax& a, const Syntax& b);
 

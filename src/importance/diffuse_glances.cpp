@@ -50,12 +50,12 @@ class DiffuseGlances::Joins {
  public:
   Joins(const LightVertices& vertices, const V3d& point, double expected, double glances)
       : vertices_(vertices), point_(point), density_(glances / (4 * kPi)) {
-    const double radius = Tuning::kJoinRadius * vertices.meanLength();
+    const double radius = Tuning::kJoinRadius * vertices.nearLight().meanLength;
     radius2_ = radius * radius;
-    const auto& visible = vertices.visible();
+    const auto& visible = vertices.visible().all();
     shown_.resize(visible.size());
     double sum = 0;
-    vertices.visibleFrom(point, [&](size_t begin, size_t end) {
+    vertices.visible().from(point, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i) {
         shown_[i] = static_cast<float>(shownBy(visible[i]));
         sum += shown_[i];
@@ -80,7 +80,7 @@ class DiffuseGlances::Joins {
       const double share = shareOf(shown_[i]);
       if ((due += share) < 1) continue;
       due -= 1;
-      const LightVertices::Visible& v = vertices_.visible()[i];
+      const VisibleVertex& v = vertices_.visible().all()[i];
       const V3d to = v.vertex.point() - point_;
       const double distance = to.length();
       each(v, share, to / distance, distance);
@@ -88,13 +88,12 @@ class DiffuseGlances::Joins {
   }
 
   // The contribution of a vertex that is joined, if it is in view.
-  Irradiance partOf(const LightVertices::Visible& v, double share, const V3d& direction,
-                    double distance) const {
+  Irradiance partOf(const VisibleVertex& v, double share, const V3d& direction, double distance) const {
     const double cosine = -direction.dot(v.vertex.normal()), square = distance * distance;
     if (!(cosine > 0)) return {};
     if (v.vertex.way != LightVertex::direct)
       return v.power * (diffuseShare(*v.material, cosine) * cosine / (kPi * square) *
-                        vertices_.joinedShare(v, distance) / share);
+                        v.joinedShare(vertices_.nearLight(), distance) / share);
     PlainPlace at;
     at.normal = v.vertex.normal();
     at.material = v.material;
@@ -106,7 +105,7 @@ class DiffuseGlances::Joins {
   }
 
  private:
-  double shownBy(const LightVertices::Visible& v) const {
+  double shownBy(const VisibleVertex& v) const {
     const V3d to = point_ - v.vertex.point();
     const double square = to.length2(), facing = to.dot(v.vertex.normal());
     if (!(facing > 0)) return 0;
@@ -114,7 +113,8 @@ class DiffuseGlances::Joins {
     const double reflected =
         v.vertex.way == LightVertex::direct
             ? joinedReflectance(*v.material, v.vertex.normal(), -to / distance, -v.direction)
-            : vertices_.joinedShare(v, distance) * v.vertex.power / vertices_.pathPower();
+            : v.joinedShare(vertices_.nearLight(), distance) * v.vertex.power /
+                  vertices_.emission().pathPower();
     return reflected * facing / distance / (square + radius2_);
   }
 
@@ -122,7 +122,7 @@ class DiffuseGlances::Joins {
   V3d point_;
   double density_;  // of glances, per sr
   double radius2_ = 0, factor_ = 0;
-  std::vector<float> shown_;  // of vertices_.visible()
+  std::vector<float> shown_;  // of vertices_.visible().all()
 };
 
 std::unique_ptr<const DiffuseGlances> DiffuseGlances::make(const PreparedScene& prepared,
@@ -186,23 +186,22 @@ void DiffuseGlances::addJoins(const SetAtPoint& set, const Joins& joins, Records
                               Found& found) const {
   std::optional<Irradiance> last;
   Random random = randomOf(set, Stream::joins);
-  joins.draw(random,
-             [&](const LightVertices::Visible& v, double share, const V3d& direction, double distance) {
-               const Coefficient passed = surfaces_.passing(set.point(), v.vertex.point(), kNone);
-               const Irradiance part = joins.partOf(v, share, direction, distance) * passed;
-               const SpectralSampling* const sampling = prepared_.options().sampling;
-               found.moments.add(direction, part, sampling);
-               if (!neighbours_) return;
-               recordFor(direction, records).add(v.vertex.batch, part, 1 - share);
-               // Successive vertices are neighbours, so that their differences show the variance due to the
-               // choice.
-               if (last) {
-                 const Variance variance = Variance::of(part - *last, sampling) * (.5 * (1 - share));
-                 found.variance += variance;
-                 if (zones_) found.ofZones.add(direction, 0, variance);
-               }
-               last = part;
-             });
+  joins.draw(random, [&](const VisibleVertex& v, double share, const V3d& direction, double distance) {
+    const Coefficient passed = surfaces_.passing(set.point(), v.vertex.point(), kNone);
+    const Irradiance part = joins.partOf(v, share, direction, distance) * passed;
+    const SpectralSampling* const sampling = prepared_.options().sampling;
+    found.moments.add(direction, part, sampling);
+    if (!neighbours_) return;
+    recordFor(direction, records).add(v.vertex.batch, part, 1 - share);
+    // Successive vertices are neighbours, so that their differences show the variance due to the
+    // choice.
+    if (last) {
+      const Variance variance = Variance::of(part - *last, sampling) * (.5 * (1 - share));
+      found.variance += variance;
+      if (zones_) found.ofZones.add(direction, 0, variance);
+    }
+    last = part;
+  });
 }
 
 Radiance DiffuseGlances::glance(const V3d& point, const V3d& direction, Glancing& by) const {

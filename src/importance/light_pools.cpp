@@ -53,17 +53,17 @@ std::shared_ptr<const VertexLight> LightPools::pool(std::span<const uint32_t> pr
                                                     size_t number) const {
   std::shared_ptr<Pool> found;
   {
-    const std::lock_guard lock(mutex_);
-    std::shared_ptr<Pool>& known = made_[{{preferred.begin(), preferred.end()}, number}];
+    const std::lock_guard lock(made_.mutex);
+    std::shared_ptr<Pool>& known = made_.pools[{{preferred.begin(), preferred.end()}, number}];
     if (!known) known = std::make_shared<Pool>();
     found = known;
-    found->asked = ++asked_;
+    found->asked = ++made_.asked;
     // The pool whose latest request is the oldest is removed; points that still use it keep it until they are
     // done.
-    if (made_.size() > most_)
-      made_.erase(std::min_element(made_.begin(), made_.end(), [](const auto& a, const auto& b) {
-        return a.second->asked < b.second->asked;
-      }));
+    if (made_.pools.size() > most_)
+      made_.pools.erase(
+          std::min_element(made_.pools.begin(), made_.pools.end(),
+                           [](const auto& a, const auto& b) { return a.second->asked < b.second->asked; }));
   }
   std::call_once(found->made, [&] {
     found->light = std::make_shared<const VertexLight>(

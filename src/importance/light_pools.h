@@ -34,7 +34,12 @@ class LightPools {
     std::shared_ptr<const VertexLight> light;
     uint64_t asked = 0;  // number of the latest request
   };
-  using Key = std::pair<std::vector<uint32_t>, size_t>;  // preferred sources and number of the pool
+  struct Made {
+    using Key = std::pair<std::vector<uint32_t>, size_t>;  // preferred sources and number of the pool
+    std::mutex mutex;                                      // guards the other two members
+    std::map<Key, std::shared_ptr<Pool>> pools;
+    uint64_t asked = 0;
+  };
 
   std::shared_ptr<const VertexLight> pool(std::span<const uint32_t> preferred, size_t number) const;
   std::span<const uint32_t> preferredAt(const V3d& point) const;
@@ -45,9 +50,7 @@ class LightPools {
   SourceEmission emission_;
   size_t pools_, paths_, most_;  // most_: cap on the pools in memory
   uint64_t seed_;
-  mutable std::mutex mutex_;  // guards the two members below
-  mutable std::map<Key, std::shared_ptr<Pool>> made_;
-  mutable uint64_t asked_ = 0;
+  mutable Made made_;
 };
 
 }  // namespace rsphere

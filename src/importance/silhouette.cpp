@@ -67,11 +67,11 @@ double polygonSolidAngle(std::span<const V3d> vertices, const V3d& point) {
 }
 
 void Silhouette::setCap(const V3d& axis, double versine) {
-  axis_ = axis;
-  versine_ = versine;
+  cap_.axis = axis;
+  cap_.versine = versine;
   corners_.clear();
   const double chord = std::sqrt(2 * versine) * (1 + kRounding) + kRounding;
-  squaredChord_ = chord * chord;
+  cap_.squaredChord = chord * chord;
   regionSolidAngle_ = 2 * pi * versine;
 }
 
@@ -109,15 +109,16 @@ bool Silhouette::setConvex(std::span<const V3d> corners, const V3d& point) {
     const V3d side = inward * towards.cross(corners[(i + 1) % corners.size()] - corners[i]);
     if (side.length() > 0) sides_.push_back(side.normalized());
   }
-  axis_ = middle.length() > 0 ? middle.normalized() : V3d(0, 0, 0);
-  versine_ = 0;
-  for (const V3d& corner : corners_) versine_ = std::max(versine_, (corner - axis_).length2() / 2);
+  cap_.axis = middle.length() > 0 ? middle.normalized() : V3d(0, 0, 0);
+  cap_.versine = 0;
+  for (const V3d& corner : corners_)
+    cap_.versine = std::max(cap_.versine, (corner - cap_.axis).length2() / 2);
   const double outside = largestReentrance(corners_, sides_);
   // Arcs between nearly opposite corners magnify the rounding of the corners.
-  slack_ = outside + 2 * kRounding / std::max(1 - versine_, 1e-7);
+  slack_ = outside + 2 * kRounding / std::max(1 - cap_.versine, 1e-7);
   regionSolidAngle_ = std::abs(sum);
-  return corners_.size() == corners.size() && versine_ > kTiny && outside <= 100 * kRounding && sum != 0 &&
-         std::is_sorted(shares_.begin(), shares_.end());
+  return corners_.size() == corners.size() && cap_.versine > kTiny && outside <= 100 * kRounding &&
+         sum != 0 && std::is_sorted(shares_.begin(), shares_.end());
 }
 
 void Silhouette::setPolygon(const Polygon& polygon, std::span<const V3d> vertices, const V3d& point) {
@@ -126,11 +127,11 @@ void Silhouette::setPolygon(const Polygon& polygon, std::span<const V3d> vertice
   if (setConvex(vertices, point) && std::abs(regionSolidAngle_ - solidAngle_) <= 1e-9 * solidAngle_) return;
   // A cap around the corners contains the sides only if it is at most a hemisphere. The hemisphere on the
   // other side of the plane always contains the polygon.
-  if (versine_ > 1) {
-    axis_ = polygon.normal.dot(point - vertices[0]) > 0 ? -polygon.normal : polygon.normal;
-    versine_ = 1;
+  if (cap_.versine > 1) {
+    cap_.axis = polygon.normal.dot(point - vertices[0]) > 0 ? -polygon.normal : polygon.normal;
+    cap_.versine = 1;
   }
-  setCap(axis_, versine_);
+  setCap(cap_.axis, cap_.versine);
 }
 
 // Sets the region to the convex hull of points, found on the plane perpendicular to their mean direction
@@ -197,7 +198,8 @@ Silhouette Silhouette::within(const Silhouette& other) const {
 }
 
 bool Silhouette::contains(const V3d& direction) const {
-  if (corners_.empty()) return regionSolidAngle_ > 0 && (direction - axis_).length2() <= squaredChord_;
+  if (corners_.empty())
+    return regionSolidAngle_ > 0 && (direction - cap_.axis).length2() <= cap_.squaredChord;
   return std::all_of(sides_.begin(), sides_.end(),
                      [&](const V3d& side) { return side.dot(direction) >= -slack_; });
 }
@@ -205,18 +207,18 @@ bool Silhouette::contains(const V3d& direction) const {
 Silhouette::Cap Silhouette::surroundingCap() const {
   const bool polygon = !corners_.empty();
   // A cap around the corners contains the sides only if it is at most a hemisphere.
-  if (polygon && versine_ > 1) return {axis_, pi};
-  const double chord = polygon ? std::sqrt(2 * versine_) : std::sqrt(squaredChord_);
-  return {axis_, 2 * std::asin(std::min(1., chord / 2)) + (polygon ? slack_ : 0)};
+  if (polygon && cap_.versine > 1) return {cap_.axis, pi};
+  const double chord = polygon ? std::sqrt(2 * cap_.versine) : std::sqrt(cap_.squaredChord);
+  return {cap_.axis, 2 * std::asin(std::min(1., chord / 2)) + (polygon ? slack_ : 0)};
 }
 
 V3d Silhouette::sample(double u1, double u2) const {
   if (corners_.empty()) {
-    const double v = u1 * versine_;
+    const double v = u1 * cap_.versine;
     const double sine = std::sqrt(v * (2 - v)), angle = 2 * pi * u2;
     V3d x, y;
-    frame(axis_, x, y);
-    return (sine * (std::cos(angle) * x + std::sin(angle) * y) + (1 - v) * axis_).normalized();
+    frame(cap_.axis, x, y);
+    return (sine * (std::cos(angle) * x + std::sin(angle) * y) + (1 - v) * cap_.axis).normalized();
   }
   const double at = u1 * regionSolidAngle_;
   const auto found = std::upper_bound(shares_.begin(), shares_.end() - 1, at);
@@ -250,7 +252,7 @@ Silhouette silhouetteOf(ShapeRef shape, std::span<const V3d> vertices, const V3d
     addCircle(around, ring.center, ring.normal, ring.outer);
     if (!s.setHull(around, point)) {
       s.setBall(ring.center, ring.outer, point);
-      if (s.versine_ > 1) s.setCap(height > 0 ? -ring.normal : ring.normal, 1);
+      if (s.cap_.versine > 1) s.setCap(height > 0 ? -ring.normal : ring.normal, 1);
     }
     s.solidAngle_ = s.regionSolidAngle_;
   };

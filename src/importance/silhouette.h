@@ -56,9 +56,12 @@ class Silhouette {
   bool setHull(std::span<const V3d> points, const V3d& point);
 
   double solidAngle_ = 0, regionSolidAngle_ = 0;
-  V3d axis_{0, 0, 1};
-  double versine_ = 0;          // 1 - cos(half angle) of the cap; accurate where the cosine rounds to 1
-  double squaredChord_ = 0;     // from the cap's axis to its edge, with rounding added
+  struct Around {
+    V3d axis{0, 0, 1};
+    double versine = 0;       // 1 - cos(half angle); accurate where the cosine rounds to 1
+    double squaredChord = 0;  // from the axis to the edge, with rounding added
+  };
+  Around cap_;
   std::vector<V3d> corners_;    // of the convex polygon; empty: a cap
   std::vector<V3d> sides_;      // inward normals of its sides, unit
   double slack_ = 0;            // how far outside a side rounding may move a direction, rad

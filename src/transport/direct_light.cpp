@@ -204,7 +204,7 @@ uint32_t DirectLight::findContributions(Receiver at, DirectCoefficient coefficie
   // Known sources need no shadow rays if paths from both ends bring all of their direct light. Only light
   // that has passed unknown surfaces would be left to shadow rays.
   const PlainSurfaces* const leftOut =
-      at.leftToBothEnds && !at.leftToBothEnds->passUnknown() ? at.leftToBothEnds : nullptr;
+      at.leftToBothEnds && !at.leftToBothEnds->coverage().passUnknown ? at.leftToBothEnds : nullptr;
   // If the observer is to be shown all shadow rays, those to hidden sources are traced too.
   const std::span<const uint32_t> sources = state_.request.shadows == ShownShadows::all
                                                 ? t_.lights().hidden().all()

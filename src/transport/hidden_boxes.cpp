@@ -98,7 +98,7 @@ struct HiddenBoxes::Region {
 
   Box3d box{};
   List visible;  // positions of boxes that are not certainly hidden, in ascending order
-  List places;   // those of them that may be hidden, as places in order_
+  List places;   // those of them that may be hidden, as places in Tree::order
   std::vector<Blocker> blockers;
   int inVain = 0;     // number of divisions since a quarter of the boxes was hidden
   size_t before = 0;  // number of places at that time
@@ -114,40 +114,41 @@ HiddenBoxes::~HiddenBoxes() = default;
 HiddenBoxes::HiddenBoxes(HiddenBoxes&&) noexcept = default;
 
 HiddenBoxes::HiddenBoxes(const Scene& scene, const Tracer& tracer, std::vector<Box3d> boxes, size_t few)
-    : scene_(scene), tracer_(tracer), few_(few), boxes_(std::move(boxes)), all_(boxes_.size()) {
+    : scene_(scene), tracer_(tracer), all_(boxes.size()) {
+  tree_.boxes = std::move(boxes);
   std::iota(all_.begin(), all_.end(), 0);
-  for (const uint32_t i : all_) (boxes_[i].isEmpty() ? never_ : order_).push_back(i);
-  if (order_.size() <= few_ || tracer.bounds().isEmpty()) return;
-  makeNode(0, order_.size());
+  for (const uint32_t i : all_) (tree_.boxes[i].isEmpty() ? never_ : tree_.order).push_back(i);
+  if (tree_.order.size() <= few || tracer.bounds().isEmpty()) return;
+  tree_.makeNode(0, tree_.order.size());
   margin_ = 2 * marginOver(tracer.bounds().size().length());
   root_ = std::make_unique<Region>();
   // Rounding may place points of the outermost walls outside of the bounds.
   root_->box = {tracer.bounds().min - V3d(margin_), tracer.bounds().max + V3d(margin_)};
   root_->visible = std::make_shared<const std::vector<uint32_t>>(all_);
-  std::vector<uint32_t> places(order_.size());
+  std::vector<uint32_t> places(tree_.order.size());
   std::iota(places.begin(), places.end(), 0);
   root_->places = std::make_shared<const std::vector<uint32_t>>(std::move(places));
-  root_->before = order_.size();
+  root_->before = tree_.order.size();
   divide(*root_);
 }
 
 // Makes the tree of the places from begin to end. Returns its index.
-size_t HiddenBoxes::makeNode(size_t begin, size_t end) {
-  const size_t index = nodes_.size();
+size_t HiddenBoxes::Tree::makeNode(size_t begin, size_t end) {
+  const size_t index = nodes.size();
   Box3d box;
   for (size_t i = begin; i < end; ++i) box.extendBy(boxOf(i));
-  nodes_.push_back({box, begin, end, 0});
+  nodes.push_back({box, begin, end, 0});
   if (end - begin <= 1) return index;
   const int axis = longestAxis(box);
   const size_t middle = begin + (end - begin) / 2;
-  const auto at = [&](size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+  const auto at = [&](size_t i) { return order.begin() + static_cast<std::ptrdiff_t>(i); };
   std::nth_element(at(begin), at(middle), at(end), [&](uint32_t a, uint32_t b) {
-    const double x = boxes_[a].center()[axis], y = boxes_[b].center()[axis];
+    const double x = boxes[a].center()[axis], y = boxes[b].center()[axis];
     return x != y ? x < y : a < b;
   });
   makeNode(begin, middle);
   const size_t second = makeNode(middle, end);
-  nodes_[index].second = second;
+  nodes[index].second = second;
   return index;
 }
 
@@ -268,14 +269,14 @@ std::vector<uint32_t> HiddenBoxes::visibleFrom(const Box3d& region, std::span<co
   std::vector<Some> all{{0, places}};
   for (size_t i = 0; i < all.size(); ++i) {
     const auto [index, some] = all[i];
-    const Node& node = nodes_[index];
+    const Tree::Node& node = tree_.nodes[index];
     const bool done = i >= kMostTests;
     if (some.empty() || (!done && hides(region, node.box, known))) continue;
     if (done || node.second == 0) {
       visible.insert(visible.end(), some.begin(), some.end());
       continue;
     }
-    const auto middle = std::lower_bound(some.begin(), some.end(), nodes_[node.second].begin);
+    const auto middle = std::lower_bound(some.begin(), some.end(), tree_.nodes[node.second].begin);
     all.push_back({index + 1, {some.begin(), middle}});
     all.push_back({node.second, {middle, some.end()}});
   }
@@ -291,18 +292,19 @@ std::vector<std::pair<HiddenBoxes::Blocker, size_t>> HiddenBoxes::blockersIn(con
   const size_t step = std::max<size_t>(1, region.places->size() / kProbes);
   size_t probes = 0, hidden = 0;
   for (size_t i = 0; i < region.places->size(); i += step, ++probes)
-    anyBlocker(
-        middleOfOctant(region.box, probes), boxOf((*region.places)[i]).center(), [&](const Blocker& blocker) {
-          if (widest < kWorthDividing * blocker.size) return true;
-          ++hidden;
-          const auto same = std::find_if(found.begin(), found.end(),
-                                         [&](const auto& f) { return f.first.surface == blocker.surface; });
-          if (same != found.end())
-            ++same->second;
-          else
-            found.emplace_back(blocker, 1);
-          return true;
-        });
+    anyBlocker(middleOfOctant(region.box, probes), tree_.boxOf((*region.places)[i]).center(),
+               [&](const Blocker& blocker) {
+                 if (widest < kWorthDividing * blocker.size) return true;
+                 ++hidden;
+                 const auto same = std::find_if(found.begin(), found.end(), [&](const auto& f) {
+                   return f.first.surface == blocker.surface;
+                 });
+                 if (same != found.end())
+                   ++same->second;
+                 else
+                   found.emplace_back(blocker, 1);
+                 return true;
+               });
   if (hidden * step < kLeastHidden ||
       static_cast<double>(hidden) < kWorthHiding * static_cast<double>(probes))
     return {};
@@ -355,7 +357,7 @@ const HiddenBoxes::Region& HiddenBoxes::half(const Region& region, int upper) co
   made->places = region.places;
   if (places.size() < region.places->size()) {
     std::vector<uint32_t> visible = never_;
-    for (const uint32_t place : places) visible.push_back(order_[place]);
+    for (const uint32_t place : places) visible.push_back(tree_.order[place]);
     std::sort(visible.begin(), visible.end());
     made->visible = std::make_shared<const std::vector<uint32_t>>(std::move(visible));
     made->places = std::make_shared<const std::vector<uint32_t>>(std::move(places));

@@ -61,7 +61,6 @@ class HiddenBoxes {
   struct Blocker;
   struct Region;
 
-  const Box3d& boxOf(size_t place) const { return boxes_[order_[place]]; }
   V3d beside(const V3d& point, const V3d& front) const;
   std::span<const uint32_t> find(const V3d& point) const;
   const Region& half(const Region& region, int upper) const;
@@ -73,24 +72,28 @@ class HiddenBoxes {
   bool hides(const Box3d& from, const Box3d& to, std::vector<Blocker>& known) const;
   std::vector<uint32_t> visibleFrom(const Box3d& region, std::span<const uint32_t> places,
                                     std::vector<Blocker>& known) const;
-  size_t makeNode(size_t begin, size_t end);
 
-  // A binary tree of the boxes that may be hidden: a node has the places from begin to end of order_.
-  struct Node {
-    Box3d box;
-    size_t begin, end;
-    size_t second;  // the second child; the first one follows the node. 0: a leaf
+  // A binary tree of the boxes that may be hidden: a node has the places from begin to end of `order`.
+  struct Tree {
+    struct Node {
+      Box3d box;
+      size_t begin, end;
+      size_t second;  // the second child; the first one follows the node. 0: a leaf
+    };
+    std::vector<Box3d> boxes;     // by position, with the empty ones
+    std::vector<uint32_t> order;  // positions, so that near ones lie side by side
+    std::vector<Node> nodes;
+
+    const Box3d& boxOf(size_t place) const { return boxes[order[place]]; }
+    size_t makeNode(size_t begin, size_t end);
   };
 
   const Scene& scene_;
   const Tracer& tracer_;
-  size_t few_;
-  double margin_ = 0;            // between regions and the planes that divide them (world units)
-  std::vector<Box3d> boxes_;     // by position
-  std::vector<uint32_t> all_;    // their positions
-  std::vector<uint32_t> never_;  // those of empty boxes
-  std::vector<uint32_t> order_;  // of the others, so that near ones lie side by side
-  std::vector<Node> nodes_;
+  double margin_ = 0;  // between regions and the planes that divide them (world units)
+  Tree tree_;
+  std::vector<uint32_t> all_;     // the positions of all boxes
+  std::vector<uint32_t> never_;   // those of empty boxes
   std::unique_ptr<Region> root_;  // null: too few boxes
   std::unique_ptr<std::mutex> dividing_ = std::make_unique<std::mutex>();
 };

@@ -84,13 +84,18 @@ double joinedReflectance(const Opaque& m, const V3d& normal, const V3d& view, co
 // One light path on its way. It adds vertices to the lists.
 class LightVertices::Path {
  public:
-  Path(LightVertices& all, size_t number, uint64_t seed)
-      : all_(all), random_(mixBits(mixBits(seed) + number)), batch_(number % LightVertex::kBatches) {}
+  Path(const PreparedScene& prepared, LightVertices& all, size_t number, uint64_t seed)
+      : prepared_(prepared),
+        all_(all),
+        random_(mixBits(mixBits(seed) + number)),
+        batch_(number % LightVertex::kBatches) {}
 
+  struct Course {
+    double firstLength = 0;          // of the first segment, world units; 0 if the path met nothing
+    size_t met = 0, metUnknown = 0;  // numbers of surfaces
+  };
   // where: from 0 to 1, chooses the source by its share of the power of all sources.
-  void send(double where);
-
-  double firstLength() const { return firstLength_; }  // 0 if the path met nothing
+  Course send(double where);
 
  private:
   bool leave(double where);
@@ -98,91 +103,103 @@ class LightVertices::Path {
   bool meetMirror(const Hit& hit);
   void arrive(const PlainPlace& at);
   void addVisible(const PlainPlace& at, double reflected);
+  double shadowRaysTo(const PlainPlace& at);
   bool reflect(const PlainPlace& at);
   bool reflectSpecularly(const Scattering& s, const Interaction& view, double scale);
 
+  // The light on its way.
+  struct Beam {
+    V3d origin, direction;
+    SurfaceId start;
+    Irradiance power;
+    double length = 0;  // since the last reflection
+  };
+  // Where the light comes from.
+  struct Past {
+    LightId source;
+    double cosineAtSource = 0;
+    LightVertex::Way way = LightVertex::direct;
+    bool senderIsUnbounded = false;  // isUnbounded() of the vertex that sent the light
+    bool fromSource = true;          // nothing has reflected it yet
+    int bounces = 0;
+  };
+  struct Work {
+    std::vector<double> weights;
+    FunctionScratch scratch;
+  };
+
+  const PreparedScene& prepared_;
   LightVertices& all_;
   Random random_;
   size_t batch_;
-  LightId light_;
-  V3d origin_, direction_;
-  SurfaceId start_;
-  double cosineAtSource_ = 0;
-  Irradiance power_;
-  LightVertex::Way way_ = LightVertex::direct;
-  bool senderIsUnbounded_ = false;  // isUnbounded() of the vertex that sent the light
-  bool fromSource_ = true;          // nothing has reflected it yet
-  int bounces_ = 0;
-  double length_ = 0, firstLength_ = 0;  // since the last reflection; and of the first segment
-  std::vector<double> weights_;
-  FunctionScratch scratch_;
+  Beam beam_;
+  Past past_;
+  Work work_;
 };
 
-void LightVertices::Path::send(double where) {
-  if (!leave(where)) return;
-  for (size_t hits = 0; hits < tuning::Caps::kAsked && brightness(power_) > 0; ++hits) {
-    const Hit hit = all_.prepared_.tracer().nearest(origin_, direction_, kFarAway, start_);
-    if (hit.surface == kNone) return;
-    length_ += hit.distance;
-    if (hit.perturbation != V3d(0, 0, 0)) return;
-    if (all_.surfaces_.paneOf(hit.surface)) {
-      if (!passPane(hit)) return;
-      continue;
+LightVertices::Path::Course LightVertices::Path::send(double where) {
+  Course course;
+  if (!leave(where)) return course;
+  for (size_t hits = 0; hits < tuning::Caps::kAsked && brightness(beam_.power) > 0; ++hits) {
+    const Hit hit = prepared_.tracer().nearest(beam_.origin, beam_.direction, kFarAway, beam_.start);
+    if (hit.surface == kNone) break;
+    beam_.length += hit.distance;
+    if (hit.perturbation != V3d(0, 0, 0)) break;
+    const PlainFinish& finish = all_.surfaces_.finishOf(hit.surface);
+    if (finish.pane || finish.mirror) {
+      if (finish.pane ? passPane(hit) : meetMirror(hit)) continue;
+      break;
     }
-    if (all_.surfaces_.mirrorOf(hit.surface)) {
-      if (!meetMirror(hit)) return;
-      continue;
+    const PlainPlace at = all_.surfaces_.placeOf(beam_.origin, beam_.direction,
+                                                 {hit, hit.distance, Coefficient(1)}, work_.scratch);
+    if (past_.fromSource) {
+      course.firstLength = beam_.length;
+      beam_.power = beam_.power * all_.emission_.divergence(past_.source, beam_.length);
     }
-    const PlainPlace at =
-        all_.surfaces_.placeOf(origin_, direction_, {hit, hit.distance, Coefficient(1)}, scratch_);
-    if (fromSource_) {
-      firstLength_ = length_;
-      power_ = power_ * all_.emission_.divergence(light_, length_);
-    }
-    ++all_.met_;
+    ++course.met;
     if (!at.material) {
-      if (all_.prepared_.lights().of(at.surface) == kNone) ++all_.metUnknown_;
-      return;
+      course.metUnknown += prepared_.lights().of(at.surface) == kNone;
+      break;
     }
     arrive(at);
-    if (!reflect(at)) return;
-    fromSource_ = false;
-    length_ = 0;
-    origin_ = at.point;
-    start_ = at.surface;
+    if (!reflect(at)) break;
+    past_.fromSource = false;
+    beam_.length = 0;
+    beam_.origin = at.point;
+    beam_.start = at.surface;
   }
+  return course;
 }
 
 bool LightVertices::Path::leave(double where) {
-  light_ = all_.emission_.sourceAt(where);
-  if (light_ == kNone) return false;
-  start_ = all_.prepared_.lights().all()[light_].surface;
-  const SourceEmission::Leaving way = all_.emission_.leave(light_, random_, scratch_);
-  origin_ = way.from.point + 2 * kSamePlace * way.from.normal;
-  direction_ = way.direction;
-  cosineAtSource_ = way.from.normal.dot(direction_);
-  power_ = way.power;
-  const bool weighed = all_.emission_.isEven(light_) && all_.aimedDensity(light_, 1, 1) > 0;
-  way_ = weighed ? LightVertex::direct : LightVertex::unweighed;
+  past_.source = all_.emission_.sourceAt(where);
+  if (past_.source == kNone) return false;
+  beam_.start = prepared_.lights().all()[past_.source].surface;
+  const SourceEmission::Leaving way = all_.emission_.leave(past_.source, random_, work_.scratch);
+  beam_.origin = way.from.point + 2 * kSamePlace * way.from.normal;
+  beam_.direction = way.direction;
+  past_.cosineAtSource = way.from.normal.dot(beam_.direction);
+  beam_.power = way.power;
+  past_.way = all_.emission_.isAimedAt(past_.source) ? LightVertex::direct : LightVertex::unweighed;
   return true;
 }
 
 // Continues the path through a pane or mirrors it there. Returns false if the path ends.
 bool LightVertices::Path::passPane(const Hit& hit) {
-  Interaction view = plainInteraction(direction_, hit.normal, true);
-  if (fromSource_) view.kinds = kShadow;  // no reflection
-  const Scattering s = scatter(*all_.surfaces_.paneOf(hit.surface), view);
-  double left = random_.uniform() * brightness(power_);
+  Interaction view = plainInteraction(beam_.direction, hit.normal, true);
+  if (past_.fromSource) view.kinds = kShadow;  // no reflection
+  const Scattering s = scatter(*all_.surfaces_.finishOf(hit.surface).pane, view);
+  double left = random_.uniform() * brightness(beam_.power);
   for (const SharpPath& next : s.sharp) {
-    const double share = brightness(power_ * next.coefficient);
+    const double share = brightness(beam_.power * next.coefficient);
     if ((left -= share) >= 0) continue;
-    origin_ += hit.distance * direction_;
-    start_ = hit.surface;
-    power_ = power_ * next.coefficient * (brightness(power_) / share);
+    beam_.origin += hit.distance * beam_.direction;
+    beam_.start = hit.surface;
+    beam_.power = beam_.power * next.coefficient * (brightness(beam_.power) / share);
     if (next.kind == kReflected) {
-      direction_ = next.direction;
-      way_ = LightVertex::sharp;
-      length_ = 0;
+      beam_.direction = next.direction;
+      past_.way = LightVertex::sharp;
+      beam_.length = 0;
     }
     return true;
   }
@@ -192,198 +209,180 @@ bool LightVertices::Path::passPane(const Hit& hit) {
 // Mirrors the path; returns false if it ends. It ends at the back of a mirror, which is black. Straight from
 // the source it also ends at curved mirrors, because they make no images that light other surfaces.
 bool LightVertices::Path::meetMirror(const Hit& hit) {
-  if (hit.cosine <= 0 || (fromSource_ && all_.emission_.imageOf(light_, hit.surface) == kNone)) return false;
-  const Scattering s =
-      scatter(*all_.surfaces_.mirrorOf(hit.surface), plainInteraction(direction_, hit.normal, false));
+  if (hit.cosine <= 0 || (past_.fromSource && all_.emission_.imageOf(past_.source, hit.surface) == kNone))
+    return false;
+  const Scattering s = scatter(*all_.surfaces_.finishOf(hit.surface).mirror,
+                               plainInteraction(beam_.direction, hit.normal, false));
   const SharpPath& next = s.sharp.path[0];
-  const double share = brightness(power_ * next.coefficient) / brightness(power_);
+  const double share = brightness(beam_.power * next.coefficient) / brightness(beam_.power);
   if (random_.uniform() >= share) return false;
-  power_ = power_ * next.coefficient / share;
-  origin_ += hit.distance * direction_;
-  start_ = hit.surface;
-  direction_ = next.direction;
-  if (fromSource_) {
-    light_ = all_.emission_.imageOf(light_, hit.surface);
-    way_ = LightVertex::unweighed;
+  beam_.power = beam_.power * next.coefficient / share;
+  beam_.origin += hit.distance * beam_.direction;
+  beam_.start = hit.surface;
+  beam_.direction = next.direction;
+  if (past_.fromSource) {
+    past_.source = all_.emission_.imageOf(past_.source, hit.surface);
+    past_.way = LightVertex::unweighed;
     return true;
   }
-  way_ = LightVertex::sharp;
-  length_ = 0;
+  past_.way = LightVertex::sharp;
+  beam_.length = 0;
   return true;
 }
 
 void LightVertices::Path::arrive(const PlainPlace& at) {
   const Opaque& m = *at.material;
-  Irradiance arriving(power_.color * at.color());
-  if (fromSource_) arriving *= enteringShare(m, -at.normal.dot(direction_));
+  Irradiance arriving(beam_.power.color * at.color());
+  if (past_.fromSource) arriving *= enteringShare(m, -at.normal.dot(beam_.direction));
   const double reflected = std::abs(brightness(arriving)) * (1 - m.specularity);
   addVisible(at, reflected);
-  if (!(reflected > 0) || bounces_ + 1 > all_.prepared_.options().ambientBounces) return;
-  all_.all_.push_back(vertexAt(at, reflected, bounces_ + 1, way_, batch_));
-  all_.powers_.push_back(std::move(arriving));
-  all_.hits_.push_back(at.surface);
+  if (!(reflected > 0) || past_.bounces + 1 > prepared_.options().ambientBounces) return;
+  all_.all_.push_back(vertexAt(at, reflected, past_.bounces + 1, past_.way, batch_));
+  all_.arriving_.push_back({std::move(arriving), at.material});
 }
 
 void LightVertices::Path::addVisible(const PlainPlace& at, double reflected) {
-  if (bounces_ > all_.prepared_.options().ambientBounces) return;
-  const bool direct = way_ == LightVertex::direct;
-  const bool diffuse = way_ == LightVertex::diffuse;
-  if (way_ == LightVertex::unweighed) return;
-  if (diffuse && (senderIsUnbounded_ || !(all_.closeShare(length_, all_.meanLength_) > 0))) return;
+  if (past_.bounces > prepared_.options().ambientBounces) return;
+  const bool direct = past_.way == LightVertex::direct;
+  const bool diffuse = past_.way == LightVertex::diffuse;
+  if (past_.way == LightVertex::unweighed) return;
+  if (diffuse &&
+      (past_.senderIsUnbounded || !(all_.near_.closeShare(beam_.length, all_.near_.meanLength) > 0)))
+    return;
   if (!(reflected > 0) && !(direct && hasRoughHighlight(*at.material))) return;
-  double shadowRays = 0;
-  if (direct) {
-    std::span<const uint32_t> sources;
-    const double sum = all_.surfaces_.weigh(at.point, at.normal, sources, weights_);
-    const auto own = std::lower_bound(sources.begin(), sources.end(), light_.index()) - sources.begin();
-    SourceSample same;
-    same.direction = -direction_;
-    same.distance = length_;
-    same.cosine = cosineAtSource_;
-    same.source = light_;
-    shadowRays = sum > 0 ? all_.shadowRaysOver(same, at.normal, weights_[static_cast<size_t>(own)] / sum) : 0;
-  }
-  const Irradiance power = direct ? power_ : Irradiance(power_.color * at.color());
-  all_.visible_.push_back({vertexAt(at, reflected, bounces_ + 1, way_, batch_), power, direction_,
-                           at.material, at.pattern, at.flat, length_, shadowRays});
+  const Irradiance power = direct ? beam_.power : Irradiance(beam_.power.color * at.color());
+  all_.visible_.add({vertexAt(at, reflected, past_.bounces + 1, past_.way, batch_), power, beam_.direction,
+                     at.material, at.pattern, at.flat, beam_.length, direct ? shadowRaysTo(at) : 0});
+}
+
+// SourceEmission::shadowRaysOver() for direct light.
+double LightVertices::Path::shadowRaysTo(const PlainPlace& at) {
+  std::span<const uint32_t> sources;
+  const double sum = all_.surfaces_.weigh(at.point, at.normal, sources, work_.weights);
+  if (!(sum > 0)) return 0;
+  const auto own = std::lower_bound(sources.begin(), sources.end(), past_.source.index()) - sources.begin();
+  SourceSample same;
+  same.direction = -beam_.direction;
+  same.distance = beam_.length;
+  same.cosine = past_.cosineAtSource;
+  same.source = past_.source;
+  return all_.emission_.shadowRaysOver(same, at.normal, work_.weights[static_cast<size_t>(own)] / sum);
 }
 
 // Chooses between diffuse reflection, specular reflection and the end of the path, by power. Returns false if
 // the path ends.
 bool LightVertices::Path::reflect(const PlainPlace& at) {
   const Opaque& m = *at.material;
-  const Interaction view = plainInteraction(direction_, at.normal, at.flat, at.pattern);
+  const Interaction view = plainInteraction(beam_.direction, at.normal, at.flat, at.pattern);
   const Scattering s = scatter(m, view, 0);
   const bool isSharp = s.sharp.count > 0;
   const auto strength = [&](const Color& share) {
-    return std::abs(brightness(Irradiance(power_.color * share)));
+    return std::abs(brightness(Irradiance(beam_.power.color * share)));
   };
-  const double all = std::abs(brightness(power_));
+  const double all = std::abs(brightness(beam_.power));
   const double diffuse =
-      bounces_ < all_.prepared_.options().ambientBounces ? strength(s.diffuseReflection) : 0;
+      past_.bounces < prepared_.options().ambientBounces ? strength(s.diffuseReflection) : 0;
   const Color& gloss = isSharp ? s.sharp.path[0].coefficient.color : s.specularReflection;
-  const double specular = isSharp && fromSource_ ? 0 : strength(gloss);
+  const double specular = isSharp && past_.fromSource ? 0 : strength(gloss);
   const double chosen = random_.uniform() * std::max(all, diffuse + specular);
   if (chosen >= diffuse + specular) return false;
   // The power is divided by the probability of the choice.
   if (chosen >= diffuse) return reflectSpecularly(s, view, std::max(all, diffuse + specular) / specular);
   double scale = std::max(all, diffuse + specular) / diffuse;
-  if (fromSource_) scale *= enteringShare(m, view.cosine);
-  direction_ = sentFrom(at.normal, random_);
-  power_ = Irradiance(power_.color * at.color() * (diffuseShare(m, at.normal.dot(direction_)) * scale));
-  senderIsUnbounded_ = way_ == LightVertex::sharp || way_ == LightVertex::highlight;
-  way_ = LightVertex::diffuse;
-  ++bounces_;
-  return std::abs(brightness(power_)) > 0;
+  if (past_.fromSource) scale *= enteringShare(m, view.cosine);
+  beam_.direction = sentFrom(at.normal, random_);
+  beam_.power =
+      Irradiance(beam_.power.color * at.color() * (diffuseShare(m, at.normal.dot(beam_.direction)) * scale));
+  past_.senderIsUnbounded = past_.way == LightVertex::sharp || past_.way == LightVertex::highlight;
+  past_.way = LightVertex::diffuse;
+  ++past_.bounces;
+  return std::abs(brightness(beam_.power)) > 0;
 }
 
 bool LightVertices::Path::reflectSpecularly(const Scattering& s, const Interaction& view, double scale) {
-  way_ = fromSource_ ? LightVertex::highlight : LightVertex::sharp;
-  if (fromSource_) ++bounces_;  // for the next surface, the light of the highlight is indirect
+  past_.way = past_.fromSource ? LightVertex::highlight : LightVertex::sharp;
+  if (past_.fromSource) ++past_.bounces;  // for the next surface, the light of the highlight is indirect
   if (s.sharp.count > 0) {
-    direction_ = s.sharp.path[0].direction;
-    power_ = power_ * s.sharp.path[0].coefficient * scale;
+    beam_.direction = s.sharp.path[0].direction;
+    beam_.power = beam_.power * s.sharp.path[0].coefficient * scale;
   } else {
     const double u1 = random_.uniform(), u2 = random_.uniform();
     V3d next;
     // The lobe is the same for both directions of the light.
     const double weight = sampleReflection(s, view, 1, u1, u2, next);
-    direction_ = next;
-    power_ = Irradiance(power_.color * s.specularReflection * (weight * scale));
+    beam_.direction = next;
+    beam_.power = Irradiance(beam_.power.color * s.specularReflection * (weight * scale));
   }
-  return std::abs(brightness(power_)) > 0;
+  return std::abs(brightness(beam_.power)) > 0;
 }
 
 LightVertices::LightVertices(const PreparedScene& prepared, const PlainSurfaces& surfaces,
                              SourceEmission emission, size_t paths, uint64_t seed)
-    : prepared_(prepared), surfaces_(surfaces), emission_(std::move(emission)) {
-  measure(paths, seed);
+    : surfaces_(surfaces), emission_(std::move(emission)) {
+  near_ = measured(prepared, paths, seed);
   const auto count = static_cast<double>(paths);
+  size_t met = 0, metUnknown = 0;
   for (size_t i = 0; i < paths; ++i) {
     // Stratified, so that each batch has about the same number of paths from each source.
     const double where = (static_cast<double>(i) + Random(mixBits(seed ^ i)).uniform()) / count;
-    Path(*this, i, seed).send(where);
+    const Path::Course course = Path(prepared, *this, i, seed).send(where);
+    met += course.met;
+    metUnknown += course.metUnknown;
   }
   sort();
-  findHidden();
-  if (met_ > 0 && surfaces_.knowAllSources())
-    shareOfRest_ = std::clamp(Tuning::kRest * static_cast<double>(metUnknown_) / static_cast<double>(met_),
+  visible_.sort(prepared);
+  if (met > 0 && surfaces_.coverage().allSources)
+    shareOfRest_ = std::clamp(Tuning::kRest * static_cast<double>(metUnknown) / static_cast<double>(met),
                               Tuning::kLeastRest, 1.);
 }
 
 // The widths depend on the size of the room, which is measured by the mean length of first segments.
-void LightVertices::measure(size_t paths, uint64_t seed) {
+NearLight LightVertices::measured(const PreparedScene& prepared, size_t paths, uint64_t seed) {
   const size_t tried = std::min(paths, tuning::Caps::kAsked);
   double sum = 0;
   size_t met = 0;
   for (size_t i = 0; i < tried; ++i) {
-    Path path(*this, i, ~seed);
-    path.send((static_cast<double>(i) + .5) / static_cast<double>(tried));
-    sum += path.firstLength();
-    met += path.firstLength() > 0;
+    const double where = (static_cast<double>(i) + .5) / static_cast<double>(tried);
+    const double length = Path(prepared, *this, i, ~seed).send(where).firstLength;
+    sum += length;
+    met += length > 0;
   }
-  if (met > 0) meanLength_ = sum / static_cast<double>(met);
-  width_ = Tuning::kWidth * meanLength_;
   all_.clear();
-  powers_.clear();
-  hits_.clear();
+  arriving_.clear();
   visible_.clear();
+  const double meanLength = met > 0 ? sum / static_cast<double>(met) : 1;
+  return {Tuning::kWidth * meanLength, meanLength};
 }
 
 void LightVertices::sort() {
   VertexClusters::Order clustered = VertexClusters::orderOf(all_);
-  const auto& order = clustered.vertices;
-  permute(all_, order);
-  permute(powers_, order);
-  permute(hits_, order);
+  permute(all_, clustered.vertices);
+  permute(arriving_, clustered.vertices);
   ends_ = std::move(clustered.ends);
-  permute(visible_, orderByPlace(visible_.size(), [&](size_t i) { return visible_[i].vertex.point(); }));
 }
 
-// This is done only in scenes where light sources are hidden from some regions. In other scenes, few regions
-// are hidden from each other.
-void LightVertices::findHidden() {
-  if (!prepared_.lights().hidden().divides()) return;
-  std::vector<Box3d> boxes((visible_.size() + kBlock - 1) / kBlock);
-  for (size_t i = 0; i < visible_.size(); ++i) boxes[i / kBlock].extendBy(visible_[i].vertex.point());
-  hidden_.emplace(prepared_.scene(), prepared_.tracer(), std::move(boxes), 0);
+void VisibleVertices::sort(const PreparedScene& prepared) {
+  permute(all_, orderByPlace(all_.size(), [&](size_t i) { return all_[i].vertex.point(); }));
+  // Boxes are made only in scenes where light sources are hidden from some regions. In other scenes, few
+  // regions are hidden from each other.
+  if (!prepared.lights().hidden().divides()) return;
+  std::vector<Box3d> boxes((all_.size() + kBlock - 1) / kBlock);
+  for (size_t i = 0; i < all_.size(); ++i) boxes[i / kBlock].extendBy(all_[i].vertex.point());
+  hidden_.emplace(prepared.scene(), prepared.tracer(), std::move(boxes), 0);
 }
 
-void LightVertices::visibleFrom(const V3d& point, FunctionRef<void(size_t begin, size_t end)> use) const {
-  if (!hidden_) return use(0, visible_.size());
+void VisibleVertices::from(const V3d& point, FunctionRef<void(size_t begin, size_t end)> use) const {
+  if (!hidden_) return use(0, all_.size());
   for (const uint32_t block : hidden_->notHiddenFrom(point))
-    use(block * kBlock, std::min((block + 1) * kBlock, visible_.size()));
+    use(block * kBlock, std::min((block + 1) * kBlock, all_.size()));
 }
 
-double LightVertices::closeShare(double distance, double fromEye) const {
+double NearLight::closeShare(double distance, double fromEye) const {
   // The share is cut off to 0 beyond ten times the width, so that few vertices have any.
   constexpr double kRest = 1. / 101;
-  const double width = Tuning::kClose * std::min(meanLength_, fromEye);
-  const double share = width * width / (distance * distance + width * width);
+  const double close = Tuning::kClose * std::min(meanLength, fromEye);
+  const double share = close * close / (distance * distance + close * close);
   return std::max(0., (share - kRest) / (1 - kRest));
-}
-
-static_assert(kLightForms == 8, "Where are shadow rays aimed?");
-// The density of the points on a source at which shadow rays from a place are aimed (1/m2); 0 if it is not
-// known. distance: of the source's point. cosine: there, between the ray and the normal.
-double LightVertices::aimedDensity(LightId light, double distance, double cosine) const {
-  const LightSource& source = prepared_.lights().all()[light];
-  if (const auto* plane = source.as<PlaneLight>()) return 1 / plane->area;
-  if (!source.as<BallLight>()) return 0;
-  // Shadow rays are uniform in the cone that the ball subtends. The distance of its center follows from the
-  // law of cosines.
-  const double r = source.radius, square = distance * distance + r * r + 2 * distance * r * cosine;
-  const double sine2 = r * r / square;
-  const double solidAngle = 2 * kPi * sine2 / (1 + std::sqrt(std::max(0., 1 - sine2)));
-  return cosine / (distance * distance * solidAngle);
-}
-
-double LightVertices::shadowRaysOver(const SourceSample& sample, const V3d& normal,
-                                     double probability) const {
-  const double cosine = std::abs(sample.cosine), d = sample.distance;
-  const double lightPaths =
-      emission_.density(sample.source) * cosine / kPi * normal.dot(sample.direction) / (d * d);
-  return lightPaths > 0 ? probability * aimedDensity(sample.source, d, cosine) / lightPaths : 0;
 }
 
 }  // namespace rsphere

@@ -71,14 +71,14 @@ PlainSurfaces::PlainSurfaces(const PreparedScene& prepared)
     const Material* const material = materialOfFinish(scene_, finish);
     const ModifierId patterns = material ? scene_.modifiers[finish.material].next : ModifierId();
     const bool plain = material && patterns == kNone;
-    opaque_.push_back(material ? std::get_if<Opaque>(material) : nullptr);
     const auto isEven = [&](ModifierId i) { return prepared.functions().dependsOnPlaceAlone(i); };
-    if (opaque_.back() && !arePatterns(scene_, patterns, isEven)) opaque_.back() = nullptr;
-    patterns_.push_back(patterns);
-    panes_.push_back(plain ? std::get_if<Glass>(material) : nullptr);
-    hasPanes_ = hasPanes_ || panes_.back();
+    PlainFinish f{.patterns = patterns};
+    if (material && arePatterns(scene_, patterns, isEven)) f.opaque = std::get_if<Opaque>(material);
+    if (plain) f.pane = std::get_if<Glass>(material);
     const Mirror* const mirror = plain ? std::get_if<Mirror>(material) : nullptr;
-    mirrors_.push_back(mirror && mirror->alternate.kind == Alternate::Kind::none ? mirror : nullptr);
+    if (mirror && mirror->alternate.kind == Alternate::Kind::none) f.mirror = mirror;
+    hasPanes_ = hasPanes_ || f.pane;
+    finishes_.push_back(f);
   }
   findSources();
   findSurfaces();
@@ -90,7 +90,7 @@ void PlainSurfaces::findSources() {
   for (const LightId i : lights.ids()) {
     knownSources_[i] = isKnown(i);  // an image comes after its source, which isKnown() looks up
     hasKnownSources_ = hasKnownSources_ || knownSources_[i];
-    knowAllSources_ = knowAllSources_ && knownSources_[i];
+    coverage_.allSources = coverage_.allSources && knownSources_[i];
   }
 }
 
@@ -98,7 +98,7 @@ static_assert(kLightForms == 8, "Are samples spread over all of it?");
 bool PlainSurfaces::isKnown(LightId source) const {
   const LightSource& light = prepared_.lights().all()[source];
   if (light.isDistant() || light.reach > 0) return false;
-  if (light.isVirtual()) return mirrorOf(light.surface) && knownSources_[light.relayed];
+  if (light.isVirtual()) return finishOf(light.surface).mirror && knownSources_[light.relayed];
   const auto* const plane = light.as<PlaneLight>();
   // Samples of concave and bent polygons miss parts of them. Rings have no hole, or cannot be sources.
   const bool isRing = plane && std::holds_alternative<PlaneLight::Disk>(plane->map);
@@ -122,12 +122,12 @@ void PlainSurfaces::findSurfaces() {
     const bool shines = scene_.importance ? surface.goal : lamp;
     const bool isAimedAt =
         !shines || prepared_.lights().of(i) != kNone || isBlack(sourceRadiance(scene_, surface));
-    bringAll_ = bringAll_ && known && isAimedAt;
-    passUnknown_ =
-        passUnknown_ || (!known && !(tracer_.stopsShadows(i, true) && tracer_.stopsShadows(i, false)));
+    coverage_.all = coverage_.all && known && isAimedAt;
+    if (!known && !(tracer_.stopsShadows(i, true) && tracer_.stopsShadows(i, false)))
+      coverage_.passUnknown = true;
   }
-  bringAllDirect_ = knowAllSources_ && !passUnknown_;
-  bringAll_ = bringAll_ && bringAllDirect_;
+  coverage_.allDirect = coverage_.allSources && !coverage_.passUnknown;
+  coverage_.all = coverage_.all && coverage_.allDirect;
 }
 
 const char* PlainSurfaces::obstacle() const {
@@ -136,7 +136,7 @@ const char* PlainSurfaces::obstacle() const {
   if (!hasKnownSources_) return "no known sources";
   // By measurement in an open-plan office with a sheet of paper or a crystal ball: around a goal half the
   // error in twice the time, by lamps the same error in two thirds more.
-  if (!bringAll_ && !scene_.importance) return "surfaces or sources that are not known";
+  if (!coverage_.all && !scene_.importance) return "surfaces or sources that are not known";
   for (const auto& modifier : scene_.modifiers)
     if (const auto* material = std::get_if<Material>(&modifier.content); holds<Mist>(material)) return "mist";
   return nullptr;
@@ -159,7 +159,7 @@ double PlainSurfaces::weigh(const V3d& point, const V3d& normal, std::span<const
                             std::vector<double>& weights) const {
   sources = prepared_.lights().hidden().notHiddenFrom(point, normal);
   const double all = prepared_.lights().choice().weigh(point, normal, sources, weights);
-  if (knowAllSources_) return all;
+  if (coverage_.allSources) return all;
   double sum = 0;
   for (size_t i = 0; i < sources.size(); ++i) {
     if (!knownSources_[LightId(sources[i])]) weights[i] = 0;
@@ -173,7 +173,7 @@ Sight PlainSurfaces::look(const V3d& origin, const V3d& direction, double farthe
   sight.hit = tracer_.nearest(origin, direction, farthest, start);
   sight.distance = sight.hit.distance;
   while (sight.hit.surface != kNone) {
-    const Glass* const pane = paneOf(sight.hit.surface);
+    const Glass* const pane = finishOf(sight.hit.surface).pane;
     if (!pane || sight.hit.perturbation != V3d(0, 0, 0)) break;
     sight.passed *= passedBy(*pane, sight.hit, direction);
     sight.hit = tracer_.nearest(origin + sight.distance * direction, direction, farthest - sight.distance,
@@ -202,10 +202,10 @@ PlainPlace PlainSurfaces::placeOf(const V3d& origin, const V3d& direction, const
   at.normal = sight.hit.normal.dot(direction) > 0 ? -sight.hit.normal : sight.hit.normal;
   if (at.surface == kNone || sight.hit.perturbation != V3d(0, 0, 0) || !(at.normal.dot(direction) < 0))
     return at;
-  at.material = materialOf(at.surface);
+  const PlainFinish& finish = finishOf(at.surface);
+  at.material = finish.opaque;
   at.flat = isFlat(at.surface);
-  if (at.material && patterns_[scene_.surfaces.face(at.surface).finish] != kNone)
-    at.pattern = patternAt(at, direction, sight.hit, scratch);
+  if (at.material && finish.patterns != kNone) at.pattern = patternAt(at, direction, sight.hit, scratch);
   return at;
 }
 
@@ -219,7 +219,7 @@ Color PlainSurfaces::patternAt(const PlainPlace& at, const V3d& direction, const
   here.u = hit.u;
   here.v = hit.v;
   here.path = hit.path;
-  Color pattern = patternFrom(patterns_[scene_.surfaces.face(at.surface).finish], here, scratch);
+  Color pattern = patternFrom(finishOf(at.surface).patterns, here, scratch);
   // What reflects a negative share of light counts as black.
   pattern.transform([](double share) { return std::max(0., share); });
   return pattern;

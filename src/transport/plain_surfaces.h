@@ -30,6 +30,15 @@ struct Sight {
   Coefficient passed{1};  // share of the light that the panes in between let pass
 };
 
+// What a finish (scene/surface_list.h) is to paths from both ends. Null: it is none of that material, or not
+// a known one.
+struct PlainFinish {
+  const Opaque* opaque = nullptr;  // plastic or metal
+  const Glass* pane = nullptr;
+  const Mirror* mirror = nullptr;
+  ModifierId patterns = kNone;  // the first in its chain; kNone: none
+};
+
 // Shared by all threads. Keeps references to the scene and its tracer.
 class PlainSurfaces {
  public:
@@ -39,19 +48,28 @@ class PlainSurfaces {
   // used.
   const char* obstacle() const;
 
-  bool knows(SurfaceId surface) const { return materialOf(surface) || paneOf(surface) || mirrorOf(surface); }
+  // How much of the scene's light is light of known paths.
+  struct Coverage {
+    bool allSources = true;    // all sources are known
+    bool all = true;           // known paths bring all of the light: all surfaces and sources are known
+    bool allDirect = true;     // known paths bring all of the direct light of known surfaces
+    bool passUnknown = false;  // shadow rays to a known source may bring light of paths that are not known
+  };
+  const Coverage& coverage() const { return coverage_; }
+
+  const PlainFinish& finishOf(SurfaceId surface) const {
+    return finishes_[scene_.surfaces.face(surface).finish];
+  }
+  bool knows(SurfaceId surface) const {
+    const PlainFinish& f = finishOf(surface);
+    return f.opaque || f.pane || f.mirror;
+  }
   bool knows(LightId source) const { return knownSources_[source]; }
+  bool isFlat(SurfaceId surface) const;  // Interaction::flat
   // The radiance (W/sr/m2) that a known source, not an image, sends from a point on it. normal: of its front
   // at the point (unit). direction: towards the point (unit).
   Radiance radianceOf(LightId source, const V3d& point, const V3d& normal, const V3d& direction,
                       FunctionScratch& scratch) const;
-  bool knowAllSources() const { return knowAllSources_; }
-  // Whether known paths bring all of the light: all surfaces and sources are known.
-  bool bringAll() const { return bringAll_; }
-  // Whether known paths bring all of the direct light of known surfaces.
-  bool bringAllDirect() const { return bringAllDirect_; }
-  // Whether shadow rays to a known source may bring light of paths that are not known.
-  bool passUnknown() const { return passUnknown_; }
   // SourceChoice::weigh() of the sources that are not certainly hidden from the point (hidden_boxes.h), which
   // it returns in `sources`. Those that are not known have the weight 0.
   double weigh(const V3d& point, const V3d& normal, std::span<const uint32_t>& sources,
@@ -67,13 +85,6 @@ class PlainSurfaces {
   // The place that a sight from `origin` along a direction shows.
   PlainPlace placeOf(const V3d& origin, const V3d& direction, const Sight& sight,
                      FunctionScratch& scratch) const;
-  // Null unless the surface is a known one of plastic or metal.
-  const Opaque* materialOf(SurfaceId surface) const { return opaque_[scene_.surfaces.face(surface).finish]; }
-  bool isFlat(SurfaceId surface) const;  // Interaction::flat
-  // Null if the surface is no pane.
-  const Glass* paneOf(SurfaceId surface) const { return panes_[scene_.surfaces.face(surface).finish]; }
-  // Null if the surface is not of the material mirror.
-  const Mirror* mirrorOf(SurfaceId surface) const { return mirrors_[scene_.surfaces.face(surface).finish]; }
 
  private:
   void findSources();
@@ -85,13 +96,10 @@ class PlainSurfaces {
   const PreparedScene& prepared_;
   const Scene& scene_;
   const Tracer& tracer_;
-  std::vector<const Opaque*> opaque_;   // by finish
-  std::vector<const Glass*> panes_;     // by finish
-  std::vector<const Mirror*> mirrors_;  // by finish
-  std::vector<ModifierId> patterns_;    // by finish: the first in its chain; kNone: none
+  std::vector<PlainFinish> finishes_;
   ById<LightId, bool> knownSources_;
-  bool hasPanes_ = false, hasKnownSources_ = false, knowAllSources_ = true;
-  bool bringAll_ = true, bringAllDirect_ = true, passUnknown_ = false;
+  Coverage coverage_;
+  bool hasPanes_ = false, hasKnownSources_ = false;
 };
 
 // A hit as scatter() of a plain material takes it.

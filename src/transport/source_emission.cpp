@@ -143,4 +143,27 @@ LightId SourceEmission::imageOf(LightId source, SurfaceId mirror) const {
   return kNone;
 }
 
+static_assert(kLightForms == 8, "Where are shadow rays aimed?");
+// The density of the points on a source at which shadow rays from a place are aimed (1/m2); 0 if it is not
+// known. distance: of the source's point. cosine: there, between the ray and the normal.
+double SourceEmission::aimedDensity(LightId light, double distance, double cosine) const {
+  const LightSource& source = prepared_.lights().all()[light];
+  if (const auto* plane = source.as<PlaneLight>()) return 1 / plane->area;
+  if (!source.as<BallLight>()) return 0;
+  // Shadow rays are uniform in the cone that the ball subtends. The distance of its center follows from the
+  // law of cosines.
+  const double r = source.radius, square = distance * distance + r * r + 2 * distance * r * cosine;
+  const double sine2 = r * r / square;
+  const double solidAngle = 2 * kPi * sine2 / (1 + std::sqrt(std::max(0., 1 - sine2)));
+  return cosine / (distance * distance * solidAngle);
+}
+
+double SourceEmission::shadowRaysOver(const SourceSample& sample, const V3d& normal,
+                                      double probability) const {
+  const double cosine = std::abs(sample.cosine), d = sample.distance;
+  const double lightPaths =
+      senders_[sample.source].density * cosine / kPi * normal.dot(sample.direction) / (d * d);
+  return lightPaths > 0 ? probability * aimedDensity(sample.source, d, cosine) / lightPaths : 0;
+}
+
 }  // namespace rsphere

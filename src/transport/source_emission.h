@@ -35,9 +35,6 @@ class SourceEmission {
   };
   Leaving leave(LightId source, Random& random, FunctionScratch& scratch) const;
 
-  bool isEven(LightId source) const { return senders_[source].even; }
-  // The density of the paths that begin on an even source (1/m2); 0 for other sources.
-  double density(LightId source) const { return senders_[source].density; }
   // Mean power of a path, W (brightness). All paths from even sources have this power unless some sources are
   // preferred.
   double pathPower() const { return pathPower_; }
@@ -45,6 +42,11 @@ class SourceEmission {
   // Factor on the light at this distance from its source (world units): the light of a spot diverges from a
   // focus behind the spot.
   double divergence(LightId source, double distance) const;
+  // Whether the density at which shadow rays are aimed at the source is known.
+  bool isAimedAt(LightId source) const { return senders_[source].even && aimedDensity(source, 1, 1) > 0; }
+  // The density of shadow rays from a place to a point on an even source, divided by the density of light
+  // paths through both places (m2). normal: at the place (unit). probability: that its source is drawn.
+  double shadowRaysOver(const SourceSample& sample, const V3d& normal, double probability) const;
   // The image of a source in a mirror; kNone if there is none, or if the image lights nothing.
   LightId imageOf(LightId source, SurfaceId mirror) const;
 
@@ -53,7 +55,7 @@ class SourceEmission {
     double power = 0;    // W, of brightness; approximate unless it is even
     double upTo = 0;     // cumulative share of the paths, up to and including this source
     double factor = 1;   // paths by preference: the number per power, relative to the mean
-    double density = 0;  // of paths that begin on it (1/m2)
+    double density = 0;  // of paths that begin on it (1/m2); 0: it is not even
     double area = 0;     // m2
     bool even = false;
   };
@@ -66,6 +68,7 @@ class SourceEmission {
   };
   Way way(LightId source, Random& random, FunctionScratch& scratch) const;
   double triedPower(LightId source) const;
+  double aimedDensity(LightId source, double distance, double cosine) const;
   void share();
 
   const PreparedScene& prepared_;

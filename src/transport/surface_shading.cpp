@@ -274,7 +274,7 @@ bool isMirrored(const PathContext& context) {
 SurfaceShading::FromBothEnds SurfaceShading::fromBothEnds(const RayEnd& end) {
   if (end.known == Known::no) return {};
   const PlainSurfaces& surfaces = state_.request.vertexLight->surfaces();
-  const Opaque* const material = surfaces.materialOf(end.hit.surface);
+  const Opaque* const material = surfaces.finishOf(end.hit.surface).opaque;
   if (!material) return {};
   FromBothEnds both{.direct = &surfaces, .indirect = &surfaces};
   const bool rough = hasRoughHighlight(*material);
@@ -295,7 +295,7 @@ SurfaceShading::FromBothEnds SurfaceShading::fromBothEnds(const RayEnd& end) {
 // Paths from both ends leave little, which some of the paths from the eye find: Russian roulette.
 double SurfaceShading::restOf(const RayEnd& end, const FromBothEnds& both) {
   const VertexLight& light = *state_.request.vertexLight;
-  if (!both.indirectHere && light.surfaces().bringAll()) return 0;
+  if (!both.indirectHere && light.surfaces().coverage().all) return 0;
   const double probability = both.indirectHere               ? tuning::VertexLight::kFollowed
                              : end.context.ambientLevel == 0 ? light.vertices().shareOfRest()
                                                              : 1;
@@ -307,17 +307,17 @@ void SurfaceShading::addFromVertices(const RayEnd& end, const V3d& normal, const
                                      Radiance& value) {
   const VertexLight& light = *state_.request.vertexLight;
   const SurfaceId surface = end.hit.surface;
-  const PlainPlace at{end.hit.point, normal, light.surfaces().materialOf(surface), surface};
+  const PlainPlace at{end.hit.point, normal, light.surfaces().finishOf(surface).opaque, surface};
   value += coefficient * light.indirectAt(at, {t_.options().ambientBounces - end.context.ambientLevel},
                                           state_.random, scratch_);
 }
 
 void SurfaceShading::addFromSource(const RayEnd& end, const V3d& normal, Shown shown, Radiance& value) {
   const VertexLight& light = *state_.request.vertexLight;
-  const SurfaceId surface = end.hit.surface;
-  const PlainPlace at{
-      end.hit.point,  normal, light.surfaces().materialOf(surface), surface, light.surfaces().isFlat(surface),
-      end.hit.pattern};
+  const PlainSurfaces& known = light.surfaces();
+  const SurfaceId hit = end.hit.surface;
+  const PlainPlace at{end.hit.point,     normal,         known.finishOf(hit).opaque, hit,
+                      known.isFlat(hit), end.hit.pattern};
   value += light.directOf(at, {.view = end.ray.direction, .shown = shown}, state_.random, scratch_);
 }
 
@@ -386,7 +386,8 @@ template <ScattersLight S>
                           value);
     }
   }
-  if (!scattering.takesDirect(side) || (both.direct && (both.direct->bringAllDirect() || !(both.rest > 0))))
+  if (!scattering.takesDirect(side) ||
+      (both.direct && (both.direct->coverage().allDirect || !(both.rest > 0))))
     return;
   const auto coefficient = [&](const V3d& toSource, double solidAngle) {
     return scattering.coefficient(side, toSource, solidAngle, state_.random);

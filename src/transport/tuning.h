@@ -201,10 +201,10 @@ struct Interpolation {
 // errors are the rms errors of answers.
 struct LightVertices {
   // The distance at which half of the light between diffuse surfaces is left to rays that look for near
-  // surfaces (LightVertices::nearShare()). .05: error +40% around the goal; .2 and .3: within noise.
+  // surfaces (NearLight::share()). .05: error +40% around the goal; .2 and .3: within noise.
   RSPHERE_TUNED(LightVertices, double, kWidth, .15);
   // The distance between diffuse surfaces at which those rays leave half of their light to joins with the eye
-  // (LightVertices::closeShare()), relative to the distance from the eye or the mean distance, whichever is
+  // (NearLight::closeShare()), relative to the distance from the eye or the mean distance, whichever is
   // less. Without these joins, one answer in 200 around the goal is 10% too bright: the eye looks into the
   // gap of 2 mm between a sheet of paper and the goal. .01: error +10% around the goal, in a tenth less time;
   // .4: within noise.

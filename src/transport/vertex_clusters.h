@@ -31,7 +31,7 @@ class VertexClusters {
   static std::vector<Box3d> boxesOf(std::span<const LightVertex> vertices, std::span<const uint32_t> ends);
 
   // The vertices must be in this order, with these ends. Keeps the span of vertices. width:
-  // LightVertices::width(), world units. hidden: the clusters' boxes; none where little is hidden.
+  // NearLight::width, world units. hidden: the clusters' boxes; none where little is hidden.
   VertexClusters(std::span<const LightVertex> vertices, std::span<const uint32_t> ends, double width,
                  std::optional<HiddenBoxes> hidden = {});
 

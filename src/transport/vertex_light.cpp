@@ -42,7 +42,7 @@ VertexLight::VertexLight(const PreparedScene& prepared, const PlainSurfaces& sur
     : prepared_(prepared),
       surfaces_(surfaces),
       vertices_(prepared, surfaces, std::move(emission), paths, seed),
-      clusters_(vertices_.all(), vertices_.clusterEnds(), vertices_.width(),
+      clusters_(vertices_.all(), vertices_.clusterEnds(), vertices_.nearLight().width,
                 hiddenClusters(prepared, vertices_)) {}
 
 void VertexLight::Record::add(uint8_t batch, const Irradiance& part, double notChosen) {
@@ -64,7 +64,7 @@ VertexLight::Chosen VertexLight::chooseSource(const PlainPlace& at, double fines
   auto& samples = scratch.samples;
   samples.clear();
   prepared_.lights().sample(LightId(sources[source]), at.point, {finest, 1, at.normal, false, true}, random,
-                             samples);
+                            samples);
   const auto arrives = [&](size_t i) {
     const double cosine = at.normal.dot(samples[i].direction);
     return samples[i].cosine > 0 && cosine > kNegligible ? cosine * samples[i].solidAngle : 0;
@@ -116,7 +116,7 @@ Radiance VertexLight::arrivingByMirrors(const PlainPlace& at, const SourceSample
       return surfaces_.radianceOf(source, origin, sight.hit.normal, direction, scratch) * passed;
     start = sight.hit.surface;
     const Scattering s =
-        scatter(*surfaces_.mirrorOf(start), plainInteraction(direction, sight.hit.normal, true));
+        scatter(*surfaces_.finishOf(start).mirror, plainInteraction(direction, sight.hit.normal, true));
     passed *= s.sharp.path[0].coefficient;
     direction = s.sharp.path[0].direction;
   }
@@ -131,7 +131,9 @@ Radiance VertexLight::directOf(const PlainPlace& at, const Seen& seen, Random& r
   const Radiance arrives = arriving(at, to.sample, scratch.functions);
   if (isBlack(arrives)) return {};
   const double over =
-      seen.density > 0 ? vertices_.shadowRaysOver(to.sample, at.normal, to.probability) * seen.density : 0;
+      seen.density > 0
+          ? vertices_.emission().shadowRaysOver(to.sample, at.normal, to.probability) * seen.density
+          : 0;
   const double joined = over > 0
                             ? std::min(1., seen.joins * joinedReflectance(*at.material, at.normal, seen.view,
                                                                           to.sample.direction))
@@ -190,7 +192,7 @@ Radiance VertexLight::ofVertex(const PlainPlace& at, size_t i) const {
   if (!(here > kNegligible) || !(there > kNegligible)) return {};
   const Coefficient passed = surfaces_.passing(at.point, v.point(), at.surface);
   if (isBlack(passed)) return {};
-  const double bounded = v.isUnbounded() ? 1 : 1 - vertices_.nearShare(d);
+  const double bounded = v.isUnbounded() ? 1 : 1 - vertices_.nearLight().share(d);
   const double kernel =
       here * there / (kPi * kPi * square) * bounded * diffuseShare(vertices_.materialOf(i), there);
   return Radiance(vertices_.powerOf(i).color * passed.color * kernel);
@@ -202,15 +204,16 @@ Radiance VertexLight::ofNear(const PlainPlace& at, const Indirect& how, Random& 
     const double u1 = random.uniform(), u2 = random.uniform();
     return diffuseDirection(at.normal, u1, u2);
   }();
-  // nearShare() is above u up to this distance.
+  // NearLight::share() is above u up to this distance.
   const double u = random.uniform();
-  const double farthest = u > 0 ? std::min(vertices_.width() * std::sqrt((1 - u) / u), kFarAway) : kFarAway;
+  const double farthest =
+      u > 0 ? std::min(vertices_.nearLight().width * std::sqrt((1 - u) / u), kFarAway) : kFarAway;
   if (!(farthest > kSamePlace)) return {};
   const Sight sight = surfaces_.look(at.point, direction, farthest, at.surface);
   if (sight.hit.surface == kNone) return {};
   const PlainPlace there = surfaces_.placeOf(at.point, direction, sight, scratch.functions);
   if (!there.material) return {};
-  const double left = how.fromEye > 0 ? 1 - vertices_.closeShare(sight.distance, how.fromEye) : 1;
+  const double left = how.fromEye > 0 ? 1 - vertices_.nearLight().closeShare(sight.distance, how.fromEye) : 1;
   const Coefficient share(sight.passed.color * there.color() *
                           (left * diffuseShare(*there.material, -there.normal.dot(direction))));
   Radiance sum = directAt(there, random, scratch);

@@ -5,6 +5,7 @@
 
 #include "rad_parser/calc/syntax.h"
 #include "rad_parser/rayinit/interface.h"
+#include "tests/unit/support/print_syntax.h"
 
 // The input is a function file; its last line is the expression.
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/support/print_syntax.h"
+
 namespace rad::calc {
 namespace {
 

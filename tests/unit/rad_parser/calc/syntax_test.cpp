@@ -5,6 +5,7 @@
 #include <random>
 
 #include "rad_parser/error.h"
+#include "tests/unit/support/print_syntax.h"
 
 namespace rad::calc {
 namespace {
