@@ -4,7 +4,7 @@ Each value is the mean of repeats with other random numbers; its standard error 
 """
 import numpy as np
 
-from wanted import Answer, cells, receiver_of
+from wanted import Answer, cell_means, receiver_of, uniformity
 
 REPEATS = 6
 BEYOND = 1e12  # cd/m2
@@ -44,12 +44,7 @@ class Forward:
                 known[i] = self.points(i)
             values = known[i].mean(axis=1)
             if goal.kind == "uniformity":
-                at = np.array([cells(self.t, i, v)[lit[i]] for v in known[i]])
-                # Of the mean over all repeats: the least of noisy values is too low.
-                value = at.mean(axis=0).min() / at.mean()
-                lowest = int(at.mean(axis=0).argmin())
-                values = at[:, lowest] / at.mean(axis=1)
-                found.append(Answer(goal, float(value), self.error(values)))
+                found.append(uniformity(goal, np.array([cell_means(v)[lit[i]] for v in known[i]])))
             else:
                 found.append(Answer(goal, float(values.mean()), self.error(values)))
         return found

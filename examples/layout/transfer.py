@@ -23,8 +23,15 @@ PROBE = 0.05  # m, the radius of the disks and cylinders that emit importance fo
 SIDES = 8  # of the prism
 APART = 0.3  # m: the least distance of disks and cylinders that are in the scene at once
 PART = 0.2  # m: luminous openings are divided into parts of at most this size for shadow rays
+GOLDEN = (0.6180339887, 0.7548776662)  # steps of points along the shorter sides, modulo 1: no two are near each other
 SPARK = 1e-4  # m, the radius of the lamps that shadow rays go to
-MOST_PARTS = 12
+MOST_PARTS = 12  # of a candidate
+MOST_PARTS_BUILT = 96  # of a luminaire of the layout: the edges of its shadows show as steps of this share
+MOST_PLACES_BUILT = 6  # of a luminaire of the layout, at which the importance of its goals is asked for
+ALL_PLACES_BUILT = 120  # of all luminaires of the layout; each has at least one
+MOST_SENSORS = 400  # of all cells; if four in each are more, there is one in the middle of each
+LEAST_DIRECTIONS = 64
+IN_FRONT = 0.001  # m: light begins this far before a luminaire that shines to one side
 MOST_SHADOWS = 4_000_000  # shadow rays of one call
 MOST_VALUES = 4_000_000  # of importance in one call
 SETS = 4  # of directions, from whose spread standard errors follow
@@ -43,11 +50,23 @@ class Receiver:
 
 
 @dataclass
+class Group:
+    """Goals that emit importance in one scene, each into a column of importance from the first on."""
+
+    scene: object
+    goals: object  # names of modifiers, or an array of sensors
+    areas: np.ndarray
+    first: int
+    points: list  # of each goal, spread over it; None if light by mirrors is not looked for
+
+
+@dataclass
 class Matrix:
     """Rows are receivers, columns candidates; lx for the luminaires at full power."""
 
     direct: np.ndarray
     sets: np.ndarray  # what comes on other ways, by each set of directions: (SETS, receivers, candidates)
+    cells: dict  # the same for each cell of receivers that are to be even: (SETS, cells, candidates)
 
     def total(self):
         return self.direct + self.sets.mean(axis=0)
@@ -77,18 +96,23 @@ def prism_text(modifier, middle, r):
     return text
 
 
-def lamp_points(photometry, matrix, position, units):
-    """Points (n, 3) spread over the luminous opening of a luminaire; a single one if it is small."""
-    x, y, h = photometry.size
-    counts = [max(1, int(np.ceil(v / PART))) for v in (x, y, h if all(photometry.shines()) else 0)]
-    while np.prod(counts) > MOST_PARTS:
-        counts[int(np.argmax(counts))] -= 1
-    grid = np.meshgrid(*((np.arange(c) + 0.5) / c - 0.5 for c in counts), indexing="ij")
-    at = np.stack([g.ravel() for g in grid], axis=1) * [x, y, h]
-    if photometry.shape == "cylinder" and len(at) > 1:
-        at[:, :2] *= np.sqrt(np.pi) / 2  # the square of the same area
-    if not photometry.shines()[1]:
-        at[:, 2] = min(f[1][2] for f in faces(photometry))  # the opening is the underside
+def lamp_points(photometry, matrix, position, units, most=MOST_PARTS):
+    """Points (n, 3) spread over the luminous opening of a luminaire; a single one if it is small.
+
+    They are a lattice without rows or columns, because the edges of things that hide a luminaire are often parallel to it.
+    """
+    size = np.array([*photometry.size[:2], photometry.size[2] if all(photometry.shines()) else 0])
+    count = int(min(np.prod(np.maximum(np.ceil(size * np.sqrt(most / MOST_PARTS) / PART), 1)), most))
+    step = np.zeros(3)
+    step[np.argsort(-size, kind="stable")] = [1 / count, *GOLDEN]
+    at = ((np.arange(count) - (count - 1) / 2)[:, None] * step + 0.5) % 1
+    if photometry.shape == "cylinder" and count > 1:
+        away, angle = np.sqrt(at[:, 0]) / 2, 2 * np.pi * at[:, 1]
+        at[:, 0], at[:, 1] = 0.5 + away * np.cos(angle), 0.5 + away * np.sin(angle)
+    at = (at - 0.5) * size
+    down, up = photometry.shines()
+    if down != up:
+        at[:, 2] = (max if up else min)(f[1][2] for f in faces(photometry)) + (IN_FRONT if up else -IN_FRONT)
     return position + (at * units) @ matrix.T
 
 
@@ -100,16 +124,21 @@ def sees(directions, receiver_kind, normals):
 
 
 class Transfer:
-    """Computes matrices for a design. The scene may have luminaires already: bodies, which are dark."""
+    """Computes matrices for a design. The scene may have luminaires already: bodies, which are dark.
 
-    def __init__(self, rsphere, files, design, folder, bounces):
+    fine: with the reflected light of each cell of surfaces that are to be even, and MOST_PARTS_BUILT for shadows.
+    """
+
+    def __init__(self, rsphere, files, design, folder, bounces, fine=False):
         self.rsphere, self.files, self.design, self.folder, self.bounces = rsphere, list(files), design, folder, bounces
+        self.fine, self.most_parts = fine, MOST_PARTS_BUILT if fine else MOST_PARTS
         self.receivers, self.groups = [], []
-        self.index = {}
+        self.index, self.cells, self.sensors_of_cell = {}, {}, 4
+        self.mirrors = has_mirrors(files)
         self.add_surfaces()
         self.add_probes()
-        self.scenes = [self.scene_with(group[0], f"goals{i}") for i, group in enumerate(self.groups)]
-        self.mirrors = has_mirrors(files)
+        if fine:
+            self.add_cells()
 
     def add(self, receiver):
         self.index[receiver.name, receiver.kind] = len(self.receivers)
@@ -123,7 +152,12 @@ class Transfer:
             areas.append(surface.area)
             self.add(Receiver(surface.name, "plane", surface.points, surface.normals, i))
         if areas:
-            self.groups.append((text, [f"layout_goal{i}" for i in range(len(areas))], np.array(areas), 0))
+            names = [f"layout_goal{i}" for i in range(len(areas))]
+            points = [s.fine_points() for s in self.design.surfaces.values()] if self.mirrors else None
+            self.groups.append(Group(self.scene_with(text, "goals"), names, np.array(areas), 0, points))
+
+    def goal_count(self):
+        return sum(len(g.areas) for g in self.groups)
 
     def probes(self):
         """Receivers of sensors and eyes, in groups of which the members hide little of each other."""
@@ -144,7 +178,7 @@ class Transfer:
     def add_probes(self):
         for group in self.probes():
             text, areas, names = "", [], []
-            first = sum(len(g[1]) for g in self.groups)
+            first = self.goal_count()
             for receiver in group:
                 receiver.surface = first + len(areas)
                 name = f"layout_probe{receiver.surface}"
@@ -154,7 +188,23 @@ class Transfer:
                 areas.append(area)
                 self.add(receiver)
             if group:
-                self.groups.append((text, names, np.array(areas), first))
+                self.groups.append(Group(self.scene_with(text, f"goals{len(self.groups)}"), names, np.array(areas), first, None))
+
+    def add_cells(self):
+        """Sensors on surfaces that are to be even: their points, or the middles of their cells."""
+        even = {g.target for scene in self.design.all_scenes() for g in scene.goals if g.kind == "uniformity"}
+        if sum(len(s.points) for name, s in self.design.surfaces.items() if name in even) > MOST_SENSORS:
+            self.sensors_of_cell = 1
+        sensors, first = [], self.goal_count()
+        for i, (name, surface) in enumerate(self.design.surfaces.items()):
+            if name in even:
+                begin = first + len(sensors)
+                points = surface.points.reshape(-1, 4 // self.sensors_of_cell, 3).mean(axis=1)
+                sensors += list(np.hstack([points, surface.normals[:: 4 // self.sensors_of_cell]]))
+                self.cells[i] = slice(begin, first + len(sensors))
+        if sensors:
+            points = [s[None, :3] for s in sensors] if self.mirrors else None
+            self.groups.append(Group(self.rsphere.Scene(self.files), np.array(sensors), np.ones(len(sensors)), first, points))
 
     def scene_with(self, text, name):
         path = f"{self.folder}/{name}.rad"
@@ -186,45 +236,56 @@ class Transfer:
         zones = Zones(self.rsphere.zone_middles(zone_count))
         mean = self.zone_intensities(candidates, zones)
         self.points = Direct(self, candidates)
-        sets = self.sets(candidates, mean, zones, directions // SETS)[:, [r.surface for r in self.receivers]]
-        return Matrix(self.points.means(), sets)
+        sets = self.sets(candidates, mean, zones, directions // SETS)
+        return Matrix(self.points.means(), sets[:, [r.surface for r in self.receivers]], 
+                      {i: sets[:, s].reshape(SETS, -1, self.sensors_of_cell, len(candidates)).mean(axis=2) for i, s in self.cells.items()})
 
-    def beside(self, candidates, zones):
-        """By surface and candidate, the zones that hold no direction straight to the surface."""
-        found = np.ones((len(self.design.surfaces), len(candidates), zones.count), dtype=bool)
-        for i, surface in enumerate(self.design.surfaces.values()):
-            points = surface.fine_points()
-            for j, c in enumerate(candidates):
-                to = points - c.position
+    @staticmethod
+    def beside(goal_points, places, zones):
+        """By goal and place, the zones that hold no direction straight to the goal."""
+        found = np.ones((len(goal_points), len(places), zones.count), dtype=bool)
+        for i, points in enumerate(goal_points):
+            for j, place in enumerate(places):
+                to = points - place
                 found[i, j, zones.at(to / np.linalg.norm(to, axis=1)[:, None])] = False
         return found
 
+    def places(self, candidate, most):
+        """Where the importance that meets a candidate is asked for."""
+        if not self.fine:
+            return candidate.position[None]
+        photometry = self.design.luminaires[candidate.luminaire].photometry
+        return lamp_points(photometry, candidate.matrix(), candidate.position, self.design.units, most)
+
     def sets(self, candidates, mean, zones, directions):
         """What goals get by their importance, one after the other of all groups: (SETS, goals, candidates)."""
-        places, which = np.unique([c.position for c in candidates], axis=0, return_inverse=True)
-        which = which.ravel()
+        most = min(max(ALL_PLACES_BUILT // len(candidates), 1), MOST_PLACES_BUILT)
+        spread = [self.places(c, most) for c in candidates]
+        directions = max(directions // max(map(len, spread)), LEAST_DIRECTIONS)
+        places, which = np.unique(np.round(np.concatenate(spread), 9), axis=0, return_inverse=True)
+        which, whose = which.ravel(), np.repeat(np.arange(len(candidates)), [len(p) for p in spread])
         area = zones.solid_angle * self.design.units**2  # importance has no unit of length, areas have
-        values = np.zeros((SETS, sum(len(g[1]) for g in self.groups), len(candidates)))
-        for scene, (_, names, areas, first) in zip(self.scenes, self.groups):
-            mirrors = self.mirrors and first < len(self.design.surfaces)
-            beside = self.beside(candidates, zones) if mirrors else None
-            step = max(1, MOST_VALUES // (len(names) * zones.count))
+        values = np.zeros((SETS, self.goal_count(), len(candidates)))
+        for group in self.groups:
+            beside = self.beside(group.points, places, zones) if group.points else None
+            count = len(group.areas)
+            step = max(1, MOST_VALUES // (count * zones.count))
             for begin in range(0, len(places), step):
                 here = np.flatnonzero((which >= begin) & (which < begin + step))
                 for k in range(SETS):
                     # -dv-: goals are black to rays that meet them without a reflection by a diffuse surface.
-                    def bins(bounces, dv, scene=scene, names=names, areas=areas, here=places[begin : begin + step], k=k):
-                        a = scene.importance(here, goals=names, bins=zones.count, outputs="z", rotation=k, ambient_bounces=bounces,
-                                             directions=directions, dv=dv)
-                        return a.bins.reshape(-1, len(names), zones.count, 3) @ WEIGHTS / areas[:, None]
+                    def bins(bounces, dv, group=group, here=places[begin : begin + step], k=k):
+                        a = group.scene.importance(here, goals=group.goals, bins=zones.count, outputs="z", rotation=k,
+                                                   ambient_bounces=bounces, directions=directions, dv=dv)
+                        return a.bins.reshape(-1, len(group.areas), zones.count, 3) @ WEIGHTS / group.areas[:, None]
 
                     reflected = bins(self.bounces, False)
-                    mirrored = bins(0, True) - bins(0, False) if mirrors else None
-                    for j in here:
-                        w = reflected[which[j] - begin]
-                        if mirrors:
-                            w = w + mirrored[which[j] - begin] * beside[:, j]
-                        values[k, first : first + len(names), j] = w @ mean[j] * area
+                    mirrored = bins(0, True) - bins(0, False) if group.points else None
+                    for at, j in zip(which[here] - begin, whose[here]):
+                        w = reflected[at]
+                        if group.points:
+                            w = w + mirrored[at] * beside[:, begin + at]
+                        values[k, group.first : group.first + count, j] += w @ mean[j] * area / len(spread[j])
         return values
 
 
@@ -245,7 +306,7 @@ class Direct:
         for c in self.candidates:
             photometry = design.luminaires[c.luminaire].photometry
             mine = []
-            for p in lamp_points(photometry, c.matrix(), c.position, design.units):
+            for p in lamp_points(photometry, c.matrix(), c.position, design.units, self.t.most_parts):
                 key = tuple(np.round(p, 9))
                 if key not in number:
                     number[key] = len(points)

@@ -1,5 +1,5 @@
 """The goals as linear rows: what each candidate adds to what is wanted, to daylight, and to what limits it."""
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -13,9 +13,15 @@ class Light:
     direct: list  # of each receiver: (points, candidates)
     sets: np.ndarray  # what is reflected, by each set of directions: (sets, receivers, candidates)
     glare: dict  # of each eye with a gaze: (candidates,)
+    cells: dict = field(default_factory=dict)  # what is reflected to each cell, where known: (sets, cells, candidates)
 
     def __post_init__(self):
         self.reflected = self.sets.mean(axis=0)
+
+    def at_cells(self, i, lit):
+        """What each cell of receiver i gets: (sets, cells, candidates). Where it is not known, what is reflected is even."""
+        reflected = self.cells[i][:, lit] if i in self.cells else self.sets[:, i, None]
+        return cell_means(self.direct[i])[lit] + reflected
 
     def error(self, i, levels):
         """The standard error of what receiver i gets, from the spread of the sets."""
@@ -39,15 +45,15 @@ def light_of(transfer, candidates, matrix):
     for eye in transfer.design.eyes.values():
         if eye.gaze is not None:
             glare[eye.name] = glare_terms(transfer, candidates, eye)
-    return Light(transfer.points.exact, matrix.sets, glare)
+    return Light(transfer.points.exact, matrix.sets, glare, matrix.cells)
 
 
 def receiver_of(transfer, name, kinds=("plane", "cylinder")):
     return next(transfer.index[name, k] for k in kinds if (name, k) in transfer.index)
 
 
-def cells(transfer, i, direct):
-    """Means over the cells of a surface of direct light (points, ...); those that no candidate lights are left out."""
+def cell_means(direct):
+    """Means over the cells of a surface of direct light (points, ...)."""
     if len(direct) % 4:
         return direct
     return direct.reshape(-1, 4, *direct.shape[1:]).mean(axis=1)
@@ -55,7 +61,7 @@ def cells(transfer, i, direct):
 
 def lit_cells(light, i):
     """Which cells of a receiver are not inside of furniture: those that some candidate lights."""
-    lit = cells(None, i, light.direct[i]).max(axis=1) > 0
+    lit = cell_means(light.direct[i]).max(axis=1) > 0
     return lit if lit.any() else np.ones_like(lit)
 
 
@@ -78,8 +84,8 @@ def rows_of(transfer, goals, light, daylight, lit, factors):
         mean, day = mean_row(light, i) * factor, mean_row(daylight, i)[0] if daylight else 0.0
         if goal.kind == "uniformity":
             least = min(goal.value / factor, 1.0)
-            at = cells(transfer, i, light.direct[i])[lit[i]] + light.reflected[i]
-            day_at = cells(transfer, i, daylight.direct[i])[lit[i], 0] + daylight.reflected[i] if daylight else np.zeros(len(at))
+            at = light.at_cells(i, lit[i]).mean(axis=0)
+            day_at = daylight.at_cells(i, lit[i]).mean(axis=0)[:, 0] if daylight else np.zeros(len(at))
             average, day_average = at.mean(axis=0), day_at.mean()
             size = next((g.value for g in goals if g.kind == "illuminance" and g.target == goal.target), 100.0)
             for row, there in zip(at, day_at):
@@ -117,10 +123,15 @@ def answers(transfer, goals, light, levels, daylight, lit):
         error = light.error(i, levels)
         value = float(mean_row(light, i) @ levels) + (mean_row(daylight, i)[0] if daylight else 0)
         if goal.kind == "uniformity":
-            at = cells(transfer, i, light.direct[i])[lit[i]] @ levels + light.reflected[i] @ levels
-            if daylight:
-                at = at + cells(transfer, i, daylight.direct[i])[lit[i], 0] + daylight.reflected[i]
-            found.append(Answer(goal, float(at.min() / at.mean()), float(error * (1 - at.min() / at.mean()) / at.mean())))
+            found.append(uniformity(goal, light.at_cells(i, lit[i]) @ levels + (daylight.at_cells(i, lit[i])[..., 0] if daylight else 0)))
         else:
             found.append(Answer(goal, value, error))
     return found
+
+
+def uniformity(goal, at):
+    """The Answer for repeats of the illuminance of cells: least over mean, of the means of all repeats."""
+    middle = at.mean(axis=0)  # the least of noisy values is too low
+    values = at[:, middle.argmin()] / at.mean(axis=1)
+    error = values.std(ddof=1) / np.sqrt(len(values)) if len(values) > 1 else 0.0
+    return Answer(goal, float(middle.min() / middle.mean()), float(error))

@@ -103,6 +103,27 @@ class Goals(unittest.TestCase):
             self.assertAlmostEqual(p, f, delta=0.3)
         self.assertGreater(max(abs(p - f) for p, f in zip(planned, found[1:] + found[:1])), 1, "those of other gazes differ")
 
+    def test_uniformity_is_planned_as_found(self):
+        """Beside a bright screen, where reflected light and shadows are uneven; other desks differ by more."""
+        lines = [GOOD[0], *(f"place panel {x} {y} 2.5" for x, y in ((1.4, 3.2), (3.4, 2.3), (6.9, 1.5)))]
+        lines += [f"illuminance desk{i} 400 uniformity .2" for i in (1, 3, 4, 7)]
+        run, _ = self.run_on(lines, ("-c", "64", "-d", "512", "-b", "3"))
+        rows = [line.split() for line in run.stdout.splitlines() if line.startswith("uniformity")]
+        planned, found = ([float(row[i]) for row in rows] for i in (3, 4))
+        self.assertEqual(len(rows), 4, run.stdout + run.stderr)
+        for p, f in zip(planned, found):
+            self.assertAlmostEqual(p, f, delta=0.03)
+        self.assertGreater(max(abs(p - f) for p, f in zip(planned, found[1:] + found[:1])), 0.1, "those of other desks differ")
+
+    def test_nearly_met_is_not_missed(self):
+        """A goal within the tolerance of the check was called met and impossible at once."""
+        lines = ["maintenance .8", GOOD[0], "grid panel ceiling spacing 1.2 .9 margin .45", "most 4", "illuminance desk* 500 spacing .4"]
+        run, _ = self.run_on(lines, ("-c", "16", "-d", "512"))
+        self.assertRegex(run.stdout, r"(?m)^illuminance +desk4 .* yes$", "the only desk that is nearly lit")
+        missed = re.findall(r"^Cannot be met: illuminance (desk[0-9])", run.stdout, re.MULTILINE)
+        self.assertEqual(missed, [f"desk{i}" for i in (1, 2, 3, 5, 6, 7, 8)], run.stdout)
+        self.assertEqual(run.returncode, 2)
+
     def test_second_goal(self):
         run, _ = self.run_on([*GOOD, "illuminance floor 100", "illuminance floor 200"])
         self.assertRegex(run.stderr, r"goals\.txt:5: a second goal of illuminance for floor")
