@@ -52,7 +52,7 @@ struct Mesh {
   // Of unit length, within 0.006 degrees of the normal that was compiled. Empty if the vertex has none.
   std::optional<Imath::V3d> normal(uint32_t vertex) const;
 
-  // Within 2^-33 of the range of u and of v. Empty if the vertex has none.
+  // u and v. Each differs from the compiled one by at most 2^-33 of its range. Empty if the vertex has none.
   std::optional<Imath::V2d> uv(uint32_t vertex) const;
 };
 

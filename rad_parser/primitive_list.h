@@ -30,7 +30,7 @@ class PrimitiveList {
   Primitive operator[](PrimitiveId id) const { return at(id.index()); }
   Primitive at(size_t index) const;
   Primitive back() const { return at(size() - 1); }
-  // The name alone.
+  // The name of the primitive, of which nothing else is decoded.
   std::string name(PrimitiveId id) const;
   // Whether the primitive is a surface, without decoding it.
   bool isSurface(PrimitiveId id) const { return isSurface_[id.index()]; }

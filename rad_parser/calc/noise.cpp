@@ -139,8 +139,8 @@ double fractalNoise3(double x, double y, double z) {
         origin += half * kSeeds[i];
       }
     }
-    // sum[m] is the sum over the corners of the edge, face or cube that extends from the octant's
-    // corner along the axes in m.
+    // sum[m] is the sum of the values at the corners of an edge, of a face or of the cube: of the one that
+    // extends from the corner that octant and cube share, along the axes whose bits are set in m.
     std::array<double, 8> sum;
     for (int m = 0; m < 8; ++m) sum[m] = corner[m ^ octant];
     for (int bit = 1; bit < 8; bit *= 2) {

@@ -148,8 +148,8 @@ std::optional<double> SymbolTable::constantValue(const Syntax& tree, const std::
   return std::nullopt;
 }
 
-// Whether a tree that compiles cannot be evaluated without a ray, a primitive's real arguments and
-// the renderer's functions.
+// Whether the evaluation of a tree needs a ray, the real arguments of a primitive or the renderer's
+// functions. REQUIRES: the tree compiles.
 bool SymbolTable::needsRay(const Syntax& tree, const std::string& place) const {
   CompileInput input = compileInput(place);
   input.hasHosts = false;

@@ -469,7 +469,7 @@ void Batch::handIn(uint64_t number, Finished&& finished, InWork& mine) {
   written_.notify_all();
 }
 
-// Writes the claims that are finished, in their order, up to the first that is not. REQUIRES output_.
+// Writes the answers of each finished Claim in order, up to the first unfinished one. REQUIRES output_.
 void Batch::writeDue() {
   while (!finished_.empty() && finished_.begin()->first == nextOut_ && !outputEnded_) {
     const Finished due = std::move(finished_.begin()->second);

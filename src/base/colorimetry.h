@@ -24,7 +24,7 @@ Bands bandsOf(const SpectralCurve& curve, const SpectralSampling& sampling);
 // enough gray of the same Y that no channel is negative.
 V3d standardRgb(const V3d& tristimulus);
 
-// The brightness of a color, and in a spectral run (sampling: not null) its photopic integral.
+// The brightness of a color, or in a spectral run (sampling: not null) its photopic integral instead.
 double photopicOf(const Color& color, const SpectralSampling* sampling);
 
 // Red, green and blue of a color: its channels, or in a spectral run (sampling: not null) standardRgb() of

@@ -72,8 +72,8 @@ double melanopic(const Spectrum& spectrum) {
   return curve.of(spectrum);
 }
 
-// The ends of the spectrum are rounded to single precision, so that rounding errors do not move a limit at a
-// whole number to the number below.
+// The limits of bands are rounded down to whole nanometers. The ends of the spectrum are rounded to single
+// precision first. Otherwise a rounding error could turn a limit of 500 nm, for example, into one of 499 nm.
 V3d tristimulusInRadiance(const Spectrum& spectrum) {
   const size_t count = spectrum.values.size();
   const bool falls = spectrum.first > spectrum.last;

@@ -18,8 +18,8 @@ struct WavelengthLimits {
   bool operator==(const WavelengthLimits&) const = default;
 };
 
-// How the spectrum is divided: into bands of equal width, of which each is also a part of one channel.
-// The first band is that of the longest wavelengths.
+// How the spectrum is divided into bands of equal width. Each band belongs to one channel: red, green or
+// blue. The first band is that of the longest wavelengths.
 struct SpectralSampling : BandScheme {
   double longest = 780, shortest = 380;    // nm, the limits (-cw)
   std::array<double, 2> splits{588, 480};  // nm, between red and green, and between green and blue

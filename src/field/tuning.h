@@ -5,9 +5,9 @@
 // Each comment gives the meaning and the unit, then after the colon where the value comes from. "Chosen by
 // experiment" means that it was the best of some values that were tried on pictures of furnished rooms
 // (tests/bench/rtrace/runs/2026-11-21-interpolated.txt), and that the results for the others were not kept.
-// The last sentence gives the effect of smaller and larger values on error and time, in the case of
-// tests/bench/sensitivity where it is largest (2026-11-24.txt in its folder runs, and 2026-11-22.txt for what
-// has not changed since).
+// The last sentence of each comment gives the effect of smaller and larger values on error and time. It is
+// for the case of tests/bench/sensitivity that changes most. The results are in runs/2026-11-24.txt there, or
+// in runs/2026-11-22.txt for constants that have not changed since.
 #include "base/tuned.h"
 
 namespace rsphere::tuning {
@@ -102,9 +102,9 @@ struct CoarseSolution {
   // In the same scenes, patches that only other patches see are larger by so many levels, except where they
   // serve the first bounce: by measurement. There, 2 makes errors of spherical means three times as large.
   static constexpr int kCoarserLinksByLamps = 2;
-  // The extent of a surface is at most this, in sizes of the scene: chosen by experiment. Where the
-  // ground is wide, rooms are small. 30% less: time +65%; 30% more: within noise (sensors by sun; noise:
-  // error below 1%, time 4%).
+  // The smallest patches of a surface are chosen as if its extent were at most this share of the scene's
+  // longest side: chosen by experiment. Rooms on a wide ground are much smaller than the ground. With 30%
+  // less, sensors by sun take 65% more time; 30% more is within noise (error below 1%, time 4%).
   RSPHERE_TUNED(CoarseSolution, double, kWidestExtent, .4);
   // The number of patches across a strip, such as a slat, that is narrower than its usual patches although
   // its surroundings require patches smaller than the strip: by measurement. With 1, sensors near a window

@@ -31,8 +31,8 @@ size_t poolsFor(const SphereOptions& options) {
   return options.accuracy > 0 || options.glare.wanted ? DiffuseGlances::kPools : 1;
 }
 
-// The error due to light vertices is estimated from the differences between batches, so that each batch has
-// to show all of the light: its mean is known within 3%, if single paths vary as much as their mean.
+// The error due to light vertices is estimated from the differences between batches. Each batch therefore has
+// enough paths that its mean is known within 3% if the standard deviation of paths equals their mean.
 size_t pathsFor(const SphereOptions& options) {
   const double least = LightVertex::kBatches * static_cast<double>(tuning::Caps::kAsked);
   const double finer = options.accuracy > 0 ? Tuning::kUsualAccuracy / options.accuracy : 0;

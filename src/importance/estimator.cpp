@@ -106,8 +106,8 @@ void append(std::vector<T>& all, std::vector<T>&& more) {
     all.insert(all.end(), more.begin(), more.end());
 }
 
-// Joins all sets into one, each weighted by its share of the average. excess: SampledSet::excess averaged
-// over the sets; it is added to the samples if every direction is printed.
+// Joins all sets into one, with the weights that they have in the average of the sets. excess: the average of
+// SampledSet::excess, which is added to the samples if every direction is printed.
 SampledSet joined(std::vector<KeptSet> sets, const TwoHalves& halves, const Irradiance& excess,
                   bool everyDirection) {
   SampledSet all;

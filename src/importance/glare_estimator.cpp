@@ -14,8 +14,8 @@
 namespace rsphere {
 namespace {
 
-// evalglare's: the radius within which bright pixels become one source (half of its opening angle of .2 rad,
-// option -r), and the luminance of peaks that become sources of their own (-Y).
+// The defaults of evalglare. Bright pixels within kSameSource of each other become one source; this is half
+// of the opening angle of .2 rad of its option -r. Peaks above kPeak become sources of their own (option -Y).
 constexpr double kSameSource = .1;  // rad
 constexpr double kPeak = 50000;     // cd/m2
 

@@ -17,8 +17,8 @@ namespace {
 using std::numbers::pi;
 using Tuning = tuning::SeenSources;
 
-// The fraction of light that a plane surface mirrors without any blur at this cosine of incidence, regardless
-// of the color of metals. Both boundaries of panes mirror. 0: the surface never does.
+// The fraction of light that a plane surface mirrors without any blur at this cosine of incidence. The color
+// of metals is ignored, and panes mirror at both boundaries. If it is 0 at one angle, it is 0 at all angles.
 double sharpReflectance(const Material& material, double cosine = 1) {
   const auto mirrored = mirrorReflection(material);
   if (!mirrored) return 0;

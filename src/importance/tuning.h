@@ -149,9 +149,9 @@ struct Silhouettes {
   // projection stretches directions by 14 and 14^2, so that rounding costs two digits of sixteen. 1.2: error
   // +30% beside chrome, in the same time.
   static constexpr double kWidestHull = 1.5;
-  // Corners of the polygon around a circle: chosen by experiment. The area of the polygon is 1.3% larger.
-  // Where balls show images of light sources, sources with more corners than this are replaced by squares
-  // around them. 30% less or more: within noise (points beside chrome; error below 1%, time 8%).
+  // Corners of the polygon around a circle: chosen by experiment. The polygon's area is 1.3% larger. To find
+  // images on balls, light sources with more corners than this are replaced by squares around them. With 30%
+  // less or more, points beside chrome change by no more than the noise (error below 1%, time 8%).
   RSPHERE_TUNED(Silhouettes, int, kCorners, 16);
   // Cells along the edge of a face of the cube map that names the silhouettes near a direction: chosen by
   // experiment. Without cells, the search among 180 special objects took 18% of the time. The number changes

@@ -15,7 +15,7 @@ namespace rsphere {
 struct PlaneLight {
   // To center + (2s-1) u + (2t-1) v.
   struct Parallelogram {};
-  // The same for a concave polygon: to a square of equal area, partly outside the polygon.
+  // For a concave polygon, by the same formula: to a square of equal area, partly outside the polygon.
   struct Square {};
   // To the disk with radii u and v, preserving area.
   struct Disk {};

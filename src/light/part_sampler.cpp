@@ -322,7 +322,7 @@ void PartSampler::addTube(const TubeLight& tube, const V3d& towards) {
   if (fromAxis <= radius) return;  // inside, or looking at an open end
   const auto at = [&](double s, double) { return source_.center + (2 * s - 1) * tube.half; };
   const V3d facing = (along * axis - towards) / fromAxis, aside = axis.cross(facing);
-  // The sine of the largest angle around the axis from `facing` at which the surface is seen.
+  // The point sees the tube up to some angle on either side of `facing`. This is the sine of that angle.
   const double widest = std::sqrt(1 - radius * radius / (fromAxis * fromAxis));
   // Uniform along the axis and, seen from `facing`, across: the element of area is dx dz / cosine.
   const auto addOnSide = [&](const SourcePart& part, const V3d& middle) {

@@ -91,8 +91,8 @@ std::vector<V3d> cornersOf(const Ring& ring) {
   return {ring.center - x - y, ring.center - x + y, ring.center + x + y, ring.center + x - y};
 }
 
-// Points whose hull holds all points of a shape where rays hit it. A polygon is hit in its mean plane, where
-// its vertices appear along the axis of projection.
+// Points whose convex hull contains all points where rays can hit a shape. Rays hit a polygon in its mean
+// plane, so that its vertices are first moved into that plane, along the axis Polygon::axis.
 std::vector<V3d> hullOf(ShapeRef shape, std::span<const V3d> vertices) {
   return match(
       shape,

@@ -150,7 +150,7 @@ void addOutputs(const Add& add) {
            "of an uninterrupted run. Not with text, nor with -c 0."});
 }
 
-// Besides what all programs do, in the words of RADIANCE's rcontrib.
+// What -features lists besides the features of all programs, in the words of RADIANCE's rcontrib.
 constexpr std::string_view kFeatures[] = {
     "Hyperspectral",    "ShadowCache",        "Multiprocessing",       "Accumulation",
     "Summation",        "Recovery",           "ImmediateIrradiance",   "ProgressReporting",

@@ -16,7 +16,7 @@
 
 namespace rsphere {
 
-// A function file, and the transform of its coordinates; empty: there is none.
+// A function file, and the transform of its coordinates, which is empty if there is none.
 struct FunctionFile {
   std::string_view name;  // "." if expressions need none
   Words transform;

@@ -162,7 +162,7 @@ inline bool isFlat(ShapeRef shape) {
       shape, [](const OneOf<Polygon, Ring, MeshFaces> auto&) { return true; },
       [](const OneOf<Sphere, Cone, Distant, Instance, MeshInstance> auto&) { return false; });
 }
-// normal . p for the points p of the plane. REQUIRES planeNormal(); 0 for shapes that are not plane.
+// normal . p for the points p of the plane. For shapes that are not plane, it is 0 and means nothing.
 double planeOffset(ShapeRef shape);
 
 // Whether the shape surrounds a volume, so that it is seen from one side only. The ends of cones are open.

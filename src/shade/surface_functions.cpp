@@ -374,8 +374,8 @@ class SurfaceFunctions::Maker {
     return finish(std::move(f), std::move(s), read.orientation.file);
   }
 
-  // The function of this name, called with the direction to a source and its solid angle, after `before`
-  // other arguments.
+  // A call of the function of this name. Its last four arguments are the direction to a source and the solid
+  // angle of the source; `before` is the number of arguments that precede them.
   ProgramPointer called(Function& f, std::string_view file, std::string_view function, int before) const {
     auto program = functions_.library_.compileCall(request(file), function, before + 4);
     use(f, program);

@@ -11,7 +11,7 @@ namespace rsphere {
 // (Status::system) or contains no setting.
 std::vector<std::vector<std::string>> ladder(const TradeOptions& options);
 
-// The setting of the reference.
+// The options that compute the reference, with which the answers of all settings are compared.
 std::vector<std::string> referenceWords();
 
 }  // namespace rsphere

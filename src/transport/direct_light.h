@@ -108,7 +108,7 @@ class DirectLight {
   double rankedBrightness(size_t i) const { return scratch_.brightness[scratch_.order[i]]; }
 
   Scratch scratch_;
-  // The surface that blocked the last shadow ray from a surface to a source, at a hash of the two.
+  // The index is a hash of a surface and a source, the value what blocked the last shadow ray between them.
   std::vector<uint32_t> blockers_;
   std::vector<size_t> lookAheads_;  // values of lookAheadOf(), by its argument; computed as far as needed
 };

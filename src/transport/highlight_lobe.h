@@ -66,7 +66,7 @@ struct Highlight {
   static constexpr double kApart = 1.02;
 
   HighlightLobe lobe;  // tuning::Highlights::kWider times as wide as the highlight
-  // The ratio of the solid angle of the image that a smooth surface would show to that of the part.
+  // The solid angle of the part's image if the surface were smooth, over that of the part seen from `at`.
   double magnified;
   // The variance of the place on the surface along the direction in which it does not bend (square world
   // units).

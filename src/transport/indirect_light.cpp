@@ -161,8 +161,8 @@ void IndirectLight::send(const RayEnd& end, const DiffuseSide& side, int rays, c
                      });
 }
 
-// What a ray of a patch finds at a diffuse surface: a link to the patch there. Where there is none, the path
-// goes on in one direction, unless the last bounce is reached.
+// Links the patch that sent a ray to the patch at the diffuse surface where the ray ended. If there is no
+// patch at that place, the path goes on from there in one direction, unless this is the last bounce.
 void IndirectLight::link(const RayEnd& end, const DiffuseSide& at) {
   Coefficient asked = at.coefficient;
   if (!asksForPatch(state_, end.context, asked)) return;

@@ -70,8 +70,8 @@ class PlainSurfaces {
   // at the point (unit). direction: towards the point (unit).
   Radiance radianceOf(LightId source, const V3d& point, const V3d& normal, const V3d& direction,
                       FunctionScratch& scratch) const;
-  // SourceChoice::weigh() of the sources that are not certainly hidden from the point (hidden_boxes.h), which
-  // it returns in `sources`. Those that are not known have the weight 0.
+  // SourceChoice::weigh() of the sources that are not certainly hidden from the point (hidden_boxes.h). It
+  // returns these sources in `sources`. Sources for which knows() is false get the weight 0.
   double weigh(const V3d& point, const V3d& normal, std::span<const uint32_t>& sources,
                std::vector<double>& weights) const;
 
