@@ -251,9 +251,10 @@ std::exception_ptr Batch::conclude() {
   if (signals_ != nullptr && signals_->raised())
     return std::make_exception_ptr(rad::Error(signals_->name(), rad::Status::signal));
   if (remaining_ == kNoLimit || remaining_ == 0) return nullptr;
-  constexpr std::string_view kShort = "unexpected EOF on input";
-  if (end_.shortInputIsFault) return std::make_exception_ptr(rad::Error(kShort));
-  messages_.warning(kShort);
+  if (end_.shortInput)
+    end_.shortInput();
+  else
+    messages_.warning("unexpected EOF on input");
   return nullptr;
 }
 

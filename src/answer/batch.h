@@ -35,8 +35,8 @@ struct RunEnd {
   // signal or a closed output ends the run and a record is still in work after .1 s: no thread can be stopped
   // within a record, and the threads use what the caller holds. If it is empty, the run ends with the record.
   std::function<void(const std::exception_ptr& fault)> leave;
-  // Whether it is a fault, and not only worth a warning, that the input ends before -y scanlines.
-  bool shortInputIsFault = false;
+  // Called instead of a warning where the input ends before -y scanlines.
+  std::function<void()> shortInput;
 };
 
 // Reads records to the end of the input (or of the -y'th scanline of -x records), calls `answer` for each on

@@ -109,7 +109,7 @@ void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<c
       while ((static_cast<size_t>(*start) + text.size() + kLineEnds) % alignment != 0) text += ' ';
     text += "\n\n";
   }
-  if (options.width > 0 && options.height > 0)
+  if (layout.resolution && options.width > 0 && options.height > 0)
     text += fmt::format("-Y {:8} +X {:8}\n", options.height, options.width);
   writer.write(text);
 }

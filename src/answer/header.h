@@ -36,6 +36,7 @@ std::string_view formatName(NumberFormat format, const ColorOptions& color);
 struct RecordLayout {
   int components = 0;   // NCOMP=; 0: no such line
   std::string lines{};  // further lines, with line ends
+  bool resolution = true;  // whether the resolution line follows with -x and -y
 };
 
 // Writes the information header of rtrace, unless it is switched off (-h-):

@@ -43,7 +43,10 @@ RecordLayout layoutOf(const ContributionOptions& options, const OutputPlan& plan
   if (named && !plan.bin.empty()) layout.lines += fmt::format("BIN={}\n", plan.bin);
   if (options.height > 0)
     layout.lines += fmt::format("NROWS={}\n", options.height * std::max<int64_t>(options.width, 1));
-  if (options.width == 0 || options.height == 0)
+  // As in RADIANCE, only an output with one value for each pixel has a resolution: rmtxop and dctimestep
+  // read the records of the others as a matrix, right behind the header.
+  layout.resolution = options.width > 0 && options.height > 0 && plan.columnCount() == 1;
+  if (!layout.resolution)
     layout.lines += fmt::format("NCOLS={}\n", plan.columnCount());
   return layout;
 }
@@ -78,7 +81,7 @@ size_t recordsBeginIn(const std::string& name, const std::string& bytes, const C
     }
     begin = end + 2;
   }
-  if (options.width > 0 && options.height > 0) begin = bytes.find('\n', begin) + 1;
+  if (layout.resolution) begin = bytes.find('\n', begin) + 1;
   return begin;
 }
 

@@ -70,12 +70,14 @@ void runContributions(const ContributionOptions& options, const Messages& messag
   end.leave = [&](const std::exception_ptr& fault) {
     _exit(exitStatus(messages, [&]() -> int { std::rethrow_exception(fault); }));
   };
-  end.shortInputIsFault = true;
+  bool shortInput = false;
+  end.shortInput = [&shortInput] { shortInput = true; };
   runRecords(reader, sums, paced, messages, &signals,
              answerContributions(tracers, options, outputs.recovered() * rays), end);
   if (sums.end() > 0)
     warn("partial record: the last one is the mean over the rays that are left, fewer than -c");
   outputs.close();
+  if (shortInput) throw rad::Error("unexpected EOF on input");
 }
 
 }  // namespace rsphere
