@@ -186,31 +186,39 @@ std::vector<BrightSpots::Node> BrightSpots::find(std::span<Particle> all, double
   if (!(power > 0) || !(area > 0)) return {};
   const double usual = power / area;
 
-  // The particles are divided into groups greedily: each step halves the group where that gains most worth.
-  struct Split {
-    size_t node;
-    double gain;
-    std::pair<Node, Node> into;
+  // The particles are halved down to the smallest groups. Then groups are divided one after the other, each
+  // time the one whose worth grows most if it is divided down to the smallest. The growth by one division
+  // alone says too little: half a room gains next to nothing before the spot of its lamp is cut out.
+  struct Branch {
+    Node node;
+    double finest = 0;  // the worth of all the smallest groups in it
+    size_t halves = 0;  // index of the first of the two; 0 if there are none
+    double gain() const { return halves > 0 ? finest - node.worth() : 0; }
   };
-  std::vector<Node> nodes{Node(all)};
-  std::vector<Split> splits;
-  const auto consider = [&](size_t i) {
-    if (nodes[i].particles.size() < 2 * kFewest) return;
-    auto into = nodes[i].halves();
-    const double gain = into.first.worth() + into.second.worth() - nodes[i].worth();
-    splits.push_back({i, gain, std::move(into)});
-  };
-  consider(0);
-  while (spots_.count + nodes.size() < most && !splits.empty()) {
-    const auto best = std::max_element(splits.begin(), splits.end(),
-                                       [](const Split& a, const Split& b) { return a.gain < b.gain; });
-    const size_t i = best->node;
-    nodes[i] = std::move(best->into.first);
-    nodes.push_back(std::move(best->into.second));
-    splits.erase(best);
-    consider(i);
-    consider(nodes.size() - 1);
+  std::vector<Branch> tree{{Node(all)}};
+  for (size_t i = 0; i < tree.size(); ++i) {
+    if (tree[i].node.particles.size() < 2 * kFewest) continue;
+    auto halves = tree[i].node.halves();
+    tree[i].halves = tree.size();
+    tree.push_back({std::move(halves.first)});
+    tree.push_back({std::move(halves.second)});
   }
+  for (size_t i = tree.size(); i-- > 0;) {
+    const size_t halves = tree[i].halves;
+    tree[i].finest = halves > 0 ? tree[halves].finest + tree[halves + 1].finest : tree[i].node.worth();
+  }
+  std::vector<const Branch*> chosen{&tree.front()};
+  while (spots_.count + chosen.size() < most) {
+    const auto best =
+        std::max_element(chosen.begin(), chosen.end(),
+                         [](const Branch* a, const Branch* b) { return a->gain() < b->gain(); });
+    if (!((*best)->gain() > 0)) break;
+    const Branch* halves = &tree[(*best)->halves];
+    *best = halves;
+    chosen.push_back(halves + 1);
+  }
+  std::vector<Node> nodes;
+  for (const Branch* branch : chosen) nodes.push_back(branch->node);
   std::erase_if(nodes, [&](const Node& node) { return !(node.spot.power > brighter * usual * node.area); });
   double worth = 0;
   for (const Node& node : nodes) worth += node.worth();
